@@ -1,0 +1,206 @@
+/// \file
+/// The Vector Texture Map as data: what the compiler makes and every renderer samples.
+///
+/// A *map* (the paper's VTM) is a 16-tree over a square of the picture. A leaf is solid, or holds
+/// pieces: Hermite cubics over their chords, each with one region on its left and one on its right.
+/// The records below are exactly what the container stores and what the shaders fetch, as RGBA32UI
+/// texels in little-endian order; docs/asset_format.md explains every bit.
+/// Source: Ray et al. 2005 (discontinuity map, 16-tree); our extension: any number of pieces and
+/// regions in a leaf.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "image/bitmap.hpp"
+
+namespace vtm::asset {
+
+/// One RGBA32UI texel.
+using Texel = std::array<std::uint32_t, 4>;
+
+// ---- Tree -------------------------------------------------------------------------------------
+
+/// What stands at a place of the tree. The low two bits tell the kind, the rest is the payload.
+struct Entry {
+    enum class Kind : std::uint32_t { Solid, Leaf, Node };
+    std::uint32_t bits = 0;
+
+    static Entry make(Kind kind, std::uint32_t payload) {
+        return {(payload << 2) | static_cast<std::uint32_t>(kind)};
+    }
+    Kind kind() const { return static_cast<Kind>(bits & 3); }
+    /// Solid: a paint's index. Leaf, Node: an index into the leaves, the nodes.
+    std::uint32_t payload() const { return bits >> 2; }
+};
+
+/// 4 x 4 children, row by row from the square's (min x, min y). Four texels.
+struct Node {
+    std::array<Entry, 16> children;
+};
+
+/// Depth of a leaf below its map's root: a leaf at level d spans 4^-d of the map's side.
+inline constexpr unsigned maxLevel = 12;
+
+/// Position of a square in its map: (x, y) counts squares of side 4^-level from the map's min corner.
+struct Cell {
+    std::uint32_t x = 0, y = 0;
+    unsigned level = 0;
+};
+
+// ---- Leaves -----------------------------------------------------------------------------------
+
+/// Leaf coordinates: 0 and `leafExtent` are the leaf's borders, exactly.
+inline constexpr std::uint32_t leafExtent = 65535;
+/// Stored slope / slopeScale = slope; so slopes lie in [-1, 1] (pieces turn by 22.5 degrees at most).
+inline constexpr float slopeScale = 32767;
+
+/// One texel: x = firstPiece, y = pieceCount | unused << 16, z = corners 0, 1, w = corners 2, 3
+/// (low half first).
+struct Leaf {
+    std::uint32_t firstPiece = 0;
+    std::uint16_t pieceCount = 0;
+    std::uint16_t unused = 0;
+    /// Paints at (min, min), (max, min), (max, max), (min, max) in leaf coordinates.
+    std::array<std::uint16_t, 4> corners{};
+};
+
+/// The curve P(s) = A + s·(B - A) + t(s)·perp(B - A), s in [0, 1], perp(x, y) = (-y, x),
+/// t(s) = mA·s·(1-s)² - mB·s²·(1-s): a cubic with end points A, B and slopes mA, mB over its chord
+/// (the paper's Hermite function, its sign corrected). Going from A to B in a frame with x right and
+/// y *up*, `left` lies on the left; leaf coordinates follow the picture (y down) and the rule is
+/// applied to the numbers as they are: left is the side of +perp(B - A).
+/// One texel: x = A, y = B, z = slopes, w = left, right (low half first).
+struct Piece {
+    std::array<std::uint16_t, 2> a{}, b{};
+    std::int16_t slopeA = 0, slopeB = 0;
+    std::uint16_t left = 0, right = 0;
+};
+
+// ---- Paints -----------------------------------------------------------------------------------
+
+/// Alpha word of a paint that is a program.
+inline constexpr std::uint32_t programTag = 0xFFFFFFFFu;
+
+/// One texel. Solid: premultiplied sRGB floats as bits. Program: {first texel, number of
+/// instructions, 0, programTag} in Asset::data. Paint 0 is transparent.
+using Paint = Texel;
+
+/// A paint program runs on a stack of premultiplied colours that starts with one transparent entry;
+/// its result is the last entry. It is the stack of layers over one region, groups and all.
+enum class Op : std::uint32_t {
+    Push,              ///< push transparent: begin a group
+    Pop,               ///< s = pop · opacity; top = blend(top, s)
+    PopMaskLuminance,  ///< m = luminance of pop (premultiplied, sRGB bytes); top = top · m
+    PopMaskLinear,     ///< the same on linear light
+    PopMaskAlpha,      ///< m = alpha of pop; top = top · m
+    Solid,             ///< s = data[argument] (premultiplied floats) · opacity; top = s over top
+    Linear,            ///< s = gradient at data[argument] · opacity; top = s over top
+    Radial,            ///< likewise
+    Image              ///< likewise
+};
+inline constexpr unsigned maxStack = 8;
+
+/// In the order of scene::BlendMode.
+enum class Blend : std::uint32_t {
+    Normal, Multiply, Screen, Overlay, Darken, Lighten, ColorDodge, ColorBurn,
+    HardLight, SoftLight, Difference, Exclusion, Hue, Saturation, Color, Luminosity
+};
+
+/// One texel of a program.
+struct Instruction {
+    Op op = Op::Push;
+    Blend blend = Blend::Normal;  ///< Pop only
+    float opacity = 1;
+    std::uint32_t argument = 0;   ///< a texel of Asset::data
+};
+
+enum class Spread : std::uint32_t { Pad, Reflect, Repeat };
+
+/// Three texels, then `stopCount` GradientStop. (x, y) = matrix · (picture point, 1), columns
+/// (m0 m1), (m2 m3), (m4 m5). Linear: offset = x. Radial: the end circle is the unit circle, the
+/// focal circle has centre (fx, fy) and radius fr; the offset is the larger root u with
+/// |p - (1-u) f| = (1-u) fr + u and non-negative radius; where there is none, transparent.
+struct Gradient {
+    std::array<float, 6> matrix{1, 0, 0, 1, 0, 0};
+    Spread spread = Spread::Pad;
+    std::uint32_t stopCount = 0;
+    float fx = 0, fy = 0, fr = 0, unused = 0;
+};
+/// One texel: offset, red | green << 16, blue | alpha << 16 as 16-bit unorm, straight; unused.
+struct GradientStop {
+    float offset = 0;
+    std::array<std::uint16_t, 4> rgba{};
+    std::uint32_t unused = 0;
+};
+
+/// Two texels. matrix: picture to pixels of Asset::images[image]; clamped to its edge.
+struct ImageFill {
+    std::array<float, 6> matrix{1, 0, 0, 1, 0, 0};
+    std::uint32_t image = 0;
+    std::uint32_t bilinear = 1;  ///< 0: nearest
+};
+
+static_assert(sizeof(Node) == 64 && sizeof(Leaf) == 16 && sizeof(Piece) == 16);
+static_assert(sizeof(Instruction) == 16 && sizeof(Gradient) == 48 && sizeof(GradientStop) == 16);
+static_assert(sizeof(ImageFill) == 32);
+
+// ---- Whole ------------------------------------------------------------------------------------
+
+/// A tree over the square [x, x + side] × [y, y + side] of the picture (y down).
+struct Map {
+    double x = 0, y = 0, side = 0;
+    Entry root;
+};
+
+/// One step of drawing, on a stack of pictures that starts with one transparent one.
+struct Command {
+    enum class Kind : std::uint32_t {
+        DrawMap,           ///< top += the map; its paints are Asset::paints (exact)
+        FillMask,          ///< s = coverage(map) · paint; top = s over top. The map's paint indices
+                           ///< are 0 outside and 1 inside (compat)
+        Push,              ///< push a transparent picture
+        Pop,               ///< s = pop · opacity; top = blend(top, s)
+        PopMaskLuminance, PopMaskLinear, PopMaskAlpha,  ///< as Op
+        ClipMask           ///< top = top · coverage(map)
+    };
+    Kind kind = Kind::DrawMap;
+    Blend blend = Blend::Normal;
+    float opacity = 1;
+    std::uint32_t map = 0;
+    std::uint32_t paint = 0;
+};
+
+enum class Mode : std::uint32_t {
+    Exact,  ///< coverage-weighted mean of disjoint regions: one DrawMap, no seams
+    Compat  ///< layer by layer `over`, coverage as alpha, as other renderers do
+};
+
+struct Asset {
+    double width = 0, height = 0;  ///< the picture, user units
+    Mode mode = Mode::Exact;
+    std::vector<Map> maps;
+    std::vector<Command> commands;
+    std::vector<Node> nodes;
+    std::vector<Leaf> leaves;
+    std::vector<Piece> pieces;
+    std::vector<Paint> paints;
+    std::vector<Texel> data;  ///< programs, gradients, image fills
+    std::vector<image::Bitmap> images;
+    std::uint32_t fallbackLeaves = 0;  ///< leaves averaged from samples because no certificate held
+};
+
+/// Figures for `vtm info`.
+struct Summary {
+    std::size_t bytes = 0;            ///< all texels and images, as uploaded
+    std::size_t leaves = 0;           ///< with pieces
+    std::size_t solids = 0;           ///< solid entries of the trees
+    std::size_t pieces = 0;
+    std::size_t regions = 0;          ///< distinct paints
+    unsigned maxDepth = 0;
+};
+Summary summarize(const Asset& asset);
+
+}  // namespace vtm::asset

@@ -1,0 +1,20 @@
+/// \file
+/// Which part of a picture lands on which raster.
+#pragma once
+
+#include <glm/mat3x2.hpp>
+
+namespace vtm::asset {
+
+/// A raster of `width` by `height` pixels. `toPixels` maps picture coordinates to pixel coordinates:
+/// pixel (i, j) is the box [i, i+1] × [j, j+1], j downwards. It may rotate, shear and mirror.
+struct View {
+    int width = 0, height = 0;
+    glm::dmat3x2 toPixels{1, 0, 0, 1, 0, 0};
+};
+
+/// The largest raster that engines accept, in pixels a side and in all.
+inline constexpr int maxViewSide = 16384;
+inline constexpr long long maxViewPixels = 1LL << 27;
+
+}  // namespace vtm::asset

@@ -1,0 +1,34 @@
+# How every target of ours is made: the language level, the warnings, the include root.
+
+add_library(vtm_settings INTERFACE)
+target_compile_features(vtm_settings INTERFACE cxx_std_20)
+target_include_directories(vtm_settings INTERFACE ${PROJECT_SOURCE_DIR})
+
+add_library(vtm_warnings INTERFACE)
+target_compile_options(vtm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+option(VTM_WERROR "Treat our warnings as errors" ${PROJECT_IS_TOP_LEVEL})
+if(VTM_WERROR)
+    target_compile_options(vtm_warnings INTERFACE -Werror)
+endif()
+
+# vtm_library(module SOURCES ... DEPENDS ... LINK ...): the module's library, vtm::module.
+# DEPENDS: what its headers need too. LINK: what only its sources need.
+function(vtm_library name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK" ${ARGN})
+    add_library(vtm_${name} STATIC ${ARG_SOURCES})
+    add_library(vtm::${name} ALIAS vtm_${name})
+    set_target_properties(vtm_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(vtm_${name} PUBLIC vtm_settings ${ARG_DEPENDS} PRIVATE vtm_warnings ${ARG_LINK})
+endfunction()
+
+# vtm_test(module SOURCES ... LINK ...): the module's tests, each registered with CTest by name.
+function(vtm_test name)
+    if(NOT VTM_BUILD_TESTS)
+        return()
+    endif()
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+    add_executable(${name}_tests ${ARG_SOURCES})
+    target_link_libraries(${name}_tests PRIVATE vtm_warnings ${ARG_LINK} GTest::gtest_main)
+    target_compile_definitions(${name}_tests PRIVATE VTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()

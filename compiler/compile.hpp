@@ -1,0 +1,45 @@
+/// \file
+/// Scene in, Vector Texture Map out: regions, cells, tree, encode.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "asset/asset.hpp"
+#include "scene/scene.hpp"
+
+namespace vtm::compiler {
+
+struct Options {
+    asset::Mode mode = asset::Mode::Exact;
+    /// Largest distance between a drawn boundary and the scene's, as a share of the picture's longer
+    /// side. In [2^-26, 2^-6].
+    double tolerance = 1.0 / 65536;
+    /// A leaf with more pieces is split while the tree may grow deeper. In [1, 4096].
+    unsigned piecesPerLeaf = 12;
+    /// Levels of the 16-tree. In [0, asset::maxLevel].
+    unsigned maxDepth = 8;
+};
+
+/// Milliseconds of wall time a stage took.
+struct StageTime {
+    std::string stage;
+    double milliseconds;
+};
+
+struct Result {
+    asset::Asset asset;
+    std::vector<StageTime> stages;      ///< in order: lower, push, planarise, fit, encode
+    std::vector<std::string> warnings;  ///< what a limit took away or an approximation changed
+};
+
+/// The scene asks for more than a stated limit allows; says which.
+class LimitError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws scene::InvalidScene, LimitError, std::invalid_argument (options out of range).
+Result compile(const scene::Scene& scene, const Options& options = {});
+
+}  // namespace vtm::compiler

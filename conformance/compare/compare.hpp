@@ -1,0 +1,31 @@
+/// \file
+/// How far two pictures are apart.
+#pragma once
+
+#include <string>
+
+#include "image/bitmap.hpp"
+
+namespace vtm::compare {
+
+/// Differences of premultiplied channels, in units of 1/255.
+struct Difference {
+    double max = 0;
+    double mean = 0;       ///< mean absolute, over all channels of all pixels
+    double rms = 0;
+    double p999 = 0;       ///< 99.9th percentile of the absolute difference over channel values
+    std::size_t over = 0;  ///< pixels with a channel beyond the threshold
+    int worstX = 0, worstY = 0;
+};
+
+/// Throws std::invalid_argument if the sizes differ.
+Difference compare(const image::Raster& a, const image::Raster& b, double threshold = 2.0);
+
+/// |a - b| per channel, amplified, opaque, for looking at.
+image::Bitmap differencePicture(const image::Raster& a, const image::Raster& b, double gain = 8);
+
+/// Reads a PNG as a raster without losing depth: 8-bit is straight, 16-bit RGBA is premultiplied
+/// (value / 65535), the convention of our ground truth.
+image::Raster readPng(const std::string& path);
+
+}  // namespace vtm::compare

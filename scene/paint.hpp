@@ -1,0 +1,71 @@
+/// \file
+/// Paints: what fills a shape. Source: SVG 2 section 14, OpenVG 1.1 section 9.
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "image/bitmap.hpp"
+#include "scene/affine.hpp"
+#include "scene/path.hpp"
+
+namespace vtm::scene {
+
+struct Group;
+
+/// Straight (not premultiplied) sRGB-encoded colour, each channel in [0, 1].
+struct Color {
+    float r = 0, g = 0, b = 0, a = 1;
+    friend bool operator==(const Color&, const Color&) = default;
+};
+
+enum class Spread { Pad, Reflect, Repeat };
+
+/// Offsets in [0, 1], not decreasing. Colours are interpolated straight, in sRGB bytes.
+struct GradientStop {
+    float offset;
+    Color color;
+};
+
+/// `transform` of each paint maps the paint's own space to the path's space (before the item's
+/// transform).
+
+struct LinearGradient {
+    Point start, end;  ///< distinct
+    std::vector<GradientStop> stops;  ///< at least two; fewer are a Solid
+    Spread spread = Spread::Pad;
+    Affine transform = identity;
+};
+
+/// SVG 2's two circles: offset 0 on the focal circle, 1 on the end circle.
+struct RadialGradient {
+    Point center;
+    double radius;  ///< > 0
+    Point focus;    ///< strictly inside the end circle
+    double focalRadius = 0;  ///< in [0, radius)
+    std::vector<GradientStop> stops;
+    Spread spread = Spread::Pad;
+    Affine transform = identity;
+};
+
+/// A group repeated with the period of a rectangle, clipped to it in each tile.
+struct Pattern {
+    Point min, max;  ///< the tile, in pattern space; max > min in both axes
+    std::shared_ptr<const Group> content;  ///< absolute in pattern space
+    Affine transform = identity;
+};
+
+enum class ImageFilter { Nearest, Bilinear };
+
+/// A bitmap laid with pixel (0, 0)'s outer corner on the origin, one unit a pixel; beyond its
+/// border the border pixels go on.
+struct ImagePaint {
+    std::shared_ptr<const image::Bitmap> bitmap;
+    ImageFilter filter = ImageFilter::Bilinear;
+    Affine transform = identity;
+};
+
+using Paint = std::variant<Color, LinearGradient, RadialGradient, Pattern, ImagePaint>;
+
+}  // namespace vtm::scene

@@ -1,0 +1,97 @@
+/// \file
+/// The scene: the written normal form between the importers and the compiler (docs/scene.md).
+///
+/// Everything is resolved: no units, no inheritance, no references by name; transforms are absolute
+/// (from the node's space to the picture). Painter's order: later children lie on top.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/affine.hpp"
+#include "scene/paint.hpp"
+#include "scene/path.hpp"
+#include "scene/stroke.hpp"
+
+namespace vtm::scene {
+
+/// W3C Compositing and Blending Level 1, section 10.
+enum class BlendMode {
+    Normal, Multiply, Screen, Overlay, Darken, Lighten, ColorDodge, ColorBurn,
+    HardLight, SoftLight, Difference, Exclusion, Hue, Saturation, Color, Luminosity
+};
+
+/// One filled or stroked path. A shape with both is two items in its paint order.
+struct Item {
+    std::shared_ptr<const Path> path;  ///< shared between the instances of a `use`d outline
+    Affine transform = identity;       ///< path space to picture
+    std::variant<FillRule, StrokeStyle> geometry;
+    Paint paint;
+    float opacity = 1;  ///< multiplies the paint's alpha, in [0, 1]
+};
+
+struct ClipShape;
+
+/// The union of shapes, each perhaps clipped itself, cut by a further clip. An empty union clips
+/// everything away.
+struct Clip {
+    std::vector<ClipShape> shapes;
+    std::shared_ptr<const Clip> clip;  ///< may be null
+};
+
+struct ClipShape {
+    std::shared_ptr<const Path> path;
+    Affine transform = identity;
+    FillRule rule = FillRule::NonZero;
+    std::shared_ptr<const Clip> clip;  ///< may be null
+};
+
+enum class MaskKind { Luminance, Alpha };
+
+/// Multiplies what it is put on by the luminance times alpha, or the alpha, of a group.
+/// Luminance: 0.2126 R + 0.7152 G + 0.0722 B of the group's premultiplied colour, on sRGB bytes or,
+/// with `linear`, on linear light.
+struct Mask {
+    std::shared_ptr<const Group> content;
+    MaskKind kind = MaskKind::Luminance;
+    bool linear = false;
+};
+
+struct Node;
+
+/// An isolated group: its children are composited on transparent black; the result is cut by `clip`,
+/// multiplied by `mask` and `opacity`, and blended with what lies below.
+struct Group {
+    std::vector<Node> children;
+    float opacity = 1;
+    BlendMode blend = BlendMode::Normal;
+    std::shared_ptr<const Clip> clip;  ///< may be null
+    std::shared_ptr<const Mask> mask;  ///< may be null
+};
+
+struct Node {
+    std::variant<Item, Group> value;
+};
+
+/// A picture of `width` by `height` user units, its top left corner at the origin. What lies outside
+/// is cut off.
+struct Scene {
+    double width = 0, height = 0;  ///< finite, > 0
+    Group root;
+};
+
+/// Says which node breaks which rule of the normal form.
+class InvalidScene : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws InvalidScene unless every rule of docs/scene.md holds.
+void validate(const Scene& scene);
+
+/// A readable text form, one node a line, for tests and for `diff`.
+std::string dump(const Scene& scene);
+
+}  // namespace vtm::scene

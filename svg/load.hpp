@@ -1,0 +1,68 @@
+/// \file
+/// SVG in, scene out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace vtm::svg {
+
+/// Where in which file. Lines and columns count from 1; 0 where unknown.
+struct Location {
+    std::string file;
+    int line = 0, column = 0;
+};
+
+/// `file:line:column: what is wrong`. The document cannot be read at all.
+class ParseError : public std::runtime_error {
+public:
+    ParseError(Location where, const std::string& what);
+    const Location& where() const { return where_; }
+
+private:
+    Location where_;
+};
+
+/// Something that was left out or repaired; names the element. The picture is drawn without it.
+struct Warning {
+    Location where;
+    std::string message;
+};
+
+struct Options {
+    std::string fileName;           ///< for messages
+    std::string resourceDirectory;  ///< relative hrefs of images start here; empty: none are read
+    double dpi = 96;
+    std::string language = "en";    ///< for systemLanguage
+    /// Viewport in which a root width or height in percent resolves, user units.
+    double defaultWidth = 100, defaultHeight = 100;
+    // Text (a later issue) will take its font options from here.
+    std::vector<std::string> fontDirectories;
+    bool systemFonts = true;
+    std::string serifFamily = "Times New Roman", sansSerifFamily = "Arial", cursiveFamily = "Comic Sans MS",
+                fantasyFamily = "Impact", monospaceFamily = "Courier New", defaultFamily = "Times New Roman";
+    double defaultFontSize = 12;
+};
+
+/// Limits for hostile files, all of them errors or warnings, never silence.
+struct Limits {
+    static constexpr std::size_t maxBytes = 256u << 20;
+    static constexpr int maxDepth = 256;            ///< nesting of elements
+    static constexpr std::size_t maxNodes = 4'000'000;   ///< scene nodes after `use` expansion
+};
+
+struct Document {
+    scene::Scene scene;  ///< valid (scene::validate)
+    std::vector<Warning> warnings;
+};
+
+/// Throws ParseError. `bytes` may be gzip-compressed (SVGZ).
+Document load(std::span<const std::uint8_t> bytes, const Options& options = {});
+
+}  // namespace vtm::svg
