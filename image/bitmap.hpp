@@ -22,7 +22,9 @@ struct Raster {
     Raster() = default;
     Raster(int w, int h) : width(w), height(h), rgba(std::size_t(w) * std::size_t(h) * 4) {}
     float* pixel(int x, int y) { return &rgba[(std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4]; }
-    const float* pixel(int x, int y) const { return &rgba[(std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4]; }
+    const float* pixel(int x, int y) const {
+        return &rgba[(std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4];
+    }
 };
 
 /// Rounds to nearest after un-premultiplying; values outside [0, 1] are clamped.

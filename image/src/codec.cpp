@@ -1,0 +1,28 @@
+#include "image/codec.hpp"
+
+#include "image/src/decoders.hpp"
+
+namespace vtm::image {
+
+Bitmap makeBitmap(std::int64_t width, std::int64_t height) {
+    if (width < 1 || height < 1)
+        throw CodecError("the picture has no pixels");
+    if (width > maxDecodedPixels || height > maxDecodedPixels || width * height > maxDecodedPixels)
+        throw CodecError("the picture is larger than " + std::to_string(maxDecodedPixels) + " pixels");
+    return {static_cast<int>(width), static_cast<int>(height),
+            std::vector<std::uint8_t>(static_cast<std::size_t>(width * height) * 4)};
+}
+
+Bitmap decode(std::span<const std::uint8_t> bytes) {
+    if (isPng(bytes))
+        return decodePng(bytes);
+    if (isJpeg(bytes))
+        return decodeJpeg(bytes);
+    if (isWebp(bytes))
+        return decodeWebp(bytes);
+    if (isGif(bytes))
+        return decodeGif(bytes);
+    throw CodecError("neither a PNG, JPEG, WebP nor GIF picture");
+}
+
+}  // namespace vtm::image
