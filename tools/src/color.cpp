@@ -1,0 +1,65 @@
+#include "tools/src/color.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <variant>
+
+#include <fmt/core.h>
+
+#include "scene/scene.hpp"
+#include "svg/load.hpp"
+#include "tools/src/commands.hpp"
+
+namespace vtm::tools {
+
+namespace {
+
+/// What a colour is made of: nothing that could end the attribute it is put into.
+bool plain(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view("#(),.%/ -+").find(char(c)) != std::string_view::npos;
+    });
+}
+
+/// Asks the importer, so that the command knows exactly the colours that the files may use. An
+/// invalid fill falls back to the inherited `none`, which leaves no item behind.
+const scene::Item* filledItem(const scene::Group& group) {
+    for (const scene::Node& node : group.children) {
+        if (const auto* item = std::get_if<scene::Item>(&node.value))
+            return item;
+        if (const auto* inner = filledItem(std::get<scene::Group>(node.value)))
+            return inner;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+scene::Color parseColor(const std::string& text) {
+    if (text == "transparent" || text == "none")
+        return {0, 0, 0, 0};
+    if (plain(text)) {
+        const std::string document = fmt::format(
+            R"(<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1" fill="none"><path d="M0 0H1V1Z" fill="{}"/></svg>)",
+            text);
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(document.data());
+        const svg::Document loaded = svg::load({bytes, document.size()});
+        if (const scene::Item* item = filledItem(loaded.scene.root)) {
+            scene::Color color = std::get<scene::Color>(item->paint);
+            color.a *= item->opacity;
+            return color;
+        }
+    }
+    throw UsageError(fmt::format("--background: '{}' is no colour", text));
+}
+
+void layOver(image::Raster& picture, const scene::Color& ground) {
+    const float premultiplied[4] = {ground.r * ground.a, ground.g * ground.a, ground.b * ground.a, ground.a};
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+        const float through = 1 - picture.rgba[i + 3];
+        for (std::size_t c = 0; c < 4; ++c)
+            picture.rgba[i + c] += through * premultiplied[c];
+    }
+}
+
+}  // namespace vtm::tools

@@ -1,0 +1,69 @@
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "conformance/compare/compare.hpp"
+#include "image/codec.hpp"
+#include "tools/src/commands.hpp"
+#include "tools/src/report.hpp"
+
+namespace vtm::tools {
+
+namespace {
+
+struct DiffOptions {
+    std::string first, second, output;
+    double threshold = 2;
+    bool json = false;
+};
+
+Json report(const compare::Difference& difference) {
+    return {{"max", difference.max},       {"mean", difference.mean}, {"rms", difference.rms},
+            {"p999", difference.p999},     {"over", difference.over}, {"worst_x", difference.worstX},
+            {"worst_y", difference.worstY}};
+}
+
+void writePicture(const image::Raster& a, const image::Raster& b, const std::string& path) {
+    image::writeFile(path, image::encodePng(compare::differencePicture(a, b)));
+}
+
+int diff(const DiffOptions& options) {
+    std::string reading = options.first;
+    try {
+        const image::Raster a = compare::readPng(options.first);
+        reading = options.second;
+        const image::Raster b = compare::readPng(options.second);
+        if (a.width != b.width || a.height != b.height)
+            throw std::invalid_argument(fmt::format("is {} x {} pixels, {} is {} x {}", b.width, b.height,
+                                                    options.first, a.width, a.height));
+        const Json figures = report(compare::compare(a, b, options.threshold));
+        if (options.json)
+            fmt::print("{}\n", figures.dump(2));
+        else
+            printText(figures);
+        reading = options.output;
+        if (!options.output.empty())
+            writePicture(a, b, options.output);
+    } catch (...) {
+        fmt::print(stderr, "{}\n", describeError(reading));
+        return badInput;
+    }
+    return done;
+}
+
+}  // namespace
+
+void addDiff(CLI::App& app, int& exitCode) {
+    const auto options = std::make_shared<DiffOptions>();
+    CLI::App* command =
+        app.add_subcommand("diff", "Say how far two PNG files are apart, in 1/255 of a channel");
+    command->add_option("A", options->first, "PNG file")->required();
+    command->add_option("B", options->second, "PNG file")->required();
+    command->add_option("-o,--output", options->output, "Write the differences as a picture");
+    command->add_option("--threshold", options->threshold, "'over' counts pixels beyond this")
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "As JSON");
+    command->callback([options, &exitCode] { exitCode = diff(*options); });
+}
+
+}  // namespace vtm::tools

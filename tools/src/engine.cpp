@@ -1,0 +1,71 @@
+#include "tools/src/engine.hpp"
+
+#include <optional>
+#include <stdexcept>
+
+#include "asset/evaluate.hpp"
+#include "backend_gl/renderer.hpp"
+#include "conformance/reference/reference.hpp"
+#include "tools/src/commands.hpp"
+
+namespace vtm::tools {
+
+namespace {
+
+class GlEngine : public Engine {
+public:
+    image::Raster render(Source& source, const asset::View& view) override {
+        if (!gl_)
+            gl_ = timed(source.stages, "start", [] { return std::make_unique<Gl>(); });
+        const gl::Texture texture =
+            timed(source.stages, "upload", [&] { return gl_->renderer.upload(*source.asset); });
+        return timed(source.stages, "render", [&] { return gl_->renderer.render(texture, view); });
+    }
+
+private:
+    /// The context comes first: the programs need it for their whole life.
+    struct Gl {
+        gl::Context context;
+        gl::Renderer renderer;
+    };
+    std::unique_ptr<Gl> gl_;
+};
+
+class AssetEngine : public Engine {
+public:
+    image::Raster render(Source& source, const asset::View& view) override {
+        return timed(source.stages, "render", [&] { return asset::evaluate(*source.asset, view); });
+    }
+};
+
+class ReferenceEngine : public Engine {
+public:
+    explicit ReferenceEngine(asset::Mode mode) {
+        options_.mode = mode == asset::Mode::Exact ? reference::Mode::Exact : reference::Mode::Compat;
+    }
+    bool needsAsset() const override { return false; }
+    image::Raster render(Source& source, const asset::View& view) override {
+        if (!source.scene)
+            throw std::runtime_error("the reference engine draws SVG files only, no compiled ones");
+        const reference::View same{view.width, view.height, view.toPixels};
+        return timed(source.stages, "render",
+                     [&] { return reference::render(*source.scene, same, options_); });
+    }
+
+private:
+    reference::Options options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode) {
+    if (name == "gl")
+        return std::make_unique<GlEngine>();
+    if (name == "asset")
+        return std::make_unique<AssetEngine>();
+    if (name == "reference")
+        return std::make_unique<ReferenceEngine>(mode);
+    throw UsageError("--engine: '" + name + "' is none of gl, asset, reference");
+}
+
+}  // namespace vtm::tools

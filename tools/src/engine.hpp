@@ -1,0 +1,26 @@
+/// \file
+/// The three routes to pixels behind one interface.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "asset/view.hpp"
+#include "image/bitmap.hpp"
+#include "tools/src/source.hpp"
+
+namespace vtm::tools {
+
+class Engine {
+public:
+    virtual ~Engine() = default;
+    /// Whether it draws the compiled asset rather than the scene.
+    virtual bool needsAsset() const { return true; }
+    /// Adds its stages to the source's. Throws its module's exceptions.
+    virtual image::Raster render(Source& source, const asset::View& view) = 0;
+};
+
+/// "gl", "asset" or "reference". Contexts and programs are made at the first picture and kept.
+std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode);
+
+}  // namespace vtm::tools

@@ -1,0 +1,34 @@
+#include "tools/src/progress.hpp"
+
+#include <string>
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+namespace vtm::tools {
+
+namespace {
+
+constexpr std::size_t barWidth = 40;
+
+bool onTerminal() {
+    static const bool terminal = isatty(STDERR_FILENO) == 1;
+    return terminal;
+}
+
+}  // namespace
+
+void showProgress(std::size_t finished, std::size_t total) {
+    if (!onTerminal() || total < 2)
+        return;
+    const std::size_t filled = barWidth * finished / total;
+    fmt::print(stderr, "\r[{}{}] {}/{}", std::string(filled, '#'), std::string(barWidth - filled, ' '),
+               finished, total);
+}
+
+void clearProgress() {
+    if (onTerminal())
+        fmt::print(stderr, "\r\x1b[K");
+}
+
+}  // namespace vtm::tools

@@ -1,0 +1,64 @@
+#include "tools/src/report.hpp"
+
+#include <exception>
+#include <new>
+
+#include <fmt/core.h>
+
+#include "tools/src/progress.hpp"
+
+namespace vtm::tools {
+
+namespace {
+
+std::string withPath(const std::string& path, const std::string& what) {
+    return what.find(path) != std::string::npos ? what : path + ": " + what;
+}
+
+}  // namespace
+
+Json toJson(const Stages& stages) {
+    Json json = Json::object();
+    for (const auto& [stage, milliseconds] : stages)
+        json[stage] = milliseconds;
+    return json;
+}
+
+Json figures(const asset::Asset& asset) {
+    const asset::Summary summary = asset::summarize(asset);
+    return {{"bytes", summary.bytes},     {"prefilter_bytes", 0},
+            {"leaves", summary.leaves},   {"solids", summary.solids},
+            {"pieces", summary.pieces},   {"fallback_leaves", asset.fallbackLeaves},
+            {"regions", summary.regions}, {"max_depth", summary.maxDepth}};
+}
+
+void printText(const Json& object, int indent) {
+    for (const auto& [key, value] : object.items()) {
+        if (value.is_object()) {
+            fmt::print("{:{}}{}:\n", "", indent, key);
+            printText(value, indent + 2);
+        } else if (value.is_number_float()) {
+            fmt::print("{:{}}{}: {:.2f}\n", "", indent, key, value.get<double>());
+        } else {
+            fmt::print("{:{}}{}: {}\n", "", indent, key,
+                       value.is_string() ? value.get<std::string>() : value.dump());
+        }
+    }
+}
+
+void printWarning(const std::string& message) {
+    clearProgress();
+    fmt::print(stderr, "{}\n", message);
+}
+
+std::string describeError(const std::string& path) {
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        return path + ": not enough memory";
+    } catch (const std::exception& error) {
+        return withPath(path, error.what());
+    }
+}
+
+}  // namespace vtm::tools

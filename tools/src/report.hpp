@@ -1,0 +1,46 @@
+/// \file
+/// What the command says: figures as text or JSON, warnings, errors.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "asset/asset.hpp"
+
+namespace vtm::tools {
+
+/// Keys keep the order in which they were given.
+using Json = nlohmann::ordered_json;
+
+/// Milliseconds by stage, in the order in which the stages ran.
+using Stages = std::vector<std::pair<std::string, double>>;
+
+/// Runs `work`, records how long it took under `stage`, returns its result.
+template <class Work>
+auto timed(Stages& stages, const std::string& stage, Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    auto result = work();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    stages.emplace_back(stage, took.count());
+    return result;
+}
+
+Json toJson(const Stages& stages);
+
+/// The figures that `compile`, `info` and `render` share.
+Json figures(const asset::Asset& asset);
+
+/// One `key: value` a line; nested objects indented.
+void printText(const Json& object, int indent = 0);
+
+/// On stderr, over a progress bar if there is one.
+void printWarning(const std::string& message);
+
+/// `path: what`, for the exception being handled; `what` alone where it names the path itself.
+std::string describeError(const std::string& path);
+
+}  // namespace vtm::tools

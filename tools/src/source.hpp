@@ -1,0 +1,39 @@
+/// \file
+/// Input files: SVG, parsed and compiled here, or an asset that was compiled before.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "asset/asset.hpp"
+#include "compiler/compile.hpp"
+#include "scene/scene.hpp"
+#include "svg/load.hpp"
+#include "tools/src/report.hpp"
+
+namespace vtm::tools {
+
+struct SourceOptions {
+    svg::Options svg;
+    compiler::Options compiler;
+    /// As typed; an asset has its own mode, which must not contradict it.
+    std::optional<asset::Mode> mode;
+};
+
+/// --mode, --tolerance and what the importer needs: fonts, dpi, language.
+void addSourceOptions(CLI::App& command, SourceOptions& options);
+
+struct Source {
+    double width = 0, height = 0;       ///< user units
+    std::optional<scene::Scene> scene;  ///< not where the file is an asset
+    std::optional<asset::Asset> asset;
+    Stages stages;
+};
+
+/// Reads `.vtm` files as assets and all others as SVG; warnings go to stderr. An SVG is compiled only
+/// if `compile`. Throws the modules' exceptions.
+Source loadSource(const std::string& path, const SourceOptions& options, bool compile = true);
+
+}  // namespace vtm::tools
