@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""Proves the include rule of docs/architecture.md.
+
+check_includes.py [ROOT]: every #include below ROOT must satisfy it; violations are printed as
+file:line: message, exit code 1.
+check_includes.py --self-test: the check must catch planted violations.
+
+The rule, for a file of module M:
+- Ours are included with quotes, from the repository's root, and exist.
+- M's public headers and sources include M and the modules named in MODULES[M] only.
+- Tests, and what stands in no module (tests/), may include every module.
+- Another module's header comes from that module's root, never from its src/ or tests/.
+- Angle brackets are for the standard library, POSIX and the libraries in LIBRARIES, each only in
+  the modules named there.
+"""
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+
+MODULES = {
+    "image": set(),
+    "scene": {"image"},
+    "svg": {"scene", "image"},
+    "asset": {"image"},
+    "compiler": {"scene", "asset", "image"},
+    "backend_gl": {"asset", "image"},
+    "conformance/reference": {"scene", "image"},
+    "conformance/compare": {"image"},
+}
+EVERYTHING = set(MODULES)
+MODULES["conformance/cases"] = EVERYTHING
+MODULES["tools"] = EVERYTHING
+MODULES["tests"] = EVERYTHING
+
+ANYWHERE = None
+LIBRARIES = {
+    r"glm/.*": ANYWHERE,
+    r"fmt/.*": ANYWHERE,
+    r"gtest/.*|gmock/.*": ANYWHERE,
+    r"oneapi/tbb.*|tbb/.*": {"compiler", "asset", "conformance/reference"},
+    r"pugixml\.hpp": {"svg"},
+    r"zlib\.h": {"svg", "asset", "image"},
+    r"png\.h|jpeglib\.h|jerror\.h|webp/.*|gif_lib\.h": {"image", "conformance/compare"},
+    r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl"},
+    r"CLI/.*": {"tools"},
+    r"nlohmann/.*": {"tools", "conformance/cases"},
+    r"unistd\.h|sys/.*\.h": ANYWHERE,
+}
+STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]*)[>"]')
+SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cc"}
+
+
+def module_of(path):
+    """The module a path relative to the root belongs to, or None."""
+    for depth in (2, 1):
+        name = "/".join(path.parts[:depth])
+        if len(path.parts) > depth and name in MODULES:
+            return name
+    return None
+
+
+def inside(path, module):
+    """The path's parts below its module's folder."""
+    return path.parts[len(module.split("/")):]
+
+
+def check_ours(root, file, module, target):
+    path = pathlib.PurePosixPath(target)
+    other = module_of(path)
+    if ".." in path.parts or path.is_absolute():
+        return "leaves the repository's root"
+    if other is None:
+        return "is not a path from the repository's root into a module"
+    if not (root / path).is_file():
+        return "does not exist"
+    if other == module:
+        return None
+    if len(inside(path, other)) != 1:
+        return f"is private to {other}"
+    is_test = "tests" in inside(file, module)[:-1]
+    if not is_test and other not in MODULES[module]:
+        return f"{module} may not include {other}"
+    return None
+
+
+def check_library(root, module, target):
+    if (root / target).is_file():
+        return "is ours: include it with quotes"
+    if STANDARD.fullmatch(target):
+        return None
+    for pattern, where in LIBRARIES.items():
+        if re.fullmatch(pattern, target):
+            return None if where is ANYWHERE or module in where else f"{module} may not use this library"
+    return "is no library that we use"
+
+
+def violations(root):
+    for path in sorted(root.rglob("*")):
+        file = pathlib.PurePosixPath(path.relative_to(root).as_posix())
+        module = module_of(file)
+        if path.suffix not in SUFFIXES or module is None:
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            quote, target = match.groups()
+            wrong = check_ours(root, file, module, target) if quote == '"' else check_library(root, module, target)
+            if wrong:
+                yield f'{file}:{number}: "{target}" {wrong}'
+
+
+def self_test():
+    """Each planted file holds one include; those marked True are violations."""
+    cases = [
+        ("scene/src/good.cpp", '#include "scene/path.hpp"', False),
+        ("scene/src/own_private.cpp", '#include "scene/src/private.hpp"', False),
+        ("scene/src/standard.cpp", "#include <vector>", False),
+        ("svg/src/allowed.cpp", '#include "scene/path.hpp"', False),
+        ("svg/tests/wide.cpp", '#include "asset/asset.hpp"', False),
+        ("scene/src/upwards.cpp", '#include "svg/load.hpp"', True),
+        ("asset/forbidden.hpp", '#  include "scene/path.hpp"', True),
+        ("svg/src/private.cpp", '#include "scene/src/private.hpp"', True),
+        ("svg/tests/private.cpp", '#include "scene/src/private.hpp"', True),
+        ("svg/src/relative.cpp", '#include "../../scene/path.hpp"', True),
+        ("svg/src/sibling.cpp", '#include "private.hpp"', True),
+        ("svg/src/missing.cpp", '#include "scene/missing.hpp"', True),
+        ("svg/src/angle.cpp", "#include <scene/path.hpp>", True),
+        ("svg/src/gl.cpp", "#include <GLES3/gl3.h>", True),
+        ("svg/src/unknown.cpp", "#include <boost/variant.hpp>", True),
+        ("conformance/compare/src/reference.cpp", '#include "conformance/reference/reference.hpp"', True),
+    ]
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        given = ["scene/path.hpp", "scene/src/private.hpp", "svg/load.hpp", "svg/src/private.hpp",
+                 "asset/asset.hpp", "conformance/reference/reference.hpp"]
+        for name, text in [(g, "") for g in given] + [(c[0], c[1]) for c in cases]:
+            path = root / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text + "\n")
+        caught = {v.split(":")[0] for v in violations(root)}
+    wrong = [name for name, _, bad in cases if (name in caught) != bad]
+    for name in wrong:
+        print(f"self-test: {name} was judged wrongly")
+    return 1 if wrong else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", nargs="?", default=pathlib.Path(__file__).resolve().parent.parent, type=pathlib.Path)
+    parser.add_argument("--self-test", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.self_test:
+        return self_test()
+    found = list(violations(arguments.root))
+    print("\n".join(found) if found else "include rule: holds")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
