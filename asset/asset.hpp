@@ -36,7 +36,8 @@ struct Entry {
     std::uint32_t payload() const { return bits >> 2; }
 };
 
-/// 4 x 4 children, row by row from the square's (min x, min y). Four texels.
+/// 4 x 4 children, row by row from the square's (min x, min y). Four texels. A child that is a node
+/// has a larger index than its parent, so a tree cannot contain itself.
 struct Node {
     std::array<Entry, 16> children;
 };
@@ -56,6 +57,19 @@ struct Cell {
 inline constexpr std::uint32_t leafExtent = 65535;
 /// Stored slope / slopeScale = slope; so slopes lie in [-1, 1] (pieces turn by 22.5 degrees at most).
 inline constexpr float slopeScale = 32767;
+
+/// Side of a leaf on which a piece's end point lies: side k runs from corner k to corner k + 1,
+/// counter-clockwise from (min, min); -1: inside. A point on corner k belongs to side k, so the
+/// corner's paint is the one *before* what begins there, on side k - 1. Decided on the stored numbers.
+constexpr int sideOf(const std::array<std::uint16_t, 2>& p) {
+    if (p[1] == 0 && p[0] < leafExtent)
+        return 0;
+    if (p[0] == leafExtent && p[1] < leafExtent)
+        return 1;
+    if (p[1] == leafExtent && p[0] > 0)
+        return 2;
+    return p[0] == 0 && p[1] > 0 ? 3 : -1;
+}
 
 /// One texel: x = firstPiece, y = pieceCount | unused << 16, z = corners 0, 1, w = corners 2, 3
 /// (low half first).

@@ -17,4 +17,8 @@ struct View {
 inline constexpr int maxViewSide = 16384;
 inline constexpr long long maxViewPixels = 1LL << 27;
 
+/// Throws std::length_error unless the raster is within the limits (an empty one is) and every number
+/// is finite.
+void validate(const View& view);
+
 }  // namespace vtm::asset

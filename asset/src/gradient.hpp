@@ -1,0 +1,21 @@
+/// \file
+/// Gradients of paint programs; twin of backend_gl/shaders/gradient.glsl.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "asset/src/records.hpp"
+
+namespace vtm::asset {
+
+/// (m0 m1), (m2 m3), (m4 m5) as columns, applied to a picture point.
+inline glm::vec2 applyMatrix(const std::array<float, 6>& m, glm::vec2 p) {
+    return {m[0] * p.x + m[2] * p.y + m[4], m[1] * p.x + m[3] * p.y + m[5]};
+}
+
+/// Premultiplied colour at a picture point.
+glm::vec4 linearColor(const GradientView& gradient, glm::vec2 point);
+glm::vec4 radialColor(const GradientView& gradient, glm::vec2 point);
+
+}  // namespace vtm::asset

@@ -1,0 +1,17 @@
+/// \file
+/// Paints and paint programs; twin of backend_gl/shaders/paint.glsl.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "asset/asset.hpp"
+
+namespace vtm::asset {
+
+inline bool isProgram(const Paint& paint) { return paint[3] == programTag; }
+
+/// Premultiplied colour of a paint at a picture point.
+glm::vec4 paintColor(const Asset& asset, std::uint32_t paint, glm::vec2 point);
+
+}  // namespace vtm::asset
