@@ -2,10 +2,15 @@
 /// Strokes as filled outlines.
 #pragma once
 
+#include <cstddef>
+
 #include "scene/path.hpp"
 #include "scene/stroke.hpp"
 
 namespace vtm::compiler {
+
+/// Dashes of one path beyond this number are a LimitError (compiler/compile.hpp).
+inline constexpr std::size_t maxDashes = 1'000'000;
 
 /// A path whose non-zero fill is the stroke of `path` in `style`, in the path's own space: dashes,
 /// offsets, joins and caps, each contour closed. Boundary within `tolerance` (> 0, path units) of

@@ -1,0 +1,206 @@
+#include "compiler/compile.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "compiler/src/painters.hpp"
+#include "compiler/src/walk_items.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::Command;
+
+/// A leaf of this level still has 2^8 lattice steps a side.
+constexpr unsigned deepest = 10;
+
+/// Of the whole tolerance: what chords may take from the curves, and pieces from the chords. The rest
+/// is left to quantisation.
+constexpr double chordShare = 1.0 / 8, fitShare = 1.0 / 2, quantisationShare = 1.0 / 8;
+
+void checkOptions(const Options& o) {
+    if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
+        throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
+    if (o.piecesPerLeaf < 1 || o.piecesPerLeaf > 4096)
+        throw std::invalid_argument("piecesPerLeaf must lie in [1, 4096]");
+    if (o.maxDepth > deepest)
+        throw std::invalid_argument("maxDepth must be at most " + std::to_string(deepest));
+}
+
+TreeOptions treeOptions(const Options& o) {
+    TreeOptions t;
+    t.fitTolerance = o.tolerance * fitShare * static_cast<double>(latticeSide);
+    t.piecesPerLeaf = o.piecesPerLeaf;
+    t.maxDepth = o.maxDepth;
+    // A leaf's end points are rounded by half of 1/65535 of its side in each axis.
+    const double widest = o.tolerance * quantisationShare * asset::leafExtent * std::sqrt(2.0);
+    t.minDepth = std::min(o.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
+    return t;
+}
+
+std::vector<std::uint32_t> allLayers(const Picture& picture) {
+    std::vector<std::uint32_t> layers(picture.layers.size());
+    for (std::uint32_t i = 0; i < layers.size(); ++i)
+        layers[i] = i;
+    return layers;
+}
+
+/// Appends maps to the asset, all over the lattice's root square.
+class MapBuilder {
+public:
+    MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, asset::Asset& asset)
+        : picture_(picture), lattice_(lattice), options_(treeOptions(options)), asset_(asset) {}
+
+    std::uint32_t add(std::span<const std::uint32_t> layers, Painter& painter) {
+        const asset::Entry root = buildTree(picture_, layers, painter, options_, asset_, times_);
+        asset_.maps.push_back({lattice_.originUnits(), lattice_.originUnits(), lattice_.sideUnits(), root});
+        return static_cast<std::uint32_t>(asset_.maps.size() - 1);
+    }
+    const TreeTimes& times() const { return times_; }
+
+private:
+    const Picture& picture_;
+    const Lattice& lattice_;
+    const TreeOptions options_;
+    asset::Asset& asset_;
+    TreeTimes times_;
+};
+
+void compileExact(const Picture& picture, MapBuilder& maps, asset::Asset& asset) {
+    PicturePainter painter(picture, asset);
+    Command draw;
+    draw.kind = Command::Kind::DrawMap;
+    draw.map = maps.add(allLayers(picture), painter);
+    asset.commands.push_back(draw);
+}
+
+/// Compat mode: every item and every clip is a mask of its own; groups become commands.
+class CompatCompiler {
+public:
+    CompatCompiler(const Picture& picture, MapBuilder& maps, asset::Asset& asset)
+        : picture_(picture), maps_(maps), asset_(asset), palette_(asset) {
+        palette_.solid({1, 1, 1, 1});  // a mask's paint 1
+    }
+
+    void run() {
+        ItemWalk<CompatCompiler> walk(picture_, *this);
+        for (const PictureItem& item : picture_.items)
+            walk.item(item);
+        walk.finish();
+    }
+
+    void open(std::uint32_t) { emit(Command::Kind::Push); }
+
+    void item(const PictureItem& item) {
+        MaskPainter painter(picture_, item.layer, none);
+        Command& fill = emit(Command::Kind::FillMask);
+        fill.paint = paintOf(item);
+        const std::uint32_t layer[] = {item.layer};
+        fill.map = maps_.add(layer, painter);
+    }
+
+    void emptyMask(std::uint32_t) {
+        emit(Command::Kind::Push);
+        emit(Command::Kind::PopMaskAlpha);
+    }
+
+    void close(std::uint32_t index) {
+        const PictureGroup& group = picture_.groups[index];
+        if (group.clip != none)
+            emit(Command::Kind::ClipMask).map = clipMap(group.clip);
+        if (group.role != GroupRole::Plain) {
+            emit(group.role == GroupRole::AlphaMask       ? Command::Kind::PopMaskAlpha
+                 : group.role == GroupRole::LuminanceMask ? Command::Kind::PopMaskLuminance
+                                                          : Command::Kind::PopMaskLinear);
+            return;
+        }
+        Command& pop = emit(Command::Kind::Pop);
+        pop.blend = static_cast<asset::Blend>(group.blend);
+        pop.opacity = group.opacity;
+    }
+
+private:
+    Command& emit(Command::Kind kind) {
+        Command command;
+        command.kind = kind;
+        asset_.commands.push_back(command);
+        return asset_.commands.back();
+    }
+
+    std::uint32_t paintOf(const PictureItem& item) {
+        const Source& source = picture_.sources[item.source];
+        if (source.op != asset::Op::Solid)
+            return palette_.program({{{source.op, asset::Blend::Normal, item.opacity, source.data}, {}}});
+        std::array<float, 4> color = source.color;
+        for (float& c : color)
+            c *= item.opacity;
+        return palette_.solid(color);
+    }
+
+    std::uint32_t clipMap(std::uint32_t clip) {
+        std::vector<std::uint32_t> layers;
+        collectLayers(clip, layers);
+        std::sort(layers.begin(), layers.end());
+        MaskPainter painter(picture_, none, clip);
+        return maps_.add(layers, painter);
+    }
+
+    void collectLayers(std::uint32_t clip, std::vector<std::uint32_t>& into) const {
+        if (clip == none)
+            return;
+        for (const ClipExpression::Term& term : picture_.clips[clip].terms) {
+            into.push_back(term.layer);
+            collectLayers(term.clip, into);
+        }
+        collectLayers(picture_.clips[clip].outer, into);
+    }
+
+    const Picture& picture_;
+    MapBuilder& maps_;
+    asset::Asset& asset_;
+    Palette palette_;
+};
+
+}  // namespace
+
+Result compile(const scene::Scene& scene, const Options& options) {
+    checkOptions(options);
+    scene::validate(scene);
+
+    using Clock = std::chrono::steady_clock;
+    const auto milliseconds = [](Clock::time_point a, Clock::time_point b) {
+        return std::chrono::duration<double, std::milli>(b - a).count();
+    };
+    const auto start = Clock::now();
+    const Lattice lattice(scene.width, scene.height);
+    Picture picture = lower(scene, lattice, options.tolerance * chordShare * static_cast<double>(latticeSide));
+    const auto lowered = Clock::now();
+
+    Result result;
+    asset::Asset& asset = result.asset;
+    asset.width = scene.width;
+    asset.height = scene.height;
+    asset.mode = options.mode;
+    asset.data = std::move(picture.data);
+    asset.images = std::move(picture.images);
+    MapBuilder maps(picture, lattice, options, asset);
+    if (options.mode == asset::Mode::Exact)
+        compileExact(picture, maps, asset);
+    else
+        CompatCompiler(picture, maps, asset).run();
+
+    const TreeTimes& t = maps.times();
+    const double built = milliseconds(lowered, Clock::now());
+    result.stages = {{"lower", milliseconds(start, lowered)},
+                     {"push", t.push},
+                     {"planarise", t.planarise},
+                     {"fit", t.fit},
+                     {"encode", built - t.push - t.planarise - t.fit}};
+    if (asset.fallbackLeaves > 0)
+        result.warnings.push_back(std::to_string(asset.fallbackLeaves) +
+                                  " leaves could not be certified and are filled with the mean of samples");
+    return result;
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,89 @@
+/// \file
+/// The integer lattice on which all topology is decided, and its exact predicates.
+///
+/// The root square of a map spans [-1, 2^28 - 1] lattice steps in each axis. Vertices of the scene
+/// have even coordinates; borders of cells have odd ones, at every level down to the last, so no
+/// vertex ever lies on a border. Coordinates stay within ±2^29: differences fit 30 bits, their
+/// products 60, and every predicate below is exact in 64 bits (crossings in 128).
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+namespace vtm::compiler {
+
+using Coord = std::int32_t;
+
+struct LatticePoint {
+    Coord x = 0, y = 0;
+    friend bool operator==(const LatticePoint&, const LatticePoint&) = default;
+    friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
+};
+
+inline constexpr int latticeBits = 28;
+inline constexpr std::int64_t latticeSide = std::int64_t{1} << latticeBits;
+
+/// Twice the signed area of (a, b, c): positive if c lies on the left of a→b.
+inline std::int64_t orient(LatticePoint a, LatticePoint b, LatticePoint c) {
+    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
+}
+
+/// Whether a cell's corner lies on the left of the edge a→b; a corner exactly on the edge counts as
+/// moved by +ε in x. The edge is never horizontal there, since corners are odd and vertices even.
+inline bool cornerOnLeft(LatticePoint a, LatticePoint b, LatticePoint corner) {
+    const std::int64_t o = orient(a, b, corner);
+    return o != 0 ? o > 0 : b.y < a.y;
+}
+
+__extension__ typedef __int128 Int128;
+
+/// Nearest even integer to numerator / denominator (denominator > 0), ties towards +infinity. It
+/// never passes an odd integer on the way, so a point keeps its side of every border.
+inline Coord roundToEven(Int128 numerator, Int128 denominator) {
+    const Int128 twice = 2 * denominator;
+    const Int128 shifted = numerator + denominator;
+    Int128 quotient = shifted / twice;
+    if (shifted % twice < 0)
+        --quotient;
+    return static_cast<Coord>(2 * quotient);
+}
+
+/// A square cell: borders at odd coordinates.
+struct Square {
+    Coord x0 = 0, y0 = 0;
+    Coord side = 0;
+
+    Coord x1() const { return x0 + side; }
+    Coord y1() const { return y0 + side; }
+    /// Corners counter-clockwise in the numbers, from (min, min).
+    LatticePoint corner(int k) const { return {k == 1 || k == 2 ? x1() : x0, k >= 2 ? y1() : y0}; }
+    Square child(int i, int j) const { return {x0 + i * (side / 4), y0 + j * (side / 4), side / 4}; }
+};
+
+inline constexpr Square rootSquare{-1, -1, static_cast<Coord>(latticeSide)};
+
+/// How a picture lies on the lattice: its longer side takes latticeSide + 2 steps from -2, so that
+/// the picture's own border lies just outside the root square and shapes that end there leave no
+/// slivers. (The outermost 2^-28 of the picture is not drawn.)
+class Lattice {
+public:
+    Lattice(double width, double height);
+
+    double stepsPerUnit() const { return scale_; }
+    /// Picture units to lattice steps, unrounded.
+    glm::dvec2 toSteps(glm::dvec2 p) const { return p * scale_ - 2.0; }
+    /// The box, in steps, to which geometry is cut: beyond the root square where the picture reaches
+    /// its border, exactly the picture's edge elsewhere.
+    glm::dvec2 clampMin() const { return {-16, -16}; }
+    glm::dvec2 clampMax() const { return clampMax_; }
+    /// The root square in picture units.
+    double originUnits() const { return 1 / scale_; }
+    double sideUnits() const { return static_cast<double>(latticeSide) / scale_; }
+
+private:
+    double scale_;
+    glm::dvec2 clampMax_;
+};
+
+}  // namespace vtm::compiler

@@ -1,0 +1,204 @@
+/// \file
+/// Scene to picture: strokes become outlines, patterns become groups of tiles, curves become chords.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+
+#include "compiler/compile.hpp"
+#include "compiler/src/paints.hpp"
+#include "compiler/src/picture.hpp"
+#include "compiler/stroke.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using scene::Affine;
+using scene::compose;
+using scene::Path;
+using scene::Point;
+
+/// A box in picture units; empty while min > max.
+struct Box {
+    Point min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
+    bool empty() const { return !(min.x <= max.x && min.y <= max.y); }
+    void add(Point p) { min = glm::min(min, p), max = glm::max(max, p); }
+    Box cut(const Box& b) const { return {glm::max(min, b.min), glm::min(max, b.max)}; }
+};
+
+Box mapped(const Box& b, const Affine& m) {
+    Box r;
+    for (Point p : {b.min, Point{b.max.x, b.min.y}, b.max, Point{b.min.x, b.max.y}})
+        r.add(scene::apply(m, p));
+    return r;
+}
+
+class Lowering {
+public:
+    Lowering(const scene::Scene& scene, const Lattice& lattice, double tolerance)
+        : lattice_(lattice), tolerance_(tolerance), frame_{{0, 0}, {scene.width, scene.height}}, paints_(picture_) {
+        picture_.groups.emplace_back();
+        group(scene.root, scene::identity, openGroup(0));
+    }
+
+    Picture take() { return std::move(picture_); }
+
+private:
+    void children(const scene::Group& g, const Affine& outer, std::uint32_t into) {
+        for (const scene::Node& node : g.children) {
+            if (const auto* item = std::get_if<scene::Item>(&node.value))
+                this->item(*item, outer, into);
+            else
+                group(std::get<scene::Group>(node.value), outer, openGroup(into));
+        }
+    }
+
+    void group(const scene::Group& g, const Affine& outer, std::uint32_t index) {
+        PictureGroup& record = picture_.groups[index];
+        record.opacity = g.opacity;
+        record.blend = g.blend;
+        if (g.clip)
+            picture_.groups[index].clip = clip(*g.clip, outer);
+        children(g, outer, index);
+        if (g.mask)
+            mask(*g.mask, outer, index);
+    }
+
+    std::uint32_t openGroup(std::uint32_t parent) {
+        PictureGroup g;
+        g.parent = parent;
+        g.depth = picture_.groups[parent].depth + 1;
+        picture_.groups.push_back(g);
+        return static_cast<std::uint32_t>(picture_.groups.size() - 1);
+    }
+
+    void mask(const scene::Mask& m, const Affine& outer, std::uint32_t of) {
+        const std::uint32_t index = openGroup(of);
+        picture_.groups[of].mask = index;
+        picture_.groups[index].role = m.kind == scene::MaskKind::Alpha ? GroupRole::AlphaMask
+                                      : m.linear                       ? GroupRole::LinearMask
+                                                                       : GroupRole::LuminanceMask;
+        // The mask's own opacity, clip and mask belong to its content: one group further in.
+        group(*m.content, outer, openGroup(index));
+    }
+
+    std::uint32_t clip(const scene::Clip& c, const Affine& outer) {
+        ClipExpression expression;
+        for (const scene::ClipShape& shape : c.shapes) {
+            ClipExpression::Term term;
+            term.layer = layer(*shape.path, compose(outer, shape.transform), shape.rule);
+            if (shape.clip)
+                term.clip = clip(*shape.clip, outer);
+            expression.terms.push_back(term);
+        }
+        if (c.clip)
+            expression.outer = clip(*c.clip, outer);
+        return push(std::move(expression));
+    }
+
+    std::uint32_t push(ClipExpression expression) {
+        picture_.clips.push_back(std::move(expression));
+        return static_cast<std::uint32_t>(picture_.clips.size() - 1);
+    }
+
+    void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
+        const Affine transform = compose(outer, item.transform);
+        if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
+            patternItem(item, *pattern, transform, into);
+            return;
+        }
+        const auto source = paints_.add(item.paint, transform);
+        if (!source)
+            return;
+        const std::uint32_t layer = geometryLayer(item, transform);
+        picture_.itemOfLayer[layer] = static_cast<std::uint32_t>(picture_.items.size());
+        picture_.items.push_back({layer, *source, item.opacity, into});
+    }
+
+    /// A group of tiles, clipped by the item's own outline.
+    void patternItem(const scene::Item& item, const scene::Pattern& pattern, const Affine& transform,
+                     std::uint32_t into) {
+        const std::uint32_t index = openGroup(into);
+        const std::uint32_t shape = geometryLayer(item, transform);
+        picture_.groups[index].opacity = item.opacity;
+        picture_.groups[index].clip = push({{{shape, none}}, none});
+        const Affine toPicture = compose(transform, pattern.transform);
+        const auto toPattern = scene::inverse(toPicture);
+        const Box seen = bounds(picture_.layers[shape]).cut(frame_);
+        if (!toPattern || seen.empty())
+            return;
+        const Box box = mapped(seen, *toPattern);
+        const Point period = pattern.max - pattern.min;
+        const glm::dvec2 first = glm::floor((box.min - pattern.min) / period);
+        const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
+        const double tiles = (last.x - first.x + 1) * (last.y - first.y + 1);
+        if (!(tiles <= static_cast<double>(maxTiles)))
+            throw LimitError("a pattern would take " + std::to_string(tiles) + " tiles; at most " +
+                             std::to_string(maxTiles) + " are drawn");
+        for (double y = first.y; y <= last.y; ++y)
+            for (double x = first.x; x <= last.x; ++x)
+                tile(pattern, compose(toPicture, scene::translation(x * period.x, y * period.y)), index);
+    }
+
+    void tile(const scene::Pattern& pattern, const Affine& toPicture, std::uint32_t into) {
+        const std::uint32_t index = openGroup(into);
+        const Path border = scene::rectangle(pattern.min, pattern.max);
+        const std::uint32_t cut = layer(border, toPicture, scene::FillRule::NonZero);
+        picture_.groups[index].clip = push({{{cut, none}}, none});
+        group(*pattern.content, toPicture, openGroup(index));
+    }
+
+    std::uint32_t geometryLayer(const scene::Item& item, const Affine& transform) {
+        if (const auto* rule = std::get_if<scene::FillRule>(&item.geometry))
+            return layer(*item.path, transform, *rule);
+        const double stretch = largestStretch(transform) * lattice_.stepsPerUnit();
+        if (!(stretch > 0) || !std::isfinite(stretch))
+            return layer({}, transform, scene::FillRule::NonZero);
+        const Path outline = strokeOutline(*item.path, std::get<scene::StrokeStyle>(item.geometry), tolerance_ / stretch);
+        return layer(outline, transform, scene::FillRule::NonZero);
+    }
+
+    std::uint32_t layer(const Path& path, const Affine& transform, scene::FillRule rule) {
+        const double s = lattice_.stepsPerUnit();
+        const Affine toSteps = compose(Affine{s, 0, 0, s, -2, -2}, transform);
+        const std::vector<Chord> chords =
+            outline(path, toSteps, tolerance_, lattice_.clampMin(), lattice_.clampMax());
+        checkLimits(chords.size());
+        picture_.layers.push_back({rule, static_cast<std::uint32_t>(picture_.chords.size()),
+                                   static_cast<std::uint32_t>(chords.size())});
+        picture_.itemOfLayer.push_back(none);
+        picture_.chords.insert(picture_.chords.end(), chords.begin(), chords.end());
+        return static_cast<std::uint32_t>(picture_.layers.size() - 1);
+    }
+
+    void checkLimits(std::size_t more) const {
+        if (picture_.chords.size() + more > maxChords)
+            throw LimitError("the picture's outlines take more than " + std::to_string(maxChords) + " chords");
+        if (picture_.layers.size() >= maxLayers)
+            throw LimitError("the picture has more than " + std::to_string(maxLayers) + " layers");
+    }
+
+    Box bounds(const Layer& layer) const {
+        Box box;
+        for (std::uint32_t i = 0; i < layer.chordCount; ++i) {
+            const LatticePoint p = picture_.chords[layer.firstChord + i].a;
+            box.add((Point{p.x, p.y} + 2.0) / lattice_.stepsPerUnit());
+        }
+        return box;
+    }
+
+    const Lattice& lattice_;
+    const double tolerance_;
+    const Box frame_;
+    Picture picture_;
+    PaintTable paints_;
+};
+
+}  // namespace
+
+Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance) {
+    return Lowering(scene, lattice, tolerance).take();
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,110 @@
+#include "compiler/src/paints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace vtm::compiler {
+namespace {
+
+using scene::Affine;
+using scene::Color;
+using scene::compose;
+using scene::GradientStop;
+
+std::array<float, 6> floats(const Affine& m) {
+    const auto f = [](double v) { return static_cast<float>(v); };
+    return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
+}
+
+std::uint16_t unorm16(float v) { return static_cast<std::uint16_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f)); }
+
+bool allOpaque(const std::vector<GradientStop>& stops) {
+    return std::all_of(stops.begin(), stops.end(), [](const GradientStop& s) { return s.color.a >= 1; });
+}
+
+template <class Record>
+void append(std::vector<asset::Texel>& data, const Record& record) {
+    static_assert(sizeof(Record) % sizeof(asset::Texel) == 0);
+    const std::size_t at = data.size();
+    data.resize(at + sizeof(Record) / sizeof(asset::Texel));
+    std::memcpy(data.data() + at, &record, sizeof(Record));
+}
+
+/// Unit vector of the gradient to the picture: (0, 0) → start, (1, 0) → end.
+Affine gradientFrame(const scene::LinearGradient& g) {
+    const glm::dvec2 d = g.end - g.start;
+    return {d, {-d.y, d.x}, g.start};
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> PaintTable::add(const scene::Paint& paint, const Affine& item) {
+    if (const auto* color = std::get_if<Color>(&paint))
+        return solid(*color);
+    if (const auto* g = std::get_if<scene::LinearGradient>(&paint))
+        return linear(*g, compose(item, g->transform));
+    if (const auto* g = std::get_if<scene::RadialGradient>(&paint))
+        return radial(*g, compose(item, g->transform));
+    if (const auto* image = std::get_if<scene::ImagePaint>(&paint))
+        return bitmap(*image, compose(item, image->transform));
+    return std::nullopt;
+}
+
+std::uint32_t PaintTable::push(Source source) {
+    picture_.sources.push_back(source);
+    return static_cast<std::uint32_t>(picture_.sources.size() - 1);
+}
+
+std::optional<std::uint32_t> PaintTable::solid(const Color& c) {
+    return push({asset::Op::Solid, {c.r * c.a, c.g * c.a, c.b * c.a, c.a}, 0, c.a >= 1});
+}
+
+std::uint32_t PaintTable::record(asset::Gradient gradient, const std::vector<GradientStop>& stops) {
+    const auto at = static_cast<std::uint32_t>(picture_.data.size());
+    gradient.stopCount = static_cast<std::uint32_t>(stops.size());
+    append(picture_.data, gradient);
+    for (const GradientStop& s : stops)
+        append(picture_.data,
+               asset::GradientStop{
+                   s.offset, {unorm16(s.color.r), unorm16(s.color.g), unorm16(s.color.b), unorm16(s.color.a)}, 0});
+    return at;
+}
+
+std::optional<std::uint32_t> PaintTable::linear(const scene::LinearGradient& g, const Affine& toPicture) {
+    const auto inverse = scene::inverse(compose(toPicture, gradientFrame(g)));
+    if (!inverse)
+        return std::nullopt;
+    asset::Gradient gradient;
+    gradient.matrix = floats(*inverse);
+    gradient.spread = static_cast<asset::Spread>(g.spread);
+    return push({asset::Op::Linear, {}, record(gradient, g.stops), allOpaque(g.stops)});
+}
+
+std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, const Affine& toPicture) {
+    const auto inverse = scene::inverse(compose(toPicture, Affine{g.radius, 0, 0, g.radius, g.center.x, g.center.y}));
+    if (!inverse)
+        return std::nullopt;
+    asset::Gradient gradient;
+    gradient.matrix = floats(*inverse);
+    gradient.spread = static_cast<asset::Spread>(g.spread);
+    gradient.fx = static_cast<float>((g.focus.x - g.center.x) / g.radius);
+    gradient.fy = static_cast<float>((g.focus.y - g.center.y) / g.radius);
+    gradient.fr = static_cast<float>(g.focalRadius / g.radius);
+    return push({asset::Op::Radial, {}, record(gradient, g.stops), allOpaque(g.stops)});
+}
+
+std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, const Affine& toPicture) {
+    const auto inverse = scene::inverse(toPicture);
+    if (!inverse)
+        return std::nullopt;
+    const auto [found, isNew] =
+        images_.try_emplace(image.bitmap.get(), static_cast<std::uint32_t>(picture_.images.size()));
+    if (isNew)
+        picture_.images.push_back(*image.bitmap);
+    const auto at = static_cast<std::uint32_t>(picture_.data.size());
+    append(picture_.data, asset::ImageFill{floats(*inverse), found->second, image.filter == scene::ImageFilter::Bilinear});
+    return push({asset::Op::Image, {}, at, false});
+}
+
+}  // namespace vtm::compiler

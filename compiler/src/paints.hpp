@@ -1,0 +1,32 @@
+/// \file
+/// Scene paints to the asset's records.
+#pragma once
+
+#include <map>
+
+#include "compiler/src/picture.hpp"
+
+namespace vtm::compiler {
+
+/// Appends sources to a picture, each distinct bitmap once.
+class PaintTable {
+public:
+    explicit PaintTable(Picture& picture) : picture_(picture) {}
+
+    /// The index of a new source; nothing if the paint's space is flat, so that nothing can be
+    /// painted. Patterns are not paints here: lowering expands them.
+    std::optional<std::uint32_t> add(const scene::Paint& paint, const scene::Affine& itemTransform);
+
+private:
+    std::uint32_t push(Source source);
+    std::optional<std::uint32_t> solid(const scene::Color& color);
+    std::optional<std::uint32_t> linear(const scene::LinearGradient& gradient, const scene::Affine& toPicture);
+    std::optional<std::uint32_t> radial(const scene::RadialGradient& gradient, const scene::Affine& toPicture);
+    std::optional<std::uint32_t> bitmap(const scene::ImagePaint& image, const scene::Affine& toPicture);
+    std::uint32_t record(asset::Gradient gradient, const std::vector<scene::GradientStop>& stops);
+
+    Picture& picture_;
+    std::map<const image::Bitmap*, std::uint32_t> images_;
+};
+
+}  // namespace vtm::compiler

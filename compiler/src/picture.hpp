@@ -1,0 +1,84 @@
+/// \file
+/// The lowered picture: the scene with its geometry as closed chords on the lattice (*layers*) and
+/// its paints as the asset's records; groups, clips and masks as tables of indices.
+///
+/// Everything stands in painter's order. A layer is one outline with a fill rule; it belongs to an
+/// item or to a clip. Layers of a group (its clip's first, then its items', then its mask's) are
+/// consecutive, so "below" is "a smaller layer index".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "asset/asset.hpp"
+#include "compiler/src/outline.hpp"
+#include "scene/scene.hpp"
+
+namespace vtm::compiler {
+
+inline constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+struct Layer {
+    scene::FillRule rule = scene::FillRule::NonZero;
+    std::uint32_t firstChord = 0, chordCount = 0;  ///< of Picture::chords
+};
+
+/// What an item is painted with.
+struct Source {
+    asset::Op op = asset::Op::Solid;   ///< Solid, Linear, Radial or Image
+    std::array<float, 4> color{};      ///< Solid: premultiplied
+    std::uint32_t data = 0;            ///< otherwise: the record in Picture::data
+    bool opaque = false;               ///< alpha 1 everywhere
+};
+
+struct PictureItem {
+    std::uint32_t layer = 0;
+    std::uint32_t source = 0;
+    float opacity = 1;
+    std::uint32_t group = 0;
+};
+
+/// Inside one of the terms, and inside `outer` if there is one.
+struct ClipExpression {
+    struct Term {
+        std::uint32_t layer = 0;
+        std::uint32_t clip = none;
+    };
+    std::vector<Term> terms;
+    std::uint32_t outer = none;
+};
+
+enum class GroupRole : std::uint8_t { Plain, LuminanceMask, LinearMask, AlphaMask };
+
+struct PictureGroup {
+    std::uint32_t parent = none;
+    GroupRole role = GroupRole::Plain;
+    float opacity = 1;
+    scene::BlendMode blend = scene::BlendMode::Normal;
+    std::uint32_t clip = none;
+    std::uint32_t mask = none;  ///< the mask's group, a child of this one that comes after the items
+    unsigned depth = 0;
+};
+
+struct Picture {
+    std::vector<Chord> chords;
+    std::vector<Layer> layers;
+    std::vector<PictureItem> items;    ///< painter's order; layers ascend
+    std::vector<PictureGroup> groups;  ///< parents before children; 0 is the ground, the scene's root lies in it
+    std::vector<ClipExpression> clips;
+    std::vector<Source> sources;
+    std::vector<asset::Texel> data;    ///< gradients and image fills
+    std::vector<image::Bitmap> images;
+    std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
+};
+
+/// Limits of lowering; beyond them a LimitError.
+inline constexpr std::size_t maxChords = 50'000'000;
+inline constexpr std::size_t maxLayers = 4'000'000;
+inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
+
+/// `tolerance` in lattice steps: how far chords may lie from their curves.
+Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance);
+
+}  // namespace vtm::compiler

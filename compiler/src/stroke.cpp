@@ -1,0 +1,237 @@
+// A stroke is the union of ribbons (stroke_offset.cpp), one for each segment, of join wedges and of caps.
+// All of them are emitted as one contour for an open subpath (right side, cap, left side back, cap) and as
+// two for a closed one. Winding numbers are additive over chains of edges: at a vertex the inner side
+// runs through the vertex itself, along the ends of both ribbons, so the contour is exactly the sum of the
+// ribbons', wedges' and caps' boundaries. Each of these is wound the same way and counts its covers
+// without a negative part, so the sum is positive on their union and zero elsewhere, which is what
+// non-zero filling needs. No inner join can open a hole.
+//
+// Between two lines the detour through the vertex may be cut off where the inner offsets cross: that
+// takes one cover from the kite between crossing and vertex. The kite lies in both lines' rectangles, and
+// as it may reach no further than half of each line, two kites of one line do not meet: a point in m kites
+// lies in at least 2m rectangles and stays covered.
+
+#include "compiler/stroke.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "stroke_offset.hpp"
+#include "stroke_subpath.hpp"
+
+namespace vtm::compiler {
+
+namespace stroke {
+namespace {
+
+using scene::Cap;
+using scene::Join;
+using scene::StrokeStyle;
+
+// Shares of the tolerance: errors of arcs turned into cubics, of offsets fitted to them, and of joins
+// left out because they are too small.
+constexpr double arcShare = 0.1, fitShare = 0.8, joinShare = 0.1;
+
+/// Directions closer than this are the same whatever the tolerance: control points do not resolve more.
+constexpr double sameDirection = 1e-9;
+
+Point endPoint(const Segment& s) { return s.curve.p3; }
+
+class Outliner {
+public:
+    Outliner(const StrokeStyle& style, double tolerance, scene::Path& out)
+        : style_(style), tolerance_(tolerance), radius_(style.width / 2), out_(out) {}
+
+    void add(const Subpath& subpath) {
+        if (subpath.segments.empty())
+            dot(subpath);
+        else
+            ribbon(subpath);
+    }
+
+private:
+    void dot(const Subpath& subpath) {
+        if (style_.cap == Cap::Butt)
+            return;
+        const Point side = perp(subpath.direction) * radius_;
+        Side contour{subpath.at - side, {}};
+        cap(contour, subpath.at, subpath.direction);
+        cap(contour, subpath.at, -subpath.direction);
+        emit(contour);
+    }
+
+    void ribbon(const Subpath& subpath) {
+        ribbon_ = {};
+        const auto& segments = subpath.segments;
+        const Point first = segments.front().curve.p0, side = perp(startTangent(segments.front().curve)) * radius_;
+        ribbon_.left.start = first + side;
+        ribbon_.right.start = first - side;
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            if (i > 0)
+                joinSegments(segments[i - 1], segments[i]);
+            sides(segments[i]);
+        }
+        subpath.closed ? closeRing(subpath) : closeEnds(subpath);
+        for (const Side& contour : ribbon_.beyond)
+            emit(contour);
+    }
+
+    void sides(const Segment& segment) {
+        if (segment.straight) {
+            const Point side = perp(endTangent(segment.curve)) * radius_;
+            ribbon_.left.lineTo(endPoint(segment) + side);
+            ribbon_.right.lineTo(endPoint(segment) - side);
+        } else {
+            const bool open = style_.cap != Cap::Round || style_.join != Join::Round;
+            appendOffsets(segment.curve, {radius_, tolerance_ * fitShare, open}, ribbon_);
+        }
+    }
+
+    void closeRing(const Subpath& subpath) {
+        const Segment &last = subpath.segments.back(), &first = subpath.segments.front();
+        const bool cut = joinSegments(last, first);
+        if (cut)
+            (turn(last, first) > 0 ? ribbon_.left : ribbon_.right).start =
+                (turn(last, first) > 0 ? ribbon_.left : ribbon_.right).end();
+        emit(ribbon_.right);
+        emit(reversed(ribbon_.left));
+    }
+
+    void closeEnds(const Subpath& subpath) {
+        Side& contour = ribbon_.right;
+        const Point from = subpath.segments.front().curve.p0, to = endPoint(subpath.segments.back());
+        const Point ahead = endTangent(subpath.segments.back().curve);
+        contour.lineTo(to - perp(ahead) * radius_);
+        cap(contour, to, ahead);
+        const Side back = reversed(ribbon_.left);
+        contour.lineTo(back.start);
+        contour.edges.insert(contour.edges.end(), back.edges.begin(), back.edges.end());
+        cap(contour, from, -startTangent(subpath.segments.front().curve));
+        emit(contour);
+    }
+
+    // --- joins ---------------------------------------------------------------------------------
+
+    static double turn(const Segment& a, const Segment& b) {
+        return angleBetween(endTangent(a.curve), startTangent(b.curve));
+    }
+
+    /// True if the inner side was cut short at the crossing of the two lines.
+    bool joinSegments(const Segment& a, const Segment& b) {
+        const double angle = turn(a, b);
+        if (std::abs(angle) <= std::max(sameDirection, joinShare * tolerance_ / radius_))
+            return false;
+        const double sign = angle > 0 ? 1 : -1;
+        Side& inner = angle > 0 ? ribbon_.left : ribbon_.right;
+        outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign, b.afterCusp ? Join::Round : style_.join);
+        return innerJoin(inner, a, b, sign);
+    }
+
+    bool innerJoin(Side& inner, const Segment& a, const Segment& b, double sign) {
+        const Point n0 = perp(endTangent(a.curve)) * sign, n1 = perp(startTangent(b.curve)) * sign;
+        if (kiteFits(a, b)) {
+            // n0 + n1 has the length 2cos(θ/2); the crossing lies r/cos(θ/2) away along it.
+            const Point sum = n0 + n1;
+            inner.edges.back().to = endPoint(a) + sum * (2 * radius_ / glm::dot(sum, sum));
+            return true;
+        }
+        inner.lineTo(endPoint(a));
+        inner.lineTo(endPoint(a) + n1 * radius_);
+        return false;
+    }
+
+    bool kiteFits(const Segment& a, const Segment& b) const {
+        if (!a.straight || !b.straight)
+            return false;
+        const double angle = std::abs(turn(a, b));
+        const double reach = radius_ * std::max(std::sin(angle), std::tan(angle / 2));
+        return 2 * reach <= std::min(extent(a.curve), extent(b.curve));
+    }
+
+    void outerJoin(Side& outer, const Segment& a, const Segment& b, double sign, Join join) const {
+        const Point at = endPoint(a), t0 = endTangent(a.curve), t1 = startTangent(b.curve);
+        const Point from = perp(t0) * (sign * radius_), to = perp(t1) * (sign * radius_);
+        const double half = std::abs(angleBetween(t0, t1)) / 2;
+        if (join == Join::Round) {
+            arc(outer, at, from, angleBetween(t0, t1));
+        } else if (join != Join::Bevel && 1 <= style_.miterLimit * std::cos(half)) {
+            const Point sum = from + to;
+            outer.lineTo(at + sum * (2 * radius_ * radius_ / glm::dot(sum, sum)));
+        } else if (join == Join::MiterClip) {
+            // The clipping line crosses the bisector at miterLimit·r (SVG 2 section 13.5.4).
+            const double along = radius_ * (style_.miterLimit - std::cos(half)) / std::sin(half);
+            outer.lineTo(at + from + t0 * along);
+            outer.lineTo(at + to - t1 * along);
+        }
+        outer.lineTo(at + to);
+    }
+
+    // --- caps ----------------------------------------------------------------------------------
+
+    /// From the right of `ahead` to its left, round the end `at`.
+    void cap(Side& contour, Point at, Point ahead) const {
+        const Point side = perp(ahead) * radius_, forward = ahead * radius_;
+        if (style_.cap == Cap::Round) {
+            arc(contour, at, -side, std::numbers::pi);
+        } else if (style_.cap == Cap::Square) {
+            contour.lineTo(at - side + forward);
+            contour.lineTo(at + side + forward);
+        }
+        contour.lineTo(at + side);
+    }
+
+    void arc(Side& contour, Point center, Point from, double angle) const {
+        const double sagitta = radius_ * (1 - std::cos(angle / 2));
+        if (sagitta <= tolerance_ && std::abs(angle) < std::numbers::pi / 2)
+            return contour.lineTo(center + rotate(from, angle));
+        for (const Cubic& c : circleArc(center, from, angle, tolerance_))
+            contour.cubicTo(c.p1, c.p2, c.p3);
+    }
+
+    // --- output --------------------------------------------------------------------------------
+
+    /// Close draws the last edge where that is a line; a rest that the tolerance hides is taken away.
+    void emit(Side contour) {
+        auto& edges = contour.edges;
+        if (!edges.empty() && glm::distance(contour.end(), contour.start) <= tolerance_ * joinShare)
+            edges.back().to = contour.start;
+        if (!edges.empty() && edges.back().straight && edges.back().to == contour.start)
+            edges.pop_back();
+        out_.push_back(scene::MoveTo{contour.start});
+        for (const Edge& e : edges) {
+            if (e.straight)
+                out_.push_back(scene::LineTo{e.to});
+            else
+                out_.push_back(scene::CubicTo{e.c1, e.c2, e.to});
+        }
+        out_.push_back(scene::Close{});
+    }
+
+    const StrokeStyle& style_;
+    double tolerance_, radius_;
+    scene::Path& out_;
+    Ribbon ribbon_;
+};
+
+}  // namespace
+}  // namespace stroke
+
+scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance) {
+    scene::Path outline;
+    stroke::Outliner outliner(style, tolerance, outline);
+    std::size_t dashes = 0;
+    for (const stroke::Subpath& subpath : stroke::subpaths(path, tolerance * stroke::arcShare)) {
+        if (style.dashes.empty()) {
+            outliner.add(subpath);
+            continue;
+        }
+        for (const stroke::Subpath& piece : stroke::dash(subpath, style, dashes))
+            outliner.add(piece);
+    }
+    return outline;
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,236 @@
+#include "stroke_curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace vtm::compiler::stroke {
+
+namespace {
+
+/// Speeds below this share of the curve's extent carry no direction any more: rounding errors of
+/// about 1e-16 leave seven digits of a tangent at this length.
+constexpr double vanishingSpeed = 1e-9;
+
+Point lerp(Point a, Point b, double t) { return a + (b - a) * t; }
+
+/// Gauss-Legendre with eight points: positive abscissae and their weights on [-1, 1].
+constexpr std::array<std::array<double, 2>, 4> gauss8{{{0.1834346424956498, 0.3626837833783620},
+                                                       {0.5255324099163290, 0.3137066458778873},
+                                                       {0.7966664774136267, 0.2223810344533745},
+                                                       {0.9602898564975363, 0.1012285362903763}}};
+
+double gaussLength(const Cubic& c, double t0, double t1) {
+    const double mid = (t0 + t1) / 2, half = (t1 - t0) / 2;
+    double sum = 0;
+    for (const auto& [x, w] : gauss8)
+        sum += w * (glm::length(derivativeAt(c, mid - half * x)) + glm::length(derivativeAt(c, mid + half * x)));
+    return sum * half;
+}
+
+double adaptiveLength(const Cubic& c, double t0, double t1, double whole, double tolerance, int depth) {
+    const double mid = (t0 + t1) / 2;
+    const double left = gaussLength(c, t0, mid), right = gaussLength(c, mid, t1);
+    if (depth == 0 || std::abs(left + right - whole) <= tolerance)
+        return left + right;
+    return adaptiveLength(c, t0, mid, left, tolerance / 2, depth - 1) +
+           adaptiveLength(c, mid, t1, right, tolerance / 2, depth - 1);
+}
+
+double bisect(std::span<const double> polynomial, double low, double high) {
+    const bool lowNegative = evaluate(polynomial, low) < 0;
+    for (int i = 0; i < 60 && low < high; ++i) {
+        const double mid = (low + high) / 2;
+        ((evaluate(polynomial, mid) < 0) == lowNegative ? low : high) = mid;
+    }
+    return (low + high) / 2;
+}
+
+}  // namespace
+
+Point unit(Point v) { return v / std::hypot(v.x, v.y); }
+
+Point rotate(Point v, double angle) { return v * std::cos(angle) + perp(v) * std::sin(angle); }
+
+double angleBetween(Point a, Point b) { return std::atan2(cross(a, b), glm::dot(a, b)); }
+
+Cubic straightCubic(Point from, Point to) { return {from, lerp(from, to, 1.0 / 3), lerp(from, to, 2.0 / 3), to}; }
+
+Cubic elevate(Point from, Point control, Point to) {
+    return {from, lerp(from, control, 2.0 / 3), lerp(to, control, 2.0 / 3), to};
+}
+
+Point pointAt(const Cubic& c, double t) {
+    const double s = 1 - t;
+    return c.p0 * (s * s * s) + c.p1 * (3 * s * s * t) + c.p2 * (3 * s * t * t) + c.p3 * (t * t * t);
+}
+
+Point derivativeAt(const Cubic& c, double t) {
+    const double s = 1 - t;
+    return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
+}
+
+Cubic part(const Cubic& c, double t0, double t1) {
+    const double third = (t1 - t0) / 3;
+    const Point a = t0 == 0 ? c.p0 : pointAt(c, t0), b = t1 == 1 ? c.p3 : pointAt(c, t1);
+    return {a, a + derivativeAt(c, t0) * third, b - derivativeAt(c, t1) * third, b};
+}
+
+double extent(const Cubic& c) {
+    return std::max({glm::distance(c.p0, c.p1), glm::distance(c.p0, c.p2), glm::distance(c.p0, c.p3)});
+}
+
+Point startTangent(const Cubic& c) {
+    const double tiny = vanishingSpeed * extent(c);
+    for (const Point p : {c.p1, c.p2})
+        if (glm::distance(p, c.p0) > tiny)
+            return unit(p - c.p0);
+    return unit(c.p3 - c.p0);
+}
+
+Point endTangent(const Cubic& c) {
+    return -startTangent({c.p3, c.p2, c.p1, c.p0});
+}
+
+Point tangentAt(const Cubic& c, double t) {
+    const Point d = derivativeAt(c, t);
+    if (t > 0 && t < 1 && d != Point{0, 0})
+        return unit(d);
+    return t < 0.5 ? startTangent(c) : endTangent(c);
+}
+
+Curvature::Curvature(const Cubic& c) {
+    // γ' = a + b t + d t², hence γ' × γ'' = a×b + 2 (a×d) t + (b×d) t².
+    const Point a = 3.0 * (c.p1 - c.p0);
+    const Point b = 6.0 * (c.p2 - 2.0 * c.p1 + c.p0);
+    const Point d = 3.0 * (c.p3 - 3.0 * c.p2 + 3.0 * c.p1 - c.p0);
+    cross = {stroke::cross(a, b), 2 * stroke::cross(a, d), stroke::cross(b, d)};
+    speedSquared = {glm::dot(a, a), 2 * glm::dot(a, b), glm::dot(b, b) + 2 * glm::dot(a, d), 2 * glm::dot(b, d),
+                    glm::dot(d, d)};
+}
+
+double evaluate(std::span<const double> polynomial, double t) {
+    double value = 0;
+    for (auto i = polynomial.size(); i-- > 0;)
+        value = value * t + polynomial[i];
+    return value;
+}
+
+std::vector<double> derivative(std::span<const double> polynomial) {
+    std::vector<double> result;
+    for (std::size_t i = 1; i < polynomial.size(); ++i)
+        result.push_back(double(i) * polynomial[i]);
+    return result;
+}
+
+std::vector<double> rootsInside(std::span<const double> polynomial) {
+    if (polynomial.size() < 2)
+        return {};
+    // Between neighbouring extremes the polynomial is monotone and has at most one root.
+    std::vector<double> stops = rootsInside(derivative(polynomial));
+    stops.insert(stops.begin(), 0.0);
+    stops.push_back(1.0);
+    std::vector<double> roots;
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        const double low = evaluate(polynomial, stops[i]), high = evaluate(polynomial, stops[i + 1]);
+        if ((low < 0) == (high < 0))
+            continue;
+        const double root = bisect(polynomial, stops[i], stops[i + 1]);
+        if (root > 0 && root < 1)
+            roots.push_back(root);
+    }
+    return roots;
+}
+
+double arcLength(const Cubic& c, double t0, double t1) {
+    constexpr double relativeError = 1e-9;
+    constexpr int maxDepth = 24;  // a cusp halves the step once a level; 2^-24 of a curve is negligible
+    const double polygon = glm::distance(c.p0, c.p1) + glm::distance(c.p1, c.p2) + glm::distance(c.p2, c.p3);
+    return adaptiveLength(c, t0, t1, gaussLength(c, t0, t1), relativeError * polygon, maxDepth);
+}
+
+double parameterAtLength(const Cubic& c, double t0, double length) {
+    double low = t0, high = 1, t = t0, reached = 0;
+    const double close = 1e-10 * extent(c);
+    constexpr int maxSteps = 60;
+    for (int i = 0; i < maxSteps; ++i) {
+        const double missing = length - reached;
+        if (std::abs(missing) <= close)
+            break;
+        (missing > 0 ? low : high) = t;
+        const double speed = glm::length(derivativeAt(c, t));
+        double next = t + missing / speed;
+        if (!(next > low && next < high))
+            next = (low + high) / 2;
+        if (next == t)
+            break;
+        t = next;
+        reached = arcLength(c, t0, t);
+    }
+    return t;
+}
+
+double arcStep(double radius, double tolerance) {
+    // A cubic with arms 4/3·tan(φ/4) leaves the unit circle by 2/27·sin⁶(φ/4)/cos²(φ/4)
+    // (Goldapp 1991); cos²(φ/4) >= 0.853 up to a quarter turn.
+    const double sixth = 13.5 * 0.853 * tolerance / radius;
+    constexpr double quarter = std::numbers::pi / 2;
+    return sixth >= 1 ? quarter : std::min(quarter, 4 * std::asin(std::pow(sixth, 1.0 / 6)));
+}
+
+namespace {
+
+/// Arc of the circle (cos, sin) under the linear map with columns x, y, moved to `center`.
+std::vector<Cubic> mappedArc(Point center, Point x, Point y, double start, double angle, double step) {
+    const auto at = [&](double a) { return center + x * std::cos(a) + y * std::sin(a); };
+    const auto slope = [&](double a) { return y * std::cos(a) - x * std::sin(a); };
+    // An angle that is a whole number of steps must not get one more by rounding.
+    const int count = std::max(1, int(std::ceil(std::abs(angle) / step - 1e-9)));
+    const double arm = 4.0 / 3 * std::tan(angle / count / 4);
+    std::vector<Cubic> result;
+    for (int i = 0; i < count; ++i) {
+        const double a = start + angle * i / count, b = start + angle * (i + 1) / count;
+        result.push_back({at(a), at(a) + slope(a) * arm, at(b) - slope(b) * arm, at(b)});
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<Cubic> circleArc(Point center, Point from, double angle, double tolerance) {
+    return mappedArc(center, from, perp(from), 0, angle, arcStep(glm::length(from), tolerance));
+}
+
+std::vector<Cubic> ellipticalArc(Point from, const scene::ArcTo& arc, double tolerance) {
+    if (from == arc.to)
+        return {};
+    Point radii = glm::abs(arc.radii);
+    if (radii.x == 0 || radii.y == 0)
+        return {straightCubic(from, arc.to)};
+    // In the frame where the ellipse is the unit circle, half the chord is `half`.
+    const Point half = rotate((from - arc.to) / 2.0, -arc.rotation) / radii;
+    const double square = glm::dot(half, half);
+    if (!std::isfinite(1 / square))
+        return {straightCubic(from, arc.to)};
+    if (square > 1)
+        radii *= std::sqrt(square);
+    const double height = square > 1 ? 0 : std::sqrt(1 / square - 1);
+    const Point chord = square > 1 ? half / std::sqrt(square) : half;
+    const Point toCenter = perp(chord) * (arc.largeArc == arc.sweep ? height : -height);
+    const Point start = chord - toCenter, end = -chord - toCenter;
+    double angle = angleBetween(start, end);
+    if (arc.sweep != (angle > 0))
+        angle += arc.sweep ? 2 * std::numbers::pi : -2 * std::numbers::pi;
+    const Point x = rotate({radii.x, 0}, arc.rotation), y = rotate({0, radii.y}, arc.rotation);
+    const Point center = (from + arc.to) / 2.0 + x * toCenter.x + y * toCenter.y;
+    auto result = mappedArc(center, x, y, std::atan2(start.y, start.x), angle,
+                            arcStep(std::max(radii.x, radii.y), tolerance));
+    result.front().p0 = from;
+    result.back().p3 = arc.to;
+    return result;
+}
+
+}  // namespace vtm::compiler::stroke

@@ -1,0 +1,68 @@
+/// \file
+/// Cubic Bézier segments as strokes need them: tangents, parts, arc length, special parameters.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/path.hpp"
+
+namespace vtm::compiler::stroke {
+
+using scene::Point;
+
+inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+/// Turned by +90° (x towards y).
+inline Point perp(Point v) { return {-v.y, v.x}; }
+/// `v` must not be zero.
+Point unit(Point v);
+Point rotate(Point v, double angle);
+/// Signed angle from `a` to `b`, in (-π, π].
+double angleBetween(Point a, Point b);
+
+struct Cubic {
+    Point p0, p1, p2, p3;
+};
+
+Cubic straightCubic(Point from, Point to);
+Cubic elevate(Point from, Point control, Point to);
+Point pointAt(const Cubic& c, double t);
+Point derivativeAt(const Cubic& c, double t);
+/// The piece over [t0, t1], parametrised over [0, 1] again.
+Cubic part(const Cubic& c, double t0, double t1);
+/// Largest distance of a control point from the start.
+double extent(const Cubic& c);
+
+/// Unit tangents. Where control points coincide, the direction of the next derivative; the cubic
+/// must not be a point and must have no cusp inside.
+Point startTangent(const Cubic& c);
+Point endTangent(const Cubic& c);
+Point tangentAt(const Cubic& c, double t);
+
+/// Coefficients of polynomials in t, constant term first.
+struct Curvature {
+    explicit Curvature(const Cubic& c);
+    std::vector<double> cross;         ///< γ' × γ'', degree 2
+    std::vector<double> speedSquared;  ///< |γ'|², degree 4
+};
+
+/// Real roots in the open interval (0, 1), rising; roots of even order may be left out.
+std::vector<double> rootsInside(std::span<const double> polynomial);
+double evaluate(std::span<const double> polynomial, double t);
+std::vector<double> derivative(std::span<const double> polynomial);
+
+/// Arc length over [t0, t1], relative error below 1e-9 of the control polygon's length.
+double arcLength(const Cubic& c, double t0, double t1);
+/// The t >= t0 at which arcLength(c, t0, t) is `length`, at most 1.
+double parameterAtLength(const Cubic& c, double t0, double length);
+
+/// Largest angle that one cubic may span on a circle of `radius` so that it stays within
+/// `tolerance`; at most a quarter turn.
+double arcStep(double radius, double tolerance);
+/// Arc of a circle from `center + from`, turning by `angle`, as cubics.
+std::vector<Cubic> circleArc(Point center, Point from, double angle, double tolerance);
+/// SVG's endpoint arc as cubics (SVG 2 section B.2). Zero radii give a straight line; coincident end
+/// points give nothing.
+std::vector<Cubic> ellipticalArc(Point from, const scene::ArcTo& arc, double tolerance);
+
+}  // namespace vtm::compiler::stroke

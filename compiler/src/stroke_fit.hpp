@@ -1,0 +1,31 @@
+/// \file
+/// One cubic through samples of a smooth curve.
+#pragma once
+
+#include <array>
+
+#include "stroke_curve.hpp"
+
+namespace vtm::compiler::stroke {
+
+struct Sample {
+    Point at;
+    Point tangent;  ///< unit, in the direction of travel
+};
+
+/// In order along the curve. Inner samples both shape the fit and certify it: fifteen of them see
+/// each of the at most eight lobes that the error of such a fit has.
+using Samples = std::array<Sample, 17>;
+
+struct Fit {
+    Cubic cubic;
+    double error;  ///< largest distance of a sample from the cubic; infinite if it runs astray
+};
+
+/// Keeps the end points and end tangents exactly.
+Fit fitCubic(const Samples& samples);
+
+/// Largest distance of a sample from the chord.
+double chordError(const Samples& samples);
+
+}  // namespace vtm::compiler::stroke

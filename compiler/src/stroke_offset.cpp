@@ -1,0 +1,370 @@
+// Each ribbon is the image of (t, s) -> γ(t) + s·n(t) for |s| <= r. Its Jacobian is |γ'|(1 - κs): where
+// |κ|·r <= 1 it never turns negative, and the two true offsets bound the ribbon with the winding number
+// that counts how often a point is covered. Where κr > 1 the offset on the inner side runs backward
+// from s = 1/κ on, and its loops would count negatively. There the inner side follows the evolute
+// s = 1/κ instead of the offset: the Jacobian stays non-negative, and the ribbon's winding stays the
+// number of covers. What lies beyond the evolute is covered with a Jacobian that is negative throughout,
+// so it makes a contour of its own, wound the other way round. (Every point there lies nearer than r to
+// some other point of the curve or to one of its ends, so round caps and joins cover it already.)
+//
+// The evolute is a chain of parabolas: between two normals that differ by at most 45°, both end tangents
+// of the evolute are the normals themselves, and they meet between curve and offset, in the control point.
+
+#include "stroke_offset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "stroke_fit.hpp"
+
+namespace vtm::compiler::stroke {
+
+void Side::lineTo(Point to) {
+    if (to != end())
+        edges.push_back({true, {}, {}, to});
+}
+
+Side reversed(const Side& side) {
+    Side result{side.end(), {}};
+    for (std::size_t i = side.edges.size(); i-- > 0;) {
+        const Edge& e = side.edges[i];
+        result.edges.push_back({e.straight, e.c2, e.c1, i > 0 ? side.edges[i - 1].to : side.start});
+    }
+    return result;
+}
+
+namespace {
+
+/// A fit halves at least once a level, so 2^-20 of a segment is reached at most; what is left there
+/// is a straight edge.
+constexpr int maxFitDepth = 20;
+
+/// Intervals of the parameter shorter than this hold no visible part of a curve, but rounding noise
+/// of the break points.
+constexpr double shortestSpan = 1e-12;
+
+/// What a stretch of the curve is to a stroke: gentle, or bent more than the radius to one side.
+enum class Bend { Gentle, Left, Right };
+
+struct Span {
+    double t0, t1;
+    Bend bend;
+};
+
+bool surelyGentle(const Curvature& k, double radius) {
+    // Bernstein coefficients bound both polynomials on [0, 1].
+    const auto& c = k.cross;
+    const auto& q = k.speedSquared;
+    const double crossBound =
+        std::max({std::abs(c[0]), std::abs(c[0] + c[1] / 2), std::abs(c[0] + c[1] + c[2])});
+    const double least = std::min({q[0], q[0] + q[1] / 4, q[0] + q[1] / 2 + q[2] / 6,
+                                   q[0] + 0.75 * q[1] + q[2] / 2 + q[3] / 4, q[0] + q[1] + q[2] + q[3] + q[4]});
+    return least > 0 && radius * crossBound <= least * std::sqrt(least);
+}
+
+std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> result(a.size() + b.size() - 1);
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t j = 0; j < b.size(); ++j)
+            result[i + j] += a[i] * b[j];
+    return result;
+}
+
+/// κ = c / q^(3/2), so κ' vanishes with 2c'q - 3cq'.
+std::vector<double> curvatureExtremes(const Curvature& k) {
+    std::vector<double> slope = product(derivative(k.cross), k.speedSquared);
+    const std::vector<double> other = product(k.cross, derivative(k.speedSquared));
+    for (std::size_t i = 0; i < slope.size(); ++i)
+        slope[i] = 2 * slope[i] - 3 * other[i];
+    return rootsInside(slope);
+}
+
+/// Positive where the curve is tighter than the radius: |κ|r > 1 without the division.
+double tightness(const Curvature& k, double radius, double t) {
+    const double q = std::max(0.0, evaluate(k.speedSquared, t));
+    return radius * std::abs(evaluate(k.cross, t)) - q * std::sqrt(q);
+}
+
+/// In [t0, t1], where κ is monotone, the place where it passes 1 / radius.
+double passage(const Curvature& k, double radius, double t0, double t1) {
+    const bool tightStart = tightness(k, radius, t0) > 0;
+    for (int i = 0; i < 60; ++i) {
+        const double mid = (t0 + t1) / 2;
+        ((tightness(k, radius, mid) > 0) == tightStart ? t0 : t1) = mid;
+    }
+    return (t0 + t1) / 2;
+}
+
+std::vector<double> sortedStops(std::vector<double> stops) {
+    stops.push_back(0);
+    stops.push_back(1);
+    std::sort(stops.begin(), stops.end());
+    return stops;
+}
+
+Bend bendAt(const Curvature& k, double radius, double t) {
+    if (!(tightness(k, radius, t) > 0))
+        return Bend::Gentle;
+    return evaluate(k.cross, t) > 0 ? Bend::Left : Bend::Right;
+}
+
+/// Where the tangent points along a multiple of 45°: tight stretches between such places turn by no
+/// more.
+std::vector<double> octantStops(const Cubic& c) {
+    std::vector<double> stops;
+    for (const Point d : {Point{1, 0}, Point{1, 1}, Point{0, 1}, Point{-1, 1}}) {
+        const double a = cross(c.p1 - c.p0, d), b = cross(c.p2 - c.p1, d), e = cross(c.p3 - c.p2, d);
+        const std::vector<double> roots = rootsInside(std::vector{a, 2 * (b - a), a - 2 * b + e});
+        stops.insert(stops.end(), roots.begin(), roots.end());
+    }
+    return stops;
+}
+
+void addSpan(std::vector<Span>& spans, Span next) {
+    const bool joins = !spans.empty() && spans.back().bend == Bend::Gentle && next.bend == Bend::Gentle;
+    if (joins)
+        spans.back().t1 = next.t1;
+    else
+        spans.push_back(next);
+}
+
+/// The curve in stretches that are gentle, or tight with monotone curvature and at most 45° of turn.
+std::vector<Span> classify(const Cubic& c, double radius) {
+    const Curvature k(c);
+    if (surelyGentle(k, radius))
+        return {{0, 1, Bend::Gentle}};
+    std::vector<double> stops = curvatureExtremes(k);
+    const std::vector<double> inflections = rootsInside(k.cross), octants = octantStops(c);
+    stops.insert(stops.end(), inflections.begin(), inflections.end());
+    stops = sortedStops(std::move(stops));
+    std::vector<double> all = stops;
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        // At a cusp or an end without speed both terms vanish: look just inside.
+        const double inset = 1e-6 * (stops[i + 1] - stops[i]);
+        const double a = stops[i] + inset, b = stops[i + 1] - inset;
+        if ((tightness(k, radius, a) > 0) != (tightness(k, radius, b) > 0))
+            all.push_back(passage(k, radius, a, b));
+    }
+    all.insert(all.end(), octants.begin(), octants.end());
+    std::sort(all.begin(), all.end());
+    std::vector<Span> spans;
+    double from = 0;
+    for (const double to : all) {
+        if (to - from <= shortestSpan && to < 1)
+            continue;
+        addSpan(spans, {from, to, bendAt(k, radius, (from + to) / 2)});
+        from = to;
+    }
+    return spans;
+}
+
+/// A stretch of a curve by a parameter u in [0, 1]: even in t where the curve is gentle, even in the
+/// tangent's angle where it is tight (the offsets' arc length follows the angle there).
+class Stretch {
+public:
+    Stretch(const Cubic& c, const Span& span)
+        : c_(c), span_(span), start_(tangentAt(c, span.t0)), turn_(angleBetween(start_, tangentAt(c, span.t1))) {}
+
+    double parameter(double u) const {
+        if (u <= 0 || u >= 1)
+            return u <= 0 ? span_.t0 : span_.t1;
+        if (span_.bend == Bend::Gentle)
+            return span_.t0 + (span_.t1 - span_.t0) * u;
+        return whereTangent(rotate(start_, turn_ * u));
+    }
+    Point point(double u) const { return pointAt(c_, parameter(u)); }
+    Point tangent(double u) const { return tangentAt(c_, parameter(u)); }
+    Sample offset(double u, double distance) const {
+        const double t = parameter(u);
+        const Point along = tangentAt(c_, t);
+        return {pointAt(c_, t) + perp(along) * distance, along};
+    }
+
+private:
+    double whereTangent(Point direction) const {
+        double low = span_.t0, high = span_.t1;
+        for (int i = 0; i < 50; ++i) {
+            const double mid = (low + high) / 2;
+            const bool before = (cross(tangentAt(c_, mid), direction) > 0) == (turn_ > 0);
+            (before ? low : high) = mid;
+        }
+        return (low + high) / 2;
+    }
+
+    const Cubic& c_;
+    Span span_;
+    Point start_;
+    double turn_;
+};
+
+/// The offset at `distance` to the left, run through along the curve, or against it where the curve is
+/// tighter than the distance.
+struct OffsetCurve {
+    const Stretch& stretch;
+    double distance;
+    bool backward;
+
+    Samples samples(double u0, double u1) const {
+        Samples s;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const double f = double(i) / double(s.size() - 1);
+            s[i] = stretch.offset(u0 + (u1 - u0) * f, distance);
+            if (backward)
+                s[i].tangent = -s[i].tangent;
+        }
+        return s;
+    }
+};
+
+/// How many pieces bring the error of a fit below the tolerance, by its sixth order.
+int pieceCount(double error, double tolerance) {
+    constexpr double most = 8;
+    if (!std::isfinite(error))
+        return 2;
+    return int(std::clamp(std::ceil(std::pow(error / tolerance, 1.0 / 6)), 2.0, most));
+}
+
+void appendFit(const OffsetCurve& curve, double u0, double u1, double tolerance, int depth, Side& side) {
+    const Samples samples = curve.samples(u0, u1);
+    if (depth == 0 || chordError(samples) <= tolerance)
+        return side.lineTo(samples.back().at);
+    const Fit fit = fitCubic(samples);
+    if (fit.error <= tolerance)
+        return side.cubicTo(fit.cubic.p1, fit.cubic.p2, fit.cubic.p3);
+    const int count = pieceCount(fit.error, tolerance);
+    for (int i = 0; i < count; ++i)
+        appendFit(curve, u0 + (u1 - u0) * i / count, u0 + (u1 - u0) * (i + 1) / count, tolerance, depth - 1, side);
+}
+
+/// The evolute of a tight stretch.
+class Evolute {
+public:
+    Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, double tolerance)
+        : curvature_(c), stretch_(stretch), radius_(signedRadius), tolerance_(tolerance) {}
+
+    Point at(double u) const { return stretch_.point(u) + normal(u) * centreDistance(u); }
+
+    void append(double u0, double u1, int depth, Side& side) const {
+        const Point from = at(u0), to = at(u1), control = meeting(u0, u1);
+        const double um = (u0 + u1) / 2;
+        const Point middle = (from + 2.0 * control + to) / 4.0;
+        if (depth > 0 && std::abs(cross(middle - at(um), normal(um))) > tolerance_) {
+            append(u0, um, depth - 1, side);
+            append(um, u1, depth - 1, side);
+            return;
+        }
+        const Cubic c = elevate(from, control, to);
+        side.cubicTo(c.p1, c.p2, c.p3);
+    }
+
+private:
+    /// Towards the centre of curvature.
+    Point normal(double u) const { return perp(stretch_.tangent(u)) * (radius_ < 0 ? -1.0 : 1.0); }
+
+    double centreDistance(double u) const {
+        const double t = stretch_.parameter(u), q = std::max(0.0, evaluate(curvature_.speedSquared, t));
+        const double bend = std::abs(evaluate(curvature_.cross, t)), cube = q * std::sqrt(q), r = std::abs(radius_);
+        return cube < r * bend ? cube / bend : (cube > 0 ? r : 0);
+    }
+
+    /// Where the normals meet, always between curve and offset.
+    Point meeting(double u0, double u1) const {
+        const Point n0 = normal(u0), n1 = normal(u1), p0 = stretch_.point(u0);
+        const double sine = cross(n0, n1);
+        constexpr double parallel = 1e-9;  // below, rounding moves the crossing by more than the evolute is long
+        if (std::abs(sine) < parallel)
+            return (at(u0) + at(u1)) / 2.0;
+        const double s = cross(stretch_.point(u1) - p0, n1) / sine;
+        return p0 + n0 * std::clamp(s, 0.0, std::abs(radius_));
+    }
+
+    Curvature curvature_;
+    const Stretch& stretch_;
+    double radius_, tolerance_;
+};
+
+/// What the normals sweep beyond the evolute over consecutive tight stretches.
+struct Beyond {
+    Bend bend = Bend::Gentle;
+    Side offset, evolute;
+
+    void close(std::vector<Side>& contours) {
+        if (bend == Bend::Gentle)
+            return;
+        Side contour = offset;
+        contour.lineTo(evolute.end());
+        const Side back = reversed(evolute);
+        contour.edges.insert(contour.edges.end(), back.edges.begin(), back.edges.end());
+        contours.push_back(bend == Bend::Left ? contour : reversed(contour));
+        bend = Bend::Gentle;
+    }
+};
+
+class Offsetter {
+public:
+    Offsetter(const Cubic& curve, const OffsetOptions& options, Ribbon& ribbon)
+        : curve_(curve), o_(options), ribbon_(ribbon) {}
+
+    void run() {
+        for (const Span& span : classify(curve_, o_.radius)) {
+            if (span.bend != beyond_.bend)
+                beyond_.close(ribbon_.beyond);
+            const Stretch stretch(curve_, span);
+            span.bend == Bend::Gentle ? gentle(stretch) : tight(stretch, span.bend);
+        }
+        beyond_.close(ribbon_.beyond);
+    }
+
+private:
+    void fit(const Stretch& stretch, double distance, bool backward, Side& side) const {
+        meet(side, stretch.offset(0, distance).at);
+        appendFit({stretch, distance, backward}, 0, 1, o_.tolerance, maxFitDepth, side);
+    }
+
+    /// Steps that the tolerance hides would only cost edges.
+    void meet(Side& side, Point to) const {
+        if (glm::distance(side.end(), to) > o_.tolerance / 4)
+            side.lineTo(to);
+    }
+
+    void gentle(const Stretch& stretch) {
+        fit(stretch, o_.radius, false, ribbon_.left);
+        fit(stretch, -o_.radius, false, ribbon_.right);
+    }
+
+    void tight(const Stretch& stretch, Bend bend) {
+        const bool left = bend == Bend::Left;
+        const double inner = left ? o_.radius : -o_.radius;
+        Side& innerSide = left ? ribbon_.left : ribbon_.right;
+        fit(stretch, -inner, false, left ? ribbon_.right : ribbon_.left);
+        const Evolute evolute(curve_, stretch, inner, o_.tolerance);
+        meet(innerSide, evolute.at(0));
+        evolute.append(0, 1, maxFitDepth, innerSide);
+        if (o_.beyond)
+            sweepBeyond(stretch, evolute, bend, inner);
+    }
+
+    void sweepBeyond(const Stretch& stretch, const Evolute& evolute, Bend bend, double inner) {
+        if (beyond_.bend != bend)
+            beyond_ = {bend, {evolute.at(0), {}}, {evolute.at(0), {}}};
+        fit(stretch, inner, true, beyond_.offset);
+        evolute.append(0, 1, maxFitDepth, beyond_.evolute);
+    }
+
+    const Cubic& curve_;
+    const OffsetOptions& o_;
+    Ribbon& ribbon_;
+    Beyond beyond_;
+};
+
+}  // namespace
+
+void appendOffsets(const Cubic& curve, const OffsetOptions& options, Ribbon& ribbon) {
+    Offsetter(curve, options, ribbon).run();
+}
+
+}  // namespace vtm::compiler::stroke

@@ -1,0 +1,34 @@
+/// \file
+/// Subpaths prepared for stroking, and their dashes.
+#pragma once
+
+#include <vector>
+
+#include "scene/path.hpp"
+#include "scene/stroke.hpp"
+#include "stroke_curve.hpp"
+
+namespace vtm::compiler::stroke {
+
+/// Never a point, never with a cusp inside.
+struct Segment {
+    Cubic curve;
+    bool straight;
+    bool afterCusp;  ///< the curve turned back within itself where this segment starts
+};
+
+/// Connected segments. Without any, a dot `at` a point, whose caps look along `direction`.
+struct Subpath {
+    std::vector<Segment> segments;
+    bool closed = false;
+    Point at{0, 0};
+    Point direction{1, 0};
+};
+
+/// Arcs become cubics within `tolerance`; a lone MoveTo gives nothing (SVG 2 section 13.5.5).
+std::vector<Subpath> subpaths(const scene::Path& path, double tolerance);
+
+/// The drawn parts of a subpath. Adds their number to `count` and throws LimitError beyond maxDashes.
+std::vector<Subpath> dash(const Subpath& subpath, const scene::StrokeStyle& style, std::size_t& count);
+
+}  // namespace vtm::compiler::stroke
