@@ -19,8 +19,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "stroke_offset.hpp"
-#include "stroke_subpath.hpp"
+#include "compiler/src/stroke_offset.hpp"
+#include "compiler/src/stroke_subpath.hpp"
 
 namespace vtm::compiler {
 
@@ -66,7 +66,8 @@ private:
     void ribbon(const Subpath& subpath) {
         ribbon_ = {};
         const auto& segments = subpath.segments;
-        const Point first = segments.front().curve.p0, side = perp(startTangent(segments.front().curve)) * radius_;
+        const Point first = segments.front().curve.p0,
+                    side = perp(startTangent(segments.front().curve)) * radius_;
         ribbon_.left.start = first + side;
         ribbon_.right.start = first - side;
         for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -126,7 +127,8 @@ private:
             return false;
         const double sign = angle > 0 ? 1 : -1;
         Side& inner = angle > 0 ? ribbon_.left : ribbon_.right;
-        outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign, b.afterCusp ? Join::Round : style_.join);
+        outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign,
+                  b.afterCusp ? Join::Round : style_.join);
         return innerJoin(inner, a, b, sign);
     }
 

@@ -1,4 +1,4 @@
-#include "stroke_curve.hpp"
+#include "compiler/src/stroke_curve.hpp"
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,8 @@ double gaussLength(const Cubic& c, double t0, double t1) {
     const double mid = (t0 + t1) / 2, half = (t1 - t0) / 2;
     double sum = 0;
     for (const auto& [x, w] : gauss8)
-        sum += w * (glm::length(derivativeAt(c, mid - half * x)) + glm::length(derivativeAt(c, mid + half * x)));
+        sum +=
+            w * (glm::length(derivativeAt(c, mid - half * x)) + glm::length(derivativeAt(c, mid + half * x)));
     return sum * half;
 }
 
@@ -57,7 +58,9 @@ Point rotate(Point v, double angle) { return v * std::cos(angle) + perp(v) * std
 
 double angleBetween(Point a, Point b) { return std::atan2(cross(a, b), glm::dot(a, b)); }
 
-Cubic straightCubic(Point from, Point to) { return {from, lerp(from, to, 1.0 / 3), lerp(from, to, 2.0 / 3), to}; }
+Cubic straightCubic(Point from, Point to) {
+    return {from, lerp(from, to, 1.0 / 3), lerp(from, to, 2.0 / 3), to};
+}
 
 Cubic elevate(Point from, Point control, Point to) {
     return {from, lerp(from, control, 2.0 / 3), lerp(to, control, 2.0 / 3), to};
@@ -91,9 +94,7 @@ Point startTangent(const Cubic& c) {
     return unit(c.p3 - c.p0);
 }
 
-Point endTangent(const Cubic& c) {
-    return -startTangent({c.p3, c.p2, c.p1, c.p0});
-}
+Point endTangent(const Cubic& c) { return -startTangent({c.p3, c.p2, c.p1, c.p0}); }
 
 Point tangentAt(const Cubic& c, double t) {
     const Point d = derivativeAt(c, t);
@@ -108,8 +109,8 @@ Curvature::Curvature(const Cubic& c) {
     const Point b = 6.0 * (c.p2 - 2.0 * c.p1 + c.p0);
     const Point d = 3.0 * (c.p3 - 3.0 * c.p2 + 3.0 * c.p1 - c.p0);
     cross = {stroke::cross(a, b), 2 * stroke::cross(a, d), stroke::cross(b, d)};
-    speedSquared = {glm::dot(a, a), 2 * glm::dot(a, b), glm::dot(b, b) + 2 * glm::dot(a, d), 2 * glm::dot(b, d),
-                    glm::dot(d, d)};
+    speedSquared = {glm::dot(a, a), 2 * glm::dot(a, b), glm::dot(b, b) + 2 * glm::dot(a, d),
+                    2 * glm::dot(b, d), glm::dot(d, d)};
 }
 
 double evaluate(std::span<const double> polynomial, double t) {

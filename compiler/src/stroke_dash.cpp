@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/compile.hpp"
+#include "compiler/src/stroke_subpath.hpp"
 #include "compiler/stroke.hpp"
-#include "stroke_subpath.hpp"
 
 namespace vtm::compiler::stroke {
 
@@ -96,7 +96,8 @@ private:
 
     void endDash(const Segment& segment, double t) {
         if (pattern_.drawing())
-            result_.push_back({std::move(dash_), false, pointAt(segment.curve, t), tangentAt(segment.curve, t)});
+            result_.push_back(
+                {std::move(dash_), false, pointAt(segment.curve, t), tangentAt(segment.curve, t)});
         cut_ = true;
         dash_.clear();
     }
@@ -142,7 +143,8 @@ std::vector<Subpath> dash(const Subpath& subpath, const scene::StrokeStyle& styl
     if (subpath.segments.empty() || hasNoGap(style.dashes))
         return {subpath};
     std::vector<double> lengths;
-    std::transform(subpath.segments.begin(), subpath.segments.end(), std::back_inserter(lengths), segmentLength);
+    std::transform(subpath.segments.begin(), subpath.segments.end(), std::back_inserter(lengths),
+                   segmentLength);
     const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
     checkCount(count, length, style.dashes);
     return Dasher(subpath, style, length).run(lengths);

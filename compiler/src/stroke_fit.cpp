@@ -3,7 +3,7 @@
 // along the normal of the sample it belongs to: as only the shape is compared and never the
 // parametrisation, the error falls with the sixth power of the length (de Boor, Höllig, Sabin 1987).
 
-#include "stroke_fit.hpp"
+#include "compiler/src/stroke_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,8 @@ double arcArm(double chord, double angle) { return 2 * chord / (3 * (1 + std::co
 Cubic initialCubic(const Samples& s) {
     const Sample &a = s.front(), &b = s.back();
     const Point chord = b.at - a.at;
-    const double turn = (std::abs(angleBetween(chord, a.tangent)) + std::abs(angleBetween(chord, b.tangent))) / 2;
+    const double turn =
+        (std::abs(angleBetween(chord, a.tangent)) + std::abs(angleBetween(chord, b.tangent))) / 2;
     constexpr double widest = 2.1;  // 120°: beyond it the formula grows without bound
     const double arm = arcArm(glm::length(chord), std::min(turn, widest));
     return {a.at, a.at + a.tangent * arm, b.at - b.tangent * arm, b.at};
@@ -59,7 +60,8 @@ bool improveArms(const Samples& s, Parameters& u, Cubic& c) {
         u[i] = project(c, s[i], u[i]);
         const Point normal = perp(s[i].tangent);
         const double v = 1 - u[i], residual = glm::dot(s[i].at - pointAt(c, u[i]), normal);
-        const double a = 3 * v * v * u[i] * glm::dot(t0, normal), b = -3 * v * u[i] * u[i] * glm::dot(t1, normal);
+        const double a = 3 * v * v * u[i] * glm::dot(t0, normal),
+                     b = -3 * v * u[i] * u[i] * glm::dot(t1, normal);
         aa += a * a, ab += a * b, bb += b * b, ar += a * residual, br += b * residual;
     }
     const double determinant = aa * bb - ab * ab;

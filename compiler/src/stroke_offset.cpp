@@ -10,7 +10,7 @@
 // The evolute is a chain of parabolas: between two normals that differ by at most 45°, both end tangents
 // of the evolute are the normals themselves, and they meet between curve and offset, in the control point.
 
-#include "stroke_offset.hpp"
+#include "compiler/src/stroke_offset.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "stroke_fit.hpp"
+#include "compiler/src/stroke_fit.hpp"
 
 namespace vtm::compiler::stroke {
 
@@ -61,8 +61,9 @@ bool surelyGentle(const Curvature& k, double radius) {
     const auto& q = k.speedSquared;
     const double crossBound =
         std::max({std::abs(c[0]), std::abs(c[0] + c[1] / 2), std::abs(c[0] + c[1] + c[2])});
-    const double least = std::min({q[0], q[0] + q[1] / 4, q[0] + q[1] / 2 + q[2] / 6,
-                                   q[0] + 0.75 * q[1] + q[2] / 2 + q[3] / 4, q[0] + q[1] + q[2] + q[3] + q[4]});
+    const double least =
+        std::min({q[0], q[0] + q[1] / 4, q[0] + q[1] / 2 + q[2] / 6, q[0] + 0.75 * q[1] + q[2] / 2 + q[3] / 4,
+                  q[0] + q[1] + q[2] + q[3] + q[4]});
     return least > 0 && radius * crossBound <= least * std::sqrt(least);
 }
 
@@ -167,7 +168,10 @@ std::vector<Span> classify(const Cubic& c, double radius) {
 class Stretch {
 public:
     Stretch(const Cubic& c, const Span& span)
-        : c_(c), span_(span), start_(tangentAt(c, span.t0)), turn_(angleBetween(start_, tangentAt(c, span.t1))) {}
+        : c_(c),
+          span_(span),
+          start_(tangentAt(c, span.t0)),
+          turn_(angleBetween(start_, tangentAt(c, span.t1))) {}
 
     double parameter(double u) const {
         if (u <= 0 || u >= 1)
@@ -237,7 +241,8 @@ void appendFit(const OffsetCurve& curve, double u0, double u1, double tolerance,
         return side.cubicTo(fit.cubic.p1, fit.cubic.p2, fit.cubic.p3);
     const int count = pieceCount(fit.error, tolerance);
     for (int i = 0; i < count; ++i)
-        appendFit(curve, u0 + (u1 - u0) * i / count, u0 + (u1 - u0) * (i + 1) / count, tolerance, depth - 1, side);
+        appendFit(curve, u0 + (u1 - u0) * i / count, u0 + (u1 - u0) * (i + 1) / count, tolerance, depth - 1,
+                  side);
 }
 
 /// The evolute of a tight stretch.
@@ -267,7 +272,8 @@ private:
 
     double centreDistance(double u) const {
         const double t = stretch_.parameter(u), q = std::max(0.0, evaluate(curvature_.speedSquared, t));
-        const double bend = std::abs(evaluate(curvature_.cross, t)), cube = q * std::sqrt(q), r = std::abs(radius_);
+        const double bend = std::abs(evaluate(curvature_.cross, t)), cube = q * std::sqrt(q),
+                     r = std::abs(radius_);
         return cube < r * bend ? cube / bend : (cube > 0 ? r : 0);
     }
 
@@ -275,7 +281,8 @@ private:
     Point meeting(double u0, double u1) const {
         const Point n0 = normal(u0), n1 = normal(u1), p0 = stretch_.point(u0);
         const double sine = cross(n0, n1);
-        constexpr double parallel = 1e-9;  // below, rounding moves the crossing by more than the evolute is long
+        constexpr double parallel =
+            1e-9;  // below, rounding moves the crossing by more than the evolute is long
         if (std::abs(sine) < parallel)
             return (at(u0) + at(u1)) / 2.0;
         const double s = cross(stretch_.point(u1) - p0, n1) / sine;

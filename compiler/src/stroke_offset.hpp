@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "stroke_curve.hpp"
+#include "compiler/src/stroke_curve.hpp"
 
 namespace vtm::compiler::stroke {
 

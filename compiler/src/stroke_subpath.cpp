@@ -1,4 +1,4 @@
-#include "stroke_subpath.hpp"
+#include "compiler/src/stroke_subpath.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "compiler/src/stroke_curve.hpp"
 #include "scene/path.hpp"
 #include "scene/stroke.hpp"
-#include "stroke_curve.hpp"
 
 namespace vtm::compiler::stroke {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include "compiler/compile.hpp"
 
@@ -34,8 +34,8 @@ public:
         const Point a = polygons.back().back();
         for (int i = 1; i <= steps_; ++i) {
             const double t = double(i) / steps_, s = 1 - t;
-            polygons.back().push_back(a * (s * s * s) + c.control1 * (3 * s * s * t) + c.control2 * (3 * s * t * t) +
-                                      c.to * (t * t * t));
+            polygons.back().push_back(a * (s * s * s) + c.control1 * (3 * s * s * t) +
+                                      c.control2 * (3 * s * t * t) + c.to * (t * t * t));
         }
     }
     void operator()(const ArcTo&) { FAIL() << "an arc in an outline"; }
@@ -93,14 +93,13 @@ double area(const Path& path) {
 }
 
 std::size_t edges(const Path& path) {
-    return std::size_t(std::count_if(path.begin(), path.end(), [](const Command& c) {
-        return !std::holds_alternative<MoveTo>(c);
-    }));
+    return std::size_t(std::count_if(path.begin(), path.end(),
+                                     [](const Command& c) { return !std::holds_alternative<MoveTo>(c); }));
 }
 
 std::size_t contours(const Path& path) {
-    return std::size_t(
-        std::count_if(path.begin(), path.end(), [](const Command& c) { return std::holds_alternative<MoveTo>(c); }));
+    return std::size_t(std::count_if(path.begin(), path.end(),
+                                     [](const Command& c) { return std::holds_alternative<MoveTo>(c); }));
 }
 
 StrokeStyle style(double width, Cap cap = Cap::Butt, Join join = Join::Miter) {
@@ -124,7 +123,8 @@ Path polyline(std::initializer_list<Point> points, bool closed = false) {
 
 Path circle(Point center, double radius) {
     const Point r{radius, radius}, x{radius, 0};
-    return {MoveTo{center + x}, ArcTo{r, 0, false, true, center - x}, ArcTo{r, 0, false, true, center + x}, Close{}};
+    return {MoveTo{center + x}, ArcTo{r, 0, false, true, center - x}, ArcTo{r, 0, false, true, center + x},
+            Close{}};
 }
 
 // --- the stroke is the set of points near the path ----------------------------------------------------
@@ -140,7 +140,8 @@ void expectNeighbourhood(const Path& path, double width, double tolerance, unsig
     for (int i = 0; i < samples; ++i) {
         const Polygon& polygon = spine[std::size_t(share(random) * double(spine.size()))];
         const Point on = polygon[std::size_t(share(random) * double(polygon.size()))];
-        const double reach = i % 2 ? share(random) * width : width / 2 + (share(random) - 0.5) * 20 * tolerance;
+        const double reach =
+            i % 2 ? share(random) * width : width / 2 + (share(random) - 0.5) * 20 * tolerance;
         const double a = angle(random);
         const Point p = on + Point{std::cos(a), std::sin(a)} * reach;
         const double d = distanceTo(spine, p);
@@ -148,8 +149,8 @@ void expectNeighbourhood(const Path& path, double width, double tolerance, unsig
             continue;
         const int w = winding(border, p);
         ASSERT_GE(w, 0) << "seed " << seed << " width " << width << " at " << p.x << "," << p.y;
-        ASSERT_EQ(w != 0, d < width / 2) << "seed " << seed << " width " << width << " tolerance " << tolerance
-                                         << " distance " << d << " at " << p.x << "," << p.y;
+        ASSERT_EQ(w != 0, d < width / 2) << "seed " << seed << " width " << width << " tolerance "
+                                         << tolerance << " distance " << d << " at " << p.x << "," << p.y;
     }
 }
 
@@ -167,7 +168,8 @@ class Neighbourhood : public testing::TestWithParam<Case> {};
 TEST_P(Neighbourhood, RandomCubics) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         std::mt19937 random(seed);
-        const Point a = randomPoint(random), b = randomPoint(random), c = randomPoint(random), d = randomPoint(random);
+        const Point a = randomPoint(random), b = randomPoint(random), c = randomPoint(random),
+                    d = randomPoint(random);
         expectNeighbourhood({MoveTo{a}, CubicTo{b, c, d}}, GetParam().width, GetParam().tolerance, seed);
     }
 }
@@ -210,18 +212,18 @@ TEST_P(Neighbourhood, RandomPolygons) {
 TEST_P(Neighbourhood, CuspsLoopsAndHairpins) {
     const Point o{0, 0};
     const std::vector<Path> paths{
-        {MoveTo{o}, CubicTo{{100, 100}, {0, 100}, {100, 0}}},            // a cusp in the middle
-        {MoveTo{o}, CubicTo{{100, 100.001}, {0, 100.001}, {100, 0}}},    // a tiny loop
-        {MoveTo{o}, CubicTo{{100, 99.999}, {0, 99.999}, {100, 0}}},      // nearly a cusp
-        {MoveTo{o}, CubicTo{{150, 100}, {-50, 100}, {100, 0}}},          // a loop
-        {MoveTo{o}, CubicTo{{150, 0}, {-50, 0}, {100, 0}}},              // back and forth on a line
-        {MoveTo{o}, CubicTo{{150, 1e-7}, {-50, 0}, {100, 0}}},           // nearly so
-        {MoveTo{o}, QuadTo{{100, 0.01}, {0, 0.02}}},                     // a hairpin
-        {MoveTo{o}, QuadTo{{100, 0}, {0, 0}}},                           // and back
-        {MoveTo{o}, CubicTo{o, {50, 80}, {100, 0}}},                     // no speed at the start
-        {MoveTo{o}, CubicTo{{50, 80}, {100, 0}, {100, 0}}},              // none at the end
-        {MoveTo{o}, CubicTo{o, {100, 0}, {100, 0}}},                     // at neither
-        {MoveTo{o}, CubicTo{{1e-6, 1e-6}, {50, 80}, {100, 0}}},          // nearly none
+        {MoveTo{o}, CubicTo{{100, 100}, {0, 100}, {100, 0}}},          // a cusp in the middle
+        {MoveTo{o}, CubicTo{{100, 100.001}, {0, 100.001}, {100, 0}}},  // a tiny loop
+        {MoveTo{o}, CubicTo{{100, 99.999}, {0, 99.999}, {100, 0}}},    // nearly a cusp
+        {MoveTo{o}, CubicTo{{150, 100}, {-50, 100}, {100, 0}}},        // a loop
+        {MoveTo{o}, CubicTo{{150, 0}, {-50, 0}, {100, 0}}},            // back and forth on a line
+        {MoveTo{o}, CubicTo{{150, 1e-7}, {-50, 0}, {100, 0}}},         // nearly so
+        {MoveTo{o}, QuadTo{{100, 0.01}, {0, 0.02}}},                   // a hairpin
+        {MoveTo{o}, QuadTo{{100, 0}, {0, 0}}},                         // and back
+        {MoveTo{o}, CubicTo{o, {50, 80}, {100, 0}}},                   // no speed at the start
+        {MoveTo{o}, CubicTo{{50, 80}, {100, 0}, {100, 0}}},            // none at the end
+        {MoveTo{o}, CubicTo{o, {100, 0}, {100, 0}}},                   // at neither
+        {MoveTo{o}, CubicTo{{1e-6, 1e-6}, {50, 80}, {100, 0}}},        // nearly none
         {MoveTo{o}, CubicTo{{100, 0}, {0, 0}, {0, 100}}},
         {MoveTo{o}, CubicTo{{100, 0}, o, o}},
     };
