@@ -32,3 +32,14 @@ function(vtm_test name)
     target_compile_definitions(${name}_tests PRIVATE VTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
 endfunction()
+
+# Debian's own Python first: the numpy and Pillow that ./dev setup installs live there.
+find_program(VTM_PYTHON NAMES python3 HINTS /usr/bin REQUIRED)
+
+# vtm_script_test(name script.py arguments...): a Python test; exit code 77 means skipped.
+function(vtm_script_test name script)
+    if(VTM_BUILD_TESTS)
+        add_test(NAME ${name} COMMAND ${VTM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARGN})
+        set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+    endif()
+endfunction()

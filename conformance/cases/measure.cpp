@@ -1,0 +1,47 @@
+#include "conformance/cases/measure.hpp"
+
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "asset/evaluate.hpp"
+#include "conformance/reference/reference.hpp"
+
+namespace vtm::cases {
+
+namespace {
+
+/// The middle of `view`.
+asset::View middle(asset::View view, double share) {
+    const int width = int(std::lround(view.width * share)), height = int(std::lround(view.height * share));
+    view.toPixels[2] -= glm::dvec2((view.width - width) / 2, (view.height - height) / 2);
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+}  // namespace
+
+Measurement::Measurement(const std::string& name)
+    : name_(name),
+      scene_(loadScene(sharedDirectory() / "corpus" / (name + ".svg"))),
+      asset_(compiler::compile(scene_).asset) {}
+
+compare::Difference Measurement::glToTruth(Gl& gl, int size) const {
+    const auto truth =
+        compare::readPng((sharedDirectory() / fmt::format("corpus/truth/{}.{}.png", name_, size)).string());
+    return compare::compare(asWritten(gl.render(asset_, wholePicture(scene_, size))), truth);
+}
+
+compare::Difference Measurement::glToAsset(Gl& gl, int size) const {
+    const asset::View view = wholePicture(scene_, size);
+    return compare::compare(gl.render(asset_, view), asset::evaluate(asset_, view));
+}
+
+compare::Difference Measurement::glToReference(Gl& gl, int size, double share) const {
+    const asset::View view = middle(wholePicture(scene_, size), share);
+    const reference::View same{view.width, view.height, view.toPixels};
+    return compare::compare(gl.render(asset_, view), reference::render(scene_, same));
+}
+
+}  // namespace vtm::cases

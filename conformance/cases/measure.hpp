@@ -1,0 +1,35 @@
+/// \file
+/// Figures of one file of the corpus, for the tests and for the table.
+#pragma once
+
+#include "compiler/compile.hpp"
+#include "conformance/cases/support.hpp"
+#include "conformance/compare/compare.hpp"
+
+namespace vtm::cases {
+
+/// A file of the corpus on its way through every engine.
+class Measurement {
+public:
+    /// Throws the modules' exceptions.
+    explicit Measurement(const std::string& name);
+
+    /// Against the ground truth, which must exist.
+    compare::Difference glToTruth(Gl& gl, int size) const;
+    compare::Difference glToAsset(Gl& gl, int size) const;
+    /// `share` of the width and height around the picture's centre, at the whole picture's `size`.
+    compare::Difference glToReference(Gl& gl, int size, double share) const;
+
+    const scene::Scene& scene() const { return scene_; }
+    const asset::Asset& asset() const { return asset_; }
+
+private:
+    std::string name_;
+    scene::Scene scene_;
+    asset::Asset asset_;
+};
+
+/// Bounds that hold for every file, in 1/255.
+inline constexpr double truthP999 = 6, assetMax = 2, referenceMax = 8, referenceRms = 0.5;
+
+}  // namespace vtm::cases

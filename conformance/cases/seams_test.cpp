@@ -1,0 +1,128 @@
+// Shapes that abut: no ground may show through where they meet.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "compiler/compile.hpp"
+#include "conformance/cases/support.hpp"
+#include "conformance/reference/reference.hpp"
+
+namespace vtm::cases {
+namespace {
+
+using scene::Path;
+using scene::Point;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double side = 256;
+constexpr Point centre{side / 2, side / 2};
+constexpr int views = 12, raster = 192;
+constexpr double leakBound = 1;  // 1/255
+
+scene::Node filled(Path path, const scene::Affine& transform, const scene::Color& color) {
+    scene::Item item;
+    item.path = std::make_shared<Path>(std::move(path));
+    item.transform = transform;
+    item.geometry = scene::FillRule::NonZero;
+    item.paint = color;
+    return {item};
+}
+
+/// Black shapes on white: what leaks shows at full contrast.
+scene::Scene onWhite(const std::vector<Path>& shapes, const scene::Affine& transform) {
+    scene::Scene scene;
+    scene.width = scene.height = side;
+    scene.root.children.push_back(
+        filled(scene::rectangle({0, 0}, {side, side}), scene::identity, {1, 1, 1, 1}));
+    for (const Path& shape : shapes)
+        scene.root.children.push_back(filled(shape, transform, {0, 0, 0, 1}));
+    return scene;
+}
+
+scene::Affine turned(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const scene::Affine rotation{c, s, -s, c, 0, 0};
+    return scene::compose(scene::translation(centre.x, centre.y),
+                          scene::compose(rotation, scene::translation(-centre.x, -centre.y)));
+}
+
+/// Shares of white in pixels that lie wholly inside `inside`, which the shapes cover together.
+double leak(const image::Raster& drawn, const std::vector<double>& inside) {
+    double worst = 0;
+    for (std::size_t i = 0; i < inside.size(); ++i)
+        if (inside[i] > 1 - 1e-9)
+            worst = std::max({worst, double(drawn.rgba[4 * i]), 1 - double(drawn.rgba[4 * i + 3])});
+    return 255 * worst;
+}
+
+class Seams : public testing::Test {
+protected:
+    /// The picture turned on the raster, and the shapes turned in the picture.
+    void expectNoLeak(const std::vector<Path>& shapes, const Path& inside) {
+        for (int i = 0; i < views; ++i) {
+            const scene::Affine inPicture = turned(angle());
+            const asset::Asset asset = compiler::compile(onWhite(shapes, inPicture)).asset;
+            const double scale = std::exp2(i % 4 - 2);
+            const Point middle{raster / 2.0 + offset(), raster / 2.0 + offset()};
+            const scene::Affine toPixels = scene::compose(
+                scene::translation(middle.x, middle.y),
+                scene::compose(scene::scaling(scale, scale),
+                               scene::compose(scene::translation(-centre.x, -centre.y), turned(angle()))));
+            const auto covered = reference::fillCoverage(inside, inPicture, scene::FillRule::NonZero,
+                                                         {raster, raster, toPixels});
+            EXPECT_LE(leak(gl_.render(asset, {raster, raster, toPixels}), covered), leakBound)
+                << "view " << i;
+        }
+    }
+
+private:
+    double angle() { return std::uniform_real_distribution<double>(0, 2 * pi)(random_); }
+    double offset() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
+
+    Gl gl_;
+    std::mt19937 random_{2005};  // fixed, so that a failure can be repeated
+};
+
+Point polar(double radius, double angle) { return centre + radius * Point(std::cos(angle), std::sin(angle)); }
+
+TEST_F(Seams, TwoRectangles) {
+    const double seam = centre.x + 0.3;
+    expectNoLeak({scene::rectangle({64, 64}, {seam, 192}), scene::rectangle({seam, 64}, {192, 192})},
+                 scene::rectangle({64, 64}, {192, 192}));
+}
+
+TEST_F(Seams, DiscOfTwelveSectors) {
+    constexpr int sectors = 12;
+    constexpr double radius = 100;
+    std::vector<Path> shapes;
+    std::vector<Point> corners;
+    for (int i = 0; i < sectors; ++i) {
+        const Point from = polar(radius, 2 * pi * i / sectors),
+                    to = polar(radius, 2 * pi * (i + 1) / sectors);
+        shapes.push_back({scene::MoveTo{centre}, scene::LineTo{from},
+                          scene::ArcTo{{radius, radius}, 0, false, true, to}, scene::Close{}});
+        corners.push_back(from);
+    }
+    // The polygon of the sectors' corners lies inside the disc whatever happens to the arcs.
+    Path inside{scene::MoveTo{corners[0]}};
+    for (int i = 1; i < sectors; ++i)
+        inside.push_back(scene::LineTo{corners[std::size_t(i)]});
+    inside.push_back(scene::Close{});
+    expectNoLeak(shapes, inside);
+}
+
+TEST_F(Seams, FanOfCurves) {
+    const Point top{128, 40}, bottom{128, 216};
+    const auto bow = [&](double x) { return scene::CubicTo{{x, 90}, {x, 160}, bottom}; };
+    const auto back = [&](double x) { return scene::CubicTo{{x, 160}, {x, 90}, top}; };
+    std::vector<Path> shapes;
+    for (const double x : {20.0, 70.0, 120.0, 170.0})
+        shapes.push_back({scene::MoveTo{top}, bow(x), back(x + 50), scene::Close{}});
+    const Path inside{scene::MoveTo{top}, bow(20), back(220), scene::Close{}};
+    expectNoLeak(shapes, inside);
+}
+
+}  // namespace
+}  // namespace vtm::cases

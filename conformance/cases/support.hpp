@@ -1,0 +1,56 @@
+/// \file
+/// What the cases share: where the test data lies, how a picture gets from file to pixels.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asset/asset.hpp"
+#include "asset/view.hpp"
+#include "backend_gl/renderer.hpp"
+#include "scene/scene.hpp"
+
+namespace vtm::cases {
+
+/// $VTM_SHARED, or shared/ beside the checkout. May be absent.
+std::filesystem::path sharedDirectory();
+/// Our own drawings.
+std::filesystem::path examplesDirectory();
+
+scene::Scene loadScene(const std::filesystem::path& path);
+
+/// The whole picture on `size` pixels of width.
+asset::View wholePicture(const scene::Scene& scene, int size);
+
+/// Rounded to what a PNG file of `vtm render` holds: 8-bit, straight.
+image::Raster asWritten(const image::Raster& raster);
+
+/// A context with the programs in it.
+struct Gl {
+    gl::Context context;
+    gl::Renderer renderer;
+
+    image::Raster render(const asset::Asset& asset, const asset::View& view) {
+        return renderer.render(renderer.upload(asset), view);
+    }
+};
+
+/// One row of limits.tsv.
+struct CorpusFile {
+    std::string name;
+    struct Limit {
+        int size;  ///< pixels
+        double best, floor;
+        double mean() const;  ///< the largest mean error that we accept
+    };
+    std::vector<Limit> limits;    ///< none where nothing was measured
+    std::string expectedFailure;  ///< empty, or why
+};
+std::vector<CorpusFile> corpusFiles();
+
+/// A scene of one filled path on nothing, `side` units wide and high.
+scene::Scene sceneOf(const scene::Path& path, scene::FillRule rule, double side);
+
+}  // namespace vtm::cases

@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+"""The vtm command as its users run it. command_test.py VTM"""
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+from PIL import Image
+
+VTM = ""  # the program under test
+
+SQUARE = """<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20">
+  <rect width="20" height="20" fill="#ff0000"/>
+  <rect x="20" width="10" height="20" fill="#0000ff" fill-opacity="0.5"/>
+</svg>
+"""
+RED, HALF_BLUE, NOTHING = (255, 0, 0, 255), (0, 0, 255, 128), (0, 0, 0, 0)
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.svg = self.write("square.svg", SQUARE)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def vtm(self, *arguments, expect=0):
+        """Runs the command in the test's folder and checks its exit code."""
+        done = subprocess.run([VTM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder,
+                              stdin=subprocess.DEVNULL, timeout=120)
+        self.assertEqual(done.returncode, expect, f"{arguments}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def picture(self, name):
+        image = Image.open(self.folder / name)
+        self.assertEqual(image.mode, "RGBA")
+        return image
+
+    def draw(self, *arguments, engine="asset"):
+        self.vtm("render", self.svg, "-o", "out.png", "--engine", engine, *arguments)
+        return self.picture("out.png")
+
+
+class Render(Command):
+    def test_default_size_and_colours(self):
+        for engine in ("gl", "asset", "reference"):
+            with self.subTest(engine=engine):
+                image = self.draw(engine=engine)
+                self.assertEqual(image.size, (40, 20))
+                self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, HALF_BLUE, NOTHING])
+
+    def test_compat_mode(self):
+        image = self.draw("--mode", "compat", engine="gl")
+        self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, HALF_BLUE, NOTHING])
+
+    def test_one_dimension_keeps_the_aspect(self):
+        self.assertEqual(self.draw("--width", "100").size, (100, 50))
+        self.assertEqual(self.draw("--height", "100").size, (200, 100))
+        self.assertEqual(self.draw("--width", "30", "--height", "30").size, (30, 30))
+        self.assertEqual(self.draw("--scale", "2.5").size, (100, 50))
+        self.assertEqual(self.draw("--width", "1").size, (1, 1))
+
+    def test_view_fills_the_raster(self):
+        image = self.draw("--view", "15,5,10,10", "--width", "50")
+        self.assertEqual(image.size, (50, 50))
+        self.assertEqual([image.getpixel((x, 25)) for x in (5, 45)], [RED, HALF_BLUE])
+        image = self.draw("--view", "-10,0,20,20")
+        self.assertEqual([image.getpixel((x, 10)) for x in (5, 15)], [NOTHING, RED])
+
+    def test_background(self):
+        image = self.draw("--background", "white")
+        self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)],
+                         [RED, (127, 127, 255, 255), (255, 255, 255, 255)])
+        self.assertEqual(self.draw("--background", "#0f08").getpixel((35, 10)), (0, 255, 0, 136))
+
+    def test_straight_alpha(self):
+        self.assertEqual(self.draw().getpixel((25, 10)), HALF_BLUE)
+
+    def test_many_inputs_into_a_directory(self):
+        second = self.write("second.svg", SQUARE)
+        done = self.vtm("render", self.svg, second, "-o", "pictures")
+        self.assertEqual({p.name for p in (self.folder / "pictures").iterdir()}, {"square.png", "second.png"})
+        self.assertIn("2 of 2 drawn, 0 failed", done.stderr)
+
+    def test_batch_goes_on_after_a_bad_file(self):
+        bad = self.write("bad.svg", "<svg xmlns='http://www.w3.org/2000/svg'>\n<rect></svg>")
+        batch = self.write("list.tsv", f"{bad}\ta.png\n{self.folder}/absent.svg\tb.png\n{self.svg}\tdeep/c.png\n")
+        done = self.vtm("render", "--batch", batch, expect=1)
+        self.assertRegex(done.stderr, r"bad\.svg:2:\d+: ")
+        self.assertIn("absent.svg", done.stderr)
+        self.assertTrue(done.stderr.endswith("1 of 3 drawn, 2 failed\n"), done.stderr)
+        self.assertEqual(self.picture("deep/c.png").size, (40, 20))
+        self.assertFalse((self.folder / "a.png").exists())
+
+    def test_json(self):
+        report = json.loads(self.vtm("render", self.svg, "-o", "out.png", "--json").stdout)
+        for key in ("width", "height", "bytes", "regions", "leaves", "pieces"):
+            self.assertIsInstance(report[key], int, key)
+        self.assertEqual((report["width"], report["height"]), (40, 20))
+        for stage in ("read", "parse", "compile", "lower", "start", "upload", "render", "write"):
+            self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
+
+    def test_warnings_name_their_place(self):
+        path = self.write("warned.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">\n'
+                          '  <rect width="9" height="9" filter="url(#absent)"/>\n'
+                          '  <image href="absent.png" width="9" height="9"/>\n</svg>')
+        done = self.vtm("render", path, "-o", "out.png")
+        self.assertRegex(done.stderr, r"warned\.svg:3:\d+: warning: ")
+
+
+class BadInput(Command):
+    def test_parse_errors_name_their_place(self):
+        for name, text in (("empty.svg", ""), ("cut.svg", SQUARE[:100]), ("other.svg", "<html/>")):
+            path = self.write(name, text)
+            done = self.vtm("render", path, "-o", "out.png", expect=1)
+            self.assertRegex(done.stderr, rf"{name}:\d+:\d+: ")
+
+    def test_absent_file(self):
+        self.assertIn("absent.svg", self.vtm("render", "absent.svg", "-o", "out.png", expect=1).stderr)
+        self.assertIn("absent.vtm", self.vtm("info", "absent.vtm", expect=1).stderr)
+        self.assertIn("absent.tsv", self.vtm("render", "--batch", "absent.tsv", expect=1).stderr)
+
+    def test_output_that_cannot_be_written(self):
+        (self.folder / "file").touch()
+        self.assertIn("file", self.vtm("render", self.svg, "-o", "file/out.png", expect=1).stderr)
+
+    def test_damaged_asset(self):
+        path = self.write("damaged.vtm", "VTM?")
+        self.assertIn("damaged.vtm: ", self.vtm("render", path, "-o", "out.png", expect=1).stderr)
+
+    def test_picture_too_large(self):
+        path = self.write("large.svg", SQUARE.replace('width="40" height="20"', 'width="100000" height="100000"'))
+        done = self.vtm("render", path, "-o", "out.png", expect=1)
+        self.assertIn("100000 x 100000 pixels are too many", done.stderr)
+        self.assertEqual(self.draw("--width", "64").size, (64, 32))
+
+    def test_batch_line_without_tab(self):
+        batch = self.write("list.tsv", "a.svg b.png\n")
+        self.assertIn("list.tsv:1:1: ", self.vtm("render", "--batch", batch, expect=1).stderr)
+
+    def test_not_enough_memory(self):
+        """Within 1 GiB of address space a picture of 2 GiB is an error, not a crash."""
+        if os.environ.get("ASAN_OPTIONS") is not None or b"__asan_init" in pathlib.Path(VTM).read_bytes():
+            self.skipTest("AddressSanitizer needs the address space itself")
+        shell = 'ulimit -v 1048576 && exec "$0" "$@"'
+        done = subprocess.run(["bash", "-c", shell, VTM, "render", self.svg, "-o", "out.png", "--engine", "asset",
+                               "--width", "16000", "--height", "8000"], capture_output=True, text=True,
+                              cwd=self.folder, timeout=120)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("square.svg: not enough memory", done.stderr)
+
+
+class BadUsage(Command):
+    def test_exit_code_is_two(self):
+        for arguments in ([], ["gone"], ["render"], ["render", self.svg], ["render", self.svg, "-o"],
+                          ["render", self.svg, "-o", "o.png", "--width", "0"],
+                          ["render", self.svg, "-o", "o.png", "--width", "100000", "--height", "100000"],
+                          ["render", self.svg, "-o", "o.png", "--scale", "0"],
+                          ["render", self.svg, "-o", "o.png", "--scale", "2", "--width", "9"],
+                          ["render", self.svg, "-o", "o.png", "--view", "1,2,3"],
+                          ["render", self.svg, "-o", "o.png", "--view", "0,0,0,9"],
+                          ["render", self.svg, "-o", "o.png", "--engine", "steam"],
+                          ["render", self.svg, "-o", "o.png", "--mode", "fancy"],
+                          ["render", self.svg, "-o", "o.png", "--background", "plaid"],
+                          ["render", self.svg, "-o", "o.png", "--tolerance", "2"],
+                          ["render", self.svg, self.svg, "-o", "o.png"],
+                          ["render", self.svg, self.svg, "-o", "pictures/"],
+                          ["render", self.svg, "-o", "o.png", "--batch", "list"], ["diff", "a.png"]):
+            with self.subTest(arguments=arguments):
+                self.assertNotEqual(self.vtm(*arguments, expect=2).stderr, "")
+        self.assertFalse((self.folder / "o.png").exists())
+
+    def test_paper_mode_is_not_there_yet(self):
+        done = self.vtm("render", self.svg, "-o", "out.png", "--mode", "paper", expect=2)
+        self.assertIn("not available yet", done.stderr)
+
+    def test_help_and_version(self):
+        self.assertIn("render", self.vtm("--help").stdout)
+        self.assertIn("--batch", self.vtm("render", "--help").stdout)
+        self.assertRegex(self.vtm("--version").stdout, r"vtm \d+\.\d+\.\d+")
+
+
+class CompileAndInfo(Command):
+    KEYS = ("bytes", "prefilter_bytes", "leaves", "pieces", "fallback_leaves", "regions", "max_depth")
+
+    def check_figures(self, report):
+        for key in self.KEYS:
+            self.assertIsInstance(report[key], int, key)
+        self.assertEqual(report["prefilter_bytes"], 0)
+        self.assertEqual(report["fallback_leaves"], 0)
+        self.assertGreater(report["bytes"], 0)
+
+    def test_compiled_file_draws_the_same(self):
+        report = json.loads(self.vtm("compile", self.svg, "-o", "square.vtm", "--json").stdout)
+        self.check_figures(report)
+        for stage in ("parse", "lower", "compile"):
+            self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
+        self.assertEqual(report["file_bytes"], (self.folder / "square.vtm").stat().st_size)
+        self.vtm("render", "square.vtm", "-o", "compiled.png", "--width", "100", "--engine", "asset")
+        self.assertEqual(self.picture("compiled.png").tobytes(), self.draw("--width", "100").tobytes())
+        self.check_figures(json.loads(self.vtm("info", "square.vtm", "--json").stdout))
+
+    def test_info_of_svg(self):
+        report = json.loads(self.vtm("info", self.svg, "--json").stdout)
+        self.check_figures(report)
+        self.assertEqual((report["width"], report["height"], report["mode"]), (40, 20, "exact"))
+        for stage in ("parse", "lower", "compile"):
+            self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
+        self.assertIn("leaves: ", self.vtm("info", self.svg).stdout)
+
+    def test_compiled_file_keeps_its_mode(self):
+        self.vtm("compile", self.svg, "-o", "square.vtm", "--mode", "compat")
+        self.assertEqual(json.loads(self.vtm("info", "square.vtm", "--json").stdout)["mode"], "compat")
+        self.assertIn("mode", self.vtm("render", "square.vtm", "-o", "o.png", "--mode", "exact", expect=1).stderr)
+        self.assertIn("reference", self.vtm("render", "square.vtm", "-o", "o.png", "--engine", "reference",
+                                            expect=1).stderr)
+
+
+class Diff(Command):
+    def test_figures(self):
+        Image.new("RGBA", (8, 4), (10, 20, 30, 255)).save(self.folder / "a.png")
+        other = Image.new("RGBA", (8, 4), (10, 20, 30, 255))
+        other.putpixel((3, 2), (10, 60, 30, 255))
+        other.save(self.folder / "b.png")
+        same = json.loads(self.vtm("diff", "a.png", "a.png", "--json").stdout)
+        self.assertEqual((same["max"], same["mean"], same["rms"], same["p999"], same["over"]), (0, 0, 0, 0, 0))
+        different = json.loads(self.vtm("diff", "a.png", "b.png", "--json", "-o", "d.png").stdout)
+        self.assertAlmostEqual(different["max"], 40, places=3)
+        self.assertAlmostEqual(different["mean"], 40 / (8 * 4 * 4), places=3)
+        self.assertEqual((different["over"], different["worst_x"], different["worst_y"]), (1, 3, 2))
+        self.assertEqual(Image.open(self.folder / "d.png").size, (8, 4))
+
+    def test_sixteen_bits_are_premultiplied(self):
+        """The convention of our ground truth: value / 65535, premultiplied."""
+        Image.new("RGBA", (1, 1), (255, 0, 0, 128)).save(self.folder / "a.png")
+        half = struct.pack(">4H", 128 * 257, 0, 0, 128 * 257)
+        write_png16(self.folder / "b.png", half)
+        self.assertLess(json.loads(self.vtm("diff", "a.png", "b.png", "--json").stdout)["max"], 0.01)
+
+    def test_sizes_must_agree(self):
+        Image.new("RGBA", (8, 4)).save(self.folder / "a.png")
+        Image.new("RGBA", (4, 8)).save(self.folder / "b.png")
+        done = self.vtm("diff", "a.png", "b.png", expect=1)
+        self.assertIn("4 x 8", done.stderr)
+        self.assertIn("8 x 4", done.stderr)
+
+    def test_no_png(self):
+        self.assertIn("square.svg", self.vtm("diff", self.svg, self.svg, expect=1).stderr)
+
+
+def write_png16(path, pixel):
+    """One RGBA pixel of 16-bit channels."""
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+    header = struct.pack(">IIBBBBB", 1, 1, 16, 6, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"\0" + pixel))
+                     + chunk(b"IEND", b""))
+
+
+if __name__ == "__main__":
+    VTM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
