@@ -3,12 +3,22 @@
 /// types. Slow and sure.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "image/bitmap.hpp"
 #include "scene/scene.hpp"
 
 namespace vtm::reference {
 
-/// A raster and the map from picture to pixel coordinates (pixel (i, j) is [i, i+1] × [j, j+1]).
+inline constexpr int maxViewSide = 16384;
+inline constexpr std::int64_t maxViewPixels = std::int64_t(1) << 27;
+/// A path whose dash pattern puts more dashes than this into the view is stroked solid.
+inline constexpr std::int64_t maxDashes = 1'000'000;
+
+/// A raster and the map from picture to pixel coordinates (pixel (i, j) is [i, i+1] × [j, j+1]). Every
+/// function throws std::length_error beyond the limits above and std::invalid_argument if a side is
+/// not positive.
 struct View {
     int width = 0, height = 0;
     scene::Affine toPixels = scene::identity;
@@ -16,8 +26,8 @@ struct View {
 
 /// Share of each pixel's box that a path covers, exactly for polygons and, for curves, within
 /// `flatness` pixels of the true outline: width * height doubles, rows top to bottom.
-std::vector<double> fillCoverage(const scene::Path& path, const scene::Affine& transform, scene::FillRule rule,
-                                 const View& view, double flatness = 1e-4);
+std::vector<double> fillCoverage(const scene::Path& path, const scene::Affine& transform,
+                                 scene::FillRule rule, const View& view, double flatness = 1e-4);
 /// The same for a stroke.
 std::vector<double> strokeCoverage(const scene::Path& path, const scene::Affine& transform,
                                    const scene::StrokeStyle& style, const View& view, double flatness = 1e-4);
@@ -26,11 +36,15 @@ enum class Mode { Exact, Compat };
 
 struct Options {
     Mode mode = Mode::Exact;
-    int samples = 32;  ///< a side of the pixel, exact mode; in [1, 256]
+    /// Points a side of a pixel, in [1, 256], at which paints that vary (gradients, patterns, images)
+    /// are read where few do not do; solid colours need none.
+    int samples = 32;
 };
 
-/// The scene on transparent black. Exact: mean of the composited colour over samples × samples
-/// points a pixel. Compat: each layer's exact coverage times its paint, `over`, layer by layer.
+/// The scene on transparent black. Exact: the mean of the composited colour over the pixel's box,
+/// weighted by the exact areas of the regions that outlines cut it into. Compat: each layer's exact
+/// coverage times its paint at the pixel's centre, `over`, layer by layer. The scene is valid.
+/// Throws std::invalid_argument if `samples` is out of range.
 image::Raster render(const scene::Scene& scene, const View& view, const Options& options = {});
 
 }  // namespace vtm::reference

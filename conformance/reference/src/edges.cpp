@@ -1,0 +1,58 @@
+#include "conformance/reference/src/edges.hpp"
+
+#include <numbers>
+
+#include "conformance/reference/src/flatten.hpp"
+
+namespace vtm::reference {
+namespace {
+
+/// Pixel coordinates beyond it are moved onto it, so that no difference of two overflows. At this
+/// distance neighbouring doubles lie 2^-2 pixels apart, and an edge's place in the view means nothing.
+constexpr double farthest = 1e15;
+
+double pinned(double v) { return std::isnan(v) ? 0 : std::clamp(v, -farthest, farthest); }
+
+Point pinned(Point p) { return {pinned(p.x), pinned(p.y)}; }
+
+}  // namespace
+
+void EdgeList::add(Point from, Point to, int shape) {
+    from = pinned(from);
+    to = pinned(to);
+    if (std::max(from.y, to.y) < 0 || std::min(from.y, to.y) >= height_ || std::min(from.x, to.x) >= width_ ||
+        from == to)
+        return;
+    // Horizontal edges too are stored one way only.
+    const bool forward = from.y < to.y || (from.y == to.y && from.x < to.x);
+    if (forward)
+        edges_.push_back({from.x, from.y, to.x, to.y, shape, 1});
+    else
+        edges_.push_back({to.x, to.y, from.x, from.y, shape, -1});
+}
+
+void EdgeList::addPolygon(std::span<const Point> points, int shape) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+        add(points[i], points[(i + 1) % points.size()], shape);
+}
+
+Box boxOf(const View& view) { return {{0, 0}, {view.width, view.height}}; }
+
+void addFill(const scene::Path& path, const Affine& toPixels, const View& view, double flatness, int shape,
+             EdgeList& edges) {
+    const Fineness fineness{toPixels, boxOf(view), flatness, 2 * std::numbers::pi, wholePiece};
+    for (const Subpath& subpath : subpaths(path)) {
+        Point last = scene::apply(toPixels, subpath.start);
+        const Point first = last;
+        for (const Curve& curve : subpath.curves) {
+            for (const Sample& sample : flatten(curve, fineness)) {
+                const Point next = scene::apply(toPixels, sample.at);
+                edges.add(last, next, shape);
+                last = next;
+            }
+        }
+        edges.add(last, first, shape);
+    }
+}
+
+}  // namespace vtm::reference

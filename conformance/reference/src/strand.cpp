@@ -1,0 +1,195 @@
+#include "conformance/reference/src/strand.hpp"
+
+#include <numeric>
+
+#include "conformance/reference/reference.hpp"
+
+namespace vtm::reference {
+namespace {
+
+bool hasLength(const Run& run) {
+    return std::any_of(run.begin(), run.end(), [&](const Sample& s) { return s.at != run.front().at; });
+}
+
+Strand strandOf(const Subpath& subpath, const Fineness& fineness) {
+    Strand strand{{}, subpath.closed};
+    for (const Curve& curve : subpath.curves) {
+        Run run = flatten(curve, fineness);
+        if (hasLength(run))
+            strand.runs.push_back(std::move(run));
+    }
+    if (strand.runs.empty()) {
+        const Sample dot{subpath.start, {1, 0}};
+        strand = {{{dot, dot}}, false};
+    }
+    return strand;
+}
+
+Sample between(const Sample& a, const Sample& b, double share) {
+    const Vector direction = a.direction + share * (b.direction - a.direction);
+    const double l = length(direction);
+    return {a.at + share * (b.at - a.at), l > 0 ? direction / l : b.direction};
+}
+
+struct Interval {
+    double begin, end;
+};
+
+/// The share of the chord from a to b inside the box (Liang and Barsky 1984); empty if begin > end.
+Interval visibleShare(Point a, Point b, const Box& box) {
+    Interval share{0, 1};
+    for (int axis = 0; axis < 2; ++axis) {
+        const double d = b[axis] - a[axis];
+        const double toMin = box.min[axis] - a[axis], toMax = box.max[axis] - a[axis];
+        if (d == 0) {
+            if (toMin > 0 || toMax < 0)
+                return {1, 0};
+            continue;
+        }
+        share.begin = std::max(share.begin, std::min(toMin / d, toMax / d));
+        share.end = std::min(share.end, std::max(toMin / d, toMax / d));
+    }
+    return share;
+}
+
+/// Walks along strands with the pattern's dashes and gaps.
+class Dasher {
+public:
+    Dasher(const scene::StrokeStyle& style, const Fineness& fineness)
+        : pattern_(style.dashes),
+          period_(std::accumulate(pattern_.begin(), pattern_.end(), 0.0)),
+          phase_(std::fmod(style.dashPhase, period_)),
+          fineness_(fineness) {
+        if (phase_ < 0)
+            phase_ += period_;
+    }
+
+    /// False once there are too many dashes.
+    bool walk(const Strand& strand) {
+        index_ = 0;
+        left_ = pattern_[0];
+        advance(phase_);
+        start(strand.runs.front().front());
+        for (const Run& run : strand.runs) {
+            continueWith(run.front());
+            for (std::size_t i = 0; i + 1 < run.size() && dashes_.size() <= maxDashes; ++i)
+                walkChord(run[i], run[i + 1]);
+        }
+        finish();
+        return dashes_.size() <= maxDashes;
+    }
+
+    std::vector<Strand> take() { return std::move(dashes_); }
+
+private:
+    bool on() const { return index_ % 2 == 0; }
+
+    void nextElement() {
+        index_ = (index_ + 1) % pattern_.size();
+        left_ = pattern_[index_];
+    }
+
+    /// Moves on in the pattern alone.
+    void advance(double distance) {
+        for (; distance > left_; nextElement())
+            distance -= left_;
+        left_ -= distance;
+    }
+
+    void start(const Sample& at) {
+        if (on())
+            current_.runs = {{at}};
+    }
+    /// A new run of the same dash: there is a join here.
+    void continueWith(const Sample& at) {
+        if (current_.runs.empty())
+            return;
+        if (current_.runs.back().size() > 1)
+            current_.runs.push_back({at});
+        else
+            current_.runs.back() = {at};
+    }
+    void extendTo(const Sample& at) {
+        if (!current_.runs.empty())
+            current_.runs.back().push_back(at);
+    }
+    void finish() {
+        if (current_.runs.empty())
+            return;
+        if (current_.runs.size() > 1 && current_.runs.back().size() < 2)
+            current_.runs.pop_back();
+        if (current_.runs.back().size() < 2)
+            current_.runs.back().push_back(current_.runs.back().front());
+        dashes_.push_back(std::move(current_));
+        current_ = {};
+    }
+
+    void walkChord(const Sample& a, const Sample& b) {
+        const double l = length(b.at - a.at);
+        const auto [begin, end] = visibleShare(scene::apply(fineness_.toPixels, a.at),
+                                               scene::apply(fineness_.toPixels, b.at), fineness_.view);
+        if (!(begin <= end) || !std::isfinite(l)) {
+            skip(a, b, 0, l, l);
+            return;
+        }
+        skip(a, b, 0, begin * l, l);
+        walkPart(a, b, begin * l, end * l, l);
+        skip(a, b, end * l, l, l);
+    }
+
+    /// Along a chord of length l from `from` to `to`, lengths both.
+    void walkPart(const Sample& a, const Sample& b, double from, double to, double l) {
+        while (left_ < to - from && dashes_.size() <= maxDashes) {
+            from += left_;
+            const Sample cut = between(a, b, from / l);
+            extendTo(cut);
+            finish();
+            nextElement();
+            start(cut);
+        }
+        left_ -= to - from;
+        if (to > 0)
+            extendTo(to == l ? b : between(a, b, to / l));
+    }
+
+    /// Out of view whole periods make no dashes.
+    void skip(const Sample& a, const Sample& b, double from, double to, double l) {
+        if (!(to - from > period_)) {
+            walkPart(a, b, from, to, l);
+            return;
+        }
+        extendTo(between(a, b, from / l));
+        finish();
+        advance(std::fmod(to - from, period_));
+        start(between(a, b, to / l));
+    }
+
+    const std::vector<double>& pattern_;
+    double period_, phase_;
+    const Fineness& fineness_;
+    std::size_t index_ = 0;
+    double left_ = 0;  ///< of the element at `index_`
+    Strand current_;   ///< the dash being made; no runs in a gap
+    std::vector<Strand> dashes_;
+};
+
+}  // namespace
+
+std::vector<Strand> strandsOf(const scene::Path& path, const Fineness& fineness) {
+    std::vector<Strand> strands;
+    for (const Subpath& subpath : subpaths(path))
+        if (subpath.closed || !subpath.curves.empty())
+            strands.push_back(strandOf(subpath, fineness));
+    return strands;
+}
+
+std::optional<std::vector<Strand>> dash(const std::vector<Strand>& strands, const scene::StrokeStyle& style,
+                                        const Fineness& fineness) {
+    Dasher dasher(style, fineness);
+    for (const Strand& strand : strands)
+        if (!dasher.walk(strand))
+            return std::nullopt;
+    return dasher.take();
+}
+
+}  // namespace vtm::reference

@@ -1,0 +1,31 @@
+/// \file
+/// The lines that a stroke follows, before they get their width.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "conformance/reference/src/flatten.hpp"
+#include "scene/stroke.hpp"
+
+namespace vtm::reference {
+
+/// The samples of one curve, at least two. Where one run ends and the next begins is a join.
+using Run = std::vector<Sample>;
+
+/// A subpath or a dash. One of no length is a single run of two equal points.
+struct Strand {
+    std::vector<Run> runs;
+    bool closed = false;
+};
+
+/// The flattened subpaths. Curves of no length are left out; a subpath of nothing else becomes a strand
+/// of no length along the x axis (SVG 2 section 13.6.2). A lone MoveTo gives nothing.
+std::vector<Strand> strandsOf(const scene::Path& path, const Fineness& fineness);
+
+/// The dashes of the strands, each open: at a closed subpath's start they do not join. What lies
+/// outside the fineness' view may be missing. Nothing if there were more than maxDashes.
+std::optional<std::vector<Strand>> dash(const std::vector<Strand>& strands, const scene::StrokeStyle& style,
+                                        const Fineness& fineness);
+
+}  // namespace vtm::reference

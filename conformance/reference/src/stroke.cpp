@@ -1,0 +1,247 @@
+#include "conformance/reference/src/stroke.hpp"
+
+#include <numbers>
+#include <optional>
+
+#include "conformance/reference/src/strand.hpp"
+
+namespace vtm::reference {
+namespace {
+
+/// A circle has at most 2·pi / minTurn chords. It binds beyond a radius of 8e4 pixels at a flatness of
+/// 1e-4; the error there is radius · minTurn² / 8.
+constexpr double minTurn = 1e-4;
+constexpr double maxTurn = std::numbers::pi / 16;
+/// A mitre at its limit up to rounding is kept.
+constexpr double miterSlack = 1e-9;
+/// Curves out of view keep their length to about this share squared, for the dashes after them.
+constexpr double hiddenTolerance = 1e-5;
+
+/// The turn between two radii whose chord lies within `tolerance` of the circle:
+/// radius·(1 - cos(turn / 2)) = tolerance.
+double turnWithin(double tolerance, double radius) {
+    return std::clamp(2 * std::acos(std::max(0.0, 1 - tolerance / radius)), minTurn, maxTurn);
+}
+
+Vector rotated(Vector v, double angle) { return std::cos(angle) * v + std::sin(angle) * normalOf(v); }
+
+/// Where the segments ab and cd cross inside both.
+std::optional<Point> crossing(Point a, Point b, Point c, Point d) {
+    const double whole = cross(b - a, d - c);
+    const double s = cross(c - a, d - c) / whole, t = cross(c - a, b - a) / whole;
+    if (!(s > 0 && s < 1 && t > 0 && t < 1))
+        return std::nullopt;
+    return a + s * (b - a);
+}
+
+double doubleArea(std::span<const Point> p) {
+    double sum = 0;
+    for (std::size_t i = 2; i < p.size(); ++i)
+        sum += cross(p[i - 1] - p[0], p[i] - p[0]);
+    return sum;
+}
+
+class Stroker {
+public:
+    Stroker(const scene::StrokeStyle& style, const Affine& toPixels, const View& view, double flatness,
+            int shape, EdgeList& edges)
+        : style_(style),
+          half_(style.width / 2),
+          toPixels_(toPixels),
+          view_(boxOf(view)),
+          reach_(half_ * largestScale(toPixels)),
+          turn_(turnWithin(flatness, reach_)),
+          shape_(shape),
+          edges_(edges) {}
+
+    Fineness fineness(double flatness) const {
+        const bool mitred = style_.join == scene::Join::Miter || style_.join == scene::Join::MiterClip;
+        const double farthest = std::max(std::numbers::sqrt2, mitred ? style_.miterLimit : 1.0);
+        return {toPixels_, view_.grownBy(reach_ * farthest + 1), flatness, turn_, hiddenTolerance};
+    }
+
+    void stroke(const Strand& strand) {
+        const std::vector<Run>& runs = strand.runs;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            body(runs[i]);
+            if (i + 1 < runs.size())
+                join(runs[i].back(), runs[i + 1].front());
+        }
+        if (strand.closed) {
+            join(runs.back().back(), runs.front().front());
+        } else {
+            cap(runs.front().front().at, -runs.front().front().direction);
+            cap(runs.back().back().at, runs.back().back().direction);
+        }
+        endRibbon();
+    }
+
+private:
+    // Pieces of a stroke, in path space.
+
+    void body(const Run& run) {
+        for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+            Sample a = run[i];
+            const Sample& b = run[i + 1];
+            if (angleBetween(a.direction, b.direction) >
+                2 * turn_) {  // a cusp: the segment turns on the spot
+                spin(a.at, a.direction, b.direction);
+                a.direction = b.direction;
+            }
+            step(a, b);
+        }
+    }
+
+    /// What the segment across the line sweeps while it turns about its middle.
+    void spin(Point at, Vector from, Vector to) {
+        const double angle = std::atan2(cross(from, to), dot(from, to));
+        fan(at, half_ * normalOf(from), angle);
+        fan(at, -half_ * normalOf(from), angle);
+    }
+
+    /// What the segment across the line sweeps between two samples.
+    void step(const Sample& a, const Sample& b) {
+        const Vector na = half_ * normalOf(a.direction), nb = half_ * normalOf(b.direction);
+        const Vector along = a.direction + b.direction;
+        if (dot(b.at + nb - a.at - na, along) > 0 && dot(b.at - nb - a.at + na, along) > 0) {
+            ribbon(a.at - na, b.at - nb, b.at + nb, a.at + na);
+        } else {  // one end moves backwards: tighter than the stroke is wide
+            quad(a.at, b.at, b.at + nb, a.at + na);
+            quad(a.at, b.at, b.at - nb, a.at - na);
+        }
+    }
+
+    void join(const Sample& before, const Sample& after) {
+        const Vector d0 = before.direction, d1 = after.direction;
+        const Point p = before.at;
+        const double turn = cross(d0, d1);
+        if (turn == 0 && dot(d0, d1) > 0)
+            return;
+        const double outside = turn > 0 ? -half_ : half_;
+        const Vector a = outside * normalOf(d0), b = outside * normalOf(d1);
+        const double halfAngleSine = std::sqrt(std::max(0.0, (1 + dot(d0, d1)) / 2));
+        const bool sharp = style_.miterLimit * halfAngleSine * (1 + miterSlack) < 1;
+        if (style_.join == scene::Join::Round)
+            fan(p, a, std::atan2(turn, dot(d0, d1)));
+        else if (style_.join == scene::Join::Bevel || (style_.join == scene::Join::Miter && sharp))
+            polygon({{p, p + a, p + b}});
+        else if (sharp)
+            clippedMiter(p, a, b, d0, d1);
+        else
+            polygon({{p, p + a, p + (a + b) / (1 + dot(d0, d1)), p + b}});
+    }
+
+    /// SVG 2 section 13.5.4: cut across at miterLimit · width / 2 from the corner.
+    void clippedMiter(Point p, Vector a, Vector b, Vector d0, Vector d1) {
+        const Vector middle = a + b;
+        const double l = length(middle);
+        const Vector out = l > 0 ? middle / l : d0;
+        const double further = (style_.miterLimit * half_ - dot(a, out)) / dot(d0, out);
+        polygon({{p, p + a, p + a + further * d0, p + b - further * d1, p + b}});
+    }
+
+    void cap(Point p, Vector outward) {
+        const Vector n = half_ * normalOf(outward), out = half_ * outward;
+        if (style_.cap == scene::Cap::Round)
+            fan(p, -n, std::numbers::pi);
+        else if (style_.cap == scene::Cap::Square)
+            polygon({{p - n, p - n + out, p + n + out, p + n}});
+    }
+
+    // Their outlines.
+
+    /// A sector of the disc around p from the radius `from` on, signed angle.
+    void fan(Point p, Vector from, double angle) {
+        const Point center = scene::apply(toPixels_, p);
+        if (!Box{center, center}.grownBy(reach_).meets(view_))
+            return;
+        const int steps = std::max(1, int(std::ceil(std::abs(angle) / turn_)));
+        points_ = {p};
+        for (int i = 0; i <= steps; ++i)
+            points_.push_back(p + rotated(from, angle * i / steps));
+        polygon(points_);
+    }
+
+    /// A quadrilateral, perhaps crossing itself; then its two triangles.
+    void quad(Point a, Point b, Point c, Point d) {
+        if (const auto x = crossing(a, d, b, c)) {
+            polygon({{a, b, *x}});
+            polygon({{*x, c, d}});
+        } else if (const auto y = crossing(a, b, c, d)) {
+            polygon({{a, *y, d}});
+            polygon({{*y, b, c}});
+        } else {
+            polygon({{a, b, c, d}});
+        }
+    }
+
+    /// A step of a ribbon; the sides that it shares with the step before cancel and are left out.
+    void ribbon(Point right0, Point right1, Point left1, Point left0) {
+        const std::array corners{right0, right1, left1, left0};
+        if (!meetsView(corners))
+            return endRibbon();
+        if (!ribbonEnd_ || ribbonEnd_->from != right0 || ribbonEnd_->to != left0) {
+            endRibbon();
+            edge(left0, right0);
+        }
+        edge(right0, right1);
+        edge(left1, left0);
+        ribbonEnd_ = Line{right1, left1};
+    }
+
+    void endRibbon() {
+        if (ribbonEnd_)
+            edge(ribbonEnd_->from, ribbonEnd_->to);
+        ribbonEnd_.reset();
+    }
+
+    void polygon(std::initializer_list<Point> points) { polygon(std::span(points.begin(), points.size())); }
+
+    void polygon(std::span<const Point> points) {
+        if (!meetsView(points))
+            return;
+        const bool forward = doubleArea(points) > 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Point p = points[i], q = points[(i + 1) % points.size()];
+            edge(forward ? p : q, forward ? q : p);
+        }
+    }
+
+    bool meetsView(std::span<const Point> points) {
+        mapped_.clear();
+        for (const Point p : points)
+            mapped_.push_back(scene::apply(toPixels_, p));
+        return Box::around(mapped_).meets(view_);
+    }
+
+    void edge(Point from, Point to) {
+        edges_.add(scene::apply(toPixels_, from), scene::apply(toPixels_, to), shape_);
+    }
+
+    const scene::StrokeStyle& style_;
+    double half_;
+    Affine toPixels_;
+    Box view_;
+    double reach_;  ///< half the width in pixels, where it is largest
+    double turn_;   ///< greatest turn between neighbouring radii of a fan
+    int shape_;
+    EdgeList& edges_;
+    std::optional<Line> ribbonEnd_;  ///< the last step's far side, not added yet
+    std::vector<Point> points_, mapped_;
+};
+
+}  // namespace
+
+void addStroke(const scene::Path& path, const scene::StrokeStyle& style, const Affine& toPixels,
+               const View& view, double flatness, int shape, EdgeList& edges) {
+    Stroker stroker(style, toPixels, view, flatness, shape, edges);
+    const Fineness fineness = stroker.fineness(flatness);
+    std::vector<Strand> strands = strandsOf(path, fineness);
+    if (!style.dashes.empty())
+        if (auto dashes = dash(strands, style, fineness))
+            strands = std::move(*dashes);
+    for (const Strand& strand : strands)
+        stroker.stroke(strand);
+}
+
+}  // namespace vtm::reference
