@@ -1,4 +1,4 @@
-#include "asset/src/coverage.hpp"
+#include "asset/coverage.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,6 @@
 namespace vtm::asset {
 
 namespace {
-
-/// Chords over the part of a piece that can meet the pixel; docs/coverage.md bounds the error.
-constexpr int chordCount = 4;
-
-/// Below this difference of x a chord's mean is its end's: off by 2^-31 at most, less than half a
-/// step of float just below 1, while the division stays far from underflow.
-constexpr float smallestSpan = 0x1p-30f;
 
 /// Mean of clamp(x, 0, 1) for x evenly between a and b. The integral is split at x = 1 instead of
 /// subtracting antiderivatives, whose leading digits cancel where |x| is large.

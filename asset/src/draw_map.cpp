@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/src/coverage.hpp"
+#include "asset/coverage.hpp"
 #include "asset/src/paint.hpp"
 #include "asset/walk.hpp"
 

@@ -12,6 +12,13 @@
 
 namespace vtm::asset {
 
+/// Chords over the part of a piece that can meet the pixel; docs/coverage.md bounds the error.
+inline constexpr int chordCount = 4;
+
+/// Below this difference of x the mean of clamp(x, 0, 1) along a chord is its end's: off by 2^-31 at
+/// most, less than half a step of float just below 1, while the division stays far from underflow.
+inline constexpr float smallestSpan = 0x1p-30f;
+
 /// Leaf coordinates to the pixel's: p -> linear · p + origin.
 struct LeafFrame {
     glm::mat2 linear;

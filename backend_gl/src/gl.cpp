@@ -1,0 +1,80 @@
+#include "backend_gl/src/gl.hpp"
+
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace vtm::gl {
+
+namespace {
+
+const char* errorName(GLenum error) {
+    switch (error) {
+        case GL_INVALID_ENUM:
+            return "invalid enum";
+        case GL_INVALID_VALUE:
+            return "invalid value";
+        case GL_INVALID_OPERATION:
+            return "invalid operation";
+        case GL_INVALID_FRAMEBUFFER_OPERATION:
+            return "invalid framebuffer operation";
+        case GL_OUT_OF_MEMORY:
+            return "out of memory";
+        default:
+            return "unknown error";
+    }
+}
+
+}  // namespace
+
+void checkErrors(const char* what) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR)
+        return;
+    throw GlError(fmt::format("{}: GL says {} (0x{:04x})", what, errorName(error), error));
+}
+
+int limit(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+bool hasExtension(const char* name) {
+    const int count = limit(GL_NUM_EXTENSIONS);
+    for (int i = 0; i < count; ++i)
+        if (std::strcmp(reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i))), name) == 0)
+            return true;
+    return false;
+}
+
+void deleteTexture(GLuint id) { glDeleteTextures(1, &id); }
+void deleteBuffer(GLuint id) { glDeleteBuffers(1, &id); }
+void deleteFramebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
+void deleteVertexArray(GLuint id) { glDeleteVertexArrays(1, &id); }
+void deleteShader(GLuint id) { glDeleteShader(id); }
+void deleteProgram(GLuint id) { glDeleteProgram(id); }
+
+TextureHandle makeTexture(GLenum format, int width, int height) {
+    const int largest = limit(GL_MAX_TEXTURE_SIZE);
+    if (width > largest || height > largest)
+        throw GlError(fmt::format("texture of {} x {} texels: the driver's limit is {} a side", width, height,
+                                  largest));
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    TextureHandle texture(id);
+    glBindTexture(GL_TEXTURE_2D, id);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+    checkErrors("texture storage");
+    return texture;
+}
+
+BufferHandle makeBuffer() {
+    GLuint id = 0;
+    glGenBuffers(1, &id);
+    return BufferHandle(id);
+}
+
+}  // namespace vtm::gl

@@ -1,0 +1,59 @@
+/// \file
+/// OpenGL ES 3.0, its errors as exceptions and its objects as values.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <GLES3/gl3.h>
+
+#include "backend_gl/context.hpp"
+
+namespace vtm::gl {
+
+/// Throws GlError naming `what` if GL has an error pending.
+void checkErrors(const char* what);
+
+int limit(GLenum name);
+bool hasExtension(const char* name);
+
+/// Sole owner of a GL object.
+template <void (*Delete)(GLuint)>
+class Handle {
+public:
+    Handle() = default;
+    explicit Handle(GLuint id) : id_(id) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+    ~Handle() {
+        if (id_ != 0)
+            Delete(id_);
+    }
+    GLuint get() const { return id_; }
+
+private:
+    GLuint id_ = 0;
+};
+
+void deleteTexture(GLuint id);
+void deleteBuffer(GLuint id);
+void deleteFramebuffer(GLuint id);
+void deleteVertexArray(GLuint id);
+void deleteShader(GLuint id);
+void deleteProgram(GLuint id);
+
+using TextureHandle = Handle<deleteTexture>;
+using BufferHandle = Handle<deleteBuffer>;
+using FramebufferHandle = Handle<deleteFramebuffer>;
+using VertexArrayHandle = Handle<deleteVertexArray>;
+using ShaderHandle = Handle<deleteShader>;
+using ProgramHandle = Handle<deleteProgram>;
+
+/// A texture for texelFetch: no filter, one level.
+TextureHandle makeTexture(GLenum format, int width, int height);
+BufferHandle makeBuffer();
+
+}  // namespace vtm::gl

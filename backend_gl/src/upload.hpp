@@ -1,0 +1,41 @@
+/// \file
+/// An asset's data on the GPU.
+#pragma once
+
+#include <array>
+
+#include "backend_gl/renderer.hpp"
+#include "backend_gl/src/gl.hpp"
+#include "backend_gl/src/instances.hpp"
+#include "backend_gl/src/placement.hpp"
+
+namespace vtm::gl {
+
+/// First texels of the parts of the one texture that holds them all.
+struct Sections {
+    GLuint leaves = 0, pieces = 0, paints = 0, data = 0;
+    GLuint images = 0;  ///< a texel a picture: first pixel, width, height
+};
+
+struct UploadedAsset {
+    explicit UploadedAsset(const asset::Asset& asset);
+
+    std::vector<asset::Map> maps;
+    std::vector<asset::Command> commands;
+    InstanceList list;
+    Sections sections;
+    TextureHandle texels, images;
+    BufferHandle instances;
+
+    /// By map, filled up to whole rows of the texture beside it, which changes with every view.
+    std::vector<Placement> placements;
+    TextureHandle placementTexels;
+    /// Sends the rows that hold maps [first, last].
+    void uploadPlacements(std::uint32_t first, std::uint32_t last);
+};
+
+struct Texture::Impl : UploadedAsset {
+    using UploadedAsset::UploadedAsset;
+};
+
+}  // namespace vtm::gl
