@@ -1,0 +1,229 @@
+#include "conformance/reference/src/picture.hpp"
+
+#include <array>
+#include <map>
+#include <utility>
+
+#include "conformance/reference/src/stroke.hpp"
+
+namespace vtm::reference {
+namespace {
+
+/// Pixels a side of a pattern's tile. A tile that is larger in the view has larger pixels, which
+/// changes nothing but the cost of finding the edges near a point.
+constexpr double maxTileSide = 4096;
+
+bool isPlain(const scene::Group& group) {
+    return group.opacity == 1 && group.blend == scene::BlendMode::Normal && !group.clip && !group.mask;
+}
+
+/// Whether a blend mode inside could see, past this group, what lies below it.
+bool blendsInside(const scene::Group& group) {
+    for (const scene::Node& node : group.children) {
+        const auto* child = std::get_if<scene::Group>(&node.value);
+        if (child && (child->blend != scene::BlendMode::Normal || (isPlain(*child) && blendsInside(*child))))
+            return true;
+    }
+    return false;
+}
+
+bool isOpaque(const Shader& shader) {
+    if (const auto* solid = std::get_if<SolidShader>(&shader))
+        return solid->colour.a >= 1;
+    if (const auto* linear = std::get_if<LinearShader>(&shader))
+        return linear->ramp.isOpaque();
+    return false;
+}
+
+class Maker {
+public:
+    Maker(const View& view, double flatness)
+        : view_(view), flatness_(flatness), edges_(view.width, view.height) {
+        picture_.width = view.width;
+        picture_.height = view.height;
+    }
+
+    void addRoot(const scene::Group& root, std::shared_ptr<const scene::Clip> frame) {
+        const int tree = newTree(frame);
+        addGroup(root, tree, 0);
+    }
+
+    Picture take() {
+        picture_.edges = edges_.take();
+        return std::move(picture_);
+    }
+
+private:
+    int newTree(const std::shared_ptr<const scene::Clip>& clip) {
+        const int tree = int(picture_.trees.size());
+        picture_.trees.emplace_back();
+        GroupNode root{none, 0};
+        root.clip = clipOf(clip);
+        picture_.trees[std::size_t(tree)].groups.push_back(root);
+        return tree;
+    }
+
+    void addGroup(const scene::Group& group, int tree, int parent) {
+        int place = parent;
+        if (!isPlain(group) || blendsInside(group)) {
+            // The clip and the mask may make trees: no reference into the lists lives across them.
+            GroupNode node{parent, groupsOf(tree)[std::size_t(parent)].depth + 1, group.opacity, group.blend};
+            node.clip = clipOf(group.clip);
+            node.mask = maskOf(group.mask);
+            place = int(groupsOf(tree).size());
+            groupsOf(tree).push_back(node);
+        }
+        for (const scene::Node& child : group.children) {
+            if (const auto* item = std::get_if<scene::Item>(&child.value))
+                addItem(*item, tree, place);
+            else
+                addGroup(std::get<scene::Group>(child.value), tree, place);
+        }
+    }
+
+    std::vector<GroupNode>& groupsOf(int tree) { return picture_.trees[std::size_t(tree)].groups; }
+
+    void addItem(const scene::Item& item, int tree, int group) {
+        const Affine toPixels = scene::compose(view_.toPixels, item.transform);
+        const int shader = addShader(item.paint, toPixels);
+        std::vector<Layer>& layers = picture_.trees[std::size_t(tree)].layers;
+        const bool hides = group == 0 && item.opacity >= 1 && isOpaque(picture_.shaders[std::size_t(shader)]);
+        const auto* fill = std::get_if<scene::FillRule>(&item.geometry);
+        const int shape =
+            addShape({fill ? *fill : scene::FillRule::NonZero, false, tree, int(layers.size())});
+        layers.push_back({shape, group, shader, item.opacity, hides});
+        if (fill)
+            addFill(*item.path, toPixels, view_, flatness_, shape, edges_);
+        else
+            addStroke(*item.path, std::get<scene::StrokeStyle>(item.geometry), toPixels, view_, flatness_,
+                      shape, edges_);
+    }
+
+    int addShape(const Shape& shape) {
+        picture_.shapes.push_back(shape);
+        return int(picture_.shapes.size()) - 1;
+    }
+
+    int clipOf(const std::shared_ptr<const scene::Clip>& clip) {
+        if (!clip)
+            return none;
+        if (const auto known = clips_.find(clip.get()); known != clips_.end())
+            return known->second;
+        ClipNode node;
+        node.clip = clipOf(clip->clip);
+        std::vector<int> inner;
+        for (const scene::ClipShape& shape : clip->shapes)
+            inner.push_back(clipOf(shape.clip));
+        const int index = int(picture_.clips.size());
+        for (std::size_t i = 0; i < inner.size(); ++i)
+            node.parts.push_back({addClipShape(clip->shapes[i], index, int(i)), inner[i]});
+        picture_.clips.push_back(std::move(node));
+        return clips_[clip.get()] = index;
+    }
+
+    int addClipShape(const scene::ClipShape& clip, int owner, int place) {
+        const int shape = addShape({clip.rule, true, owner, place});
+        addFill(*clip.path, scene::compose(view_.toPixels, clip.transform), view_, flatness_, shape, edges_);
+        return shape;
+    }
+
+    int maskOf(const std::shared_ptr<const scene::Mask>& mask) {
+        if (!mask)
+            return none;
+        if (const auto known = masks_.find(mask.get()); known != masks_.end())
+            return known->second;
+        const int tree = newTree(nullptr);
+        addGroup(*mask->content, tree, 0);
+        picture_.masks.push_back({tree, mask->kind, mask->linear});
+        return masks_[mask.get()] = int(picture_.masks.size()) - 1;
+    }
+
+    int addShader(const scene::Paint& paint, const Affine& toPixels) {
+        picture_.shaders.push_back(std::visit([&](const auto& p) { return shaderOf(p, toPixels); }, paint));
+        return int(picture_.shaders.size()) - 1;
+    }
+
+    static Shader shaderOf(const scene::Color& color, const Affine&) {
+        return SolidShader{premultiplied(color)};
+    }
+
+    /// The map from the raster to a paint's space; a paint whose map has no inverse shows nothing.
+    template <class Paint, class Make>
+    static Shader withInverse(const Paint& paint, const Affine& toPixels, const Make& make) {
+        const auto toPaint = scene::inverse(scene::compose(toPixels, paint.transform));
+        return toPaint ? Shader(make(*toPaint)) : Shader(SolidShader{Colour(0)});
+    }
+
+    static Shader shaderOf(const scene::LinearGradient& g, const Affine& toPixels) {
+        const Vector along = g.end - g.start;
+        return withInverse(g, toPixels, [&](const Affine& toPaint) {
+            return LinearShader{toPaint, g.start, along / dot(along, along), Ramp(g.stops, g.spread)};
+        });
+    }
+
+    static Shader shaderOf(const scene::RadialGradient& g, const Affine& toPixels) {
+        return withInverse(g, toPixels, [&](const Affine& toPaint) {
+            return RadialShader{toPaint, g, Ramp(g.stops, g.spread)};
+        });
+    }
+
+    static Shader shaderOf(const scene::ImagePaint& paint, const Affine& toPixels) {
+        return withInverse(paint, toPixels, [&](const Affine& toPaint) {
+            return ImageShader{toPaint, paint.bitmap, paint.filter};
+        });
+    }
+
+    Shader shaderOf(const scene::Pattern& pattern, const Affine& toPixels) {
+        return withInverse(pattern, toPixels, [&](const Affine& toPaint) {
+            const Vector size = pattern.max - pattern.min;
+            const double scale = largestScale(scene::compose(toPixels, pattern.transform));
+            const auto pixels = [&](double side) { return std::clamp(side * scale, 1.0, maxTileSide); };
+            const Vector tileSize{pixels(size.x), pixels(size.y)};
+            const Affine toTile = scene::compose(scene::scaling(tileSize.x / size.x, tileSize.y / size.y),
+                                                 scene::translation(-pattern.min.x, -pattern.min.y));
+            const double coarser = std::min(tileSize.x / size.x, tileSize.y / size.y) / scale;
+            return TileShader{scene::compose(toTile, toPaint), tileSize,
+                              tileOf(pattern.content, toTile, tileSize, flatness_ * coarser)};
+        });
+    }
+
+    std::shared_ptr<const Picture> tileOf(const std::shared_ptr<const scene::Group>& content,
+                                          const Affine& toTile, Vector size, double flatness) {
+        const TileKey key{content.get(), {toTile[0].x, toTile[1].y, toTile[2].x, toTile[2].y}};
+        std::shared_ptr<const Picture>& tile = tiles_[key];
+        if (!tile) {
+            Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness);
+            maker.addRoot(*content, nullptr);
+            tile = std::make_shared<const Picture>(maker.take());
+        }
+        return tile;
+    }
+
+    using TileKey = std::pair<const scene::Group*, std::array<double, 4>>;
+
+    View view_;
+    double flatness_;
+    EdgeList edges_;
+    Picture picture_;
+    std::map<const scene::Clip*, int> clips_;
+    std::map<const scene::Mask*, int> masks_;
+    std::map<TileKey, std::shared_ptr<const Picture>> tiles_;
+};
+
+/// What lies outside the scene's rectangle is cut off.
+std::shared_ptr<const scene::Clip> frameOf(const scene::Scene& scene) {
+    auto path = std::make_shared<scene::Path>(scene::rectangle({0, 0}, {scene.width, scene.height}));
+    auto frame = std::make_shared<scene::Clip>();
+    frame->shapes.push_back({std::move(path), scene::identity, scene::FillRule::NonZero, nullptr});
+    return frame;
+}
+
+}  // namespace
+
+Picture makePicture(const scene::Scene& scene, const View& view, double flatness) {
+    Maker maker(view, flatness);
+    maker.addRoot(scene.root, frameOf(scene));
+    return maker.take();
+}
+
+}  // namespace vtm::reference

@@ -1,0 +1,53 @@
+#include <memory>
+#include <stdexcept>
+
+#include "conformance/reference/reference.hpp"
+#include "conformance/reference/src/bands.hpp"
+#include "conformance/reference/src/coverage.hpp"
+#include "conformance/reference/src/rows.hpp"
+
+namespace vtm::reference {
+namespace {
+
+/// Pixels: half a 255th of a pixel's colour takes 2e-3 along a whole side of it.
+constexpr double flatness = 1e-4;
+
+void store(std::span<const Colour> row, float* out) {
+    for (const Colour& colour : row)
+        for (int c = 0; c < 4; ++c)
+            *out++ = float(colour[c]);
+}
+
+/// Renders band by band; each thread has the rows renderer that `makeRows` makes.
+template <class MakeRows>
+image::Raster renderRows(const Picture& picture, const MakeRows& makeRows) {
+    image::Raster raster(picture.width, picture.height);
+    forEachBand(picture.height, [&] {
+        return [&, rows = makeRows(), pieces = std::vector<Piece>(), colours = std::vector<Colour>()](
+                   int first, int end) mutable {
+            const std::vector<Edge> edges = edgesOfBand(picture.edges, first, end);
+            for (int y = first; y < end; ++y) {
+                pieces.clear();
+                cutToRow(edges, y, pieces);
+                colours.assign(std::size_t(picture.width), Colour(0));
+                rows->render(pieces, y, colours.data());
+                store(colours, raster.pixel(0, y));
+            }
+        };
+    });
+    return raster;
+}
+
+}  // namespace
+
+image::Raster render(const scene::Scene& scene, const View& view, const Options& options) {
+    checkView(view);
+    if (options.samples < 1 || options.samples > 256)
+        throw std::invalid_argument("reference: " + std::to_string(options.samples) + " samples");
+    const Picture picture = makePicture(scene, view, flatness);
+    if (options.mode == Mode::Compat)
+        return renderRows(picture, [&] { return std::make_unique<CompatRows>(picture); });
+    return renderRows(picture, [&] { return std::make_unique<ExactRows>(picture, options.samples); });
+}
+
+}  // namespace vtm::reference

@@ -1,0 +1,79 @@
+/// \file
+/// Paints as functions from a point of the raster to a colour.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "conformance/reference/src/blend.hpp"
+#include "conformance/reference/src/geometry.hpp"
+#include "scene/paint.hpp"
+
+namespace vtm::reference {
+
+struct Picture;
+
+Colour premultiplied(const scene::Color& color);
+
+class Ramp {
+public:
+    Ramp(std::vector<scene::GradientStop> stops, scene::Spread spread)
+        : stops_(std::move(stops)), spread_(spread) {}
+    /// Before the first stop its colour, after the last its. Where stops coincide the last one holds.
+    Colour at(double offset) const;
+    bool isOpaque() const;
+
+private:
+    std::vector<scene::GradientStop> stops_;
+    scene::Spread spread_;
+};
+
+struct SolidShader {
+    Colour colour;
+
+    Colour at(Point) const { return colour; }
+};
+
+struct LinearShader {
+    Affine toPaint;
+    Point start;
+    Vector gradient;  ///< of the offset
+    Ramp ramp;
+
+    Colour at(Point p) const { return ramp.at(dot(scene::apply(toPaint, p) - start, gradient)); }
+};
+
+/// Circles about focus + t·(center - focus) of radius focalRadius + t·(radius - focalRadius).
+struct RadialShader {
+    Affine toPaint;
+    scene::RadialGradient gradient;
+    Ramp ramp;
+
+    Colour at(Point p) const;
+    /// The largest t whose circle passes through a point of paint space and has a radius.
+    std::optional<double> offsetAt(Point p) const;
+};
+
+struct ImageShader {
+    Affine toPaint;
+    std::shared_ptr<const image::Bitmap> bitmap;
+    scene::ImageFilter filter;
+
+    Colour at(Point p) const;
+};
+
+/// A pattern: `tile` shows one period, `tileSize` of its pixels wide and high.
+struct TileShader {
+    Affine toTile;  ///< from the raster to the first tile's pixels
+    Vector tileSize;
+    std::shared_ptr<const Picture> tile;
+
+    /// Where in the tile a point of the raster falls.
+    Point wrapped(Point p) const;
+};
+
+using Shader = std::variant<SolidShader, LinearShader, RadialShader, ImageShader, TileShader>;
+
+}  // namespace vtm::reference
