@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -243,52 +243,69 @@ private:
 
 // ---- slivers ----------------------------------------------------------------------------------
 
-/// A straight piece one step from a side, from one neighbouring side to the other: the trace of a
-/// shape that ends on the cell's border. Its sliver is dropped and the side takes the paint beyond.
+/// Drops chains that run along the border, nowhere more than one leaf step inside: traces of shapes
+/// that end on the cell's border. What lies between such a chain and the border is below the leaf's
+/// resolution; the corners that the chain passes take the paint of its inner side.
 class SliverCutter {
 public:
-    explicit SliverCutter(FittedLeaf& leaf) : leaf_(leaf) {}
+    SliverCutter(const Quantiser& quantiser, FittedLeaf& leaf) : quantiser_(quantiser), leaf_(leaf) {}
 
-    void run() {
-        for (std::size_t side = 0; side < 4; ++side)
-            while (cutOne(side)) {
-            }
+    void run(std::vector<Chain>& chains) {
+        while (std::erase_if(chains, [&](const Chain& c) { return cut(c); }) > 0) {
+        }
     }
 
 private:
-    bool cutOne(std::size_t side) {
-        for (std::size_t i = 0; i < leaf_.pieces.size(); ++i) {
-            const asset::Piece& p = leaf_.pieces[i];
-            const int direction = hugs(p, side);
-            if (direction == 0)
-                continue;
-            // Counter-clockwise along the side the leaf's inside lies on the left.
-            const Paint inner = direction > 0 ? p.left : p.right, outer = direction > 0 ? p.right : p.left;
-            Paint &from = leaf_.corners[side], &to = leaf_.corners[(side + 1) % 4];
-            if (from != outer || to != outer)
-                continue;
-            from = to = inner;
-            leaf_.pieces.erase(leaf_.pieces.begin() + static_cast<std::ptrdiff_t>(i));
-            return true;
-        }
+    using Side = std::size_t;
+
+    bool cut(const Chain& chain) {
+        const Steps first = quantiser_.round(chain.points.front()), last = quantiser_.round(chain.points.back());
+        const auto from = sideOf(first), to = sideOf(last);
+        if (!from || !to)
+            return false;
+        return cutAlong(chain, *from, *to, chain.right, chain.left) || cutAlong(chain, *to, *from, chain.left, chain.right);
+    }
+
+    /// Counter-clockwise from one side to another; the leaf's inside lies on the left.
+    bool cutAlong(const Chain& chain, Side from, Side to, Paint outer, Paint inner) {
+        const Side sides = (to + 4 - from) % 4;
+        for (LatticePoint p : chain.points)
+            if (!hugs(quantiser_.round(p), from, sides))
+                return false;
+        for (Side k = 1; k <= sides; ++k)
+            if (leaf_.corners[(from + k) % 4] != outer)
+                return false;
+        for (Side k = 1; k <= sides; ++k)
+            leaf_.corners[(from + k) % 4] = inner;
+        return true;
+    }
+
+    /// Within one step of a side of those from `from` on. The first and the last are met only near
+    /// their corners, unless there is but one.
+    static bool hugs(Steps p, Side from, Side sides) {
+        for (Side k = 0; k <= sides; ++k)
+            if (distance(p, (from + k) % 4) <= 1) {
+                const bool inner = sides == 0 || (k > 0 && k < sides);
+                const bool near = (k == 0 && distance(p, (from + 1) % 4) <= 1) ||
+                                  (k == sides && distance(p, (from + sides + 3) % 4) <= 1);
+                if (inner || near)
+                    return true;
+            }
         return false;
     }
 
-    /// 1 or -1 if the piece runs the whole side, with or against the counter-clockwise direction.
-    static int hugs(const asset::Piece& p, std::size_t side) {
-        if (p.slopeA != 0 || p.slopeB != 0)
-            return 0;
-        const bool horizontal = side % 2 == 0;
-        const std::size_t along = horizontal ? 0 : 1, across = 1 - along;
-        const std::uint16_t near = side == 0 || side == 3 ? 1 : asset::leafExtent - 1;
-        if (p.a[across] != near || p.b[across] != near)
-            return 0;
-        const bool up = p.a[along] == 0 && p.b[along] == asset::leafExtent;
-        const bool down = p.b[along] == 0 && p.a[along] == asset::leafExtent;
-        const int positive = side < 2 ? 1 : -1;
-        return up ? positive : down ? -positive : 0;
+    static int distance(Steps p, Side side) {
+        const int across = side % 2 == 0 ? p[1] : p[0];
+        return side == 0 || side == 3 ? across : static_cast<int>(asset::leafExtent) - across;
+    }
+    static std::optional<Side> sideOf(Steps p) {
+        for (Side side = 0; side < 4; ++side)
+            if (distance(p, side) == 0)
+                return side;
+        return std::nullopt;
     }
 
+    const Quantiser& quantiser_;
     FittedLeaf& leaf_;
 };
 
@@ -297,9 +314,10 @@ private:
 FittedLeaf fit(const Square& square, const PlanarLeaf& leaf, double tolerance) {
     FittedLeaf fitted{{}, leaf.corners};
     const Quantiser quantiser(square);
-    for (const Chain& chain : Linker(leaf.edges).run())
+    std::vector<Chain> chains = Linker(leaf.edges).run();
+    SliverCutter(quantiser, fitted).run(chains);
+    for (const Chain& chain : chains)
         Fitter(chain, quantiser, tolerance * extent / square.side, fitted.pieces).run();
-    SliverCutter(fitted).run();
     return fitted;
 }
 

@@ -19,6 +19,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "compiler/compile.hpp"
 #include "compiler/src/stroke_offset.hpp"
 #include "compiler/src/stroke_subpath.hpp"
 
@@ -37,6 +38,12 @@ constexpr double arcShare = 0.1, fitShare = 0.8, joinShare = 0.1;
 
 /// Directions closer than this are the same whatever the tolerance: control points do not resolve more.
 constexpr double sameDirection = 1e-9;
+
+/// Beyond this, products of six lengths (the slope of the curvature) overflow.
+constexpr double largestSize = 1e48;
+
+/// Tolerances are raised to this share of the coordinates: finer fits would chase rounding errors.
+constexpr double finestShare = 1e-11;
 
 Point endPoint(const Segment& s) { return s.curve.p3; }
 
@@ -222,6 +229,10 @@ private:
 }  // namespace stroke
 
 scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance) {
+    const double size = stroke::largestCoordinate(path) + style.width;
+    if (!(size <= stroke::largestSize))
+        throw LimitError("stroke: coordinates or width beyond 1e48");
+    tolerance = std::max(tolerance, stroke::finestShare * size);
     scene::Path outline;
     stroke::Outliner outliner(style, tolerance, outline);
     std::size_t dashes = 0;

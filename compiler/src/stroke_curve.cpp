@@ -103,14 +103,26 @@ Point tangentAt(const Cubic& c, double t) {
     return t < 0.5 ? startTangent(c) : endTangent(c);
 }
 
-Curvature::Curvature(const Cubic& c) {
-    // γ' = a + b t + d t², hence γ' × γ'' = a×b + 2 (a×d) t + (b×d) t².
-    const Point a = 3.0 * (c.p1 - c.p0);
-    const Point b = 6.0 * (c.p2 - 2.0 * c.p1 + c.p0);
-    const Point d = 3.0 * (c.p3 - 3.0 * c.p2 + 3.0 * c.p1 - c.p0);
-    cross = {stroke::cross(a, b), 2 * stroke::cross(a, d), stroke::cross(b, d)};
-    speedSquared = {glm::dot(a, a), 2 * glm::dot(a, b), glm::dot(b, b) + 2 * glm::dot(a, d),
-                    2 * glm::dot(b, d), glm::dot(d, d)};
+Curvature curvature(const Cubic& c) {
+    const Point a = 3.0 * (c.p1 - c.p0), b = 3.0 * (c.p2 - c.p1), d = 3.0 * (c.p3 - c.p2);
+    return {{2 * cross(a, b), cross(a, d), 2 * cross(b, d)},
+            {glm::dot(a, a), glm::dot(a, b), (2 * glm::dot(b, b) + glm::dot(a, d)) / 3, glm::dot(b, d),
+             glm::dot(d, d)}};
+}
+
+std::vector<double> powers(std::span<const double> bernsteinCoefficients) {
+    // Coefficient k: the k-th forward difference at 0, times n over k.
+    std::vector<double> result(bernsteinCoefficients.begin(), bernsteinCoefficients.end());
+    const std::size_t n = result.size() - 1;
+    for (std::size_t k = 1; k <= n; ++k)
+        for (std::size_t i = n; i >= k; --i)
+            result[i] -= result[i - 1];
+    double binomial = 1;
+    for (std::size_t k = 1; k <= n; ++k) {
+        binomial *= double(n - k + 1) / double(k);
+        result[k] *= binomial;
+    }
+    return result;
 }
 
 double evaluate(std::span<const double> polynomial, double t) {

@@ -2,6 +2,7 @@
 /// Cubic Bézier segments as strokes need them: tangents, parts, arc length, special parameters.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -39,12 +40,26 @@ Point startTangent(const Cubic& c);
 Point endTangent(const Cubic& c);
 Point tangentAt(const Cubic& c, double t);
 
-/// Coefficients of polynomials in t, constant term first.
+/// γ' × γ'' and |γ'|² as Bernstein polynomials over a piece of a curve: their coefficients bound them,
+/// and vanishing ends vanish exactly.
 struct Curvature {
-    explicit Curvature(const Cubic& c);
-    std::vector<double> cross;         ///< γ' × γ'', degree 2
-    std::vector<double> speedSquared;  ///< |γ'|², degree 4
+    std::array<double, 3> cross;
+    std::array<double, 5> speedSquared;
 };
+
+Curvature curvature(const Cubic& c);
+
+/// de Casteljau.
+template <std::size_t N>
+double bernstein(std::array<double, N> b, double t) {
+    for (std::size_t n = N - 1; n > 0; --n)
+        for (std::size_t i = 0; i < n; ++i)
+            b[i] += (b[i + 1] - b[i]) * t;
+    return b[0];
+}
+
+/// Coefficients of powers of t, constant term first.
+std::vector<double> powers(std::span<const double> bernsteinCoefficients);
 
 /// Real roots in the open interval (0, 1), rising; roots of even order may be left out.
 std::vector<double> rootsInside(std::span<const double> polynomial);

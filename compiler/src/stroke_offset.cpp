@@ -43,9 +43,13 @@ namespace {
 /// is a straight edge.
 constexpr int maxFitDepth = 20;
 
-/// Intervals of the parameter shorter than this hold no visible part of a curve, but rounding noise
-/// of the break points.
-constexpr double shortestSpan = 1e-12;
+/// Halvings in search of the places where a curve becomes tight: 2^-24 of a segment.
+constexpr int maxSearchDepth = 24;
+
+/// A curve that is tighter than the radius by less than this share of the tolerance counts as gentle:
+/// offset and evolute are no further apart than that, and circles stroked up to their centre are not
+/// chopped up by the ripple of their cubics.
+constexpr double tightShare = 0.25;
 
 /// What a stretch of the curve is to a stroke: gentle, or bent more than the radius to one side.
 enum class Bend { Gentle, Left, Right };
@@ -55,17 +59,66 @@ struct Span {
     Bend bend;
 };
 
-bool surelyGentle(const Curvature& k, double radius) {
-    // Bernstein coefficients bound both polynomials on [0, 1].
-    const auto& c = k.cross;
-    const auto& q = k.speedSquared;
-    const double crossBound =
-        std::max({std::abs(c[0]), std::abs(c[0] + c[1] / 2), std::abs(c[0] + c[1] + c[2])});
-    const double least =
-        std::min({q[0], q[0] + q[1] / 4, q[0] + q[1] / 2 + q[2] / 6, q[0] + 0.75 * q[1] + q[2] / 2 + q[3] / 4,
-                  q[0] + q[1] + q[2] + q[3] + q[4]});
-    return least > 0 && radius * crossBound <= least * std::sqrt(least);
+/// The two halves of a Bernstein polynomial's interval.
+template <std::size_t N>
+std::pair<std::array<double, N>, std::array<double, N>> halves(std::array<double, N> b) {
+    std::array<double, N> left{};
+    for (std::size_t n = N; n > 0; --n) {
+        left[N - n] = b[0];
+        for (std::size_t i = 0; i + 1 < n; ++i)
+            b[i] = (b[i] + b[i + 1]) / 2;
+    }
+    return {left, b};
 }
+
+/// Finds the tight stretches of a curve by halving until the bounds of κ decide. |κ|r > 1 is tested
+/// as |c|r > q^(3/2), with c = γ' × γ'' and q = |γ'|².
+class TightSearch {
+public:
+    TightSearch(double radius, double tolerance)
+        : radius_(radius), slack_(1 + tightShare * tolerance / radius) {}
+
+    std::vector<Span> run(const Cubic& c) {
+        visit(curvature(c), 0, 1, 0);
+        return std::move(spans_);
+    }
+
+private:
+    static double cube(double q) { return q > 0 ? q * std::sqrt(q) : 0; }
+
+    bool gentle(const Curvature& k) const {
+        const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
+        const double least = *std::min_element(k.speedSquared.begin(), k.speedSquared.end());
+        return std::max(-low, high) * radius_ <= cube(least) * slack_;
+    }
+    bool tight(const Curvature& k) const {
+        const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
+        const double most = *std::max_element(k.speedSquared.begin(), k.speedSquared.end());
+        return std::max(low, -high) * radius_ >= cube(most);
+    }
+
+    void visit(const Curvature& k, double t0, double t1, int depth) {
+        if (gentle(k))
+            return add({t0, t1, Bend::Gentle});
+        if (depth == maxSearchDepth || tight(k))
+            return add({t0, t1, k.cross[1] > 0 ? Bend::Left : Bend::Right});
+        const auto [crossLeft, crossRight] = halves(k.cross);
+        const auto [speedLeft, speedRight] = halves(k.speedSquared);
+        const double middle = (t0 + t1) / 2;
+        visit({crossLeft, speedLeft}, t0, middle, depth + 1);
+        visit({crossRight, speedRight}, middle, t1, depth + 1);
+    }
+
+    void add(Span next) {
+        if (!spans_.empty() && spans_.back().bend == next.bend)
+            spans_.back().t1 = next.t1;
+        else
+            spans_.push_back(next);
+    }
+
+    double radius_, slack_;
+    std::vector<Span> spans_;
+};
 
 std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
     std::vector<double> result(a.size() + b.size() - 1);
@@ -76,41 +129,14 @@ std::vector<double> product(const std::vector<double>& a, const std::vector<doub
 }
 
 /// κ = c / q^(3/2), so κ' vanishes with 2c'q - 3cq'.
-std::vector<double> curvatureExtremes(const Curvature& k) {
-    std::vector<double> slope = product(derivative(k.cross), k.speedSquared);
-    const std::vector<double> other = product(k.cross, derivative(k.speedSquared));
+std::vector<double> curvatureExtremes(const Cubic& curve) {
+    const Curvature k = curvature(curve);
+    const std::vector<double> c = powers(k.cross), q = powers(k.speedSquared);
+    std::vector<double> slope = product(derivative(c), q);
+    const std::vector<double> other = product(c, derivative(q));
     for (std::size_t i = 0; i < slope.size(); ++i)
         slope[i] = 2 * slope[i] - 3 * other[i];
     return rootsInside(slope);
-}
-
-/// Positive where the curve is tighter than the radius: |κ|r > 1 without the division.
-double tightness(const Curvature& k, double radius, double t) {
-    const double q = std::max(0.0, evaluate(k.speedSquared, t));
-    return radius * std::abs(evaluate(k.cross, t)) - q * std::sqrt(q);
-}
-
-/// In [t0, t1], where κ is monotone, the place where it passes 1 / radius.
-double passage(const Curvature& k, double radius, double t0, double t1) {
-    const bool tightStart = tightness(k, radius, t0) > 0;
-    for (int i = 0; i < 60; ++i) {
-        const double mid = (t0 + t1) / 2;
-        ((tightness(k, radius, mid) > 0) == tightStart ? t0 : t1) = mid;
-    }
-    return (t0 + t1) / 2;
-}
-
-std::vector<double> sortedStops(std::vector<double> stops) {
-    stops.push_back(0);
-    stops.push_back(1);
-    std::sort(stops.begin(), stops.end());
-    return stops;
-}
-
-Bend bendAt(const Curvature& k, double radius, double t) {
-    if (!(tightness(k, radius, t) > 0))
-        return Bend::Gentle;
-    return evaluate(k.cross, t) > 0 ? Bend::Left : Bend::Right;
 }
 
 /// Where the tangent points along a multiple of 45°: tight stretches between such places turn by no
@@ -125,42 +151,26 @@ std::vector<double> octantStops(const Cubic& c) {
     return stops;
 }
 
-void addSpan(std::vector<Span>& spans, Span next) {
-    const bool joins = !spans.empty() && spans.back().bend == Bend::Gentle && next.bend == Bend::Gentle;
-    if (joins)
-        spans.back().t1 = next.t1;
-    else
-        spans.push_back(next);
-}
-
 /// The curve in stretches that are gentle, or tight with monotone curvature and at most 45° of turn.
-std::vector<Span> classify(const Cubic& c, double radius) {
-    const Curvature k(c);
-    if (surelyGentle(k, radius))
-        return {{0, 1, Bend::Gentle}};
-    std::vector<double> stops = curvatureExtremes(k);
-    const std::vector<double> inflections = rootsInside(k.cross), octants = octantStops(c);
-    stops.insert(stops.end(), inflections.begin(), inflections.end());
-    stops = sortedStops(std::move(stops));
-    std::vector<double> all = stops;
-    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-        // At a cusp or an end without speed both terms vanish: look just inside.
-        const double inset = 1e-6 * (stops[i + 1] - stops[i]);
-        const double a = stops[i] + inset, b = stops[i + 1] - inset;
-        if ((tightness(k, radius, a) > 0) != (tightness(k, radius, b) > 0))
-            all.push_back(passage(k, radius, a, b));
+std::vector<Span> classify(const Cubic& c, const OffsetOptions& options) {
+    const std::vector<Span> spans = TightSearch(options.radius, options.tolerance).run(c);
+    if (spans.size() == 1 && spans.front().bend == Bend::Gentle)
+        return spans;
+    std::vector<double> stops = curvatureExtremes(c);
+    const std::vector<double> octants = octantStops(c);
+    stops.insert(stops.end(), octants.begin(), octants.end());
+    std::sort(stops.begin(), stops.end());
+    std::vector<Span> result;
+    for (Span span : spans) {
+        if (span.bend != Bend::Gentle)
+            for (const double t : stops)
+                if (t > span.t0 && t < span.t1) {
+                    result.push_back({span.t0, t, span.bend});
+                    span.t0 = t;
+                }
+        result.push_back(span);
     }
-    all.insert(all.end(), octants.begin(), octants.end());
-    std::sort(all.begin(), all.end());
-    std::vector<Span> spans;
-    double from = 0;
-    for (const double to : all) {
-        if (to - from <= shortestSpan && to < 1)
-            continue;
-        addSpan(spans, {from, to, bendAt(k, radius, (from + to) / 2)});
-        from = to;
-    }
-    return spans;
+    return result;
 }
 
 /// A stretch of a curve by a parameter u in [0, 1]: even in t where the curve is gentle, even in the
@@ -249,7 +259,7 @@ void appendFit(const OffsetCurve& curve, double u0, double u1, double tolerance,
 class Evolute {
 public:
     Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, double tolerance)
-        : curvature_(c), stretch_(stretch), radius_(signedRadius), tolerance_(tolerance) {}
+        : curvature_(curvature(c)), stretch_(stretch), radius_(signedRadius), tolerance_(tolerance) {}
 
     Point at(double u) const { return stretch_.point(u) + normal(u) * centreDistance(u); }
 
@@ -317,7 +327,7 @@ public:
         : curve_(curve), o_(options), ribbon_(ribbon) {}
 
     void run() {
-        for (const Span& span : classify(curve_, o_.radius)) {
+        for (const Span& span : classify(curve_, o_)) {
             if (span.bend != beyond_.bend)
                 beyond_.close(ribbon_.beyond);
             const Stretch stretch(curve_, span);

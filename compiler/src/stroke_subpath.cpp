@@ -22,24 +22,6 @@ constexpr double straightness = 1e-10;
 /// has its tip within 1e-18 of the extent.
 constexpr double cuspSpeed = 1e-9;
 
-double largestCoordinate(const scene::Path& path) {
-    double largest = 0;
-    const auto see = [&](Point p) { largest = std::max({largest, std::abs(p.x), std::abs(p.y)}); };
-    for (const scene::Command& command : path) {
-        if (const auto* move = std::get_if<scene::MoveTo>(&command))
-            see(move->to);
-        else if (const auto* line = std::get_if<scene::LineTo>(&command))
-            see(line->to);
-        else if (const auto* quad = std::get_if<scene::QuadTo>(&command))
-            see(quad->control), see(quad->to);
-        else if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
-            see(cubic->control1), see(cubic->control2), see(cubic->to);
-        else if (const auto* arc = std::get_if<scene::ArcTo>(&command))
-            see(arc->to);
-    }
-    return largest;
-}
-
 /// Straight and, as it has no cusp, without turning back.
 bool isStraight(const Cubic& c) {
     const Point chord = c.p3 - c.p0;
@@ -49,7 +31,7 @@ bool isStraight(const Cubic& c) {
 }
 
 std::vector<double> cusps(const Cubic& c) {
-    const std::vector<double> squared = Curvature(c).speedSquared;
+    const std::vector<double> squared = powers(curvature(c).speedSquared);
     const double least = cuspSpeed * extent(c);
     std::vector<double> result = rootsInside(derivative(squared));
     std::erase_if(result, [&](double t) { return glm::length(derivativeAt(c, t)) > least; });
@@ -97,11 +79,18 @@ private:
         if (extent(c) <= coincident_)
             return;
         double from = 0;
+        Cubic rest = c;
         for (const double t : cusps(c)) {
-            addSmooth(part(c, from, t), from > 0);
+            // Both controls at a cusp lie in it but for rounding, whose direction would be a tangent.
+            Cubic before = part(c, from, t);
+            before.p1 = rest.p1 == rest.p0 ? before.p0 : before.p1;
+            before.p2 = before.p3;
+            addSmooth(before, from > 0);
+            rest = part(c, t, 1);
+            rest.p1 = rest.p0;
             from = t;
         }
-        addSmooth(from > 0 ? part(c, from, 1) : c, from > 0);
+        addSmooth(rest, from > 0);
     }
 
     void addSmooth(const Cubic& c, bool afterCusp) {
@@ -117,6 +106,24 @@ private:
 };
 
 }  // namespace
+
+double largestCoordinate(const scene::Path& path) {
+    double largest = 0;
+    const auto see = [&](Point p) { largest = std::max({largest, std::abs(p.x), std::abs(p.y)}); };
+    for (const scene::Command& command : path) {
+        if (const auto* move = std::get_if<scene::MoveTo>(&command))
+            see(move->to);
+        else if (const auto* line = std::get_if<scene::LineTo>(&command))
+            see(line->to);
+        else if (const auto* quad = std::get_if<scene::QuadTo>(&command))
+            see(quad->control), see(quad->to);
+        else if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
+            see(cubic->control1), see(cubic->control2), see(cubic->to);
+        else if (const auto* arc = std::get_if<scene::ArcTo>(&command))
+            see(arc->to);
+    }
+    return largest;
+}
 
 std::vector<Subpath> subpaths(const scene::Path& path, double tolerance) {
     Builder builder(tolerance, coincidence * largestCoordinate(path));

@@ -25,6 +25,9 @@ struct Subpath {
     Point direction{1, 0};
 };
 
+/// Of the points, in magnitude.
+double largestCoordinate(const scene::Path& path);
+
 /// Arcs become cubics within `tolerance`; a lone MoveTo gives nothing (SVG 2 section 13.5.5).
 std::vector<Subpath> subpaths(const scene::Path& path, double tolerance);
 

@@ -1,6 +1,7 @@
 #include "compiler/stroke.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -16,79 +17,103 @@ namespace {
 using namespace scene;
 using std::numbers::pi;
 
-using Polygon = std::vector<Point>;
-
 double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
-/// Chords of any path of lines, quads and cubics, with a fixed and high number of steps a curve.
-class Flattener {
-public:
-    explicit Flattener(int steps) : steps_(steps) {}
-    void operator()(const MoveTo& c) { polygons.push_back({c.to}); }
-    void operator()(const LineTo& c) { polygons.back().push_back(c.to); }
-    void operator()(const QuadTo& c) {
-        const Point a = polygons.back().back();
-        (*this)(CubicTo{a + (c.control - a) * (2.0 / 3), c.to + (c.control - c.to) * (2.0 / 3), c.to});
-    }
-    void operator()(const CubicTo& c) {
-        const Point a = polygons.back().back();
-        for (int i = 1; i <= steps_; ++i) {
-            const double t = double(i) / steps_, s = 1 - t;
-            polygons.back().push_back(a * (s * s * s) + c.control1 * (3 * s * s * t) +
-                                      c.control2 * (3 * s * t * t) + c.to * (t * t * t));
-        }
-    }
-    void operator()(const ArcTo&) { FAIL() << "an arc in an outline"; }
-    void operator()(const Close&) { polygons.back().push_back(polygons.back().front()); }
-    std::vector<Polygon> polygons;
+using Curve = std::array<Point, 4>;
 
-private:
-    int steps_;
-};
-
-std::vector<Polygon> flatten(const Path& path, int steps) {
-    Flattener flattener(steps);
-    for (const Command& c : path)
-        std::visit(flattener, c);
-    return flattener.polygons;
+Point at(const Curve& c, double t) {
+    const double s = 1 - t;
+    return c[0] * (s * s * s) + c[1] * (3 * s * s * t) + c[2] * (3 * s * t * t) + c[3] * (t * t * t);
 }
 
-int winding(const std::vector<Polygon>& polygons, Point p) {
+/// A path of lines, quads and cubics as cubics.
+class Curves {
+public:
+    void operator()(const MoveTo& c) { start_ = at_ = c.to; }
+    void operator()(const LineTo& c) { add(at_ + (c.to - at_) / 3.0, c.to + (at_ - c.to) / 3.0, c.to); }
+    void operator()(const QuadTo& c) {
+        add(at_ + (c.control - at_) * (2.0 / 3), c.to + (c.control - c.to) * (2.0 / 3), c.to);
+    }
+    void operator()(const CubicTo& c) { add(c.control1, c.control2, c.to); }
+    void operator()(const ArcTo&) { FAIL() << "an arc where none may be"; }
+    void operator()(const Close&) { (*this)(LineTo{start_}); }
+    std::vector<Curve> list;
+
+private:
+    void add(Point a, Point b, Point to) {
+        list.push_back({at_, a, b, to});
+        at_ = to;
+    }
+    Point start_{0, 0}, at_{0, 0};
+};
+
+std::vector<Curve> curves(const Path& path) {
+    Curves result;
+    for (const Command& c : path)
+        std::visit(result, c);
+    return result.list;
+}
+
+/// Signed crossings with the ray from `p` towards +x.
+int crossings(const Curve& c, Point p, int depth = 50) {
+    const auto [low, high] = std::minmax({c[0].y, c[1].y, c[2].y, c[3].y});
+    const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x, c[3].x});
+    if (high <= p.y || low > p.y || right <= p.x)
+        return 0;
+    if (left > p.x || depth == 0)
+        return (c[3].y > p.y) - (c[0].y > p.y);
+    const Point a = (c[0] + c[1]) / 2.0, b = (c[1] + c[2]) / 2.0, d = (c[2] + c[3]) / 2.0;
+    const Point e = (a + b) / 2.0, f = (b + d) / 2.0, m = (e + f) / 2.0;
+    return crossings({c[0], a, e, m}, p, depth - 1) + crossings({m, f, d, c[3]}, p, depth - 1);
+}
+
+int winding(const std::vector<Curve>& outline, Point p) {
     int result = 0;
-    for (const Polygon& polygon : polygons)
-        for (std::size_t i = 0; i + 1 < polygon.size(); ++i) {
-            const Point a = polygon[i], b = polygon[i + 1];
-            if ((a.y <= p.y) == (b.y <= p.y))
-                continue;
-            const double side = cross(b - a, p - a);
-            if (b.y > a.y && side > 0)
-                ++result;
-            else if (b.y <= a.y && side < 0)
-                --result;
-        }
+    for (const Curve& c : outline)
+        result += crossings(c, p);
     return result;
 }
 
-double distanceToChord(Point a, Point b, Point p) {
-    const double square = glm::dot(b - a, b - a);
-    const double t = square > 0 ? std::clamp(glm::dot(p - a, b - a) / square, 0.0, 1.0) : 0;
-    return glm::distance(p, a + (b - a) * t);
-}
-
-double distanceTo(const std::vector<Polygon>& polygons, Point p) {
-    double best = std::numeric_limits<double>::infinity();
-    for (const Polygon& polygon : polygons)
-        for (std::size_t i = 0; i + 1 < polygon.size(); ++i)
-            best = std::min(best, distanceToChord(polygon[i], polygon[i + 1], p));
+/// Ternary search round each local minimum of the samples.
+double distanceTo(const Curve& c, Point p) {
+    constexpr int steps = 100;
+    const auto distance = [&](double t) { return glm::distance(at(c, t), p); };
+    std::array<double, steps + 1> coarse{};
+    for (int i = 0; i <= steps; ++i)
+        coarse[std::size_t(i)] = distance(double(i) / steps);
+    double best = std::min(coarse.front(), coarse.back());
+    for (int i = 0; i <= steps; ++i) {
+        const int before = std::max(i - 1, 0), after = std::min(i + 1, steps);
+        if (coarse[std::size_t(i)] > std::min(coarse[std::size_t(before)], coarse[std::size_t(after)]))
+            continue;
+        double low = double(before) / steps, high = double(after) / steps;
+        for (int k = 0; k < 60; ++k) {
+            const double third = (high - low) / 3;
+            if (distance(low + third) < distance(high - third))
+                high -= third;
+            else
+                low += third;
+        }
+        best = std::min(best, distance((low + high) / 2));
+    }
     return best;
 }
 
-/// Green's theorem; overlaps count twice.
+double distanceTo(const std::vector<Curve>& spine, Point p) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Curve& c : spine)
+        best = std::min(best, distanceTo(c, p));
+    return best;
+}
+
+/// Green's theorem, exact for cubics; overlaps count twice.
 double area(const Path& path) {
     double sum = 0;
-    for (const Polygon& polygon : flatten(path, 2000))
-        for (std::size_t i = 0; i + 1 < polygon.size(); ++i)
-            sum += cross(polygon[i], polygon[i + 1]) / 2;
+    for (const Curve& c : curves(path))
+        sum += 3.0 / 20 *
+                   (cross(c[0], c[1]) * 2 + cross(c[0], c[2]) + cross(c[1], c[2]) + cross(c[1], c[3]) +
+                    2 * cross(c[2], c[3])) +
+               cross(c[0], c[3]) / 20;
     return sum;
 }
 
@@ -110,7 +135,7 @@ StrokeStyle style(double width, Cap cap = Cap::Butt, Join join = Join::Miter) {
     return s;
 }
 
-bool inside(const Path& outline, Point p) { return winding(flatten(outline, 200), p) != 0; }
+bool inside(const Path& outline, Point p) { return winding(curves(outline), p) != 0; }
 
 Path polyline(std::initializer_list<Point> points, bool closed = false) {
     Path path{MoveTo{*points.begin()}};
@@ -133,19 +158,18 @@ Path circle(Point center, double radius) {
 /// path says, unless they are within the tolerance of the boundary.
 void expectNeighbourhood(const Path& path, double width, double tolerance, unsigned seed, int samples = 300) {
     const Path outline = strokeOutline(path, style(width, Cap::Round, Join::Round), tolerance);
-    const auto spine = flatten(path, 3000), border = flatten(outline, 64);
+    const auto spine = curves(path), border = curves(outline);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0, 1), angle(0, 2 * pi);
-    const double flattening = 1e-6 * (width + 100);
+    const double rounding = 1e-9 * (width + 100);
     for (int i = 0; i < samples; ++i) {
-        const Polygon& polygon = spine[std::size_t(share(random) * double(spine.size()))];
-        const Point on = polygon[std::size_t(share(random) * double(polygon.size()))];
+        const Point on = at(spine[std::size_t(share(random) * double(spine.size()))], share(random));
         const double reach =
             i % 2 ? share(random) * width : width / 2 + (share(random) - 0.5) * 20 * tolerance;
         const double a = angle(random);
         const Point p = on + Point{std::cos(a), std::sin(a)} * reach;
         const double d = distanceTo(spine, p);
-        if (std::abs(d - width / 2) <= tolerance + flattening)
+        if (std::abs(d - width / 2) <= tolerance + rounding)
             continue;
         const int w = winding(border, p);
         ASSERT_GE(w, 0) << "seed " << seed << " width " << width << " at " << p.x << "," << p.y;

@@ -1,0 +1,239 @@
+#include "compiler/compile.hpp"
+
+#include <bit>
+
+#include <gtest/gtest.h>
+
+#include "asset/container.hpp"
+#include "asset/evaluate.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using scene::Color;
+using scene::Group;
+using scene::Item;
+using scene::Node;
+using scene::Path;
+using scene::Point;
+
+constexpr Color red{1, 0, 0, 1}, green{0, 1, 0, 1}, blue{0, 0, 1, 1}, white{1, 1, 1, 1}, black{0, 0, 0, 1};
+
+Item rect(Point min, Point max, scene::Paint paint) {
+    Item item;
+    item.path = std::make_shared<Path>(scene::rectangle(min, max));
+    item.geometry = scene::FillRule::NonZero;
+    item.paint = std::move(paint);
+    return item;
+}
+
+Group group(std::vector<Item> items) {
+    Group g;
+    for (Item& item : items)
+        g.children.push_back({std::move(item)});
+    return g;
+}
+
+scene::Scene picture(Group root, double width = 64, double height = 64) { return {width, height, std::move(root)}; }
+
+/// The pixel at (x, y) of the picture drawn one unit a pixel.
+std::array<float, 4> pixel(const scene::Scene& scene, int x, int y, asset::Mode mode = asset::Mode::Exact) {
+    Options options;
+    options.mode = mode;
+    const asset::Asset asset = compile(scene, options).asset;
+    asset::validate(asset);
+    asset::View view{static_cast<int>(scene.width), static_cast<int>(scene.height)};
+    const image::Raster raster = asset::evaluate(asset, view);
+    std::array<float, 4> p;
+    std::copy_n(raster.pixel(x, y), 4, p.begin());
+    return p;
+}
+
+void expectNear(const std::array<float, 4>& a, const std::array<float, 4>& b, float by = 1e-3f) {
+    for (std::size_t c = 0; c < 4; ++c)
+        EXPECT_NEAR(a[c], b[c], by) << "channel " << c;
+}
+
+class BothModes : public testing::TestWithParam<asset::Mode> {};
+INSTANTIATE_TEST_SUITE_P(Modes, BothModes, testing::Values(asset::Mode::Exact, asset::Mode::Compat),
+                         [](const auto& mode) { return mode.param == asset::Mode::Exact ? "exact" : "compat"; });
+
+TEST_P(BothModes, laterItemsLieOnTop) {
+    const auto s = picture(group({rect({0, 0}, {64, 64}, red), rect({10, 10}, {50, 50}, blue)}));
+    expectNear(pixel(s, 5, 5, GetParam()), {1, 0, 0, 1});
+    expectNear(pixel(s, 30, 30, GetParam()), {0, 0, 1, 1});
+}
+
+TEST_P(BothModes, translucentLayersComposite) {
+    const auto s = picture(group({rect({0, 0}, {64, 64}, red), rect({0, 0}, {64, 64}, Color{0, 0, 1, 0.25f})}));
+    expectNear(pixel(s, 20, 20, GetParam()), {0.75f, 0, 0.25f, 1});
+}
+
+TEST_P(BothModes, aGroupsOpacityCountsOnce) {
+    Group g = group({rect({0, 0}, {40, 64}, green), rect({10, 0}, {64, 64}, green)});
+    g.opacity = 0.5f;
+    Group root = group({rect({0, 0}, {64, 64}, red)});
+    root.children.push_back({g});
+    const auto s = picture(root);
+    expectNear(pixel(s, 20, 20, GetParam()), {0.5f, 0.5f, 0, 1});
+    expectNear(pixel(s, 5, 20, GetParam()), {0.5f, 0.5f, 0, 1});
+}
+
+TEST_P(BothModes, clipsCut) {
+    Group g = group({rect({0, 0}, {64, 64}, green)});
+    auto clip = std::make_shared<scene::Clip>();
+    clip->shapes.push_back({std::make_shared<Path>(scene::rectangle({10, 10}, {30, 30})), scene::identity, scene::FillRule::NonZero, nullptr});
+    clip->shapes.push_back({std::make_shared<Path>(scene::rectangle({40, 10}, {50, 30})), scene::identity, scene::FillRule::NonZero, nullptr});
+    g.clip = clip;
+    Group root;
+    root.children.push_back({g});
+    const auto s = picture(root);
+    expectNear(pixel(s, 20, 20, GetParam()), {0, 1, 0, 1});
+    expectNear(pixel(s, 45, 20, GetParam()), {0, 1, 0, 1});
+    expectNear(pixel(s, 35, 20, GetParam()), {0, 0, 0, 0});
+}
+
+TEST_P(BothModes, anEmptyClipCutsAll) {
+    Group g = group({rect({0, 0}, {64, 64}, green)});
+    g.clip = std::make_shared<scene::Clip>();
+    Group root;
+    root.children.push_back({g});
+    expectNear(pixel(picture(root), 20, 20, GetParam()), {0, 0, 0, 0});
+}
+
+TEST_P(BothModes, masksMultiply) {
+    Group g = group({rect({0, 0}, {64, 64}, green)});
+    auto mask = std::make_shared<scene::Mask>();
+    mask->content = std::make_shared<Group>(group({rect({0, 0}, {32, 64}, Color{1, 1, 1, 0.5f}), rect({0, 0}, {16, 64}, black)}));
+    g.mask = mask;
+    Group root;
+    root.children.push_back({g});
+    const auto s = picture(root);
+    expectNear(pixel(s, 24, 20, GetParam()), {0, 0.5f, 0, 0.5f});
+    expectNear(pixel(s, 8, 20, GetParam()), {0, 0, 0, 0});
+    expectNear(pixel(s, 50, 20, GetParam()), {0, 0, 0, 0});
+}
+
+TEST_P(BothModes, aMaskWithoutContentHidesAll) {
+    Group g = group({rect({0, 0}, {64, 64}, green)});
+    auto mask = std::make_shared<scene::Mask>();
+    mask->content = std::make_shared<Group>();
+    g.mask = mask;
+    Group root;
+    root.children.push_back({g});
+    expectNear(pixel(picture(root), 20, 20, GetParam()), {0, 0, 0, 0});
+}
+
+TEST_P(BothModes, theRootMayBeMaskedToo) {
+    Group root = group({rect({0, 0}, {64, 64}, green)});
+    auto mask = std::make_shared<scene::Mask>();
+    mask->kind = scene::MaskKind::Alpha;
+    mask->content = std::make_shared<Group>(group({rect({0, 0}, {32, 64}, Color{0, 0, 0, 0.5f})}));
+    root.mask = mask;
+    const auto s = picture(root);
+    expectNear(pixel(s, 20, 20, GetParam()), {0, 0.5f, 0, 0.5f});
+    expectNear(pixel(s, 40, 20, GetParam()), {0, 0, 0, 0});
+}
+
+TEST_P(BothModes, blendModesSeeWhatLiesBelow) {
+    Group g = group({rect({0, 0}, {64, 64}, Color{0.5f, 1, 0.5f, 1})});
+    g.blend = scene::BlendMode::Multiply;
+    Group root = group({rect({0, 0}, {64, 64}, Color{1, 0.5f, 0.5f, 1})});
+    root.children.push_back({g});
+    expectNear(pixel(picture(root), 20, 20, GetParam()), {0.5f, 0.5f, 0.25f, 1});
+}
+
+TEST_P(BothModes, gradientsAreEvaluatedWherePixelsAre) {
+    scene::LinearGradient g{{0, 0}, {64, 0}, {{0, black}, {1, white}}};
+    const auto s = picture(group({rect({0, 0}, {64, 64}, g)}));
+    expectNear(pixel(s, 31, 20, GetParam()), {31.5f / 64, 31.5f / 64, 31.5f / 64, 1}, 2e-3f);
+}
+
+TEST_P(BothModes, patternsRepeat) {
+    scene::Pattern pattern{{0, 0}, {16, 16}, std::make_shared<Group>(group({rect({0, 0}, {8, 30}, red)}))};
+    const auto s = picture(group({rect({4, 4}, {60, 60}, pattern)}));
+    expectNear(pixel(s, 20, 40, GetParam()), {1, 0, 0, 1});
+    expectNear(pixel(s, 28, 40, GetParam()), {0, 0, 0, 0});
+    expectNear(pixel(s, 2, 2, GetParam()), {0, 0, 0, 0});
+}
+
+TEST_P(BothModes, picturesThatAreNotSquareAreCutAtTheirBorder) {
+    const auto s = picture(group({rect({-100, -100}, {200, 200}, red)}), 64, 20);
+    Options options;
+    options.mode = GetParam();
+    const asset::Asset asset = compile(s, options).asset;
+    const image::Raster raster = asset::evaluate(asset, {64, 64});
+    EXPECT_NEAR(raster.pixel(30, 10)[3], 1, 1e-4);
+    EXPECT_NEAR(raster.pixel(30, 30)[3], 0, 1e-4);
+}
+
+TEST(Compile, aPlainGroundIsOneSolid) {
+    const auto result = compile(picture(group({rect({0, 0}, {64, 64}, red)})));
+    const asset::Summary summary = asset::summarize(result.asset);
+    EXPECT_EQ(summary.leaves, 0u);
+    EXPECT_EQ(summary.maxDepth, 0u);
+}
+
+TEST(Compile, aRectangleOnCellBordersLeavesNoPieces) {
+    const auto result = compile(picture(group({rect({0, 0}, {64, 64}, red), rect({16, 16}, {48, 32}, blue)})));
+    EXPECT_EQ(asset::summarize(result.asset).pieces, 0u);
+    EXPECT_EQ(asset::summarize(result.asset).solids, 16u);
+}
+
+TEST(Compile, whatLiesUnderAnOpaqueCoverCostsNothing) {
+    Group hidden = group({rect({3, 5}, {40, 41}, red), rect({7, 9}, {60, 33}, blue), rect({0, 0}, {64, 64}, green)});
+    EXPECT_EQ(asset::summarize(compile(picture(hidden)).asset).leaves, 0u);
+}
+
+TEST(Compile, abuttingShapesOfOneColourLeaveNoBoundary) {
+    const auto triangle = [](Point a, Point b, Point c) {
+        Item item;
+        item.path = std::make_shared<Path>(Path{scene::MoveTo{a}, scene::LineTo{b}, scene::LineTo{c}, scene::Close{}});
+        item.geometry = scene::FillRule::NonZero;
+        item.paint = red;
+        return item;
+    };
+    const auto s = picture(group({triangle({-5, -5}, {70, -5}, {70, 70}), triangle({-5, -5}, {70, 70}, {-5, 70})}));
+    EXPECT_EQ(asset::summarize(compile(s).asset).pieces, 0u);
+}
+
+TEST(Compile, noLeafNeedsItsFallbackInATangle) {
+    Group root;
+    unsigned state = 1;
+    const auto random = [&] { return static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24) * 80 - 8; };
+    for (int i = 0; i < 30; ++i) {
+        Item item;
+        Path path{scene::MoveTo{{random(), random()}}};
+        for (int k = 0; k < 4; ++k)
+            path.push_back(scene::CubicTo{{random(), random()}, {random(), random()}, {random(), random()}});
+        item.path = std::make_shared<Path>(path);
+        item.geometry = i % 2 ? scene::FillRule::EvenOdd : scene::FillRule::NonZero;
+        item.paint = Color{0.1f * static_cast<float>(i % 7), 0.5f, 0.2f, 1};
+        root.children.push_back({item});
+    }
+    const asset::Asset asset = compile(picture(root)).asset;
+    EXPECT_EQ(asset.fallbackLeaves, 0u);
+    EXPECT_NO_THROW(asset::validate(asset));
+}
+
+TEST(Compile, optionsOutOfRangeAreRefused) {
+    const auto s = picture(group({}));
+    EXPECT_THROW(compile(s, {.tolerance = 0}), std::invalid_argument);
+    EXPECT_THROW(compile(s, {.piecesPerLeaf = 0}), std::invalid_argument);
+    EXPECT_THROW(compile(s, {.maxDepth = 11}), std::invalid_argument);
+}
+
+TEST(Compile, tooManyTilesAreALimitError) {
+    scene::Pattern pattern{{0, 0}, {0.01, 0.01}, std::make_shared<Group>(group({rect({0, 0}, {8, 30}, red)}))};
+    EXPECT_THROW(compile(picture(group({rect({0, 0}, {64, 64}, pattern)}))), LimitError);
+}
+
+TEST(Compile, namesItsStages) {
+    std::vector<std::string> names;
+    for (const StageTime& s : compile(picture(group({}))).stages)
+        names.push_back(s.stage);
+    EXPECT_EQ(names, (std::vector<std::string>{"lower", "push", "planarise", "fit", "encode"}));
+}
+
+}  // namespace
+}  // namespace vtm::compiler
