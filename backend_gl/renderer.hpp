@@ -25,10 +25,11 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// The programs, compiled once. Needs a current context for its whole life.
+/// The programs, each compiled once, when first needed; GlError with the driver's log where one does
+/// not compile. Needs a current context for its whole life.
 class Renderer {
 public:
-    Renderer();  ///< Throws GlError with the driver's log.
+    Renderer();
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

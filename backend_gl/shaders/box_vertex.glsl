@@ -1,5 +1,5 @@
 // One box of pixels an instance, for composition.
-// Exports, flat: what composite_fragment.glsl needs to know about it.
+// Exports, flat: maskOffset, boxPaint.
 
 layout(location = 0) in ivec4 box;     // pixels [x, z) × [y, w) of the target
 layout(location = 1) in ivec4 source;  // xy: from the target's pixel to the mask's; z: paint

@@ -79,23 +79,9 @@ vec2 rangeInBox(Curve c) {
     return clamp(vec2(s - halfS, s + halfS), 0.0, 1.0);
 }
 
-float curveSum(Curve c) {
-    vec2 range = rangeInBox(c);
-    if (!(range.x < range.y))
-        return seg(c.a, c.b);
-    vec2 last = c.a;
-    float sum = 0.0;
-    for (int i = 0; i <= chordCount + 1; ++i) {
-        float s = mix(range.x, range.y, float(i) / float(chordCount));
-        vec2 next = i <= chordCount ? curveAt(c, s) : c.b;
-        sum += seg(last, next);
-        last = next;
-    }
-    return sum;
-}
-
 // Side of the leaf on which an end point lies, decided on the stored integers; -1: inside.
-int sideOf(uvec2 p) {
+int sideOf(uint point) {
+    uvec2 p = uvec2(low(point), high(point));
     if (p.y == 0u && p.x < leafExtent)
         return 0;
     if (p.x == leafExtent && p.y < leafExtent)
@@ -105,13 +91,23 @@ int sideOf(uvec2 p) {
     return p.x == 0u && p.y > 0u ? 3 : -1;
 }
 
-float alongSide(Frame frame, uint point, vec2 from) {
-    int side = sideOf(uvec2(low(point), high(point)));
-    return side < 0 ? 0.0 : seg(from, cornerOf(frame, (side + 1) & 3));
-}
-
-// What a piece adds to the loop of the region on its left.
+// What a piece adds to the loop of the region on its left: the sum along corner - A - curve - B -
+// corner, where the corners end the sides on which A and B lie. Outside the box one chord stands for
+// the curve. One loop of as many steps as needed: some drivers run both sides of every branch.
 float pieceSum(Frame frame, uvec4 piece) {
     Curve c = curveOf(frame, piece);
-    return curveSum(c) + alongSide(frame, piece.y, c.b) - alongSide(frame, piece.x, c.a);
+    vec2 range = rangeInBox(c);
+    int sideA = sideOf(piece.x), sideB = sideOf(piece.y);
+    int inner = range.x < range.y ? chordCount + 1 : 0;  // points between A and B
+    int end = inner + (sideB < 0 ? 1 : 2);
+    vec2 last = sideA < 0 ? c.a : cornerOf(frame, (sideA + 1) & 3);
+    vec2 cornerB = cornerOf(frame, (sideB + 1) & 3);
+    float sum = 0.0;
+    for (int i = sideA < 0 ? 1 : 0; i <= end; ++i) {
+        vec2 next = curveAt(c, mix(range.x, range.y, float(i - 1) / float(chordCount)));
+        next = i == 0 ? c.a : i <= inner ? next : i == inner + 1 ? c.b : cornerB;
+        sum += seg(last, next);
+        last = next;
+    }
+    return sum;
 }

@@ -1,14 +1,32 @@
 // The stack machine of paint programs.
-// Requires: fetch.glsl, gradient.glsl, image.glsl, blend.glsl; constants op*, maxStack.
+// Requires: fetch.glsl, gradient.glsl, image.glsl, blend.glsl; constants op*, maxStack; LINEAR, RADIAL,
+// IMAGE, GROUPS, MIXING defined as 1 or 0: what the asset's programs contain. Some drivers run both
+// sides of every branch, so what cannot occur is left out.
 // Twin of: asset/src/paint.cpp.
 // Exports: paintColor.
 
 vec4 layerColor(uint op, uint argument, vec2 point) {
-    if (op == opSolid)
-        return uintBitsToFloat(texelAt(argument));
+#if LINEAR || RADIAL
+    if (LINEAR == 1 && op == opLinear || RADIAL == 1 && op == opRadial)
+        return gradientColor(RADIAL == 1 && op == opRadial, argument, point);
+#endif
+#if IMAGE
     if (op == opImage)
         return imageColor(argument, point);
-    return gradientColor(op == opRadial, argument, point);
+#endif
+    return uintBitsToFloat(texelAt(argument));
+}
+
+#if GROUPS
+
+vec4 popped(uvec4 instruction, vec4 source, vec4 backdrop) {
+#if MIXING
+    if (instruction.x != opPop)
+        return backdrop * maskFactor(instruction.x, source);
+    return blend(instruction.y, source * uintBitsToFloat(instruction.z), backdrop);
+#else
+    return over(source * uintBitsToFloat(instruction.z), backdrop);
+#endif
 }
 
 vec4 runProgram(uint first, uint count, vec2 point) {
@@ -17,25 +35,39 @@ vec4 runProgram(uint first, uint count, vec2 point) {
     stack[0] = vec4(0.0);
     for (uint i = first; i < first + count; ++i) {
         uvec4 instruction = texelAt(sections.w + i);
-        float opacity = uintBitsToFloat(instruction.z);
         if (instruction.x == opPush) {
             stack[++top] = vec4(0.0);
-        } else if (instruction.x >= opSolid) {
-            vec4 source = layerColor(instruction.x, sections.w + instruction.w, point) * opacity;
-            stack[top] = over(source, stack[top]);
+        } else if (instruction.x < opSolid) {
+            --top;
+            stack[top] = popped(instruction, stack[top + 1], stack[top]);
         } else {
-            vec4 source = stack[top--];
-            if (instruction.x == opPop)
-                stack[top] = blend(instruction.y, source * opacity, stack[top]);
-            else
-                stack[top] *= maskFactor(instruction.x, source);
+            vec4 source = layerColor(instruction.x, sections.w + instruction.w, point);
+            stack[top] = over(source * uintBitsToFloat(instruction.z), stack[top]);
         }
     }
     return stack[top];
 }
 
+#else
+
+vec4 runProgram(uint first, uint count, vec2 point) {
+    vec4 sum = vec4(0.0);
+    for (uint i = first; i < first + count; ++i) {
+        uvec4 instruction = texelAt(sections.w + i);
+        vec4 source = layerColor(instruction.x, sections.w + instruction.w, point);
+        sum = over(source * uintBitsToFloat(instruction.z), sum);
+    }
+    return sum;
+}
+
+#endif
+
 // Premultiplied colour of a paint at a picture point.
 vec4 paintColor(uint paint, vec2 point) {
     uvec4 texel = paintAt(paint);
+#if LINEAR || RADIAL || IMAGE || GROUPS
     return isProgram(texel) ? runProgram(texel.x, texel.y, point) : uintBitsToFloat(texel);
+#else
+    return uintBitsToFloat(texel);
+#endif
 }

@@ -54,9 +54,8 @@ std::string blendModes() {
 }
 
 std::string actions() {
-    return constant("actionFill", Action::Fill) + constant("actionClip", Action::Clip) +
-           constant("actionMask", Action::Mask) + constant("actionOver", Action::Over) +
-           constant("actionBlend", Action::Blend);
+    return constant("actionClip", Action::Clip) + constant("actionMask", Action::Mask) +
+           constant("actionOver", Action::Over);
 }
 
 }  // namespace

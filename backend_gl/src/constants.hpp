@@ -12,13 +12,11 @@ inline constexpr unsigned texelColumnsLog2 = 12, imageColumnsLog2 = 12;
 /// Texels a row of the placements' texture: four a map.
 inline constexpr unsigned placementColumns = 1024;
 
-/// What the composite program does to its target.
+/// What layer_fragment.glsl does to its target.
 enum class Action : unsigned {
-    Fill,  ///< paint · coverage, blended over
     Clip,  ///< target · coverage
     Mask,  ///< target · what the popped picture leaves as a mask
-    Over,  ///< popped picture · opacity, blended over
-    Blend  ///< the same with a blend mode that reads the backdrop
+    Over   ///< popped picture · opacity, blended over
 };
 
 /// Declarations that follow prelude.glsl in every shader, made from asset.hpp's and these.

@@ -75,7 +75,7 @@ Target Painter::paint() {
         glDisable(state);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
-    setUniforms();
+    bindAsset();
     stack_.push_back(workshop_.pool.take());
     for (const Command& command : asset_.commands)
         execute(command);
@@ -87,26 +87,10 @@ Target Painter::paint() {
     return picture;
 }
 
-/// What holds for the whole view.
-void Painter::setUniforms() {
+void Painter::bindAsset() {
     bindTexture(Unit::Texels, asset_.texels);
     bindTexture(Unit::Images, asset_.images);
     bindTexture(Unit::Placements, asset_.placementTexels);
-    const Sections& s = asset_.sections;
-    for (const Program* program : workshop_.programs.all()) {
-        program->use();
-        glUniform2f(program->uniform("targetSize"), float(view_.width), float(view_.height));
-        glUniform4ui(program->uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
-        glUniform1ui(program->uniform("imageSection"), s.images);
-    }
-    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view_.toPixels[0], view_.toPixels[1]));
-    const glm::dvec2 pixel = glm::dvec2(view_.width, view_.height) * 0.5;
-    const glm::dvec2 picture = inverse * (pixel - view_.toPixels[2]);
-    const Program& composite = workshop_.programs.composite;
-    glUniform4f(composite.uniform("pixelToPicture"), float(inverse[0].x), float(inverse[0].y),
-                float(inverse[1].x), float(inverse[1].y));
-    glUniform4f(composite.uniform("pictureAnchor"), float(picture.x), float(picture.y), float(pixel.x),
-                float(pixel.y));
 }
 
 void Painter::execute(const Command& command) {
@@ -147,8 +131,8 @@ void Painter::drawInstances(const std::vector<std::uint32_t>& drawn, bool covera
         const std::vector<Range> runs = runsOf(asset_.list, drawn, cost);
         if (runs.empty())
             continue;
-        const Program& program = workshop_.programs.of(CostClass(cost));
-        program.use();
+        const Program& program = workshop_.programs.leaf(CostClass(cost), asset_.features);
+        use(program);
         glUniform1i(program.uniform("paintsAreCoverage"), coverage);
         for (const Range& run : runs) {
             pointAttribute(0, GL_UNSIGNED_INT, sizeof(Instance), run.first * sizeof(Instance));
@@ -185,7 +169,7 @@ void Painter::flushFills() {
         stack_.back().touch(fill.box);
         isPending_[fill.drawn] = false;
     }
-    useComposite(Action::Fill, coverage_);
+    useFill();
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     drawBoxes(boxes);
     pending_.clear();
@@ -225,7 +209,7 @@ void Painter::clip(std::uint32_t drawn) {
     drawCoverage();
     pending_.clear();
     shelves_.clear();
-    const Program& program = useComposite(Action::Clip, coverage_);
+    const Program& program = useLayer(Action::Clip, coverage_);
     glUniform4i(program.uniform("maskBox"), box.min.x, box.min.y, box.max.x, box.max.y);
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
     drawBoxes({boxOf(stack_.back().touched, place - box.min)});
@@ -246,14 +230,14 @@ void Painter::pop(const Command& command) {
 }
 
 void Painter::popMask(const Command& command, const Target& popped) {
-    const Program& program = useComposite(Action::Mask, popped);
+    const Program& program = useLayer(Action::Mask, popped);
     glUniform1ui(program.uniform("maskOp"), maskOp(command.kind));
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
     drawBoxes({boxOf(stack_.back().touched)});
 }
 
 void Painter::popOver(const Command& command, const Target& popped) {
-    const Program& program = useComposite(Action::Over, popped);
+    const Program& program = useLayer(Action::Over, popped);
     glUniform1f(program.uniform("opacity"), command.opacity);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     drawBoxes({boxOf(popped.touched)});
@@ -271,8 +255,11 @@ void Painter::popBlend(const Command& command, const Target& popped) {
     glBlitFramebuffer(box.min.x, box.min.y, box.max.x, box.max.y, box.min.x, box.min.y, box.max.x, box.max.y,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     backdrop.touch(box);
-    const Program& program = useComposite(Action::Blend, popped);
+    const Program& program = workshop_.programs.blend();
+    use(program);
+    bindTexture(Unit::Layer, popped.texture);
     bindTexture(Unit::Backdrop, backdrop.texture);
+    stack_.back().bind();
     glUniform1f(program.uniform("opacity"), command.opacity);
     glUniform1ui(program.uniform("blendMode"), GLuint(command.blend));
     glDisable(GL_BLEND);
@@ -284,9 +271,34 @@ void Painter::popBlend(const Command& command, const Target& popped) {
 
 // ---- Composition ----------------------------------------------------------------------------------
 
-const Program& Painter::useComposite(Action action, const Target& layer) {
-    const Program& program = workshop_.programs.composite;
+/// With what every program may ask for.
+void Painter::use(const Program& program) const {
+    const Sections& s = asset_.sections;
     program.use();
+    glUniform2f(program.uniform("targetSize"), float(view_.width), float(view_.height));
+    glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
+    glUniform1ui(program.uniform("imageSection"), s.images);
+}
+
+void Painter::useFill() {
+    const bool programs =
+        std::ranges::any_of(pending_, [&](const PendingFill& fill) { return asset_.isProgram[fill.paint]; });
+    const Program& program = workshop_.programs.fill(programs ? asset_.features : Features());
+    use(program);
+    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view_.toPixels[0], view_.toPixels[1]));
+    const glm::dvec2 pixel = glm::dvec2(view_.width, view_.height) * 0.5;
+    const glm::dvec2 picture = inverse * (pixel - view_.toPixels[2]);
+    glUniform4f(program.uniform("pixelToPicture"), float(inverse[0].x), float(inverse[0].y),
+                float(inverse[1].x), float(inverse[1].y));
+    glUniform4f(program.uniform("pictureAnchor"), float(picture.x), float(picture.y), float(pixel.x),
+                float(pixel.y));
+    bindTexture(Unit::Layer, coverage_.texture);
+    stack_.back().bind();
+}
+
+const Program& Painter::useLayer(Action action, const Target& layer) {
+    const Program& program = workshop_.programs.layer();
+    use(program);
     glUniform1ui(program.uniform("action"), GLuint(action));
     bindTexture(Unit::Layer, layer.texture);
     stack_.back().bind();

@@ -46,7 +46,7 @@ private:
         GLint paint, unused;
     };
 
-    void setUniforms();
+    void bindAsset();
     void execute(const asset::Command& command);
     void drawMap(std::uint32_t drawn);
     void fill(const asset::Command& command);
@@ -59,7 +59,9 @@ private:
     void popBlend(const asset::Command& command, const Target& popped);
 
     void drawInstances(const std::vector<std::uint32_t>& drawn, bool coverage);
-    const Program& useComposite(Action action, const Target& layer);
+    void use(const Program& program) const;
+    void useFill();
+    const Program& useLayer(Action action, const Target& layer);
     void drawBoxes(const std::vector<Box>& boxes);
     static Box boxOf(const PixelBox& pixels, glm::ivec2 maskOffset = {0, 0}, std::uint32_t paint = 0);
 

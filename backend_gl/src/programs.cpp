@@ -1,5 +1,7 @@
 #include "backend_gl/src/programs.hpp"
 
+#include <utility>
+
 #include "shader_text.hpp"
 
 namespace vtm::gl {
@@ -13,34 +15,57 @@ void bindUnits(const Program& program) {
     glUniform1i(program.uniform("placements"), int(Unit::Placements));
     glUniform1i(program.uniform("layer"), int(Unit::Layer));
     glUniform1i(program.uniform("backdrop"), int(Unit::Backdrop));
+    checkErrors("program");
 }
 
 }  // namespace
 
-Programs::Programs()
-    : solid("solid", {shaders::fetch, shaders::leaf_vertex},
-            {shaders::fetch, shaders::coverage, shaders::leaf_placement, shaders::solid_fragment}),
-      pieces("pieces", {shaders::fetch, shaders::leaf_vertex},
-             {shaders::fetch, shaders::coverage, shaders::leaf_placement, shaders::pieces_fragment}),
-      general("general", {shaders::fetch, shaders::leaf_vertex},
-              {shaders::fetch, shaders::coverage, shaders::leaf_placement, shaders::blend, shaders::gradient,
-               shaders::image, shaders::paint, shaders::general_fragment}),
-      composite("composite", {shaders::box_vertex},
-                {shaders::fetch, shaders::blend, shaders::gradient, shaders::image, shaders::paint,
-                 shaders::composite_fragment}) {
-    for (const Program* program : all())
-        bindUnits(*program);
-    checkErrors("programs");
-}
-
-const Program& Programs::of(CostClass cost) const {
+const Program& Programs::leaf(CostClass cost, Features features) {
     switch (cost) {
         case CostClass::Solid:
-            return solid;
+            return get(Kind::Solid, {});
         case CostClass::Pieces:
-            return pieces;
+            return get(Kind::Pieces, {});
         default:
-            return general;
+            return get(Kind::General, features);
+    }
+}
+
+const Program& Programs::fill(Features features) { return get(Kind::Fill, features); }
+const Program& Programs::layer() { return get(Kind::Layer, {}); }
+const Program& Programs::blend() { return get(Kind::Blend, {}); }
+
+const Program& Programs::get(Kind kind, Features features) {
+    const std::pair key(kind, features.flags());
+    auto found = programs_.find(key);
+    if (found == programs_.end()) {
+        found = programs_.emplace(key, make(kind, features)).first;
+        bindUnits(found->second);
+    }
+    return found->second;
+}
+
+Program Programs::make(Kind kind, Features features) {
+    using namespace shaders;
+    const std::string defines = features.defines();
+    switch (kind) {
+        case Kind::Solid:
+            return {"solid", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, solid_fragment}};
+        case Kind::Pieces:
+            return {"pieces", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, pieces_fragment}};
+        case Kind::General:
+            return {"general",
+                    {fetch, leaf_vertex},
+                    {defines, fetch, coverage, leaf_placement, shaders::blend, gradient, image, paint,
+                     general_fragment}};
+        case Kind::Fill:
+            return {"fill",
+                    {box_vertex},
+                    {defines, fetch, shaders::blend, gradient, image, paint, fill_fragment}};
+        case Kind::Layer:
+            return {"layer", {box_vertex}, {shaders::blend, layer_fragment}};
+        default:
+            return {"blend", {box_vertex}, {shaders::blend, blend_fragment}};
     }
 }
 

@@ -1,9 +1,11 @@
 /// \file
-/// The backend's four programs.
+/// The backend's programs, each compiled when it is first needed.
 #pragma once
 
-#include <array>
+#include <map>
+#include <utility>
 
+#include "backend_gl/src/features.hpp"
 #include "backend_gl/src/program.hpp"
 
 namespace vtm::gl {
@@ -19,14 +21,21 @@ inline constexpr unsigned costClassCount = 3;
 /// Texture units, the same in every program.
 enum class Unit : int { Texels, Images, Placements, Layer, Backdrop };
 
-struct Programs {
-    Programs();
+/// Each throws GlError with the driver's log where a program does not compile.
+class Programs {
+public:
+    /// Only General looks at the features.
+    const Program& leaf(CostClass cost, Features features);
+    const Program& fill(Features features);
+    const Program& layer();
+    const Program& blend();
 
-    const Program& of(CostClass cost) const;
-    /// The composite program last.
-    std::array<const Program*, 4> all() const { return {&solid, &pieces, &general, &composite}; }
+private:
+    enum class Kind : unsigned { Solid, Pieces, General, Fill, Layer, Blend };
+    const Program& get(Kind kind, Features features);
+    static Program make(Kind kind, Features features);
 
-    Program solid, pieces, general, composite;
+    std::map<std::pair<Kind, unsigned>, Program> programs_;
 };
 
 }  // namespace vtm::gl

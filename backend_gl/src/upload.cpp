@@ -82,7 +82,9 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 }  // namespace
 
 UploadedAsset::UploadedAsset(const Asset& asset)
-    : maps(asset.maps), commands(asset.commands), list(makeInstances(asset)) {
+    : maps(asset.maps), commands(asset.commands), list(makeInstances(asset)), features(featuresOf(asset)) {
+    for (const asset::Paint& paint : asset.paints)
+        isProgram.push_back(paint[3] == asset::programTag);
     std::vector<Texel> joined = joinedTexels(asset, sections);
     texels = layOut(joined, 1, texelColumnsLog2, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
     images = uploadImages(asset);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "backend_gl/renderer.hpp"
+#include "backend_gl/src/features.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/instances.hpp"
 #include "backend_gl/src/placement.hpp"
@@ -23,6 +24,8 @@ struct UploadedAsset {
     std::vector<asset::Map> maps;
     std::vector<asset::Command> commands;
     InstanceList list;
+    Features features;            ///< of the paint programs
+    std::vector<bool> isProgram;  ///< by paint
     Sections sections;
     TextureHandle texels, images;
     BufferHandle instances;

@@ -1,0 +1,31 @@
+/// \file
+/// What paint programs contain, so that shaders are compiled with no more.
+#pragma once
+
+#include <string>
+
+#include "asset/asset.hpp"
+
+namespace vtm::gl {
+
+/// A set of flags; the names are the macros of paint.glsl.
+class Features {
+public:
+    enum Flag : unsigned { Linear = 1, Radial = 2, Image = 4, Groups = 8, Mixing = 16 };
+    static constexpr unsigned combinations = 32;
+
+    Features() = default;
+    explicit Features(unsigned flags) : flags_(flags) {}
+    unsigned flags() const { return flags_; }
+
+    /// #define lines, one a flag.
+    std::string defines() const;
+
+private:
+    unsigned flags_ = 0;
+};
+
+/// Of all paint programs of an asset together. Mixing is blend modes other than Normal, and masks.
+Features featuresOf(const asset::Asset& asset);
+
+}  // namespace vtm::gl
