@@ -39,7 +39,7 @@ struct Options {
     std::string fileName;           ///< for messages
     std::string resourceDirectory;  ///< relative hrefs of images start here; empty: none are read
     double dpi = 96;
-    std::string language = "en";    ///< for systemLanguage
+    std::string language = "en";  ///< for systemLanguage
     /// Viewport in which a root width or height in percent resolves, user units.
     double defaultWidth = 100, defaultHeight = 100;
     // Text (a later issue) will take its font options from here.
@@ -53,8 +53,8 @@ struct Options {
 /// Limits for hostile files, all of them errors or warnings, never silence.
 struct Limits {
     static constexpr std::size_t maxBytes = 256u << 20;
-    static constexpr int maxDepth = 256;            ///< nesting of elements
-    static constexpr std::size_t maxNodes = 4'000'000;   ///< scene nodes after `use` expansion
+    static constexpr int maxDepth = 256;                ///< nesting of elements
+    static constexpr std::size_t maxNodes = 4'000'000;  ///< scene nodes after `use` expansion
 };
 
 struct Document {

@@ -1,0 +1,128 @@
+#include "svg/src/cascade.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "svg/src/css.hpp"
+#include "svg/src/cursor.hpp"
+#include "svg/src/style.hpp"
+
+namespace vtm::svg {
+namespace {
+
+/// Comparisons spent on matching selectors, some seconds: hostile sheets could ask for minutes.
+constexpr long maxMatchingSteps = 300'000'000;
+
+/// One selector and the rule that it stands for.
+struct Candidate {
+    const Selector* selector;
+    const Rule* rule;
+    std::size_t order;
+};
+
+/// Selectors by what their last compound asks for, so that an element is compared with few.
+class SelectorIndex {
+public:
+    void add(const Rule& rule) {
+        for (const Selector& selector : rule.selectors)
+            keyed_[keyOf(selector.compounds.back())].push_back({&selector, &rule, order_++});
+    }
+
+    std::vector<Candidate> match(const Element& element, long& steps) const {
+        std::vector<Candidate> found;
+        const auto collect = [&](Key key) {
+            if (const auto list = keyed_.find(key); list != keyed_.end())
+                std::copy_if(list->second.begin(), list->second.end(), std::back_inserter(found),
+                             [&](const Candidate& c) { return matches(*c.selector, element, steps); });
+        };
+        collect({});
+        collect(element.name);
+        if (const auto id = element.find("id"))
+            collect(*id);
+        std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+            return std::pair(a.selector->specificity, a.order) < std::pair(b.selector->specificity, b.order);
+        });
+        return found;
+    }
+
+private:
+    using Key = std::string_view;
+
+    /// An id, else a type, else nothing. An id that is spelt like a type does no harm: the selector
+    /// is compared in full.
+    static Key keyOf(const Compound& last) {
+        for (const Condition& condition : last.conditions)
+            if (condition.kind == ConditionKind::Id)
+                return condition.value;
+        return last.type;
+    }
+
+    std::unordered_map<Key, std::vector<Candidate>> keyed_;
+    std::size_t order_ = 0;
+};
+
+bool isCss(const Element& style) {
+    const std::string_view type = trim(style.get("type"));
+    return type.empty() || equalsIgnoringCase(type, "text/css");
+}
+
+std::string_view sheetText(const Element& style, Tree& tree) {
+    std::string text;
+    for (const Element* child : style.children)
+        if (child->tag == Tag::CharacterData)
+            text += child->text;
+    return tree.ownedText.emplace_back(withoutComments(text));
+}
+
+std::vector<Rule> readSheets(Tree& tree) {
+    std::vector<Rule> rules;
+    for (const Element& element : tree.elements)
+        if (element.tag == Tag::Style && isCss(element))
+            for (Rule& rule : parseStyleSheet(sheetText(element, tree)))
+                rules.push_back(std::move(rule));
+    return rules;
+}
+
+/// Values in attributes may hold CSS comments too.
+std::string_view cleaned(std::string_view text, Tree& tree) {
+    return text.find("/*") == text.npos ? text : tree.ownedText.emplace_back(withoutComments(text));
+}
+
+void addPresentationAttributes(Element& element, Tree& tree) {
+    for (const Attribute& attribute : element.attributes)
+        if (const Property* property = findProperty(attribute.name); property && property->attribute)
+            element.declarations.push_back({property, trim(cleaned(attribute.value, tree))});
+}
+
+void add(Element& element, const std::vector<RawDeclaration>& declarations, bool important) {
+    for (const RawDeclaration& raw : declarations)
+        if (const Property* property = findProperty(raw.name); property && raw.important == important)
+            element.declarations.push_back({property, raw.value});
+}
+
+void addAll(Element& element, const std::vector<Candidate>& rules, Tree& tree) {
+    addPresentationAttributes(element, tree);
+    const auto style = parseDeclarations(cleaned(element.get("style"), tree));
+    for (const bool important : {false, true}) {
+        for (const Candidate& candidate : rules)
+            add(element, candidate.rule->declarations, important);
+        add(element, style, important);
+    }
+}
+
+}  // namespace
+
+void cascade(Tree& tree, Reporter& reporter) {
+    const std::vector<Rule> rules = readSheets(tree);
+    SelectorIndex index;
+    for (const Rule& rule : rules)
+        index.add(rule);
+    long steps = maxMatchingSteps;
+    for (Element& element : tree.elements)
+        if (element.tag != Tag::CharacterData)
+            addAll(element, index.match(element, steps), tree);
+    if (steps <= 0)
+        reporter.warn(*tree.root, "the style sheets are too expensive to match; some rules are left out");
+}
+
+}  // namespace vtm::svg

@@ -1,0 +1,79 @@
+// Clip paths. Source: CSS Masking 1 section 7.
+
+#include "svg/src/converter.hpp"
+
+namespace vtm::svg {
+
+std::shared_ptr<const scene::Clip> intersect(const std::shared_ptr<const scene::Clip>& first,
+                                             const std::shared_ptr<const scene::Clip>& second) {
+    if (!first || !second)
+        return first ? first : second;
+    auto both = std::make_shared<scene::Clip>(*first);
+    both->clip = intersect(first->clip, second);
+    return both;
+}
+
+std::shared_ptr<const scene::Clip> Converter::clipOf(const Element& element, const Scope& scope,
+                                                     const Box& box, bool& valid) {
+    if (scope.style.clipPath.empty())
+        return nullptr;
+    const Element* clipPath = resource(scope.style.clipPath, Tag::ClipPath, element);
+    return clipPath ? clip(*clipPath, scope, box, valid) : nullptr;
+}
+
+std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, const Scope& scope,
+                                                   const Box& box, bool& valid) {
+    const Expansion expansion(active_, clipPath);
+    if (!expansion || !spend()) {
+        reporter_.warn(clipPath, "refers to itself in a circle");
+        valid = false;
+        return nullptr;
+    }
+    Scope inner = scope;
+    inner.style = styleOf(clipPath);
+    ++inner.depth;
+    inner.transform =
+        scene::compose(scope.transform, transformFrom(inner.style.transform, inner.style, scope.viewport));
+    if (trim(clipPath.get("clipPathUnits")) == "objectBoundingBox")
+        inner.transform = scene::compose(inner.transform, unitSquareTo(box));
+    auto made = std::make_shared<scene::Clip>();
+    if (scene::inverse(inner.transform) && passesConditions(clipPath))
+        for (const Element* child : clipPath.children)
+            addClipChild(*child, inner, *made, valid);
+    Scope own = scope;
+    own.style = inner.style;
+    made->clip = clipOf(clipPath, own, box, valid);
+    return made;
+}
+
+void Converter::addClipChild(const Element& child, const Scope& parent, scene::Clip& clip, bool& valid) {
+    if (child.tag == Tag::Text)
+        reporter_.warn(child, "is not supported in a clipPath yet; it is left out");
+    if (isShape(child.tag))
+        addClipShape(child, parent, nullptr, clip, valid);
+    if (child.tag != Tag::Use)
+        return;
+    const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
+    const Element* target = tree_.byHref(hrefOf(child).value_or(std::string_view{}));
+    if (!scope || !target || !isShape(target->tag))
+        return;
+    const Box box = boxAround(*scope, [&] {
+        Nodes unused;
+        convertElement(*target, *scope, unused);
+    });
+    addClipShape(*target, *scope, clipOf(child, *scope, box, valid), clip, valid);
+}
+
+void Converter::addClipShape(const Element& child, const Scope& parent,
+                             const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip,
+                             bool& valid) {
+    const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
+    CachedShape* shape = scope && scope->style.visible ? shapeOf(child, *scope) : nullptr;
+    if (!shape || !isWithinReach(mapBox(scope->transform, boxOf(*shape))))
+        return;
+    const CachedShape own = *shape;  // what the child's own clip draws may replace the cache's entry
+    clip.shapes.push_back({own.path, scope->transform, scope->style.clipRule,
+                           intersect(clipOf(child, *scope, *own.box, valid), around)});
+}
+
+}  // namespace vtm::svg

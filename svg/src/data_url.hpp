@@ -1,0 +1,18 @@
+/// \file
+/// `data:` URLs (RFC 2397).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vtm::svg {
+
+bool isDataUrl(std::string_view href);
+/// Throws image::CodecError where it is malformed.
+std::vector<std::uint8_t> decodeDataUrl(std::string_view href);
+/// Invalid escapes stay as they are.
+std::string percentDecoded(std::string_view text);
+
+}  // namespace vtm::svg

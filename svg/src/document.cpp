@@ -1,0 +1,46 @@
+#include "svg/src/document.hpp"
+
+#include <cmath>
+
+#include "svg/src/cascade.hpp"
+#include "svg/src/converter.hpp"
+#include "svg/src/decode.hpp"
+#include "svg/src/xml.hpp"
+
+namespace vtm::svg {
+namespace {
+
+/// Largest side of a picture, user units: what doubles resolve to a thousandth with room to spare.
+constexpr double maxSide = 1e9;
+
+bool isSide(double side) { return side > 0 && side <= maxSide; }
+
+}  // namespace
+
+std::unique_ptr<ParsedDocument> parseDocument(std::span<const std::uint8_t> bytes, const Options& options,
+                                              std::vector<Warning>& warnings) {
+    auto document = std::make_unique<ParsedDocument>(warnings);
+    std::string text = decodeText(bytes, options.fileName);
+    document->map = SourceMap(options.fileName, text);
+    text = expandEntities(std::move(text), document->map);
+    document->tree = parseXml(std::move(text), document->map);
+    cascade(*document->tree, document->reporter);
+    return document;
+}
+
+Document load(std::span<const std::uint8_t> bytes, const Options& options) {
+    Document result;
+    const auto document = parseDocument(bytes, options, result.warnings);
+    Budget budget;
+    Converter converter(*document->tree, document->reporter, options, budget);
+    const Viewport size = converter.rootSize();
+    if (!isSide(size.width) || !isSide(size.height))
+        throw ParseError(document->map.at(document->tree->root->offset),
+                         "the picture has no size that can be drawn");
+    result.scene.width = size.width;
+    result.scene.height = size.height;
+    converter.convertRoot(scene::identity, result.scene.root.children);
+    return result;
+}
+
+}  // namespace vtm::svg

@@ -1,0 +1,21 @@
+/// \file
+/// The `d` and `points` attributes. Source: SVG 2 sections 9.3 and 10.6.
+#pragma once
+
+#include <string_view>
+
+#include "scene/path.hpp"
+
+namespace vtm::svg {
+
+/// What was read up to the first error, as SVG 2 section 9.5.4 asks for.
+struct ParsedPath {
+    scene::Path path;
+    bool complete = true;  ///< false where an error ended it
+};
+
+ParsedPath parsePathData(std::string_view text);
+/// One open subpath; a last x without a y is left out.
+ParsedPath parsePoints(std::string_view text);
+
+}  // namespace vtm::svg

@@ -1,0 +1,47 @@
+#include "svg/src/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vtm::svg {
+
+ParseError::ParseError(Location where, const std::string& what)
+    : std::runtime_error(fmt::format("{}:{}:{}: {}", where.file, where.line, where.column, what)),
+      where_(std::move(where)) {}
+
+SourceMap::SourceMap(std::string fileName, std::string_view source)
+    : fileName_(std::move(fileName)), lineStarts_{0} {
+    for (std::size_t i = 0; i < source.size(); ++i)
+        if (source[i] == '\n')
+            lineStarts_.push_back(i + 1);
+}
+
+Location SourceMap::atSource(std::size_t sourceOffset) const {
+    const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), sourceOffset);
+    return {fileName_, static_cast<int>(next - lineStarts_.begin()),
+            static_cast<int>(sourceOffset - next[-1]) + 1};
+}
+
+Location SourceMap::at(std::size_t parsedOffset) const {
+    const auto next =
+        std::upper_bound(pieces_.begin(), pieces_.end(), parsedOffset,
+                         [](std::size_t offset, const Piece& piece) { return offset < piece.parsed; });
+    if (next == pieces_.begin())
+        return atSource(parsedOffset);
+    const Piece& piece = next[-1];
+    return atSource(piece.source + (piece.fixed ? 0 : parsedOffset - piece.parsed));
+}
+
+void Reporter::warn(const Element& element, const std::string& what) {
+    if (warnings_.size() >= maxWarnings)
+        return;
+    const std::string message = fmt::format("<{}>: {}", element.name, what);
+    if (!seen_.insert(fmt::format("{} {}", element.offset, message)).second)
+        return;
+    warnings_.push_back({map_.at(element.offset), message});
+    if (warnings_.size() == maxWarnings)
+        warnings_.back().message = "more warnings are left out";
+}
+
+}  // namespace vtm::svg
