@@ -71,7 +71,7 @@ std::optional<double> RadialShader::offsetAt(Point p) const {
     const double root = std::sqrt(b * b - a * c);
     if (std::isnan(root))
         return std::nullopt;
-    const auto [low, high] = std::minmax((b - root) / a, (b + root) / a);
+    const auto [low, high] = std::minmax({(b - root) / a, (b + root) / a});
     if (hasRadius(high))
         return high;
     return hasRadius(low) ? std::optional(low) : std::nullopt;
