@@ -37,13 +37,16 @@ struct Entry {
 };
 
 /// 4 x 4 children, row by row from the square's (min x, min y). Four texels. A child that is a node
-/// has a larger index than its parent, so a tree cannot contain itself.
+/// has a larger index than its parent, so a tree cannot contain itself; places may share children.
 struct Node {
     std::array<Entry, 16> children;
 };
 
 /// Depth of a leaf below its map's root: a leaf at level d spans 4^-d of the map's side.
 inline constexpr unsigned maxLevel = 12;
+
+/// Limit on all squares and pieces that the commands draw, each counted every time it is drawn.
+inline constexpr std::uint64_t maxDrawn = 1u << 27;
 
 /// Position of a square in its map: (x, y) counts squares of side 4^-level from the map's min corner.
 struct Cell {
@@ -103,7 +106,7 @@ inline constexpr std::uint32_t programTag = 0xFFFFFFFFu;
 using Paint = Texel;
 
 /// A paint program runs on a stack of premultiplied colours that starts with one transparent entry;
-/// its result is the last entry. It is the stack of layers over one region, groups and all.
+/// its result is the one entry left at its end. It is the stack of layers over one region, groups and all.
 enum class Op : std::uint32_t {
     Push,              ///< push transparent: begin a group
     Pop,               ///< s = pop · opacity; top = blend(top, s)
@@ -116,11 +119,26 @@ enum class Op : std::uint32_t {
     Image              ///< likewise
 };
 inline constexpr unsigned maxStack = 8;
+inline constexpr unsigned maxInstructions = 4096;  ///< of one program
 
 /// In the order of scene::BlendMode.
 enum class Blend : std::uint32_t {
-    Normal, Multiply, Screen, Overlay, Darken, Lighten, ColorDodge, ColorBurn,
-    HardLight, SoftLight, Difference, Exclusion, Hue, Saturation, Color, Luminosity
+    Normal,
+    Multiply,
+    Screen,
+    Overlay,
+    Darken,
+    Lighten,
+    ColorDodge,
+    ColorBurn,
+    HardLight,
+    SoftLight,
+    Difference,
+    Exclusion,
+    Hue,
+    Saturation,
+    Color,
+    Luminosity
 };
 
 /// One texel of a program.
@@ -128,7 +146,7 @@ struct Instruction {
     Op op = Op::Push;
     Blend blend = Blend::Normal;  ///< Pop only
     float opacity = 1;
-    std::uint32_t argument = 0;   ///< a texel of Asset::data
+    std::uint32_t argument = 0;  ///< a texel of Asset::data
 };
 
 enum class Spread : std::uint32_t { Pad, Reflect, Repeat };
@@ -163,22 +181,32 @@ static_assert(sizeof(ImageFill) == 32);
 
 // ---- Whole ------------------------------------------------------------------------------------
 
+/// Largest magnitude of a map's place and of the picture's size, and the inverse of the smallest side
+/// and size: numbers stay far from the ends of single precision under any view.
+inline constexpr double largestLength = 0x1p40;
+
 /// A tree over the square [x, x + side] × [y, y + side] of the picture (y down).
 struct Map {
     double x = 0, y = 0, side = 0;
     Entry root;
 };
 
-/// One step of drawing, on a stack of pictures that starts with one transparent one.
+/// Pictures on the stack of drawing commands, and commands, at most.
+inline constexpr unsigned maxPictures = 64;
+inline constexpr std::size_t maxCommands = 1u << 22;
+
+/// One step of drawing, on a stack of pictures that starts with one transparent one and ends with one.
 struct Command {
     enum class Kind : std::uint32_t {
-        DrawMap,           ///< top += the map; its paints are Asset::paints (exact)
-        FillMask,          ///< s = coverage(map) · paint; top = s over top. The map's paint indices
-                           ///< are 0 outside and 1 inside (compat)
-        Push,              ///< push a transparent picture
-        Pop,               ///< s = pop · opacity; top = blend(top, s)
-        PopMaskLuminance, PopMaskLinear, PopMaskAlpha,  ///< as Op
-        ClipMask           ///< top = top · coverage(map)
+        DrawMap,   ///< top += the map; its paints are Asset::paints (exact)
+        FillMask,  ///< s = coverage(map) · paint; top = s over top. The map's paint indices
+                   ///< are 0 outside and 1 inside (compat)
+        Push,      ///< push a transparent picture
+        Pop,       ///< s = pop · opacity; top = blend(top, s)
+        PopMaskLuminance,
+        PopMaskLinear,
+        PopMaskAlpha,  ///< as Op
+        ClipMask       ///< top = top · coverage(map)
     };
     Kind kind = Kind::DrawMap;
     Blend blend = Blend::Normal;
@@ -208,11 +236,11 @@ struct Asset {
 
 /// Figures for `vtm info`.
 struct Summary {
-    std::size_t bytes = 0;            ///< all texels and images, as uploaded
-    std::size_t leaves = 0;           ///< with pieces
-    std::size_t solids = 0;           ///< solid entries of the trees
+    std::size_t bytes = 0;   ///< all texels and images, as uploaded
+    std::size_t leaves = 0;  ///< with pieces
+    std::size_t solids = 0;  ///< solid entries of the trees
     std::size_t pieces = 0;
-    std::size_t regions = 0;          ///< distinct paints
+    std::size_t regions = 0;  ///< distinct paints
     unsigned maxDepth = 0;
 };
 Summary summarize(const Asset& asset);

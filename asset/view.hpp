@@ -17,8 +17,11 @@ struct View {
 inline constexpr int maxViewSide = 16384;
 inline constexpr long long maxViewPixels = 1LL << 27;
 
-/// Throws std::length_error unless the raster is within the limits (an empty one is) and every number
-/// is finite.
+/// Largest magnitude in `toPixels`: products with an asset's lengths stay within single precision.
+inline constexpr double maxViewNumber = 1e18;
+
+/// Throws std::length_error unless the raster (which may be empty) and every number are within the
+/// limits.
 void validate(const View& view);
 
 }  // namespace vtm::asset

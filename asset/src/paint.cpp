@@ -35,9 +35,11 @@ vec4 imagePixel(const image::Bitmap& bitmap, int x, int y) {
 /// Premultiplied neighbours are interpolated, so that transparent pixels lend no colour.
 vec4 imageColor(const Asset& asset, const ImageFill& fill, vec2 point) {
     const image::Bitmap& bitmap = asset.images[fill.image];
-    // Keeps the conversion to int defined; the edge goes on beyond the border anyway.
-    const vec2 limit(float(bitmap.width) + 1, float(bitmap.height) + 1);
-    vec2 p = glm::clamp(applyMatrix(fill.matrix, point), vec2(-1), limit);
+    // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes
+    // on anyway.
+    const vec2 place = applyMatrix(fill.matrix, point);
+    vec2 p(std::fmax(-1.0f, std::fmin(place.x, float(bitmap.width) + 1)),
+           std::fmax(-1.0f, std::fmin(place.y, float(bitmap.height) + 1)));
     if (fill.bilinear == 0)
         return imagePixel(bitmap, int(std::floor(p.x)), int(std::floor(p.y)));
     p -= 0.5f;

@@ -12,8 +12,9 @@ void validate(const View& view) {
         throw std::length_error("view: raster of " + std::to_string(view.width) + " x " +
                                 std::to_string(view.height) + " pixels is beyond the limits");
     for (int column = 0; column < 3; ++column)
-        if (!std::isfinite(view.toPixels[column].x) || !std::isfinite(view.toPixels[column].y))
-            throw std::length_error("view: matrix is not finite");
+        for (int row = 0; row < 2; ++row)
+            if (!(std::abs(view.toPixels[column][row]) <= maxViewNumber))
+                throw std::length_error("view: a number of its matrix is beyond the limits");
 }
 
 }  // namespace vtm::asset

@@ -1,0 +1,146 @@
+#include "asset/src/validate.hpp"
+
+#include <algorithm>
+
+namespace vtm::asset {
+
+namespace {
+
+/// What a tree below an entry amounts to. Found for leaves, then for nodes from the last to the first,
+/// since children have larger indices: every node is looked at once, however often it is shared.
+struct Extent {
+    std::uint64_t drawn = 1;  ///< squares and pieces; saturates above maxDrawn
+    std::uint32_t depth = 0;
+    std::uint32_t largestPaint = 0;
+
+    void include(const Extent& child) {
+        drawn = std::min(drawn + child.drawn, maxDrawn + 1);
+        depth = std::max(depth, child.depth + 1);
+        largestPaint = std::max(largestPaint, child.largestPaint);
+    }
+};
+
+class Trees {
+public:
+    explicit Trees(const Asset& asset) : asset_(asset) {
+        for (std::size_t i = 0; i < asset.leaves.size(); ++i)
+            leaves_.push_back(leafExtentOf(i));
+        nodes_.resize(asset.nodes.size());
+        for (std::size_t i = asset.nodes.size(); i-- > 0;)
+            for (const Entry child : asset.nodes[i].children) {
+                require(child.kind() != Entry::Kind::Node || child.payload() > i, "nodes", i,
+                        "a child's index is not larger than its parent's");
+                nodes_[i].include(extentOf(child, "nodes", i));
+            }
+    }
+
+    Extent extentOf(Entry entry, const char* section, std::size_t index) const {
+        switch (entry.kind()) {
+            case Entry::Kind::Solid:
+                require(entry.payload() < asset_.paints.size(), section, index, "entry names no paint");
+                return {1, 0, entry.payload()};
+            case Entry::Kind::Leaf:
+                require(entry.payload() < leaves_.size(), section, index, "entry names no leaf");
+                return leaves_[entry.payload()];
+            case Entry::Kind::Node:
+                require(entry.payload() < nodes_.size(), section, index, "entry names no node");
+                return nodes_[entry.payload()];
+        }
+        throw FormatError(fmt::format("{}[{}]: entry's kind is unknown", section, index));
+    }
+
+private:
+    Extent leafExtentOf(std::size_t i) const {
+        const Leaf& leaf = asset_.leaves[i];
+        require(leaf.unused == 0, "leaves", i, "unused half is not zero");
+        require(leaf.firstPiece <= asset_.pieces.size() &&
+                    leaf.pieceCount <= asset_.pieces.size() - leaf.firstPiece,
+                "leaves", i, "piece range is out of bounds");
+        Extent extent{1u + leaf.pieceCount, 0, *std::ranges::max_element(leaf.corners)};
+        for (std::size_t p = leaf.firstPiece; p < std::size_t(leaf.firstPiece) + leaf.pieceCount; ++p)
+            extent.largestPaint =
+                std::max<std::uint32_t>({extent.largestPaint, asset_.pieces[p].left, asset_.pieces[p].right});
+        require(extent.largestPaint < asset_.paints.size(), "leaves", i, "a corner or piece names no paint");
+        return extent;
+    }
+
+    const Asset& asset_;
+    std::vector<Extent> leaves_, nodes_;
+};
+
+void validatePieces(const Asset& asset) {
+    for (std::size_t i = 0; i < asset.pieces.size(); ++i)
+        require(asset.pieces[i].slopeA >= -slopeScale && asset.pieces[i].slopeB >= -slopeScale, "pieces", i,
+                "slope is below -1");
+}
+
+bool isLength(double value) { return value >= 1 / largestLength && value <= largestLength; }
+
+void validateMap(const Asset& asset, std::size_t i) {
+    const Map& map = asset.maps[i];
+    require(std::abs(map.x) <= largestLength && std::abs(map.y) <= largestLength && isLength(map.side),
+            "maps", i, "square is out of range");
+}
+
+bool drawsMap(Command::Kind kind) {
+    return kind == Command::Kind::DrawMap || kind == Command::Kind::FillMask ||
+           kind == Command::Kind::ClipMask;
+}
+
+/// Depth of the stack of pictures after a command.
+unsigned depthAfter(const Command& command, unsigned depth, std::size_t i) {
+    if (command.kind == Command::Kind::Push) {
+        require(depth < maxPictures, "commands", i, "stack of pictures overflows");
+        return depth + 1;
+    }
+    if (drawsMap(command.kind))
+        return depth;
+    require(depth > 1, "commands", i, "pops the last picture");
+    return depth - 1;
+}
+
+void validateCommand(const Asset& asset, const std::vector<Extent>& maps, std::size_t i) {
+    const Command& command = asset.commands[i];
+    require(command.kind <= Command::Kind::ClipMask, "commands", i, "kind is unknown");
+    require(command.blend <= Blend::Luminosity, "commands", i, "blend mode is unknown");
+    require(isShare(command.opacity), "commands", i, "opacity is out of range");
+    require(!drawsMap(command.kind) || command.map < maps.size(), "commands", i, "names no map");
+    require(command.kind != Command::Kind::FillMask || command.paint < asset.paints.size(), "commands", i,
+            "names no paint");
+    if (command.kind == Command::Kind::FillMask || command.kind == Command::Kind::ClipMask)
+        require(maps[command.map].largestPaint <= 1, "commands", i, "its map is no mask: a paint is above 1");
+}
+
+void validateCommands(const Asset& asset, const std::vector<Extent>& maps) {
+    require(asset.commands.size() <= maxCommands, "commands", maxCommands, "is one too many");
+    unsigned depth = 1;
+    std::uint64_t drawn = 0;
+    for (std::size_t i = 0; i < asset.commands.size(); ++i) {
+        const Command& command = asset.commands[i];
+        validateCommand(asset, maps, i);
+        depth = depthAfter(command, depth, i);
+        if (drawsMap(command.kind))
+            drawn += maps[command.map].drawn;
+        require(drawn <= maxDrawn, "commands", i, "draws more squares and pieces than the limit");
+    }
+    require(depth == 1, "commands", asset.commands.size(), "groups are left open at the end");
+}
+
+}  // namespace
+
+void validate(const Asset& asset) {
+    require(isLength(asset.width) && isLength(asset.height), "picture", 0, "size is out of range");
+    require(asset.mode <= Mode::Compat, "picture", 0, "mode is unknown");
+    validatePaints(asset);
+    validatePieces(asset);
+    const Trees trees(asset);
+    std::vector<Extent> maps;
+    for (std::size_t i = 0; i < asset.maps.size(); ++i) {
+        validateMap(asset, i);
+        maps.push_back(trees.extentOf(asset.maps[i].root, "maps", i));
+        require(maps.back().depth <= maxLevel, "maps", i, "tree is too deep");
+    }
+    validateCommands(asset, maps);
+}
+
+}  // namespace vtm::asset

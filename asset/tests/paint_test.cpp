@@ -1,0 +1,167 @@
+#include "asset/src/paint.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "asset/tests/assets.hpp"
+
+namespace vtm::asset::test {
+namespace {
+
+using glm::vec2;
+using glm::vec4;
+
+void expectNear(vec4 a, vec4 b, float tolerance = 1e-5f) {
+    for (int c = 0; c < 4; ++c)
+        EXPECT_NEAR(a[c], b[c], tolerance) << "channel " << c;
+}
+
+GradientStop grey(float offset, float value, float alpha = 1) {
+    const auto v = std::uint16_t(std::lround(value * 65535)), a = std::uint16_t(std::lround(alpha * 65535));
+    return {offset, {v, v, v, a}, 0};
+}
+
+/// The colour of a program of one layer.
+vec4 colorOf(Op op, const std::vector<Texel>& data, vec2 point, float opacity = 1) {
+    const Asset asset = programAsset({{op, Blend::Normal, opacity, 0}}, data);
+    return paintColor(asset, asset.maps[0].root.payload(), point);
+}
+
+vec4 ramp(Op op, Gradient gradient, vec2 point, std::vector<GradientStop> stops = {grey(0, 0), grey(1, 1)}) {
+    gradient.stopCount = std::uint32_t(stops.size());
+    std::vector<Texel> data;
+    addGradient(data, gradient, stops);
+    return colorOf(op, data, point);
+}
+
+Gradient spread(Spread s) {
+    Gradient g;
+    g.spread = s;
+    return g;
+}
+
+TEST(Paint, LinearGradientSpreads) {
+    for (const auto& [x, pad, reflect, repeat] : {std::array{0.25f, 0.25f, 0.25f, 0.25f},
+                                                  {-0.25f, 0, 0.25f, 0.75f},
+                                                  {1.25f, 1, 0.75f, 0.25f},
+                                                  {2.5f, 1, 0.5f, 0.5f},
+                                                  {-3.25f, 0, 0.75f, 0.75f}}) {
+        EXPECT_NEAR(ramp(Op::Linear, spread(Spread::Pad), {x, 9}).r, pad, 1e-5f);
+        EXPECT_NEAR(ramp(Op::Linear, spread(Spread::Reflect), {x, 9}).r, reflect, 1e-5f);
+        EXPECT_NEAR(ramp(Op::Linear, spread(Spread::Repeat), {x, 9}).r, repeat, 1e-5f);
+    }
+}
+
+TEST(Paint, GradientMatrixMapsThePicture) {
+    Gradient g;
+    g.matrix = {0.1f, 5, 0.02f, 7, 0.3f, 9};
+    EXPECT_NEAR(ramp(Op::Linear, g, {2, 10}).r, 0.2f + 0.2f + 0.3f, 1e-5f);
+}
+
+TEST(Paint, StopsInterpolateStraightThenPremultiply) {
+    expectNear(ramp(Op::Linear, {}, {0.5f, 0}, {grey(0, 1, 1), grey(1, 0, 0)}),
+               vec4(0.25f, 0.25f, 0.25f, 0.5f));
+}
+
+TEST(Paint, HardStopCountsFromItsOffsetOn) {
+    const std::vector<GradientStop> stops{grey(0, 0), grey(0.5f, 0.2f), grey(0.5f, 0.8f), grey(1, 1)};
+    EXPECT_NEAR(ramp(Op::Linear, {}, {0.49999f, 0}, stops).r, 0.2f, 1e-3f);
+    EXPECT_NEAR(ramp(Op::Linear, {}, {0.5f, 0}, stops).r, 0.8f, 1e-5f);
+}
+
+TEST(Paint, OutsideTheStopsTheirEndsGoOn) {
+    const std::vector<GradientStop> stops{grey(0.25f, 0.3f), grey(0.75f, 0.6f)};
+    EXPECT_NEAR(ramp(Op::Linear, {}, {0.1f, 0}, stops).r, 0.3f, 1e-5f);
+    EXPECT_NEAR(ramp(Op::Linear, {}, {0.9f, 0}, stops).r, 0.6f, 1e-5f);
+}
+
+TEST(Paint, ManyStops) {
+    std::vector<GradientStop> stops;
+    for (int i = 0; i <= 100; ++i)
+        stops.push_back(grey(float(i) / 100, float(i % 2)));
+    for (int i = 0; i <= 100; ++i)
+        EXPECT_NEAR(ramp(Op::Linear, {}, {float(i) / 100 + 1e-5f, 0}, stops).r, float(i % 2), 2e-3f) << i;
+}
+
+/// The offset shows as the grey value, and must solve the circles' equation.
+TEST(Paint, RadialOffsetSolvesTheCircles) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 500; ++i) {
+        Gradient g;
+        g.fr = 0.5f * unit(random);
+        const float angle = 6.2831853f * unit(random), distance = (1 - g.fr) * 0.95f * unit(random);
+        g.fx = distance * std::cos(angle);
+        g.fy = distance * std::sin(angle);
+        const vec2 f(g.fx, g.fy), p(2 * unit(random) - 1, 2 * unit(random) - 1);
+        const float u = ramp(Op::Radial, g, p).r;
+        if (u > 0 && u < 1)
+            EXPECT_NEAR(glm::length(p - (1 - u) * f), (1 - u) * g.fr + u, 2e-4f);
+        else
+            EXPECT_TRUE(u == 0 ? glm::length(p - f) <= g.fr + 1e-4f : glm::length(p) >= 1 - 1e-4f);
+    }
+}
+
+TEST(Paint, RadialIsTransparentWhereNoCircleReaches) {
+    Gradient g;
+    g.fx = 0.95f;  // the focal circle sticks out of the end circle: the circles fill a cone
+    g.fr = 0.2f;
+    expectNear(ramp(Op::Radial, g, {3, 0}), vec4(0));
+    EXPECT_GT(ramp(Op::Radial, g, {-3, 0}).a, 0);
+}
+
+TEST(Paint, RadialCentreWithoutFocalRadius) { expectNear(ramp(Op::Radial, {}, {0, 0}), vec4(0, 0, 0, 1)); }
+
+vec4 imageAt(vec2 point, std::uint32_t bilinear) {
+    std::vector<Texel> data;
+    addImage(data, {{1, 0, 0, 1, 0, 0}, 0, bilinear});
+    return colorOf(Op::Image, data, point);
+}
+
+vec4 pixel(int x, int y) {
+    const image::Bitmap bitmap = smallPicture();
+    const std::uint8_t* p = &bitmap.rgba[std::size_t(y * bitmap.width + x) * 4];
+    const float a = float(p[3]) / 255;
+    return {float(p[0]) / 255 * a, float(p[1]) / 255 * a, float(p[2]) / 255 * a, a};
+}
+
+TEST(Paint, ImagesNearest) {
+    expectNear(imageAt({0.9f, 2.1f}, 0), pixel(0, 2));
+    expectNear(imageAt({1.0f, 1.9f}, 0), pixel(1, 1));
+    expectNear(imageAt({-100, 1e9f}, 0), pixel(0, 2));
+    EXPECT_TRUE(std::isfinite(imageAt({NAN, 0.5f}, 0).a));
+}
+
+TEST(Paint, ImagesBilinear) {
+    expectNear(imageAt({1.5f, 1.5f}, 1), pixel(1, 1));
+    expectNear(imageAt({2, 1.5f}, 1), (pixel(1, 1) + pixel(2, 1)) * 0.5f);
+    expectNear(imageAt({1.5f, 1.25f}, 1), pixel(1, 0) * 0.25f + pixel(1, 1) * 0.75f);
+    expectNear(imageAt({0, 0}, 1), pixel(0, 0));
+    expectNear(imageAt({99, 99}, 1), pixel(3, 2));
+}
+
+TEST(Paint, LayersComposeInOrder) {
+    std::vector<Texel> data;
+    const std::uint32_t red50 = addColor(data, {0.5f, 0, 0, 0.5f}), blue1 = addColor(data, blue);
+    const Asset asset = programAsset({{Op::Solid, {}, 1, blue1}, {Op::Solid, {}, 0.5f, red50}}, data);
+    expectNear(paintColor(asset, asset.maps[0].root.payload(), {}), vec4(0.25f, 0, 0.75f, 1));
+}
+
+TEST(Paint, GroupsNestMasksMultiply) {
+    std::vector<Texel> data;
+    const std::uint32_t opaqueRed = addColor(data, red), translucent = addColor(data, {0, 0, 0, 0.25f});
+    const Asset asset = programAsset({{Op::Push, {}, 1, 0},
+                                      {Op::Solid, {}, 1, opaqueRed},
+                                      {Op::Push, {}, 1, 0},
+                                      {Op::Solid, {}, 1, translucent},
+                                      {Op::PopMaskAlpha, {}, 1, 0},
+                                      {Op::Pop, Blend::Screen, 0.5f, 0}},
+                                     data);
+    expectNear(paintColor(asset, asset.maps[0].root.payload(), {}), vec4(0.125f, 0, 0, 0.125f));
+}
+
+}  // namespace
+}  // namespace vtm::asset::test

@@ -1,0 +1,191 @@
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "asset/container.hpp"
+#include "asset/tests/assets.hpp"
+
+namespace vtm::asset::test {
+namespace {
+
+/// One rule, broken by one change of a valid asset; the message must name the place.
+struct Breach {
+    const char* message;
+    std::function<Asset()> make;
+    std::function<void(Asset&)> change;
+};
+
+/// Changes an instruction of a paint's program.
+void edit(Asset& asset, std::size_t paint, std::size_t i, const std::function<void(Instruction&)>& change) {
+    Texel& texel = asset.data[asset.paints[paint][0] + i];
+    auto in = std::bit_cast<Instruction>(texel);
+    change(in);
+    texel = std::bit_cast<Texel>(in);
+}
+
+std::uint32_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+constexpr std::size_t firstProgram = 5;  // of everyPaint: a linear gradient; the next has two layers
+constexpr std::size_t masked = 14;       // of everyPaint: image, push, linear, solid, mask
+
+const std::vector<Breach> breaches{
+    {"picture[0]: size is out of range", disc, [](Asset& a) { a.width = 0; }},
+    {"picture[0]: size is out of range", disc,
+     [](Asset& a) { a.height = std::numeric_limits<double>::infinity(); }},
+    {"picture[0]: mode is unknown", disc, [](Asset& a) { a.mode = Mode(2); }},
+    {"maps[0]: square is out of range", disc, [](Asset& a) { a.maps[0].side = -1; }},
+    {"maps[0]: square is out of range", disc, [](Asset& a) { a.maps[0].x = std::nan(""); }},
+    {"maps[0]: entry names no paint", emptyAsset,
+     [](Asset& a) { a.maps[0].root = Entry::make(Entry::Kind::Solid, 5); }},
+    {"maps[0]: entry names no leaf", disc,
+     [](Asset& a) { a.maps[0].root = Entry::make(Entry::Kind::Leaf, 1); }},
+    {"maps[0]: entry names no node", disc,
+     [](Asset& a) { a.maps[0].root = Entry::make(Entry::Kind::Node, 0); }},
+    {"maps[0]: entry's kind is unknown", disc, [](Asset& a) { a.maps[0].root.bits |= 3; }},
+    {"nodes[1]: a child's index is not larger than its parent's", twoLevels,
+     [](Asset& a) { a.nodes[1].children[3] = Entry::make(Entry::Kind::Node, 0); }},
+    {"nodes[1]: a child's index is not larger than its parent's", twoLevels,
+     [](Asset& a) { a.nodes[1].children[3] = Entry::make(Entry::Kind::Node, 1); }},
+    {"maps[0]: tree is too deep", twoLevels,
+     [](Asset& a) {
+         a.nodes.resize(maxLevel + 1);
+         for (std::uint32_t i = 0; i < maxLevel; ++i)
+             a.nodes[i].children[0] = Entry::make(Entry::Kind::Node, i + 1);
+     }},
+    {"commands[0]: draws more squares and pieces than the limit", twoLevels,
+     [](Asset& a) {
+         a.nodes.resize(maxLevel);
+         for (std::uint32_t i = 0; i + 1 < maxLevel; ++i)
+             a.nodes[i].children.fill(Entry::make(Entry::Kind::Node, i + 1));
+     }},
+    {"leaves[0]: piece range is out of bounds", disc, [](Asset& a) { a.leaves[0].firstPiece = 1; }},
+    {"leaves[0]: piece range is out of bounds", disc, [](Asset& a) { a.leaves[0].firstPiece = 0xFFFFFFFF; }},
+    {"leaves[0]: unused half is not zero", disc, [](Asset& a) { a.leaves[0].unused = 1; }},
+    {"leaves[0]: a corner or piece names no paint", disc, [](Asset& a) { a.leaves[0].corners[2] = 5; }},
+    {"leaves[0]: a corner or piece names no paint", disc, [](Asset& a) { a.pieces[7].right = 5; }},
+    {"pieces[3]: slope is below -1", disc, [](Asset& a) { a.pieces[3].slopeB = -32768; }},
+    {"paints[0]: must be transparent", disc, [](Asset& a) { a.paints[0] = a.paints[1]; }},
+    {"paints[1]: colour is out of range", disc, [](Asset& a) { a.paints[1][2] = bitsOf(1.5f); }},
+    {"paints[1]: colour is out of range", disc, [](Asset& a) { a.paints[1][0] = bitsOf(std::nanf("")); }},
+    {"paints[65536]: cannot be named by 16 bits", disc, [](Asset& a) { a.paints.resize(65537); }},
+    {"paints[5]: program is out of bounds", everyPaint,
+     [](Asset& a) { a.paints[firstProgram][0] = std::uint32_t(a.data.size()); }},
+    {"paints[5]: program is too long", everyPaint,
+     [](Asset& a) { a.paints[firstProgram][1] = maxInstructions + 1; }},
+    {"paints[5]: operation is unknown", everyPaint,
+     [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.op = Op(9); }); }},
+    {"paints[14]: blend mode is unknown", everyPaint,
+     [](Asset& a) { edit(a, masked, 4, [](Instruction& in) { in.blend = Blend(16); }); }},
+    {"paints[5]: opacity is out of range", everyPaint,
+     [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.opacity = -0.1f; }); }},
+    {"paints[14]: program pops an empty stack", everyPaint,
+     [](Asset& a) { edit(a, masked, 1, [](Instruction& in) { in.op = Op::Pop; }); }},
+    {"paints[14]: program leaves groups open", everyPaint, [](Asset& a) { a.paints[masked][1] = 4; }},
+    {"paints[1]: program overflows its stack", disc,
+     [](Asset& a) {
+         for (unsigned i = 0; i < maxStack; ++i)
+             a.data.push_back({});
+         a.paints[1] = {0, maxStack, 0, programTag};
+     }},
+    {"commands[0]: kind is unknown", disc, [](Asset& a) { a.commands[0].kind = Command::Kind(8); }},
+    {"commands[0]: blend mode is unknown", disc, [](Asset& a) { a.commands[0].blend = Blend(16); }},
+    {"commands[0]: opacity is out of range", disc, [](Asset& a) { a.commands[0].opacity = 2; }},
+    {"commands[0]: names no map", disc, [](Asset& a) { a.commands[0].map = 1; }},
+    {"commands[0]: names no paint", layers, [](Asset& a) { a.commands[0].paint = 6; }},
+    {"commands[0]: its map is no mask: a paint is above 1", layers,
+     [](Asset& a) { a.maps[a.commands[0].map].root = Entry::make(Entry::Kind::Solid, 2); }},
+    {"commands[0]: pops the last picture", disc, [](Asset& a) { a.commands[0].kind = Command::Kind::Pop; }},
+    {"commands[1]: groups are left open at the end", disc,
+     [](Asset& a) { a.commands[0].kind = Command::Kind::Push; }},
+    {"commands[63]: stack of pictures overflows", disc,
+     [](Asset& a) {
+         a.commands.assign(maxPictures, {Command::Kind::Push, {}, 1, 0, 0});
+     }},
+    {"images[0]: bytes do not match the size", everyPaint, [](Asset& a) { a.images[0].rgba.pop_back(); }},
+    {"images[0]: picture is empty", everyPaint, [](Asset& a) { a.images[0].width = 0; }},
+    {"images[0]: pictures have too many pixels", everyPaint, [](Asset& a) { a.images[0].width = 1 << 30; }},
+};
+
+TEST(Validate, NamesEveryBreach) {
+    for (const Breach& breach : breaches) {
+        Asset asset = breach.make();
+        ASSERT_NO_THROW(validate(asset));
+        breach.change(asset);
+        try {
+            validate(asset);
+            ADD_FAILURE() << "accepted: " << breach.message;
+        } catch (const FormatError& error) {
+            EXPECT_STREQ(error.what(), breach.message);
+        }
+    }
+}
+
+/// Gradients and image fills, in an asset of one instruction.
+std::string refusal(Op op, const std::vector<Texel>& data) {
+    try {
+        validate(programAsset({{op, Blend::Normal, 1, 0}}, data));
+    } catch (const FormatError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+std::string gradientRefusal(const std::function<void(Gradient&, std::vector<GradientStop>&)>& change) {
+    Gradient gradient;
+    gradient.stopCount = 3;
+    std::vector<GradientStop> stops{{0, {}, 0}, {0.5f, {}, 0}, {1, {}, 0}};
+    change(gradient, stops);
+    std::vector<Texel> data;
+    addGradient(data, gradient, stops);
+    return refusal(Op::Radial, data);
+}
+
+TEST(Validate, Gradients) {
+    using Stops = std::vector<GradientStop>;
+    EXPECT_EQ(gradientRefusal([](Gradient&, Stops&) {}), "");
+    EXPECT_EQ(gradientRefusal([](Gradient&, Stops& s) { s[1].offset = 1; }), "");
+    EXPECT_EQ(gradientRefusal([](Gradient&, Stops& s) { s[1].offset = -0.1f; }),
+              "data[0]: gradient's stops are not in order in [0, 1]");
+    EXPECT_EQ(gradientRefusal([](Gradient&, Stops& s) { s[0].offset = 0.6f; }),
+              "data[0]: gradient's stops are not in order in [0, 1]");
+    EXPECT_EQ(gradientRefusal([](Gradient&, Stops& s) { s[2].offset = NAN; }),
+              "data[0]: gradient's stops are not in order in [0, 1]");
+    EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.stopCount = 0; }),
+              "data[0]: gradient has no stops");
+    EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.stopCount = 99; }),
+              "data[0]: gradient's stops are out of bounds");
+    EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.spread = Spread(3); }),
+              "data[0]: gradient's spread is unknown");
+    EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.fr = 1; }),
+              "data[0]: gradient's focal circle is out of range");
+    EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.matrix[4] = INFINITY; }),
+              "data[0]: gradient's matrix is not finite");
+}
+
+TEST(Validate, ImageFills) {
+    const auto fill = [](const ImageFill& f) {
+        std::vector<Texel> data;
+        addImage(data, f);
+        return refusal(Op::Image, data);
+    };
+    EXPECT_EQ(fill({}), "");
+    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 1, 1}), "data[0]: image fill names no image");
+    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 0, 2}), "data[0]: image fill's filter is unknown");
+    EXPECT_EQ(fill({{1, 0, 0, NAN, 0, 0}, 0, 1}), "data[0]: image fill's matrix is not finite");
+}
+
+TEST(Summary, CountsWhatIsThere) {
+    const Asset asset = twoLevels();
+    const Summary s = summarize(asset);
+    EXPECT_EQ(s.leaves, 1u);
+    EXPECT_EQ(s.pieces, 1u);
+    EXPECT_EQ(s.solids, 14u + 10u);
+    EXPECT_EQ(s.regions, 5u);
+    EXPECT_EQ(s.maxDepth, 2u);
+    EXPECT_EQ(s.bytes, 2 * 64u + 16 + 16 + 5 * 16);
+}
+
+}  // namespace
+}  // namespace vtm::asset::test
