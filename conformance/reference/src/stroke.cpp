@@ -12,6 +12,9 @@ namespace {
 /// 1e-4; the error there is radius · minTurn² / 8.
 constexpr double minTurn = 1e-4;
 constexpr double maxTurn = std::numbers::pi / 16;
+/// Half widths beyond it (pixels) are cut down to it. Doubles place the ends of such long segments
+/// across the line to 1e-9 pixels; much beyond, rounding alone would scatter edges all over the view.
+constexpr double widestHalf = 1e7;
 /// A mitre at its limit up to rounding is kept.
 constexpr double miterSlack = 1e-9;
 /// Curves out of view keep their length to about this share squared, for the dashes after them.
@@ -46,7 +49,7 @@ public:
     Stroker(const scene::StrokeStyle& style, const Affine& toPixels, const View& view, double flatness,
             int shape, EdgeList& edges)
         : style_(style),
-          half_(style.width / 2),
+          half_(std::min(style.width / 2, widestHalf / largestScale(toPixels))),
           toPixels_(toPixels),
           view_(boxOf(view)),
           reach_(half_ * largestScale(toPixels)),
@@ -73,10 +76,40 @@ public:
             cap(runs.front().front().at, -runs.front().front().direction);
             cap(runs.back().back().at, runs.back().back().direction);
         }
-        endRibbon();
     }
 
 private:
+    /// Edges along the line across a sample, from the steps before and after it. They overlap; what is
+    /// left of their sum has the same ends, is as closed, and mostly nothing.
+    class AcrossLine {
+    public:
+        /// `across`: the line's direction.
+        void add(Point from, Point to, Vector across, bool forward) {
+            ends_.push_back({dot(from, across), from, forward ? -1 : 1});
+            ends_.push_back({dot(to, across), to, forward ? 1 : -1});
+        }
+        /// Between neighbouring ends runs what the ends so far have begun and not ended.
+        void flush(Stroker& stroker) {
+            std::stable_sort(ends_.begin(), ends_.end(),
+                             [](const End& a, const End& b) { return a.place < b.place; });
+            int running = 0;
+            for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
+                running -= ends_[i].balance;
+                for (int n = 0; n < std::abs(running); ++n)
+                    stroker.edge(ends_[i].at, ends_[i + 1].at, running > 0);
+            }
+            ends_.clear();
+        }
+
+    private:
+        struct End {
+            double place;
+            Point at;
+            int balance;  ///< edges that end here minus those that begin
+        };
+        std::vector<End> ends_;
+    };
+
     // Pieces of a stroke, in path space.
 
     void body(const Run& run) {
@@ -85,11 +118,13 @@ private:
             const Sample& b = run[i + 1];
             if (angleBetween(a.direction, b.direction) >
                 2 * turn_) {  // a cusp: the segment turns on the spot
+                across_.flush(*this);
                 spin(a.at, a.direction, b.direction);
                 a.direction = b.direction;
             }
             step(a, b);
         }
+        across_.flush(*this);
     }
 
     /// What the segment across the line sweeps while it turns about its middle.
@@ -102,13 +137,35 @@ private:
     /// What the segment across the line sweeps between two samples.
     void step(const Sample& a, const Sample& b) {
         const Vector na = half_ * normalOf(a.direction), nb = half_ * normalOf(b.direction);
-        const Vector along = a.direction + b.direction;
-        if (dot(b.at + nb - a.at - na, along) > 0 && dot(b.at - nb - a.at + na, along) > 0) {
-            ribbon(a.at - na, b.at - nb, b.at + nb, a.at + na);
-        } else {  // one end moves backwards: tighter than the stroke is wide
-            quad(a.at, b.at, b.at + nb, a.at + na);
-            quad(a.at, b.at, b.at - nb, a.at - na);
+        if (!meetsView(std::array{a.at - na, b.at - nb, b.at + nb, a.at + na})) {
+            across_.flush(*this);
+            return;
         }
+        AcrossLine next;
+        sweepSide(a.at, b.at, na, nb, 1, next);
+        sweepSide(a.at, b.at, na, nb, -1, next);
+        across_.flush(*this);
+        across_ = std::move(next);
+    }
+
+    /// One half of the segment, to the side that `sign` says: a quadrilateral. Where its outer end moves
+    /// backwards, since the line turns tighter than the stroke is wide, it crosses itself and is two
+    /// triangles. The chord from a to b, which both halves share, cancels.
+    void sweepSide(Point a, Point b, Vector na, Vector nb, double sign, AcrossLine& next) {
+        const Point p = a + sign * na, q = b + sign * nb;
+        const auto turned = crossing(a, p, b, q);
+        const bool forward = sign > 0;
+        if (!turned) {
+            next.add(b, q, nb, forward);
+            edge(q, p, forward);
+            across_.add(p, a, na, forward);
+            return;
+        }
+        next.add(b, *turned, nb, forward);
+        across_.add(*turned, a, na, forward);
+        across_.add(*turned, p, na, forward);
+        edge(p, q, forward);
+        next.add(q, *turned, nb, forward);
     }
 
     void join(const Sample& before, const Sample& after) {
@@ -117,12 +174,12 @@ private:
         const double turn = cross(d0, d1);
         if (turn == 0 && dot(d0, d1) > 0)
             return;
-        const double outside = turn > 0 ? -half_ : half_;
+        const double outside = turn >= 0 ? -half_ : half_;
         const Vector a = outside * normalOf(d0), b = outside * normalOf(d1);
         const double halfAngleSine = std::sqrt(std::max(0.0, (1 + dot(d0, d1)) / 2));
         const bool sharp = style_.miterLimit * halfAngleSine * (1 + miterSlack) < 1;
         if (style_.join == scene::Join::Round)
-            fan(p, a, std::atan2(turn, dot(d0, d1)));
+            fan(p, a, turn >= 0 ? angleBetween(d0, d1) : -angleBetween(d0, d1));
         else if (style_.join == scene::Join::Bevel || (style_.join == scene::Join::Miter && sharp))
             polygon({{p, p + a, p + b}});
         else if (sharp)
@@ -162,39 +219,6 @@ private:
         polygon(points_);
     }
 
-    /// A quadrilateral, perhaps crossing itself; then its two triangles.
-    void quad(Point a, Point b, Point c, Point d) {
-        if (const auto x = crossing(a, d, b, c)) {
-            polygon({{a, b, *x}});
-            polygon({{*x, c, d}});
-        } else if (const auto y = crossing(a, b, c, d)) {
-            polygon({{a, *y, d}});
-            polygon({{*y, b, c}});
-        } else {
-            polygon({{a, b, c, d}});
-        }
-    }
-
-    /// A step of a ribbon; the sides that it shares with the step before cancel and are left out.
-    void ribbon(Point right0, Point right1, Point left1, Point left0) {
-        const std::array corners{right0, right1, left1, left0};
-        if (!meetsView(corners))
-            return endRibbon();
-        if (!ribbonEnd_ || ribbonEnd_->from != right0 || ribbonEnd_->to != left0) {
-            endRibbon();
-            edge(left0, right0);
-        }
-        edge(right0, right1);
-        edge(left1, left0);
-        ribbonEnd_ = Line{right1, left1};
-    }
-
-    void endRibbon() {
-        if (ribbonEnd_)
-            edge(ribbonEnd_->from, ribbonEnd_->to);
-        ribbonEnd_.reset();
-    }
-
     void polygon(std::initializer_list<Point> points) { polygon(std::span(points.begin(), points.size())); }
 
     void polygon(std::span<const Point> points) {
@@ -203,7 +227,7 @@ private:
         const bool forward = doubleArea(points) > 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Point p = points[i], q = points[(i + 1) % points.size()];
-            edge(forward ? p : q, forward ? q : p);
+            edge(p, q, forward);
         }
     }
 
@@ -214,8 +238,9 @@ private:
         return Box::around(mapped_).meets(view_);
     }
 
-    void edge(Point from, Point to) {
-        edges_.add(scene::apply(toPixels_, from), scene::apply(toPixels_, to), shape_);
+    void edge(Point from, Point to, bool forward = true) {
+        const Point p = scene::apply(toPixels_, from), q = scene::apply(toPixels_, to);
+        edges_.add(forward ? p : q, forward ? q : p, shape_);
     }
 
     const scene::StrokeStyle& style_;
@@ -226,7 +251,7 @@ private:
     double turn_;   ///< greatest turn between neighbouring radii of a fan
     int shape_;
     EdgeList& edges_;
-    std::optional<Line> ribbonEnd_;  ///< the last step's far side, not added yet
+    AcrossLine across_;  ///< at the sample between two steps
     std::vector<Point> points_, mapped_;
 };
 

@@ -8,6 +8,9 @@ namespace {
 /// Edges in the wrong order by less than this (pixels) count as ordered: coincident edges, cut at
 /// different points, differ by rounding. The area at stake is as small.
 constexpr double orderTolerance = 1e-11;
+/// Levels closer than this (pixels) are one: a strip so thin holds no area worth finding, and piles of
+/// edges that differ by rounding alone would make thousands.
+constexpr double thinnestStrip = 1e-10;
 /// Strips with more crossings than this are cut into as many of equal height instead. Only piles of
 /// thousands of edges in a pixel get there; the error is within one strip, 1/4096 pixel, around each
 /// crossing.
@@ -19,6 +22,21 @@ bool startsAbove(const Piece& piece, int y) { return piece.ya == y && piece.yb >
 double heightAt(const Piece& p, double x) {
     const double y = p.ya + (x - p.xa) / (p.xb - p.xa) * (p.yb - p.ya);
     return std::clamp(y, p.ya, p.yb);
+}
+
+/// Of levels close together the last one stays: below it all of their edges have begun or ended.
+void mergeLevels(std::vector<double>& levels) {
+    std::sort(levels.begin(), levels.end());
+    std::size_t kept = 0;
+    double first = levels[0];
+    for (const double level : levels) {
+        if (level - first >= thinnestStrip) {
+            ++kept;
+            first = level;
+        }
+        levels[kept] = level;
+    }
+    levels.resize(kept + 1);
 }
 
 int columnOf(double x, int width) { return int(std::floor(std::clamp(x, -1.0, double(width)))); }
@@ -117,9 +135,9 @@ void RowSweep::pixel(std::span<const Piece> pieces, std::span<const int> members
     for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
         const double y0 = levels_[i], y1 = levels_[i + 1];
         enterThrough(y0, nextEntry, regions);
-        std::erase_if(active_, [&](const Side* side) { return side->yb <= y0; });
         for (; nextSide < sides_.size() && sides_[nextSide].yt <= y0; ++nextSide)
             active_.push_back(&sides_[nextSide]);
+        std::erase_if(active_, [&](const Side* side) { return side->yb <= y0; });
         strip(y0, y1, column, regions);
     }
     for (std::size_t i = 0; i < nextEntry; ++i)
@@ -160,8 +178,7 @@ void RowSweep::collectStrips(int y) {
     }
     for (const Entry& entry : entries_)
         levels_.push_back(entry.y);
-    std::sort(levels_.begin(), levels_.end());
-    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+    mergeLevels(levels_);
 }
 
 void RowSweep::enterThrough(double y, std::size_t& next, Regions& regions) {
@@ -169,7 +186,7 @@ void RowSweep::enterThrough(double y, std::size_t& next, Regions& regions) {
         regions.cross(entries_[next].shape, entries_[next].winding);
 }
 
-/// All active sides pass through the whole strip.
+/// All active sides pass through the whole strip, but for less than `thinnestStrip` at its bottom.
 void RowSweep::strip(double y0, double y1, int column, Regions& regions) {
     if (!findCrossings(y0, y1))
         return emitStrip(y0, y1, column, regions);
@@ -180,13 +197,14 @@ void RowSweep::strip(double y0, double y1, int column, Regions& regions) {
             levels[i] = y0 + (y1 - y0) * double(i) / double(maxCrossings);
     }
     std::sort(levels.begin(), levels.end());
-    levels.push_back(y1);
     double top = y0;
     for (const double level : levels) {
-        if (level > top)
-            orderedStrip(top, level, column, regions);
-        top = std::max(top, level);
+        if (level - top < thinnestStrip)
+            continue;
+        orderedStrip(top, level, column, regions);
+        top = level;
     }
+    orderedStrip(top, y1, column, regions);
 }
 
 /// Orders the active sides by x at the top of the strip; an insertion sort to their order at the bottom
