@@ -34,7 +34,7 @@ using scene::StrokeStyle;
 
 // Shares of the tolerance: errors of arcs turned into cubics, of offsets fitted to them, and of joins
 // left out because they are too small.
-constexpr double arcShare = 0.1, fitShare = 0.8, joinShare = 0.1;
+constexpr double arcShare = 0.1, fitShare = 0.8, joinShare = gapShare;
 
 /// Directions closer than this are the same whatever the tolerance: control points do not resolve more.
 constexpr double sameDirection = 1e-9;
@@ -112,10 +112,10 @@ private:
         Side& contour = ribbon_.right;
         const Point from = subpath.segments.front().curve.p0, to = endPoint(subpath.segments.back());
         const Point ahead = endTangent(subpath.segments.back().curve);
-        contour.lineTo(to - perp(ahead) * radius_);
+        go(contour, to - perp(ahead) * radius_);
         cap(contour, to, ahead);
         const Side back = reversed(ribbon_.left);
-        contour.lineTo(back.start);
+        go(contour, back.start);
         contour.edges.insert(contour.edges.end(), back.edges.begin(), back.edges.end());
         cap(contour, from, -startTangent(subpath.segments.front().curve));
         emit(contour);
@@ -147,8 +147,8 @@ private:
             inner.edges.back().to = endPoint(a) + sum * (2 * radius_ / glm::dot(sum, sum));
             return true;
         }
-        inner.lineTo(endPoint(a));
-        inner.lineTo(endPoint(a) + n1 * radius_);
+        go(inner, endPoint(a));
+        go(inner, endPoint(a) + n1 * radius_);
         return false;
     }
 
@@ -164,18 +164,19 @@ private:
         const Point at = endPoint(a), t0 = endTangent(a.curve), t1 = startTangent(b.curve);
         const Point from = perp(t0) * (sign * radius_), to = perp(t1) * (sign * radius_);
         const double half = std::abs(angleBetween(t0, t1)) / 2;
+        go(outer, at + from);
         if (join == Join::Round) {
             arc(outer, at, from, angleBetween(t0, t1));
         } else if (join != Join::Bevel && 1 <= style_.miterLimit * std::cos(half)) {
             const Point sum = from + to;
-            outer.lineTo(at + sum * (2 * radius_ * radius_ / glm::dot(sum, sum)));
+            go(outer, at + sum * (2 * radius_ * radius_ / glm::dot(sum, sum)));
         } else if (join == Join::MiterClip) {
             // The clipping line crosses the bisector at miterLimit·r (SVG 2 section 13.5.4).
             const double along = radius_ * (style_.miterLimit - std::cos(half)) / std::sin(half);
-            outer.lineTo(at + from + t0 * along);
-            outer.lineTo(at + to - t1 * along);
+            go(outer, at + from + t0 * along);
+            go(outer, at + to - t1 * along);
         }
-        outer.lineTo(at + to);
+        go(outer, at + to);
     }
 
     // --- caps ----------------------------------------------------------------------------------
@@ -186,16 +187,18 @@ private:
         if (style_.cap == Cap::Round) {
             arc(contour, at, -side, std::numbers::pi);
         } else if (style_.cap == Cap::Square) {
-            contour.lineTo(at - side + forward);
-            contour.lineTo(at + side + forward);
+            go(contour, at - side + forward);
+            go(contour, at + side + forward);
         }
-        contour.lineTo(at + side);
+        go(contour, at + side);
     }
+
+    void go(Side& side, Point to) const { side.lineTo(to, joinShare * tolerance_); }
 
     void arc(Side& contour, Point center, Point from, double angle) const {
         const double sagitta = radius_ * (1 - std::cos(angle / 2));
         if (sagitta <= tolerance_ && std::abs(angle) < std::numbers::pi / 2)
-            return contour.lineTo(center + rotate(from, angle));
+            return go(contour, center + rotate(from, angle));
         for (const Cubic& c : circleArc(center, from, angle, tolerance_))
             contour.cubicTo(c.p1, c.p2, c.p3);
     }

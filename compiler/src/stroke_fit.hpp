@@ -22,8 +22,8 @@ struct Fit {
     double error;  ///< largest distance of a sample from the cubic; infinite if it runs astray
 };
 
-/// Keeps the end points and end tangents exactly.
-Fit fitCubic(const Samples& samples);
+/// Keeps the end points and end tangents exactly; stops at the tolerance.
+Fit fitCubic(const Samples& samples, double tolerance);
 
 /// Largest distance of a sample from the chord.
 double chordError(const Samples& samples);

@@ -23,8 +23,8 @@
 
 namespace vtm::compiler::stroke {
 
-void Side::lineTo(Point to) {
-    if (to != end())
+void Side::lineTo(Point to, double gap) {
+    if (glm::distance(to, end()) > gap)
         edges.push_back({true, {}, {}, to});
 }
 
@@ -199,14 +199,17 @@ public:
     }
 
 private:
+    /// γ' × direction is quadratic and changes its sign once: with Bernstein coefficients a, b, c over
+    /// the stretch, x = t / (1 - t) is the positive root of c x² + 2b x + a.
     double whereTangent(Point direction) const {
-        double low = span_.t0, high = span_.t1;
-        for (int i = 0; i < 50; ++i) {
-            const double mid = (low + high) / 2;
-            const bool before = (cross(tangentAt(c_, mid), direction) > 0) == (turn_ > 0);
-            (before ? low : high) = mid;
-        }
-        return (low + high) / 2;
+        const Cubic piece = part(c_, span_.t0, span_.t1);
+        const double sign = turn_ > 0 ? -1 : 1;  // so that a < 0 < c
+        const double a = sign * cross(piece.p1 - piece.p0, direction),
+                     b = sign * cross(piece.p2 - piece.p1, direction),
+                     c = sign * cross(piece.p3 - piece.p2, direction);
+        const double root = std::sqrt(std::max(0.0, b * b - a * c));
+        const double share = b > 0 ? -a / (-a + b + root) : (root - b) / (root - b + c);
+        return span_.t0 + (span_.t1 - span_.t0) * std::clamp(share, 0.0, 1.0);
     }
 
     const Cubic& c_;
@@ -245,8 +248,8 @@ int pieceCount(double error, double tolerance) {
 void appendFit(const OffsetCurve& curve, double u0, double u1, double tolerance, int depth, Side& side) {
     const Samples samples = curve.samples(u0, u1);
     if (depth == 0 || chordError(samples) <= tolerance)
-        return side.lineTo(samples.back().at);
-    const Fit fit = fitCubic(samples);
+        return side.lineTo(samples.back().at, gapShare * tolerance);
+    const Fit fit = fitCubic(samples, tolerance);
     if (fit.error <= tolerance)
         return side.cubicTo(fit.cubic.p1, fit.cubic.p2, fit.cubic.p3);
     const int count = pieceCount(fit.error, tolerance);
@@ -272,6 +275,8 @@ public:
             append(um, u1, depth - 1, side);
             return;
         }
+        if (glm::distance(from, control) + glm::distance(control, to) <= tolerance_)
+            return side.lineTo(to, gapShare * tolerance_);
         const Cubic c = elevate(from, control, to);
         side.cubicTo(c.p1, c.p2, c.p3);
     }
@@ -281,9 +286,9 @@ private:
     Point normal(double u) const { return perp(stretch_.tangent(u)) * (radius_ < 0 ? -1.0 : 1.0); }
 
     double centreDistance(double u) const {
-        const double t = stretch_.parameter(u), q = std::max(0.0, evaluate(curvature_.speedSquared, t));
-        const double bend = std::abs(evaluate(curvature_.cross, t)), cube = q * std::sqrt(q),
-                     r = std::abs(radius_);
+        const double t = stretch_.parameter(u), r = std::abs(radius_);
+        const double q = std::max(0.0, bernstein(curvature_.speedSquared, t)), cube = q * std::sqrt(q);
+        const double bend = std::abs(bernstein(curvature_.cross, t));
         return cube < r * bend ? cube / bend : (cube > 0 ? r : 0);
     }
 
@@ -338,14 +343,8 @@ public:
 
 private:
     void fit(const Stretch& stretch, double distance, bool backward, Side& side) const {
-        meet(side, stretch.offset(0, distance).at);
+        side.lineTo(stretch.offset(0, distance).at, gapShare * o_.tolerance);
         appendFit({stretch, distance, backward}, 0, 1, o_.tolerance, maxFitDepth, side);
-    }
-
-    /// Steps that the tolerance hides would only cost edges.
-    void meet(Side& side, Point to) const {
-        if (glm::distance(side.end(), to) > o_.tolerance / 4)
-            side.lineTo(to);
     }
 
     void gentle(const Stretch& stretch) {
@@ -359,7 +358,7 @@ private:
         Side& innerSide = left ? ribbon_.left : ribbon_.right;
         fit(stretch, -inner, false, left ? ribbon_.right : ribbon_.left);
         const Evolute evolute(curve_, stretch, inner, o_.tolerance);
-        meet(innerSide, evolute.at(0));
+        innerSide.lineTo(evolute.at(0), gapShare * o_.tolerance);
         evolute.append(0, 1, maxFitDepth, innerSide);
         if (o_.beyond)
             sweepBeyond(stretch, evolute, bend, inner);

@@ -19,8 +19,8 @@ struct Side {
     std::vector<Edge> edges;
 
     Point end() const { return edges.empty() ? start : edges.back().to; }
-    /// Adds nothing for a point where the side already is.
-    void lineTo(Point to);
+    /// Adds nothing if the side is within `gap` of the point already.
+    void lineTo(Point to, double gap = 0);
     void cubicTo(Point c1, Point c2, Point to) { edges.push_back({false, c1, c2, to}); }
 };
 
@@ -31,6 +31,9 @@ struct Ribbon {
     Side left, right;
     std::vector<Side> beyond;  ///< closed contours, wound like left reversed after right
 };
+
+/// Steps below this share of the tolerance are left out: they would only cost edges.
+inline constexpr double gapShare = 0.1;
 
 struct OffsetOptions {
     double radius;
