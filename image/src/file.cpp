@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <fstream>
 
 #include "image/codec.hpp"
@@ -5,6 +6,8 @@
 namespace vtm::image {
 
 std::vector<std::uint8_t> readFile(const std::string& path) {
+    if (std::filesystem::is_directory(path))
+        throw CodecError(path + ": is a directory");
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
     if (size < 0)

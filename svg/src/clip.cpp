@@ -14,19 +14,18 @@ std::shared_ptr<const scene::Clip> intersect(const std::shared_ptr<const scene::
 }
 
 std::shared_ptr<const scene::Clip> Converter::clipOf(const Element& element, const Scope& scope,
-                                                     const Box& box, bool& valid) {
+                                                     const Box& box) {
     if (scope.style.clipPath.empty())
         return nullptr;
     const Element* clipPath = resource(scope.style.clipPath, Tag::ClipPath, element);
-    return clipPath ? clip(*clipPath, scope, box, valid) : nullptr;
+    return clipPath ? clip(*clipPath, scope, box) : nullptr;
 }
 
 std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, const Scope& scope,
-                                                   const Box& box, bool& valid) {
+                                                   const Box& box) {
     const Expansion expansion(active_, clipPath);
     if (!expansion || !spend()) {
         reporter_.warn(clipPath, "refers to itself in a circle");
-        valid = false;
         return nullptr;
     }
     Scope inner = scope;
@@ -37,20 +36,20 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
     if (trim(clipPath.get("clipPathUnits")) == "objectBoundingBox")
         inner.transform = scene::compose(inner.transform, unitSquareTo(box));
     auto made = std::make_shared<scene::Clip>();
-    if (scene::inverse(inner.transform) && passesConditions(clipPath))
+    if (scene::inverse(inner.transform))
         for (const Element* child : clipPath.children)
-            addClipChild(*child, inner, *made, valid);
+            addClipChild(*child, inner, *made);
     Scope own = scope;
     own.style = inner.style;
-    made->clip = clipOf(clipPath, own, box, valid);
+    made->clip = clipOf(clipPath, own, box);
     return made;
 }
 
-void Converter::addClipChild(const Element& child, const Scope& parent, scene::Clip& clip, bool& valid) {
+void Converter::addClipChild(const Element& child, const Scope& parent, scene::Clip& clip) {
     if (child.tag == Tag::Text)
         reporter_.warn(child, "is not supported in a clipPath yet; it is left out");
     if (isShape(child.tag))
-        addClipShape(child, parent, nullptr, clip, valid);
+        addClipShape(child, parent, nullptr, clip);
     if (child.tag != Tag::Use)
         return;
     const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
@@ -61,19 +60,18 @@ void Converter::addClipChild(const Element& child, const Scope& parent, scene::C
         Nodes unused;
         convertElement(*target, *scope, unused);
     });
-    addClipShape(*target, *scope, clipOf(child, *scope, box, valid), clip, valid);
+    addClipShape(*target, *scope, clipOf(child, *scope, box), clip);
 }
 
 void Converter::addClipShape(const Element& child, const Scope& parent,
-                             const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip,
-                             bool& valid) {
+                             const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip) {
     const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
     CachedShape* shape = scope && scope->style.visible ? shapeOf(child, *scope) : nullptr;
     if (!shape || !isWithinReach(mapBox(scope->transform, boxOf(*shape))))
         return;
     const CachedShape own = *shape;  // what the child's own clip draws may replace the cache's entry
     clip.shapes.push_back({own.path, scope->transform, scope->style.clipRule,
-                           intersect(clipOf(child, *scope, *own.box, valid), around)});
+                           intersect(clipOf(child, *scope, *own.box), around)});
 }
 
 }  // namespace vtm::svg

@@ -89,6 +89,8 @@ std::optional<scene::Color> readRgb(Cursor& cursor) {
     const auto tail = readTail(cursor);
     if (!tail)
         return std::nullopt;
+    if (first->percent != tail->second.percent || first->percent != tail->third.percent)
+        return std::nullopt;  // numbers and percentages do not mix
     const auto byte = [](Component c) { return c.percent ? c.value * 2.55 : c.value; };
     return fromBytes(byte(*first), byte(tail->second), byte(tail->third), tail->alpha);
 }

@@ -80,6 +80,7 @@ private:
 
     // viewport.cpp: svg, symbol, use
     void convertSvg(const Element& element, const Scope& scope, Nodes& out);
+    void fillBackground(const Scope& scope, const Rect& canvas, Nodes& out);
     void convertViewport(const Element& element, const Rect& viewport, const Scope& scope, Nodes& out);
     void convertUse(const Element& element, const Scope& scope, Nodes& out);
     void convertUsed(const Element& use, const Element& target, const Scope& scope, Nodes& out);
@@ -135,17 +136,13 @@ private:
     bool filterAllowsDrawing(const Element& element, const Style& style);
     /// What an href to a mask or clipPath leads to; nothing (and a warning) if it leads nowhere.
     const Element* resource(std::string_view href, Tag tag, const Element& user);
-    std::shared_ptr<const scene::Clip> clip(const Element& clipPath, const Scope& scope, const Box& box,
-                                            bool& valid);
-    void addClipChild(const Element& child, const Scope& scope, scene::Clip& clip, bool& valid);
+    std::shared_ptr<const scene::Clip> clip(const Element& clipPath, const Scope& scope, const Box& box);
+    void addClipChild(const Element& child, const Scope& scope, scene::Clip& clip);
     void addClipShape(const Element& child, const Scope& scope,
-                      const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip, bool& valid);
-    std::shared_ptr<const scene::Clip> clipOf(const Element& element, const Scope& scope, const Box& box,
-                                              bool& valid);
-    std::shared_ptr<const scene::Mask> mask(const Element& maskElement, const Scope& scope, const Box& box,
-                                            bool& valid);
-    std::shared_ptr<const scene::Mask> maskOf(const Element& element, const Scope& scope, const Box& box,
-                                              bool& valid);
+                      const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip);
+    std::shared_ptr<const scene::Clip> clipOf(const Element& element, const Scope& scope, const Box& box);
+    std::shared_ptr<const scene::Mask> mask(const Element& maskElement, const Scope& scope, const Box& box);
+    std::shared_ptr<const scene::Mask> maskOf(const Element& element, const Scope& scope, const Box& box);
 
     // marker.cpp
     void convertMarkers(const Element& element, const Scope& scope, CachedShape& shape, Nodes& out);

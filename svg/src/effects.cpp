@@ -77,10 +77,10 @@ Box Converter::boxAround(const Scope& scope, const std::function<void()>& conver
 Converter::Effects Converter::effectsOf(const Element& element, const Scope& scope, const Box& box) {
     Effects effects;
     effects.draw = filterAllowsDrawing(element, scope.style);
-    if (effects.draw)
-        effects.clip = clipOf(element, scope, box, effects.draw);
-    if (effects.draw)
-        effects.mask = maskOf(element, scope, box, effects.draw);
+    if (effects.draw) {
+        effects.clip = clipOf(element, scope, box);
+        effects.mask = maskOf(element, scope, box);
+    }
     return effects;
 }
 

@@ -99,7 +99,7 @@ Converter::ServerResult Converter::gradient(const Element& server, const Scope& 
     const Chain chain = templateChain(server);
     std::vector<scene::GradientStop> stops = gradientStops(chain);
     if (stops.empty())
-        return Nothing{};
+        return Invalid{};
     if (stops.size() == 1)
         return scene::Paint(stops.front().color);
     const bool userSpace = trim(inherited(chain, "gradientUnits")) == "userSpaceOnUse";

@@ -37,11 +37,14 @@ Bytes readResource(std::string_view href, const std::string& directory) {
 }  // namespace
 
 struct Converter::NestedDocument {
+    Options options;
     std::unique_ptr<ParsedDocument> parsed;
     Converter converter;
 
-    NestedDocument(std::unique_ptr<ParsedDocument> document, const Options& options, Budget& budget)
-        : parsed(std::move(document)), converter(*parsed->tree, parsed->reporter, options, budget) {}
+    NestedDocument(const Bytes& bytes, Options own, std::vector<Warning>& warnings, Budget& budget)
+        : options(std::move(own)),
+          parsed(parseDocument(bytes, options, warnings)),
+          converter(*parsed->tree, parsed->reporter, options, budget) {}
 };
 
 void Converter::convertImage(const Element& element, const Scope& scope, Nodes& out) {
@@ -106,8 +109,7 @@ Converter::ImageContent Converter::loadImage(std::string_view href) {
         Options options = options_;
         options.fileName = isDataUrl(href) ? "image in " + options_.fileName : std::string(href);
         options.resourceDirectory.clear();  // an image may not load further files (SVG 2 section 2.2)
-        return std::make_shared<NestedDocument>(parseDocument(bytes, options, reporter_.warnings()), options,
-                                                budget_);
+        return std::make_shared<NestedDocument>(bytes, std::move(options), reporter_.warnings(), budget_);
     }
     image::Bitmap bitmap = image::decode(bytes);
     const std::int64_t pixels = std::int64_t(bitmap.width) * bitmap.height;

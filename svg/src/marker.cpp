@@ -50,16 +50,11 @@ double reference(const LengthReader& reader, std::string_view name, Axis axis, c
     return reader.lengthOr(name, axis, 0);
 }
 
-bool takesMarkers(Tag tag) {
-    return tag == Tag::Path || tag == Tag::Line || tag == Tag::Polyline || tag == Tag::Polygon;
-}
-
 }  // namespace
 
 void Converter::convertMarkers(const Element& element, const Scope& scope, CachedShape& shape, Nodes& out) {
     const Style& style = scope.style;
-    if (!takesMarkers(element.tag) ||
-        (style.markerStart.empty() && style.markerMid.empty() && style.markerEnd.empty()))
+    if (style.markerStart.empty() && style.markerMid.empty() && style.markerEnd.empty())
         return;
     const auto find = [&](std::string_view href) {
         return href.empty() ? nullptr : resource(href, Tag::Marker, element);

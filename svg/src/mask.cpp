@@ -21,19 +21,18 @@ Box regionOf(const LengthReader& written, bool boxUnits, const Box& box) {
 }  // namespace
 
 std::shared_ptr<const scene::Mask> Converter::maskOf(const Element& element, const Scope& scope,
-                                                     const Box& box, bool& valid) {
+                                                     const Box& box) {
     if (scope.style.mask.empty())
         return nullptr;
     const Element* found = resource(scope.style.mask, Tag::Mask, element);
-    return found ? mask(*found, scope, box, valid) : nullptr;
+    return found ? mask(*found, scope, box) : nullptr;
 }
 
-std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const Scope& scope, const Box& box,
-                                                   bool& valid) {
+std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const Scope& scope,
+                                                   const Box& box) {
     const Expansion expansion(active_, element);
     if (!expansion || !spend()) {
         reporter_.warn(element, "refers to itself in a circle");
-        valid = false;
         return nullptr;
     }
     Scope inner = scope;
@@ -41,13 +40,11 @@ std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const
     ++inner.depth;
     const bool boxUnits = trim(element.get("maskUnits")) != "userSpaceOnUse";
     const bool boxContent = trim(element.get("maskContentUnits")) == "objectBoundingBox";
-    if ((boxUnits || boxContent) && !(box.width() > 0 && box.height() > 0)) {
-        valid = false;
-        return nullptr;
-    }
     auto content = std::make_shared<scene::Group>();
     const Box region = regionOf(lengths(element, inner), boxUnits, box);
-    if (region.width() > 0 && region.height() > 0 && passesConditions(element)) {
+    const bool hasBox = box.width() > 0 && box.height() > 0;
+    const bool reachable = hasBox || !(boxUnits || boxContent);  // without a box the mask hides everything
+    if (reachable && region.width() > 0 && region.height() > 0) {
         if (boxContent)
             inner.transform = scene::compose(scope.transform, unitSquareTo(box));
         Nodes nodes;
@@ -58,7 +55,7 @@ std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const
     }
     Scope own = scope;
     own.style = inner.style;
-    content->mask = maskOf(element, own, box, valid);
+    content->mask = maskOf(element, own, box);
     return std::make_shared<const scene::Mask>(
         scene::Mask{std::move(content), inner.style.maskKind, inner.style.linearColors});
 }

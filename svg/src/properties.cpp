@@ -111,7 +111,7 @@ std::optional<scene::Join> parseJoin(std::string_view text, const Units&) {
 std::optional<double> parseMiterLimit(std::string_view text, const Units&) {
     Cursor cursor(text);
     const auto value = cursor.number();
-    return value && cursor.atEnd() ? value : std::nullopt;
+    return value && *value >= 1 && cursor.atEnd() ? value : std::nullopt;
 }
 
 using Dashes = std::shared_ptr<const std::vector<Length>>;
@@ -138,7 +138,7 @@ std::optional<bool> parseDisplay(std::string_view text, const Units&) {
     return !equalsIgnoringCase(text, "none");
 }
 
-std::optional<std::optional<bool>> parseOverflow(std::string_view text, const Units&) {
+std::optional<std::optional<bool>> findOverflow(std::string_view text) {
     static constexpr Keyword<std::optional<bool>> table[]{
         {"visible", true}, {"auto", true}, {"hidden", false}, {"scroll", false}, {"clip", false}};
     return findKeyword(text, table);
@@ -271,6 +271,17 @@ void copyMarkers(Style& to, const Style& from) {
     to.markerEnd = from.markerEnd;
 }
 
+bool applyOverflow(Style& style, std::string_view value, const Units&) {
+    const auto overflow = findOverflow(value);
+    if (overflow)
+        style.overflow = *overflow;
+    return overflow.has_value();
+}
+
+/// Inherited from an element that declares nothing it is the initial value, visible; that some
+/// elements are clipped where nothing is declared is the user agent's style sheet.
+void copyOverflow(Style& to, const Style& from) { to.overflow = from.overflow.value_or(true); }
+
 template <class Part>
 constexpr bool isInherited = std::is_same_v<Part, Inherited>;
 
@@ -343,9 +354,9 @@ std::vector<Property> makeTable() {
         property<&Inherited::fontSize, parseFontSize>("font-size"),
         property<&Own::displayed, parseDisplay>("display"),
         property<&Own::opacity, parseOpacity>("opacity"),
-        property<&Own::blend, parseBlend>("mix-blend-mode"),
-        property<&Own::isolated, parseIsolation>("isolation"),
-        property<&Own::overflow, parseOverflow>("overflow"),
+        property<&Own::blend, parseBlend>("mix-blend-mode", false),
+        property<&Own::isolated, parseIsolation>("isolation", false),
+        {"overflow", true, false, applyOverflow, copyOverflow},
         property<&Own::clipPath, parseReference>("clip-path"),
         property<&Own::mask, parseReference>("mask"),
         property<&Own::filter, parseFilter>("filter"),

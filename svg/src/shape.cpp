@@ -111,10 +111,6 @@ std::optional<scene::StrokeStyle> Converter::strokeStyle(const Element& element,
     stroke.cap = style.cap;
     stroke.join = style.join;
     stroke.miterLimit = style.miterLimit;
-    if (stroke.miterLimit < 1) {
-        reporter_.warn(element, "stroke-miterlimit must be at least 1; it is not stroked");
-        return std::nullopt;
-    }
     addDashes(element, scope, shape, stroke);
     return stroke;
 }

@@ -55,20 +55,17 @@ private:
     }
 
     /// Segments of no length take their direction from their neighbours, first those before, then
-    /// those after; a closed subpath's ends see each other.
+    /// those after. SVG 2 would let the first and last vertex of a closed subpath share the bisector of
+    /// both directions; the renderers in use do not, and neither do we.
     void endSubpath() {
         if (subpath_ >= vertices_.size())
             return;
-        glm::dvec2 direction(0);
+        glm::dvec2 direction = vertices_[subpath_].incoming;
         for (std::size_t i = subpath_ + 1; i < vertices_.size(); ++i)
             carry(vertices_[i - 1].outgoing, vertices_[i].incoming, direction);
         direction = glm::dvec2(0);
         for (std::size_t i = vertices_.size(); --i > subpath_;)
             carry(vertices_[i].incoming, vertices_[i - 1].outgoing, direction);
-        if (closed_) {
-            vertices_[subpath_].incoming = vertices_.back().incoming;
-            vertices_.back().outgoing = vertices_[subpath_].outgoing;
-        }
         closed_ = false;
     }
 

@@ -53,14 +53,25 @@ void Converter::convertRoot(const scene::Affine& placement, Nodes& out) {
 }
 
 void Converter::convertSvg(const Element& element, const Scope& scope, Nodes& out) {
-    if (&element == tree_.root && scope.depth == 1)
-        return convertViewport(element, {0, 0, rootSize_.width, rootSize_.height}, scope, out);
+    if (&element == tree_.root && scope.depth == 1) {
+        const Rect canvas{0, 0, rootSize_.width, rootSize_.height};
+        fillBackground(scope, canvas, out);
+        return convertViewport(element, canvas, scope, out);
+    }
     const LengthReader reader = lengths(element, scope);
     convertViewport(element,
                     {reader.lengthOr("x", Axis::X, 0), reader.lengthOr("y", Axis::Y, 0),
                      reader.lengthOr("width", Axis::X, scope.viewport.width),
                      reader.lengthOr("height", Axis::Y, scope.viewport.height)},
                     scope, out);
+}
+
+/// CSS gives the outermost svg a background like any box.
+void Converter::fillBackground(const Scope& scope, const Rect& canvas, Nodes& out) {
+    if (scope.style.background && scope.style.background->a > 0)
+        out.push_back({scene::Item{
+            std::make_shared<const scene::Path>(scene::rectangle(canvas.box().min, canvas.box().max)),
+            scope.transform, scene::FillRule::NonZero, *scope.style.background}});
 }
 
 void Converter::convertViewport(const Element& element, const Rect& viewport, const Scope& scope,
