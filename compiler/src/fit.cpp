@@ -269,8 +269,8 @@ private:
     /// Counter-clockwise from one side to another; the leaf's inside lies on the left.
     bool cutAlong(const Chain& chain, Side from, Side to, Paint outer, Paint inner) {
         const Side sides = (to + 4 - from) % 4;
-        for (LatticePoint p : chain.points)
-            if (!hugs(quantiser_.round(p), from, sides))
+        for (std::size_t i = 1; i < chain.points.size(); ++i)
+            if (!hugs(quantiser_.round(chain.points[i - 1]), quantiser_.round(chain.points[i]), from, sides))
                 return false;
         for (Side k = 1; k <= sides; ++k)
             if (leaf_.corners[(from + k) % 4] != outer)
@@ -280,19 +280,19 @@ private:
         return true;
     }
 
-    /// Within one step of a side of those from `from` on. The first and the last are met only near
-    /// their corners, unless there is but one.
-    static bool hugs(Steps p, Side from, Side sides) {
-        for (Side k = 0; k <= sides; ++k)
-            if (distance(p, (from + k) % 4) <= 1) {
-                const bool inner = sides == 0 || (k > 0 && k < sides);
-                const bool near = (k == 0 && distance(p, (from + 1) % 4) <= 1) ||
-                                  (k == sides && distance(p, (from + sides + 3) % 4) <= 1);
-                if (inner || near)
-                    return true;
-            }
+    /// Whether an edge runs within one step of one of the sides from `from` on. The first and the last
+    /// side are met only near their corners, unless there is but one.
+    static bool hugs(Steps p, Steps q, Side from, Side sides) {
+        for (Side k = 0; k <= sides; ++k) {
+            const Side side = (from + k) % 4;
+            const bool whole = sides == 0 || (k > 0 && k < sides);
+            const Side neighbour = k == 0 ? (side + 1) % 4 : (side + 3) % 4;
+            if (near(p, q, side) && (whole || near(p, q, neighbour)))
+                return true;
+        }
         return false;
     }
+    static bool near(Steps p, Steps q, Side side) { return distance(p, side) <= 1 && distance(q, side) <= 1; }
 
     static int distance(Steps p, Side side) {
         const int across = side % 2 == 0 ? p[1] : p[0];

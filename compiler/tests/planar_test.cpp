@@ -253,6 +253,18 @@ TEST(Fit, onlyPointsOnTheBorderStayOnItAndNoneIsACorner) {
     }
 }
 
+TEST(Fit, aDiagonalBetweenTwoCornersIsNoSliver) {
+    const Square big{-1, -1, 1 << 24};
+    const Coord end = (1 << 24) - 2;
+    std::vector<LeafChord> chords;
+    const std::vector<LatticePoint> shape{{-4, end + 2}, {end + 4, 0}, {1 << 25, 1 << 25}};
+    for (std::size_t i = 0; i < 3; ++i)
+        if (const Chord c{shape[i], shape[(i + 1) % 3]}; meets(c, big))
+            chords.push_back({c, 0});
+    const FittedLeaf leaf = fit(big, planarise(big, chords, std::vector<int>{0}, bits), 1);
+    EXPECT_EQ(leaf.pieces.size(), 1u);
+}
+
 TEST(Fit, aShapeThatEndsOnTheBorderLeavesNoSliver) {
     const Square big{-1, -1, 1 << 24};
     std::vector<LeafChord> chords;
