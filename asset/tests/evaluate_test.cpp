@@ -134,7 +134,7 @@ Polygon outline(const Asset& asset) {
 
 TEST(Evaluate, ArcsStayWithinTheChordBound) {
     const Asset asset = disc();
-    expectSame(asset, {{outline(asset), red}}, 2.5 / 255, 25);
+    expectSame(asset, {{outline(asset), red}}, 1.0 / 255, 25);
 }
 
 TEST(Evaluate, ArcPiecesFollowTheCircle) {

@@ -6,6 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include <glm/mat3x2.hpp>
+#include <glm/vec2.hpp>
+
 #include "asset/view.hpp"
 
 namespace vtm::asset::test {
