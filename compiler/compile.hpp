@@ -18,7 +18,7 @@ struct Options {
     double tolerance = 1.0 / 65536;
     /// A leaf with more pieces is split while the tree may grow deeper. In [1, 4096].
     unsigned piecesPerLeaf = 12;
-    /// Levels of the 16-tree. In [0, 10].
+    /// Levels of the 16-tree. In [0, asset::maxLevel]; cells finer than the tolerance allows are not made.
     unsigned maxDepth = 8;
 };
 

@@ -12,8 +12,14 @@ namespace {
 
 using asset::Command;
 
-/// A leaf of this level still has 2^8 lattice steps a side.
-constexpr unsigned deepest = 10;
+/// A lattice step is this many bits finer than the tolerance: snapping moves points by a step or two.
+constexpr int stepBits = 6;
+/// Cells of the last level still have this many steps a side.
+constexpr int lastCellBits = 4;
+
+int latticeBits(double tolerance) {
+    return std::min(maxLatticeBits, static_cast<int>(std::ceil(-std::log2(tolerance))) + stepBits);
+}
 
 /// Of the whole tolerance: what chords may take from the curves, and pieces from the chords. The rest
 /// is left to quantisation.
@@ -24,18 +30,19 @@ void checkOptions(const Options& o) {
         throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
     if (o.piecesPerLeaf < 1 || o.piecesPerLeaf > 4096)
         throw std::invalid_argument("piecesPerLeaf must lie in [1, 4096]");
-    if (o.maxDepth > deepest)
-        throw std::invalid_argument("maxDepth must be at most " + std::to_string(deepest));
+    if (o.maxDepth > asset::maxLevel)
+        throw std::invalid_argument("maxDepth must be at most " + std::to_string(asset::maxLevel));
 }
 
 TreeOptions treeOptions(const Options& o) {
+    const int bits = latticeBits(o.tolerance);
     TreeOptions t;
-    t.fitTolerance = o.tolerance * fitShare * static_cast<double>(latticeSide);
+    t.fitTolerance = std::ldexp(o.tolerance * fitShare, bits);
     t.piecesPerLeaf = o.piecesPerLeaf;
-    t.maxDepth = o.maxDepth;
+    t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(bits - lastCellBits) / 2);
     // A leaf's end points are rounded by half of 1/65535 of its side in each axis.
     const double widest = o.tolerance * quantisationShare * asset::leafExtent * std::sqrt(2.0);
-    t.minDepth = std::min(o.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
+    t.minDepth = std::min(t.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
     return t;
 }
 
@@ -53,8 +60,8 @@ public:
         : picture_(picture), lattice_(lattice), options_(treeOptions(options)), asset_(asset) {}
 
     std::uint32_t add(std::span<const std::uint32_t> layers, Painter& painter) {
-        const asset::Entry root = buildTree(picture_, layers, painter, options_, asset_, times_);
-        asset_.maps.push_back({lattice_.originUnits(), lattice_.originUnits(), lattice_.sideUnits(), root});
+        const asset::Entry root = buildTree(picture_, lattice_.square(), layers, painter, options_, asset_, times_);
+        asset_.maps.push_back({0, 0, std::max(asset_.width, asset_.height), root});
         return static_cast<std::uint32_t>(asset_.maps.size() - 1);
     }
     const TreeTimes& times() const { return times_; }
@@ -173,8 +180,9 @@ Result compile(const scene::Scene& scene, const Options& options) {
         return std::chrono::duration<double, std::milli>(b - a).count();
     };
     const auto start = Clock::now();
-    const Lattice lattice(scene.width, scene.height);
-    Picture picture = lower(scene, lattice, options.tolerance * chordShare * static_cast<double>(latticeSide));
+    const int bits = latticeBits(options.tolerance);
+    const Lattice lattice(scene.width, scene.height, bits);
+    Picture picture = lower(scene, lattice, std::ldexp(options.tolerance * chordShare, bits));
     const auto lowered = Clock::now();
 
     Result result;

@@ -93,9 +93,10 @@ class Quantiser {
 public:
     explicit Quantiser(const Square& square) : square_(square) {}
 
+    double leafStepsPerStep() const { return extent / square_.side; }
     /// Leaf coordinates, unrounded.
     dvec2 exact(LatticePoint p) const {
-        return dvec2{p.x - square_.x0, p.y - square_.y0} * (extent / square_.side);
+        return dvec2{p.x - square_.x0, p.y - square_.y0} * leafStepsPerStep();
     }
     Steps round(LatticePoint p) const {
         const dvec2 u = exact(p);
@@ -243,12 +244,13 @@ private:
 
 // ---- slivers ----------------------------------------------------------------------------------
 
-/// Drops chains that run along the border, nowhere more than one leaf step inside: traces of shapes
-/// that end on the cell's border. What lies between such a chain and the border is below the leaf's
-/// resolution; the corners that the chain passes take the paint of its inner side.
+/// Drops chains that run along the border, nowhere more than a lattice step inside: traces of shapes
+/// that end on the cell's border. What lies between such a chain and the border is below the
+/// lattice's resolution; the corners that the chain passes take the paint of its inner side.
 class SliverCutter {
 public:
-    SliverCutter(const Quantiser& quantiser, FittedLeaf& leaf) : quantiser_(quantiser), leaf_(leaf) {}
+    SliverCutter(const Quantiser& quantiser, FittedLeaf& leaf)
+        : quantiser_(quantiser), reach_(1 + static_cast<int>(quantiser.leafStepsPerStep())), leaf_(leaf) {}
 
     void run(std::vector<Chain>& chains) {
         while (std::erase_if(chains, [&](const Chain& c) { return cut(c); }) > 0) {
@@ -280,9 +282,9 @@ private:
         return true;
     }
 
-    /// Whether an edge runs within one step of one of the sides from `from` on. The first and the last
+    /// Whether an edge runs within reach of one of the sides from `from` on. The first and the last
     /// side are met only near their corners, unless there is but one.
-    static bool hugs(Steps p, Steps q, Side from, Side sides) {
+    bool hugs(Steps p, Steps q, Side from, Side sides) const {
         for (Side k = 0; k <= sides; ++k) {
             const Side side = (from + k) % 4;
             const bool whole = sides == 0 || (k > 0 && k < sides);
@@ -292,7 +294,7 @@ private:
         }
         return false;
     }
-    static bool near(Steps p, Steps q, Side side) { return distance(p, side) <= 1 && distance(q, side) <= 1; }
+    bool near(Steps p, Steps q, Side side) const { return distance(p, side) <= reach_ && distance(q, side) <= reach_; }
 
     static int distance(Steps p, Side side) {
         const int across = side % 2 == 0 ? p[1] : p[0];
@@ -306,6 +308,7 @@ private:
     }
 
     const Quantiser& quantiser_;
+    const int reach_;  ///< leaf steps
     FittedLeaf& leaf_;
 };
 
@@ -317,7 +320,7 @@ FittedLeaf fit(const Square& square, const PlanarLeaf& leaf, double tolerance) {
     std::vector<Chain> chains = Linker(leaf.edges).run();
     SliverCutter(quantiser, fitted).run(chains);
     for (const Chain& chain : chains)
-        Fitter(chain, quantiser, tolerance * extent / square.side, fitted.pieces).run();
+        Fitter(chain, quantiser, tolerance * quantiser.leafStepsPerStep(), fitted.pieces).run();
     return fitted;
 }
 

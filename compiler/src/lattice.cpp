@@ -1,6 +1,7 @@
 #include "compiler/src/lattice.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vtm::compiler {
 namespace {
@@ -8,16 +9,15 @@ namespace {
 /// How far beyond the root square geometry may reach, in steps: any small even number will do.
 constexpr double margin = 16;
 
-double clampLimit(double extent, double longer, double scale) {
-    return extent == longer ? static_cast<double>(latticeSide) + margin : extent * scale - 2;
-}
-
 }  // namespace
 
-Lattice::Lattice(double width, double height) {
-    const double longer = std::max(width, height);
-    scale_ = static_cast<double>(latticeSide + 2) / longer;
-    clampMax_ = {clampLimit(width, longer, scale_), clampLimit(height, longer, scale_)};
+Lattice::Lattice(double width, double height, int bits) : bits_(bits) {
+    const double longer = std::max(width, height), side = std::ldexp(1.0, bits);
+    scale_ = (side + 2) / longer;
+    const auto limit = [&](double extent) { return extent == longer ? side + margin : extent * scale_ - 2; };
+    clampMax_ = {limit(width), limit(height)};
 }
+
+glm::dvec2 Lattice::clampMin() const { return {-margin, -margin}; }
 
 }  // namespace vtm::compiler

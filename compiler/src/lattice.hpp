@@ -1,9 +1,9 @@
 /// \file
 /// The integer lattice on which all topology is decided, and its exact predicates.
 ///
-/// The root square of a map spans [-1, 2^28 - 1] lattice steps in each axis. Vertices of the scene
-/// have even coordinates; borders of cells have odd ones, at every level down to the last, so no
-/// vertex ever lies on a border. Coordinates stay within ±2^29: differences fit 30 bits, their
+/// The root square of a map spans [-1, 2^b - 1] lattice steps in each axis, b <= 28. Vertices of the
+/// scene have even coordinates; borders of cells have odd ones, at every level down to the last, so
+/// no vertex ever lies on a border. Coordinates stay within ±2^29: differences fit 30 bits, their
 /// products 60, and every predicate below is exact in 64 bits (crossings in 128).
 #pragma once
 
@@ -21,8 +21,7 @@ struct LatticePoint {
     friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
 };
 
-inline constexpr int latticeBits = 28;
-inline constexpr std::int64_t latticeSide = std::int64_t{1} << latticeBits;
+inline constexpr int maxLatticeBits = 28;
 
 /// Twice the signed area of (a, b, c): positive if c lies on the left of a→b.
 inline std::int64_t orient(LatticePoint a, LatticePoint b, LatticePoint c) {
@@ -61,27 +60,26 @@ struct Square {
     Square child(int i, int j) const { return {x0 + i * (side / 4), y0 + j * (side / 4), side / 4}; }
 };
 
-inline constexpr Square rootSquare{-1, -1, static_cast<Coord>(latticeSide)};
-
-/// How a picture lies on the lattice: its longer side takes latticeSide + 2 steps from -2, so that
-/// the picture's own border lies just outside the root square and shapes that end there leave no
-/// slivers. (The outermost 2^-28 of the picture is not drawn.)
+/// How a picture lies on the lattice: its longer side takes 2^bits + 2 steps from -2, so that the
+/// picture's own border lies just outside the root square and shapes that end there leave no slivers.
+/// (The picture is stretched by 2^(1 - bits) for it: less than a step anywhere.)
 class Lattice {
 public:
-    Lattice(double width, double height);
+    /// bits in [12, maxLatticeBits]
+    Lattice(double width, double height, int bits);
 
+    /// The map's root cell; it spans the square of the picture's longer side.
+    Square square() const { return {-1, -1, Coord{1} << bits_}; }
     double stepsPerUnit() const { return scale_; }
     /// Picture units to lattice steps, unrounded.
     glm::dvec2 toSteps(glm::dvec2 p) const { return p * scale_ - 2.0; }
     /// The box, in steps, to which geometry is cut: beyond the root square where the picture reaches
     /// its border, exactly the picture's edge elsewhere.
-    glm::dvec2 clampMin() const { return {-16, -16}; }
+    glm::dvec2 clampMin() const;
     glm::dvec2 clampMax() const { return clampMax_; }
-    /// The root square in picture units.
-    double originUnits() const { return 1 / scale_; }
-    double sideUnits() const { return static_cast<double>(latticeSide) / scale_; }
 
 private:
+    int bits_;
     double scale_;
     glm::dvec2 clampMax_;
 };

@@ -34,7 +34,7 @@ using scene::StrokeStyle;
 
 // Shares of the tolerance: errors of arcs turned into cubics, of offsets fitted to them, and of joins
 // left out because they are too small.
-constexpr double arcShare = 0.1, fitShare = 0.8, joinShare = gapShare;
+constexpr double arcShare = 0.3, fitShare = 0.6, joinShare = gapShare;
 
 /// Directions closer than this are the same whatever the tolerance: control points do not resolve more.
 constexpr double sameDirection = 1e-9;
@@ -99,11 +99,10 @@ private:
     }
 
     void closeRing(const Subpath& subpath) {
-        const Segment &last = subpath.segments.back(), &first = subpath.segments.front();
-        const bool cut = joinSegments(last, first);
-        if (cut)
-            (turn(last, first) > 0 ? ribbon_.left : ribbon_.right).start =
-                (turn(last, first) > 0 ? ribbon_.left : ribbon_.right).end();
+        joinSegments(subpath.segments.back(), subpath.segments.front());
+        // The join may have cut the first line, too.
+        ribbon_.left.start = ribbon_.left.end();
+        ribbon_.right.start = ribbon_.right.end();
         emit(ribbon_.right);
         emit(reversed(ribbon_.left));
     }
@@ -127,29 +126,30 @@ private:
         return angleBetween(endTangent(a.curve), startTangent(b.curve));
     }
 
-    /// True if the inner side was cut short at the crossing of the two lines.
-    bool joinSegments(const Segment& a, const Segment& b) {
+    void joinSegments(const Segment& a, const Segment& b) {
         const double angle = turn(a, b);
         if (std::abs(angle) <= std::max(sameDirection, joinShare * tolerance_ / radius_))
-            return false;
+            return;
         const double sign = angle > 0 ? 1 : -1;
-        Side& inner = angle > 0 ? ribbon_.left : ribbon_.right;
-        outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign,
-                  b.afterCusp ? Join::Round : style_.join);
-        return innerJoin(inner, a, b, sign);
+        outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign);
+        innerJoin(angle > 0 ? ribbon_.left : ribbon_.right, a, b, sign);
     }
 
-    bool innerJoin(Side& inner, const Segment& a, const Segment& b, double sign) {
+    void innerJoin(Side& inner, const Segment& a, const Segment& b, double sign) const {
         const Point n0 = perp(endTangent(a.curve)) * sign, n1 = perp(startTangent(b.curve)) * sign;
         if (kiteFits(a, b)) {
-            // n0 + n1 has the length 2cos(θ/2); the crossing lies r/cos(θ/2) away along it.
-            const Point sum = n0 + n1;
-            inner.edges.back().to = endPoint(a) + sum * (2 * radius_ / glm::dot(sum, sum));
-            return true;
+            inner.edges.back().to = endPoint(a) + crossing(n0, n1);
+        } else {
+            go(inner, endPoint(a));
+            go(inner, endPoint(a) + n1 * radius_);
         }
-        go(inner, endPoint(a));
-        go(inner, endPoint(a) + n1 * radius_);
-        return false;
+    }
+
+    /// Where two offset lines with these unit normals meet, seen from the vertex: n0 + n1 has the length
+    /// 2cos(θ/2), and the crossing lies r/cos(θ/2) away along it.
+    Point crossing(Point n0, Point n1) const {
+        const Point sum = n0 + n1;
+        return sum * (2 * radius_ / glm::dot(sum, sum));
     }
 
     bool kiteFits(const Segment& a, const Segment& b) const {
@@ -160,23 +160,37 @@ private:
         return 2 * reach <= std::min(extent(a.curve), extent(b.curve));
     }
 
-    void outerJoin(Side& outer, const Segment& a, const Segment& b, double sign, Join join) const {
+    void outerJoin(Side& outer, const Segment& a, const Segment& b, double sign) const {
+        const Join join = b.afterCusp ? Join::Round : style_.join;
         const Point at = endPoint(a), t0 = endTangent(a.curve), t1 = startTangent(b.curve);
-        const Point from = perp(t0) * (sign * radius_), to = perp(t1) * (sign * radius_);
-        const double half = std::abs(angleBetween(t0, t1)) / 2;
-        go(outer, at + from);
-        if (join == Join::Round) {
-            arc(outer, at, from, angleBetween(t0, t1));
-        } else if (join != Join::Bevel && 1 <= style_.miterLimit * std::cos(half)) {
-            const Point sum = from + to;
-            go(outer, at + sum * (2 * radius_ * radius_ / glm::dot(sum, sum)));
+        const Point n0 = perp(t0) * sign, n1 = perp(t1) * sign;
+        const Point from = at + n0 * radius_, to = at + n1 * radius_;
+        const double angle = angleBetween(t0, t1), cosine = std::cos(angle / 2);
+        if (join != Join::Round && join != Join::Bevel && 1 <= style_.miterLimit * cosine) {
+            extendTo(outer, a, from, at + crossing(n0, n1));
         } else if (join == Join::MiterClip) {
             // The clipping line crosses the bisector at miterLimit·r (SVG 2 section 13.5.4).
-            const double along = radius_ * (style_.miterLimit - std::cos(half)) / std::sin(half);
-            go(outer, at + from + t0 * along);
-            go(outer, at + to - t1 * along);
+            const double along = radius_ * (style_.miterLimit - cosine) / std::abs(std::sin(angle / 2));
+            extendTo(outer, a, from, from + t0 * along);
+            go(outer, to - t1 * along);
+        } else {
+            go(outer, from);
+            if (join == Join::Round)
+                arc(outer, at, n0 * radius_, angle);
+            return go(outer, to);
         }
-        go(outer, at + to);
+        if (!b.straight)  // a line goes on from the mitre's tip
+            go(outer, to);
+    }
+
+    /// A line before the mitre goes on to its tip without a vertex in between.
+    void extendTo(Side& outer, const Segment& a, Point from, Point tip) const {
+        if (a.straight) {
+            outer.edges.back().to = tip;
+        } else {
+            go(outer, from);
+            go(outer, tip);
+        }
     }
 
     // --- caps ----------------------------------------------------------------------------------

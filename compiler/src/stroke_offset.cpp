@@ -75,8 +75,8 @@ std::pair<std::array<double, N>, std::array<double, N>> halves(std::array<double
 /// as |c|r > q^(3/2), with c = γ' × γ'' and q = |γ'|².
 class TightSearch {
 public:
-    TightSearch(double radius, double tolerance)
-        : radius_(radius), slack_(1 + tightShare * tolerance / radius) {}
+    /// Up to `slack` times the limit of the curvature counts as gentle.
+    TightSearch(double radius, double slack) : radius_(radius), slack_(slack) {}
 
     std::vector<Span> run(const Cubic& c) {
         visit(curvature(c), 0, 1, 0);
@@ -151,28 +151,6 @@ std::vector<double> octantStops(const Cubic& c) {
     return stops;
 }
 
-/// The curve in stretches that are gentle, or tight with monotone curvature and at most 45° of turn.
-std::vector<Span> classify(const Cubic& c, const OffsetOptions& options) {
-    const std::vector<Span> spans = TightSearch(options.radius, options.tolerance).run(c);
-    if (spans.size() == 1 && spans.front().bend == Bend::Gentle)
-        return spans;
-    std::vector<double> stops = curvatureExtremes(c);
-    const std::vector<double> octants = octantStops(c);
-    stops.insert(stops.end(), octants.begin(), octants.end());
-    std::sort(stops.begin(), stops.end());
-    std::vector<Span> result;
-    for (Span span : spans) {
-        if (span.bend != Bend::Gentle)
-            for (const double t : stops)
-                if (t > span.t0 && t < span.t1) {
-                    result.push_back({span.t0, t, span.bend});
-                    span.t0 = t;
-                }
-        result.push_back(span);
-    }
-    return result;
-}
-
 /// A stretch of a curve by a parameter u in [0, 1]: even in t where the curve is gentle, even in the
 /// tangent's angle where it is tight (the offsets' arc length follows the angle there).
 class Stretch {
@@ -236,6 +214,46 @@ struct OffsetCurve {
         return s;
     }
 };
+
+bool isGentle(const std::vector<Span>& spans) {
+    return spans.size() == 1 && spans.front().bend == Bend::Gentle;
+}
+
+/// Where the curve is hardly tighter than the radius and all of its inner offset stays within the tolerance
+/// of a chord, what winds backward there is hidden, too: circles stroked up to their centre.
+bool hidesBackwardOffsets(const Cubic& c, const OffsetOptions& o, const std::vector<Span>& spans) {
+    constexpr double hardly = 1.05;  // the offset is a twentieth as long as the curve: samples see all of it
+    if (!isGentle(TightSearch(o.radius, hardly).run(c)))
+        return false;
+    const Stretch whole(c, {0, 1, Bend::Gentle});
+    return std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
+        const OffsetCurve inner{whole, span.bend == Bend::Left ? o.radius : -o.radius, false};
+        return span.bend == Bend::Gentle || chordError(inner.samples(0, 1)) <= o.tolerance;
+    });
+}
+
+/// The curve in stretches that are gentle, or tight with monotone curvature and at most 45° of turn.
+std::vector<Span> classify(const Cubic& c, const OffsetOptions& options) {
+    const double slack = 1 + tightShare * options.tolerance / options.radius;
+    const std::vector<Span> spans = TightSearch(options.radius, slack).run(c);
+    if (isGentle(spans) || hidesBackwardOffsets(c, options, spans))
+        return {{0, 1, Bend::Gentle}};
+    std::vector<double> stops = curvatureExtremes(c);
+    const std::vector<double> octants = octantStops(c);
+    stops.insert(stops.end(), octants.begin(), octants.end());
+    std::sort(stops.begin(), stops.end());
+    std::vector<Span> result;
+    for (Span span : spans) {
+        if (span.bend != Bend::Gentle)
+            for (const double t : stops)
+                if (t > span.t0 && t < span.t1) {
+                    result.push_back({span.t0, t, span.bend});
+                    span.t0 = t;
+                }
+        result.push_back(span);
+    }
+    return result;
+}
 
 /// How many pieces bring the error of a fit below the tolerance, by its sixth order.
 int pieceCount(double error, double tolerance) {

@@ -94,8 +94,10 @@ private:
     }
 
     void addSmooth(const Cubic& c, bool afterCusp) {
-        if (extent(c) > coincident_)
-            segments_.push_back({c, isStraight(c), afterCusp});
+        if (extent(c) <= coincident_)
+            return;
+        const bool straight = isStraight(c);
+        segments_.push_back({straight ? straightCubic(c.p0, c.p3) : c, straight, afterCusp});
     }
 
     double tolerance_, coincident_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 
+#include "compiler/compile.hpp"
 #include "compiler/src/fit.hpp"
 #include "compiler/src/planar.hpp"
 #include "compiler/src/winding.hpp"
@@ -15,6 +16,10 @@ using asset::Entry;
 
 /// A leaf with more chords is not tried while it may be split: planarising is quadratic.
 constexpr std::size_t maxChordsToTry = 400;
+/// A cell of the last level with more is filled with the mean of samples.
+constexpr std::size_t maxChordsInLastLeaf = 2000;
+/// Pairs of chords looked at in leaves before the picture is refused: a minute or so.
+constexpr std::size_t maxWork = 20'000'000'000;
 
 struct LayerWinding {
     std::uint32_t layer;
@@ -48,9 +53,9 @@ public:
         : picture_(picture), painter_(painter), options_(options), asset_(asset), times_(times),
           covers_(picture.layers.size(), Cover::Out), inside_(picture.layers.size()) {}
 
-    Entry run(std::span<const std::uint32_t> layers) {
+    Entry run(const Square& square, std::span<const std::uint32_t> layers) {
         firstLayer_ = layers.empty() ? 0 : layers.front();
-        return build(root(layers));
+        return build(root(square, layers));
     }
 
 private:
@@ -76,16 +81,16 @@ private:
         }
     }
 
-    Content root(std::span<const std::uint32_t> layers) const {
-        Content content{rootSquare, 0, {}, {}};
+    Content root(const Square& square, std::span<const std::uint32_t> layers) const {
+        Content content{square, 0, {}, {}};
         for (std::uint32_t index : layers) {
             const Layer& layer = picture_.layers[index];
             int winding = 0;
             for (std::uint32_t c = layer.firstChord; c < layer.firstChord + layer.chordCount; ++c) {
                 const Chord& chord = picture_.chords[c];
                 // From a point left of everything, where the winding is zero.
-                winding += windingAlongX(chord, rootSquare.y0, rootSquare.x0 - outside, rootSquare.x0);
-                if (meets(chord, rootSquare))
+                winding += windingAlongX(chord, square.y0, square.x0 - outside, square.x0);
+                if (meets(chord, square))
                     content.chords.push_back(c);
             }
             if (winding != 0)
@@ -218,7 +223,10 @@ private:
         if (cell.chords.empty())
             return Entry::make(Entry::Kind::Solid, paint(layers, windings));
         const bool last = cell.level >= options_.maxDepth;
-        if (last || (cell.level >= options_.minDepth && cell.chords.size() <= maxChordsToTry)) {
+        const std::size_t most = last ? maxChordsInLastLeaf : maxChordsToTry;
+        if (last && cell.chords.size() > most)
+            return emitMean(cell, layers, windings);
+        if (cell.level >= (last ? 0 : options_.minDepth) && cell.chords.size() <= most) {
             const auto leaf = makeLeaf(cell, layers, windings);
             if (leaf && (last || leaf->pieces.size() <= options_.piecesPerLeaf))
                 return emit(*leaf);
@@ -254,6 +262,10 @@ private:
 
     std::optional<FittedLeaf> makeLeaf(const Content& cell, std::span<const std::uint32_t> layers,
                                        std::span<const int> windings) {
+        work_ += cell.chords.size() * cell.chords.size();
+        if (work_ > maxWork)
+            throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maxWork) +
+                             " pairs of chords");
         PlanarLeaf planar;
         {
             const Stopwatch watch(times_.planarise);
@@ -318,15 +330,16 @@ private:
     asset::Asset& asset_;
     TreeTimes& times_;
     std::uint32_t firstLayer_ = 0;
+    std::size_t work_ = 0;
     std::vector<Cover> covers_;
     std::vector<std::uint8_t> inside_;
 };
 
 }  // namespace
 
-asset::Entry buildTree(const Picture& picture, std::span<const std::uint32_t> layers, Painter& painter,
-                       const TreeOptions& options, asset::Asset& asset, TreeTimes& times) {
-    return TreeBuilder(picture, painter, options, asset, times).run(layers);
+asset::Entry buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
+                       Painter& painter, const TreeOptions& options, asset::Asset& asset, TreeTimes& times) {
+    return TreeBuilder(picture, painter, options, asset, times).run(root, layers);
 }
 
 }  // namespace vtm::compiler

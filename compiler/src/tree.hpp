@@ -40,9 +40,9 @@ struct TreeTimes {
     double push = 0, planarise = 0, fit = 0;
 };
 
-/// Builds the tree over the root square for the given layers (ascending) and appends its nodes, leaves
-/// and pieces to `asset`.
-asset::Entry buildTree(const Picture& picture, std::span<const std::uint32_t> layers, Painter& painter,
-                       const TreeOptions& options, asset::Asset& asset, TreeTimes& times);
+/// Builds the tree over `root` for the given layers (ascending) and appends its nodes, leaves and
+/// pieces to `asset`. Throws LimitError if the outlines are too tangled for the work limit.
+asset::Entry buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
+                       Painter& painter, const TreeOptions& options, asset::Asset& asset, TreeTimes& times);
 
 }  // namespace vtm::compiler

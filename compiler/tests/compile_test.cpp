@@ -220,7 +220,7 @@ TEST(Compile, optionsOutOfRangeAreRefused) {
     const auto s = picture(group({}));
     EXPECT_THROW(compile(s, {.tolerance = 0}), std::invalid_argument);
     EXPECT_THROW(compile(s, {.piecesPerLeaf = 0}), std::invalid_argument);
-    EXPECT_THROW(compile(s, {.maxDepth = 11}), std::invalid_argument);
+    EXPECT_THROW(compile(s, {.maxDepth = 13}), std::invalid_argument);
 }
 
 TEST(Compile, tooManyTilesAreALimitError) {

@@ -30,15 +30,16 @@ TEST(Lattice, cornerOnAnEdgeCountsAsMovedToTheRight) {
 }
 
 TEST(Lattice, thePictureReachesJustBeyondTheRootSquare) {
-    const Lattice lattice(1024, 600);
-    EXPECT_LT(lattice.toSteps({0, 0}).x, rootSquare.x0);
-    EXPECT_GT(lattice.toSteps({1024, 0}).x, rootSquare.x1());
+    const Lattice lattice(1024, 600, 22);
+    const Square root = lattice.square();
+    EXPECT_LT(lattice.toSteps({0, 0}).x, root.x0);
+    EXPECT_GT(lattice.toSteps({1024, 0}).x, root.x1());
     EXPECT_NEAR(lattice.clampMax().y, lattice.toSteps({0, 600}).y, 1e-6);
-    EXPECT_LT(lattice.clampMax().y, rootSquare.y1());
+    EXPECT_LT(lattice.clampMax().y, root.y1());
 }
 
 TEST(Lattice, bordersOfCellsAreOddAtEveryLevel) {
-    Square s = rootSquare;
+    Square s = Lattice(1, 1, 24).square();
     for (int level = 0; level <= 10; ++level, s = s.child(1, 2)) {
         EXPECT_NE(s.x0 % 2, 0);
         EXPECT_NE(s.x1() % 2, 0);
