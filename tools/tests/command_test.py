@@ -16,10 +16,10 @@ VTM = ""  # the program under test
 
 SQUARE = """<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20">
   <rect width="20" height="20" fill="#ff0000"/>
-  <rect x="20" width="10" height="20" fill="#0000ff" fill-opacity="0.5"/>
+  <rect x="20" width="10" height="20" fill="#0000ff" fill-opacity="0.4"/>
 </svg>
 """
-RED, HALF_BLUE, NOTHING = (255, 0, 0, 255), (0, 0, 255, 128), (0, 0, 0, 0)
+RED, PALE_BLUE, NOTHING = (255, 0, 0, 255), (0, 0, 255, 102), (0, 0, 0, 0)
 
 
 class Command(unittest.TestCase):
@@ -57,11 +57,11 @@ class Render(Command):
             with self.subTest(engine=engine):
                 image = self.draw(engine=engine)
                 self.assertEqual(image.size, (40, 20))
-                self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, HALF_BLUE, NOTHING])
+                self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, PALE_BLUE, NOTHING])
 
     def test_compat_mode(self):
         image = self.draw("--mode", "compat", engine="gl")
-        self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, HALF_BLUE, NOTHING])
+        self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, PALE_BLUE, NOTHING])
 
     def test_one_dimension_keeps_the_aspect(self):
         self.assertEqual(self.draw("--width", "100").size, (100, 50))
@@ -73,18 +73,18 @@ class Render(Command):
     def test_view_fills_the_raster(self):
         image = self.draw("--view", "15,5,10,10", "--width", "50")
         self.assertEqual(image.size, (50, 50))
-        self.assertEqual([image.getpixel((x, 25)) for x in (5, 45)], [RED, HALF_BLUE])
+        self.assertEqual([image.getpixel((x, 25)) for x in (5, 45)], [RED, PALE_BLUE])
         image = self.draw("--view", "-10,0,20,20")
         self.assertEqual([image.getpixel((x, 10)) for x in (5, 15)], [NOTHING, RED])
 
     def test_background(self):
         image = self.draw("--background", "white")
         self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)],
-                         [RED, (127, 127, 255, 255), (255, 255, 255, 255)])
+                         [RED, (153, 153, 255, 255), (255, 255, 255, 255)])
         self.assertEqual(self.draw("--background", "#0f08").getpixel((35, 10)), (0, 255, 0, 136))
 
     def test_straight_alpha(self):
-        self.assertEqual(self.draw().getpixel((25, 10)), HALF_BLUE)
+        self.assertEqual(self.draw().getpixel((25, 10)), PALE_BLUE)
 
     def test_many_inputs_into_a_directory(self):
         second = self.write("second.svg", SQUARE)
