@@ -7,8 +7,15 @@
 namespace vtm::reference {
 namespace {
 
+/// A curve that stays within this share of its coordinates is a point. Sums of decimal steps meet their
+/// start again only so far: the closing line that is left over, 1e-14 long and in any direction, would
+/// get mitres on both ends.
+constexpr double coincidence = 1e-10;
+
 bool hasLength(const Run& run) {
-    return std::any_of(run.begin(), run.end(), [&](const Sample& s) { return s.at != run.front().at; });
+    const Point p = run.front().at;
+    const double near = coincidence * std::max(std::abs(p.x), std::abs(p.y));
+    return std::any_of(run.begin(), run.end(), [&](const Sample& s) { return length(s.at - p) > near; });
 }
 
 Strand strandOf(const Subpath& subpath, const Fineness& fineness) {

@@ -156,6 +156,14 @@ TEST(StrokeCoverage, CoincidentPointsChangeNothing) {
     EXPECT_NEAR(area(curve, styleOf(5, Cap::Square)), 30 * 5 + 25, rounding);
 }
 
+TEST(StrokeCoverage, RoundingAtTheClosingPointMakesNoJoin) {
+    Path path = rectangle({20, 20}, {40, 40});
+    path.back() = LineTo{{20 + 4e-15, 20 - 4e-15}};
+    path.push_back(Close{});
+    EXPECT_NEAR(area(path, styleOf(4)), 24 * 24 - 16 * 16, rounding);
+    EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::Bevel)), 24 * 24 - 16 * 16 - 4 * 2, rounding);
+}
+
 TEST(StrokeCoverage, ZeroLengthSubpaths) {
     const std::vector<Path> dots{{MoveTo{{20, 20}}, Close{}},
                                  {MoveTo{{20, 20}}, LineTo{{20, 20}}},
