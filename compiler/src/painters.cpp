@@ -46,6 +46,11 @@ bool PicturePainter::hidesAllBelow(const PictureItem& item, const std::vector<Co
     return true;
 }
 
+void PicturePainter::want(std::uint32_t layer) {
+    wanted_[layer] = true;
+    marked_.push_back(layer);
+}
+
 void PicturePainter::markClips(std::uint32_t group) {
     for (; group != none; group = picture_.groups[group].parent)
         markClip(picture_.groups[group].clip);
@@ -56,7 +61,7 @@ void PicturePainter::markClip(std::uint32_t clip) {
         return;
     const ClipExpression& e = picture_.clips[clip];
     for (const ClipExpression::Term& term : e.terms) {
-        wanted_[term.layer] = true;
+        want(term.layer);
         markClip(term.clip);
     }
     markClip(e.outer);
@@ -72,13 +77,15 @@ void PicturePainter::cull(std::span<const std::uint32_t> layers, const std::vect
         const PictureItem& item = picture_.items[index];
         if (hidden || covers[item.layer] == Cover::Out || groupCover(item.group, covers) == Cover::Out)
             continue;
-        wanted_[item.layer] = true;
+        want(item.layer);
         markClips(item.group);
         hidden = hidesAllBelow(item, covers);
     }
     for (std::size_t i = 0; i < layers.size(); ++i)
         keep[i] = wanted_[layers[i]];
-    std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{0});
+    for (std::uint32_t layer : marked_)
+        wanted_[layer] = false;
+    marked_.clear();
 }
 
 std::uint16_t PicturePainter::mean(std::span<const std::uint16_t> paints) {

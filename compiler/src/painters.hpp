@@ -20,6 +20,7 @@ private:
     Cover clipCover(std::uint32_t clip, const std::vector<Cover>& covers) const;
     Cover groupCover(std::uint32_t group, const std::vector<Cover>& covers) const;
     bool hidesAllBelow(const PictureItem& item, const std::vector<Cover>& covers) const;
+    void want(std::uint32_t layer);
     void markClips(std::uint32_t group);
     void markClip(std::uint32_t clip);
 
@@ -27,7 +28,8 @@ private:
     asset::Asset& asset_;
     Palette palette_;
     std::vector<std::uint32_t> items_;
-    std::vector<std::uint8_t> wanted_;  ///< by layer
+    std::vector<std::uint8_t> wanted_;   ///< by layer
+    std::vector<std::uint32_t> marked_;  ///< the wanted ones, perhaps more than once
 };
 
 /// Compat mode: paint 1 inside one layer, or inside a clip; 0 outside.
