@@ -59,12 +59,11 @@ TEST_P(Corpus, CpuEvaluatorAgrees) {
     }
 }
 
-/// The reference is slow: a part of the picture here, all of it in ./dev conformance.
 TEST_P(Corpus, ReferenceAgrees) {
     Gl gl;
     const Measurement measured(GetParam().name);
-    const compare::Difference d = measured.glToReference(gl, 1024, 0.25);
-    EXPECT_LE(d.max, referenceMax) << "at " << d.worstX << ", " << d.worstY << " of the middle";
+    const compare::Difference d = measured.glToReference(gl, 1024);
+    EXPECT_LE(d.max, referenceMax) << "at " << d.worstX << ", " << d.worstY;
     EXPECT_LE(d.rms, referenceRms);
 }
 
@@ -76,7 +75,7 @@ TEST(CorpusIcons, AreDrawnAlike) {
     for (const fs::directory_entry& entry : fs::directory_iterator(icons)) {
         const Measurement measured("icons/" + entry.path().stem().string());
         EXPECT_LE(measured.glToAsset(gl, 64).max, assetMax) << entry.path();
-        const compare::Difference d = measured.glToReference(gl, 64, 1);
+        const compare::Difference d = measured.glToReference(gl, 64);
         EXPECT_LE(d.max, referenceMax) << entry.path() << " at " << d.worstX << ", " << d.worstY;
         EXPECT_LE(d.rms, referenceRms) << entry.path();
     }

@@ -1,26 +1,11 @@
 #include "conformance/cases/measure.hpp"
 
-#include <cmath>
-
 #include <fmt/core.h>
 
 #include "asset/evaluate.hpp"
 #include "conformance/reference/reference.hpp"
 
 namespace vtm::cases {
-
-namespace {
-
-/// The middle of `view`.
-asset::View middle(asset::View view, double share) {
-    const int width = int(std::lround(view.width * share)), height = int(std::lround(view.height * share));
-    view.toPixels[2] -= glm::dvec2((view.width - width) / 2, (view.height - height) / 2);
-    view.width = width;
-    view.height = height;
-    return view;
-}
-
-}  // namespace
 
 Measurement::Measurement(const std::string& name)
     : name_(name),
@@ -38,8 +23,8 @@ compare::Difference Measurement::glToAsset(Gl& gl, int size) const {
     return compare::compare(gl.render(asset_, view), asset::evaluate(asset_, view));
 }
 
-compare::Difference Measurement::glToReference(Gl& gl, int size, double share) const {
-    const asset::View view = middle(wholePicture(scene_, size), share);
+compare::Difference Measurement::glToReference(Gl& gl, int size) const {
+    const asset::View view = wholePicture(scene_, size);
     const reference::View same{view.width, view.height, view.toPixels};
     return compare::compare(gl.render(asset_, view), reference::render(scene_, same));
 }

@@ -17,8 +17,7 @@ public:
     /// Against the ground truth, which must exist.
     compare::Difference glToTruth(Gl& gl, int size) const;
     compare::Difference glToAsset(Gl& gl, int size) const;
-    /// `share` of the width and height around the picture's centre, at the whole picture's `size`.
-    compare::Difference glToReference(Gl& gl, int size, double share) const;
+    compare::Difference glToReference(Gl& gl, int size) const;
 
     const scene::Scene& scene() const { return scene_; }
     const asset::Asset& asset() const { return asset_; }

@@ -29,7 +29,7 @@ void printRow(const CorpusFile& file, Gl& gl) {
     const std::chrono::duration<double, std::milli> compiled = std::chrono::steady_clock::now() - start;
     for (const int size : {1024, 64}) {
         const compare::Difference twin = measured.glToAsset(gl, size),
-                                  exact = measured.glToReference(gl, size, 1);
+                                  exact = measured.glToReference(gl, size);
         fmt::print("{:<14} {:>5} {} {:7.2f} {:7.2f} {:7.3f} {:9.0f}  {}\n", file.name, size,
                    truthColumns(measured, gl, file, size), twin.max, exact.max, exact.rms, compiled.count(),
                    file.expectedFailure);
