@@ -7,8 +7,8 @@
 #include <zlib.h>
 
 #include "asset/evaluate.hpp"
-#include "asset/tests/assets.hpp"
-#include "asset/tests/views.hpp"
+#include "asset/testing.hpp"
+#include "asset/testing_views.hpp"
 
 namespace vtm::asset::test {
 namespace {

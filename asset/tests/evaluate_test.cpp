@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <glm/vec3.hpp>
 
-#include "asset/tests/assets.hpp"
-#include "asset/tests/views.hpp"
+#include "asset/testing.hpp"
+#include "asset/testing_views.hpp"
 
 namespace vtm::asset::test {
 namespace {

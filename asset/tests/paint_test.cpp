@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include "asset/tests/assets.hpp"
+#include "asset/testing.hpp"
 
 namespace vtm::asset::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "asset/container.hpp"
-#include "asset/tests/assets.hpp"
+#include "asset/testing.hpp"
 
 namespace vtm::asset::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "backend_gl/src/constants.hpp"
-#include "shader_text.hpp"
+#include "backend_gl/src/shader_text.hpp"
 
 namespace vtm::gl {
 

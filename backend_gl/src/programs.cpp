@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "shader_text.hpp"
+#include "backend_gl/src/shader_text.hpp"
 
 namespace vtm::gl {
 

@@ -4,7 +4,7 @@
 
 #include <glm/common.hpp>
 
-#include "asset/tests/assets.hpp"
+#include "asset/testing.hpp"
 #include "backend_gl/src/shelves.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "asset/container.hpp"
 #include "asset/evaluate.hpp"
-#include "asset/tests/assets.hpp"
-#include "asset/tests/views.hpp"
+#include "asset/testing.hpp"
+#include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 
 namespace vtm::gl {

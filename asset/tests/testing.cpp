@@ -1,4 +1,4 @@
-#include "asset/tests/assets.hpp"
+#include "asset/testing.hpp"
 
 #include <cmath>
 #include <numbers>

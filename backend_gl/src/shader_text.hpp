@@ -1,0 +1,14 @@
+/// \file
+/// The files of backend_gl/shaders as strings; embed.cmake writes the definitions at build time.
+#pragma once
+
+#include <string_view>
+
+namespace vtm::gl::shaders {
+
+extern const std::string_view prelude;
+extern const std::string_view fetch, coverage, blend, gradient, image, paint;
+extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment, general_fragment;
+extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_fragment;
+
+}  // namespace vtm::gl::shaders
