@@ -1,0 +1,171 @@
+/// Gradients, patterns and images.
+#include <cmath>
+
+#include "conformance/reference/tests/scenes.hpp"
+
+namespace vtm::reference {
+namespace {
+
+class Paints : public BothModes {};
+INSTANTIATE_TEST_SUITE_P(Render, Paints, testing::Values(Mode::Exact, Mode::Compat),
+                         [](const auto& mode) { return mode.param == Mode::Exact ? "Exact" : "Compat"; });
+
+const std::vector<GradientStop> blackToRed{{0, black}, {1, red}};
+
+LinearGradient linear(Point start, Point end, Spread spread = Spread::Pad) {
+    return {start, end, blackToRed, spread, identity};
+}
+
+TEST_P(Paints, LinearGradientAtPixelCentres) {
+    const auto raster = draw(sceneOf({{fillAll(linear({2, 0}, {6, 0}))}}));
+    expectPixel(raster, 0, 3, {0, 0, 0, 1});
+    expectPixel(raster, 2, 3, {0.125, 0, 0, 1});
+    expectPixel(raster, 5, 3, {0.875, 0, 0, 1});
+    expectPixel(raster, 7, 3, {1, 0, 0, 1});
+}
+
+TEST_P(Paints, GradientLinesSlant) {
+    // Offset (x + y) / 8 along the diagonal.
+    const auto raster = draw(sceneOf({{fillAll(linear({0, 0}, {4, 4}))}}));
+    expectPixel(raster, 1, 2, {0.5, 0, 0, 1});
+    expectPixel(raster, 3, 1, {0.625, 0, 0, 1});
+}
+
+TEST_P(Paints, SpreadsRepeatAndReflect) {
+    const auto repeated = draw(sceneOf({{fillAll(linear({2, 0}, {4, 0}, Spread::Repeat))}}));
+    expectPixel(repeated, 0, 3, {0.25, 0, 0, 1});
+    expectPixel(repeated, 5, 3, {0.75, 0, 0, 1});
+    const auto reflected = draw(sceneOf({{fillAll(linear({2, 0}, {4, 0}, Spread::Reflect))}}));
+    expectPixel(reflected, 1, 3, {0.25, 0, 0, 1});
+    expectPixel(reflected, 0, 3, {0.75, 0, 0, 1});
+    expectPixel(reflected, 4, 3, {0.75, 0, 0, 1});
+    expectPixel(reflected, 5, 3, {0.25, 0, 0, 1});
+    expectPixel(reflected, 6, 3, {0.25, 0, 0, 1});
+}
+
+TEST_P(Paints, StopsInterpolateStraightColours) {
+    LinearGradient g = linear({0, 0}, {8, 0});
+    g.stops = {{0, red}, {1, Color{0, 1, 0, 0}}};
+    const auto raster = draw(sceneOf({{fillAll(g)}}), 16);  // two pixels a unit
+    const double t = 8.5 / 16;
+    expectPixel(raster, 8, 3, {(1 - t) * (1 - t), t * (1 - t), 0, 1 - t}, 2e-3);
+}
+
+TEST(Paints, HardStopsInsideAPixel) {
+    LinearGradient g = linear({0, 0}, {8, 0});
+    g.stops = {{0, red}, {0.40625f, red}, {0.40625f, blue}, {1, blue}};  // at x = 3.25
+    const Scene scene = sceneOf({{fillAll(g)}});
+    expectPixel(renderAt(scene, Mode::Exact), 3, 3, {0.25, 0, 0.75, 1});
+    expectPixel(renderAt(scene, Mode::Compat), 3, 3, {0, 0, 1, 1});
+}
+
+TEST_P(Paints, RadialGradientIsTheDistance) {
+    const RadialGradient g{{4, 4}, 4, {4, 4}, 0, blackToRed, Spread::Pad, identity};
+    const auto raster = draw(sceneOf({{fillAll(g)}}), 64);  // eight pixels a unit
+    for (const auto& [x, y] : {std::pair{32, 10}, {50, 40}, {12, 12}}) {
+        const double distance = std::hypot((x + 0.5) / 8 - 4, (y + 0.5) / 8 - 4) / 4;
+        expectPixel(raster, x, y, {std::min(1.0, distance), 0, 0, 1}, 1e-3);
+    }
+}
+
+TEST_P(Paints, FocalCircle) {
+    // Focus (2, 4) of radius 1, end circle about (4, 4) of radius 4: on the axis to the right the
+    // circle of offset t passes through 2 + 2t + 1 + 3t, to the left through 2 + 2t - 1 - 3t.
+    const RadialGradient g{{4, 4}, 4, {2, 4}, 1, blackToRed, Spread::Pad, identity};
+    const auto raster = draw(sceneOf({{fillAll(g)}}), 160);
+    const auto offset = [](double x) { return x > 2 ? (x - 3) / 5 : 1 - x; };
+    expectPixel(raster, 120, 80, {offset(120.5 / 20), 0, 0, 1}, 1e-3);
+    expectPixel(raster, 10, 80, {offset(10.5 / 20), 0, 0, 1}, 1e-3);
+    expectPixel(raster, 45, 80, {0, 0, 0, 1}, 1e-3);  // inside the focal circle
+}
+
+TEST_P(Paints, GradientTransformAndItemTransformCompose) {
+    LinearGradient g = linear({0, 0}, {1, 0});
+    g.transform = scaling(4, 4);
+    Item item = fillAll(g);
+    item.transform = translation(2, 0);
+    const auto raster = draw(sceneOf({{item}}));
+    expectPixel(raster, 3, 3, {0.375, 0, 0, 1});
+}
+
+TEST_P(Paints, PaintWithoutInverseShowsNothing) {
+    LinearGradient g = linear({0, 0}, {1, 0});
+    g.transform = scaling(1, 0);
+    expectPixel(draw(sceneOf({{fillAll(blue)}, {fillAll(g)}})), 3, 3, {0, 0, 1, 1});
+}
+
+/// A tile of 4 × 2 from (1, 0): red on its left half, and a blue square that reaches out of the tile.
+Pattern stripes() {
+    auto content = std::make_shared<const Group>(
+        group({{fill(rectangle({1, 0}, {3, 2}), red)}, {fill(rectangle({4, 0}, {6, 1}), blue)}}));
+    return {{1, 0}, {5, 2}, content, identity};
+}
+
+TEST_P(Paints, PatternRepeatsClippedToItsTile) {
+    const auto raster = draw(sceneOf({{fillAll(stripes())}}));
+    for (const int y : {0, 2, 6}) {
+        expectPixel(raster, 1, y, {1, 0, 0, 1});
+        expectPixel(raster, 3, y, {0, 0, 0, 0});
+        expectPixel(raster, 4, y, {0, 0, 1, 1});
+        expectPixel(raster, 5, y, {1, 0, 0, 1});  // blue is cut at x = 5
+        expectPixel(raster, 0, y, {0, 0, 1, 1});
+        expectPixel(raster, 4, y + 1, {0, 0, 0, 0});
+    }
+}
+
+TEST_P(Paints, PatternSmallerThanAPixel) {
+    Pattern pattern = stripes();
+    pattern.transform = scaling(0.125, 0.125);
+    // Half the tile is red, an eighth blue.
+    expectPixel(draw(sceneOf({{fillAll(pattern)}})), 3, 3, {0.5, 0, 0.125, 0.625}, 0.02);
+}
+
+TEST_P(Paints, PatternTurns) {
+    Pattern pattern = stripes();
+    pattern.transform = {0, 1, -1, 0, 8, 0};  // (x, y) to (8 - y, x)
+    const auto raster = draw(sceneOf({{fillAll(pattern, 0.5f)}}));
+    expectPixel(raster, 7, 1, {0.5, 0, 0, 0.5});
+    expectPixel(raster, 7, 4, {0, 0, 0.5, 0.5});
+    expectPixel(raster, 6, 4, {0, 0, 0, 0});
+}
+
+TEST_P(Paints, PatternsHoldPatternsAndMasks) {
+    auto inner = std::make_shared<const Group>(group({{fill(rectangle({0, 0}, {1, 2}), green)}}));
+    Group content = group({{fill(rectangle({0, 0}, {4, 4}), Pattern{{0, 0}, {2, 2}, inner, identity})}});
+    content.mask = std::make_shared<const Mask>(
+        Mask{std::make_shared<const Group>(group({{fill(rectangle({0, 0}, {4, 2}), white)}})),
+             MaskKind::Alpha, false});
+    const auto raster =
+        draw(sceneOf({{fillAll(Pattern{{0, 0}, {4, 4}, std::make_shared<const Group>(content), identity})}}));
+    expectPixel(raster, 6, 5, {0, 1, 0, 1});
+    expectPixel(raster, 7, 5, {0, 0, 0, 0});
+    expectPixel(raster, 6, 7, {0, 0, 0, 0});
+}
+
+ImagePaint picture(ImageFilter filter) {
+    auto bitmap = std::make_shared<image::Bitmap>();
+    bitmap->width = bitmap->height = 2;
+    bitmap->rgba = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 0};
+    return {bitmap, filter, scaling(2, 2)};
+}
+
+TEST_P(Paints, NearestImage) {
+    const auto raster = draw(sceneOf({{fillAll(picture(ImageFilter::Nearest))}}));
+    expectPixel(raster, 1, 1, {1, 0, 0, 1});
+    expectPixel(raster, 2, 1, {0, 1, 0, 1});
+    expectPixel(raster, 1, 2, {0, 0, 1, 1});
+    expectPixel(raster, 2, 2, {0, 0, 0, 0});
+    expectPixel(raster, 7, 0, {0, 1, 0, 1});  // the border goes on
+    expectPixel(raster, 7, 7, {0, 0, 0, 0});
+}
+
+TEST_P(Paints, BilinearImageIsPremultiplied) {
+    const auto raster = draw(sceneOf({{fillAll(picture(ImageFilter::Bilinear))}}));
+    // (1.5, 1.5) lies a quarter of the way from the first texel's centre, both ways.
+    expectPixel(raster, 1, 1, {0.5625, 0.1875, 0.1875, 0.9375}, 1e-6);
+    expectPixel(raster, 0, 0, {1, 0, 0, 1}, 1e-6);
+    expectPixel(raster, 2, 2, {0.0625, 0.1875, 0.1875, 0.4375}, 1e-6);
+}
+
+}  // namespace
+}  // namespace vtm::reference
