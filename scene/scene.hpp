@@ -88,10 +88,14 @@ class InvalidScene : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Levels of groups and clips inside each other, those of masks and patterns included.
+inline constexpr int maxNesting = 1024;
+
 /// Throws InvalidScene unless every rule of docs/scene.md holds.
 void validate(const Scene& scene);
 
-/// A readable text form, one node a line, for tests and for `diff`.
+/// A readable text form, one node a line, for tests and for `diff`. Scenes need not be valid; what is
+/// nested too deeply is cut.
 std::string dump(const Scene& scene);
 
 }  // namespace vtm::scene

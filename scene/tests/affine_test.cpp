@@ -1,0 +1,47 @@
+#include "scene/affine.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scene/path.hpp"
+
+namespace vtm::scene {
+namespace {
+
+TEST(Affine, AppliesLikeSvg) {
+    const Affine m{2, 3, 5, 7, 11, 13};  // matrix(2 3 5 7 11 13)
+    EXPECT_EQ(apply(m, {1, 0}), glm::dvec2(13, 16));
+    EXPECT_EQ(apply(m, {0, 1}), glm::dvec2(16, 20));
+    EXPECT_EQ(applyVector(m, {1, 1}), glm::dvec2(7, 10));
+    EXPECT_EQ(determinant(m), -1);
+}
+
+TEST(Affine, ComposesInnerFirst) {
+    const Affine m = compose(translation(10, 0), scaling(2, 3));
+    EXPECT_EQ(apply(m, {1, 1}), glm::dvec2(12, 3));
+}
+
+TEST(Affine, InverseUndoes) {
+    const Affine m{2, 3, 5, 7, 11, 13};
+    const Affine back = inverse(m).value();
+    for (const Point p : {Point{0, 0}, Point{1, 0}, Point{-4, 9}}) {
+        EXPECT_NEAR(apply(back, apply(m, p)).x, p.x, 1e-12);
+        EXPECT_NEAR(apply(back, apply(m, p)).y, p.y, 1e-12);
+    }
+}
+
+TEST(Affine, FlatMapsHaveNoInverse) {
+    EXPECT_FALSE(inverse(scaling(1, 0)));
+    EXPECT_FALSE(inverse({1, 2, 2, 4, 0, 0}));
+    EXPECT_FALSE(inverse(scaling(1e-200, 1e-200)));
+}
+
+TEST(Path, RectangleIsClosed) {
+    const Path path = rectangle({1, 2}, {3, 5});
+    ASSERT_EQ(path.size(), 5u);
+    EXPECT_EQ(std::get<MoveTo>(path[0]).to, Point(1, 2));
+    EXPECT_EQ(std::get<LineTo>(path[2]).to, Point(3, 5));
+    EXPECT_TRUE(std::holds_alternative<Close>(path[4]));
+}
+
+}  // namespace
+}  // namespace vtm::scene
