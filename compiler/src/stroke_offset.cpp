@@ -285,21 +285,37 @@ public:
     Point at(double u) const { return stretch_.point(u) + normal(u) * centreDistance(u); }
 
     void append(double u0, double u1, int depth, Side& side) const {
-        const Point from = at(u0), to = at(u1), control = meeting(u0, u1);
-        const double um = (u0 + u1) / 2;
-        const Point middle = (from + 2.0 * control + to) / 4.0;
-        if (depth > 0 && std::abs(cross(middle - at(um), normal(um))) > tolerance_) {
-            append(u0, um, depth - 1, side);
-            append(um, u1, depth - 1, side);
+        const Parabola arc{at(u0), meeting(u0, u1), at(u1)};
+        if (depth > 0 && error(arc, u0, u1) > tolerance_) {
+            append(u0, (u0 + u1) / 2, depth - 1, side);
+            append((u0 + u1) / 2, u1, depth - 1, side);
             return;
         }
-        if (glm::distance(from, control) + glm::distance(control, to) <= tolerance_)
-            return side.lineTo(to, gapShare * tolerance_);
-        const Cubic c = elevate(from, control, to);
+        if (glm::distance(arc.from, arc.control) + glm::distance(arc.control, arc.to) <= tolerance_)
+            return side.lineTo(arc.to, gapShare * tolerance_);
+        const Cubic c = elevate(arc.from, arc.control, arc.to);
         side.cubicTo(c.p1, c.p2, c.p3);
     }
 
 private:
+    struct Parabola {
+        Point from, control, to;
+    };
+
+    /// Distance of parallel tangents: where the parabola runs along the normal, the evolute touches it.
+    double error(const Parabola& arc, double u0, double u1) const {
+        double worst = 0;
+        for (const double share : {0.25, 0.5, 0.75}) {
+            const double u = u0 + (u1 - u0) * share;
+            const Point n = normal(u);
+            const double a = cross(arc.control - arc.from, n), b = cross(arc.to - arc.control, n);
+            const double t = a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0), s = 1 - t;
+            const Point on = arc.from * (s * s) + arc.control * (2 * s * t) + arc.to * (t * t);
+            worst = std::max(worst, std::abs(cross(on - at(u), n)));
+        }
+        return worst;
+    }
+
     /// Towards the centre of curvature.
     Point normal(double u) const { return perp(stretch_.tangent(u)) * (radius_ < 0 ? -1.0 : 1.0); }
 
