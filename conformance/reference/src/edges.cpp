@@ -1,5 +1,6 @@
 #include "conformance/reference/src/edges.hpp"
 
+#include <glm/common.hpp>
 #include <numbers>
 
 #include "conformance/reference/src/flatten.hpp"
@@ -17,9 +18,19 @@ Point pinned(Point p) { return {pinned(p.x), pinned(p.y)}; }
 
 }  // namespace
 
+EdgeList::EdgeList(int width, int height)
+    : width_(width), height_(height), added_{Point(farthest), Point(-farthest)} {}
+
+Box EdgeList::bounds() const {
+    return {{std::max(added_.min.x, 0.0), std::max(added_.min.y, 0.0)},
+            {std::min(added_.max.x, width_), std::min(added_.max.y, height_)}};
+}
+
 void EdgeList::add(Point from, Point to, int shape) {
     from = pinned(from);
     to = pinned(to);
+    added_.min = glm::min(added_.min, glm::min(from, to));
+    added_.max = glm::max(added_.max, glm::max(from, to));
     if (std::max(from.y, to.y) < 0 || std::min(from.y, to.y) >= height_ || std::min(from.x, to.x) >= width_ ||
         from == to)
         return;

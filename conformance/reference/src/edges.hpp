@@ -29,15 +29,18 @@ struct Edge {
 /// the right of the view.
 class EdgeList {
 public:
-    EdgeList(int width, int height) : width_(width), height_(height) {}
+    EdgeList(int width, int height);
 
     void add(Point from, Point to, int shape);
     void addPolygon(std::span<const Point> points, int shape);
+    /// Around all that was added and lies in the view; min > max if nothing does.
+    Box bounds() const;
     const std::vector<Edge>& edges() const { return edges_; }
     std::vector<Edge> take() { return std::move(edges_); }
 
 private:
     double width_, height_;
+    Box added_;  ///< around all points
     std::vector<Edge> edges_;
 };
 

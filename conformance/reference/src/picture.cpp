@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "conformance/reference/src/stroke.hpp"
+#include "conformance/reference/src/tiling.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -12,6 +13,9 @@ namespace {
 /// Pixels a side of a pattern's tile. A tile that is larger in the view has larger pixels, which
 /// changes nothing but the cost of finding the edges near a point.
 constexpr double maxTileSide = 4096;
+
+/// Items of all tiles of a pattern together, beyond which its tiles are sampled rather than laid out.
+constexpr double maxTiledItems = 1 << 16;
 
 bool isPlain(const scene::Group& group) {
     return group.opacity == 1 && group.blend == scene::BlendMode::Normal && !group.clip && !group.mask;
@@ -35,10 +39,17 @@ bool isOpaque(const Shader& shader) {
     return false;
 }
 
+std::shared_ptr<const scene::Clip> rectangleClip(Point min, Point max) {
+    auto clip = std::make_shared<scene::Clip>();
+    auto path = std::make_shared<scene::Path>(scene::rectangle(min, max));
+    clip->shapes.push_back({std::move(path), scene::identity, scene::FillRule::NonZero, nullptr});
+    return clip;
+}
+
 class Maker {
 public:
-    Maker(const View& view, double flatness)
-        : view_(view), flatness_(flatness), edges_(view.width, view.height) {
+    Maker(const View& view, double flatness, Patterns patterns)
+        : view_(view), flatness_(flatness), patterns_(patterns), edges_(view.width, view.height) {
         picture_.width = view.width;
         picture_.height = view.height;
     }
@@ -84,19 +95,68 @@ private:
     std::vector<GroupNode>& groupsOf(int tree) { return picture_.trees[std::size_t(tree)].groups; }
 
     void addItem(const scene::Item& item, int tree, int group) {
-        const Affine toPixels = scene::compose(view_.toPixels, item.transform);
-        const int shader = addShader(item.paint, toPixels);
+        const auto* pattern = std::get_if<scene::Pattern>(&item.paint);
+        if (pattern && patterns_ == Patterns::LaidOut && addTiles(item, *pattern, tree, group))
+            return;
+        const int shader = addShader(item.paint, toPixels(item));
         std::vector<Layer>& layers = picture_.trees[std::size_t(tree)].layers;
         const bool hides = group == 0 && item.opacity >= 1 && isOpaque(picture_.shaders[std::size_t(shader)]);
-        const auto* fill = std::get_if<scene::FillRule>(&item.geometry);
-        const int shape =
-            addShape({fill ? *fill : scene::FillRule::NonZero, false, tree, int(layers.size())});
+        const int shape = addShape({ruleOf(item), false, tree, int(layers.size())});
         layers.push_back({shape, group, shader, item.opacity, hides});
-        if (fill)
-            addFill(*item.path, toPixels, view_, flatness_, shape, edges_);
+        addOutline(item, shape, edges_);
+    }
+
+    Affine toPixels(const scene::Item& item) const { return scene::compose(view_.toPixels, item.transform); }
+
+    static scene::FillRule ruleOf(const scene::Item& item) {
+        const auto* fill = std::get_if<scene::FillRule>(&item.geometry);
+        return fill ? *fill : scene::FillRule::NonZero;
+    }
+
+    void addOutline(const scene::Item& item, int shape, EdgeList& edges) const {
+        if (const auto* stroke = std::get_if<scene::StrokeStyle>(&item.geometry))
+            addStroke(*item.path, *stroke, toPixels(item), view_, flatness_, shape, edges);
         else
-            addStroke(*item.path, std::get<scene::StrokeStyle>(item.geometry), toPixels, view_, flatness_,
-                      shape, edges_);
+            addFill(*item.path, toPixels(item), view_, flatness_, shape, edges);
+    }
+
+    /// A pattern as a group clipped by the item, with a clipped group for each tile. False, with nothing
+    /// added, if there are too many.
+    bool addTiles(const scene::Item& item, const scene::Pattern& pattern, int tree, int group) {
+        EdgeList outline(view_.width, view_.height);
+        addOutline(item, 0, outline);
+        const auto tiles =
+            tilesMeeting(outline.bounds(), pattern, scene::compose(toPixels(item), pattern.transform),
+                         maxTiledItems / double(itemCount(*pattern.content)));
+        if (!tiles)
+            return false;
+        const int clip = int(picture_.clips.size());
+        picture_.clips.push_back({{{addShape({ruleOf(item), true, clip, 0}), none}}, none});
+        addOutline(item, picture_.clips.back().parts[0].shape, edges_);
+        const int all = pushGroup(tree, group, clip);
+        groupsOf(tree)[std::size_t(all)].opacity = item.opacity;
+        for (const Affine& tile : *tiles)
+            addTile(pattern, tile, tree, all);
+        return true;
+    }
+
+    /// What is made for one tile is placed for that tile, clips and masks too.
+    void addTile(const scene::Pattern& pattern, const Affine& tileToPixels, int tree, int parent) {
+        const Affine outside = std::exchange(view_.toPixels, tileToPixels);
+        auto clips = std::exchange(clips_, {});
+        auto masks = std::exchange(masks_, {});
+        const auto border = rectangleClip(pattern.min, pattern.max);
+        addGroup(*pattern.content, tree, pushGroup(tree, parent, clipOf(border)));
+        view_.toPixels = outside;
+        clips_ = std::move(clips);
+        masks_ = std::move(masks);
+    }
+
+    int pushGroup(int tree, int parent, int clip) {
+        GroupNode node{parent, groupsOf(tree)[std::size_t(parent)].depth + 1};
+        node.clip = clip;
+        groupsOf(tree).push_back(node);
+        return int(groupsOf(tree).size()) - 1;
     }
 
     int addShape(const Shape& shape) {
@@ -192,7 +252,8 @@ private:
         const TileKey key{content.get(), {toTile[0].x, toTile[1].y, toTile[2].x, toTile[2].y}};
         std::shared_ptr<const Picture>& tile = tiles_[key];
         if (!tile) {
-            Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness);
+            Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness,
+                        Patterns::Sampled);
             maker.addRoot(*content, nullptr);
             tile = std::make_shared<const Picture>(maker.take());
         }
@@ -203,6 +264,7 @@ private:
 
     View view_;
     double flatness_;
+    Patterns patterns_;
     EdgeList edges_;
     Picture picture_;
     std::map<const scene::Clip*, int> clips_;
@@ -210,19 +272,11 @@ private:
     std::map<TileKey, std::shared_ptr<const Picture>> tiles_;
 };
 
-/// What lies outside the scene's rectangle is cut off.
-std::shared_ptr<const scene::Clip> frameOf(const scene::Scene& scene) {
-    auto path = std::make_shared<scene::Path>(scene::rectangle({0, 0}, {scene.width, scene.height}));
-    auto frame = std::make_shared<scene::Clip>();
-    frame->shapes.push_back({std::move(path), scene::identity, scene::FillRule::NonZero, nullptr});
-    return frame;
-}
-
 }  // namespace
 
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness) {
-    Maker maker(view, flatness);
-    maker.addRoot(scene.root, frameOf(scene));
+Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns) {
+    Maker maker(view, flatness, patterns);
+    maker.addRoot(scene.root, rectangleClip({0, 0}, {scene.width, scene.height}));
     return maker.take();
 }
 

@@ -65,6 +65,12 @@ struct Picture {
     std::vector<Shader> shaders;
 };
 
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness);
+enum class Patterns {
+    LaidOut,  ///< as geometry, tile by tile; sampled where those are too many
+    Sampled   ///< as paints
+};
+
+/// What lies outside the scene's rectangle is cut off by a clip of the root.
+Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns);
 
 }  // namespace vtm::reference

@@ -44,9 +44,11 @@ image::Raster render(const scene::Scene& scene, const View& view, const Options&
     checkView(view);
     if (options.samples < 1 || options.samples > 256)
         throw std::invalid_argument("reference: " + std::to_string(options.samples) + " samples");
-    const Picture picture = makePicture(scene, view, flatness);
-    if (options.mode == Mode::Compat)
+    if (options.mode == Mode::Compat) {
+        const Picture picture = makePicture(scene, view, flatness, Patterns::Sampled);
         return renderRows(picture, [&] { return std::make_unique<CompatRows>(picture); });
+    }
+    const Picture picture = makePicture(scene, view, flatness, Patterns::LaidOut);
     return renderRows(picture, [&] { return std::make_unique<ExactRows>(picture, options.samples); });
 }
 

@@ -116,8 +116,25 @@ TEST_P(Paints, PatternRepeatsClippedToItsTile) {
 TEST_P(Paints, PatternSmallerThanAPixel) {
     Pattern pattern = stripes();
     pattern.transform = scaling(0.125, 0.125);
-    // Half the tile is red, an eighth blue.
-    expectPixel(draw(sceneOf({{fillAll(pattern)}})), 3, 3, {0.5, 0, 0.125, 0.625}, 0.02);
+    // Half the tile is red, an eighth blue. Compat mode samples it.
+    expectPixel(draw(sceneOf({{fillAll(pattern)}})), 3, 3, {0.5, 0, 0.125, 0.625},
+                GetParam() == Mode::Exact ? 1e-6 : 0.02);
+}
+
+TEST_P(Paints, PatternOfTooManyTilesIsSampled) {
+    Pattern pattern = stripes();
+    pattern.transform = scaling(0.007, 0.011);
+    expectPixel(draw(sceneOf({{fillAll(pattern)}})), 3, 3, {0.5, 0, 0.125, 0.625}, 0.1);
+}
+
+TEST_P(Paints, PatternOnAStrokeWithOpacity) {
+    Item item = fill({MoveTo{{0, 4}}, LineTo{{8, 4}}}, stripes(), 0.5f);
+    item.geometry = StrokeStyle{3, Cap::Butt, Join::Miter, 4, {}, 0};
+    const auto raster = draw(sceneOf({{item}}));
+    expectPixel(raster, 1, 4, {0.5, 0, 0, 0.5});
+    expectPixel(raster, 1, 5, {0.25, 0, 0, 0.25});
+    expectPixel(raster, 4, 4, {0, 0, 0.5, 0.5});
+    expectPixel(raster, 1, 1, {0, 0, 0, 0});
 }
 
 TEST_P(Paints, PatternTurns) {
