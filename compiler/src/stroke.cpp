@@ -92,10 +92,37 @@ private:
             const Point side = perp(endTangent(segment.curve)) * radius_;
             ribbon_.left.lineTo(endPoint(segment) + side);
             ribbon_.right.lineTo(endPoint(segment) - side);
+        } else if (segment.circle) {
+            circularSides(segment.curve, *segment.circle);
         } else {
-            const bool open = style_.cap != Cap::Round || style_.join != Join::Round;
-            appendOffsets(segment.curve, {radius_, tolerance_ * fitShare, open}, ribbon_);
+            appendOffsets(segment.curve, {radius_, tolerance_ * fitShare, showsBeyond()}, ribbon_);
         }
+    }
+
+    /// Round caps and joins cover what lies beyond evolutes (stroke_offset.cpp).
+    bool showsBeyond() const { return style_.cap != Cap::Round || style_.join != Join::Round; }
+
+    /// The offsets of a circle are circles, its evolute is the centre.
+    void circularSides(const Cubic& curve, const Circle& circle) {
+        const Point from = unit(curve.p0 - circle.center), to = unit(curve.p3 - circle.center);
+        const double angle = angleBetween(from, to), outer = circle.radius + radius_,
+                     inner = circle.radius - radius_;
+        Side &innerSide = angle > 0 ? ribbon_.left : ribbon_.right,
+             &outerSide = angle > 0 ? ribbon_.right : ribbon_.left;
+        arc(outerSide, circle.center, from * outer, angle);
+        if (inner > joinShare * tolerance_)
+            return arc(innerSide, circle.center, from * inner, angle);
+        go(innerSide, circle.center);
+        if (inner < -tolerance_ && showsBeyond())
+            ribbon_.beyond.push_back(sector(circle.center, from * inner, angle));
+    }
+
+    Side sector(Point center, Point from, double angle) const {
+        Side contour{center, {}};
+        go(contour, center + from);
+        arc(contour, center, from, angle);
+        go(contour, center);
+        return angle > 0 ? contour : reversed(contour);
     }
 
     void closeRing(const Subpath& subpath) {
@@ -209,12 +236,14 @@ private:
 
     void go(Side& side, Point to) const { side.lineTo(to, joinShare * tolerance_); }
 
-    void arc(Side& contour, Point center, Point from, double angle) const {
-        const double sagitta = radius_ * (1 - std::cos(angle / 2));
+    /// Goes to the arc's start first, if need be.
+    void arc(Side& side, Point center, Point from, double angle) const {
+        go(side, center + from);
+        const double sagitta = glm::length(from) * (1 - std::cos(angle / 2));
         if (sagitta <= tolerance_ && std::abs(angle) < std::numbers::pi / 2)
-            return go(contour, center + rotate(from, angle));
+            return go(side, center + rotate(from, angle));
         for (const Cubic& c : circleArc(center, from, angle, tolerance_))
-            contour.cubicTo(c.p1, c.p2, c.p3);
+            side.cubicTo(c.p1, c.p2, c.p3);
     }
 
     // --- output --------------------------------------------------------------------------------

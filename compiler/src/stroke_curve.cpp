@@ -217,32 +217,33 @@ std::vector<Cubic> circleArc(Point center, Point from, double angle, double tole
     return mappedArc(center, from, perp(from), 0, angle, arcStep(glm::length(from), tolerance));
 }
 
-std::vector<Cubic> ellipticalArc(Point from, const scene::ArcTo& arc, double tolerance) {
+Arc ellipticalArc(Point from, const scene::ArcTo& arc, double tolerance) {
     if (from == arc.to)
         return {};
     Point radii = glm::abs(arc.radii);
-    if (radii.x == 0 || radii.y == 0)
-        return {straightCubic(from, arc.to)};
-    // In the frame where the ellipse is the unit circle, half the chord is `half`.
-    const Point half = rotate((from - arc.to) / 2.0, -arc.rotation) / radii;
+    // In the frame where the ellipse is the unit circle, the chord is from `half` to -`half`.
+    Point half = rotate((from - arc.to) / 2.0, -arc.rotation) / radii;
     const double square = glm::dot(half, half);
-    if (!std::isfinite(1 / square))
-        return {straightCubic(from, arc.to)};
-    if (square > 1)
-        radii *= std::sqrt(square);
-    const double height = square > 1 ? 0 : std::sqrt(1 / square - 1);
-    const Point chord = square > 1 ? half / std::sqrt(square) : half;
-    const Point toCenter = perp(chord) * (arc.largeArc == arc.sweep ? height : -height);
-    const Point start = chord - toCenter, end = -chord - toCenter;
-    double angle = angleBetween(start, end);
+    if (radii.x == 0 || radii.y == 0 || !std::isfinite(1 / square))
+        return {{straightCubic(from, arc.to)}, {}};
+    const double growth = std::max(1.0, std::sqrt(square));
+    radii *= growth;
+    half /= growth;
+    const double height = square < 1 ? std::sqrt(1 / square - 1) : 0;
+    const Point toCenter = perp(half) * (arc.largeArc == arc.sweep ? height : -height);
+    const Point start = half - toCenter;
+    double angle = angleBetween(start, -half - toCenter);
     if (arc.sweep != (angle > 0))
         angle += arc.sweep ? 2 * std::numbers::pi : -2 * std::numbers::pi;
     const Point x = rotate({radii.x, 0}, arc.rotation), y = rotate({0, radii.y}, arc.rotation);
     const Point center = (from + arc.to) / 2.0 + x * toCenter.x + y * toCenter.y;
-    auto result = mappedArc(center, x, y, std::atan2(start.y, start.x), angle,
-                            arcStep(std::max(radii.x, radii.y), tolerance));
-    result.front().p0 = from;
-    result.back().p3 = arc.to;
+    Arc result{mappedArc(center, x, y, std::atan2(start.y, start.x), angle,
+                         arcStep(std::max(radii.x, radii.y), tolerance)),
+               {}};
+    result.pieces.front().p0 = from;
+    result.pieces.back().p3 = arc.to;
+    if (radii.x == radii.y)
+        result.circle = Circle{center, radii.x};
     return result;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -76,8 +77,19 @@ double parameterAtLength(const Cubic& c, double t0, double length);
 double arcStep(double radius, double tolerance);
 /// Arc of a circle from `center + from`, turning by `angle`, as cubics.
 std::vector<Cubic> circleArc(Point center, Point from, double angle, double tolerance);
+struct Circle {
+    Point center;
+    double radius;
+};
+
+/// Cubics, and the circle that they follow if it is one.
+struct Arc {
+    std::vector<Cubic> pieces;
+    std::optional<Circle> circle;
+};
+
 /// SVG's endpoint arc as cubics (SVG 2 section B.2). Zero radii give a straight line; coincident end
 /// points give nothing.
-std::vector<Cubic> ellipticalArc(Point from, const scene::ArcTo& arc, double tolerance);
+Arc ellipticalArc(Point from, const scene::ArcTo& arc, double tolerance);
 
 }  // namespace vtm::compiler::stroke

@@ -91,7 +91,7 @@ private:
             return;
         const bool whole = from == 0 && to == 1;
         dash_.push_back({whole ? segment.curve : part(segment.curve, from, to), segment.straight,
-                         segment.afterCusp && from == 0});
+                         segment.circle, segment.afterCusp && from == 0});
     }
 
     void endDash(const Segment& segment, double t) {

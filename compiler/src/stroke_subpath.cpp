@@ -51,8 +51,10 @@ public:
     void operator()(const scene::CubicTo& c) { add({at_, c.control1, c.control2, c.to}); }
     void operator()(const scene::ArcTo& c) {
         drawn_ = true;
-        for (const Cubic& piece : ellipticalArc(at_, c, tolerance_))
-            add(piece);
+        const Arc arc = ellipticalArc(at_, c, tolerance_);
+        for (const Cubic& piece : arc.pieces)
+            arc.circle ? addSmooth(piece, false, arc.circle) : add(piece);
+        at_ = c.to;
     }
     void operator()(const scene::Close&) {
         add(straightCubic(at_, start_));
@@ -93,11 +95,11 @@ private:
         addSmooth(rest, from > 0);
     }
 
-    void addSmooth(const Cubic& c, bool afterCusp) {
+    void addSmooth(const Cubic& c, bool afterCusp, std::optional<Circle> circle = {}) {
         if (extent(c) <= coincident_)
             return;
         const bool straight = isStraight(c);
-        segments_.push_back({straight ? straightCubic(c.p0, c.p3) : c, straight, afterCusp});
+        segments_.push_back({straight ? straightCubic(c.p0, c.p3) : c, straight, circle, afterCusp});
     }
 
     double tolerance_, coincident_;

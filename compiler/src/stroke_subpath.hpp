@@ -14,7 +14,8 @@ namespace vtm::compiler::stroke {
 struct Segment {
     Cubic curve;
     bool straight;
-    bool afterCusp;  ///< the curve turned back within itself where this segment starts
+    std::optional<Circle> circle;  ///< that the curve follows, turning by a quarter at most
+    bool afterCusp;                ///< the curve turned back within itself where this segment starts
 };
 
 /// Connected segments. Without any, a dot `at` a point, whose caps look along `direction`.

@@ -413,6 +413,47 @@ TEST(StrokeEdges, CircleFilledToItsCentre) {
         EXPECT_EQ(inside(outline, {x * 0.6, x * 0.8}), x < 20);
 }
 
+TEST(StrokeEdges, CubicCircleFilledToItsCentre) {
+    const double k = 5.522847498;  // the usual arm of a quarter circle of radius 10
+    const Path path{MoveTo{{10, 0}},
+                    CubicTo{{10, k}, {k, 10}, {0, 10}},
+                    CubicTo{{-k, 10}, {-10, k}, {-10, 0}},
+                    CubicTo{{-10, -k}, {-k, -10}, {0, -10}},
+                    CubicTo{{k, -10}, {10, -k}, {10, 0}},
+                    Close{}};
+    EXPECT_LE(edges(strokeOutline(path, style(20), 0.1)), 16u);
+    for (const double tolerance : {1e-1, 1e-2, 1e-4})
+        expectNeighbourhood(path, 20, tolerance, 1);
+}
+
+TEST(StrokeArcs, CirclesOfAnyWidth) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> angle(0, 2 * pi);
+    for (const double width : {0.1, 5.0, 19.0, 20.0, 21.0, 30.0, 200.0})
+        for (const double tolerance : {1e-1, 1e-3, 1e-5}) {
+            const auto border = curves(strokeOutline(circle({3, 4}, 10), style(width), tolerance));
+            for (double r = 0.0137; r < 10 + width; r += (10 + width) / 97) {
+                const double a = angle(random), d = std::abs(r - 10) - width / 2;
+                if (std::abs(d) > tolerance) {
+                    EXPECT_EQ(winding(border, Point{3, 4} + Point{std::cos(a), std::sin(a)} * r) > 0, d < 0)
+                        << width << " " << tolerance << " " << r;
+                }
+            }
+        }
+}
+
+TEST(StrokeArcs, SectorBeyondTheCentre) {
+    // A quarter of a circle of radius 2, three wide to each side: flat ends sweep over the centre.
+    const Path quarter{MoveTo{{2, 0}}, ArcTo{{2, 2}, 0, false, true, {0, 2}}};
+    const Path outline = strokeOutline(quarter, style(6), 1e-4);
+    EXPECT_TRUE(inside(outline, Point{0.7, 0.7} * 4.9));
+    EXPECT_TRUE(inside(outline, Point{-0.7, -0.7} * 0.9));
+    EXPECT_FALSE(inside(outline, Point{-0.7, -0.7} * 1.1));
+    EXPECT_FALSE(inside(outline, {1, -0.1}));
+    EXPECT_FALSE(inside(outline, {-0.9, 0.1}));
+    EXPECT_NEAR(area(outline), pi / 4 * (25 + 1), 1e-2);
+}
+
 TEST(StrokeEdges, ErrorFallsWithTheSixthPower) {
     const Path path{MoveTo{{0, 0}}, CubicTo{{20, 60}, {70, 80}, {100, 30}}};
     const auto coarse = edges(strokeOutline(path, style(10), 1e-2)),
