@@ -93,13 +93,14 @@ void Converter::warnUnsupported(const Element& element) {
                                                         : "is not supported yet; it is left out");
 }
 
-bool Converter::spend() {
-    if (budget_.visits == 0) {
+bool Converter::spend(std::size_t visits) {
+    if (budget_.visits < visits) {
         reporter_.warn(*tree_.root,
                        fmt::format("more than {} elements to draw; the rest is left out", Limits::maxNodes));
+        budget_.visits = 0;
         return false;
     }
-    --budget_.visits;
+    budget_.visits -= visits;
     return true;
 }
 

@@ -75,7 +75,7 @@ private:
     LengthReader lengths(const Element& element, const Scope& scope) const;
     Units unitsFor(const Style& style) const;
     /// False once too much has been visited.
-    bool spend();
+    bool spend(std::size_t visits = 1);
     bool leavesPaintAlone(const Style& style) const;
 
     // viewport.cpp: svg, symbol, use
@@ -119,6 +119,11 @@ private:
     ServerResult gradient(const Element& server, const Scope& scope, const Box& box);
     std::vector<scene::GradientStop> gradientStops(const std::vector<const Element*>& chain);
     ServerResult pattern(const Element& server, const Scope& scope, const Box& box);
+    /// A pattern's content and how many visits it stands for, patterns within patterns expanded.
+    struct PatternContent {
+        std::shared_ptr<const scene::Group> group;
+        std::size_t visits = 0;
+    };
     std::shared_ptr<const scene::Group> patternContent(const Element& owner, const Viewport& viewport);
 
     // clip.cpp, mask.cpp, effects.cpp
@@ -205,7 +210,7 @@ private:
     double rootFontSize_;
     std::unordered_map<const Element*, Style> styles_;
     std::unordered_map<const Element*, CachedShape> shapes_;
-    std::unordered_map<const Element*, std::shared_ptr<const scene::Group>> patterns_;
+    std::unordered_map<const Element*, PatternContent> patterns_;
     std::unordered_map<std::string_view, ImageContent> images_;
     std::unordered_set<const Element*> active_;
     std::vector<Outline> outlines_;

@@ -88,6 +88,15 @@ std::string_view Cursor::identifier() {
     return word;
 }
 
+std::string_view Cursor::unit() {
+    std::size_t size = 0;
+    while (size < rest_.size() && lower(rest_[size]) >= 'a' && lower(rest_[size]) <= 'z')
+        ++size;
+    const std::string_view word = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return word;
+}
+
 std::string_view Cursor::until(char end) {
     const std::size_t size = std::min(rest_.find(end), rest_.size());
     const std::string_view part = rest_.substr(0, size);

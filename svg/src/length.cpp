@@ -49,7 +49,7 @@ std::optional<Length> readLength(Cursor& cursor, const Units& units) {
         return std::nullopt;
     if (cursor.consume('%'))
         return Length{*value, true};
-    const std::optional<double> size = unitSize(cursor.identifier(), units);
+    const std::optional<double> size = unitSize(cursor.unit(), units);
     return size ? std::optional(Length{*value * *size}) : std::nullopt;
 }
 
@@ -85,7 +85,7 @@ std::optional<double> readAngle(Cursor& cursor) {
     const std::optional<double> value = cursor.number();
     if (!value)
         return std::nullopt;
-    const std::string_view unit = cursor.identifier();
+    const std::string_view unit = cursor.unit();
     const auto is = [&](std::string_view name) { return equalsIgnoringCase(unit, name); };
     if (unit.empty() || is("deg"))
         return *value;

@@ -106,12 +106,10 @@ void Converter::convertMarker(const Element& marker, const ContextElement& conte
     content.viewport = {box.width, box.height};
     if (!scene::inverse(content.transform))
         return;
+    const bool visible = scope.style.overflow.value_or(false);
     Nodes nodes;
-    withoutOutlines([&] { convertChildren(marker, content, nodes); });
-    if (scope.style.overflow.value_or(false))
-        std::move(nodes.begin(), nodes.end(), std::back_inserter(out));
-    else
-        appendClipped(viewport, scope.transform, std::move(nodes), out);
+    withoutOutlines([&] { convertChildren(marker, content, visible ? out : nodes); });
+    appendClipped(viewport, scope.transform, std::move(nodes), out);
 }
 
 }  // namespace vtm::svg

@@ -74,8 +74,10 @@ private:
 
     static bool startsNumber(char c) { return isDigit(c) || c == '-' || c == '+' || c == '.'; }
 
+    /// A second Close on end closes nothing more: it would only add vertices for markers.
     void close() {
-        path_.push_back(scene::Close{});
+        if (previous_ != 'Z')
+            path_.push_back(scene::Close{});
         current_ = start_;
         previous_ = 'Z';
     }

@@ -69,19 +69,23 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
     if (!scene::inverse(transform) || !toContent)
         return Nothing{};
     const Viewport inner = viewBox ? Viewport{viewBox->width, viewBox->height} : rootSize_;
+    const Box period = mapBox(*toContent, tile.box());
+    if (!(period.width() > 0 && period.height() > 0) || !isWithinReach(period))
+        return Nothing{};
     auto content = patternContent(*owner, inner);
     if (!content)
         return Invalid{};
-    const Box period = mapBox(*toContent, tile.box());
     return scene::Paint(scene::Pattern{period.min, period.max, std::move(content), transform});
 }
 
+/// Sharing saves the conversion, but whoever walks the scene meets the content each time: every use
+/// spends what the first one did.
 std::shared_ptr<const scene::Group> Converter::patternContent(const Element& owner,
                                                               const Viewport& viewport) {
     if (const auto found = patterns_.find(&owner); found != patterns_.end())
-        return found->second;
+        return spend(found->second.visits) ? found->second.group : nullptr;
     const Expansion expansion(active_, owner);
-    if (!expansion) {
+    if (!expansion || !spend()) {
         reporter_.warn(owner, "refers to itself in a circle");
         return nullptr;
     }
@@ -90,8 +94,9 @@ std::shared_ptr<const scene::Group> Converter::patternContent(const Element& own
     scope.style = styleOf(owner);
     scope.viewport = viewport;
     scope.depth = static_cast<int>(active_.size());
+    const std::size_t before = budget_.visits;
     withoutOutlines([&] { convertChildren(owner, scope, content->children); });
-    patterns_.emplace(&owner, content);
+    patterns_.emplace(&owner, PatternContent{content, 1 + before - budget_.visits});
     return content;
 }
 

@@ -90,13 +90,11 @@ void Converter::convertViewport(const Element& element, const Rect& viewport, co
         viewBox ? Viewport{viewBox->width, viewBox->height} : Viewport{viewport.width, viewport.height};
     if (!scene::inverse(content.transform))
         return;
-    Nodes nodes;
-    convertChildren(element, content, nodes);
     // What the root's viewport cuts off, the picture's edge or the image's viewport cuts off anyway.
-    if (&element == tree_.root || scope.style.overflow.value_or(false))
-        std::move(nodes.begin(), nodes.end(), std::back_inserter(out));
-    else
-        appendClipped(viewport, scope.transform, std::move(nodes), out);
+    const bool visible = &element == tree_.root || scope.style.overflow.value_or(false);
+    Nodes nodes;
+    convertChildren(element, content, visible ? out : nodes);
+    appendClipped(viewport, scope.transform, std::move(nodes), out);
 }
 
 void Converter::appendClipped(const Rect& rect, const scene::Affine& transform, Nodes content, Nodes& out) {

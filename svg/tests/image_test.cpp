@@ -1,0 +1,138 @@
+#include "image/codec.hpp"
+
+#include <fstream>
+
+#include "support.hpp"
+#include "svg/src/data_url.hpp"
+#include "svg/src/path_geometry.hpp"
+
+namespace vtm::svg {
+namespace {
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        unsigned group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+        for (int k = 3; k >= 0; --k)
+            text += digits[group >> 6 * k & 63];
+    }
+    for (std::size_t k = 0; k < (3 - bytes.size() % 3) % 3; ++k)
+        text[text.size() - 1 - k] = '=';
+    return text;
+}
+
+/// 4 x 2 red pixels.
+std::string pngUrl() {
+    image::Bitmap bitmap{4, 2, {}};
+    for (int i = 0; i < 8; ++i)
+        bitmap.rgba.insert(bitmap.rgba.end(), {255, 0, 0, 255});
+    return "data:image/png;base64," + base64(image::encodePng(bitmap));
+}
+scene::Item imageItem(const std::string& attributes) {
+    return itemOf("<image href='" + pngUrl() + "' " + attributes + "/>");
+}
+Box boxOf(const scene::Item& item) { return boundingBox(*item.path, item.transform); }
+
+TEST(DataUrl, Base64) {
+    const auto bytes = decodeDataUrl("data:;base64,aGVs\n bG8=");
+    EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "hello");
+}
+TEST(DataUrl, Plain) {
+    const auto bytes = decodeDataUrl("data:text/plain,a%20b%zz");
+    EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "a b%zz");
+}
+TEST(DataUrl, MalformedOnesAreErrors) {
+    EXPECT_THROW(decodeDataUrl("data:;base64,a*b"), image::CodecError);
+    EXPECT_THROW(decodeDataUrl("data:nothing"), image::CodecError);
+}
+
+TEST(Image, HasItsOwnSizeByDefault) {
+    expectNear(boxOf(imageItem("x='1' y='2'")).max, {5, 4});
+    expectNear(boxOf(imageItem("width='8'")).max, {8, 4});
+}
+TEST(Image, MeetsItsViewport) {
+    const Box box = boxOf(imageItem("width='10' height='10'"));
+    expectNear(box.min, {0, 2.5});
+    expectNear(box.max, {10, 7.5});
+}
+TEST(Image, SliceIsCutToTheViewport) {
+    const scene::Item item = imageItem("width='10' height='10' preserveAspectRatio='xMinYMin slice'");
+    expectNear(boxOf(item).max, {10, 10});
+    expectNear(item.transform, {5, 0, 0, 5, 0, 0});
+}
+TEST(Image, RenderingChoosesTheFilter) {
+    const auto filter = [](const std::string& attributes) {
+        return std::get<scene::ImagePaint>(imageItem(attributes).paint).filter;
+    };
+    EXPECT_EQ(filter(""), scene::ImageFilter::Bilinear);
+    EXPECT_EQ(filter("image-rendering='optimizeSpeed'"), scene::ImageFilter::Nearest);
+    EXPECT_EQ(filter("style='image-rendering:pixelated'"), scene::ImageFilter::Nearest);
+}
+TEST(Image, BitmapsAreShared) {
+    const std::string image = "<image href='" + pngUrl() + "'/>";
+    const auto items = itemsOf(loadBody(image + image));
+    ASSERT_EQ(items.size(), 2u);
+    EXPECT_EQ(std::get<scene::ImagePaint>(items[0].paint).bitmap,
+              std::get<scene::ImagePaint>(items[1].paint).bitmap);
+}
+TEST(Image, NestedDocumentsBecomePartOfTheScene) {
+    const scene::Item item = itemOf(
+        "<image x='10' width='20' height='20' href=\"data:image/svg+xml,"
+        "<svg xmlns='http://www.w3.org/2000/svg' width='10' height='10'>"
+        "<rect width='5' height='5' fill='lime'/></svg>\"/>");
+    expectNear(item.transform, {2, 0, 0, 2, 10, 0});
+    EXPECT_EQ(rgbOf(item.paint), 0x00ff00);
+}
+TEST(Image, NestedDocumentsAreClippedToTheirViewport) {
+    EXPECT_TRUE(groupOf("<image width='20' height='20' href=\"data:image/svg+xml,"
+                        "<svg xmlns='http://www.w3.org/2000/svg' width='10' height='10'>"
+                        "<rect width='50' height='5'/></svg>\"/>")
+                    .clip);
+}
+TEST(Image, BrokenOnesAreWarnings) {
+    const Document loaded = loadBody(
+        "<image href='data:image/png;base64,AAAA'/><image/>"
+        "<image href=\"data:image/svg+xml,<svg\"/>");
+    EXPECT_TRUE(loaded.scene.root.children.empty());
+    EXPECT_EQ(loaded.warnings.size(), 3u);
+}
+
+class ImageFiles : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = std::filesystem::temp_directory_path() / "vtm_svg_image_test";
+        std::filesystem::create_directories(folder_);
+        std::ofstream(folder_ / "a b.svg")
+            << document("<rect width='1' height='1'/><image href='a%20b.svg'/>");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    Document load(std::string_view body, bool mayRead = true) const {
+        Options options;
+        if (mayRead)
+            options.resourceDirectory = folder_.string();
+        return loadText(document(body), options);
+    }
+    std::filesystem::path folder_;
+};
+
+TEST_F(ImageFiles, AreReadBelowTheResourceDirectory) {
+    EXPECT_EQ(itemsOf(load("<image href='a%20b.svg'/>")).size(), 1u);
+}
+TEST_F(ImageFiles, AreNotReadWithoutOne) {
+    const Document loaded = load("<image href='a%20b.svg'/>", false);
+    EXPECT_TRUE(itemsOf(loaded).empty());
+    EXPECT_EQ(loaded.warnings.size(), 1u);
+}
+TEST_F(ImageFiles, AreNotReadByAbsolutePaths) {
+    EXPECT_TRUE(itemsOf(load("<image href='" + (folder_ / "a b.svg").string() + "'/>")).empty());
+    EXPECT_TRUE(itemsOf(load("<image href='file://" + (folder_ / "a b.svg").string() + "'/>")).empty());
+}
+TEST_F(ImageFiles, DirectoriesAndMissingFilesAreWarnings) {
+    EXPECT_EQ(load("<image href='.'/><image href='none.png'/>").warnings.size(), 2u);
+}
+
+}  // namespace
+}  // namespace vtm::svg

@@ -1,0 +1,165 @@
+#include <numbers>
+
+#include "support.hpp"
+#include "svg/src/color.hpp"
+#include "svg/src/length.hpp"
+#include "svg/src/transform.hpp"
+#include "svg/src/viewbox.hpp"
+
+namespace vtm::svg {
+namespace {
+
+int rgb(std::string_view text) {
+    const auto color = parseColor(text);
+    return color ? rgbOf(scene::Paint(*color)) : -1;
+}
+float alpha(std::string_view text) { return parseColor(text).value_or(scene::Color{0, 0, 0, -1}).a; }
+
+TEST(Number, ReadsEveryForm) {
+    for (const auto& [text, value] : std::initializer_list<std::pair<std::string_view, double>>{
+             {"1", 1}, {"+2.5", 2.5}, {"-.5", -0.5}, {"1e3", 1000}, {"1E-2", 0.01}, {"00.10", 0.1}})
+        EXPECT_DOUBLE_EQ(Cursor(text).number().value_or(99), value) << text;
+}
+TEST(Number, LeavesUnitsAlone) {
+    Cursor cursor("1em");
+    EXPECT_EQ(cursor.number(), 1);
+    EXPECT_EQ(cursor.rest(), "em");
+}
+TEST(Number, RefusesWhatIsNone) {
+    for (const std::string_view text : {"", "-", "e5", ".", "inf", "nan", "-inf", "+-1"})
+        EXPECT_FALSE(Cursor(text).number()) << text;
+}
+TEST(Number, ClampsGiants) {
+    EXPECT_EQ(Cursor("1e999").number(), maxNumber);
+    EXPECT_EQ(Cursor("-1e99").number(), -maxNumber);
+    EXPECT_EQ(Cursor("1e-999").number(), 0);
+}
+
+TEST(Color, Names) {
+    EXPECT_EQ(rgb("CornflowerBlue"), 0x6495ed);
+    EXPECT_EQ(rgb(" yellowgreen "), 0x9acd32);
+    EXPECT_EQ(rgb("nocolor"), -1);
+    EXPECT_EQ(alpha("transparent"), 0);
+}
+TEST(Color, Hexadecimal) {
+    EXPECT_EQ(rgb("#1aF"), 0x11aaff);
+    EXPECT_EQ(rgb("#12abEF"), 0x12abef);
+    EXPECT_FLOAT_EQ(alpha("#0003"), 0.2f);
+    EXPECT_FLOAT_EQ(alpha("#00000033"), 0.2f);
+    EXPECT_EQ(rgb("#12345"), -1);
+    EXPECT_EQ(rgb("#ggg"), -1);
+}
+TEST(Color, Rgb) {
+    EXPECT_EQ(rgb("rgb(255, 0 , 16)"), 0xff0010);
+    EXPECT_EQ(rgb("RGB(100%, 0%, 20%)"), 0xff0033);
+    EXPECT_EQ(rgb("rgb(300, -5, 0)"), 0xff0000);
+    EXPECT_EQ(rgb("rgb(1 2 3)"), 0x010203);
+    EXPECT_FLOAT_EQ(alpha("rgb(1 2 3 / 50%)"), 0.5f);
+    EXPECT_FLOAT_EQ(alpha("rgba(1, 2, 3, .25)"), 0.25f);
+    EXPECT_EQ(rgb("rgb(1, 2)"), -1);
+    EXPECT_EQ(rgb("rgb(1, 2%, 3)"), -1);
+}
+TEST(Color, Hsl) {
+    EXPECT_EQ(rgb("hsl(120, 100%, 25%)"), 0x008000);
+    EXPECT_EQ(rgb("hsl(-240, 100%, 50%)"), 0x00ff00);
+    EXPECT_EQ(rgb("hsl(0.5turn 100% 50%)"), 0x00ffff);
+    EXPECT_FLOAT_EQ(alpha("hsla(0, 0%, 0%, 0.5)"), 0.5f);
+}
+TEST(Color, IccColorsBehindAreIgnored) { EXPECT_EQ(rgb("#010203 icc-color(x, 1, 2)"), 0x010203); }
+
+TEST(Length, UnitsBecomeUserUnits) {
+    Units units;
+    units.fontSize = 20;
+    units.rootFontSize = 10;
+    units.root = {200, 400};
+    for (const auto& [text, value] :
+         std::initializer_list<std::pair<std::string_view, double>>{{"7", 7},
+                                                                    {"7px", 7},
+                                                                    {"1in", 96},
+                                                                    {"72pt", 96},
+                                                                    {"6pc", 96},
+                                                                    {"2.54cm", 96},
+                                                                    {"25.4mm", 96},
+                                                                    {"2em", 40},
+                                                                    {"2ex", 20},
+                                                                    {"2rem", 20},
+                                                                    {"5vw", 10},
+                                                                    {"5vh", 20},
+                                                                    {"5vmin", 10},
+                                                                    {"5vmax", 20}})
+        EXPECT_NEAR(parseLength(text, units).value_or(Length{-1}).value, value, 1e-9) << text;
+    EXPECT_FALSE(parseLength("1 px", units));
+    EXPECT_FALSE(parseLength("1parsec", units));
+}
+TEST(Length, PercentagesReferToTheirAxis) {
+    const Viewport viewport{300, 400};
+    EXPECT_DOUBLE_EQ(resolve({50, true}, Axis::X, viewport), 150);
+    EXPECT_DOUBLE_EQ(resolve({50, true}, Axis::Y, viewport), 200);
+    EXPECT_DOUBLE_EQ(resolve({50, true}, Axis::Diagonal, viewport), 250 / std::numbers::sqrt2);
+}
+
+scene::Affine transform(std::string_view text) {
+    return parseTransform(text, {}, {200, 100}).value_or(scene::Affine(0));
+}
+
+TEST(Transform, ReadsTheFunctionsOfSvg) {
+    expectNear(transform("matrix(1,2 3 4-5-6)"), {1, 2, 3, 4, -5, -6});
+    expectNear(transform("translate(3)"), {1, 0, 0, 1, 3, 0});
+    expectNear(transform("scale(2)"), {2, 0, 0, 2, 0, 0});
+    expectNear(transform("rotate(90)"), {0, 1, -1, 0, 0, 0});
+    expectNear(transform("rotate(90, 10, 0)"), {0, 1, -1, 0, 10, -10});
+    expectNear(transform("skewX(45)"), {1, 0, 1, 1, 0, 0});
+    expectNear(transform("skewY(45)"), {1, 1, 0, 1, 0, 0});
+}
+TEST(Transform, ReadsTheFunctionsOfCss) {
+    expectNear(transform("translate(10px, 50%)"), {1, 0, 0, 1, 10, 50});
+    expectNear(transform("rotate(0.25turn)"), {0, 1, -1, 0, 0, 0});
+    expectNear(transform("translateX(1px) scaleY(3)"), {1, 0, 0, 3, 1, 0});
+}
+TEST(Transform, AppliesTheLastFunctionFirst) {
+    expectNear(transform("translate(10 0),scale(2)  rotate(90)"), {0, 2, -2, 0, 10, 0});
+}
+TEST(Transform, NoneAndNothingAreTheIdentity) {
+    expectNear(transform("none"), scene::identity);
+    expectNear(transform("  "), scene::identity);
+}
+TEST(Transform, MalformedListsAreNone) {
+    for (const std::string_view text : {"translate(1", "scale()", "matrix(1 2 3)", "fly(1)", "scale(1) x"})
+        EXPECT_FALSE(parseTransform(text, {}, {})) << text;
+}
+TEST(Transform, OriginTakesKeywordsInAnyOrder) {
+    const auto origin = parseTransformOrigin("top 30px", {});
+    ASSERT_TRUE(origin);
+    EXPECT_DOUBLE_EQ(origin->x.value, 30);
+    EXPECT_TRUE(origin->y.percent);
+    EXPECT_DOUBLE_EQ(origin->y.value, 0);
+}
+TEST(Transform, OriginMovesTheCentre) {
+    const scene::Item item =
+        itemOf("<rect width='4' height='4' transform='rotate(90)' transform-origin='10 0'/>");
+    expectNear(item.transform, {0, 1, -1, 0, 10, -10});
+}
+TEST(Transform, StyleWinsOverTheAttribute) {
+    expectNear(
+        itemOf("<rect width='4' height='4' transform='scale(2)' style='transform: scale(3)'/>").transform,
+        {3, 0, 0, 3, 0, 0});
+}
+
+TEST(ViewBox, NeedsFourNumbersAndASize) {
+    EXPECT_TRUE(parseViewBox("0,0 10 , 20"));
+    EXPECT_FALSE(parseViewBox("0 0 10"));
+    EXPECT_FALSE(parseViewBox("0 0 0 10"));
+}
+TEST(ViewBox, MeetCentresByDefault) {
+    expectNear(fit({10, 10, 100, 50}, parseAspectRatio(""), {0, 0, 100, 100}), {1, 0, 0, 1, -10, 15});
+}
+TEST(ViewBox, SliceFills) {
+    expectNear(fit({0, 0, 100, 50}, parseAspectRatio("xMaxYMin slice"), {0, 0, 100, 100}),
+               {2, 0, 0, 2, -100, 0});
+}
+TEST(ViewBox, NoneStretches) {
+    expectNear(fit({0, 0, 100, 50}, parseAspectRatio("none"), {5, 0, 100, 100}), {1, 0, 0, 2, 5, 0});
+}
+
+}  // namespace
+}  // namespace vtm::svg
