@@ -39,6 +39,10 @@ constexpr double arcShare = 0.3, fitShare = 0.6, joinShare = gapShare;
 /// Directions closer than this are the same whatever the tolerance: control points do not resolve more.
 constexpr double sameDirection = 1e-9;
 
+/// Mitres are no longer than this many widths: longer ones come of angles that the directions do not
+/// resolve.
+constexpr double longestMitre = 1 / sameDirection;
+
 /// Beyond this, products of six lengths (the slope of the curvature) overflow.
 constexpr double largestSize = 1e48;
 
@@ -50,7 +54,11 @@ Point endPoint(const Segment& s) { return s.curve.p3; }
 class Outliner {
 public:
     Outliner(const StrokeStyle& style, double tolerance, scene::Path& out)
-        : style_(style), tolerance_(tolerance), radius_(style.width / 2), out_(out) {}
+        : style_(style),
+          tolerance_(tolerance),
+          radius_(style.width / 2),
+          miterLimit_(std::min(style.miterLimit, longestMitre)),
+          out_(out) {}
 
     void add(const Subpath& subpath) {
         if (subpath.segments.empty())
@@ -89,9 +97,10 @@ private:
 
     void sides(const Segment& segment) {
         if (segment.straight) {
+            // Even where it is too short beside the radius to move the offset: joins may lengthen it.
             const Point side = perp(endTangent(segment.curve)) * radius_;
-            ribbon_.left.lineTo(endPoint(segment) + side);
-            ribbon_.right.lineTo(endPoint(segment) - side);
+            ribbon_.left.edges.push_back({true, {}, {}, endPoint(segment) + side});
+            ribbon_.right.edges.push_back({true, {}, {}, endPoint(segment) - side});
         } else if (segment.circle) {
             circularSides(segment.curve, *segment.circle);
         } else {
@@ -193,11 +202,11 @@ private:
         const Point n0 = perp(t0) * sign, n1 = perp(t1) * sign;
         const Point from = at + n0 * radius_, to = at + n1 * radius_;
         const double angle = angleBetween(t0, t1), cosine = std::cos(angle / 2);
-        if (join != Join::Round && join != Join::Bevel && 1 <= style_.miterLimit * cosine) {
+        if (join != Join::Round && join != Join::Bevel && 1 <= miterLimit_ * cosine) {
             extendTo(outer, a, from, at + crossing(n0, n1));
         } else if (join == Join::MiterClip) {
             // The clipping line crosses the bisector at miterLimit·r (SVG 2 section 13.5.4).
-            const double along = radius_ * (style_.miterLimit - cosine) / std::abs(std::sin(angle / 2));
+            const double along = radius_ * (miterLimit_ - cosine) / std::abs(std::sin(angle / 2));
             extendTo(outer, a, from, from + t0 * along);
             go(outer, to - t1 * along);
         } else {
@@ -256,7 +265,11 @@ private:
         if (!edges.empty() && edges.back().straight && edges.back().to == contour.start)
             edges.pop_back();
         out_.push_back(scene::MoveTo{contour.start});
+        Point at = contour.start;
         for (const Edge& e : edges) {
+            if (e.straight && e.to == at)
+                continue;
+            at = e.to;
             if (e.straight)
                 out_.push_back(scene::LineTo{e.to});
             else
@@ -266,7 +279,7 @@ private:
     }
 
     const StrokeStyle& style_;
-    double tolerance_, radius_;
+    double tolerance_, radius_, miterLimit_;
     scene::Path& out_;
     Ribbon ribbon_;
 };

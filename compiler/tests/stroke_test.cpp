@@ -581,6 +581,28 @@ TEST(StrokeLimits, ExtremeSizesEnd) {
     EXPECT_THROW(strokeOutline(polyline({{0, 0}, {1e60, 0}}), style(1), 1e-3), LimitError);
 }
 
+TEST(StrokeLimits, SegmentsTooShortForTheWidth) {
+    for (const Join join : {Join::Miter, Join::MiterClip, Join::Round, Join::Bevel})
+        for (const bool closed : {false, true}) {
+            const double e = 1e-20;
+            StrokeStyle s = style(2, Cap::Square, join);
+            s.miterLimit = 1e300;
+            const Path path = polyline({{0, 0}, {e, e}, {2 * e, -e}, {-e, -3 * e}, {e, e}}, closed);
+            for (const Curve& c : curves(strokeOutline(path, s, 1e-3)))
+                for (const Point p : c)
+                    EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+        }
+}
+
+TEST(StrokeLimits, MitreOfATurnBackIsFinite) {
+    StrokeStyle s = style(2, Cap::Butt, Join::Miter);
+    s.miterLimit = 1e300;
+    const Path outline = strokeOutline(polyline({{0, 0}, {10, 0}, {0, 0}}), s, 1e-3);
+    EXPECT_FALSE(inside(outline, {10.5, 0}));
+    for (const Curve& c : curves(outline))
+        EXPECT_TRUE(std::isfinite(c[3].x) && std::isfinite(c[3].y));
+}
+
 TEST(StrokeLimits, ControlPointsOnALattice) {
     // Every coincidence of control points that a 3 x 3 lattice allows.
     for (int code = 0; code < 9 * 9 * 9; ++code) {
