@@ -50,8 +50,8 @@ scene::Scene loadScene(const fs::path& path) {
 }
 
 asset::View wholePicture(const scene::Scene& scene, int size) {
-    const double scale = size / scene.width;
-    return {size, int(std::lround(scene.height * scale)), {scale, 0, 0, scale, 0, 0}};
+    const int height = int(std::lround(scene.height * size / scene.width));
+    return {size, height, {size / scene.width, 0, 0, height / scene.height, 0, 0}};
 }
 
 image::Raster asWritten(const image::Raster& raster) { return image::toRaster(image::toBitmap(raster)); }

@@ -21,7 +21,7 @@ std::filesystem::path examplesDirectory();
 
 scene::Scene loadScene(const std::filesystem::path& path);
 
-/// The whole picture on `size` pixels of width.
+/// The whole picture on `size` pixels of width, filling whole pixels as `vtm render` does.
 asset::View wholePicture(const scene::Scene& scene, int size);
 
 /// Rounded to what a PNG file of `vtm render` holds: 8-bit, straight.
