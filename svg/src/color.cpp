@@ -18,13 +18,6 @@ scene::Color fromBytes(double r, double g, double b, double alpha) {
     return {channel(r), channel(g), channel(b), static_cast<float>(std::clamp(alpha, 0.0, 1.0))};
 }
 
-int hexDigit(char c) {
-    if (isDigit(c))
-        return c - '0';
-    const char letter = static_cast<char>(c | 0x20);
-    return letter >= 'a' && letter <= 'f' ? letter - 'a' + 10 : -1;
-}
-
 /// #rgb, #rgba, #rrggbb or #rrggbbaa, the cursor behind the '#'.
 std::optional<scene::Color> readHex(Cursor& cursor) {
     const std::string_view digits = cursor.identifier();

@@ -22,6 +22,12 @@ bool isIdentifier(char c) {
            static_cast<unsigned char>(c) >= 0x80;
 }
 
+int hexDigit(char c) {
+    if (isDigit(c))
+        return c - '0';
+    return lower(c) >= 'a' && lower(c) <= 'f' ? lower(c) - 'a' + 10 : -1;
+}
+
 std::string_view trim(std::string_view text) {
     while (!text.empty() && isSpace(text.front()))
         text.remove_prefix(1);

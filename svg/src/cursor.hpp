@@ -16,6 +16,8 @@ inline bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == 
 inline bool isDigit(char c) { return c >= '0' && c <= '9'; }
 /// Letters, digits, '-', '_' and everything beyond ASCII.
 bool isIdentifier(char c);
+/// 0 to 15, -1 for what is no hexadecimal digit.
+int hexDigit(char c);
 std::string_view trim(std::string_view text);
 /// ASCII letters only.
 bool equalsIgnoringCase(std::string_view a, std::string_view b);

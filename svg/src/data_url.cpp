@@ -44,13 +44,6 @@ std::vector<std::uint8_t> decodeBase64(std::string_view text) {
     return bytes;
 }
 
-int hexDigit(char c) {
-    if (isDigit(c))
-        return c - '0';
-    const char letter = static_cast<char>(c | 0x20);
-    return letter >= 'a' && letter <= 'f' ? letter - 'a' + 10 : -1;
-}
-
 }  // namespace
 
 bool isDataUrl(std::string_view href) { return equalsIgnoringCase(href.substr(0, 5), "data:"); }

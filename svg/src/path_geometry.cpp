@@ -15,9 +15,6 @@ using scene::Affine;
 using scene::Path;
 using scene::Point;
 
-/// Beyond this a coordinate is an accident or an attack: doubles keep 1e-6 of a unit up to here.
-constexpr double maxCoordinate = 1e9;
-
 /// Where the derivative of a cubic in one dimension vanishes inside ]0, 1[.
 void addExtrema(double p0, double p1, double p2, double p3, std::vector<double>& out) {
     const double a = p3 - 3 * p2 + 3 * p1 - p0, b = 2 * (p2 - 2 * p1 + p0), c = p1 - p0;

@@ -11,6 +11,9 @@
 
 namespace vtm::svg {
 
+/// Beyond this a coordinate is an accident or an attack: doubles keep 1e-6 of a unit up to here.
+inline constexpr double maxCoordinate = 1e9;
+
 struct Box {
     scene::Point min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
 

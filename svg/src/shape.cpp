@@ -6,13 +6,6 @@
 #include "svg/src/converter.hpp"
 
 namespace vtm::svg {
-namespace {
-
-/// Beyond this a mapped coordinate is an accident or an attack: doubles keep 1e-6 of a unit up to here.
-constexpr double maxCoordinate = 1e9;
-
-}  // namespace
-
 bool isWithinReach(const Box& box) {
     return box.empty() || (std::abs(box.min.x) <= maxCoordinate && std::abs(box.min.y) <= maxCoordinate &&
                            std::abs(box.max.x) <= maxCoordinate && std::abs(box.max.y) <= maxCoordinate);
