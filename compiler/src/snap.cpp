@@ -237,18 +237,20 @@ private:
 
     void addChanges(Edge& into, std::span<const std::uint32_t> equal) {
         sum_.clear();
-        for (std::uint32_t i : equal)
-            for (const Change& c : set_.of(set_.edges[i])) {
-                const auto at = std::find_if(sum_.begin(), sum_.end(), [&](const Change& s) { return s.layer == c.layer; });
-                if (at == sum_.end())
-                    sum_.push_back(c);
-                else
-                    at->winding += c.winding;
-            }
-        std::erase_if(sum_, [](const Change& c) { return c.winding == 0; });
+        for (std::uint32_t i : equal) {
+            const auto changes = set_.of(set_.edges[i]);
+            sum_.insert(sum_.end(), changes.begin(), changes.end());
+        }
+        std::sort(sum_.begin(), sum_.end(), [](const Change& p, const Change& q) { return p.layer < q.layer; });
         into.firstChange = static_cast<std::uint32_t>(set_.changes.size());
-        into.changeCount = static_cast<std::uint32_t>(sum_.size());
-        set_.changes.insert(set_.changes.end(), sum_.begin(), sum_.end());
+        for (std::size_t i = 0; i < sum_.size();) {
+            Change total{sum_[i].layer, 0};
+            for (; i < sum_.size() && sum_[i].layer == total.layer; ++i)
+                total.winding += sum_[i].winding;
+            if (total.winding != 0)
+                set_.changes.push_back(total);
+        }
+        into.changeCount = static_cast<std::uint32_t>(set_.changes.size()) - into.firstChange;
     }
 
     EdgeSet set_;

@@ -20,6 +20,9 @@ constexpr std::size_t maxChordsToTry = 400;
 constexpr std::size_t maxChordsInLastLeaf = 2000;
 /// Pairs of chords looked at in leaves before the picture is refused: a minute or so.
 constexpr std::size_t maxWork = 20'000'000'000;
+/// What passing one chord down a level, or classifying one point by it, counts in pairs. Without it
+/// thousands of equal outlines, which go down to the last level, are pushed and sampled for minutes.
+constexpr std::size_t visitWork = 100;
 
 struct LayerWinding {
     std::uint32_t layer;
@@ -214,6 +217,7 @@ private:
     // ---- build --------------------------------------------------------------------------------
 
     Entry build(Content cell) {
+        spend(cell.chords.size() * visitWork);
         {
             const Stopwatch watch(times_.push);
             cull(cell);
@@ -224,9 +228,10 @@ private:
             return Entry::make(Entry::Kind::Solid, paint(layers, windings));
         const bool last = cell.level >= options_.maxDepth;
         const std::size_t most = last ? maxChordsInLastLeaf : maxChordsToTry;
-        if (last && cell.chords.size() > most)
+        const bool few = distinctChords(cell, most) <= most;
+        if (last && !few)
             return emitMean(cell, layers, windings);
-        if (cell.level >= (last ? 0 : options_.minDepth) && cell.chords.size() <= most) {
+        if (few && (last || cell.level >= options_.minDepth)) {
             const auto leaf = makeLeaf(cell, layers, windings);
             if (leaf && (last || leaf->pieces.size() <= options_.piecesPerLeaf))
                 return emit(*leaf);
@@ -234,6 +239,25 @@ private:
                 return emitMean(cell, layers, windings);
         }
         return buildNode(cell);
+    }
+
+    /// Equal chords of many layers (a shape repeated) count once: snapping merges them at once. Counts
+    /// only if there may be more than `most`.
+    std::size_t distinctChords(const Content& cell, std::size_t most) const {
+        if (cell.chords.size() <= most)
+            return cell.chords.size();
+        std::vector<std::pair<LatticePoint, LatticePoint>> ends;
+        for (std::uint32_t c : cell.chords)
+            ends.push_back(std::minmax(picture_.chords[c].a, picture_.chords[c].b));
+        std::sort(ends.begin(), ends.end());
+        return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
+    }
+
+    void spend(std::size_t work) {
+        work_ += work;
+        if (work_ > maxWork)
+            throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maxWork) +
+                             " pairs of chords");
     }
 
     Entry buildNode(Content& cell) {
@@ -262,10 +286,8 @@ private:
 
     std::optional<FittedLeaf> makeLeaf(const Content& cell, std::span<const std::uint32_t> layers,
                                        std::span<const int> windings) {
-        work_ += cell.chords.size() * cell.chords.size();
-        if (work_ > maxWork)
-            throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maxWork) +
-                             " pairs of chords");
+        const std::size_t distinct = distinctChords(cell, maxChordsToTry);
+        spend(distinct * distinct);
         PlanarLeaf planar;
         {
             const Stopwatch watch(times_.planarise);
@@ -302,6 +324,7 @@ private:
     /// The fallback: the mean over 4 × 4 points, each classified by winding (after Ganacim et al. 2014).
     Entry emitMean(const Content& cell, std::span<const std::uint32_t> layers, std::span<const int> corner) {
         ++asset_.fallbackLeaves;
+        spend(16 * cell.chords.size() * visitWork);
         std::vector<std::uint16_t> paints;
         const Coord step = cell.square.side / 8;
         for (int i = 0; i < 16; ++i) {
