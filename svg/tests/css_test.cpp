@@ -1,5 +1,5 @@
 #include "svg/src/css.hpp"
-#include "support.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

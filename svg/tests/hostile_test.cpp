@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "support.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "support.hpp"
 #include "svg/src/data_url.hpp"
 #include "svg/src/path_geometry.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -1,4 +1,4 @@
-#include "support.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

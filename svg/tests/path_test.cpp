@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "support.hpp"
 #include "svg/src/path_data.hpp"
 #include "svg/src/path_geometry.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -1,5 +1,5 @@
-#include "support.hpp"
 #include "svg/src/path_geometry.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "image/codec.hpp"
-#include "support.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -1,10 +1,10 @@
 #include <numbers>
 
-#include "support.hpp"
 #include "svg/src/color.hpp"
 #include "svg/src/length.hpp"
 #include "svg/src/transform.hpp"
 #include "svg/src/viewbox.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {

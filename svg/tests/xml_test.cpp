@@ -1,7 +1,7 @@
 #include <zlib.h>
 
-#include "support.hpp"
 #include "svg/src/decode.hpp"
+#include "svg/tests/support.hpp"
 
 namespace vtm::svg {
 namespace {
