@@ -23,7 +23,7 @@ int latticeBits(double tolerance) {
 
 /// Of the whole tolerance: what chords may take from the curves, and pieces from the chords. The rest
 /// is left to quantisation.
-constexpr double chordShare = 1.0 / 8, fitShare = 1.0 / 2, quantisationShare = 1.0 / 8;
+constexpr double chordShare = 1.0 / 8, fitShare = 1.0 / 4, quantisationShare = 1.0 / 8;
 
 void checkOptions(const Options& o) {
     if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))

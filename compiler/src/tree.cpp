@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <set>
 
 #include "compiler/compile.hpp"
 #include "compiler/src/fit.hpp"
@@ -228,10 +229,11 @@ private:
             return Entry::make(Entry::Kind::Solid, paint(layers, windings));
         const bool last = cell.level >= options_.maxDepth;
         const std::size_t most = last ? maxChordsInLastLeaf : maxChordsToTry;
-        const bool few = distinctChords(cell, most) <= most;
-        if (last && !few)
+        const std::size_t distinct = last || cell.level >= options_.minDepth ? distinctChords(cell, most) : most + 1;
+        if (last && distinct > most)
             return emitMean(cell, layers, windings);
-        if (few && (last || cell.level >= options_.minDepth)) {
+        if (distinct <= most) {
+            spend(distinct * distinct);
             const auto leaf = makeLeaf(cell, layers, windings);
             if (leaf && (last || leaf->pieces.size() <= options_.piecesPerLeaf))
                 return emit(*leaf);
@@ -241,16 +243,18 @@ private:
         return buildNode(cell);
     }
 
-    /// Equal chords of many layers (a shape repeated) count once: snapping merges them at once. Counts
-    /// only if there may be more than `most`.
+    /// Equal chords of many layers (a shape repeated) count once: snapping merges them at once. Stops
+    /// counting beyond `most`.
     std::size_t distinctChords(const Content& cell, std::size_t most) const {
         if (cell.chords.size() <= most)
             return cell.chords.size();
-        std::vector<std::pair<LatticePoint, LatticePoint>> ends;
-        for (std::uint32_t c : cell.chords)
-            ends.push_back(std::minmax(picture_.chords[c].a, picture_.chords[c].b));
-        std::sort(ends.begin(), ends.end());
-        return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
+        std::set<std::pair<LatticePoint, LatticePoint>> ends;
+        for (std::uint32_t c : cell.chords) {
+            ends.insert(std::minmax(picture_.chords[c].a, picture_.chords[c].b));
+            if (ends.size() > most)
+                break;
+        }
+        return ends.size();
     }
 
     void spend(std::size_t work) {
@@ -286,8 +290,6 @@ private:
 
     std::optional<FittedLeaf> makeLeaf(const Content& cell, std::span<const std::uint32_t> layers,
                                        std::span<const int> windings) {
-        const std::size_t distinct = distinctChords(cell, maxChordsToTry);
-        spend(distinct * distinct);
         PlanarLeaf planar;
         {
             const Stopwatch watch(times_.planarise);
