@@ -32,7 +32,7 @@ struct GradientStop {
 /// transform).
 
 struct LinearGradient {
-    Point start, end;  ///< distinct
+    Point start, end;                 ///< distinct
     std::vector<GradientStop> stops;  ///< at least two; fewer are a Solid
     Spread spread = Spread::Pad;
     Affine transform = identity;
@@ -41,8 +41,8 @@ struct LinearGradient {
 /// SVG 2's two circles: offset 0 on the focal circle, 1 on the end circle.
 struct RadialGradient {
     Point center;
-    double radius;  ///< > 0
-    Point focus;    ///< strictly inside the end circle
+    double radius;           ///< > 0
+    Point focus;             ///< strictly inside the end circle
     double focalRadius = 0;  ///< in [0, radius)
     std::vector<GradientStop> stops;
     Spread spread = Spread::Pad;
@@ -51,7 +51,7 @@ struct RadialGradient {
 
 /// A group repeated with the period of a rectangle, clipped to it in each tile.
 struct Pattern {
-    Point min, max;  ///< the tile, in pattern space; max > min in both axes
+    Point min, max;                        ///< the tile, in pattern space; max > min in both axes
     std::shared_ptr<const Group> content;  ///< absolute in pattern space
     Affine transform = identity;
 };

@@ -20,8 +20,22 @@ namespace vtm::scene {
 
 /// W3C Compositing and Blending Level 1, section 10.
 enum class BlendMode {
-    Normal, Multiply, Screen, Overlay, Darken, Lighten, ColorDodge, ColorBurn,
-    HardLight, SoftLight, Difference, Exclusion, Hue, Saturation, Color, Luminosity
+    Normal,
+    Multiply,
+    Screen,
+    Overlay,
+    Darken,
+    Lighten,
+    ColorDodge,
+    ColorBurn,
+    HardLight,
+    SoftLight,
+    Difference,
+    Exclusion,
+    Hue,
+    Saturation,
+    Color,
+    Luminosity
 };
 
 /// One filled or stroked path. A shape with both is two items in its paint order.

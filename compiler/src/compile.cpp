@@ -42,7 +42,8 @@ TreeOptions treeOptions(const Options& o) {
     t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(bits - lastCellBits) / 2);
     // A leaf's end points are rounded by half of 1/65535 of its side in each axis.
     const double widest = o.tolerance * quantisationShare * asset::leafExtent * std::sqrt(2.0);
-    t.minDepth = std::min(t.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
+    t.minDepth =
+        std::min(t.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
     return t;
 }
 
@@ -60,7 +61,8 @@ public:
         : picture_(picture), lattice_(lattice), options_(treeOptions(options)), asset_(asset) {}
 
     std::uint32_t add(std::span<const std::uint32_t> layers, Painter& painter) {
-        const asset::Entry root = buildTree(picture_, lattice_.square(), layers, painter, options_, asset_, times_);
+        const asset::Entry root =
+            buildTree(picture_, lattice_.square(), layers, painter, options_, asset_, times_);
         asset_.maps.push_back({0, 0, std::max(asset_.width, asset_.height), root});
         return static_cast<std::uint32_t>(asset_.maps.size() - 1);
     }

@@ -43,7 +43,8 @@ struct Frame {
         if (s[3] >= 1)
             clear();
         if (!steps.empty() && steps.back().first.op == Op::Solid)
-            steps.back().second = over(s, steps.back().second);  // (s over t) over rest = s over (t over rest)
+            steps.back().second =
+                over(s, steps.back().second);  // (s over t) over rest = s over (t over rest)
         else
             steps.push_back({Instruction{Op::Solid}, s});
     }
@@ -116,7 +117,8 @@ private:
                 parent.source(step, false);
         else
             parent.nested(child, Op::Pop,
-                          normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend), group.opacity);
+                          normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend),
+                          group.opacity);
     }
 
     static void mask(Frame& parent, const Frame& child, GroupRole role) {
@@ -145,10 +147,10 @@ void checkStack(const Palette::Program& steps) {
     unsigned depth = 1;
     for (const Step& step : steps) {
         if (step.first.op == Op::Push && ++depth > asset::maxStack)
-            throw LimitError("groups that cannot be folded are nested more than " + std::to_string(asset::maxStack - 1) +
-                             " deep");
-        depth -= step.first.op == Op::Pop || step.first.op == Op::PopMaskAlpha || step.first.op == Op::PopMaskLinear ||
-                 step.first.op == Op::PopMaskLuminance;
+            throw LimitError("groups that cannot be folded are nested more than " +
+                             std::to_string(asset::maxStack - 1) + " deep");
+        depth -= step.first.op == Op::Pop || step.first.op == Op::PopMaskAlpha ||
+                 step.first.op == Op::PopMaskLinear || step.first.op == Op::PopMaskLuminance;
     }
 }
 
@@ -176,7 +178,8 @@ std::uint16_t Palette::solid(const std::array<float, 4>& c) {
     if (const auto found = index_.find(key); found != index_.end())
         return found->second;
     asset::Paint paint;
-    std::transform(c.begin(), c.end(), paint.begin(), [](float v) { return std::bit_cast<std::uint32_t>(v); });
+    std::transform(c.begin(), c.end(), paint.begin(),
+                   [](float v) { return std::bit_cast<std::uint32_t>(v); });
     return intern(key, paint);
 }
 

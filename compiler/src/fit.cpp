@@ -57,14 +57,16 @@ private:
         const End* other = &(range.first->edge == edge ? range.first[1] : range.first[0]);
         const PlanarEdge &e = edges_[edge], &f = edges_[other->edge];
         const bool sameDirection = (e.b == at) == (f.a == at);
-        const bool matches = sameDirection ? e.left == f.left && e.right == f.right : e.left == f.right && e.right == f.left;
+        const bool matches =
+            sameDirection ? e.left == f.left && e.right == f.right : e.left == f.right && e.right == f.left;
         return matches ? other : nullptr;
     }
     bool isJunction(LatticePoint at, std::uint32_t edge) const { return next(at, edge) == nullptr; }
 
     void follow(std::uint32_t edge, bool fromA) {
         const PlanarEdge& first = edges_[edge];
-        Chain chain{{fromA ? first.a : first.b}, fromA ? first.left : first.right, fromA ? first.right : first.left};
+        Chain chain{
+            {fromA ? first.a : first.b}, fromA ? first.left : first.right, fromA ? first.right : first.left};
         for (LatticePoint at = chain.points[0];;) {
             used_[edge] = true;
             at = edges_[edge].a == at ? edges_[edge].b : edges_[edge].a;
@@ -129,7 +131,7 @@ const double maxSlope = 0.4142135623730951;
 /// Hermite displacement: t(s) = mA s (1-s)² - mB s² (1-s).
 double displacement(const Slopes& m, double s) { return m.a * s * (1 - s) * (1 - s) - m.b * s * s * (1 - s); }
 
-/// Greatest |t''| on [0, 1]: t'' is linear, -4 mA - 2... at 0 and 2 mA + 4 mB at 1.
+/// Greatest |t''| on [0, 1]: t'' is linear, -4 mA - 2 mB at 0 and 2 mA + 4 mB at 1.
 double maxSecondDerivative(const Slopes& m) {
     return std::max(std::abs(-4 * m.a - 2 * m.b), std::abs(2 * m.a + 4 * m.b));
 }
@@ -199,7 +201,8 @@ private:
         double s = 0;
         for (std::size_t i = 0; i <= local_.size(); ++i) {
             const double here = i < local_.size() ? local_[i].x : 1;
-            const double off = i < local_.size() ? std::abs(local_[i].y - displacement(m, local_[i].x)) * length : 0;
+            const double off =
+                i < local_.size() ? std::abs(local_[i].y - displacement(m, local_[i].x)) * length : 0;
             if (off + sag * (here - s) * (here - s) > tolerance_)
                 return std::nullopt;
             s = here;
@@ -221,7 +224,8 @@ private:
     }
 
     static std::int16_t stored(double slope) {
-        return static_cast<std::int16_t>(std::lround(std::clamp(slope, -1.0, 1.0) * double{asset::slopeScale}));
+        return static_cast<std::int16_t>(
+            std::lround(std::clamp(slope, -1.0, 1.0) * double{asset::slopeScale}));
     }
     static Slopes quantised(const Slopes& m) {
         const double scale = double{asset::slopeScale};
@@ -261,11 +265,13 @@ private:
     using Side = std::size_t;
 
     bool cut(const Chain& chain) {
-        const Steps first = quantiser_.round(chain.points.front()), last = quantiser_.round(chain.points.back());
+        const Steps first = quantiser_.round(chain.points.front()),
+                    last = quantiser_.round(chain.points.back());
         const auto from = sideOf(first), to = sideOf(last);
         if (!from || !to)
             return false;
-        return cutAlong(chain, *from, *to, chain.right, chain.left) || cutAlong(chain, *to, *from, chain.left, chain.right);
+        return cutAlong(chain, *from, *to, chain.right, chain.left) ||
+               cutAlong(chain, *to, *from, chain.left, chain.right);
     }
 
     /// Counter-clockwise from one side to another; the leaf's inside lies on the left.
@@ -294,7 +300,9 @@ private:
         }
         return false;
     }
-    bool near(Steps p, Steps q, Side side) const { return distance(p, side) <= reach_ && distance(q, side) <= reach_; }
+    bool near(Steps p, Steps q, Side side) const {
+        return distance(p, side) <= reach_ && distance(q, side) <= reach_;
+    }
 
     static int distance(Steps p, Side side) {
         const int across = side % 2 == 0 ? p[1] : p[0];

@@ -25,7 +25,8 @@ inline constexpr int maxLatticeBits = 28;
 
 /// Twice the signed area of (a, b, c): positive if c lies on the left of a→b.
 inline std::int64_t orient(LatticePoint a, LatticePoint b, LatticePoint c) {
-    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
+    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
+           (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
 }
 
 /// Whether a cell's corner lies on the left of the edge a→b; a corner exactly on the edge counts as

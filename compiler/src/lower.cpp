@@ -37,7 +37,10 @@ Box mapped(const Box& b, const Affine& m) {
 class Lowering {
 public:
     Lowering(const scene::Scene& scene, const Lattice& lattice, double tolerance)
-        : lattice_(lattice), tolerance_(tolerance), frame_{{0, 0}, {scene.width, scene.height}}, paints_(picture_) {
+        : lattice_(lattice),
+          tolerance_(tolerance),
+          frame_{{0, 0}, {scene.width, scene.height}},
+          paints_(picture_) {
         picture_.groups.emplace_back();
         group(scene.root, scene::identity, openGroup(0));
     }
@@ -155,7 +158,8 @@ private:
         const double stretch = largestStretch(transform) * lattice_.stepsPerUnit();
         if (!(stretch > 0) || !std::isfinite(stretch))
             return layer({}, transform, scene::FillRule::NonZero);
-        const Path outline = strokeOutline(*item.path, std::get<scene::StrokeStyle>(item.geometry), tolerance_ / stretch);
+        const Path outline =
+            strokeOutline(*item.path, std::get<scene::StrokeStyle>(item.geometry), tolerance_ / stretch);
         return layer(outline, transform, scene::FillRule::NonZero);
     }
 
@@ -174,7 +178,8 @@ private:
 
     void checkLimits(std::size_t more) const {
         if (picture_.chords.size() + more > maxChords)
-            throw LimitError("the picture's outlines take more than " + std::to_string(maxChords) + " chords");
+            throw LimitError("the picture's outlines take more than " + std::to_string(maxChords) +
+                             " chords");
         if (picture_.layers.size() >= maxLayers)
             throw LimitError("the picture has more than " + std::to_string(maxLayers) + " layers");
     }

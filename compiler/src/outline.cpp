@@ -175,7 +175,8 @@ void flattenArc(ChordSink& sink, Point from, const scene::ArcTo& arc, const Affi
         const double a0 = circle.from + step * i, a1 = a0 + step;
         const Point p3 = i + 1 == parts ? arc.to : circle.at(a1);
         const Cubic c{p0, p0 + circle.derivative(a0) * arm, p3 - circle.derivative(a1) * arm, p3};
-        flatten(sink, {scene::apply(m, c[0]), scene::apply(m, c[1]), scene::apply(m, c[2]), scene::apply(m, c[3])},
+        flatten(sink,
+                {scene::apply(m, c[0]), scene::apply(m, c[1]), scene::apply(m, c[2]), scene::apply(m, c[3])},
                 tolerance);
         p0 = p3;
     }
@@ -239,8 +240,8 @@ private:
 
 }  // namespace
 
-std::vector<Chord> outline(const scene::Path& path, const Affine& toSteps, double tolerance, glm::dvec2 clampMin,
-                           glm::dvec2 clampMax) {
+std::vector<Chord> outline(const scene::Path& path, const Affine& toSteps, double tolerance,
+                           glm::dvec2 clampMin, glm::dvec2 clampMax) {
     ChordSink sink(clampMin, clampMax);
     Walker walker(sink, tame(toSteps), tolerance);
     for (const scene::Command& command : path)

@@ -19,8 +19,8 @@ struct Chord {
 /// subpath is closed, every curve's chords lie within `tolerance` steps of it, every vertex is even,
 /// and what lies outside [clampMin, clampMax] is moved onto that box's border, which changes no
 /// winding number inside it.
-std::vector<Chord> outline(const scene::Path& path, const scene::Affine& toSteps, double tolerance, glm::dvec2 clampMin,
-                           glm::dvec2 clampMax);
+std::vector<Chord> outline(const scene::Path& path, const scene::Affine& toSteps, double tolerance,
+                           glm::dvec2 clampMin, glm::dvec2 clampMax);
 
 /// Tolerance, as a share of the given one, in path space: how much `m` stretches at most.
 double largestStretch(const scene::Affine& m);

@@ -8,7 +8,8 @@ namespace vtm::compiler {
 PicturePainter::PicturePainter(const Picture& picture, asset::Asset& asset)
     : picture_(picture), asset_(asset), palette_(asset), wanted_(picture.layers.size()) {}
 
-std::uint16_t PicturePainter::paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside) {
+std::uint16_t PicturePainter::paint(std::span<const std::uint32_t> layers,
+                                    const std::vector<std::uint8_t>& inside) {
     items_.clear();
     for (std::uint32_t layer : layers)
         if (picture_.itemOfLayer[layer] != none)

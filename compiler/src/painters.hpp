@@ -11,7 +11,8 @@ namespace vtm::compiler {
 class PicturePainter : public Painter {
 public:
     PicturePainter(const Picture& picture, asset::Asset& asset);
-    std::uint16_t paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside) override;
+    std::uint16_t paint(std::span<const std::uint32_t> layers,
+                        const std::vector<std::uint8_t>& inside) override;
     void cull(std::span<const std::uint32_t> layers, const std::vector<Cover>& covers,
               std::vector<std::uint8_t>& keep) override;
     std::uint16_t mean(std::span<const std::uint16_t> paints) override;
@@ -37,8 +38,10 @@ class MaskPainter : public Painter {
 public:
     MaskPainter(const Picture& picture, std::uint32_t layer, std::uint32_t clip)
         : picture_(picture), layer_(layer), clip_(clip) {}
-    std::uint16_t paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside) override;
-    void cull(std::span<const std::uint32_t>, const std::vector<Cover>&, std::vector<std::uint8_t>&) override {}
+    std::uint16_t paint(std::span<const std::uint32_t> layers,
+                        const std::vector<std::uint8_t>& inside) override;
+    void cull(std::span<const std::uint32_t>, const std::vector<Cover>&,
+              std::vector<std::uint8_t>&) override {}
     std::uint16_t mean(std::span<const std::uint16_t> paints) override;
 
 private:

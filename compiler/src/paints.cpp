@@ -17,7 +17,9 @@ std::array<float, 6> floats(const Affine& m) {
     return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
 }
 
-std::uint16_t unorm16(float v) { return static_cast<std::uint16_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f)); }
+std::uint16_t unorm16(float v) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f));
+}
 
 bool allOpaque(const std::vector<GradientStop>& stops) {
     return std::all_of(stops.begin(), stops.end(), [](const GradientStop& s) { return s.color.a >= 1; });
@@ -65,9 +67,10 @@ std::uint32_t PaintTable::record(asset::Gradient gradient, const std::vector<Gra
     gradient.stopCount = static_cast<std::uint32_t>(stops.size());
     append(picture_.data, gradient);
     for (const GradientStop& s : stops)
-        append(picture_.data,
-               asset::GradientStop{
-                   s.offset, {unorm16(s.color.r), unorm16(s.color.g), unorm16(s.color.b), unorm16(s.color.a)}, 0});
+        append(picture_.data, asset::GradientStop{s.offset,
+                                                  {unorm16(s.color.r), unorm16(s.color.g), unorm16(s.color.b),
+                                                   unorm16(s.color.a)},
+                                                  0});
     return at;
 }
 
@@ -82,7 +85,8 @@ std::optional<std::uint32_t> PaintTable::linear(const scene::LinearGradient& g, 
 }
 
 std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, const Affine& toPicture) {
-    const auto inverse = scene::inverse(compose(toPicture, Affine{g.radius, 0, 0, g.radius, g.center.x, g.center.y}));
+    const auto inverse =
+        scene::inverse(compose(toPicture, Affine{g.radius, 0, 0, g.radius, g.center.x, g.center.y}));
     if (!inverse)
         return std::nullopt;
     asset::Gradient gradient;
@@ -103,7 +107,8 @@ std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, 
     if (isNew)
         picture_.images.push_back(*image.bitmap);
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
-    append(picture_.data, asset::ImageFill{floats(*inverse), found->second, image.filter == scene::ImageFilter::Bilinear});
+    append(picture_.data,
+           asset::ImageFill{floats(*inverse), found->second, image.filter == scene::ImageFilter::Bilinear});
     return push({asset::Op::Image, {}, at, false});
 }
 

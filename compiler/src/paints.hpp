@@ -20,8 +20,10 @@ public:
 private:
     std::uint32_t push(Source source);
     std::optional<std::uint32_t> solid(const scene::Color& color);
-    std::optional<std::uint32_t> linear(const scene::LinearGradient& gradient, const scene::Affine& toPicture);
-    std::optional<std::uint32_t> radial(const scene::RadialGradient& gradient, const scene::Affine& toPicture);
+    std::optional<std::uint32_t> linear(const scene::LinearGradient& gradient,
+                                        const scene::Affine& toPicture);
+    std::optional<std::uint32_t> radial(const scene::RadialGradient& gradient,
+                                        const scene::Affine& toPicture);
     std::optional<std::uint32_t> bitmap(const scene::ImagePaint& image, const scene::Affine& toPicture);
     std::uint32_t record(asset::Gradient gradient, const std::vector<scene::GradientStop>& stops);
 

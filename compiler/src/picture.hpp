@@ -26,10 +26,10 @@ struct Layer {
 
 /// What an item is painted with.
 struct Source {
-    asset::Op op = asset::Op::Solid;   ///< Solid, Linear, Radial or Image
-    std::array<float, 4> color{};      ///< Solid: premultiplied
-    std::uint32_t data = 0;            ///< otherwise: the record in Picture::data
-    bool opaque = false;               ///< alpha 1 everywhere
+    asset::Op op = asset::Op::Solid;  ///< Solid, Linear, Radial or Image
+    std::array<float, 4> color{};     ///< Solid: premultiplied
+    std::uint32_t data = 0;           ///< otherwise: the record in Picture::data
+    bool opaque = false;              ///< alpha 1 everywhere
 };
 
 struct PictureItem {
@@ -64,11 +64,12 @@ struct PictureGroup {
 struct Picture {
     std::vector<Chord> chords;
     std::vector<Layer> layers;
-    std::vector<PictureItem> items;    ///< painter's order; layers ascend
-    std::vector<PictureGroup> groups;  ///< parents before children; 0 is the ground, the scene's root lies in it
+    std::vector<PictureItem> items;  ///< painter's order; layers ascend
+    std::vector<PictureGroup>
+        groups;  ///< parents before children; 0 is the ground, the scene's root lies in it
     std::vector<ClipExpression> clips;
     std::vector<Source> sources;
-    std::vector<asset::Texel> data;    ///< gradients and image fills
+    std::vector<asset::Texel> data;  ///< gradients and image fills
     std::vector<image::Bitmap> images;
     std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
 };

@@ -39,7 +39,8 @@ bool before(const Axis& axis, const Edge& f, const Edge& e, Coord m) {
         double value() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
     };
     const auto position = [&](const Edge& g) {
-        const std::int64_t du = std::int64_t{axis.u(g.b)} - axis.u(g.a), dv = std::int64_t{axis.v(g.b)} - axis.v(g.a);
+        const std::int64_t du = std::int64_t{axis.u(g.b)} - axis.u(g.a),
+                           dv = std::int64_t{axis.v(g.b)} - axis.v(g.a);
         const std::int64_t rise = 2 * std::int64_t{m} + 1 - 2 * std::int64_t{axis.v(g.a)};
         Ratio r{Int128{2 * std::int64_t{axis.u(g.a)}} * dv + Int128{rise} * du, 2 * dv};
         if (r.denominator < 0)
@@ -75,8 +76,12 @@ struct End {
 
 class Labelling {
 public:
-    Labelling(const Square& square, const EdgeSet& set, std::span<const int> windings, const Labeller& labeller)
-        : square_(square), set_(set), corner_(windings.begin(), windings.end()), labeller_(labeller),
+    Labelling(const Square& square, const EdgeSet& set, std::span<const int> windings,
+              const Labeller& labeller)
+        : square_(square),
+          set_(set),
+          corner_(windings.begin(), windings.end()),
+          labeller_(labeller),
           labels_(set.edges.size()) {
         collectEnds();
         collectBorder();
@@ -113,7 +118,11 @@ private:
 
     /// The side a point lies on, or -1 inside.
     int sideOf(LatticePoint p) const {
-        return p.y == square_.y0 ? 0 : p.x == square_.x1() ? 1 : p.y == square_.y1() ? 2 : p.x == square_.x0 ? 3 : -1;
+        return p.y == square_.y0     ? 0
+               : p.x == square_.x1() ? 1
+               : p.y == square_.y1() ? 2
+               : p.x == square_.x0   ? 3
+                                     : -1;
     }
 
     void collectBorder() {
@@ -173,7 +182,8 @@ private:
                     break;
                 const Labels& l = labels_[edge];
                 const bool sameDirection = next->isA != isA;
-                labels_[next->edge] = sameDirection ? Labels{l.left, l.right, true} : Labels{l.right, l.left, true};
+                labels_[next->edge] =
+                    sameDirection ? Labels{l.left, l.right, true} : Labels{l.right, l.left, true};
                 edge = next->edge;
                 isA = !next->isA;
             }
@@ -248,8 +258,8 @@ private:
     const Windings corner_;
     const Labeller& labeller_;
     std::vector<Labels> labels_;
-    std::vector<End> ends_;               ///< sorted by vertex
-    std::vector<std::uint32_t> endOf_;    ///< place in ends_ of edge e's a (2e) and b (2e + 1)
+    std::vector<End> ends_;             ///< sorted by vertex
+    std::vector<std::uint32_t> endOf_;  ///< place in ends_ of edge e's a (2e) and b (2e + 1)
     std::array<std::vector<End>, 4> border_;
     std::vector<std::pair<Windings, std::uint16_t>> seen_;
 };

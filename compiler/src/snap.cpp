@@ -130,7 +130,8 @@ private:
 
     void test(std::uint32_t i, std::uint32_t j) {
         const Edge &s = set_.edges[i], &t = set_.edges[j];
-        if (std::max(s.a.y, s.b.y) < std::min(t.a.y, t.b.y) || std::max(t.a.y, t.b.y) < std::min(s.a.y, s.b.y))
+        if (std::max(s.a.y, s.b.y) < std::min(t.a.y, t.b.y) ||
+            std::max(t.a.y, t.b.y) < std::min(s.a.y, s.b.y))
             return;
         const std::int64_t ta = orient(s.a, s.b, t.a), tb = orient(s.a, s.b, t.b);
         if ((ta > 0 && tb > 0) || (ta < 0 && tb < 0))
@@ -214,7 +215,8 @@ private:
         for (std::uint32_t i = 0; i < order.size(); ++i)
             order[i] = i;
         const auto key = [&](std::uint32_t i) { return std::pair{set_.edges[i].a, set_.edges[i].b}; };
-        std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
         std::vector<Edge> merged;
         std::vector<std::uint8_t> fresh;
         for (std::size_t i = 0; i < order.size();) {
@@ -241,7 +243,8 @@ private:
             const auto changes = set_.of(set_.edges[i]);
             sum_.insert(sum_.end(), changes.begin(), changes.end());
         }
-        std::sort(sum_.begin(), sum_.end(), [](const Change& p, const Change& q) { return p.layer < q.layer; });
+        std::sort(sum_.begin(), sum_.end(),
+                  [](const Change& p, const Change& q) { return p.layer < q.layer; });
         into.firstChange = static_cast<std::uint32_t>(set_.changes.size());
         for (std::size_t i = 0; i < sum_.size();) {
             Change total{sum_[i].layer, 0};

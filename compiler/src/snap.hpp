@@ -27,7 +27,9 @@ struct EdgeSet {
     std::vector<Edge> edges;
     std::vector<Change> changes;
 
-    std::span<const Change> of(const Edge& e) const { return {changes.data() + e.firstChange, e.changeCount}; }
+    std::span<const Change> of(const Edge& e) const {
+        return {changes.data() + e.firstChange, e.changeCount};
+    }
 };
 
 /// Nothing if the leaf is beyond its limits.

@@ -54,8 +54,13 @@ class TreeBuilder {
 public:
     TreeBuilder(const Picture& picture, Painter& painter, const TreeOptions& options, asset::Asset& asset,
                 TreeTimes& times)
-        : picture_(picture), painter_(painter), options_(options), asset_(asset), times_(times),
-          covers_(picture.layers.size(), Cover::Out), inside_(picture.layers.size()) {}
+        : picture_(picture),
+          painter_(painter),
+          options_(options),
+          asset_(asset),
+          times_(times),
+          covers_(picture.layers.size(), Cover::Out),
+          inside_(picture.layers.size()) {}
 
     Entry run(const Square& square, std::span<const std::uint32_t> layers) {
         firstLayer_ = layers.empty() ? 0 : layers.front();
@@ -66,8 +71,9 @@ private:
     // ---- push ---------------------------------------------------------------------------------
 
     std::uint32_t layerOf(std::uint32_t chord) const {
-        const auto after = std::upper_bound(picture_.layers.begin() + firstLayer_, picture_.layers.end(), chord,
-                                            [](std::uint32_t c, const Layer& l) { return c < l.firstChord; });
+        const auto after =
+            std::upper_bound(picture_.layers.begin() + firstLayer_, picture_.layers.end(), chord,
+                             [](std::uint32_t c, const Layer& l) { return c < l.firstChord; });
         return static_cast<std::uint32_t>(after - picture_.layers.begin() - 1);
     }
 
@@ -138,8 +144,10 @@ private:
         const auto place = [&](Coord v, Coord origin) {
             return static_cast<int>(std::clamp<std::int64_t>((std::int64_t{v} - origin) / step, 0, 3));
         };
-        const int i0 = place(std::min(c.a.x, c.b.x), square.x0), i1 = place(std::max(c.a.x, c.b.x), square.x0);
-        const int j0 = place(std::min(c.a.y, c.b.y), square.y0), j1 = place(std::max(c.a.y, c.b.y), square.y0);
+        const int i0 = place(std::min(c.a.x, c.b.x), square.x0),
+                  i1 = place(std::max(c.a.x, c.b.x), square.x0);
+        const int j0 = place(std::min(c.a.y, c.b.y), square.y0),
+                  j1 = place(std::max(c.a.y, c.b.y), square.y0);
         for (int j = j0; j <= j1; ++j)
             for (int i = i0; i <= i1; ++i) {
                 Content& child = children[static_cast<std::size_t>(4 * j + i)];
@@ -186,7 +194,8 @@ private:
         if (std::find(keep.begin(), keep.end(), false) == keep.end())
             return;
         const auto kept = [&](std::uint32_t layer) {
-            return keep[static_cast<std::size_t>(std::lower_bound(layers.begin(), layers.end(), layer) - layers.begin())] != 0;
+            return keep[static_cast<std::size_t>(std::lower_bound(layers.begin(), layers.end(), layer) -
+                                                 layers.begin())] != 0;
         };
         std::vector<std::uint32_t> chords;
         forEachLayer(cell.chords, [&](std::uint32_t layer, std::span<const std::uint32_t> run) {
@@ -210,8 +219,8 @@ private:
     static std::vector<int> cornerWindings(const Content& cell, std::span<const std::uint32_t> layers) {
         std::vector<int> windings(layers.size());
         for (const LayerWinding& w : cell.windings)
-            windings[static_cast<std::size_t>(std::lower_bound(layers.begin(), layers.end(), w.layer) - layers.begin())] =
-                w.winding;
+            windings[static_cast<std::size_t>(std::lower_bound(layers.begin(), layers.end(), w.layer) -
+                                              layers.begin())] = w.winding;
         return windings;
     }
 
@@ -229,7 +238,8 @@ private:
             return Entry::make(Entry::Kind::Solid, paint(layers, windings));
         const bool last = cell.level >= options_.maxDepth;
         const std::size_t most = last ? maxChordsInLastLeaf : maxChordsToTry;
-        const std::size_t distinct = last || cell.level >= options_.minDepth ? distinctChords(cell, most) : most + 1;
+        const std::size_t distinct =
+            last || cell.level >= options_.minDepth ? distinctChords(cell, most) : most + 1;
         if (last && distinct > most)
             return emitMean(cell, layers, windings);
         if (distinct <= most) {
@@ -277,9 +287,9 @@ private:
         for (std::size_t i = 0; i < 16; ++i)
             node.children[i] = build(std::move(children[i]));
         const Entry first = node.children[0];
-        const bool same = first.kind() == Entry::Kind::Solid &&
-                          std::all_of(node.children.begin(), node.children.end(),
-                                      [&](Entry e) { return e.bits == first.bits; });
+        const bool same =
+            first.kind() == Entry::Kind::Solid && std::all_of(node.children.begin(), node.children.end(),
+                                                              [&](Entry e) { return e.bits == first.bits; });
         if (same) {
             asset_.nodes.pop_back();  // solid children made no nodes
             return first;
@@ -330,7 +340,8 @@ private:
         std::vector<std::uint16_t> paints;
         const Coord step = cell.square.side / 8;
         for (int i = 0; i < 16; ++i) {
-            const LatticePoint p{(cell.square.x0 + (2 * (i % 4) + 1) * step) | 1, (cell.square.y0 + (2 * (i / 4) + 1) * step) | 1};
+            const LatticePoint p{(cell.square.x0 + (2 * (i % 4) + 1) * step) | 1,
+                                 (cell.square.y0 + (2 * (i / 4) + 1) * step) | 1};
             std::vector<int> windings(corner.begin(), corner.end());
             std::size_t local = 0;
             forEachLayer(cell.chords, [&](std::uint32_t layer, std::span<const std::uint32_t> run) {

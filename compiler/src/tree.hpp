@@ -19,7 +19,8 @@ class Painter {
 public:
     virtual ~Painter() = default;
     /// The paint where exactly the given layers are inside; `layers` are those that may be, ascending.
-    virtual std::uint16_t paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside) = 0;
+    virtual std::uint16_t paint(std::span<const std::uint32_t> layers,
+                                const std::vector<std::uint8_t>& inside) = 0;
     /// Clears keep[i] for each of the ascending `layers` that cannot show, where cover(layer) says how
     /// it covers the cell.
     virtual void cull(std::span<const std::uint32_t> layers, const std::vector<Cover>& covers,
@@ -31,7 +32,7 @@ public:
 struct TreeOptions {
     double fitTolerance = 1;  ///< lattice steps
     unsigned piecesPerLeaf = 12;
-    unsigned minDepth = 2;    ///< of leaves with pieces: keeps their quantisation below the tolerance
+    unsigned minDepth = 2;  ///< of leaves with pieces: keeps their quantisation below the tolerance
     unsigned maxDepth = 8;
 };
 

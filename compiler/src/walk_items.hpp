@@ -10,8 +10,8 @@
 namespace vtm::compiler {
 
 /// Calls, properly nested: visitor.open(group), visitor.item(item), visitor.close(group). A group is
-/// opened when its first item comes; the ground (group 0) never is. A group whose mask has none of the items is
-/// closed with visitor.emptyMask(group) before close.
+/// opened when its first item comes; the ground (group 0) never is. A group whose mask has none of the items
+/// is closed with visitor.emptyMask(group) before close.
 template <class Visitor>
 class ItemWalk {
 public:

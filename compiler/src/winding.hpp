@@ -34,8 +34,8 @@ inline int windingBetween(const Chord& c, LatticePoint from, LatticePoint to) {
 
 /// Whether the chord passes through the square's inside.
 inline bool meets(const Chord& c, const Square& s) {
-    if ((c.a.x < s.x0 && c.b.x < s.x0) || (c.a.x > s.x1() && c.b.x > s.x1()) || (c.a.y < s.y0 && c.b.y < s.y0) ||
-        (c.a.y > s.y1() && c.b.y > s.y1()))
+    if ((c.a.x < s.x0 && c.b.x < s.x0) || (c.a.x > s.x1() && c.b.x > s.x1()) ||
+        (c.a.y < s.y0 && c.b.y < s.y0) || (c.a.y > s.y1() && c.b.y > s.y1()))
         return false;
     const bool left = cornerOnLeft(c.a, c.b, s.corner(0));
     return cornerOnLeft(c.a, c.b, s.corner(1)) != left || cornerOnLeft(c.a, c.b, s.corner(2)) != left ||

@@ -34,7 +34,9 @@ Group group(std::vector<Item> items) {
     return g;
 }
 
-scene::Scene picture(Group root, double width = 64, double height = 64) { return {width, height, std::move(root)}; }
+scene::Scene picture(Group root, double width = 64, double height = 64) {
+    return {width, height, std::move(root)};
+}
 
 /// The pixel at (x, y) of the picture drawn one unit a pixel.
 std::array<float, 4> pixel(const scene::Scene& scene, int x, int y, asset::Mode mode = asset::Mode::Exact) {
@@ -56,7 +58,9 @@ void expectNear(const std::array<float, 4>& a, const std::array<float, 4>& b, fl
 
 class BothModes : public testing::TestWithParam<asset::Mode> {};
 INSTANTIATE_TEST_SUITE_P(Modes, BothModes, testing::Values(asset::Mode::Exact, asset::Mode::Compat),
-                         [](const auto& mode) { return mode.param == asset::Mode::Exact ? "exact" : "compat"; });
+                         [](const auto& mode) {
+                             return mode.param == asset::Mode::Exact ? "exact" : "compat";
+                         });
 
 TEST_P(BothModes, laterItemsLieOnTop) {
     const auto s = picture(group({rect({0, 0}, {64, 64}, red), rect({10, 10}, {50, 50}, blue)}));
@@ -65,7 +69,8 @@ TEST_P(BothModes, laterItemsLieOnTop) {
 }
 
 TEST_P(BothModes, translucentLayersComposite) {
-    const auto s = picture(group({rect({0, 0}, {64, 64}, red), rect({0, 0}, {64, 64}, Color{0, 0, 1, 0.25f})}));
+    const auto s =
+        picture(group({rect({0, 0}, {64, 64}, red), rect({0, 0}, {64, 64}, Color{0, 0, 1, 0.25f})}));
     expectNear(pixel(s, 20, 20, GetParam()), {0.75f, 0, 0.25f, 1});
 }
 
@@ -82,8 +87,10 @@ TEST_P(BothModes, aGroupsOpacityCountsOnce) {
 TEST_P(BothModes, clipsCut) {
     Group g = group({rect({0, 0}, {64, 64}, green)});
     auto clip = std::make_shared<scene::Clip>();
-    clip->shapes.push_back({std::make_shared<Path>(scene::rectangle({10, 10}, {30, 30})), scene::identity, scene::FillRule::NonZero, nullptr});
-    clip->shapes.push_back({std::make_shared<Path>(scene::rectangle({40, 10}, {50, 30})), scene::identity, scene::FillRule::NonZero, nullptr});
+    clip->shapes.push_back({std::make_shared<Path>(scene::rectangle({10, 10}, {30, 30})), scene::identity,
+                            scene::FillRule::NonZero, nullptr});
+    clip->shapes.push_back({std::make_shared<Path>(scene::rectangle({40, 10}, {50, 30})), scene::identity,
+                            scene::FillRule::NonZero, nullptr});
     g.clip = clip;
     Group root;
     root.children.push_back({g});
@@ -104,7 +111,8 @@ TEST_P(BothModes, anEmptyClipCutsAll) {
 TEST_P(BothModes, masksMultiply) {
     Group g = group({rect({0, 0}, {64, 64}, green)});
     auto mask = std::make_shared<scene::Mask>();
-    mask->content = std::make_shared<Group>(group({rect({0, 0}, {32, 64}, Color{1, 1, 1, 0.5f}), rect({0, 0}, {16, 64}, black)}));
+    mask->content = std::make_shared<Group>(
+        group({rect({0, 0}, {32, 64}, Color{1, 1, 1, 0.5f}), rect({0, 0}, {16, 64}, black)}));
     g.mask = mask;
     Group root;
     root.children.push_back({g});
@@ -175,32 +183,38 @@ TEST(Compile, aPlainGroundIsOneSolid) {
 }
 
 TEST(Compile, aRectangleOnCellBordersLeavesNoPieces) {
-    const auto result = compile(picture(group({rect({0, 0}, {64, 64}, red), rect({16, 16}, {48, 32}, blue)})));
+    const auto result =
+        compile(picture(group({rect({0, 0}, {64, 64}, red), rect({16, 16}, {48, 32}, blue)})));
     EXPECT_EQ(asset::summarize(result.asset).pieces, 0u);
     EXPECT_EQ(asset::summarize(result.asset).solids, 16u);
 }
 
 TEST(Compile, whatLiesUnderAnOpaqueCoverCostsNothing) {
-    Group hidden = group({rect({3, 5}, {40, 41}, red), rect({7, 9}, {60, 33}, blue), rect({0, 0}, {64, 64}, green)});
+    Group hidden =
+        group({rect({3, 5}, {40, 41}, red), rect({7, 9}, {60, 33}, blue), rect({0, 0}, {64, 64}, green)});
     EXPECT_EQ(asset::summarize(compile(picture(hidden)).asset).leaves, 0u);
 }
 
 TEST(Compile, abuttingShapesOfOneColourLeaveNoBoundary) {
     const auto triangle = [](Point a, Point b, Point c) {
         Item item;
-        item.path = std::make_shared<Path>(Path{scene::MoveTo{a}, scene::LineTo{b}, scene::LineTo{c}, scene::Close{}});
+        item.path = std::make_shared<Path>(
+            Path{scene::MoveTo{a}, scene::LineTo{b}, scene::LineTo{c}, scene::Close{}});
         item.geometry = scene::FillRule::NonZero;
         item.paint = red;
         return item;
     };
-    const auto s = picture(group({triangle({-5, -5}, {70, -5}, {70, 70}), triangle({-5, -5}, {70, 70}, {-5, 70})}));
+    const auto s =
+        picture(group({triangle({-5, -5}, {70, -5}, {70, 70}), triangle({-5, -5}, {70, 70}, {-5, 70})}));
     EXPECT_EQ(asset::summarize(compile(s).asset).pieces, 0u);
 }
 
 TEST(Compile, noLeafNeedsItsFallbackInATangle) {
     Group root;
     unsigned state = 1;
-    const auto random = [&] { return static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24) * 80 - 8; };
+    const auto random = [&] {
+        return static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24) * 80 - 8;
+    };
     for (int i = 0; i < 30; ++i) {
         Item item;
         Path path{scene::MoveTo{{random(), random()}}};
@@ -224,7 +238,8 @@ TEST(Compile, optionsOutOfRangeAreRefused) {
 }
 
 TEST(Compile, tooManyTilesAreALimitError) {
-    scene::Pattern pattern{{0, 0}, {0.01, 0.01}, std::make_shared<Group>(group({rect({0, 0}, {8, 30}, red)}))};
+    scene::Pattern pattern{
+        {0, 0}, {0.01, 0.01}, std::make_shared<Group>(group({rect({0, 0}, {8, 30}, red)}))};
     EXPECT_THROW(compile(picture(group({rect({0, 0}, {64, 64}, pattern)}))), LimitError);
 }
 

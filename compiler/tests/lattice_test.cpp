@@ -55,7 +55,8 @@ int windingAt(const std::vector<Chord>& chords, LatticePoint p) {
 }
 
 TEST(Winding, isPlusOneInsideAContourThatIsCounterClockwiseInTheNumbers) {
-    const std::vector<Chord> square{{{0, 0}, {100, 0}}, {{100, 0}, {100, 100}}, {{100, 100}, {0, 100}}, {{0, 100}, {0, 0}}};
+    const std::vector<Chord> square{
+        {{0, 0}, {100, 0}}, {{100, 0}, {100, 100}}, {{100, 100}, {0, 100}}, {{0, 100}, {0, 0}}};
     EXPECT_EQ(windingAt(square, {51, 51}), 1);
     EXPECT_EQ(windingAt(square, {151, 51}), 0);
     EXPECT_EQ(windingAt(square, {-51, 51}), 0);
@@ -78,8 +79,13 @@ std::vector<Chord> outlineInBox(const scene::Path& path, double tolerance = 0.5)
 }
 
 TEST(Outline, closesEverySubpath) {
-    const scene::Path path{scene::MoveTo{{10, 10}}, scene::LineTo{{50, 10}},  scene::LineTo{{50, 60}},
-                           scene::MoveTo{{100, 100}}, scene::LineTo{{140, 100}}, scene::LineTo{{140, 160}}, scene::Close{}};
+    const scene::Path path{scene::MoveTo{{10, 10}},
+                           scene::LineTo{{50, 10}},
+                           scene::LineTo{{50, 60}},
+                           scene::MoveTo{{100, 100}},
+                           scene::LineTo{{140, 100}},
+                           scene::LineTo{{140, 160}},
+                           scene::Close{}};
     LatticePoint sum{};
     for (const Chord& c : outlineInBox(path))
         sum.x += c.b.x - c.a.x, sum.y += c.b.y - c.a.y;
@@ -99,7 +105,8 @@ TEST(Outline, chordsOfACircleStayWithinTheTolerance) {
 }
 
 TEST(Outline, geometryBeyondTheBoxKeepsItsWindingsInside) {
-    const scene::Path huge{scene::MoveTo{{-1e30, -1e30}}, scene::LineTo{{1e30, -1e30}}, scene::LineTo{{1e30, 500}},
+    const scene::Path huge{scene::MoveTo{{-1e30, -1e30}}, scene::LineTo{{1e30, -1e30}},
+                           scene::LineTo{{1e30, 500}},
                            scene::CubicTo{{1e20, 500}, {-1e20, 500}, {-1e30, 500}}, scene::Close{}};
     const std::vector<Chord> chords = outlineInBox(huge);
     EXPECT_LT(chords.size(), 100u);
@@ -109,7 +116,8 @@ TEST(Outline, geometryBeyondTheBoxKeepsItsWindingsInside) {
 }
 
 TEST(Outline, radiiTooSmallForTheirChordGrow) {
-    const scene::Path arc{scene::MoveTo{{100, 500}}, scene::ArcTo{{1, 1}, 0, false, true, {900, 500}}, scene::Close{}};
+    const scene::Path arc{scene::MoveTo{{100, 500}}, scene::ArcTo{{1, 1}, 0, false, true, {900, 500}},
+                          scene::Close{}};
     Coord top = 1000;
     for (const Chord& c : outlineInBox(arc))
         top = std::min(top, c.a.y);

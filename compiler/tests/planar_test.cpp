@@ -16,9 +16,9 @@ constexpr Square square{-1, -1, 4096};
 
 /// Closed random polygons over and around the square, one a layer.
 struct Scene {
-    std::vector<LeafChord> all;      ///< also those that miss the square
-    std::vector<LeafChord> inside;   ///< those that meet it
-    std::vector<int> corner;         ///< windings at its first corner
+    std::vector<LeafChord> all;     ///< also those that miss the square
+    std::vector<LeafChord> inside;  ///< those that meet it
+    std::vector<int> corner;        ///< windings at its first corner
 };
 
 class Random {
@@ -85,7 +85,8 @@ constexpr double snapReach = 8;
 bool isNearAnEdge(const Scene& scene, LatticePoint p) {
     return std::any_of(scene.all.begin(), scene.all.end(), [&](const LeafChord& c) {
         const double dx = c.chord.b.x - c.chord.a.x, dy = c.chord.b.y - c.chord.a.y;
-        return std::abs(static_cast<double>(orient(c.chord.a, c.chord.b, p))) < snapReach * std::hypot(dx, dy);
+        return std::abs(static_cast<double>(orient(c.chord.a, c.chord.b, p))) <
+               snapReach * std::hypot(dx, dy);
     });
 }
 
@@ -143,7 +144,8 @@ TEST_P(RandomPolygons, edgesWithinTheLastStepsOfTheBorderAreCertified) {
     std::vector<std::vector<LatticePoint>> polygons(6);
     for (auto& polygon : polygons)
         for (int i = 0; i < 6; ++i)
-            polygon.push_back({random.even(0, 1) * 4094 + random.even(-6, 6), random.even(0, 1) * 4094 + random.even(-6, 6)});
+            polygon.push_back({random.even(0, 1) * 4094 + random.even(-6, 6),
+                               random.even(0, 1) * 4094 + random.even(-6, 6)});
     const Scene scene = makeScene(polygons);
     EXPECT_TRUE(planarise(square, scene.inside, scene.corner, bits).certified);
 }
@@ -161,9 +163,10 @@ TEST(Planar, coincidentBordersOfNeighboursLeaveNoThirdPaint) {
 }
 
 TEST(Planar, boundariesBetweenEqualPaintsVanish) {
-    const Scene scene = makeScene({{{500, 500}, {2000, 900}, {1900, 3000}}, {{700, 400}, {2100, 1900}, {400, 3100}}});
-    const PlanarLeaf leaf = planarise(square, scene.inside, scene.corner,
-                                      [](std::span<const int>) { return std::uint16_t{5}; });
+    const Scene scene =
+        makeScene({{{500, 500}, {2000, 900}, {1900, 3000}}, {{700, 400}, {2100, 1900}, {400, 3100}}});
+    const PlanarLeaf leaf =
+        planarise(square, scene.inside, scene.corner, [](std::span<const int>) { return std::uint16_t{5}; });
     EXPECT_TRUE(leaf.certified);
     EXPECT_TRUE(leaf.edges.empty());
 }
@@ -201,7 +204,8 @@ double distanceToPieces(const FittedLeaf& leaf, double x, double y) {
     double best = 1e30;
     for (const asset::Piece& p : leaf.pieces)
         for (int i = 0; i <= 400; ++i) {
-            const double s = i / 400.0, mA = p.slopeA / double{asset::slopeScale}, mB = p.slopeB / double{asset::slopeScale};
+            const double s = i / 400.0, mA = p.slopeA / double{asset::slopeScale},
+                         mB = p.slopeB / double{asset::slopeScale};
             const double t = mA * s * (1 - s) * (1 - s) - mB * s * s * (1 - s);
             const double dx = p.b[0] - p.a[0], dy = p.b[1] - p.a[1];
             best = std::min(best, std::hypot(p.a[0] + s * dx - t * dy - x, p.a[1] + s * dy + t * dx - y));
@@ -210,7 +214,8 @@ double distanceToPieces(const FittedLeaf& leaf, double x, double y) {
 }
 
 TEST(Fit, aCircleTakesFewPiecesWithinTheTolerance) {
-    const scene::Path circle{scene::MoveTo{{3800, 2047}}, scene::ArcTo{{1800, 1800}, 0, false, true, {200, 2047}},
+    const scene::Path circle{scene::MoveTo{{3800, 2047}},
+                             scene::ArcTo{{1800, 1800}, 0, false, true, {200, 2047}},
                              scene::ArcTo{{1800, 1800}, 0, false, true, {3800, 2047}}, scene::Close{}};
     std::vector<LeafChord> chords;
     for (const Chord& c : outline(circle, scene::identity, 0.5, {-16, -16}, {4110, 4110}))
@@ -245,9 +250,11 @@ TEST(Fit, onlyPointsOnTheBorderStayOnItAndNoneIsACorner) {
             for (int i = 0; i < 3; ++i)
                 polygon.push_back({random.even(-30, 4200), random.even(-30, 4200)});
         const Scene scene = makeScene(polygons);
-        for (const asset::Piece& p : fit(square, planarise(square, scene.inside, scene.corner, bits), 1).pieces)
+        for (const asset::Piece& p :
+             fit(square, planarise(square, scene.inside, scene.corner, bits), 1).pieces)
             for (const auto& end : {p.a, p.b}) {
-                const bool x = end[0] == 0 || end[0] == asset::leafExtent, y = end[1] == 0 || end[1] == asset::leafExtent;
+                const bool x = end[0] == 0 || end[0] == asset::leafExtent,
+                           y = end[1] == 0 || end[1] == asset::leafExtent;
                 EXPECT_FALSE(x && y);
             }
     }
