@@ -54,7 +54,7 @@ struct Options {
 struct Limits {
     static constexpr std::size_t maxBytes = 256u << 20;
     static constexpr int maxDepth = 256;                ///< nesting of elements
-    static constexpr std::size_t maxNodes = 4'000'000;  ///< scene nodes after `use` expansion
+    static constexpr std::size_t maxNodes = 1'000'000;  ///< elements visited, `use` expanded
 };
 
 struct Document {

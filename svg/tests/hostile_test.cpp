@@ -120,6 +120,13 @@ TEST(Hostile, UseBombsEndWithAWarning) {
     EXPECT_NE(loaded.warnings.front().message.find("the rest is left out"), std::string::npos);
 }
 
+TEST(Hostile, UseBombsDrawNoMoreThanTheLimit) {
+    const Document loaded = loadBody(laughs(30, 10, "<rect width='1' height='1'/>"));
+    const std::size_t drawn = itemsOf(loaded).size();
+    EXPECT_LE(drawn, Limits::maxNodes);
+    EXPECT_GT(drawn, Limits::maxNodes / 10);
+}
+
 TEST(Hostile, LongUseChainsEndWithAWarning) {
     EXPECT_FALSE(loadBody(laughs(2000, 1, "<rect width='1' height='1'/>")).warnings.empty());
 }
