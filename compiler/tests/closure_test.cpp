@@ -1,0 +1,109 @@
+// What a renderer adds up must close: in every leaf of an asset, as quantised, the regions on both
+// sides of the pieces fit together round every point and along every side.
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "asset/asset.hpp"
+#include "compiler/compile.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::Asset;
+using asset::Leaf;
+using asset::Piece;
+
+/// A paint's weight: sums of a few of them are equal only if the paints are.
+std::uint64_t weight(std::uint16_t paint) { return std::mt19937_64(paint + 1u)(); }
+
+/// Sum of weight(left) - weight(right) of what arrives minus what departs, by point.
+using Flows = std::map<std::array<std::uint16_t, 2>, std::uint64_t>;
+
+Flows flowsOf(const Asset& asset, const Leaf& leaf) {
+    Flows flows;
+    for (std::uint32_t i = 0; i < leaf.pieceCount; ++i) {
+        const Piece& p = asset.pieces[leaf.firstPiece + i];
+        const std::uint64_t step = weight(p.left) - weight(p.right);
+        flows[p.b] += step;
+        flows[p.a] -= step;
+    }
+    return flows;
+}
+
+void expectClosed(const Asset& asset) {
+    for (const Leaf& leaf : asset.leaves) {
+        std::array<std::uint64_t, 4> sides{};
+        for (const auto& [point, flow] : flowsOf(asset, leaf)) {
+            const int side = asset::sideOf(point);
+            if (side >= 0)
+                sides[static_cast<std::size_t>(side)] += flow;
+            else
+                ASSERT_EQ(flow, 0u) << "at " << point[0] << ", " << point[1];
+        }
+        for (std::size_t k = 0; k < 4; ++k)
+            ASSERT_EQ(sides[k], weight(leaf.corners[(k + 1) % 4]) - weight(leaf.corners[k])) << "side " << k;
+    }
+}
+
+class Scribbler {
+public:
+    explicit Scribbler(unsigned seed) : engine_(seed) {}
+
+    scene::Point point() { return {coordinate_(engine_), coordinate_(engine_)}; }
+    /// On a grid that cells share: shapes end on their borders.
+    scene::Point gridPoint() { return {double(cell_(engine_)) * 4, double(cell_(engine_)) * 4}; }
+    scene::Color color() {
+        return {share_(engine_), share_(engine_), share_(engine_), engine_() % 2 ? 1.0f : 0.5f};
+    }
+    scene::FillRule rule() { return engine_() % 2 ? scene::FillRule::EvenOdd : scene::FillRule::NonZero; }
+
+private:
+    std::mt19937 engine_;
+    std::uniform_real_distribution<double> coordinate_{-8, 72};
+    std::uniform_int_distribution<int> cell_{0, 16};
+    std::uniform_real_distribution<float> share_{0, 1};
+};
+
+void add(scene::Scene& scene, scene::Path path, scene::Color color, scene::FillRule rule) {
+    scene::Item item;
+    item.path = std::make_shared<scene::Path>(std::move(path));
+    item.geometry = rule;
+    item.paint = color;
+    scene.root.children.push_back({item});
+}
+
+class Closure : public testing::TestWithParam<unsigned> {};
+INSTANTIATE_TEST_SUITE_P(Seeds, Closure, testing::Range(0u, 20u));
+
+TEST_P(Closure, holdsForRandomCurves) {
+    Scribbler random(GetParam());
+    scene::Scene scene{64, 64, {}};
+    for (int i = 0; i < 12; ++i) {
+        scene::Path path{scene::MoveTo{random.point()}};
+        for (int k = 0; k < 3; ++k)
+            path.push_back(scene::CubicTo{random.point(), random.point(), random.point()});
+        add(scene, path, random.color(), random.rule());
+    }
+    const Asset asset = compile(scene).asset;
+    EXPECT_FALSE(asset.leaves.empty());
+    expectClosed(asset);
+}
+
+TEST_P(Closure, holdsForShapesThatEndOnCellBorders) {
+    Scribbler random(GetParam());
+    scene::Scene scene{64, 64, {}};
+    for (int i = 0; i < 20; ++i) {
+        const scene::Point a = random.gridPoint(), b = random.gridPoint(), c = random.gridPoint();
+        if (i % 2)
+            add(scene, scene::rectangle(a, b), random.color(), random.rule());
+        else
+            add(scene, {scene::MoveTo{a}, scene::LineTo{b}, scene::LineTo{c}, scene::Close{}}, random.color(),
+                random.rule());
+    }
+    expectClosed(compile(scene).asset);
+}
+
+}  // namespace
+}  // namespace vtm::compiler
