@@ -1,5 +1,6 @@
 #include "conformance/reference/src/strand.hpp"
 
+#include <iterator>
 #include <numeric>
 
 #include "conformance/reference/reference.hpp"
@@ -11,6 +12,9 @@ namespace {
 /// start again only so far: the closing line that is left over, 1e-14 long and in any direction, would
 /// get mitres on both ends.
 constexpr double coincidence = 1e-10;
+/// A dash with no more than this share of its closed subpath still to draw where that ends, ends there:
+/// lengths are sums, and only rounding would carry it over the start.
+constexpr double endSlack = 1e-9;
 
 bool hasLength(const Run& run) {
     const Point p = run.front().at;
@@ -75,14 +79,20 @@ public:
     bool walk(const Strand& strand) {
         index_ = 0;
         left_ = pattern_[0];
+        walked_ = 0;
         advance(phase_);
+        const bool startsOn = on();
+        const std::size_t first = dashes_.size();
         start(strand.runs.front().front());
         for (const Run& run : strand.runs) {
             continueWith(run.front());
             for (std::size_t i = 0; i + 1 < run.size() && dashes_.size() <= maxDashes; ++i)
                 walkChord(run[i], run[i + 1]);
         }
+        const bool runsOn = strand.closed && startsOn && on() && left_ > endSlack * walked_;
         finish();
+        if (runsOn)
+            joinEnds(first);
         return dashes_.size() <= maxDashes;
     }
 
@@ -96,9 +106,9 @@ private:
         left_ = pattern_[index_];
     }
 
-    /// Moves on in the pattern alone.
+    /// Moves on in the pattern alone. What ends here is over, except a dash of no length.
     void advance(double distance) {
-        for (; distance > left_; nextElement())
+        for (; distance > 0 && distance >= left_; nextElement())
             distance -= left_;
         left_ -= distance;
     }
@@ -131,8 +141,21 @@ private:
         current_ = {};
     }
 
+    /// The last dash of a closed strand goes on with the one that began at its start, `first`.
+    void joinEnds(std::size_t first) {
+        if (dashes_.size() == first + 1) {  // the only one: it has gone all the way round
+            dashes_.back().closed = true;
+            return;
+        }
+        Strand last = std::move(dashes_.back());
+        dashes_.pop_back();
+        std::move(dashes_[first].runs.begin(), dashes_[first].runs.end(), std::back_inserter(last.runs));
+        dashes_[first] = std::move(last);
+    }
+
     void walkChord(const Sample& a, const Sample& b) {
         const double l = length(b.at - a.at);
+        walked_ += l;
         const auto [begin, end] = visibleShare(scene::apply(fineness_.toPixels, a.at),
                                                scene::apply(fineness_.toPixels, b.at), fineness_.view);
         if (!(begin <= end) || !std::isfinite(l)) {
@@ -175,8 +198,9 @@ private:
     double period_, phase_;
     const Fineness& fineness_;
     std::size_t index_ = 0;
-    double left_ = 0;  ///< of the element at `index_`
-    Strand current_;   ///< the dash being made; no runs in a gap
+    double left_ = 0;    ///< of the element at `index_`
+    double walked_ = 0;  ///< along this strand
+    Strand current_;     ///< the dash being made; no runs in a gap
     std::vector<Strand> dashes_;
 };
 

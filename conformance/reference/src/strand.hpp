@@ -23,8 +23,9 @@ struct Strand {
 /// of no length along the x axis (SVG 2 section 13.6.2). A lone MoveTo gives nothing.
 std::vector<Strand> strandsOf(const scene::Path& path, const Fineness& fineness);
 
-/// The dashes of the strands, each open: at a closed subpath's start they do not join. What lies
-/// outside the fineness' view may be missing. Nothing if there were more than maxDashes.
+/// The dashes of the strands. One that runs over a closed strand's start is one dash, and closed if it is
+/// as long as the strand. What lies outside the fineness' view may be missing. Nothing if there were more
+/// than maxDashes.
 std::optional<std::vector<Strand>> dash(const std::vector<Strand>& strands, const scene::StrokeStyle& style,
                                         const Fineness& fineness);
 

@@ -246,6 +246,54 @@ TEST(StrokeCoverage, DashesTurnCornersAndRestartInSubpaths) {
     EXPECT_NEAR(area(two, dashed({10, 5})), 40, rounding);
 }
 
+/// A square of perimeter 80 from its first corner; the decimals make sums of lengths inexact.
+const Path& dashedSquare() {
+    static const Path path = rectangle({20.1, 20.3}, {40.1, 40.3});
+    return path;
+}
+
+StrokeStyle dashedWide(std::vector<double> dashes, double phase, Join join, Cap cap = Cap::Butt) {
+    return {4, cap, join, 4, std::move(dashes), phase};
+}
+
+TEST(StrokeCoverage, DashesRunOverAClosedStart) {
+    // Every corner is the middle of a dash of 10: two arms of 5 by 4 that share 2 by 2, and the join.
+    const auto dashArea = [](Join join, Cap cap) {
+        return area(dashedSquare(), dashedWide({10, 10}, 5, join, cap)) / 4;
+    };
+    EXPECT_NEAR(dashArea(Join::Bevel, Cap::Butt), 36 + 2, rounding);
+    EXPECT_NEAR(dashArea(Join::Miter, Cap::Butt), 36 + 4, rounding);
+    EXPECT_NEAR(dashArea(Join::Round, Cap::Butt), 36 + pi, roundness);
+    EXPECT_NEAR(dashArea(Join::Bevel, Cap::Square), 36 + 2 + 2 * 2 * 4, rounding);
+    EXPECT_NEAR(dashArea(Join::Bevel, Cap::Round), 36 + 2 + 4 * pi, roundness);
+}
+
+TEST(StrokeCoverage, DashesThatGoAllTheWayRoundAreClosed) {
+    EXPECT_NEAR(area(dashedSquare(), dashedWide({100, 5}, 0, Join::Miter)), 24 * 24 - 16 * 16, rounding);
+    EXPECT_NEAR(area(dashedSquare(), dashedWide({100, 5}, 0, Join::Bevel, Cap::Square)),
+                24 * 24 - 16 * 16 - 4 * 2, rounding);
+}
+
+TEST(StrokeCoverage, DashesThatEndAtAClosedStartHaveTheirCaps) {
+    // On [0, 10], [35, 45] round a corner, [70, 80].
+    EXPECT_NEAR(area(dashedSquare(), dashedWide({10, 25}, 0, Join::Miter)), 3 * 40 - 4, rounding);
+    // All the way round, but no further.
+    EXPECT_NEAR(area(dashedSquare(), dashedWide({80, 5}, 0, Join::Miter)), 24 * 24 - 16 * 16 - 4, rounding);
+}
+
+TEST(StrokeCoverage, DashesThatEndAtTheStartLeaveNoCapThere) {
+    // On [10, 15] and [25, 30].
+    EXPECT_NEAR(area(line({10, 20}, {48, 20}), dashed({5, 10}, 5, Cap::Square)), 2 * (5 + 2) * 2, rounding);
+}
+
+TEST(StrokeCoverage, HiddenClosedStarts) {
+    Path path = rectangle({-1e6, -1e6}, {32, 32});
+    const auto closed = coverage(path, dashed({7, 6}));
+    path.back() = LineTo{{-1e6, -1e6}};
+    EXPECT_TRUE(closed == coverage(path, dashed({7, 6})));
+    EXPECT_NEAR(std::accumulate(closed.begin(), closed.end(), 0.0), 64 * 2 * 7 / 13.0, 16);
+}
+
 TEST(StrokeCoverage, DashesMeasureCurves) {
     const double halfTurn = pi * 15;
     EXPECT_NEAR(area(circle({32, 32}, 15), dashed({halfTurn, halfTurn})), halfTurn * 2, roundness);
