@@ -70,6 +70,10 @@ struct Frame {
     }
 };
 
+// The asset's modes are numbered like the scene's: they are cast, not looked up.
+static_assert(static_cast<int>(asset::Blend::Luminosity) == static_cast<int>(scene::BlendMode::Luminosity) &&
+              static_cast<int>(asset::Blend::HardLight) == static_cast<int>(scene::BlendMode::HardLight));
+
 /// Luminance of a premultiplied colour, W3C masking level 1 section 7.10.1.
 float luminance(const Color& c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
