@@ -22,10 +22,6 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double side = 1024;
 constexpr Point centre{side / 2, side / 2};
 
-/// The compiler's tolerance here: with views of at most 1.9 pixels a unit (randomView), boundaries are off by
-/// at most 1/256 pixel, that is 1/255 of coverage, and the rest of the bound is the renderer's.
-constexpr double tolerance = 1.0 / (1 << 19);
-
 constexpr double polygonBound = 2, curveBound = 4;  // 1/255 of coverage
 
 constexpr int views = 20, raster = 256;
@@ -54,9 +50,7 @@ double worstError(const image::Raster& drawn, const std::vector<double>& coverag
 class SinglePath : public testing::TestWithParam<FillRule> {
 protected:
     void expectCoverage(const Path& path, Point focus, double bound, const std::string& what) {
-        compiler::Options options;
-        options.tolerance = tolerance;
-        const asset::Asset asset = compiler::compile(sceneOf(path, GetParam(), side), options).asset;
+        const asset::Asset asset = compiler::compile(sceneOf(path, GetParam(), side)).asset;
         const gl::Texture texture = gl_.renderer.upload(asset);
         for (int i = 0; i < views; ++i) {
             const asset::View view = randomView(random_, focus);
