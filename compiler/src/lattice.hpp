@@ -11,6 +11,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "scene/affine.hpp"
+
 namespace vtm::compiler {
 
 using Coord = std::int32_t;
@@ -73,7 +75,8 @@ public:
     Square square() const { return {-1, -1, Coord{1} << bits_}; }
     double stepsPerUnit() const { return scale_; }
     /// Picture units to lattice steps, unrounded.
-    glm::dvec2 toSteps(glm::dvec2 p) const { return p * scale_ - 2.0; }
+    scene::Affine toSteps() const { return {scale_, 0, 0, scale_, -2, -2}; }
+    glm::dvec2 toUnits(LatticePoint p) const { return (glm::dvec2{p.x, p.y} + 2.0) / scale_; }
     /// The box, in steps, to which geometry is cut: beyond the root square where the picture reaches
     /// its border, exactly the picture's edge elsewhere.
     glm::dvec2 clampMin() const;

@@ -164,8 +164,7 @@ private:
     }
 
     std::uint32_t layer(const Path& path, const Affine& transform, scene::FillRule rule) {
-        const double s = lattice_.stepsPerUnit();
-        const Affine toSteps = compose(Affine{s, 0, 0, s, -2, -2}, transform);
+        const Affine toSteps = compose(lattice_.toSteps(), transform);
         const std::vector<Chord> chords =
             outline(path, toSteps, tolerance_, lattice_.clampMin(), lattice_.clampMax());
         checkLimits(chords.size());
@@ -186,10 +185,8 @@ private:
 
     Box bounds(const Layer& layer) const {
         Box box;
-        for (std::uint32_t i = 0; i < layer.chordCount; ++i) {
-            const LatticePoint p = picture_.chords[layer.firstChord + i].a;
-            box.add((Point{p.x, p.y} + 2.0) / lattice_.stepsPerUnit());
-        }
+        for (std::uint32_t i = 0; i < layer.chordCount; ++i)
+            box.add(lattice_.toUnits(picture_.chords[layer.firstChord + i].a));
         return box;
     }
 

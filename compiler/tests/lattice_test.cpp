@@ -32,9 +32,9 @@ TEST(Lattice, cornerOnAnEdgeCountsAsMovedToTheRight) {
 TEST(Lattice, thePictureReachesJustBeyondTheRootSquare) {
     const Lattice lattice(1024, 600, 22);
     const Square root = lattice.square();
-    EXPECT_LT(lattice.toSteps({0, 0}).x, root.x0);
-    EXPECT_GT(lattice.toSteps({1024, 0}).x, root.x1());
-    EXPECT_NEAR(lattice.clampMax().y, lattice.toSteps({0, 600}).y, 1e-6);
+    EXPECT_LT(scene::apply(lattice.toSteps(), {0, 0}).x, root.x0);
+    EXPECT_GT(scene::apply(lattice.toSteps(), {1024, 0}).x, root.x1());
+    EXPECT_NEAR(lattice.clampMax().y, scene::apply(lattice.toSteps(), {0, 600}).y, 1e-6);
     EXPECT_LT(lattice.clampMax().y, root.y1());
 }
 
