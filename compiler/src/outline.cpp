@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "compiler/src/cubics.hpp"
 
 namespace vtm::compiler {
 namespace {
 
 using scene::Affine;
 using scene::Point;
-using Cubic = std::array<Point, 4>;
-
-/// Coordinates beyond this many steps are pulled in to it, far outside any picture, so that
-/// differences and products stay finite.
-constexpr double farAway = 1e100;
 
 Point lerp(Point a, Point b, double t) { return a + (b - a) * t; }
 
@@ -124,118 +120,16 @@ void flatten(ChordSink& sink, const Cubic& c, double tolerance, int halvings = 0
         flatten(sink, half, tolerance, halvings + 1);
 }
 
-/// An elliptical arc by its centre: p(θ) = centre + x cos θ + y sin θ, θ from `from` over `sweep`.
-struct CenterArc {
-    Point center, x, y;
-    double from, sweep;
-    Point at(double angle) const { return center + x * std::cos(angle) + y * std::sin(angle); }
-    Point derivative(double angle) const { return y * std::cos(angle) - x * std::sin(angle); }
-};
-
-/// Endpoint to centre parametrisation, SVG 2 appendix B.2.4 and B.2.5. Radii must not be zero.
-CenterArc centerArc(Point from, const scene::ArcTo& arc) {
-    Point r{std::abs(arc.radii.x), std::abs(arc.radii.y)};
-    const Point axis{std::cos(arc.rotation), std::sin(arc.rotation)};
-    const Point half = (from - arc.to) * 0.5;
-    const Point p{(half.x * axis.x + half.y * axis.y) / r.x, (half.y * axis.x - half.x * axis.y) / r.y};
-    const double length2 = p.x * p.x + p.y * p.y;
-    const double grow = std::max(1.0, std::sqrt(length2));
-    r *= grow;
-    const Point q = p / grow;  // half the chord on the unit circle
-    const double q2 = std::min(1.0, q.x * q.x + q.y * q.y);
-    const double side = (arc.largeArc == arc.sweep ? -1.0 : 1.0) * std::sqrt(std::max(0.0, 1 / q2 - 1));
-    const Point c{side * q.y, -side * q.x};  // centre on the unit circle's plane
-    const double begin = std::atan2(q.y - c.y, q.x - c.x);
-    double sweep = std::atan2(-q.y - c.y, -q.x - c.x) - begin;
-    if (arc.sweep && sweep < 0)
-        sweep += 2 * std::numbers::pi;
-    if (!arc.sweep && sweep > 0)
-        sweep -= 2 * std::numbers::pi;
-    const Point x = axis * r.x, y = Point{-axis.y, axis.x} * r.y;
-    return {(from + arc.to) * 0.5 + x * c.x + y * c.y, x, y, begin, sweep};
-}
-
-/// Sixteenths of a turn as cubics: relative error of the radius 2/27 (sin⁶(θ/4) / cos²(θ/4)) at
-/// θ = π/8, 6e-8, far below any tolerance.
-constexpr double cubicArcAngle = std::numbers::pi / 8;
-
-void flattenArc(ChordSink& sink, Point from, const scene::ArcTo& arc, const Affine& m, double tolerance) {
-    const Point to = scene::apply(m, arc.to);
-    const bool straight = arc.radii.x == 0 || arc.radii.y == 0;
-    if (straight || from == arc.to) {
-        if (straight)
-            sink.line(to);
-        return;
-    }
-    const CenterArc circle = centerArc(from, arc);
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(circle.sweep) / cubicArcAngle)));
-    const double step = circle.sweep / parts, arm = 4.0 / 3.0 * std::tan(step / 4);
-    Point p0 = from;
-    for (int i = 0; i < parts; ++i) {
-        const double a0 = circle.from + step * i, a1 = a0 + step;
-        const Point p3 = i + 1 == parts ? arc.to : circle.at(a1);
-        const Cubic c{p0, p0 + circle.derivative(a0) * arm, p3 - circle.derivative(a1) * arm, p3};
-        flatten(sink,
-                {scene::apply(m, c[0]), scene::apply(m, c[1]), scene::apply(m, c[2]), scene::apply(m, c[3])},
-                tolerance);
-        p0 = p3;
-    }
-}
-
-Affine tame(Affine m) {
-    for (int c = 0; c < 3; ++c)
-        m[c] = glm::dvec2{std::clamp(m[c].x, -farAway, farAway), std::clamp(m[c].y, -farAway, farAway)};
-    return m;
-}
-
-/// Walks the commands with the current point in path space.
-class Walker {
+class Flattener : public CurveSink {
 public:
-    Walker(ChordSink& sink, const Affine& m, double tolerance) : sink_(sink), m_(m), tolerance_(tolerance) {}
-
-    void operator()(const scene::MoveTo& c) {
-        close();
-        begin(c.to);
-    }
-    void operator()(const scene::LineTo& c) {
-        sink_.line(map(c.to));
-        current_ = c.to;
-    }
-    void operator()(const scene::QuadTo& c) {
-        const Point p0 = map(current_), q = map(c.control), p3 = map(c.to);
-        flatten(sink_, {p0, lerp(p0, q, 2.0 / 3), lerp(p3, q, 2.0 / 3), p3}, tolerance_);
-        current_ = c.to;
-    }
-    void operator()(const scene::CubicTo& c) {
-        flatten(sink_, {map(current_), map(c.control1), map(c.control2), map(c.to)}, tolerance_);
-        current_ = c.to;
-    }
-    void operator()(const scene::ArcTo& c) {
-        flattenArc(sink_, current_, c, m_, tolerance_);
-        current_ = c.to;
-    }
-    void operator()(const scene::Close&) {
-        close();
-        begin(start_);
-    }
-    void close() {
-        if (started_)
-            sink_.line(map(start_));
-    }
+    Flattener(ChordSink& sink, double tolerance) : sink_(sink), tolerance_(tolerance) {}
+    void start(Point p) override { sink_.start(p); }
+    void line(Point to) override { sink_.line(to); }
+    void cubic(const Cubic& c) override { flatten(sink_, c, tolerance_); }
 
 private:
-    Point map(Point p) const { return scene::apply(m_, p); }
-    void begin(Point p) {
-        start_ = current_ = p;
-        started_ = true;
-        sink_.start(map(p));
-    }
-
     ChordSink& sink_;
-    const Affine m_;
     const double tolerance_;
-    Point start_{}, current_{};
-    bool started_ = false;
 };
 
 }  // namespace
@@ -243,10 +137,8 @@ private:
 std::vector<Chord> outline(const scene::Path& path, const Affine& toSteps, double tolerance,
                            glm::dvec2 clampMin, glm::dvec2 clampMax) {
     ChordSink sink(clampMin, clampMax);
-    Walker walker(sink, tame(toSteps), tolerance);
-    for (const scene::Command& command : path)
-        std::visit(walker, command);
-    walker.close();
+    Flattener flattener(sink, tolerance);
+    walkCurves(path, toSteps, flattener);
     return sink.take();
 }
 
