@@ -138,7 +138,8 @@ enum class Blend : std::uint32_t {
     Hue,
     Saturation,
     Color,
-    Luminosity
+    Luminosity,
+    PlusLighter  ///< min(1, s + top)
 };
 
 /// One texel of a program.

@@ -102,7 +102,7 @@ unsigned depthAfter(const Command& command, unsigned depth, std::size_t i) {
 void validateCommand(const Asset& asset, const std::vector<Extent>& maps, std::size_t i) {
     const Command& command = asset.commands[i];
     require(command.kind <= Command::Kind::ClipMask, "commands", i, "kind is unknown");
-    require(command.blend <= Blend::Luminosity, "commands", i, "blend mode is unknown");
+    require(command.blend <= Blend::PlusLighter, "commands", i, "blend mode is unknown");
     require(isShare(command.opacity), "commands", i, "opacity is out of range");
     require(!drawsMap(command.kind) || command.map < maps.size(), "commands", i, "names no map");
     require(command.kind != Command::Kind::FillMask || command.paint < asset.paints.size(), "commands", i,

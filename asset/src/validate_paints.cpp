@@ -94,7 +94,7 @@ void validateProgram(const Data& data, std::size_t index) {
     for (std::uint32_t i = 0; i < paint[1]; ++i) {
         const auto in = recordAt<Instruction>(data.asset.data, paint[0] + i);
         require(in.op <= Op::Image, "paints", index, "operation is unknown");
-        require(in.blend <= Blend::Luminosity, "paints", index, "blend mode is unknown");
+        require(in.blend <= Blend::PlusLighter, "paints", index, "blend mode is unknown");
         require(isShare(in.opacity), "paints", index, "opacity is out of range");
         if (in.op >= Op::Solid)
             validateLayer(data, in);

@@ -77,7 +77,7 @@ const std::vector<Breach> breaches{
     {"paints[5]: operation is unknown", everyPaint,
      [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.op = Op(9); }); }},
     {"paints[14]: blend mode is unknown", everyPaint,
-     [](Asset& a) { edit(a, masked, 4, [](Instruction& in) { in.blend = Blend(16); }); }},
+     [](Asset& a) { edit(a, masked, 4, [](Instruction& in) { in.blend = Blend(17); }); }},
     {"paints[5]: opacity is out of range", everyPaint,
      [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.opacity = -0.1f; }); }},
     {"paints[14]: program pops an empty stack", everyPaint,
@@ -90,7 +90,7 @@ const std::vector<Breach> breaches{
          a.paints[1] = {0, maxStack, 0, programTag};
      }},
     {"commands[0]: kind is unknown", disc, [](Asset& a) { a.commands[0].kind = Command::Kind(8); }},
-    {"commands[0]: blend mode is unknown", disc, [](Asset& a) { a.commands[0].blend = Blend(16); }},
+    {"commands[0]: blend mode is unknown", disc, [](Asset& a) { a.commands[0].blend = Blend(17); }},
     {"commands[0]: opacity is out of range", disc, [](Asset& a) { a.commands[0].opacity = 2; }},
     {"commands[0]: names no map", disc, [](Asset& a) { a.commands[0].map = 1; }},
     {"commands[0]: names no paint", layers, [](Asset& a) { a.commands[0].paint = 6; }},

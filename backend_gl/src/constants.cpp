@@ -50,7 +50,8 @@ std::string blendModes() {
            constant("blendHardLight", Blend::HardLight) + constant("blendSoftLight", Blend::SoftLight) +
            constant("blendDifference", Blend::Difference) + constant("blendExclusion", Blend::Exclusion) +
            constant("blendHue", Blend::Hue) + constant("blendSaturation", Blend::Saturation) +
-           constant("blendColor", Blend::Color) + constant("blendLuminosity", Blend::Luminosity);
+           constant("blendColor", Blend::Color) + constant("blendLuminosity", Blend::Luminosity) +
+           constant("blendPlusLighter", Blend::PlusLighter);
 }
 
 std::string actions() {

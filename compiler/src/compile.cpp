@@ -125,7 +125,7 @@ public:
             return;
         }
         Command& pop = emit(Command::Kind::Pop);
-        pop.blend = static_cast<asset::Blend>(group.blend);
+        pop.blend = group.adds ? asset::Blend::PlusLighter : static_cast<asset::Blend>(group.blend);
         pop.opacity = group.opacity;
     }
 

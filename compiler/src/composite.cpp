@@ -71,7 +71,8 @@ struct Frame {
 };
 
 // The asset's modes are numbered like the scene's: they are cast, not looked up.
-static_assert(static_cast<int>(asset::Blend::Luminosity) == static_cast<int>(scene::BlendMode::Luminosity) &&
+static_assert(static_cast<int>(asset::Blend::PlusLighter) ==
+                  static_cast<int>(scene::BlendMode::PlusLighter) &&
               static_cast<int>(asset::Blend::HardLight) == static_cast<int>(scene::BlendMode::HardLight));
 
 /// Luminance of a premultiplied colour, W3C masking level 1 section 7.10.1.

@@ -44,6 +44,7 @@ struct ClipExpression {
     struct Term {
         std::uint32_t layer = 0;
         std::uint32_t clip = none;
+        bool inverted = false;  ///< outside the layer instead of inside
     };
     std::vector<Term> terms;
     std::uint32_t outer = none;
@@ -59,6 +60,9 @@ struct PictureGroup {
     std::uint32_t clip = none;
     std::uint32_t mask = none;  ///< the mask's group, a child of this one that comes after the items
     unsigned depth = 0;
+    /// The outside of a selection. Where regions are disjoint it is a group like any other; where coverage is
+    /// a factor (compat mode) it is added to the inside, so that their shares add up to one.
+    bool adds = false;
 };
 
 struct Picture {

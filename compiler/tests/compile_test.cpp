@@ -151,6 +151,54 @@ TEST_P(BothModes, blendModesSeeWhatLiesBelow) {
     expectNear(pixel(picture(root), 20, 20, GetParam()), {0.5f, 0.5f, 0.25f, 1});
 }
 
+scene::Select select(Path mask, std::vector<Item> inside, std::vector<Item> outside) {
+    return {{std::make_shared<Path>(std::move(mask)), scene::identity, scene::FillRule::NonZero},
+            std::make_shared<Group>(group(std::move(inside))),
+            std::make_shared<Group>(group(std::move(outside)))};
+}
+
+TEST_P(BothModes, aSelectionShowsOneOfItsSidesAtEveryPoint) {
+    Group root = group({rect({0, 0}, {64, 64}, green)});
+    root.children.push_back(
+        {select(scene::rectangle({10, 10}, {30.25, 30}), {rect({0, 0}, {64, 64}, Color{1, 0, 0, 0.5f})},
+                {rect({0, 0}, {64, 64}, blue)})});
+    const auto s = picture(root);
+    expectNear(pixel(s, 20, 20, GetParam()), {0.5f, 0.5f, 0, 1});
+    expectNear(pixel(s, 50, 50, GetParam()), {0, 0, 1, 1});
+    expectNear(pixel(s, 30, 20, GetParam()), {0.125f, 0.125f, 0.75f, 1});
+}
+
+TEST_P(BothModes, theSharesOfASelectionAddUpToOne) {
+    Group root;
+    root.children.push_back({select(scene::rectangle({10, 10}, {30.25, 30.5}), {rect({0, 0}, {64, 64}, red)},
+                                    {rect({0, 0}, {64, 64}, blue)})});
+    expectNear(pixel(picture(root), 30, 20, GetParam()), {0.25f, 0, 0.75f, 1});
+    expectNear(pixel(picture(root), 30, 30, GetParam()), {0.125f, 0, 0.875f, 1});
+}
+
+TEST_P(BothModes, selectionsNest) {
+    const Path left = scene::rectangle({0, 0}, {32, 64}), top = scene::rectangle({0, 0}, {64, 32});
+    Group inside, outside, root;
+    inside.children.push_back({select(top, {rect({0, 0}, {64, 64}, red)}, {rect({0, 0}, {64, 64}, green)})});
+    outside.children.push_back({select(top, {}, {rect({0, 0}, {64, 64}, blue)})});
+    scene::Select both = select(left, {}, {});
+    both.inside = std::make_shared<Group>(inside);
+    both.outside = std::make_shared<Group>(outside);
+    root.children.push_back({both});
+    const auto s = picture(root);
+    expectNear(pixel(s, 10, 10, GetParam()), {1, 0, 0, 1});
+    expectNear(pixel(s, 10, 50, GetParam()), {0, 1, 0, 1});
+    expectNear(pixel(s, 50, 10, GetParam()), {0, 0, 0, 0});
+    expectNear(pixel(s, 50, 50, GetParam()), {0, 0, 1, 1});
+}
+
+TEST(Compile, anOpaqueSideHidesWhatLiesBelow) {
+    Group root = group({rect({3, 5}, {40, 41}, red)});
+    root.children.push_back({select(scene::rectangle({16, 16}, {48, 32}), {rect({0, 0}, {64, 64}, green)},
+                                    {rect({0, 0}, {64, 64}, blue)})});
+    EXPECT_EQ(asset::summarize(compile(picture(root)).asset).pieces, 0u);
+}
+
 TEST_P(BothModes, gradientsAreEvaluatedWherePixelsAre) {
     scene::LinearGradient g{{0, 0}, {64, 0}, {{0, black}, {1, white}}};
     const auto s = picture(group({rect({0, 0}, {64, 64}, g)}));

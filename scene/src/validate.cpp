@@ -85,8 +85,22 @@ private:
     }
 
     Height node(const Node& n) {
-        const auto* inner = std::get_if<Group>(&n.value);
-        return inner ? group(*inner) : item(std::get<Item>(n.value));
+        return std::visit([this](const auto& value) { return check(value); }, n.value);
+    }
+
+    Height check(const Group& g) { return group(g); }
+    Height check(const Item& i) { return item(i); }
+
+    Height check(const Select& s) {
+        checkLevel(1);
+        ++level_;
+        path(s.mask.path);
+        report(fault(s.mask));
+        Height height = s.inside ? content("inside", s.inside) : 0;
+        if (s.outside)
+            height = std::max(height, content("outside", s.outside));
+        --level_;
+        return height + 1;
     }
 
     Height item(const Item& i) {

@@ -144,6 +144,11 @@ std::string fault(const ImagePaint& p) {
     return fmt::format("image of {} x {} pixels has {} bytes", b.width, b.height, b.rgba.size());
 }
 
+std::string fault(const Shape& s) {
+    return finite(s.transform) ? std::visit([](const auto& g) { return fault(g); }, s.geometry)
+                               : "transform is not finite";
+}
+
 std::string fault(const Item& i) {
     if (!finite(i.transform))
         return "transform is not finite";
@@ -157,7 +162,8 @@ std::string fault(const Item& i) {
 std::string fault(const Group& g) {
     if (!inUnit(g.opacity))
         return fmt::format("opacity is {}, not in [0, 1]", g.opacity);
-    return known(g.blend, BlendMode::Luminosity) ? "" : fmt::format("blend mode {} is unknown", int(g.blend));
+    return known(g.blend, BlendMode::PlusLighter) ? ""
+                                                  : fmt::format("blend mode {} is unknown", int(g.blend));
 }
 
 std::string fault(const ClipShape& shape) {

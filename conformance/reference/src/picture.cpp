@@ -87,9 +87,26 @@ private:
         for (const scene::Node& child : group.children) {
             if (const auto* item = std::get_if<scene::Item>(&child.value))
                 addItem(*item, tree, place);
+            else if (const auto* select = std::get_if<scene::Select>(&child.value))
+                addSelect(*select, tree, place);
             else
                 addGroup(std::get<scene::Group>(child.value), tree, place);
         }
+    }
+
+    /// Two groups in one, cut by the mask and by its complement, whose shares of a pixel add up.
+    void addSelect(const scene::Select& select, int tree, int parent) {
+        const int both = pushGroup(tree, parent, none);
+        const int mask =
+            clipOf(scene::Item{select.mask.path, select.mask.transform, select.mask.geometry, {}});
+        const int inside = pushGroup(tree, both, mask);
+        if (select.inside)
+            addGroup(*select.inside, tree, inside);
+        const int outside = pushGroup(tree, both, mask);
+        groupsOf(tree)[std::size_t(outside)].outside = true;
+        groupsOf(tree)[std::size_t(outside)].blend = scene::BlendMode::PlusLighter;
+        if (select.outside)
+            addGroup(*select.outside, tree, outside);
     }
 
     std::vector<GroupNode>& groupsOf(int tree) { return picture_.trees[std::size_t(tree)].groups; }
@@ -130,10 +147,7 @@ private:
                          maxTiledItems / double(itemCount(*pattern.content)));
         if (!tiles)
             return false;
-        const int clip = int(picture_.clips.size());
-        picture_.clips.push_back({{{addShape({ruleOf(item), true, clip, 0}), none}}, none});
-        addOutline(item, picture_.clips.back().parts[0].shape, edges_);
-        const int all = pushGroup(tree, group, clip);
+        const int all = pushGroup(tree, group, clipOf(item));
         groupsOf(tree)[std::size_t(all)].opacity = item.opacity;
         for (const Affine& tile : *tiles)
             addTile(pattern, tile, tree, all);
@@ -162,6 +176,14 @@ private:
     int addShape(const Shape& shape) {
         picture_.shapes.push_back(shape);
         return int(picture_.shapes.size()) - 1;
+    }
+
+    /// By an item's outline.
+    int clipOf(const scene::Item& item) {
+        const int clip = int(picture_.clips.size());
+        picture_.clips.push_back({{{addShape({ruleOf(item), true, clip, 0}), none}}, none});
+        addOutline(item, picture_.clips.back().parts[0].shape, edges_);
+        return clip;
     }
 
     int clipOf(const std::shared_ptr<const scene::Clip>& clip) {

@@ -33,6 +33,7 @@ struct GroupNode {
     double opacity = 1;
     scene::BlendMode blend = scene::BlendMode::Normal;
     int clip = none, mask = none;
+    bool outside = false;  ///< shown where the clip is not
 };
 
 /// Layers in painter's order; group 0 is the root. Groups that change nothing are dissolved.

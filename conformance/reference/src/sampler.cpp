@@ -35,7 +35,7 @@ struct PointCanvas {
     void close(const GroupNode& group) {
         Colour colour = sampler.stack_.back() * group.opacity;
         sampler.stack_.pop_back();
-        if (colour.a > 0 && group.clip != none && !sampler.insideClip(group.clip))
+        if (colour.a > 0 && group.clip != none && sampler.insideClip(group.clip) == group.outside)
             colour = Colour(0);
         if (colour.a > 0 && group.mask != none)
             colour *= sampler.maskAt(group.mask, p);
