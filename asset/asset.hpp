@@ -116,7 +116,8 @@ enum class Op : std::uint32_t {
     Solid,             ///< s = data[argument] (premultiplied floats) · opacity; top = s over top
     Linear,            ///< s = gradient at data[argument] · opacity; top = s over top
     Radial,            ///< likewise
-    Image              ///< likewise
+    Image,             ///< likewise
+    Material           ///< likewise, with a material fill
 };
 inline constexpr unsigned maxStack = 8;
 inline constexpr unsigned maxInstructions = 4096;  ///< of one program
@@ -178,7 +179,23 @@ struct ImageFill {
 
 static_assert(sizeof(Node) == 64 && sizeof(Leaf) == 16 && sizeof(Piece) == 16);
 static_assert(sizeof(Instruction) == 16 && sizeof(Gradient) == 48 && sizeof(GradientStop) == 16);
-static_assert(sizeof(ImageFill) == 32);
+/// Three texels. matrix: picture to the space of Asset::materials[material].
+struct MaterialFill {
+    std::array<float, 6> matrix{1, 0, 0, 1, 0, 0};
+    std::uint32_t material = 0;
+    std::uint32_t unused = 0;
+    std::array<float, 4> fallback{};  ///< premultiplied, where no GLSL runs
+};
+
+/// A procedural paint. `glsl` is GLSL ES 3.00 that defines `vec4 NAME(vec2 p)`: the premultiplied colour at
+/// point p. Whoever draws an asset from elsewhere runs its text, in the bounds that GL sets to a shader.
+struct Material {
+    std::string name;  ///< a letter, then letters, digits and single underscores; distinct
+    std::string glsl;  ///< without zero bytes
+};
+inline constexpr std::size_t maxMaterials = 256, maxMaterialName = 64, maxMaterialText = 65536;
+
+static_assert(sizeof(ImageFill) == 32 && sizeof(MaterialFill) == 48);
 
 // ---- Whole ------------------------------------------------------------------------------------
 
@@ -230,8 +247,9 @@ struct Asset {
     std::vector<Leaf> leaves;
     std::vector<Piece> pieces;
     std::vector<Paint> paints;
-    std::vector<Texel> data;  ///< programs, gradients, image fills
+    std::vector<Texel> data;  ///< programs, gradients, image and material fills
     std::vector<image::Bitmap> images;
+    std::vector<Material> materials;
     std::uint32_t fallbackLeaves = 0;  ///< leaves averaged from samples because no certificate held
 };
 

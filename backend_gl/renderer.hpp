@@ -34,7 +34,9 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// `asset` must be valid (asset::validate).
+    /// `asset` must be valid (asset::validate). Compiles its materials, each list of them once; what is wrong
+    /// in one is a GlError that begins "material 'NAME', line L: ", or with all names where the driver's log
+    /// does not say which.
     Texture upload(const asset::Asset& asset);
 
     /// Draws on transparent black into a texture of the renderer's own and reads it back.

@@ -10,6 +10,7 @@
 #include <zlib.h>
 
 #include "asset/src/container_images.hpp"
+#include "asset/src/container_materials.hpp"
 
 namespace vtm::asset {
 
@@ -46,10 +47,13 @@ enum class Kind : std::uint32_t {
     Paints,
     Data,
     Images,
-    ImageBytes
+    ImageBytes,
+    Materials,
+    MaterialBytes
 };
-constexpr std::array<std::string_view, 10> sectionNames{
-    "picture", "maps", "commands", "nodes", "leaves", "pieces", "paints", "data", "images", "image bytes"};
+constexpr std::array<std::string_view, 12> sectionNames{
+    "picture", "maps", "commands", "nodes",       "leaves",    "pieces",
+    "paints",  "data", "images",   "image bytes", "materials", "material bytes"};
 
 /// A line of the section table, one for each kind, in order.
 struct Section {
@@ -227,6 +231,7 @@ void readCommands(Reader& reader, Asset& asset) {
 
 std::vector<std::uint8_t> write(const Asset& asset) {
     const CodedImages images = encodeImages(asset.images);
+    const CodedMaterials materials = encodeMaterials(asset.materials);
     Writer writer;
     writer.add(Kind::Picture,
                std::vector{PictureRecord{asset.width, asset.height, asset.mode, asset.fallbackLeaves, {}}});
@@ -239,6 +244,8 @@ std::vector<std::uint8_t> write(const Asset& asset) {
     writer.add(Kind::Data, asset.data);
     writer.add(Kind::Images, images.table);
     writer.add(Kind::ImageBytes, images.bytes);
+    writer.add(Kind::Materials, materials.table);
+    writer.add(Kind::MaterialBytes, materials.bytes);
     return writer.finish();
 }
 
@@ -255,8 +262,11 @@ Asset read(std::span<const std::uint8_t> bytes) {
     asset.data = reader.take<Texel>(Kind::Data);
     const auto table = reader.take<ImageRecord>(Kind::Images);
     const auto imageBytes = reader.take<std::uint8_t>(Kind::ImageBytes);
+    const auto materials = reader.take<MaterialRecord>(Kind::Materials);
+    const auto materialBytes = reader.take<std::uint8_t>(Kind::MaterialBytes);
     reader.finish();
     asset.images = decodeImages(table, imageBytes);
+    asset.materials = decodeMaterials(materials, materialBytes);
     validate(asset);
     return asset;
 }

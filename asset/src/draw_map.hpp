@@ -4,7 +4,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
+#include "asset/evaluate.hpp"
 #include "asset/view.hpp"
 
 namespace vtm::asset {
@@ -29,6 +29,6 @@ enum class PaintMeaning {
 
 /// target += ∫ colour over each pixel's box.
 void addMap(const Asset& asset, const Map& map, const View& view, PaintMeaning meaning,
-            image::Raster& target);
+            const MaterialFunction& materials, image::Raster& target);
 
 }  // namespace vtm::asset

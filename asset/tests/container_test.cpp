@@ -47,6 +47,11 @@ TEST(Container, ReadsWhatItWrote) {
         EXPECT_EQ(copy.commands.size(), asset.commands.size());
         EXPECT_EQ(copy.fallbackLeaves, asset.fallbackLeaves);
         EXPECT_EQ(copy.images.size(), asset.images.size());
+        ASSERT_EQ(copy.materials.size(), asset.materials.size());
+        for (std::size_t i = 0; i < asset.materials.size(); ++i) {
+            EXPECT_EQ(copy.materials[i].name, asset.materials[i].name);
+            EXPECT_EQ(copy.materials[i].glsl, asset.materials[i].glsl);
+        }
         for (std::size_t i = 0; i < asset.images.size(); ++i)
             EXPECT_EQ(copy.images[i].rgba, asset.images[i].rgba);
         const View view = turnedView(32, 32, {32, 32}, 0.7, 0.4);
@@ -56,7 +61,7 @@ TEST(Container, ReadsWhatItWrote) {
 
 TEST(Container, SectionsBeginOnTexels) {
     const Bytes bytes = write(sample());
-    for (std::size_t i = 0; i < 10; ++i) {
+    for (std::size_t i = 0; i < 12; ++i) {
         std::uint64_t offset = 0;
         std::memcpy(&offset, &bytes[headerBytes + i * 32 + 8], sizeof offset);
         EXPECT_EQ(offset % 16, 0u);

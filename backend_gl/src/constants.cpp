@@ -38,8 +38,8 @@ std::string operations() {
            constant("opPopMaskLinear", Op::PopMaskLinear) + constant("opPopMaskAlpha", Op::PopMaskAlpha) +
            constant("opSolid", Op::Solid) + constant("opLinear", Op::Linear) +
            constant("opRadial", Op::Radial) + constant("opImage", Op::Image) +
-           constant("spreadPad", Spread::Pad) + constant("spreadReflect", Spread::Reflect) +
-           constant("spreadRepeat", Spread::Repeat);
+           constant("opMaterial", Op::Material) + constant("spreadPad", Spread::Pad) +
+           constant("spreadReflect", Spread::Reflect) + constant("spreadRepeat", Spread::Repeat);
 }
 
 std::string blendModes() {

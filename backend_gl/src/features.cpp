@@ -20,6 +20,8 @@ unsigned flagsOf(const asset::Instruction& in) {
             return Features::Radial;
         case Op::Image:
             return Features::Image;
+        case Op::Material:
+            return Features::Material;
         case Op::Push:
             return Features::Groups;
         case Op::Pop:
@@ -37,7 +39,8 @@ std::string Features::defines() const {
                                      {Radial, "RADIAL"},
                                      {Image, "IMAGE"},
                                      {Groups, "GROUPS"},
-                                     {Mixing, "MIXING"}})
+                                     {Mixing, "MIXING"},
+                                     {Material, "MATERIAL"}})
         text += fmt::format("#define {} {}\n", name, (flags_ & flag) != 0 ? 1 : 0);
     return text;
 }

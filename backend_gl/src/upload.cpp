@@ -81,8 +81,12 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 
 }  // namespace
 
-UploadedAsset::UploadedAsset(const Asset& asset)
-    : maps(asset.maps), commands(asset.commands), list(makeInstances(asset)), features(featuresOf(asset)) {
+UploadedAsset::UploadedAsset(const Asset& asset, unsigned materials)
+    : maps(asset.maps),
+      commands(asset.commands),
+      list(makeInstances(asset)),
+      features(featuresOf(asset)),
+      materialSet(materials) {
     for (const asset::Paint& paint : asset.paints)
         isProgram.push_back(paint[3] == asset::programTag);
     std::vector<Texel> joined = joinedTexels(asset, sections);

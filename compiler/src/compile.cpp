@@ -194,6 +194,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     asset.mode = options.mode;
     asset.data = std::move(picture.data);
     asset.images = std::move(picture.images);
+    asset.materials = std::move(picture.materials);
     MapBuilder maps(picture, lattice, options, asset);
     if (options.mode == asset::Mode::Exact)
         compileExact(picture, maps, asset);

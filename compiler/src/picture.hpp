@@ -26,7 +26,7 @@ struct Layer {
 
 /// What an item is painted with.
 struct Source {
-    asset::Op op = asset::Op::Solid;  ///< Solid, Linear, Radial or Image
+    asset::Op op = asset::Op::Solid;  ///< Solid, Linear, Radial, Image or Material
     std::array<float, 4> color{};     ///< Solid: premultiplied
     std::uint32_t data = 0;           ///< otherwise: the record in Picture::data
     bool opaque = false;              ///< alpha 1 everywhere
@@ -73,8 +73,9 @@ struct Picture {
         groups;  ///< parents before children; 0 is the ground, the scene's root lies in it
     std::vector<ClipExpression> clips;
     std::vector<Source> sources;
-    std::vector<asset::Texel> data;  ///< gradients and image fills
+    std::vector<asset::Texel> data;  ///< gradients, image and material fills
     std::vector<image::Bitmap> images;
+    std::vector<asset::Material> materials;
     std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
 };
 

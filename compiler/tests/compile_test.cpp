@@ -151,6 +151,41 @@ TEST_P(BothModes, blendModesSeeWhatLiesBelow) {
     expectNear(pixel(picture(root), 20, 20, GetParam()), {0.5f, 0.5f, 0.25f, 1});
 }
 
+scene::Material rampMaterial(float alpha, const scene::Affine& transform = scene::identity) {
+    return {"ramp", "vec4 ramp(vec2 p) { return vec4(p / 64.0, 0.0, 1.0); }", {0, 0, 1, alpha}, transform};
+}
+
+TEST_P(BothModes, materialsComeThroughOnceAName) {
+    auto second = rect({32, 0}, {64, 64}, rampMaterial(1, scene::translation(32, 0)));
+    second.transform = scene::scaling(1, 2);
+    const auto s = picture(group({rect({0, 0}, {32, 64}, rampMaterial(0.5f)), second}));
+    Options options;
+    options.mode = GetParam();
+    const asset::Asset asset = compile(s, options).asset;
+    asset::validate(asset);
+    ASSERT_EQ(asset.materials.size(), 1u);
+    EXPECT_EQ(asset.materials[0].name, "ramp");
+    EXPECT_EQ(asset.materials[0].glsl, rampMaterial(1).glsl);
+    const auto color = [](std::uint32_t, glm::vec2 p) { return glm::vec4(p.x / 64, p.y / 64, 0, 1); };
+    const image::Raster drawn = asset::evaluate(asset, {64, 64}, color),
+                        plain = asset::evaluate(asset, {64, 64});
+    const auto at = [](const image::Raster& raster, int x, int y) {
+        return std::array<float, 4>{raster.pixel(x, y)[0], raster.pixel(x, y)[1], raster.pixel(x, y)[2],
+                                    raster.pixel(x, y)[3]};
+    };
+    expectNear(at(drawn, 10, 20), {10.5f / 64, 20.5f / 64, 0, 1});
+    expectNear(at(drawn, 40, 20), {8.5f / 64, 10.25f / 64, 0, 1});
+    expectNear(at(plain, 10, 20), {0, 0, 0.5f, 0.5f});
+    expectNear(at(plain, 40, 20), {0, 0, 1, 1});
+}
+
+TEST(Compile, tooManyMaterialsAreALimitError) {
+    Group root;
+    for (std::size_t i = 0; i <= asset::maxMaterials; ++i)
+        root.children.push_back({rect({0, 0}, {9, 9}, scene::Material{"m" + std::to_string(i), "", {}})});
+    EXPECT_THROW(compile(picture(root)), LimitError);
+}
+
 scene::Select select(Path mask, std::vector<Item> inside, std::vector<Item> outside) {
     return {{std::make_shared<Path>(std::move(mask)), scene::identity, scene::FillRule::NonZero},
             std::make_shared<Group>(group(std::move(inside))),

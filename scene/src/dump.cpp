@@ -198,6 +198,11 @@ private:
         line(head + " " + name(filterNames, p.filter) + matrix(p.transform));
     }
 
+    void paint(const Material& m) {
+        line(fmt::format("material {} {} bytes ", m.name, m.glsl.size()) + text(m.fallback) +
+             matrix(m.transform));
+    }
+
     void content(const std::shared_ptr<const Group>& g) {
         const auto [head, isNew] = label("group", g);
         isNew ? group(head, *g) : line(head);

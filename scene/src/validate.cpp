@@ -106,8 +106,16 @@ private:
     Height item(const Item& i) {
         path(i.path);
         report(fault(i));
+        if (const auto* procedural = std::get_if<Material>(&i.paint))
+            material(*procedural);
         const auto* tiled = std::get_if<Pattern>(&i.paint);
         return tiled ? content("pattern", tiled->content) : 0;
+    }
+
+    void material(const Material& m) {
+        const auto known = texts_.emplace(m.name, &m.glsl).first;
+        if (*known->second != m.glsl)
+            report("material '" + m.name + "' has another text than before");
     }
 
     void path(const std::shared_ptr<const Path>& shape) {
@@ -159,6 +167,7 @@ private:
     std::vector<std::string> position_;
     int level_ = 0;
     std::unordered_map<const void*, Height> heights_;
+    std::unordered_map<std::string, const std::string*> texts_;  ///< of materials, by name
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ std::string fault(const LinearGradient& gradient);
 std::string fault(const RadialGradient& gradient);
 std::string fault(const Pattern& pattern);
 std::string fault(const ImagePaint& paint);
+std::string fault(const Material& material);
 std::string fault(const Item& item);
 std::string fault(const Shape& shape);
 std::string fault(const Group& group);

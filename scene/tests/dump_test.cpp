@@ -58,6 +58,13 @@ TEST(Dump, SelectionsNameTheirSides) {
               "    outside none\n");
 }
 
+TEST(Dump, MaterialsByNameAndSize) {
+    Item item = redSquare();
+    item.paint = Material{"wood", "12345", {1, 0, 0, 0.5f}, scaling(2, 2)};
+    EXPECT_NE(dump(sceneOf(item)).find("    material wood 5 bytes rgba(1 0 0 0.5) matrix(2 0 0 2 0 0)\n"),
+              std::string::npos);
+}
+
 TEST(Dump, SharedPartsOnce) {
     const Item item = redSquare();
     Scene s = sceneOf(item);

@@ -260,6 +260,32 @@ TEST(Validate, SharedPartsCountOnEveryWayToThem) {
     EXPECT_NE(complaint(s).find("nested more than 1024 levels"), std::string::npos);
 }
 
+TEST(Validate, Materials) {
+    const Material plain{"plain_1", "vec4 plain_1(vec2 p) { return vec4(0.0); }", {}, identity};
+    const auto changed = [&](const std::function<void(Material&)>& change) {
+        Material material = plain;
+        change(material);
+        return complaint(painted(material));
+    };
+    EXPECT_EQ(complaint(painted(plain)), "");
+    for (const std::string name : {"", "1a", "_a", "a b", "a__b", "gl_a", "ä"})
+        EXPECT_EQ(changed([&](Material& m) { m.name = name; }),
+                  "root/0: material name '" + name + "' is no plain identifier");
+    EXPECT_NE(changed([](Material& m) { m.name.assign(maxMaterialName + 1, 'a'); }), "");
+    EXPECT_NE(changed([](Material& m) { m.glsl.assign(maxMaterialText + 1, ' '); }), "");
+    EXPECT_NE(changed([](Material& m) { m.glsl += '\0'; }), "");
+    EXPECT_NE(changed([](Material& m) { m.fallback.r = 2; }), "");
+    EXPECT_NE(changed([](Material& m) { m.transform[0].x = nan; }), "");
+}
+
+TEST(Validate, AMaterialHasOneText) {
+    Scene s = sceneOf(painted(Material{"a", "one", {}, identity}));
+    s.root.children.push_back({painted(Material{"a", "one", {1, 0, 0, 1}, scaling(2, 2)})});
+    EXPECT_EQ(complaint(s), "");
+    s.root.children.push_back({painted(Material{"a", "two", {}, identity})});
+    EXPECT_EQ(complaint(s), "root/2: material 'a' has another text than before");
+}
+
 TEST(Validate, SelectionsCountAsALevelOnBothSides) {
     Select select{{unitSquare(), identity, FillRule::NonZero}, nullptr, nullptr};
     Scene s = sceneOf(redSquare());

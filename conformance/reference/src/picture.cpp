@@ -48,8 +48,12 @@ std::shared_ptr<const scene::Clip> rectangleClip(Point min, Point max) {
 
 class Maker {
 public:
-    Maker(const View& view, double flatness, Patterns patterns)
-        : view_(view), flatness_(flatness), patterns_(patterns), edges_(view.width, view.height) {
+    Maker(const View& view, double flatness, Patterns patterns, const MaterialFunction& materials)
+        : view_(view),
+          flatness_(flatness),
+          patterns_(patterns),
+          materials_(materials),
+          edges_(view.width, view.height) {
         picture_.width = view.width;
         picture_.height = view.height;
     }
@@ -255,6 +259,14 @@ private:
         });
     }
 
+    Shader shaderOf(const scene::Material& material, const Affine& toPixels) const {
+        if (!materials_)
+            return SolidShader{premultiplied(material.fallback)};
+        return withInverse(material, toPixels, [&](const Affine& toPaint) {
+            return MaterialShader{toPaint, material, materials_};
+        });
+    }
+
     Shader shaderOf(const scene::Pattern& pattern, const Affine& toPixels) {
         return withInverse(pattern, toPixels, [&](const Affine& toPaint) {
             const Vector size = pattern.max - pattern.min;
@@ -274,8 +286,8 @@ private:
         const TileKey key{content.get(), {toTile[0].x, toTile[1].y, toTile[2].x, toTile[2].y}};
         std::shared_ptr<const Picture>& tile = tiles_[key];
         if (!tile) {
-            Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness,
-                        Patterns::Sampled);
+            Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness, Patterns::Sampled,
+                        materials_);
             maker.addRoot(*content, nullptr);
             tile = std::make_shared<const Picture>(maker.take());
         }
@@ -287,6 +299,7 @@ private:
     View view_;
     double flatness_;
     Patterns patterns_;
+    const MaterialFunction& materials_;
     EdgeList edges_;
     Picture picture_;
     std::map<const scene::Clip*, int> clips_;
@@ -296,8 +309,9 @@ private:
 
 }  // namespace
 
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns) {
-    Maker maker(view, flatness, patterns);
+Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
+                    const MaterialFunction& materials) {
+    Maker maker(view, flatness, patterns, materials);
     maker.addRoot(scene.root, rectangleClip({0, 0}, {scene.width, scene.height}));
     return maker.take();
 }

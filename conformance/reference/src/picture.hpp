@@ -72,6 +72,7 @@ enum class Patterns {
 };
 
 /// What lies outside the scene's rectangle is cut off by a clip of the root.
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns);
+Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
+                    const MaterialFunction& materials);
 
 }  // namespace vtm::reference
