@@ -25,6 +25,7 @@ MODULES = {
     "svg": {"scene", "image"},
     "asset": {"image"},
     "compiler": {"scene", "asset", "image"},
+    "api": {"scene", "compiler", "asset", "image"},
     "backend_gl": {"asset", "image"},
     "conformance/reference": {"scene", "image"},
     "conformance/compare": {"image"},
