@@ -32,8 +32,6 @@ Color over(const Color& s, const Color& d) {
 /// One isolated group while it is being composited: the steps that build it on transparent black.
 struct Frame {
     Palette::Program steps;
-    bool onlySources = true;  ///< no nested groups: the steps may be moved onto another frame
-
     bool constant() const { return steps.empty() || (steps.size() == 1 && steps[0].first.op == Op::Solid); }
     Color color() const { return steps.empty() ? Color{} : steps[0].second; }
 
@@ -57,16 +55,63 @@ struct Frame {
         steps.push_back(step);
     }
 
-    void clear() {
-        steps.clear();
-        onlySources = true;
+    void clear() { steps.clear(); }
+
+    /// Whether all layers are laid over what is there: then they may be moved onto another frame, since
+    /// `over` is associative. Blend modes and masks see what is in the frame.
+    bool onlyOver() const {
+        unsigned depth = 0;
+        return std::none_of(steps.begin(), steps.end(), [&](const Step& step) {
+            depth = depthAfter(step, depth);
+            return depth == 0 && isPop(step) &&
+                   (step.first.op != Op::Pop || step.first.blend != asset::Blend::Normal);
+        });
     }
 
     void nested(const Frame& child, Op pop, asset::Blend blend, float opacity) {
         steps.push_back({Instruction{Op::Push}, {}});
         steps.insert(steps.end(), child.steps.begin(), child.steps.end());
         steps.push_back({Instruction{pop, blend, opacity, 0}, {}});
-        onlySources = false;
+    }
+
+    /// The child's layers, one by one; it has onlyOver.
+    void laid(const Frame& child) {
+        unsigned depth = 0;
+        for (const Step& step : child.steps) {
+            if (depth == 0 && step.first.op >= Op::Solid)
+                source(step, false);
+            else
+                steps.push_back(step);
+            depth = depthAfter(step, depth);
+        }
+    }
+
+    /// While the frame is a single group, laid on nothing, that group gives way to its content. Returns its
+    /// opacity.
+    float unwrap() {
+        float opacity = 1;
+        while (isOneGroup()) {
+            opacity *= steps.back().first.opacity;
+            steps.pop_back();
+            steps.erase(steps.begin());
+        }
+        return opacity;
+    }
+
+private:
+    static bool isPop(const Step& step) { return step.first.op > Op::Push && step.first.op < Op::Solid; }
+    static unsigned depthAfter(const Step& step, unsigned depth) {
+        return step.first.op == Op::Push ? depth + 1 : isPop(step) ? depth - 1 : depth;
+    }
+
+    bool isOneGroup() const {
+        if (steps.size() < 2 || steps.front().first.op != Op::Push || steps.back().first.op != Op::Pop)
+            return false;
+        unsigned depth = 0;
+        return std::none_of(steps.begin(), steps.end() - 1, [&](const Step& step) {
+            depth = depthAfter(step, depth);
+            return depth == 0;
+        });
     }
 };
 
@@ -110,20 +155,23 @@ private:
     static void blend(Frame& parent, Frame& child, const PictureGroup& group) {
         if (child.steps.empty())
             return;
-        if (parent.steps.empty() && group.opacity >= 1) {  // nothing below: blending changes nothing
+        const float opacity = group.opacity * child.unwrap();
+        if (parent.steps.empty() && opacity >= 1) {  // nothing below: blending changes nothing
             parent = std::move(child);
             return;
         }
         const bool normal = group.blend == scene::BlendMode::Normal || parent.steps.empty();
-        if (normal && child.constant())
-            parent.solid(scaled(child.color(), group.opacity));
-        else if (normal && group.opacity >= 1 && child.onlySources)
-            for (const Step& step : child.steps)
-                parent.source(step, false);
-        else
+        if (normal && child.constant()) {
+            parent.solid(scaled(child.color(), opacity));
+        } else if (normal && child.steps.size() == 1) {
+            child.steps[0].first.opacity *= opacity;
+            parent.source(child.steps[0], false);
+        } else if (normal && opacity >= 1 && child.onlyOver()) {
+            parent.laid(child);
+        } else {
             parent.nested(child, Op::Pop,
-                          normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend),
-                          group.opacity);
+                          normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend), opacity);
+        }
     }
 
     static void mask(Frame& parent, const Frame& child, GroupRole role) {
