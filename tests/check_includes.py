@@ -33,6 +33,7 @@ MODULES = {
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
 MODULES["tools"] = EVERYTHING
+MODULES["examples"] = EVERYTHING
 MODULES["tests"] = EVERYTHING
 
 ANYWHERE = None
