@@ -1,10 +1,7 @@
 #include "compiler/src/composite.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
-#include "compiler/compile.hpp"
 #include "compiler/src/walk_items.hpp"
 
 namespace vtm::compiler {
@@ -12,8 +9,6 @@ namespace {
 
 using asset::Instruction;
 using asset::Op;
-using Color = std::array<float, 4>;
-using Step = Palette::Program::value_type;
 
 Color scaled(Color c, float by) {
     for (float& v : c)
@@ -21,38 +16,29 @@ Color scaled(Color c, float by) {
     return c;
 }
 
-/// Porter-Duff source over, premultiplied.
-Color over(const Color& s, const Color& d) {
-    Color r;
-    for (std::size_t i = 0; i < 4; ++i)
-        r[i] = s[i] + (1 - s[3]) * d[i];
-    return r;
-}
-
 /// One isolated group while it is being composited: the steps that build it on transparent black.
 struct Frame {
-    Palette::Program steps;
+    PaintProgram steps;
     bool onlySources = true;  ///< no nested groups: the steps may be moved onto another frame
 
-    bool constant() const { return steps.empty() || (steps.size() == 1 && steps[0].first.op == Op::Solid); }
-    Color color() const { return steps.empty() ? Color{} : steps[0].second; }
+    bool constant() const { return Palette::isConstant(steps); }
+    Color color() const { return Palette::colorOf(steps); }
 
     void solid(const Color& s) {
         if (s[3] <= 0)
             return;
         if (s[3] >= 1)
             clear();
-        if (!steps.empty() && steps.back().first.op == Op::Solid)
-            steps.back().second =
-                over(s, steps.back().second);  // (s over t) over rest = s over (t over rest)
+        if (!steps.empty() && steps.back().instruction.op == Op::Solid)
+            steps.back().color = over(s, steps.back().color);  // (s over t) over rest = s over (t over rest)
         else
             steps.push_back({Instruction{Op::Solid}, s});
     }
 
-    void source(const Step& step, bool opaque) {
-        if (step.first.op == Op::Solid)
-            return solid(scaled(step.second, step.first.opacity));
-        if (opaque && step.first.opacity >= 1)
+    void source(const PaintStep& step, bool opaque) {
+        if (step.instruction.op == Op::Solid)
+            return solid(scaled(step.color, step.instruction.opacity));
+        if (opaque && step.instruction.opacity >= 1)
             clear();
         steps.push_back(step);
     }
@@ -117,7 +103,7 @@ private:
         if (normal && child.constant())
             parent.solid(scaled(child.color(), group.opacity));
         else if (normal && group.opacity >= 1 && child.onlySources)
-            for (const Step& step : child.steps)
+            for (const PaintStep& step : child.steps)
                 parent.source(step, false);
         else
             parent.nested(child, Op::Pop,
@@ -147,70 +133,10 @@ private:
     std::vector<Frame> frames_;
 };
 
-void checkStack(const Palette::Program& steps) {
-    unsigned depth = 1;
-    for (const Step& step : steps) {
-        if (step.first.op == Op::Push && ++depth > asset::maxStack)
-            throw LimitError("groups that cannot be folded are nested more than " +
-                             std::to_string(asset::maxStack - 1) + " deep");
-        depth -= step.first.op == Op::Pop || step.first.op == Op::PopMaskAlpha ||
-                 step.first.op == Op::PopMaskLinear || step.first.op == Op::PopMaskLuminance;
-    }
-}
-
-template <class T>
-void appendBytes(std::string& key, const T& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 }  // namespace
 
-Palette::Palette(asset::Asset& asset) : asset_(asset) { solid({0, 0, 0, 0}); }
-
-std::uint16_t Palette::intern(const std::string& key, const asset::Paint& paint) {
-    if (asset_.paints.size() > 0xFFFF)
-        throw LimitError("the picture has more than 65536 distinct region paints");
-    const auto id = static_cast<std::uint16_t>(asset_.paints.size());
-    asset_.paints.push_back(paint);
-    index_.emplace(key, id);
-    return id;
-}
-
-std::uint16_t Palette::solid(const std::array<float, 4>& c) {
-    std::string key;
-    appendBytes(key, c);
-    if (const auto found = index_.find(key); found != index_.end())
-        return found->second;
-    asset::Paint paint;
-    std::transform(c.begin(), c.end(), paint.begin(),
-                   [](float v) { return std::bit_cast<std::uint32_t>(v); });
-    return intern(key, paint);
-}
-
-std::uint16_t Palette::program(const Program& steps) {
-    checkStack(steps);
-    std::string key(1, 'p');
-    for (const Step& step : steps)
-        appendBytes(key, step.first), appendBytes(key, step.second);
-    if (const auto found = index_.find(key); found != index_.end())
-        return found->second;
-
-    const auto first = static_cast<std::uint32_t>(asset_.data.size());
-    const auto count = static_cast<std::uint32_t>(steps.size());
-    asset_.data.resize(first + count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        Instruction instruction = steps[i].first;
-        if (instruction.op == Op::Solid) {
-            instruction.argument = static_cast<std::uint32_t>(asset_.data.size());
-            asset_.data.push_back(std::bit_cast<asset::Texel>(steps[i].second));
-        }
-        asset_.data[first + i] = std::bit_cast<asset::Texel>(instruction);
-    }
-    return intern(key, {first, count, 0, asset::programTag});
-}
-
-std::uint16_t composite(const Picture& picture, std::span<const std::uint32_t> items,
-                        const std::vector<std::uint8_t>& inside, Palette& palette) {
+PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
+                  const std::vector<std::uint8_t>& inside, Palette& palette) {
     const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };
     const auto shown = [&](std::uint32_t group) {
         for (; group != none; group = picture.groups[group].parent)
@@ -227,7 +153,7 @@ std::uint16_t composite(const Picture& picture, std::span<const std::uint32_t> i
     }
     walk.finish();
     const Frame& frame = compositor.result();
-    return frame.constant() ? palette.solid(frame.color()) : palette.program(frame.steps);
+    return palette.add(frame.steps);
 }
 
 }  // namespace vtm::compiler

@@ -1,0 +1,106 @@
+/// \file
+/// A block: one subtree, built by one thread.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <set>
+
+#include "compiler/src/cell.hpp"
+#include "compiler/src/fit.hpp"
+#include "compiler/src/planar.hpp"
+#include "compiler/src/tree.hpp"
+
+namespace vtm::compiler {
+
+/// Pairs of chords looked at before the picture is refused.
+class WorkLimit {
+public:
+    /// Throws LimitError beyond the limit.
+    void spend(std::size_t work);
+
+private:
+    std::atomic<std::size_t> spent_{0};
+};
+
+/// What passing one chord down a level, or classifying one point by it, counts in pairs. Without it
+/// thousands of equal outlines, which go down to the last level, are pushed and sampled for minutes.
+inline constexpr std::size_t visitWork = 100;
+
+/// Drops the layers that cannot show in a cell.
+class Culler {
+public:
+    Culler(const Picture& picture, Painter& painter)
+        : picture_(picture), painter_(painter), covers_(picture.layers.size(), Cover::Out) {}
+    void run(Cell& cell);
+
+private:
+    const Picture& picture_;
+    Painter& painter_;
+    std::vector<Cover> covers_;  ///< by layer
+    std::vector<std::uint32_t> layers_;
+    std::vector<std::uint8_t> keep_;
+};
+
+/// The leaf's layers and what they make of a place by its windings.
+class LeafRegions : public RegionPaints {
+public:
+    LeafRegions(const Picture& picture, Painter& painter)
+        : picture_(picture), painter_(painter), inside_(picture.layers.size()) {}
+    /// Also numbers the cell's windings by `layers`.
+    void enter(const Cell& cell, Palette& palette);
+    PaintId paint(std::span<const int> windings) override;
+
+    std::vector<std::uint32_t> layers;  ///< of the cell, ascending
+    std::vector<int> corner;            ///< windings at the first corner, one for each of `layers`
+
+private:
+    PaintId compute(std::span<const int> windings);
+
+    const Picture& picture_;
+    Painter& painter_;
+    Palette* palette_ = nullptr;
+    std::vector<std::uint8_t> inside_;  ///< by layer
+    std::vector<std::pair<std::uint64_t, PaintId>> seen_;
+};
+
+/// Builds blocks, one after the other, keeping its memory.
+class BlockBuilder {
+public:
+    BlockBuilder(const Picture& picture, const Painter& painter, const TreeOptions& options, WorkLimit& work)
+        : picture_(picture),
+          points_(picture.outlines.points),
+          painter_(painter.clone()),
+          options_(options),
+          work_(work),
+          culler_(picture, *painter_),
+          regions_(picture, *painter_) {}
+
+    Tree run(Cell cell);
+    const TreeTimes& times() const { return times_; }
+
+private:
+    asset::Entry build(Cell& cell);
+    asset::Entry buildNode(Cell& cell);
+    std::size_t distinctChords(const Cell& cell, std::size_t most) const;
+    const FittedLeaf* makeLeaf(const Cell& cell);
+    asset::Entry emit(const FittedLeaf& leaf);
+    asset::Entry emitMean(const Cell& cell);
+
+    const Picture& picture_;
+    const Points points_;
+    const std::unique_ptr<Painter> painter_;
+    const TreeOptions& options_;
+    WorkLimit& work_;
+    Culler culler_;
+    LeafRegions regions_;
+    Planariser planariser_;
+    Fitter fitter_;
+    std::vector<Strand> strands_;
+    std::deque<std::array<Cell, 16>> children_;  ///< by level; a deque, so that growing moves none
+    unsigned firstLevel_ = 0;
+    Tree tree_;
+    TreeTimes times_;
+};
+
+}  // namespace vtm::compiler
