@@ -103,35 +103,84 @@ PaintId LeafRegions::compute(std::span<const int> windings) {
 Tree BlockBuilder::run(Cell cell) {
     tree_ = {};
     firstLevel_ = cell.level;
-    tree_.root = build(cell);
+    tree_.root = build(cell).entry;
     return std::move(tree_);
 }
 
-Entry BlockBuilder::build(Cell& cell) {
+/// `cell` is culled already.
+BlockBuilder::Built BlockBuilder::build(Cell& cell) {
     work_.spend(cell.strands.size() * visitWork);
-    {
-        const Stopwatch watch(times_.push);
-        culler_.run(cell);
-    }
     if (cell.strands.empty()) {
         regions_.enter(cell, tree_.palette);
-        return Entry::make(Entry::Kind::Solid, regions_.paint(regions_.corner));
+        return solid(regions_.paint(regions_.corner), cell.level);
     }
-    const bool last = cell.level >= options_.maxDepth;
-    const std::size_t most = last ? maxChordsInLastLeaf : maxChordsToTry;
-    const std::size_t distinct =
-        last || cell.level >= options_.minDepth ? distinctChords(cell, most) : most + 1;
-    if (last && distinct > most)
+    if (cell.level >= options_.maxDepth)
+        return buildLast(cell);
+    if (cell.level < options_.minDepth)
+        return buildNode(cell, push(cell));
+    return options_.piecesPerLeaf ? buildFixed(cell) : buildBest(cell);
+}
+
+BlockBuilder::Built BlockBuilder::buildLast(Cell& cell) {
+    if (distinctChords(cell, maxChordsInLastLeaf) > maxChordsInLastLeaf)
         return emitMean(cell);
-    if (distinct <= most) {
-        work_.spend(distinct * distinct);
-        const FittedLeaf* leaf = makeLeaf(cell);
-        if (leaf && (last || leaf->pieces.size() <= options_.piecesPerLeaf))
-            return emit(*leaf);
-        if (last)
-            return emitMean(cell);
+    const FittedLeaf* leaf = makeLeaf(cell);
+    return leaf ? emit(*leaf, cell.level) : emitMean(cell);
+}
+
+BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
+    if (canTry(cell))
+        if (const FittedLeaf* leaf = makeLeaf(cell); leaf && leaf->pieces.size() <= *options_.piecesPerLeaf)
+            return emit(*leaf, cell.level);
+    return buildNode(cell, push(cell));
+}
+
+/// A leaf if it costs less than its children would, guessed from the number of strands first (about as
+/// many as pieces), then known. Where outlines hide each other the guess can be too high by far, so
+/// children that turn out cheap to join are tried as one leaf after all.
+BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
+    const CostModel& model = options_.cost;
+    const auto strands = static_cast<double>(cell.strands.size());
+    Children* children = nullptr;
+    bool tried = false;
+    if (mayBeWorthSplitting(strands, cell.level)) {
+        children = &push(cell);
+        tried = model.leaf(strands, cell.level) > splitCost(*children, 1);
     }
-    return buildNode(cell);
+    if (!tried && canTry(cell)) {
+        tried = true;
+        if (const FittedLeaf* leaf = makeLeaf(cell)) {
+            const auto pieces = static_cast<double>(leaf->pieces.size());
+            if (!mayBeWorthSplitting(pieces, cell.level))
+                return emit(*leaf, cell.level);
+            if (!children)
+                children = &push(cell);
+            if (model.leaf(pieces, cell.level) <= splitCost(*children, std::max(1.0, pieces / strands)))
+                return emit(*leaf, cell.level);
+        }
+    }
+    return buildNode(cell, children ? *children : push(cell));
+}
+
+/// Drawing all of the leaf for nothing would not pay for a node.
+bool BlockBuilder::mayBeWorthSplitting(double pieces, unsigned level) const {
+    return CostModel::drawing(pieces, level) > options_.cost.node();
+}
+
+double BlockBuilder::splitCost(const Children& children, double piecesPerStrand) const {
+    double cost = options_.cost.node();
+    for (const Cell& child : children)
+        cost += options_.cost.leaf(static_cast<double>(child.strands.size()) * piecesPerStrand, child.level);
+    return cost;
+}
+
+/// Whether the cell is within the limits of a leaf that may still be split.
+bool BlockBuilder::canTry(const Cell& cell) {
+    const std::size_t distinct = distinctChords(cell, maxChordsToTry);
+    if (distinct > maxChordsToTry)
+        return false;
+    work_.spend(distinct * distinct);
+    return true;
 }
 
 /// Equal chords of many layers (a shape repeated) count once: snapping merges them at once. Stops
@@ -150,30 +199,41 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) con
     return ends.size();
 }
 
-Entry BlockBuilder::buildNode(Cell& cell) {
+/// What of the cell is in its children, without what cannot show there.
+BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
+    const Stopwatch watch(times_.push);
     const std::size_t depth = cell.level - firstLevel_;
     while (children_.size() <= depth)
         children_.emplace_back();
-    std::array<Cell, 16>& children = children_[depth];
-    {
-        const Stopwatch watch(times_.push);
-        splitCell(points_, cell, children);
-    }
+    Children& children = children_[depth];
+    splitCell(points_, cell, children);
+    for (Cell& child : children)
+        culler_.run(child);
+    return children;
+}
+
+BlockBuilder::Built BlockBuilder::buildNode(const Cell& cell, Children& children) {
     const std::size_t index = tree_.nodes.size();  // before its children's: walks need no cycle check
     tree_.nodes.emplace_back();
     asset::Node node;
-    for (std::size_t i = 0; i < 16; ++i)
-        node.children[i] = build(children[i]);
+    double cost = options_.cost.node();
+    for (std::size_t i = 0; i < 16; ++i) {
+        const Built child = build(children[i]);
+        node.children[i] = child.entry;
+        cost += child.cost;
+    }
     const Entry first = node.children[0];
-    const bool same =
-        first.kind() == Entry::Kind::Solid && std::all_of(node.children.begin(), node.children.end(),
-                                                          [&](Entry e) { return e.bits == first.bits; });
-    if (same) {
+    if (first.kind() == Entry::Kind::Solid && std::all_of(node.children.begin(), node.children.end(),
+                                                          [&](Entry e) { return e.bits == first.bits; })) {
         tree_.nodes.pop_back();  // solid children made no nodes
-        return first;
+        return solid(first.payload(), cell.level);
     }
     tree_.nodes[index] = node;
-    return Entry::make(Entry::Kind::Node, static_cast<std::uint32_t>(index));
+    return {Entry::make(Entry::Kind::Node, static_cast<std::uint32_t>(index)), cost};
+}
+
+BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {
+    return {Entry::make(Entry::Kind::Solid, paint), options_.cost.leaf(0, level)};
 }
 
 /// Nothing if it cannot be proven, or has too many pieces for the format.
@@ -198,17 +258,18 @@ const FittedLeaf* BlockBuilder::makeLeaf(const Cell& cell) {
     return fitted.pieces.size() <= maxLeafPieces ? &fitted : nullptr;
 }
 
-Entry BlockBuilder::emit(const FittedLeaf& fitted) {
+BlockBuilder::Built BlockBuilder::emit(const FittedLeaf& fitted, unsigned level) {
     if (fitted.pieces.empty())
-        return Entry::make(Entry::Kind::Solid, fitted.corners[0]);
+        return solid(fitted.corners[0], level);
     tree_.leaves.push_back({static_cast<std::uint32_t>(tree_.pieces.size()),
                             static_cast<std::uint32_t>(fitted.pieces.size()), fitted.corners});
     tree_.pieces.insert(tree_.pieces.end(), fitted.pieces.begin(), fitted.pieces.end());
-    return Entry::make(Entry::Kind::Leaf, static_cast<std::uint32_t>(tree_.leaves.size() - 1));
+    return {Entry::make(Entry::Kind::Leaf, static_cast<std::uint32_t>(tree_.leaves.size() - 1)),
+            options_.cost.leaf(static_cast<double>(fitted.pieces.size()), level)};
 }
 
 /// The fallback: the mean over 4 × 4 points, each classified by winding (after Ganacim et al. 2014).
-Entry BlockBuilder::emitMean(const Cell& cell) {
+BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
     ++tree_.fallbackLeaves;
     work_.spend(16 * cell.strands.size() * visitWork);
     regions_.enter(cell, tree_.palette);
@@ -226,7 +287,7 @@ Entry BlockBuilder::emitMean(const Cell& cell) {
         }
         paints.push_back(regions_.paint(windings));
     }
-    return Entry::make(Entry::Kind::Solid, painter_->mean(paints, tree_.palette));
+    return solid(painter_->mean(paints, tree_.palette), cell.level);
 }
 
 }  // namespace vtm::compiler

@@ -80,12 +80,27 @@ public:
     const TreeTimes& times() const { return times_; }
 
 private:
-    asset::Entry build(Cell& cell);
-    asset::Entry buildNode(Cell& cell);
+    /// An entry and what it costs, all below it included.
+    struct Built {
+        asset::Entry entry;
+        double cost = 0;
+    };
+    using Children = std::array<Cell, 16>;
+
+    Built build(Cell& cell);
+    Built buildFixed(Cell& cell);
+    Built buildBest(Cell& cell);
+    Built buildLast(Cell& cell);
+    Built buildNode(const Cell& cell, Children& children);
+    Children& push(const Cell& cell);
+    bool mayBeWorthSplitting(double pieces, unsigned level) const;
+    double splitCost(const Children& children, double piecesPerStrand) const;
+    Built solid(PaintId paint, unsigned level) const;
+    bool canTry(const Cell& cell);
     std::size_t distinctChords(const Cell& cell, std::size_t most) const;
     const FittedLeaf* makeLeaf(const Cell& cell);
-    asset::Entry emit(const FittedLeaf& leaf);
-    asset::Entry emitMean(const Cell& cell);
+    Built emit(const FittedLeaf& leaf, unsigned level);
+    Built emitMean(const Cell& cell);
 
     const Picture& picture_;
     const Points points_;
@@ -97,7 +112,7 @@ private:
     Planariser planariser_;
     Fitter fitter_;
     std::vector<Strand> strands_;
-    std::deque<std::array<Cell, 16>> children_;  ///< by level; a deque, so that growing moves none
+    std::deque<Children> children_;  ///< by level; a deque, so that growing moves none
     unsigned firstLevel_ = 0;
     Tree tree_;
     TreeTimes times_;

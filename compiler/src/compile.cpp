@@ -24,12 +24,14 @@ int latticeBits(double tolerance) {
 
 /// Of the whole tolerance: what chords may take from the curves, and pieces from the chords. The rest
 /// is left to quantisation.
-constexpr double chordShare = 1.0 / 8, fitShare = 1.0 / 4, quantisationShare = 1.0 / 8;
+constexpr double chordShare = 1.0 / 4, fitShare = 1.0 / 2, quantisationShare = 1.0 / 8;
 
 void checkOptions(const Options& o) {
     if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
         throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
-    if (o.piecesPerLeaf < 1 || o.piecesPerLeaf > 4096)
+    if (!(o.nanosecondsPerByte >= 1 && o.nanosecondsPerByte <= 1e6))
+        throw std::invalid_argument("nanosecondsPerByte must lie in [1, 1e6]");
+    if (o.piecesPerLeaf && (*o.piecesPerLeaf < 1 || *o.piecesPerLeaf > 4096))
         throw std::invalid_argument("piecesPerLeaf must lie in [1, 4096]");
     if (o.maxDepth > asset::maxLevel)
         throw std::invalid_argument("maxDepth must be at most " + std::to_string(asset::maxLevel));
@@ -39,6 +41,7 @@ TreeOptions treeOptions(const Options& o) {
     const int bits = latticeBits(o.tolerance);
     TreeOptions t;
     t.fitTolerance = std::ldexp(o.tolerance * fitShare, bits);
+    t.cost.nanosecondsPerByte = o.nanosecondsPerByte;
     t.piecesPerLeaf = o.piecesPerLeaf;
     t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(bits - lastCellBits) / 2);
     // A leaf's end points are rounded by half of 1/65535 of its side in each axis.

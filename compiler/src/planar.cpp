@@ -96,36 +96,37 @@ Chord Planariser::chordAt(const Axis& axis, const Edge& e, Coord m) const {
     return {leaf_.set->vertex(e, k), leaf_.set->vertex(e, k + 1)};
 }
 
-/// Whether f meets the line v = m + ½ before e does. In doubles the positions are within 2^-20 steps;
-/// nearer ones are compared exactly.
-bool Planariser::before(const Axis& axis, const Edge& f, const Edge& e, Coord m) const {
+/// Where a chord meets the line v = m + ½: u + du · rise / (2 dv).
+struct Planariser::Place {
+    std::int64_t u, du, dv, rise;
+
+    Place(const Axis& axis, const Chord& c, Coord m)
+        : u(axis.u(c.a)),
+          du(std::int64_t{axis.u(c.b)} - axis.u(c.a)),
+          dv(std::int64_t{axis.v(c.b)} - axis.v(c.a)),
+          rise(2 * std::int64_t{m} + 1 - 2 * std::int64_t{axis.v(c.a)}) {}
+
+    double value() const {
+        return static_cast<double>(u) +
+               static_cast<double>(du) * static_cast<double>(rise) / (2.0 * static_cast<double>(dv));
+    }
+};
+
+/// In doubles the places are within 2^-20 steps; nearer ones are compared exactly.
+bool Planariser::isBefore(const Place& f, const Place& e) {
     constexpr double sure = 1e-3;
-    struct Line {
-        std::int64_t u, du, dv, rise;  ///< position = u + du · rise / (2 dv)
-        double value() const {
-            return static_cast<double>(u) +
-                   static_cast<double>(du) * static_cast<double>(rise) / (2.0 * static_cast<double>(dv));
-        }
-    };
-    const auto line = [&](const Edge& g) {
-        const Chord c = chordAt(axis, g, m);
-        return Line{axis.u(c.a), std::int64_t{axis.u(c.b)} - axis.u(c.a),
-                    std::int64_t{axis.v(c.b)} - axis.v(c.a),
-                    2 * std::int64_t{m} + 1 - 2 * std::int64_t{axis.v(c.a)}};
-    };
-    const Line pf = line(f), pe = line(e);
-    const double difference = pf.value() - pe.value();
+    const double difference = f.value() - e.value();
     if (std::abs(difference) > sure)
         return difference < 0;
     struct Ratio {
         Int128 numerator;
         std::int64_t denominator;
     };
-    const auto exact = [](const Line& l) {
-        Ratio r{Int128{2 * l.u} * l.dv + Int128{l.rise} * l.du, 2 * l.dv};
+    const auto exact = [](const Place& p) {
+        Ratio r{Int128{2 * p.u} * p.dv + Int128{p.rise} * p.du, 2 * p.dv};
         return r.denominator < 0 ? Ratio{-r.numerator, -r.denominator} : r;
     };
-    const Ratio rf = exact(pf), re = exact(pe);
+    const Ratio rf = exact(f), re = exact(e);
     return rf.numerator * re.denominator < re.numerator * rf.denominator;
 }
 
@@ -140,9 +141,16 @@ void Planariser::sweepTo(std::uint32_t index) {
     for (const End& end : border_[axis.alongX ? 3 : 0])
         if (axis.v(end.at) <= m)
             cross(swept_, edges[end.edge], border.crossingSign(edges[end.edge]));
-    for (std::uint32_t f = 0; f < edges.size(); ++f)
-        if (f != index && axis.meets(edges[f], m) && before(axis, edges[f], e, m))
-            cross(swept_, edges[f], axis.crossingSign(edges[f]));
+    const Place place(axis, chordAt(axis, e, m), m);
+    const auto [low, high] = std::minmax(axis.u(e.a), axis.u(e.b));
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        const Edge& f = edges[i];
+        if (i == index || !axis.meets(f, m))
+            continue;
+        const auto [fLow, fHigh] = std::minmax(axis.u(f.a), axis.u(f.b));
+        if (fHigh < low || (fLow <= high && isBefore(Place(axis, chordAt(axis, f, m), m), place)))
+            cross(swept_, f, axis.crossingSign(f));
+    }
     // We stand on the left of an edge that is crossed with -1, on the right of the other kind.
     const int crossing = axis.crossingSign(e);
     const PaintId here = paints_->paint(swept_);

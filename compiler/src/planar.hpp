@@ -55,6 +55,7 @@ public:
 private:
     using Windings = std::vector<int>;
     struct Axis;
+    struct Place;
     /// An edge's end at a vertex.
     struct End {
         LatticePoint at;
@@ -66,7 +67,7 @@ private:
     int sideOf(LatticePoint p) const;
     void cross(Windings& w, const Edge& e, int times) const;
     Chord chordAt(const Axis& axis, const Edge& e, Coord m) const;
-    bool before(const Axis& axis, const Edge& f, const Edge& e, Coord m) const;
+    static bool isBefore(const Place& f, const Place& e);
     void sweepTo(std::uint32_t index);
     void spread(std::uint32_t from);
     const End* other(std::uint32_t edge, bool isA) const;

@@ -13,6 +13,12 @@ bool isOnChord(LatticePoint a, LatticePoint b, LatticePoint p) {
            isBetween(std::min(a.y, b.y), p.y, std::max(a.y, b.y));
 }
 
+bool boxesMeet(const Edge& e, const Edge& f) {
+    return std::max(e.a.x, f.a.x) <= std::min(e.b.x, f.b.x) &&
+           std::max(std::min(e.a.y, e.b.y), std::min(f.a.y, f.b.y)) <=
+               std::min(std::max(e.a.y, e.b.y), std::max(f.a.y, f.b.y));
+}
+
 /// The crossing of a→b with a chord that it crosses properly, rounded to even. `atA`, `atB`: on which
 /// side of that chord the ends lie and how far, of opposite signs.
 LatticePoint crossing(LatticePoint a, LatticePoint b, std::int64_t atA, std::int64_t atB) {
@@ -72,54 +78,85 @@ void Snapper::clip(const Square& square, std::span<const Strand> strands) {
 
 // ---- meet -------------------------------------------------------------------------------------
 
+Snapper::Band Snapper::bandOf(const Edge& e) const {
+    Band band{static_cast<double>(std::int64_t{e.b.x} - e.a.x),
+              static_cast<double>(std::int64_t{e.b.y} - e.a.y), 0, 0, 0};
+    band.length2 = band.dx * band.dx + band.dy * band.dy;
+    for (std::uint32_t k = 1; k <= e.innerCount; ++k) {
+        const auto o = static_cast<double>(orient(e.a, e.b, set_.vertex(e, k)));
+        band.low = std::min(band.low, o);
+        band.high = std::max(band.high, o);
+    }
+    return band;
+}
+
+/// Whether f lies wholly on one side of e, by more than a step. Its vertices lie in the parallelogram of
+/// its ends moved across by its band: p = q + perp(d_f) o / |d_f|², so orient(e, p) = orient(e, q) + o
+/// (d_e · d_f) / |d_f|². Doubles are off by 2^-50 of 2^60, which is far below a step's |d_e|.
+bool Snapper::isBeside(std::uint32_t e, std::uint32_t f) const {
+    const Edge &s = set_.edges[e], &t = set_.edges[f];
+    const Band &bs = bands_[e], &bt = bands_[f];
+    const double k = (bs.dx * bt.dx + bs.dy * bt.dy) / bt.length2;
+    const auto atA = static_cast<double>(orient(s.a, s.b, t.a)),
+               atB = static_cast<double>(orient(s.a, s.b, t.b));
+    const double low = std::min(atA, atB) + (k > 0 ? k * bt.low : k * bt.high);
+    const double high = std::max(atA, atB) + (k > 0 ? k * bt.high : k * bt.low);
+    const double step = std::abs(bs.dx) + std::abs(bs.dy);
+    return low > bs.high + step || high < bs.low - step;
+}
+
 bool Snapper::findSplits() {
     splits_.clear();
+    bands_.clear();
+    for (const Edge& e : set_.edges)
+        bands_.push_back(bandOf(e));
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
         for (std::uint32_t j = i + 1; j < edges.size() && edges[j].a.x <= edges[i].b.x; ++j)
-            if (fresh_[i] || fresh_[j])
-                meet(i, 0, edges[i].innerCount + 1, j, 0, edges[j].innerCount + 1);
+            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) && !isBeside(i, j) &&
+                !isBeside(j, i))
+                meet(i, whole(edges[i]), j, whole(edges[j]));
         if (splits_.size() > 4 * maxLeafEdges)
             return false;
     }
     return true;
 }
 
-/// Chords i0 .. i1 - 1 of edge e with j0 .. j1 - 1 of f: halves the longer chain while their boxes meet.
-void Snapper::meet(std::uint32_t e, std::uint32_t i0, std::uint32_t i1, std::uint32_t f, std::uint32_t j0,
-                   std::uint32_t j1) {
-    const Edge &s = set_.edges[e], &t = set_.edges[f];
-    const LatticePoint p0 = set_.vertex(s, i0), p1 = set_.vertex(s, i1);
-    const LatticePoint q0 = set_.vertex(t, j0), q1 = set_.vertex(t, j1);
-    const Coord left = std::max(p0.x, q0.x), right = std::min(p1.x, q1.x);
+/// The chords of a part of edge e with those of a part of f: halves the longer part while their boxes
+/// meet.
+void Snapper::meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q) {
+    const Coord left = std::max(p.from.x, q.from.x), right = std::min(p.to.x, q.to.x);
     if (left > right)
         return;
-    const auto [pLow, pHigh] = std::minmax(p0.y, p1.y);
-    const auto [qLow, qHigh] = std::minmax(q0.y, q1.y);
+    const auto [pLow, pHigh] = std::minmax(p.from.y, p.to.y);
+    const auto [qLow, qHigh] = std::minmax(q.from.y, q.to.y);
     const Coord low = std::max(pLow, qLow), high = std::min(pHigh, qHigh);
     if (low > high)
         return;
+    const Edge &s = set_.edges[e], &t = set_.edges[f];
     if (left == right && low == high) {  // one common point, harmless if it is an end of both
-        const LatticePoint p{left, low};
-        if ((p == s.a || p == s.b) && (p == t.a || p == t.b))
+        const LatticePoint common{left, low};
+        if ((common == s.a || common == s.b) && (common == t.a || common == t.b))
             return;
     }
-    if (i1 - i0 == 1 && j1 - j0 == 1)
-        return meetChords(e, i0, f, j0);
-    if (i1 - i0 >= j1 - j0) {
-        const std::uint32_t middle = (i0 + i1) / 2;
-        meet(e, i0, middle, f, j0, j1);
-        meet(e, middle, i1, f, j0, j1);
+    const std::uint32_t pCount = p.last - p.first, qCount = q.last - q.first;
+    if (pCount == 1 && qCount == 1)
+        return meetChords(e, p, f, q);
+    const Part& longer = pCount >= qCount ? p : q;
+    const std::uint32_t middle = (longer.first + longer.last) / 2;
+    const LatticePoint at = set_.vertex(pCount >= qCount ? s : t, middle);
+    const Part before{longer.first, middle, longer.from, at}, after{middle, longer.last, at, longer.to};
+    if (pCount >= qCount) {
+        meet(e, before, f, q);
+        meet(e, after, f, q);
     } else {
-        const std::uint32_t middle = (j0 + j1) / 2;
-        meet(e, i0, i1, f, j0, middle);
-        meet(e, i0, i1, f, middle, j1);
+        meet(e, p, f, before);
+        meet(e, p, f, after);
     }
 }
 
-void Snapper::meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j) {
-    const LatticePoint a = set_.vertex(set_.edges[e], i), b = set_.vertex(set_.edges[e], i + 1);
-    const LatticePoint c = set_.vertex(set_.edges[f], j), d = set_.vertex(set_.edges[f], j + 1);
+void Snapper::meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q) {
+    const LatticePoint a = p.from, b = p.to, c = q.from, d = q.to;
     const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d);
     if ((atC > 0 && atD > 0) || (atC < 0 && atD < 0))
         return;
@@ -128,13 +165,13 @@ void Snapper::meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std:
         return;
     if (atA != 0 && atB != 0 && atC != 0 && atD != 0) {
         const LatticePoint x = crossing(a, b, atA, atB);
-        split(e, i, x);
-        split(f, j, x);
+        split(e, p.first, x);
+        split(f, q.first, x);
         return;
     }
-    const auto touch = [&](LatticePoint p) {
-        split(e, i, p);
-        split(f, j, p);
+    const auto touch = [&](LatticePoint at) {
+        split(e, p.first, at);
+        split(f, q.first, at);
     };
     if (atA == 0 && isOnChord(c, d, a))
         touch(a);

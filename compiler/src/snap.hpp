@@ -61,11 +61,24 @@ private:
         std::int64_t progress;  ///< along the chord
     };
 
+    /// How far the chain strays from the line a→b, as orient(a, b, ·) of its vertices, and that line.
+    struct Band {
+        double dx, dy, length2, low, high;
+    };
+
+    /// Vertices first .. last of an edge.
+    struct Part {
+        std::uint32_t first, last;
+        LatticePoint from, to;
+    };
+
     void clip(const Square& square, std::span<const Strand> strands);
+    Band bandOf(const Edge& e) const;
+    bool isBeside(std::uint32_t e, std::uint32_t f) const;
     bool findSplits();
-    void meet(std::uint32_t e, std::uint32_t i0, std::uint32_t i1, std::uint32_t f, std::uint32_t j0,
-              std::uint32_t j1);
-    void meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
+    static Part whole(const Edge& e) { return {0, e.innerCount + 1, e.a, e.b}; }
+    void meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
+    void meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
     void applySplits();
     void reverse(Edge& e);
@@ -77,6 +90,7 @@ private:
 
     EdgeSet set_;
     std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
+    std::vector<Band> bands_;          ///< of each edge
     std::vector<Split> splits_;
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;

@@ -32,6 +32,7 @@ public:
           culler_(picture, painter),
           most_(std::max(blockStrands, strands / blockShare)) {}
 
+    /// The cells of blocks are culled.
     Top run(Cell cell) {
         culler_.run(cell);
         if (cell.strands.size() <= most_ || cell.level >= blockLevel) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "asset/asset.hpp"
+#include "compiler/src/cost.hpp"
 #include "compiler/src/palette.hpp"
 #include "compiler/src/picture.hpp"
 
@@ -34,7 +36,9 @@ public:
 
 struct TreeOptions {
     double fitTolerance = 1;  ///< lattice steps
-    unsigned piecesPerLeaf = 12;
+    CostModel cost;
+    /// Instead of the cost model: a leaf with more pieces is split.
+    std::optional<unsigned> piecesPerLeaf;
     unsigned minDepth = 2;  ///< of leaves with pieces: keeps their quantisation below the tolerance
     unsigned maxDepth = 8;
 };
