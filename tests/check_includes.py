@@ -38,6 +38,7 @@ ANYWHERE = None
 LIBRARIES = {
     r"glm/.*": ANYWHERE,
     r"fmt/.*": ANYWHERE,
+    r"tbb/.*": {"compiler"},
     r"gtest/.*|gmock/.*": ANYWHERE,
     r"pugixml\.hpp": {"svg"},
     r"zlib\.h": {"svg", "asset", "image"},

@@ -66,32 +66,22 @@ void Culler::run(Cell& cell) {
 void LeafRegions::enter(const Cell& cell, Palette& palette) {
     palette_ = &palette;
     listLayers(cell, layers);
-    corner.assign(layers.size(), 0);
+    std::vector<scene::FillRule> rules;
+    std::vector<int> corner(layers.size());
+    for (std::uint32_t layer : layers)
+        rules.push_back(picture_.layers[layer].rule);
     std::size_t i = 0;
     for (const LayerWinding& w : cell.windings) {
         while (layers[i] != w.layer)
             ++i;
         corner[i] = w.winding;
     }
-    seen_.clear();
+    RegionPaints::enter(std::move(rules), std::move(corner));
 }
 
-PaintId LeafRegions::paint(std::span<const int> windings) {
-    if (layers.size() > 64)
-        return compute(windings);
-    std::uint64_t key = 0;
-    for (std::size_t i = 0; i < windings.size(); ++i)
-        key |= std::uint64_t{isInside(picture_.layers[layers[i]], windings[i])} << i;
-    for (const auto& [seen, paint] : seen_)
-        if (seen == key)
-            return paint;
-    seen_.emplace_back(key, compute(windings));
-    return seen_.back().second;
-}
-
-PaintId LeafRegions::compute(std::span<const int> windings) {
-    for (std::size_t i = 0; i < layers.size(); ++i)
-        inside_[layers[i]] = isInside(picture_.layers[layers[i]], windings[i]);
+PaintId LeafRegions::compute() {
+    for (std::uint32_t i = 0; i < layers.size(); ++i)
+        inside_[layers[i]] = isInside(i);
     const PaintId result = painter_.paint(layers, inside_, *palette_);
     for (std::uint32_t layer : layers)
         inside_[layer] = false;
@@ -112,7 +102,7 @@ BlockBuilder::Built BlockBuilder::build(Cell& cell) {
     work_.spend(cell.strands.size() * visitWork);
     if (cell.strands.empty()) {
         regions_.enter(cell, tree_.palette);
-        return solid(regions_.paint(regions_.corner), cell.level);
+        return solid(regions_.paint(), cell.level);
     }
     if (cell.level >= options_.maxDepth)
         return buildLast(cell);
@@ -249,7 +239,7 @@ const FittedLeaf* BlockBuilder::makeLeaf(const Cell& cell) {
                 ++local;
             s.layer = local;
         }
-        planar = &planariser_.run(cell.square, points_, strands_, regions_.corner, regions_);
+        planar = &planariser_.run(cell.square, points_, strands_, regions_);
     }
     if (!planar->certified)
         return nullptr;
@@ -278,14 +268,15 @@ BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
     for (int i = 0; i < 16; ++i) {
         const LatticePoint p{(cell.square.x0 + (2 * (i % 4) + 1) * step) | 1,
                              (cell.square.y0 + (2 * (i / 4) + 1) * step) | 1};
-        std::vector<int> windings = regions_.corner;
-        std::size_t local = 0;
+        regions_.toCorner();
+        std::uint32_t local = 0;
         for (const Strand& s : cell.strands) {
             while (regions_.layers[local] != s.layer)
                 ++local;
-            windings[local] += windingBetween(points_, s, cell.square.corner(0), p);
+            if (const int winding = windingBetween(points_, s, cell.square.corner(0), p); winding != 0)
+                regions_.change(local, winding);
         }
-        paints.push_back(regions_.paint(windings));
+        paints.push_back(regions_.paint());
     }
     return solid(painter_->mean(paints, tree_.palette), cell.level);
 }

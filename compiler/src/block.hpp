@@ -42,26 +42,22 @@ private:
     std::vector<std::uint8_t> keep_;
 };
 
-/// The leaf's layers and what they make of a place by its windings.
+/// The regions of a cell.
 class LeafRegions : public RegionPaints {
 public:
     LeafRegions(const Picture& picture, Painter& painter)
         : picture_(picture), painter_(painter), inside_(picture.layers.size()) {}
-    /// Also numbers the cell's windings by `layers`.
     void enter(const Cell& cell, Palette& palette);
-    PaintId paint(std::span<const int> windings) override;
 
-    std::vector<std::uint32_t> layers;  ///< of the cell, ascending
-    std::vector<int> corner;            ///< windings at the first corner, one for each of `layers`
+    std::vector<std::uint32_t> layers;  ///< of the cell, ascending: the others are numbered by them
 
 private:
-    PaintId compute(std::span<const int> windings);
+    PaintId compute() override;
 
     const Picture& picture_;
     Painter& painter_;
     Palette* palette_ = nullptr;
     std::vector<std::uint8_t> inside_;  ///< by layer
-    std::vector<std::pair<std::uint64_t, PaintId>> seen_;
 };
 
 /// Builds blocks, one after the other, keeping its memory.

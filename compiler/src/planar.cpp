@@ -7,14 +7,6 @@ namespace {
 
 int sign(std::int64_t v) { return (v > 0) - (v < 0); }
 
-/// 64 well-mixed bits for a paint (SplitMix64): sums of them vanish by chance once in 2^64.
-std::uint64_t hash(PaintId paint) {
-    std::uint64_t z = (paint + std::uint64_t{1}) * 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
 }  // namespace
 
 /// A direction of sweeping over the edges: along +x at a height between two lattice rows, or along
@@ -32,22 +24,22 @@ struct Planariser::Axis {
 };
 
 const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span<const Strand> strands,
-                                  std::span<const int> windings, RegionPaints& paints) {
+                                  RegionPaints& regions) {
     square_ = square;
-    corner_ = windings;
-    paints_ = &paints;
+    regions_ = &regions;
     leaf_.certified = false;
     leaf_.set = snapper_.run(square, points, strands);
     if (!leaf_.set)
         return leaf_;
     leaf_.sides.assign(leaf_.set->edges.size(), {});
+    consistent_ = true;
     collectEnds();
     for (std::uint32_t e = 0; e < leaf_.sides.size(); ++e)
         if (!leaf_.sides[e].known) {
             sweepTo(e);
-            spread(e);
+            walkFrom(e);
         }
-    leaf_.certified = labelCorners() && certifyVertices() && certifySides();
+    leaf_.certified = labelCorners() && consistent_ && certifyVertices() && certifySides();
     return leaf_;
 }
 
@@ -63,13 +55,44 @@ void Planariser::collectEnds() {
     std::sort(ends_.begin(), ends_.end(),
               [](const End& p, const End& q) { return p.at != q.at ? p.at < q.at : p.edge < q.edge; });
     endOf_.resize(ends_.size());
+    firstOf_.resize(ends_.size());
+    visited_.assign(ends_.size(), false);
     for (auto& side : border_)
         side.clear();
-    for (std::uint32_t i = 0; i < ends_.size(); ++i) {
-        endOf_[2 * ends_[i].edge + (ends_[i].isA ? 0 : 1)] = i;
-        if (const int side = sideOf(ends_[i].at); side >= 0)
-            border_[static_cast<std::size_t>(side)].push_back(ends_[i]);
+    for (std::uint32_t first = 0; first < ends_.size();) {
+        std::uint32_t last = first + 1;
+        while (last < ends_.size() && ends_[last].at == ends_[first].at)
+            ++last;
+        const int side = sideOf(ends_[first].at);
+        visited_[first] = side >= 0;
+        if (last - first > 2 && side < 0)
+            sortRound(first, last);
+        for (; first < last; ++first) {
+            endOf_[2 * ends_[first].edge + (ends_[first].isA ? 0 : 1)] = first;
+            firstOf_[first] =
+                first > 0 && ends_[first - 1].at == ends_[first].at ? firstOf_[first - 1] : first;
+            if (side >= 0)
+                border_[static_cast<std::size_t>(side)].push_back(ends_[first]);
+        }
     }
+}
+
+/// The vertex after the end's own on its edge.
+LatticePoint Planariser::next(const End& end) const {
+    const Edge& e = leaf_.set->edges[end.edge];
+    return leaf_.set->vertex(e, end.isA ? 1 : e.innerCount);
+}
+
+/// Counter-clockwise by direction, from -y.
+void Planariser::sortRound(std::uint32_t first, std::uint32_t last) {
+    const LatticePoint at = ends_[first].at;
+    const auto isRight = [&](LatticePoint p) { return p.x > at.x || (p.x == at.x && p.y < at.y); };
+    std::sort(ends_.begin() + first, ends_.begin() + last, [&](const End& p, const End& q) {
+        const LatticePoint a = next(p), b = next(q);
+        if (isRight(a) != isRight(b))
+            return isRight(a);
+        return orient(at, a, b) > 0;
+    });
 }
 
 /// The side a point lies on, or -1 inside.
@@ -83,9 +106,9 @@ int Planariser::sideOf(LatticePoint p) const {
 
 // ---- label ------------------------------------------------------------------------------------
 
-void Planariser::cross(Windings& w, const Edge& e, int times) const {
+void Planariser::cross(const Edge& e, int times) {
     for (const Change& c : leaf_.set->of(e))
-        w[c.layer] += times * c.winding;
+        regions_->change(c.layer, times * c.winding);
 }
 
 /// The edge's chord that meets the line v = m + ½.
@@ -136,11 +159,11 @@ void Planariser::sweepTo(std::uint32_t index) {
     const Axis axis{e.a.y != e.b.y};
     const Coord m = std::min(axis.v(e.a), axis.v(e.b));
     // From the first corner along the border to the start of the sweep line v = m + ½.
-    swept_.assign(corner_.begin(), corner_.end());
+    regions_->toCorner();
     const Axis border{!axis.alongX};
     for (const End& end : border_[axis.alongX ? 3 : 0])
         if (axis.v(end.at) <= m)
-            cross(swept_, edges[end.edge], border.crossingSign(edges[end.edge]));
+            cross(edges[end.edge], border.crossingSign(edges[end.edge]));
     const Place place(axis, chordAt(axis, e, m), m);
     const auto [low, high] = std::minmax(axis.u(e.a), axis.u(e.b));
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
@@ -149,77 +172,97 @@ void Planariser::sweepTo(std::uint32_t index) {
             continue;
         const auto [fLow, fHigh] = std::minmax(axis.u(f.a), axis.u(f.b));
         if (fHigh < low || (fLow <= high && isBefore(Place(axis, chordAt(axis, f, m), m), place)))
-            cross(swept_, f, axis.crossingSign(f));
+            cross(f, axis.crossingSign(f));
     }
-    // We stand on the left of an edge that is crossed with -1, on the right of the other kind.
-    const int crossing = axis.crossingSign(e);
-    const PaintId here = paints_->paint(swept_);
-    cross(swept_, e, crossing);
-    const PaintId there = paints_->paint(swept_);
-    leaf_.sides[index] = crossing < 0 ? Sides{here, there, true} : Sides{there, here, true};
+    if (axis.crossingSign(e) > 0)  // met from its right
+        cross(e, 1);
 }
 
-/// Carries an edge's labels along both ways through inner vertices of degree two.
-void Planariser::spread(std::uint32_t from) {
-    for (const bool fromA : {true, false}) {
-        std::uint32_t edge = from;
-        bool isA = fromA;
-        while (const End* next = other(edge, isA)) {
-            if (leaf_.sides[next->edge].known)
-                break;
-            const Sides& l = leaf_.sides[edge];
-            const bool sameDirection = next->isA != isA;
-            leaf_.sides[next->edge] =
-                sameDirection ? Sides{l.left, l.right, true} : Sides{l.right, l.left, true};
-            edge = next->edge;
-            isA = !next->isA;
+/// From the left of an edge, all round the part of the map that it is connected with.
+void Planariser::walkFrom(std::uint32_t edge) {
+    const Edge& e = leaf_.set->edges[edge];
+    const PaintId left = regions_->paint();
+    arrive(endOf_[2 * edge + 1]);
+    walk();
+    cross(e, -1);
+    label(edge, {left, regions_->paint(), true});
+    arrive(endOf_[2 * edge]);
+    walk();
+}
+
+/// At the end of an edge that has been followed with the region on its left.
+void Planariser::arrive(std::uint32_t end) {
+    const std::uint32_t first = firstOf_[end];
+    if (visited_[first])
+        return;
+    visited_[first] = true;
+    std::uint32_t count = 1;
+    while (first + count < ends_.size() && firstOf_[first + count] == first)
+        ++count;
+    visits_.push_back({first, count, end - first, 0, false, regions_->windingSum()});
+}
+
+/// Going clockwise round a vertex from the edge by which one came, one stands on the left of the next
+/// edge, as seen from the vertex: follow it, walk round the vertex at its other end, which leads back
+/// here, then cross it.
+void Planariser::walk() {
+    while (!visits_.empty()) {
+        Visit& visit = visits_.back();
+        const std::uint32_t step = visit.crossed + 1;
+        const End& end =
+            ends_[visit.first + (visit.arrival + visit.count - step % visit.count) % visit.count];
+        const Edge& e = leaf_.set->edges[end.edge];
+        if (step < visit.count && !visit.followed) {
+            visit.followed = true;
+            arrive(endOf_[2 * end.edge + (end.isA ? 1 : 0)]);
+            continue;
+        }
+        const PaintId left = regions_->paint();
+        cross(e, end.isA ? -1 : 1);
+        const PaintId right = regions_->paint();
+        label(end.edge, end.isA ? Sides{left, right, true} : Sides{right, left, true});
+        visit.followed = false;
+        if (++visit.crossed == visit.count) {
+            consistent_ = consistent_ && regions_->windingSum() == visit.windingSum;
+            visits_.pop_back();
         }
     }
 }
 
-/// The only other edge's end at this end's vertex, if there is just one and it is inside.
-const Planariser::End* Planariser::other(std::uint32_t edge, bool isA) const {
-    const std::uint32_t i = endOf_[2 * edge + (isA ? 0 : 1)];
-    const LatticePoint at = ends_[i].at;
-    if (sideOf(at) >= 0)
-        return nullptr;
-    const auto same = [&](std::size_t k) { return k < ends_.size() && ends_[k].at == at; };
-    const bool before1 = i > 0 && same(i - 1), before2 = i > 1 && same(i - 2);
-    const bool after1 = same(i + 1), after2 = same(i + 2);
-    if (before1 && !before2 && !after1)
-        return &ends_[i - 1];
-    if (after1 && !after2 && !before1)
-        return &ends_[i + 1];
-    return nullptr;
+void Planariser::label(std::uint32_t edge, const Sides& sides) {
+    Sides& known = leaf_.sides[edge];
+    consistent_ = consistent_ && (!known.known || (known.left == sides.left && known.right == sides.right));
+    known = sides;
 }
 
 // ---- certify ----------------------------------------------------------------------------------
 
-void Planariser::along(Windings& w, std::size_t side) const {
+void Planariser::along(std::size_t side) {
     const Axis axis{side % 2 == 0};
     for (const End& end : border_[side])
-        cross(w, leaf_.set->edges[end.edge], axis.crossingSign(leaf_.set->edges[end.edge]));
+        cross(leaf_.set->edges[end.edge], axis.crossingSign(leaf_.set->edges[end.edge]));
 }
 
 /// Both ways from corner 0 to corner 2 must agree.
 bool Planariser::labelCorners() {
-    swept_.assign(corner_.begin(), corner_.end());
-    leaf_.corners[0] = paints_->paint(swept_);
-    along(swept_, 0);
-    leaf_.corners[1] = paints_->paint(swept_);
-    along(swept_, 1);
-    leaf_.corners[2] = paints_->paint(swept_);
-    other_.assign(corner_.begin(), corner_.end());
-    along(other_, 3);
-    leaf_.corners[3] = paints_->paint(other_);
-    along(other_, 2);
-    return other_ == swept_;
+    regions_->toCorner();
+    leaf_.corners[0] = regions_->paint();
+    along(0);
+    leaf_.corners[1] = regions_->paint();
+    along(1);
+    leaf_.corners[2] = regions_->paint();
+    const std::uint64_t sum = regions_->windingSum();
+    regions_->toCorner();
+    along(3);
+    leaf_.corners[3] = regions_->paint();
+    along(2);
+    return regions_->windingSum() == sum;
 }
 
-/// hash(left) - hash(right), as seen going to the vertex.
+/// mixed(left) - mixed(right), as seen going to the vertex.
 std::uint64_t Planariser::flow(const End& end) const {
     const Sides& l = leaf_.sides[end.edge];
-    const std::uint64_t d = hash(l.left) - hash(l.right);
+    const std::uint64_t d = mixed(l.left) - mixed(l.right);
     return end.isA ? 0 - d : d;
 }
 
@@ -237,7 +280,7 @@ bool Planariser::certifyVertices() const {
 
 bool Planariser::certifySides() const {
     for (std::size_t side = 0; side < 4; ++side) {
-        std::uint64_t sum = hash(leaf_.corners[side]) - hash(leaf_.corners[(side + 1) % 4]);
+        std::uint64_t sum = mixed(leaf_.corners[side]) - mixed(leaf_.corners[(side + 1) % 4]);
         for (const End& end : border_[side])
             sum += flow(end);
         if (sum != 0)

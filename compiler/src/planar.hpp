@@ -7,26 +7,18 @@
 /// - snap: crossings are rounded to even points and both chords pass through them, again and again
 ///   until nothing crosses and nothing is split any more (after Hobby 1999, iterated);
 /// - merge: equal chains become one that carries the sum of each layer's change of winding;
-/// - label: a sweep from the square's border gives the windings beside a chain; labels go on along
-///   vertices of degree two;
+/// - label: a sweep from the square's border tells where one edge of a connected part stands; from
+///   there one walks along edges and round vertices, crossing one edge after the other;
 /// - certify: see PlanarLeaf::certified.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "compiler/src/palette.hpp"
+#include "compiler/src/region_paints.hpp"
 #include "compiler/src/snap.hpp"
 
 namespace vtm::compiler {
-
-/// Gives regions their paints.
-class RegionPaints {
-public:
-    virtual ~RegionPaints() = default;
-    /// The paint of the region where the leaf's layers have these windings.
-    virtual PaintId paint(std::span<const int> windings) = 0;
-};
 
 /// What lies beside an edge, seen along it from a to b.
 struct Sides {
@@ -38,22 +30,22 @@ struct PlanarLeaf {
     const EdgeSet* set = nullptr;      ///< the edges; nothing if the leaf is beyond the limits
     std::vector<Sides> sides;          ///< of each edge
     std::array<PaintId, 4> corners{};  ///< paints at Square::corner(k)
-    /// True if every label is proven: the windings close round the border; hash(left) - hash(right)
-    /// cancels over the edges at every inner vertex and adds up to the corners' difference on every
-    /// side. A false label would break one of them (but for 2^-64 of chance).
+    /// True if every label is proven: the windings close round every inner vertex and round the border;
+    /// edges are given the same labels from both ends; hash(left) - hash(right) cancels over the edges
+    /// at every inner vertex and adds up to the corners' difference on every side. A false label would
+    /// break one of them (but for 2^-64 of chance).
     bool certified = false;
 };
 
 /// Makes planar leaves; keeps its memory from leaf to leaf.
 class Planariser {
 public:
-    /// `strands` by layer, whose numbers are places in `windings`: the windings at the square's first
-    /// corner. Valid until the next call.
+    /// `strands` by layer, numbered as `regions`, which stands in this leaf, numbers them. Valid until
+    /// the next call.
     const PlanarLeaf& run(const Square& square, Points points, std::span<const Strand> strands,
-                          std::span<const int> windings, RegionPaints& paints);
+                          RegionPaints& regions);
 
 private:
-    using Windings = std::vector<int>;
     struct Axis;
     struct Place;
     /// An edge's end at a vertex.
@@ -62,16 +54,28 @@ private:
         std::uint32_t edge;
         bool isA;
     };
+    /// A vertex that is being walked round, clockwise from `arrival`.
+    struct Visit {
+        std::uint32_t first, count;  ///< its ends
+        std::uint32_t arrival;       ///< of these
+        std::uint32_t crossed;       ///< ends after it that have been crossed
+        bool followed;               ///< the next end's edge has been followed to its other vertex
+        std::uint64_t windingSum;
+    };
 
     void collectEnds();
+    void sortRound(std::uint32_t first, std::uint32_t last);
+    LatticePoint next(const End& end) const;
     int sideOf(LatticePoint p) const;
-    void cross(Windings& w, const Edge& e, int times) const;
+    void cross(const Edge& e, int times);
     Chord chordAt(const Axis& axis, const Edge& e, Coord m) const;
     static bool isBefore(const Place& f, const Place& e);
     void sweepTo(std::uint32_t index);
-    void spread(std::uint32_t from);
-    const End* other(std::uint32_t edge, bool isA) const;
-    void along(Windings& w, std::size_t side) const;
+    void walkFrom(std::uint32_t edge);
+    void arrive(std::uint32_t end);
+    void walk();
+    void label(std::uint32_t edge, const Sides& sides);
+    void along(std::size_t side);
     bool labelCorners();
     std::uint64_t flow(const End& end) const;
     bool certifyVertices() const;
@@ -80,12 +84,14 @@ private:
     Snapper snapper_;
     PlanarLeaf leaf_;
     Square square_;
-    std::span<const int> corner_;
-    RegionPaints* paints_ = nullptr;
-    std::vector<End> ends_;             ///< sorted by vertex
-    std::vector<std::uint32_t> endOf_;  ///< place in ends_ of edge e's a (2e) and b (2e + 1)
+    RegionPaints* regions_ = nullptr;
+    bool consistent_ = true;
+    std::vector<End> ends_;               ///< by vertex, counter-clockwise round each
+    std::vector<std::uint32_t> endOf_;    ///< place in ends_ of edge e's a (2e) and b (2e + 1)
+    std::vector<std::uint32_t> firstOf_;  ///< by end: the first end of its vertex
+    std::vector<std::uint8_t> visited_;   ///< by a vertex's first end; border vertices count as visited
+    std::vector<Visit> visits_;
     std::array<std::vector<End>, 4> border_;
-    Windings swept_, other_;
 };
 
 }  // namespace vtm::compiler

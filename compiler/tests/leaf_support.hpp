@@ -84,12 +84,18 @@ inline TestLeaf leafOf(const Square& square, const std::vector<Polygon>& polygon
 /// Each combination of inside and outside is a paint of its own.
 class BitPaints : public RegionPaints {
 public:
-    PaintId paint(std::span<const int> windings) override {
+    explicit BitPaints(std::vector<int> corner) : layers_(static_cast<std::uint32_t>(corner.size())) {
+        enter(std::vector<scene::FillRule>(layers_), std::move(corner));
+    }
+
+private:
+    PaintId compute() override {
         PaintId bits = 0;
-        for (std::size_t i = 0; i < windings.size(); ++i)
-            bits |= PaintId{windings[i] != 0} << i;
+        for (std::uint32_t i = 0; i < layers_; ++i)
+            bits |= PaintId{isInside(i)} << i;
         return bits;
     }
+    const std::uint32_t layers_;
 };
 
 /// Plans a leaf and remembers what the result refers to.
@@ -99,7 +105,7 @@ struct Planned {
     const PlanarLeaf& leaf;
 
     explicit Planned(const TestLeaf& t)
-        : leaf(planariser.run(t.square, t.points(), t.cell.strands, t.corner, bits)) {}
+        : bits(t.corner), leaf(planariser.run(t.square, t.points(), t.cell.strands, bits)) {}
 };
 
 }  // namespace vtm::compiler

@@ -18,7 +18,7 @@ PaintId truth(const TestLeaf& leaf, LatticePoint p) {
         if ((c.a.y < p.y) != (c.b.y < p.y) && !cornerOnLeft(c.a, c.b, p) == (c.b.y > c.a.y))
             windings[layer] += c.b.y > c.a.y ? -1 : 1;
     });
-    return BitPaints().paint(windings);
+    return BitPaints(windings).paint();
 }
 
 /// The paint at p as the nearest visible chord to its right says; nothing if there is none.
@@ -199,12 +199,13 @@ TEST(Planar, coincidentBordersOfNeighboursLeaveNoThirdPaint) {
 
 TEST(Planar, boundariesBetweenEqualPaintsAreNotVisible) {
     struct OnePaint : RegionPaints {
-        PaintId paint(std::span<const int>) override { return 5; }
+        PaintId compute() override { return 5; }
     } one;
     const TestLeaf test =
         leafOf(square, {{{500, 500}, {2000, 900}, {1900, 3000}}, {{700, 400}, {2100, 1900}, {400, 3100}}});
+    one.enter(std::vector<scene::FillRule>(2), test.corner);
     Planariser planariser;
-    const PlanarLeaf& leaf = planariser.run(square, test.points(), test.cell.strands, test.corner, one);
+    const PlanarLeaf& leaf = planariser.run(square, test.points(), test.cell.strands, one);
     EXPECT_TRUE(leaf.certified);
     EXPECT_EQ(visibleEdges(leaf), 0u);
 }
