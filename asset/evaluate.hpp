@@ -9,6 +9,6 @@
 namespace vtm::asset {
 
 /// Draws the asset on transparent black. Throws std::length_error if the view is beyond its limits.
-image::Raster evaluate(const Asset& asset, const View& view);
+image::Raster evaluate(const AssetView& asset, const View& view);
 
 }  // namespace vtm::asset

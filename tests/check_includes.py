@@ -46,7 +46,7 @@ LIBRARIES = {
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl"},
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "conformance/cases"},
-    r"unistd\.h|sys/.*\.h": ANYWHERE,
+    r"unistd\.h|fcntl\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]*)[>"]')

@@ -63,7 +63,7 @@ Overlap overlapOf(const PlacedLeaf& leaf, const LeafFrame& frame) {
 /// a chain of pieces.
 class ColorSum {
 public:
-    ColorSum(const Asset& asset, PaintMeaning meaning, vec2 point)
+    ColorSum(const AssetView& asset, PaintMeaning meaning, vec2 point)
         : asset_(asset), meaning_(meaning), point_(point) {}
 
     void add(std::uint32_t paint, float weight) {
@@ -89,14 +89,14 @@ private:
         return recent_.color;
     }
 
-    const Asset& asset_;
+    const AssetView& asset_;
     PaintMeaning meaning_;
     vec2 point_;
     Known recent_, older_;
     vec4 sum_{0};
 };
 
-vec4 leafIntegral(const Asset& asset, PaintMeaning meaning, Entry entry, const PlacedLeaf& placed,
+vec4 leafIntegral(const AssetView& asset, PaintMeaning meaning, Entry entry, const PlacedLeaf& placed,
                   const LeafFrame& frame, vec2 samplePoint) {
     const Corners corners = cornersOf(frame);
     ColorSum sum(asset, meaning, samplePoint);
@@ -119,7 +119,7 @@ vec4 leafIntegral(const Asset& asset, PaintMeaning meaning, Entry entry, const P
     return placed.sign * sum.sum();
 }
 
-void addLeaf(const Asset& asset, PaintMeaning meaning, Entry entry, const PlacedLeaf& placed,
+void addLeaf(const AssetView& asset, PaintMeaning meaning, Entry entry, const PlacedLeaf& placed,
              const PixelBox& box, image::Raster& target) {
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
@@ -135,7 +135,7 @@ void addLeaf(const Asset& asset, PaintMeaning meaning, Entry entry, const Placed
         }
 }
 
-bool isTransparent(PaintMeaning meaning, const Asset& asset, Entry entry) {
+bool isTransparent(PaintMeaning meaning, const AssetView& asset, Entry entry) {
     if (entry.kind() != Entry::Kind::Solid)
         return false;
     return meaning == PaintMeaning::Coverage ? entry.payload() == 0
@@ -162,7 +162,7 @@ View crop(const View& view, const PixelBox& box) {
     return cropped;
 }
 
-void addMap(const Asset& asset, const Map& map, const View& view, PaintMeaning meaning,
+void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeaning meaning,
             image::Raster& target) {
     walk(asset, map.root, [&](Cell cell, Entry entry) {
         if (isTransparent(meaning, asset, entry))

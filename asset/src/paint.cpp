@@ -33,7 +33,7 @@ vec4 imagePixel(const image::Bitmap& bitmap, int x, int y) {
 }
 
 /// Premultiplied neighbours are interpolated, so that transparent pixels lend no colour.
-vec4 imageColor(const Asset& asset, const ImageFill& fill, vec2 point) {
+vec4 imageColor(const AssetView& asset, const ImageFill& fill, vec2 point) {
     const image::Bitmap& bitmap = asset.images[fill.image];
     // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes
     // on anyway.
@@ -52,7 +52,7 @@ vec4 imageColor(const Asset& asset, const ImageFill& fill, vec2 point) {
 
 // ---- Programs -------------------------------------------------------------------------------------
 
-vec4 layerColor(const Asset& asset, const Instruction& in, vec2 point) {
+vec4 layerColor(const AssetView& asset, const Instruction& in, vec2 point) {
     switch (in.op) {
         case Op::Solid:
             return floats(asset.data[in.argument]);
@@ -73,7 +73,7 @@ struct Stack {
     vec4 pop() { return entries[top--]; }
 };
 
-void execute(const Asset& asset, const Instruction& in, vec2 point, Stack& stack) {
+void execute(const AssetView& asset, const Instruction& in, vec2 point, Stack& stack) {
     switch (in.op) {
         case Op::Push:
             return stack.push();
@@ -96,7 +96,7 @@ void execute(const Asset& asset, const Instruction& in, vec2 point, Stack& stack
     }
 }
 
-vec4 run(const Asset& asset, std::uint32_t first, std::uint32_t count, vec2 point) {
+vec4 run(const AssetView& asset, std::uint32_t first, std::uint32_t count, vec2 point) {
     Stack stack;
     for (std::uint32_t i = 0; i < count; ++i)
         execute(asset, recordAt<Instruction>(asset.data, first + i), point, stack);
@@ -105,7 +105,7 @@ vec4 run(const Asset& asset, std::uint32_t first, std::uint32_t count, vec2 poin
 
 }  // namespace
 
-vec4 paintColor(const Asset& asset, std::uint32_t paint, vec2 point) {
+vec4 paintColor(const AssetView& asset, std::uint32_t paint, vec2 point) {
     const Paint& p = asset.paints[paint];
     return isProgram(p) ? run(asset, p[0], p[1], point) : floats(p);
 }

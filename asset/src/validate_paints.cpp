@@ -19,10 +19,10 @@ bool areFinite(const std::array<float, 6>& numbers) {
 /// Asset::data with, for each texel, how many gradient stops in order begin there: found once, so
 /// that overlapping gradients of a hostile file cost nothing each.
 struct Data {
-    const Asset& asset;
+    const AssetView& asset;
     std::vector<std::uint32_t> stopRuns;
 
-    explicit Data(const Asset& a) : asset(a), stopRuns(a.data.size() + 1) {
+    explicit Data(const AssetView& a) : asset(a), stopRuns(a.data.size() + 1) {
         for (std::size_t i = a.data.size(); i-- > 0;) {
             const float offset = stopOffset(i);
             if (!isShare(offset))
@@ -103,7 +103,7 @@ void validateProgram(const Data& data, std::size_t index) {
     require(depth == 1, "paints", index, "program leaves groups open");
 }
 
-void validateImages(const Asset& asset) {
+void validateImages(const AssetView& asset) {
     std::int64_t pixels = 0;
     for (std::size_t i = 0; i < asset.images.size(); ++i) {
         const image::Bitmap& bitmap = asset.images[i];
@@ -117,7 +117,7 @@ void validateImages(const Asset& asset) {
 
 }  // namespace
 
-void validatePaints(const Asset& asset) {
+void validatePaints(const AssetView& asset) {
     validateImages(asset);
     require(!asset.paints.empty() && asset.paints[0] == Paint{}, "paints", 0, "must be transparent");
     require(asset.paints.size() <= 65536, "paints", 65536, "cannot be named by 16 bits");

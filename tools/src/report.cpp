@@ -26,7 +26,7 @@ Json toJson(const Stages& stages) {
 
 Json figures(const asset::Asset& asset) {
     const asset::Summary summary = asset::summarize(asset);
-    return {{"bytes", summary.bytes},     {"prefilter_bytes", 0},
+    return {{"bytes", summary.bytes},     {"prefilter_bytes", summary.prefilterBytes},
             {"leaves", summary.leaves},   {"solids", summary.solids},
             {"pieces", summary.pieces},   {"fallback_leaves", asset.fallbackLeaves},
             {"regions", summary.regions}, {"max_depth", summary.maxDepth}};

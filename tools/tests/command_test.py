@@ -218,6 +218,29 @@ class CompileAndInfo(Command):
             self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
         self.assertIn("leaves: ", self.vtm("info", self.svg).stdout)
 
+    def test_info_lists_the_sections(self):
+        self.vtm("compile", self.svg, "-o", "square.vtm")
+        sections = json.loads(self.vtm("info", "square.vtm", "--json").stdout)["sections"]
+        self.assertEqual([s["name"] for s in sections[:4]], ["picture", "maps", "commands", "nodes"])
+        for section in sections:
+            self.assertEqual((section["offset"] % 64, section["intact"]), (0, True), section)
+            self.assertEqual(section["bytes"], section["count"] * section["record_bytes"])
+        self.assertRegex(self.vtm("info", "square.vtm").stdout, r"\npaints .* ok\n")
+
+    def test_info_of_a_damaged_file_names_the_section(self):
+        self.vtm("compile", self.svg, "-o", "square.vtm")
+        path = self.folder / "square.vtm"
+        paints = next(s for s in json.loads(self.vtm("info", path, "--json").stdout)["sections"]
+                      if s["name"] == "paints")
+        file = bytearray(path.read_bytes())
+        file[paints["offset"] + 5] ^= 1
+        path.write_bytes(file)
+        done = self.vtm("info", path, expect=1)
+        self.assertIn("section paints: checksum does not match", done.stderr)
+        self.assertRegex(done.stdout, r"\npaints .* DAMAGED: is [0-9a-f]{8}\n")
+        report = json.loads(self.vtm("info", path, "--json", expect=1).stdout)
+        self.assertEqual([s["name"] for s in report["sections"] if not s["intact"]], ["paints"])
+
     def test_compiled_file_keeps_its_mode(self):
         self.vtm("compile", self.svg, "-o", "square.vtm", "--mode", "compat")
         self.assertEqual(json.loads(self.vtm("info", "square.vtm", "--json").stdout)["mode"], "compat")
