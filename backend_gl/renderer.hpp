@@ -34,8 +34,8 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// `asset` must be valid (asset::validate).
-    Texture upload(const asset::Asset& asset);
+    /// `asset` must be valid (asset::validate); what a file maps into memory (asset::MappedAsset) is.
+    Texture upload(const asset::AssetView& asset);
 
     /// Draws on transparent black into a texture of the renderer's own and reads it back.
     image::Raster render(const Texture& texture, const asset::View& view);

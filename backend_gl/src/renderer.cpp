@@ -61,7 +61,7 @@ struct Renderer::Impl {
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
-Texture Renderer::upload(const asset::Asset& asset) {
+Texture Renderer::upload(const asset::AssetView& asset) {
     return Texture(std::make_unique<Texture::Impl>(asset));
 }
 

@@ -19,7 +19,7 @@ struct Sections {
 };
 
 struct UploadedAsset {
-    explicit UploadedAsset(const asset::Asset& asset);
+    explicit UploadedAsset(const asset::AssetView& asset);
 
     std::vector<asset::Map> maps;
     std::vector<asset::Command> commands;
