@@ -26,12 +26,16 @@ public:
           height_(int(size.height) + 1),
           scale_(size.width / asset.width, size.height / asset.height) {}
 
-    void add(dvec2 corner, double side, bool hasPieces) {
+    /// A square of a layer. Layers over layers (compat mode) are no finer than the finest of them, so each
+    /// is counted for itself.
+    void add(std::uint32_t layer, dvec2 corner, double side, bool hasPieces) {
         const ivec2 from = cellOf(corner), to = cellOf(corner + side);
         for (int y = from.y; y <= to.y; ++y)
             for (int x = from.x; x <= to.x; ++x) {
                 Count& count = counts_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
-                ++count.squares;
+                count.ofLayer = count.layer == layer ? count.ofLayer + 1 : 1;
+                count.layer = layer;
+                count.squares = std::max(count.squares, count.ofLayer);
                 count.hasPieces |= hasPieces;
             }
     }
@@ -49,7 +53,8 @@ public:
 
 private:
     struct Count {
-        std::uint32_t squares = 0;
+        std::uint32_t squares = 0;             ///< of the layer that has most
+        std::uint32_t layer = 0, ofLayer = 0;  ///< the layer that is being counted
         bool hasPieces = false;
     };
 
@@ -70,16 +75,16 @@ bool drawsMap(Command::Kind kind) {
 
 double squaresPerFootprint(const AssetView& asset, PyramidSize size) {
     Footprints footprints(asset, size);
-    for (const Command& command : asset.commands) {
-        if (!drawsMap(command.kind))
+    for (std::uint32_t layer = 0; layer < asset.commands.size(); ++layer) {
+        if (!drawsMap(asset.commands[layer].kind))
             continue;
-        const Map& map = asset.maps[command.map];
+        const Map& map = asset.maps[asset.commands[layer].map];
         walk(asset, map.root, [&](Cell cell, Entry entry) {
             const bool isSolid = entry.kind() == Entry::Kind::Solid;
             if (isSolid && asset.paints[entry.payload()] == Paint{})
                 return;
             const double side = std::ldexp(map.side, -2 * int(cell.level));
-            footprints.add({map.x + cell.x * side, map.y + cell.y * side}, side, !isSolid);
+            footprints.add(layer, {map.x + cell.x * side, map.y + cell.y * side}, side, !isSolid);
         });
     }
     return footprints.mean();
