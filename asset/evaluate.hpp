@@ -18,6 +18,6 @@ using MaterialFunction = std::function<glm::vec4(std::uint32_t material, glm::ve
 
 /// Draws the asset on transparent black; materials in their fallback colours unless there is a function for
 /// them. Throws std::length_error if the view is beyond its limits.
-image::Raster evaluate(const Asset& asset, const View& view, const MaterialFunction& materials = {});
+image::Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials = {});
 
 }  // namespace vtm::asset

@@ -2,6 +2,7 @@
 /// Scene in, Vector Texture Map out: regions, cells, tree, encode.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,8 +17,13 @@ struct Options {
     /// Largest distance between a drawn boundary and the scene's, as a share of the picture's longer
     /// side. In [2^-26, 2^-6].
     double tolerance = 1.0 / 65536;
-    /// A leaf with more pieces is split while the tree may grow deeper. In [1, 4096].
-    unsigned piecesPerLeaf = 12;
+    /// How large an asset may get for being drawn fast: the nanoseconds of drawing at 1024 pixels (of a
+    /// software rasteriser, docs/regions.md) that are worth a byte. Cells are split or not, and lists of
+    /// pieces long or short, as this makes cheapest. In [1, 1e6].
+    double nanosecondsPerByte = 400;
+    /// A fixed rule instead, for comparison: a leaf with more pieces is split while the tree may grow
+    /// deeper. In [1, 4096].
+    std::optional<unsigned> piecesPerLeaf = std::nullopt;
     /// Levels of the 16-tree. In [0, asset::maxLevel]; cells finer than the tolerance allows are not made.
     unsigned maxDepth = 8;
 };

@@ -40,6 +40,7 @@ ANYWHERE = None
 LIBRARIES = {
     r"glm/.*": ANYWHERE,
     r"fmt/.*": ANYWHERE,
+    r"tbb/.*": {"compiler"},
     r"gtest/.*|gmock/.*": ANYWHERE,
     r"pugixml\.hpp": {"svg"},
     r"zlib\.h": {"svg", "asset", "image"},
@@ -47,7 +48,7 @@ LIBRARIES = {
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl"},
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "conformance/cases"},
-    r"unistd\.h|sys/.*\.h": ANYWHERE,
+    r"unistd\.h|fcntl\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]*)[>"]')

@@ -4,7 +4,7 @@
 
 namespace vtm::asset {
 
-CodedMaterials encodeMaterials(const std::vector<Material>& materials) {
+CodedMaterials encodeMaterials(std::span<const Material> materials) {
     CodedMaterials coded;
     for (const Material& m : materials) {
         coded.table.push_back({std::uint32_t(m.name.size()), std::uint32_t(m.glsl.size()), 0});

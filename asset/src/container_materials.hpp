@@ -22,7 +22,7 @@ struct CodedMaterials {
     std::vector<std::uint8_t> bytes;
 };
 
-CodedMaterials encodeMaterials(const std::vector<Material>& materials);
+CodedMaterials encodeMaterials(std::span<const Material> materials);
 
 /// Throws FormatError.
 std::vector<Material> decodeMaterials(std::span<const MaterialRecord> table,

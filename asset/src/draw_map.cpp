@@ -63,7 +63,7 @@ Overlap overlapOf(const PlacedLeaf& leaf, const LeafFrame& frame) {
 /// a chain of pieces.
 class ColorSum {
 public:
-    ColorSum(const Asset& asset, PaintMeaning meaning, const MaterialFunction& materials, vec2 point)
+    ColorSum(const AssetView& asset, PaintMeaning meaning, const MaterialFunction& materials, vec2 point)
         : asset_(asset), meaning_(meaning), materials_(materials), point_(point) {}
 
     void add(std::uint32_t paint, float weight) {
@@ -89,7 +89,7 @@ private:
         return recent_.color;
     }
 
-    const Asset& asset_;
+    const AssetView& asset_;
     PaintMeaning meaning_;
     const MaterialFunction& materials_;
     vec2 point_;
@@ -97,7 +97,7 @@ private:
     vec4 sum_{0};
 };
 
-vec4 leafIntegral(const Asset& asset, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame,
+vec4 leafIntegral(const AssetView& asset, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame,
                   ColorSum sum) {
     const Corners corners = cornersOf(frame);
     if (entry.kind() == Entry::Kind::Solid) {
@@ -119,7 +119,7 @@ vec4 leafIntegral(const Asset& asset, Entry entry, const PlacedLeaf& placed, con
     return placed.sign * sum.sum();
 }
 
-void addLeaf(const Asset& asset, PaintMeaning meaning, const MaterialFunction& materials, Entry entry,
+void addLeaf(const AssetView& asset, PaintMeaning meaning, const MaterialFunction& materials, Entry entry,
              const PlacedLeaf& placed, const PixelBox& box, image::Raster& target) {
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
@@ -136,7 +136,7 @@ void addLeaf(const Asset& asset, PaintMeaning meaning, const MaterialFunction& m
         }
 }
 
-bool isTransparent(PaintMeaning meaning, const Asset& asset, Entry entry) {
+bool isTransparent(PaintMeaning meaning, const AssetView& asset, Entry entry) {
     if (entry.kind() != Entry::Kind::Solid)
         return false;
     return meaning == PaintMeaning::Coverage ? entry.payload() == 0
@@ -163,7 +163,7 @@ View crop(const View& view, const PixelBox& box) {
     return cropped;
 }
 
-void addMap(const Asset& asset, const Map& map, const View& view, PaintMeaning meaning,
+void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeaning meaning,
             const MaterialFunction& materials, image::Raster& target) {
     walk(asset, map.root, [&](Cell cell, Entry entry) {
         if (isTransparent(meaning, asset, entry))

@@ -28,7 +28,7 @@ enum class PaintMeaning {
 };
 
 /// target += ∫ colour over each pixel's box.
-void addMap(const Asset& asset, const Map& map, const View& view, PaintMeaning meaning,
+void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeaning meaning,
             const MaterialFunction& materials, image::Raster& target);
 
 }  // namespace vtm::asset

@@ -36,7 +36,7 @@ struct Mask {
     float at(int x, int y) const { return unit(coverage.pixel(x - box.min.x, y - box.min.y)[0]); }
 };
 
-Mask coverageOf(const Asset& asset, const Map& map, const View& view) {
+Mask coverageOf(const AssetView& asset, const Map& map, const View& view) {
     const PixelBox box = pixelsOf(view, {map.x, map.y}, map.side);
     const View cropped = crop(view, box);
     Mask mask{box, Raster(cropped.width, cropped.height)};
@@ -58,8 +58,8 @@ private:
     glm::dvec2 origin_;
 };
 
-void fillMask(const Asset& asset, const Command& command, const View& view, const MaterialFunction& materials,
-              Raster& top) {
+void fillMask(const AssetView& asset, const Command& command, const View& view,
+              const MaterialFunction& materials, Raster& top) {
     const Mask mask = coverageOf(asset, asset.maps[command.map], view);
     const PixelCentres centre(view);
     for (int y = mask.box.min.y; y < mask.box.max.y; ++y)
@@ -72,7 +72,7 @@ void fillMask(const Asset& asset, const Command& command, const View& view, cons
         }
 }
 
-void clipMask(const Asset& asset, const Command& command, const View& view, Raster& top) {
+void clipMask(const AssetView& asset, const Command& command, const View& view, Raster& top) {
     const Mask mask = coverageOf(asset, asset.maps[command.map], view);
     for (int y = 0; y < top.height; ++y)
         for (int x = 0; x < top.width; ++x) {
@@ -111,8 +111,8 @@ void pop(const Command& command, std::vector<Raster>& stack) {
                 [&](vec4 s, vec4 b) { return b * maskFactor(maskOp(command.kind), s); });
 }
 
-void execute(const Asset& asset, const Command& command, const View& view, const MaterialFunction& materials,
-             std::vector<Raster>& stack) {
+void execute(const AssetView& asset, const Command& command, const View& view,
+             const MaterialFunction& materials, std::vector<Raster>& stack) {
     switch (command.kind) {
         case Command::Kind::DrawMap:
             return addMap(asset, asset.maps[command.map], view, PaintMeaning::Color, materials, stack.back());
@@ -130,7 +130,7 @@ void execute(const Asset& asset, const Command& command, const View& view, const
 
 }  // namespace
 
-Raster evaluate(const Asset& asset, const View& view, const MaterialFunction& materials) {
+Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials) {
     validate(view);
     std::vector<Raster> stack(1, Raster(view.width, view.height));
     for (const Command& command : asset.commands)

@@ -33,7 +33,7 @@ vec4 imagePixel(const image::Bitmap& bitmap, int x, int y) {
 }
 
 /// Premultiplied neighbours are interpolated, so that transparent pixels lend no colour.
-vec4 imageColor(const Asset& asset, const ImageFill& fill, vec2 point) {
+vec4 imageColor(const AssetView& asset, const ImageFill& fill, vec2 point) {
     const image::Bitmap& bitmap = asset.images[fill.image];
     // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes
     // on anyway.
@@ -60,7 +60,8 @@ vec4 materialColor(const MaterialFill& fill, vec2 point, const MaterialFunction&
 
 // ---- Programs -------------------------------------------------------------------------------------
 
-vec4 layerColor(const Asset& asset, const Instruction& in, vec2 point, const MaterialFunction& materials) {
+vec4 layerColor(const AssetView& asset, const Instruction& in, vec2 point,
+                const MaterialFunction& materials) {
     switch (in.op) {
         case Op::Solid:
             return floats(asset.data[in.argument]);
@@ -83,7 +84,7 @@ struct Stack {
     vec4 pop() { return entries[top--]; }
 };
 
-void execute(const Asset& asset, const Instruction& in, vec2 point, const MaterialFunction& materials,
+void execute(const AssetView& asset, const Instruction& in, vec2 point, const MaterialFunction& materials,
              Stack& stack) {
     switch (in.op) {
         case Op::Push:
@@ -107,7 +108,7 @@ void execute(const Asset& asset, const Instruction& in, vec2 point, const Materi
     }
 }
 
-vec4 run(const Asset& asset, std::uint32_t first, std::uint32_t count, vec2 point,
+vec4 run(const AssetView& asset, std::uint32_t first, std::uint32_t count, vec2 point,
          const MaterialFunction& materials) {
     Stack stack;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -117,7 +118,7 @@ vec4 run(const Asset& asset, std::uint32_t first, std::uint32_t count, vec2 poin
 
 }  // namespace
 
-vec4 paintColor(const Asset& asset, std::uint32_t paint, vec2 point, const MaterialFunction& materials) {
+vec4 paintColor(const AssetView& asset, std::uint32_t paint, vec2 point, const MaterialFunction& materials) {
     const Paint& p = asset.paints[paint];
     return isProgram(p) ? run(asset, p[0], p[1], point, materials) : floats(p);
 }

@@ -21,10 +21,10 @@ bool areFinite(const std::array<float, 6>& numbers) {
 /// Asset::data with, for each texel, how many gradient stops in order begin there: found once, so
 /// that overlapping gradients of a hostile file cost nothing each.
 struct Data {
-    const Asset& asset;
+    const AssetView& asset;
     std::vector<std::uint32_t> stopRuns;
 
-    explicit Data(const Asset& a) : asset(a), stopRuns(a.data.size() + 1) {
+    explicit Data(const AssetView& a) : asset(a), stopRuns(a.data.size() + 1) {
         for (std::size_t i = a.data.size(); i-- > 0;) {
             const float offset = stopOffset(i);
             if (!isShare(offset))
@@ -118,7 +118,7 @@ void validateProgram(const Data& data, std::size_t index) {
     require(depth == 1, "paints", index, "program leaves groups open");
 }
 
-void validateImages(const Asset& asset) {
+void validateImages(const AssetView& asset) {
     std::int64_t pixels = 0;
     for (std::size_t i = 0; i < asset.images.size(); ++i) {
         const image::Bitmap& bitmap = asset.images[i];
@@ -139,7 +139,7 @@ bool isMaterialName(const std::string& name) {
            !name.starts_with("gl_");
 }
 
-void validateMaterials(const Asset& asset) {
+void validateMaterials(const AssetView& asset) {
     require(asset.materials.size() <= maxMaterials, "materials", maxMaterials, "is one too many");
     std::set<std::string_view> names;
     for (std::size_t i = 0; i < asset.materials.size(); ++i) {
@@ -153,7 +153,7 @@ void validateMaterials(const Asset& asset) {
 
 }  // namespace
 
-void validatePaints(const Asset& asset) {
+void validatePaints(const AssetView& asset) {
     validateImages(asset);
     validateMaterials(asset);
     require(!asset.paints.empty() && asset.paints[0] == Paint{}, "paints", 0, "must be transparent");

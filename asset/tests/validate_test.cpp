@@ -6,6 +6,7 @@
 
 #include "asset/container.hpp"
 #include "asset/testing.hpp"
+#include "asset/testing_files.hpp"
 
 namespace vtm::asset::test {
 namespace {
@@ -113,6 +114,24 @@ const std::vector<Breach> breaches{
      [](Asset& a) { a.materials[0].glsl.push_back('\0'); }},
     {"materials[0]: text holds a zero byte or is too long", everyPaint,
      [](Asset& a) { a.materials[0].glsl.assign(maxMaterialText + 1, ' '); }},
+    {"maps[0]: unused word is not zero", disc, [](Asset& a) { a.maps[0].unused = 1; }},
+    {"prefilter[0]: size is not allowed", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {0, 4};
+     }},
+    {"prefilter[0]: size is not allowed", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {5, 4};
+     }},
+    {"prefilter[0]: size is not allowed", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {4, 2 * maxPyramidSide};
+     }},
+    {"prefilter[15]: number of texels does not match the size", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {4, 4};
+     }},
+    {"prefilter[0]: has texels and no size", everySection, [](Asset& a) { a.prefilter.size = {}; }},
     {"images[0]: bytes do not match the size", everyPaint, [](Asset& a) { a.images[0].rgba.pop_back(); }},
     {"images[0]: picture is empty", everyPaint, [](Asset& a) { a.images[0].width = 0; }},
     {"images[0]: pictures have too many pixels", everyPaint, [](Asset& a) { a.images[0].width = 1 << 30; }},

@@ -45,7 +45,7 @@ std::string Features::defines() const {
     return text;
 }
 
-Features featuresOf(const asset::Asset& asset) {
+Features featuresOf(const asset::AssetView& asset) {
     unsigned flags = 0;
     for (const asset::Paint& paint : asset.paints) {
         if (paint[3] != asset::programTag)

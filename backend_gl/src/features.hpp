@@ -27,6 +27,6 @@ private:
 };
 
 /// Of all paint programs of an asset together. Mixing is blend modes other than Normal, and masks.
-Features featuresOf(const asset::Asset& asset);
+Features featuresOf(const asset::AssetView& asset);
 
 }  // namespace vtm::gl

@@ -6,7 +6,7 @@
 
 namespace vtm::gl {
 
-std::string materialsSource(const std::vector<asset::Material>& materials) {
+std::string materialsSource(std::span<const asset::Material> materials) {
     std::string text, choice;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         text += fmt::format("\n#line 1 {}\n{}\n", materialString + int(i), materials[i].glsl);
@@ -16,7 +16,7 @@ std::string materialsSource(const std::vector<asset::Material>& materials) {
            choice + "        default: return vec4(0.0);\n    }\n}\n";
 }
 
-std::string blamedOnMaterial(const std::vector<asset::Material>& materials, const std::string& message) {
+std::string blamedOnMaterial(std::span<const asset::Material> materials, const std::string& message) {
     // Mesa and ANGLE write string:line, NVIDIA string(line).
     static const std::regex place(R"((^|[^0-9:(])(\d{5})[:(](\d+))");
     for (std::sregex_iterator at(message.begin(), message.end(), place), end; at != end; ++at) {

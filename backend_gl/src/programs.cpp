@@ -20,12 +20,12 @@ void bindUnits(const Program& program) {
 
 }  // namespace
 
-unsigned Programs::materialSet(const std::vector<asset::Material>& materials) {
+unsigned Programs::materialSet(std::span<const asset::Material> materials) {
     std::string source = materialsSource(materials);
     for (unsigned i = 0; i < materialSets_.size(); ++i)
         if (materialSets_[i].source == source)
             return i;
-    materialSets_.push_back({materials, std::move(source)});
+    materialSets_.push_back({{materials.begin(), materials.end()}, std::move(source)});
     return unsigned(materialSets_.size() - 1);
 }
 

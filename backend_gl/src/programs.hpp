@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -27,7 +28,7 @@ enum class Unit : int { Texels, Images, Placements, Layer, Backdrop };
 class Programs {
 public:
     /// Materials that programs are compiled with, each list once. Number 0 is none.
-    unsigned materialSet(const std::vector<asset::Material>& materials);
+    unsigned materialSet(std::span<const asset::Material> materials);
 
     /// Only General looks at the features and materials.
     const Program& leaf(CostClass cost, Features features, unsigned materialSet = 0);

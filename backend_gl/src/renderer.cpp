@@ -61,7 +61,7 @@ struct Renderer::Impl {
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
-Texture Renderer::upload(const asset::Asset& asset) {
+Texture Renderer::upload(const asset::AssetView& asset) {
     Programs& programs = impl_->workshop.programs;
     auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
     // Users' errors come at once, not with the first picture.

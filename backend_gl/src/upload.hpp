@@ -19,7 +19,7 @@ struct Sections {
 };
 
 struct UploadedAsset {
-    UploadedAsset(const asset::Asset& asset, unsigned materialSet);
+    UploadedAsset(const asset::AssetView& asset, unsigned materialSet);
 
     std::vector<asset::Map> maps;
     std::vector<asset::Command> commands;

@@ -154,10 +154,11 @@ TEST_F(Gl, AMaterialsErrorNamesItAndItsLine) {
 
 TEST_F(Gl, MaterialsAreCompiledOncePerList) {
     Programs programs;
-    const unsigned first = programs.materialSet({checker}), second = programs.materialSet({checker, noise});
+    const unsigned first = programs.materialSet(std::vector{checker}),
+                   second = programs.materialSet(std::vector{checker, noise});
     EXPECT_NE(first, second);
     EXPECT_NE(first, programs.materialSet({}));
-    EXPECT_EQ(first, programs.materialSet({checker}));
+    EXPECT_EQ(first, programs.materialSet(std::vector{checker}));
     const Features features(Features::Material);
     const Program& program = programs.leaf(CostClass::General, features, first);
     EXPECT_EQ(&program, &programs.leaf(CostClass::General, features, first));

@@ -11,6 +11,7 @@ namespace vtm::compiler {
 namespace {
 
 using asset::Command;
+using asset::Entry;
 
 /// A lattice step is this many bits finer than the tolerance: snapping moves points by a step or two.
 constexpr int stepBits = 6;
@@ -21,14 +22,17 @@ int latticeBits(double tolerance) {
     return std::min(maxLatticeBits, static_cast<int>(std::ceil(-std::log2(tolerance))) + stepBits);
 }
 
-/// Of the whole tolerance: what chords may take from the curves, and pieces from the chords. The rest
-/// is left to quantisation.
-constexpr double chordShare = 1.0 / 8, fitShare = 1.0 / 4, quantisationShare = 1.0 / 8;
+/// Of the whole tolerance: what chords may take from the curves, pieces from the chords, and rounding
+/// from the pieces' ends. The eighth that is left is the lattice's: snapping moves a point by a step or
+/// two, which are a sixteenth of the smallest tolerance each.
+constexpr double chordShare = 3.0 / 16, fitShare = 1.0 / 2, quantisationShare = 3.0 / 16;
 
 void checkOptions(const Options& o) {
     if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
         throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
-    if (o.piecesPerLeaf < 1 || o.piecesPerLeaf > 4096)
+    if (!(o.nanosecondsPerByte >= 1 && o.nanosecondsPerByte <= 1e6))
+        throw std::invalid_argument("nanosecondsPerByte must lie in [1, 1e6]");
+    if (o.piecesPerLeaf && (*o.piecesPerLeaf < 1 || *o.piecesPerLeaf > 4096))
         throw std::invalid_argument("piecesPerLeaf must lie in [1, 4096]");
     if (o.maxDepth > asset::maxLevel)
         throw std::invalid_argument("maxDepth must be at most " + std::to_string(asset::maxLevel));
@@ -38,6 +42,7 @@ TreeOptions treeOptions(const Options& o) {
     const int bits = latticeBits(o.tolerance);
     TreeOptions t;
     t.fitTolerance = std::ldexp(o.tolerance * fitShare, bits);
+    t.cost.nanosecondsPerByte = o.nanosecondsPerByte;
     t.piecesPerLeaf = o.piecesPerLeaf;
     t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(bits - lastCellBits) / 2);
     // A leaf's end points are rounded by half of 1/65535 of its side in each axis.
@@ -54,15 +59,52 @@ std::vector<std::uint32_t> allLayers(const Picture& picture) {
     return layers;
 }
 
-/// Appends maps to the asset, all over the lattice's root square.
+/// Appends a tree's records to the asset; `paints`: the index of each of its paints.
+asset::Entry encode(const Tree& tree, std::span<const std::uint16_t> paints, asset::Asset& asset) {
+    const auto nodes = static_cast<std::uint32_t>(asset.nodes.size()),
+               leaves = static_cast<std::uint32_t>(asset.leaves.size()),
+               pieces = static_cast<std::uint32_t>(asset.pieces.size());
+    const auto entry = [&](Entry e) {
+        switch (e.kind()) {
+            case Entry::Kind::Solid:
+                return Entry::make(e.kind(), paints[e.payload()]);
+            case Entry::Kind::Leaf:
+                return Entry::make(e.kind(), e.payload() + leaves);
+            case Entry::Kind::Node:
+                break;
+        }
+        return Entry::make(e.kind(), e.payload() + nodes);
+    };
+    for (asset::Node node : tree.nodes) {
+        for (Entry& e : node.children)
+            e = entry(e);
+        asset.nodes.push_back(node);
+    }
+    for (const Tree::Leaf& l : tree.leaves) {
+        asset::Leaf leaf;
+        leaf.firstPiece = l.firstPiece + pieces;
+        leaf.pieceCount = static_cast<std::uint16_t>(l.pieceCount);
+        for (std::size_t k = 0; k < 4; ++k)
+            leaf.corners[k] = paints[l.corners[k]];
+        asset.leaves.push_back(leaf);
+    }
+    for (const Tree::Piece& p : tree.pieces)
+        asset.pieces.push_back({p.a, p.b, p.slopeA, p.slopeB, paints[p.left], paints[p.right]});
+    asset.fallbackLeaves += tree.fallbackLeaves;
+    return entry(tree.root);
+}
+
+/// Maps over the lattice's root square.
 class MapBuilder {
 public:
     MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, asset::Asset& asset)
         : picture_(picture), lattice_(lattice), options_(treeOptions(options)), asset_(asset) {}
 
-    std::uint32_t add(std::span<const std::uint32_t> layers, Painter& painter) {
-        const asset::Entry root =
-            buildTree(picture_, lattice_.square(), layers, painter, options_, asset_, times_);
+    Tree build(std::span<const std::uint32_t> layers, const Painter& painter) {
+        return buildTree(picture_, lattice_.square(), layers, painter, options_, times_);
+    }
+    std::uint32_t add(const Tree& tree, std::span<const std::uint16_t> paints) {
+        const Entry root = encode(tree, paints, asset_);
         asset_.maps.push_back({0, 0, std::max(asset_.width, asset_.height), root});
         return static_cast<std::uint32_t>(asset_.maps.size() - 1);
     }
@@ -76,27 +118,36 @@ private:
     TreeTimes times_;
 };
 
-void compileExact(const Picture& picture, MapBuilder& maps, asset::Asset& asset) {
-    PicturePainter painter(picture, asset);
+/// Returns by how much merging colours that the format cannot all name may have changed one.
+float compileExact(const Picture& picture, MapBuilder& maps, asset::Asset& asset) {
+    const Tree tree = maps.build(allLayers(picture), PicturePainter(picture));
+    float error = 0;
+    const std::vector<std::uint16_t> paints = encodePalette(tree.palette, asset, error);
     Command draw;
     draw.kind = Command::Kind::DrawMap;
-    draw.map = maps.add(allLayers(picture), painter);
+    draw.map = maps.add(tree, paints);
     asset.commands.push_back(draw);
+    return error;
 }
 
 /// Compat mode: every item and every clip is a mask of its own; groups become commands.
 class CompatCompiler {
 public:
     CompatCompiler(const Picture& picture, MapBuilder& maps, asset::Asset& asset)
-        : picture_(picture), maps_(maps), asset_(asset), palette_(asset) {
+        : picture_(picture), maps_(maps), asset_(asset) {
         palette_.solid({1, 1, 1, 1});  // a mask's paint 1
     }
 
-    void run() {
+    float run() {
         ItemWalk<CompatCompiler> walk(picture_, *this);
         for (const PictureItem& item : picture_.items)
             walk.item(item);
         walk.finish();
+        float error = 0;
+        const std::vector<std::uint16_t> paints = encodePalette(palette_, asset_, error);
+        for (Command& command : asset_.commands)
+            command.paint = paints[command.paint];
+        return error;
     }
 
     void open(std::uint32_t) { emit(Command::Kind::Push); }
@@ -106,7 +157,7 @@ public:
         Command& fill = emit(Command::Kind::FillMask);
         fill.paint = paintOf(item);
         const std::uint32_t layer[] = {item.layer};
-        fill.map = maps_.add(layer, painter);
+        fill.map = addMask(layer, painter);
     }
 
     void emptyMask(std::uint32_t) {
@@ -137,11 +188,16 @@ private:
         return asset_.commands.back();
     }
 
-    std::uint32_t paintOf(const PictureItem& item) {
+    std::uint32_t addMask(std::span<const std::uint32_t> layers, const MaskPainter& painter) {
+        constexpr std::array<std::uint16_t, 2> paints{0, 1};
+        return maps_.add(maps_.build(layers, painter), paints);
+    }
+
+    PaintId paintOf(const PictureItem& item) {
         const Source& source = picture_.sources[item.source];
         if (source.op != asset::Op::Solid)
-            return palette_.program({{{source.op, asset::Blend::Normal, item.opacity, source.data}, {}}});
-        std::array<float, 4> color = source.color;
+            return palette_.add({{{source.op, asset::Blend::Normal, item.opacity, source.data}, {}}});
+        Color color = source.color;
         for (float& c : color)
             c *= item.opacity;
         return palette_.solid(color);
@@ -152,7 +208,7 @@ private:
         collectLayers(clip, layers);
         std::sort(layers.begin(), layers.end());
         MaskPainter painter(picture_, none, clip);
-        return maps_.add(layers, painter);
+        return addMask(layers, painter);
     }
 
     void collectLayers(std::uint32_t clip, std::vector<std::uint32_t>& into) const {
@@ -196,10 +252,11 @@ Result compile(const scene::Scene& scene, const Options& options) {
     asset.images = std::move(picture.images);
     asset.materials = std::move(picture.materials);
     MapBuilder maps(picture, lattice, options, asset);
+    float error = 0;
     if (options.mode == asset::Mode::Exact)
-        compileExact(picture, maps, asset);
+        error = compileExact(picture, maps, asset);
     else
-        CompatCompiler(picture, maps, asset).run();
+        error = CompatCompiler(picture, maps, asset).run();
 
     const TreeTimes& t = maps.times();
     const double built = milliseconds(lowered, Clock::now());
@@ -211,6 +268,9 @@ Result compile(const scene::Scene& scene, const Options& options) {
     if (asset.fallbackLeaves > 0)
         result.warnings.push_back(std::to_string(asset.fallbackLeaves) +
                                   " leaves could not be certified and are filled with the mean of samples");
+    if (error > 0)
+        result.warnings.push_back("more than 65536 region colours: the nearest were merged, by up to " +
+                                  std::to_string(error) + " in a component");
     return result;
 }
 

@@ -1,10 +1,7 @@
 #include "compiler/src/composite.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
-#include "compiler/compile.hpp"
 #include "compiler/src/walk_items.hpp"
 
 namespace vtm::compiler {
@@ -12,8 +9,6 @@ namespace {
 
 using asset::Instruction;
 using asset::Op;
-using Color = std::array<float, 4>;
-using Step = Palette::Program::value_type;
 
 Color scaled(Color c, float by) {
     for (float& v : c)
@@ -21,36 +16,28 @@ Color scaled(Color c, float by) {
     return c;
 }
 
-/// Porter-Duff source over, premultiplied.
-Color over(const Color& s, const Color& d) {
-    Color r;
-    for (std::size_t i = 0; i < 4; ++i)
-        r[i] = s[i] + (1 - s[3]) * d[i];
-    return r;
-}
-
 /// One isolated group while it is being composited: the steps that build it on transparent black.
 struct Frame {
-    Palette::Program steps;
-    bool constant() const { return steps.empty() || (steps.size() == 1 && steps[0].first.op == Op::Solid); }
-    Color color() const { return steps.empty() ? Color{} : steps[0].second; }
+    PaintProgram steps;
+
+    bool constant() const { return Palette::isConstant(steps); }
+    Color color() const { return Palette::colorOf(steps); }
 
     void solid(const Color& s) {
         if (s[3] <= 0)
             return;
         if (s[3] >= 1)
             clear();
-        if (!steps.empty() && steps.back().first.op == Op::Solid)
-            steps.back().second =
-                over(s, steps.back().second);  // (s over t) over rest = s over (t over rest)
+        if (!steps.empty() && steps.back().instruction.op == Op::Solid)
+            steps.back().color = over(s, steps.back().color);  // (s over t) over rest = s over (t over rest)
         else
             steps.push_back({Instruction{Op::Solid}, s});
     }
 
-    void source(const Step& step, bool opaque) {
-        if (step.first.op == Op::Solid)
-            return solid(scaled(step.second, step.first.opacity));
-        if (opaque && step.first.opacity >= 1)
+    void source(const PaintStep& step, bool opaque) {
+        if (step.instruction.op == Op::Solid)
+            return solid(scaled(step.color, step.instruction.opacity));
+        if (opaque && step.instruction.opacity >= 1)
             clear();
         steps.push_back(step);
     }
@@ -61,10 +48,10 @@ struct Frame {
     /// `over` is associative. Blend modes and masks see what is in the frame.
     bool onlyOver() const {
         unsigned depth = 0;
-        return std::none_of(steps.begin(), steps.end(), [&](const Step& step) {
+        return std::none_of(steps.begin(), steps.end(), [&](const PaintStep& step) {
             depth = depthAfter(step, depth);
             return depth == 0 && isPop(step) &&
-                   (step.first.op != Op::Pop || step.first.blend != asset::Blend::Normal);
+                   (step.instruction.op != Op::Pop || step.instruction.blend != asset::Blend::Normal);
         });
     }
 
@@ -77,8 +64,8 @@ struct Frame {
     /// The child's layers, one by one; it has onlyOver.
     void laid(const Frame& child) {
         unsigned depth = 0;
-        for (const Step& step : child.steps) {
-            if (depth == 0 && step.first.op >= Op::Solid)
+        for (const PaintStep& step : child.steps) {
+            if (depth == 0 && step.instruction.op >= Op::Solid)
                 source(step, false);
             else
                 steps.push_back(step);
@@ -91,7 +78,7 @@ struct Frame {
     float unwrap() {
         float opacity = 1;
         while (isOneGroup()) {
-            opacity *= steps.back().first.opacity;
+            opacity *= steps.back().instruction.opacity;
             steps.pop_back();
             steps.erase(steps.begin());
         }
@@ -99,16 +86,19 @@ struct Frame {
     }
 
 private:
-    static bool isPop(const Step& step) { return step.first.op > Op::Push && step.first.op < Op::Solid; }
-    static unsigned depthAfter(const Step& step, unsigned depth) {
-        return step.first.op == Op::Push ? depth + 1 : isPop(step) ? depth - 1 : depth;
+    static bool isPop(const PaintStep& step) {
+        return step.instruction.op > Op::Push && step.instruction.op < Op::Solid;
+    }
+    static unsigned depthAfter(const PaintStep& step, unsigned depth) {
+        return step.instruction.op == Op::Push ? depth + 1 : isPop(step) ? depth - 1 : depth;
     }
 
     bool isOneGroup() const {
-        if (steps.size() < 2 || steps.front().first.op != Op::Push || steps.back().first.op != Op::Pop)
+        if (steps.size() < 2 || steps.front().instruction.op != Op::Push ||
+            steps.back().instruction.op != Op::Pop)
             return false;
         unsigned depth = 0;
-        return std::none_of(steps.begin(), steps.end() - 1, [&](const Step& step) {
+        return std::none_of(steps.begin(), steps.end() - 1, [&](const PaintStep& step) {
             depth = depthAfter(step, depth);
             return depth == 0;
         });
@@ -164,7 +154,7 @@ private:
         if (normal && child.constant()) {
             parent.solid(scaled(child.color(), opacity));
         } else if (normal && child.steps.size() == 1) {
-            child.steps[0].first.opacity *= opacity;
+            child.steps[0].instruction.opacity *= opacity;
             parent.source(child.steps[0], false);
         } else if (normal && opacity >= 1 && child.onlyOver()) {
             parent.laid(child);
@@ -196,70 +186,10 @@ private:
     std::vector<Frame> frames_;
 };
 
-void checkStack(const Palette::Program& steps) {
-    unsigned depth = 1;
-    for (const Step& step : steps) {
-        if (step.first.op == Op::Push && ++depth > asset::maxStack)
-            throw LimitError("groups that cannot be folded are nested more than " +
-                             std::to_string(asset::maxStack - 1) + " deep");
-        depth -= step.first.op == Op::Pop || step.first.op == Op::PopMaskAlpha ||
-                 step.first.op == Op::PopMaskLinear || step.first.op == Op::PopMaskLuminance;
-    }
-}
-
-template <class T>
-void appendBytes(std::string& key, const T& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 }  // namespace
 
-Palette::Palette(asset::Asset& asset) : asset_(asset) { solid({0, 0, 0, 0}); }
-
-std::uint16_t Palette::intern(const std::string& key, const asset::Paint& paint) {
-    if (asset_.paints.size() > 0xFFFF)
-        throw LimitError("the picture has more than 65536 distinct region paints");
-    const auto id = static_cast<std::uint16_t>(asset_.paints.size());
-    asset_.paints.push_back(paint);
-    index_.emplace(key, id);
-    return id;
-}
-
-std::uint16_t Palette::solid(const std::array<float, 4>& c) {
-    std::string key;
-    appendBytes(key, c);
-    if (const auto found = index_.find(key); found != index_.end())
-        return found->second;
-    asset::Paint paint;
-    std::transform(c.begin(), c.end(), paint.begin(),
-                   [](float v) { return std::bit_cast<std::uint32_t>(v); });
-    return intern(key, paint);
-}
-
-std::uint16_t Palette::program(const Program& steps) {
-    checkStack(steps);
-    std::string key(1, 'p');
-    for (const Step& step : steps)
-        appendBytes(key, step.first), appendBytes(key, step.second);
-    if (const auto found = index_.find(key); found != index_.end())
-        return found->second;
-
-    const auto first = static_cast<std::uint32_t>(asset_.data.size());
-    const auto count = static_cast<std::uint32_t>(steps.size());
-    asset_.data.resize(first + count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        Instruction instruction = steps[i].first;
-        if (instruction.op == Op::Solid) {
-            instruction.argument = static_cast<std::uint32_t>(asset_.data.size());
-            asset_.data.push_back(std::bit_cast<asset::Texel>(steps[i].second));
-        }
-        asset_.data[first + i] = std::bit_cast<asset::Texel>(instruction);
-    }
-    return intern(key, {first, count, 0, asset::programTag});
-}
-
-std::uint16_t composite(const Picture& picture, std::span<const std::uint32_t> items,
-                        const std::vector<std::uint8_t>& inside, Palette& palette) {
+PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
+                  const std::vector<std::uint8_t>& inside, Palette& palette) {
     const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };
     const auto shown = [&](std::uint32_t group) {
         for (; group != none; group = picture.groups[group].parent)
@@ -276,7 +206,7 @@ std::uint16_t composite(const Picture& picture, std::span<const std::uint32_t> i
     }
     walk.finish();
     const Frame& frame = compositor.result();
-    return frame.constant() ? palette.solid(frame.color()) : palette.program(frame.steps);
+    return palette.add(frame.steps);
 }
 
 }  // namespace vtm::compiler

@@ -1,22 +1,77 @@
 /// \file
-/// Boundaries to pieces: chains of planar edges become Hermite cubics in leaf coordinates.
+/// From the boundaries of a planar leaf to quantised pieces.
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <glm/vec2.hpp>
+
 #include "compiler/src/planar.hpp"
+#include "compiler/src/tree.hpp"
 
 namespace vtm::compiler {
 
 struct FittedLeaf {
-    std::vector<asset::Piece> pieces;
-    std::array<std::uint16_t, 4> corners{};
+    std::vector<Tree::Piece> pieces;
+    std::array<PaintId, 4> corners{};
 };
 
-/// Every point of a chain lies within `tolerance` lattice steps (plus the leaf's quantisation, half
-/// of 1/65535 of its side) of the chain's pieces. End points on the border stay on it, inner ones
-/// inside, and none is a corner: what a renderer may rely on.
-FittedLeaf fit(const Square& square, const PlanarLeaf& leaf, double tolerance);
+/// Fits pieces; keeps its memory from leaf to leaf.
+class Fitter {
+public:
+    /// Chains of edges between junctions become Hermite pieces. End points are rounded to leaf
+    /// coordinates; each piece stays within `tolerance` lattice steps of its chain, unless the chain
+    /// cannot be met (a single edge is always a piece). Edges with equal paints on both sides and
+    /// slivers along the border, thinner than a step, are dropped. Valid until the next call.
+    const FittedLeaf& run(const Square& square, const PlanarLeaf& leaf, double tolerance);
+
+private:
+    using Steps = std::array<std::uint16_t, 2>;
+    /// Consecutive boundary points with one paint on the left and one on the right.
+    struct Chain {
+        std::uint32_t first, count;  ///< of points_
+        PaintId left, right;
+    };
+    /// A visible edge's end at a vertex.
+    struct End {
+        LatticePoint at;
+        std::uint32_t edge;
+    };
+    /// Slopes of a piece over its chord.
+    struct Slopes {
+        double a = 0, b = 0;
+    };
+
+    void link(const PlanarLeaf& leaf);
+    const End* next(const PlanarLeaf& leaf, LatticePoint at, std::uint32_t edge) const;
+    void follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA);
+
+    double leafStepsPerStep() const;
+    glm::dvec2 exact(LatticePoint p) const;
+    Steps round(LatticePoint p) const;
+
+    void cutSlivers();
+    bool isSliver(const Chain& chain);
+    bool cutAlong(const Chain& chain, std::size_t from, std::size_t to, PaintId outer, PaintId inner);
+    bool hugs(Steps p, Steps q, std::size_t from, std::size_t sides) const;
+
+    void fit(const Chain& chain);
+    std::uint32_t emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last);
+    bool tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes);
+    Slopes leastSquares() const;
+    void emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m);
+
+    Square square_;
+    double tolerance_ = 0;  ///< leaf coordinates
+    std::vector<End> ends_;
+    std::vector<std::uint8_t> used_;
+    std::vector<LatticePoint> points_;
+    std::vector<Chain> chains_;
+    std::vector<glm::dvec2> exact_;  ///< the chain at hand in leaf coordinates
+    std::vector<Steps> rounded_;
+    std::vector<glm::dvec2> local_;
+    FittedLeaf leaf_;
+};
 
 }  // namespace vtm::compiler

@@ -188,18 +188,17 @@ private:
 
     std::uint32_t layer(const Path& path, const Affine& transform, scene::FillRule rule) {
         const Affine toSteps = compose(lattice_.toSteps(), transform);
-        const std::vector<Chord> chords =
-            outline(path, toSteps, tolerance_, lattice_.clampMin(), lattice_.clampMax());
-        checkLimits(chords.size());
-        picture_.layers.push_back({rule, static_cast<std::uint32_t>(picture_.chords.size()),
-                                   static_cast<std::uint32_t>(chords.size())});
+        const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
+        addOutline(picture_.outlines, path, toSteps, tolerance_, lattice_.clampMin(), lattice_.clampMax());
+        checkLimits();
+        picture_.layers.push_back(
+            {rule, firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun});
         picture_.itemOfLayer.push_back(none);
-        picture_.chords.insert(picture_.chords.end(), chords.begin(), chords.end());
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
     }
 
-    void checkLimits(std::size_t more) const {
-        if (picture_.chords.size() + more > maxChords)
+    void checkLimits() const {
+        if (picture_.outlines.points.size() > maxChords)
             throw LimitError("the picture's outlines take more than " + std::to_string(maxChords) +
                              " chords");
         if (picture_.layers.size() >= maxLayers)
@@ -208,8 +207,10 @@ private:
 
     Box bounds(const Layer& layer) const {
         Box box;
-        for (std::uint32_t i = 0; i < layer.chordCount; ++i)
-            box.add(lattice_.toUnits(picture_.chords[layer.firstChord + i].a));
+        for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
+            box.add(lattice_.toUnits(picture_.outlines.points[picture_.outlines.runs[r].first]));
+            box.add(lattice_.toUnits(picture_.outlines.points[picture_.outlines.runs[r].last]));
+        }
         return box;
     }
 

@@ -14,30 +14,48 @@ using scene::Point;
 
 Point lerp(Point a, Point b, double t) { return a + (b - a) * t; }
 
-/// Takes points in steps, cuts the polyline at the box, emits chords between even vertices.
-class ChordSink {
+/// Takes points in steps, cuts the polyline at the box, appends runs of chords between even vertices.
+class RunSink {
 public:
-    ChordSink(glm::dvec2 min, glm::dvec2 max) : min_(min), max_(max) {}
+    RunSink(Outlines& outlines, glm::dvec2 min, glm::dvec2 max)
+        : points_(outlines.points), runs_(outlines.runs), min_(min), max_(max) {}
 
     void start(Point p) {
+        finish();
         current_ = p;
-        vertex_ = quantise(p);
+        inside_ = isInside(p);
+        points_.push_back(quantise(p));
+        contourStart_ = runStart_ = static_cast<std::uint32_t>(points_.size() - 1);
+        started_ = true;
     }
 
     void line(Point to) {
-        const std::array<double, 6> cuts = boxCuts(current_, to);
-        for (double t : cuts)
-            if (t > 0 && t < 1)
-                emit(quantise(lerp(current_, to, t)));
+        const bool inside = isInside(to);
+        if (!(inside && inside_))
+            for (double t : boxCuts(current_, to))
+                if (t > 0 && t < 1)
+                    emit(quantise(lerp(current_, to, t)));
         emit(quantise(to));
         current_ = to;
+        inside_ = inside;
+    }
+
+    /// Ends the last contour.
+    void finish() {
+        if (!started_)
+            return;
+        endRun();
+        if (points_.size() - 1 == contourStart_)
+            points_.pop_back();  // a point that nothing follows
+        started_ = false;
     }
 
     Point min() const { return min_; }
     Point max() const { return max_; }
-    std::vector<Chord> take() { return std::move(chords_); }
 
 private:
+    bool isInside(Point p) const { return p.x >= min_.x && p.x <= max_.x && p.y >= min_.y && p.y <= max_.y; }
+
     /// Where the segment meets the four lines of the box, ascending: between two cuts clamping is an
     /// affine map and keeps the segment straight.
     std::array<double, 6> boxCuts(Point a, Point b) const {
@@ -58,15 +76,34 @@ private:
     }
 
     void emit(LatticePoint to) {
-        if (to != vertex_)
-            chords_.push_back({vertex_, to});
-        vertex_ = to;
+        const LatticePoint from = points_.back();
+        if (to == from)
+            return;
+        const int dx = (to.x > from.x) - (to.x < from.x), dy = (to.y > from.y) - (to.y < from.y);
+        if (dx * dirX_ < 0 || dy * dirY_ < 0)
+            endRun();
+        if (dx != 0)
+            dirX_ = dx;
+        if (dy != 0)
+            dirY_ = dy;
+        points_.push_back(to);
     }
 
-    glm::dvec2 min_, max_;
+    void endRun() {
+        const auto last = static_cast<std::uint32_t>(points_.size() - 1);
+        if (last > runStart_)
+            runs_.push_back({runStart_, last});
+        runStart_ = last;
+        dirX_ = dirY_ = 0;
+    }
+
+    std::vector<LatticePoint>& points_;
+    std::vector<Run>& runs_;
+    const glm::dvec2 min_, max_;
     Point current_{};
-    LatticePoint vertex_{};
-    std::vector<Chord> chords_;
+    bool inside_ = false, started_ = false;
+    std::uint32_t contourStart_ = 0, runStart_ = 0;
+    int dirX_ = 0, dirY_ = 0;  ///< of the run so far; 0: not known yet
 };
 
 bool beyondOneSide(const Cubic& c, Point min, Point max) {
@@ -104,7 +141,7 @@ constexpr double chordsAtOnce = 8;
 /// Halving so often brings any curve below a lattice step.
 constexpr int maxHalvings = 400;
 
-void flatten(ChordSink& sink, const Cubic& c, double tolerance, int halvings = 0) {
+void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) {
     const double n = chordsNeeded(c, tolerance);
     if (beyondOneSide(c, sink.min(), sink.max()) || n <= 1 || halvings >= maxHalvings) {
         sink.line(c[3]);
@@ -122,24 +159,24 @@ void flatten(ChordSink& sink, const Cubic& c, double tolerance, int halvings = 0
 
 class Flattener : public CurveSink {
 public:
-    Flattener(ChordSink& sink, double tolerance) : sink_(sink), tolerance_(tolerance) {}
+    Flattener(RunSink& sink, double tolerance) : sink_(sink), tolerance_(tolerance) {}
     void start(Point p) override { sink_.start(p); }
     void line(Point to) override { sink_.line(to); }
     void cubic(const Cubic& c) override { flatten(sink_, c, tolerance_); }
 
 private:
-    ChordSink& sink_;
+    RunSink& sink_;
     const double tolerance_;
 };
 
 }  // namespace
 
-std::vector<Chord> outline(const scene::Path& path, const Affine& toSteps, double tolerance,
-                           glm::dvec2 clampMin, glm::dvec2 clampMax) {
-    ChordSink sink(clampMin, clampMax);
+void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSteps, double tolerance,
+                glm::dvec2 clampMin, glm::dvec2 clampMax) {
+    RunSink sink(outlines, clampMin, clampMax);
     Flattener flattener(sink, tolerance);
     walkCurves(path, toSteps, flattener);
-    return sink.take();
+    sink.finish();
 }
 
 double largestStretch(const Affine& m) {

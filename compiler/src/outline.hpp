@@ -1,5 +1,5 @@
 /// \file
-/// Curves to chords on the lattice.
+/// Curves to chords on the lattice, gathered into monotone runs.
 #pragma once
 
 #include <vector>
@@ -15,12 +15,28 @@ struct Chord {
     LatticePoint a, b;
 };
 
-/// The closed contours of `path` under `toSteps` (path space to lattice steps) as chords: every
-/// subpath is closed, every curve's chords lie within `tolerance` steps of it, every vertex is even,
-/// and what lies outside [clampMin, clampMax] is moved onto that box's border, which changes no
-/// winding number inside it.
-std::vector<Chord> outline(const scene::Path& path, const scene::Affine& toSteps, double tolerance,
-                           glm::dvec2 clampMin, glm::dvec2 clampMax);
+/// Consecutive chords of one contour that nowhere turn back, in x or in y: points[first] to
+/// points[last], first < last. A monotone chain meets every horizontal and vertical line once at
+/// most and every square in one stretch, so all questions about it are binary searches.
+struct Run {
+    std::uint32_t first = 0, last = 0;
+};
+
+/// The contours of layers: points[run.first .. run.last] for every run. Runs of a contour follow each
+/// other and share their end points.
+struct Outlines {
+    std::vector<LatticePoint> points;
+    std::vector<Run> runs;
+
+    Chord chord(std::uint32_t i) const { return {points[i], points[i + 1]}; }
+};
+
+/// Appends the closed contours of `path` under `toSteps` (path space to lattice steps): every subpath
+/// is closed, every curve's chords lie within `tolerance` steps of it, every vertex is even, and what
+/// lies outside [clampMin, clampMax] is moved onto that box's border, which changes no winding number
+/// inside it.
+void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine& toSteps, double tolerance,
+                glm::dvec2 clampMin, glm::dvec2 clampMax);
 
 /// Tolerance, as a share of the given one, in path space: how much `m` stretches at most.
 double largestStretch(const scene::Affine& m);

@@ -1,20 +1,62 @@
 #include "compiler/src/painters.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace vtm::compiler {
 
-PicturePainter::PicturePainter(const Picture& picture, asset::Asset& asset)
-    : picture_(picture), asset_(asset), palette_(asset), wanted_(picture.layers.size()) {}
+PicturePainter::PicturePainter(const Picture& picture)
+    : picture_(picture), plain_(picture.groups.size()), wanted_(picture.layers.size()) {
+    for (std::uint32_t g = 0; g < plain_.size(); ++g)  // parents come first
+        plain_[g] = isPlain(g);
+}
 
-std::uint16_t PicturePainter::paint(std::span<const std::uint32_t> layers,
-                                    const std::vector<std::uint8_t>& inside) {
+std::unique_ptr<Painter> PicturePainter::clone() const { return std::make_unique<PicturePainter>(*this); }
+
+bool PicturePainter::isPlain(std::uint32_t index) const {
+    const PictureGroup& g = picture_.groups[index];
+    return g.role == GroupRole::Plain && g.opacity >= 1 && g.blend == scene::BlendMode::Normal &&
+           g.clip == none && g.mask == none && (g.parent == none || plain_[g.parent]);
+}
+
+PaintId PicturePainter::paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
+                              Palette& palette) {
+    if (Color color; stackSolids(layers, inside, color))
+        return palette.solid(color);
     items_.clear();
     for (std::uint32_t layer : layers)
         if (picture_.itemOfLayer[layer] != none)
             items_.push_back(picture_.itemOfLayer[layer]);
-    return composite(picture_, items_, inside, palette_);
+    return composite(picture_, items_, inside, palette);
+}
+
+/// The usual case: what shows is solid colours in groups that change nothing.
+bool PicturePainter::stackSolids(std::span<const std::uint32_t> layers,
+                                 const std::vector<std::uint8_t>& inside, Color& color) const {
+    const auto colorOf = [](const PictureItem& item, const Source& source) {
+        Color c = source.color;
+        for (float& v : c)
+            v *= item.opacity;
+        return c;
+    };
+    std::size_t bottom = layers.size();  // down to the first that hides the rest
+    for (bool hidden = false; bottom > 0 && !hidden;) {
+        const std::uint32_t layer = layers[--bottom];
+        if (!inside[layer] || picture_.itemOfLayer[layer] == none)
+            continue;
+        const PictureItem& item = picture_.items[picture_.itemOfLayer[layer]];
+        const Source& source = picture_.sources[item.source];
+        if (!plain_[item.group] || source.op != asset::Op::Solid)
+            return false;
+        hidden = colorOf(item, source)[3] >= 1;
+    }
+    color = {};
+    for (std::size_t i = bottom; i < layers.size(); ++i) {
+        if (!inside[layers[i]] || picture_.itemOfLayer[layers[i]] == none)
+            continue;
+        const PictureItem& item = picture_.items[picture_.itemOfLayer[layers[i]]];
+        color = over(colorOf(item, picture_.sources[item.source]), color);
+    }
+    return true;
 }
 
 namespace {
@@ -100,25 +142,26 @@ void PicturePainter::cull(std::span<const std::uint32_t> layers, const std::vect
     marked_.clear();
 }
 
-std::uint16_t PicturePainter::mean(std::span<const std::uint16_t> paints) {
-    std::array<float, 4> sum{};
-    for (std::uint16_t index : paints) {
-        const asset::Paint& paint = asset_.paints[index];
-        if (paint[3] == asset::programTag)
+PaintId PicturePainter::mean(std::span<const PaintId> paints, Palette& palette) {
+    Color sum{};
+    for (PaintId id : paints) {
+        if (!Palette::isConstant(palette[id]))
             return paints[paints.size() / 2];
+        const Color color = Palette::colorOf(palette[id]);
         for (std::size_t c = 0; c < 4; ++c)
-            sum[c] += std::bit_cast<float>(paint[c]) / static_cast<float>(paints.size());
+            sum[c] += color[c] / static_cast<float>(paints.size());
     }
-    return palette_.solid(sum);
+    return palette.solid(sum);
 }
 
-std::uint16_t MaskPainter::paint(std::span<const std::uint32_t>, const std::vector<std::uint8_t>& inside) {
+PaintId MaskPainter::paint(std::span<const std::uint32_t>, const std::vector<std::uint8_t>& inside,
+                           Palette&) {
     const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };
     return layer_ != none ? in(layer_) : insideClip(picture_, clip_, in);
 }
 
-std::uint16_t MaskPainter::mean(std::span<const std::uint16_t> paints) {
-    const auto covered = std::count(paints.begin(), paints.end(), 1);
+PaintId MaskPainter::mean(std::span<const PaintId> paints, Palette&) {
+    const auto covered = std::count(paints.begin(), paints.end(), 1u);
     return 2 * static_cast<std::size_t>(covered) >= paints.size();
 }
 

@@ -10,14 +10,18 @@ namespace vtm::compiler {
 /// Exact mode: a region's paint is its whole stack of items, composited.
 class PicturePainter : public Painter {
 public:
-    PicturePainter(const Picture& picture, asset::Asset& asset);
-    std::uint16_t paint(std::span<const std::uint32_t> layers,
-                        const std::vector<std::uint8_t>& inside) override;
+    explicit PicturePainter(const Picture& picture);
+    std::unique_ptr<Painter> clone() const override;
+    PaintId paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
+                  Palette& palette) override;
     void cull(std::span<const std::uint32_t> layers, const std::vector<Cover>& covers,
               std::vector<std::uint8_t>& keep) override;
-    std::uint16_t mean(std::span<const std::uint16_t> paints) override;
+    PaintId mean(std::span<const PaintId> paints, Palette& palette) override;
 
 private:
+    bool isPlain(std::uint32_t group) const;
+    bool stackSolids(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
+                     Color& color) const;
     Cover clipCover(std::uint32_t clip, const std::vector<Cover>& covers) const;
     Cover groupCover(std::uint32_t group, const std::vector<Cover>& covers) const;
     bool hidesAllBelow(const PictureItem& item, const std::vector<Cover>& covers) const;
@@ -26,11 +30,10 @@ private:
     void markClip(std::uint32_t clip);
 
     const Picture& picture_;
-    asset::Asset& asset_;
-    Palette palette_;
-    std::vector<std::uint32_t> items_;
+    std::vector<std::uint8_t> plain_;    ///< by group: it and all round it change nothing
     std::vector<std::uint8_t> wanted_;   ///< by layer
     std::vector<std::uint32_t> marked_;  ///< the wanted ones, perhaps more than once
+    std::vector<std::uint32_t> items_;
 };
 
 /// Compat mode: paint 1 inside one layer, or inside a clip; 0 outside.
@@ -38,11 +41,12 @@ class MaskPainter : public Painter {
 public:
     MaskPainter(const Picture& picture, std::uint32_t layer, std::uint32_t clip)
         : picture_(picture), layer_(layer), clip_(clip) {}
-    std::uint16_t paint(std::span<const std::uint32_t> layers,
-                        const std::vector<std::uint8_t>& inside) override;
+    std::unique_ptr<Painter> clone() const override { return std::make_unique<MaskPainter>(*this); }
+    PaintId paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
+                  Palette& palette) override;
     void cull(std::span<const std::uint32_t>, const std::vector<Cover>&,
               std::vector<std::uint8_t>&) override {}
-    std::uint16_t mean(std::span<const std::uint16_t> paints) override;
+    PaintId mean(std::span<const PaintId> paints, Palette& palette) override;
 
 private:
     const Picture& picture_;

@@ -1,5 +1,5 @@
 /// \file
-/// The lowered picture: the scene with its geometry as closed chords on the lattice (*layers*) and
+/// The lowered picture: the scene with its geometry as closed outlines on the lattice (*layers*) and
 /// its paints as the asset's records; groups, clips and masks as tables of indices.
 ///
 /// Everything stands in painter's order. A layer is one outline with a fill rule; it belongs to an
@@ -21,7 +21,7 @@ inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 
 struct Layer {
     scene::FillRule rule = scene::FillRule::NonZero;
-    std::uint32_t firstChord = 0, chordCount = 0;  ///< of Picture::chords
+    std::uint32_t firstRun = 0, runCount = 0;  ///< of Picture::outlines
 };
 
 /// What an item is painted with.
@@ -66,7 +66,7 @@ struct PictureGroup {
 };
 
 struct Picture {
-    std::vector<Chord> chords;
+    Outlines outlines;
     std::vector<Layer> layers;
     std::vector<PictureItem> items;  ///< painter's order; layers ascend
     std::vector<PictureGroup>

@@ -1,20 +1,17 @@
 #include "compiler/src/planar.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "compiler/src/snap.hpp"
 
 namespace vtm::compiler {
 namespace {
 
-using Windings = std::vector<int>;
-
 int sign(std::int64_t v) { return (v > 0) - (v < 0); }
+
+}  // namespace
 
 /// A direction of sweeping over the edges: along +x at a height between two lattice rows, or along
 /// +y at a position between two columns. `u` is measured along the sweep, `v` across it.
-struct Axis {
+struct Planariser::Axis {
     bool alongX;
     Coord u(LatticePoint p) const { return alongX ? p.x : p.y; }
     Coord v(LatticePoint p) const { return alongX ? p.y : p.x; }
@@ -22,256 +19,274 @@ struct Axis {
     /// along +x an upward edge (dy > 0) is met from its left; along +y a rightward one (dx > 0) from
     /// its right.
     int crossingSign(const Edge& e) const { return alongX ? -sign(e.b.y - e.a.y) : sign(e.b.x - e.a.x); }
+    /// Whether the edge meets the line v = m + ½, on which no vertex lies.
+    bool meets(const Edge& e, Coord m) const { return (v(e.a) <= m) != (v(e.b) <= m); }
 };
 
-/// A line v = m + ½, on which no vertex lies.
-bool meets(const Axis& axis, const Edge& e, Coord m) {
-    return std::min(axis.v(e.a), axis.v(e.b)) <= m && std::max(axis.v(e.a), axis.v(e.b)) > m;
+const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span<const Strand> strands,
+                                  RegionPaints& regions) {
+    square_ = square;
+    regions_ = &regions;
+    leaf_.certified = false;
+    leaf_.set = snapper_.run(square, points, strands);
+    if (!leaf_.set)
+        return leaf_;
+    leaf_.sides.assign(leaf_.set->edges.size(), {});
+    consistent_ = true;
+    collectEnds();
+    for (std::uint32_t e = 0; e < leaf_.sides.size(); ++e)
+        if (!leaf_.sides[e].known) {
+            sweepTo(e);
+            walkFrom(e);
+        }
+    leaf_.certified = labelCorners() && consistent_ && certifyVertices() && certifySides();
+    return leaf_;
 }
 
-/// Whether f meets the line v = m + ½ before e does. In doubles the positions are within 2^-20 steps;
-/// nearer ones are compared exactly.
-bool before(const Axis& axis, const Edge& f, const Edge& e, Coord m) {
+// ---- structure --------------------------------------------------------------------------------
+
+void Planariser::collectEnds() {
+    const std::vector<Edge>& edges = leaf_.set->edges;
+    ends_.clear();
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        ends_.push_back({edges[e].a, e, true});
+        ends_.push_back({edges[e].b, e, false});
+    }
+    std::sort(ends_.begin(), ends_.end(),
+              [](const End& p, const End& q) { return p.at != q.at ? p.at < q.at : p.edge < q.edge; });
+    endOf_.resize(ends_.size());
+    firstOf_.resize(ends_.size());
+    visited_.assign(ends_.size(), false);
+    for (auto& side : border_)
+        side.clear();
+    for (std::uint32_t first = 0; first < ends_.size();) {
+        std::uint32_t last = first + 1;
+        while (last < ends_.size() && ends_[last].at == ends_[first].at)
+            ++last;
+        const int side = sideOf(ends_[first].at);
+        visited_[first] = side >= 0;
+        if (last - first > 2 && side < 0)
+            sortRound(first, last);
+        for (; first < last; ++first) {
+            endOf_[2 * ends_[first].edge + (ends_[first].isA ? 0 : 1)] = first;
+            firstOf_[first] =
+                first > 0 && ends_[first - 1].at == ends_[first].at ? firstOf_[first - 1] : first;
+            if (side >= 0)
+                border_[static_cast<std::size_t>(side)].push_back(ends_[first]);
+        }
+    }
+}
+
+/// The vertex after the end's own on its edge.
+LatticePoint Planariser::next(const End& end) const {
+    const Edge& e = leaf_.set->edges[end.edge];
+    return leaf_.set->vertex(e, end.isA ? 1 : e.innerCount);
+}
+
+/// Counter-clockwise by direction, from -y.
+void Planariser::sortRound(std::uint32_t first, std::uint32_t last) {
+    const LatticePoint at = ends_[first].at;
+    const auto isRight = [&](LatticePoint p) { return p.x > at.x || (p.x == at.x && p.y < at.y); };
+    std::sort(ends_.begin() + first, ends_.begin() + last, [&](const End& p, const End& q) {
+        const LatticePoint a = next(p), b = next(q);
+        if (isRight(a) != isRight(b))
+            return isRight(a);
+        return orient(at, a, b) > 0;
+    });
+}
+
+/// The side a point lies on, or -1 inside.
+int Planariser::sideOf(LatticePoint p) const {
+    return p.y == square_.y0     ? 0
+           : p.x == square_.x1() ? 1
+           : p.y == square_.y1() ? 2
+           : p.x == square_.x0   ? 3
+                                 : -1;
+}
+
+// ---- label ------------------------------------------------------------------------------------
+
+void Planariser::cross(const Edge& e, int times) {
+    for (const Change& c : leaf_.set->of(e))
+        regions_->change(c.layer, times * c.winding);
+}
+
+/// The edge's chord that meets the line v = m + ½.
+Chord Planariser::chordAt(const Axis& axis, const Edge& e, Coord m) const {
+    const bool low = axis.v(e.a) <= m;
+    const std::uint32_t k = firstWhere(
+        0, e.innerCount, [&](std::uint32_t i) { return (axis.v(leaf_.set->vertex(e, i + 1)) <= m) != low; });
+    return {leaf_.set->vertex(e, k), leaf_.set->vertex(e, k + 1)};
+}
+
+/// Where a chord meets the line v = m + ½: u + du · rise / (2 dv).
+struct Planariser::Place {
+    std::int64_t u, du, dv, rise;
+
+    Place(const Axis& axis, const Chord& c, Coord m)
+        : u(axis.u(c.a)),
+          du(std::int64_t{axis.u(c.b)} - axis.u(c.a)),
+          dv(std::int64_t{axis.v(c.b)} - axis.v(c.a)),
+          rise(2 * std::int64_t{m} + 1 - 2 * std::int64_t{axis.v(c.a)}) {}
+
+    double value() const {
+        return static_cast<double>(u) +
+               static_cast<double>(du) * static_cast<double>(rise) / (2.0 * static_cast<double>(dv));
+    }
+};
+
+/// In doubles the places are within 2^-20 steps; nearer ones are compared exactly.
+bool Planariser::isBefore(const Place& f, const Place& e) {
     constexpr double sure = 1e-3;
+    const double difference = f.value() - e.value();
+    if (std::abs(difference) > sure)
+        return difference < 0;
     struct Ratio {
         Int128 numerator;
         std::int64_t denominator;
-        double value() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
     };
-    const auto position = [&](const Edge& g) {
-        const std::int64_t du = std::int64_t{axis.u(g.b)} - axis.u(g.a),
-                           dv = std::int64_t{axis.v(g.b)} - axis.v(g.a);
-        const std::int64_t rise = 2 * std::int64_t{m} + 1 - 2 * std::int64_t{axis.v(g.a)};
-        Ratio r{Int128{2 * std::int64_t{axis.u(g.a)}} * dv + Int128{rise} * du, 2 * dv};
-        if (r.denominator < 0)
-            r = {-r.numerator, -r.denominator};
-        return r;
+    const auto exact = [](const Place& p) {
+        Ratio r{Int128{2 * p.u} * p.dv + Int128{p.rise} * p.du, 2 * p.dv};
+        return r.denominator < 0 ? Ratio{-r.numerator, -r.denominator} : r;
     };
-    const Ratio pf = position(f), pe = position(e);
-    const double difference = pf.value() - pe.value();
-    if (std::abs(difference) > sure)
-        return difference < 0;
-    return pf.numerator * pe.denominator < pe.numerator * pf.denominator;
+    const Ratio rf = exact(f), re = exact(e);
+    return rf.numerator * re.denominator < re.numerator * rf.denominator;
 }
 
-struct Labels {
-    std::uint16_t left = 0, right = 0;
-    bool known = false;
-};
-
-/// 64 well-mixed bits for a paint (SplitMix64): sums of them vanish by chance once in 2^64.
-std::uint64_t hash(std::uint16_t paint) {
-    std::uint64_t z = (paint + std::uint64_t{1}) * 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
+void Planariser::sweepTo(std::uint32_t index) {
+    const std::vector<Edge>& edges = leaf_.set->edges;
+    const Edge& e = edges[index];
+    const Axis axis{e.a.y != e.b.y};
+    const Coord m = std::min(axis.v(e.a), axis.v(e.b));
+    // From the first corner along the border to the start of the sweep line v = m + ½.
+    regions_->toCorner();
+    const Axis border{!axis.alongX};
+    for (const End& end : border_[axis.alongX ? 3 : 0])
+        if (axis.v(end.at) <= m)
+            cross(edges[end.edge], border.crossingSign(edges[end.edge]));
+    const Place place(axis, chordAt(axis, e, m), m);
+    const auto [low, high] = std::minmax(axis.u(e.a), axis.u(e.b));
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        const Edge& f = edges[i];
+        if (i == index || !axis.meets(f, m))
+            continue;
+        const auto [fLow, fHigh] = std::minmax(axis.u(f.a), axis.u(f.b));
+        if (fHigh < low || (fLow <= high && isBefore(Place(axis, chordAt(axis, f, m), m), place)))
+            cross(f, axis.crossingSign(f));
+    }
+    if (axis.crossingSign(e) > 0)  // met from its right
+        cross(e, 1);
 }
 
-/// An edge's end at a vertex.
-struct End {
-    LatticePoint at;
-    std::uint32_t edge;
-    bool isA;
-};
+/// From the left of an edge, all round the part of the map that it is connected with.
+void Planariser::walkFrom(std::uint32_t edge) {
+    const Edge& e = leaf_.set->edges[edge];
+    const PaintId left = regions_->paint();
+    arrive(endOf_[2 * edge + 1]);
+    walk();
+    cross(e, -1);
+    label(edge, {left, regions_->paint(), true});
+    arrive(endOf_[2 * edge]);
+    walk();
+}
 
-class Labelling {
-public:
-    Labelling(const Square& square, const EdgeSet& set, std::span<const int> windings,
-              const Labeller& labeller)
-        : square_(square),
-          set_(set),
-          corner_(windings.begin(), windings.end()),
-          labeller_(labeller),
-          labels_(set.edges.size()) {
-        collectEnds();
-        collectBorder();
-    }
+/// At the end of an edge that has been followed with the region on its left.
+void Planariser::arrive(std::uint32_t end) {
+    const std::uint32_t first = firstOf_[end];
+    if (visited_[first])
+        return;
+    visited_[first] = true;
+    std::uint32_t count = 1;
+    while (first + count < ends_.size() && firstOf_[first + count] == first)
+        ++count;
+    visits_.push_back({first, count, end - first, 0, false, regions_->windingSum()});
+}
 
-    PlanarLeaf run() {
-        for (std::uint32_t e = 0; e < set_.edges.size(); ++e)
-            if (!labels_[e].known) {
-                sweepTo(e);
-                spread(e);
-            }
-        PlanarLeaf leaf;
-        const bool closed = labelCorners(leaf.corners);
-        leaf.certified = closed && certifyVertices() && certifySides(leaf.corners);
-        for (std::uint32_t e = 0; e < set_.edges.size(); ++e)
-            if (labels_[e].left != labels_[e].right)
-                leaf.edges.push_back({set_.edges[e].a, set_.edges[e].b, labels_[e].left, labels_[e].right});
-        return leaf;
-    }
-
-private:
-    // ---- structure ----------------------------------------------------------------------------
-
-    void collectEnds() {
-        for (std::uint32_t e = 0; e < set_.edges.size(); ++e) {
-            ends_.push_back({set_.edges[e].a, e, true});
-            ends_.push_back({set_.edges[e].b, e, false});
+/// Going clockwise round a vertex from the edge by which one came, one stands on the left of the next
+/// edge, as seen from the vertex: follow it, walk round the vertex at its other end, which leads back
+/// here, then cross it.
+void Planariser::walk() {
+    while (!visits_.empty()) {
+        Visit& visit = visits_.back();
+        const std::uint32_t step = visit.crossed + 1;
+        const End& end =
+            ends_[visit.first + (visit.arrival + visit.count - step % visit.count) % visit.count];
+        const Edge& e = leaf_.set->edges[end.edge];
+        if (step < visit.count && !visit.followed) {
+            visit.followed = true;
+            arrive(endOf_[2 * end.edge + (end.isA ? 1 : 0)]);
+            continue;
         }
-        std::sort(ends_.begin(), ends_.end(), [](const End& p, const End& q) { return p.at < q.at; });
-        endOf_.resize(2 * set_.edges.size());
-        for (std::uint32_t i = 0; i < ends_.size(); ++i)
-            endOf_[2 * ends_[i].edge + (ends_[i].isA ? 0 : 1)] = i;
-    }
-
-    /// The side a point lies on, or -1 inside.
-    int sideOf(LatticePoint p) const {
-        return p.y == square_.y0     ? 0
-               : p.x == square_.x1() ? 1
-               : p.y == square_.y1() ? 2
-               : p.x == square_.x0   ? 3
-                                     : -1;
-    }
-
-    void collectBorder() {
-        for (const End& end : ends_)
-            if (const int side = sideOf(end.at); side >= 0)
-                border_[static_cast<std::size_t>(side)].push_back(end);
-    }
-
-    // ---- label --------------------------------------------------------------------------------
-
-    void cross(Windings& w, const Edge& e, int times) const {
-        for (const Change& c : set_.of(e))
-            w[c.layer] += times * c.winding;
-    }
-
-    /// Windings at the start of the sweep line v = m + ½: from the first corner along the border.
-    Windings atBorder(const Axis& axis, Coord m) const {
-        Windings w = corner_;
-        const Axis along{!axis.alongX};
-        for (const End& end : border_[axis.alongX ? 3 : 0])
-            if (axis.v(end.at) <= m)
-                cross(w, set_.edges[end.edge], along.crossingSign(set_.edges[end.edge]));
-        return w;
-    }
-
-    void sweepTo(std::uint32_t index) {
-        const Edge& e = set_.edges[index];
-        const Axis axis{e.a.y != e.b.y};
-        const Coord m = std::min(axis.v(e.a), axis.v(e.b));
-        Windings w = atBorder(axis, m);
-        for (std::uint32_t f = 0; f < set_.edges.size(); ++f)
-            if (f != index && meets(axis, set_.edges[f], m) && before(axis, set_.edges[f], e, m))
-                cross(w, set_.edges[f], axis.crossingSign(set_.edges[f]));
-        // We stand on the left of an edge that is crossed with -1, on the right of the other kind.
-        const int crossing = axis.crossingSign(e);
-        const std::uint16_t here = label(w);
-        cross(w, e, crossing);
-        const std::uint16_t there = label(w);
-        labels_[index] = crossing < 0 ? Labels{here, there, true} : Labels{there, here, true};
-    }
-
-    std::uint16_t label(const Windings& w) {
-        for (const auto& [windings, paint] : seen_)
-            if (windings == w)
-                return paint;
-        seen_.emplace_back(w, labeller_(w));
-        return seen_.back().second;
-    }
-
-    /// Carries an edge's labels along both ways through inner vertices of degree two.
-    void spread(std::uint32_t from) {
-        for (const bool fromA : {true, false}) {
-            std::uint32_t edge = from;
-            bool isA = fromA;
-            while (const End* next = other(edge, isA)) {
-                if (labels_[next->edge].known)
-                    break;
-                const Labels& l = labels_[edge];
-                const bool sameDirection = next->isA != isA;
-                labels_[next->edge] =
-                    sameDirection ? Labels{l.left, l.right, true} : Labels{l.right, l.left, true};
-                edge = next->edge;
-                isA = !next->isA;
-            }
+        const PaintId left = regions_->paint();
+        cross(e, end.isA ? -1 : 1);
+        const PaintId right = regions_->paint();
+        label(end.edge, end.isA ? Sides{left, right, true} : Sides{right, left, true});
+        visit.followed = false;
+        if (++visit.crossed == visit.count) {
+            consistent_ = consistent_ && regions_->windingSum() == visit.windingSum;
+            visits_.pop_back();
         }
     }
+}
 
-    /// The only other edge's end at this end's vertex, if there is just one and it is inside.
-    const End* other(std::uint32_t edge, bool isA) const {
-        const std::uint32_t i = endOf_[2 * edge + (isA ? 0 : 1)];
+void Planariser::label(std::uint32_t edge, const Sides& sides) {
+    Sides& known = leaf_.sides[edge];
+    consistent_ = consistent_ && (!known.known || (known.left == sides.left && known.right == sides.right));
+    known = sides;
+}
+
+// ---- certify ----------------------------------------------------------------------------------
+
+void Planariser::along(std::size_t side) {
+    const Axis axis{side % 2 == 0};
+    for (const End& end : border_[side])
+        cross(leaf_.set->edges[end.edge], axis.crossingSign(leaf_.set->edges[end.edge]));
+}
+
+/// Both ways from corner 0 to corner 2 must agree.
+bool Planariser::labelCorners() {
+    regions_->toCorner();
+    leaf_.corners[0] = regions_->paint();
+    along(0);
+    leaf_.corners[1] = regions_->paint();
+    along(1);
+    leaf_.corners[2] = regions_->paint();
+    const std::uint64_t sum = regions_->windingSum();
+    regions_->toCorner();
+    along(3);
+    leaf_.corners[3] = regions_->paint();
+    along(2);
+    return regions_->windingSum() == sum;
+}
+
+/// mixed(left) - mixed(right), as seen going to the vertex.
+std::uint64_t Planariser::flow(const End& end) const {
+    const Sides& l = leaf_.sides[end.edge];
+    const std::uint64_t d = mixed(l.left) - mixed(l.right);
+    return end.isA ? 0 - d : d;
+}
+
+bool Planariser::certifyVertices() const {
+    for (std::size_t i = 0; i < ends_.size();) {
+        std::uint64_t sum = 0;
         const LatticePoint at = ends_[i].at;
-        if (sideOf(at) >= 0)
-            return nullptr;
-        const auto same = [&](std::size_t k) { return k < ends_.size() && ends_[k].at == at; };
-        const bool before1 = i > 0 && same(i - 1), before2 = i > 1 && same(i - 2);
-        const bool after1 = same(i + 1), after2 = same(i + 2);
-        if (before1 && !before2 && !after1)
-            return &ends_[i - 1];
-        if (after1 && !after2 && !before1)
-            return &ends_[i + 1];
-        return nullptr;
+        for (; i < ends_.size() && ends_[i].at == at; ++i)
+            sum += flow(ends_[i]);
+        if (sum != 0 && sideOf(at) < 0)
+            return false;
     }
+    return true;
+}
 
-    // ---- certify ------------------------------------------------------------------------------
-
-    Windings along(Windings w, std::size_t side) const {
-        const Axis axis{side % 2 == 0};
+bool Planariser::certifySides() const {
+    for (std::size_t side = 0; side < 4; ++side) {
+        std::uint64_t sum = mixed(leaf_.corners[side]) - mixed(leaf_.corners[(side + 1) % 4]);
         for (const End& end : border_[side])
-            cross(w, set_.edges[end.edge], axis.crossingSign(set_.edges[end.edge]));
-        return w;
+            sum += flow(end);
+        if (sum != 0)
+            return false;
     }
-
-    /// Both ways from corner 0 to corner 2 must agree.
-    bool labelCorners(std::array<std::uint16_t, 4>& corners) {
-        const Windings c1 = along(corner_, 0), c2 = along(c1, 1);
-        const Windings c3 = along(corner_, 3);
-        corners = {label(corner_), label(c1), label(c2), label(c3)};
-        return along(c3, 2) == c2;
-    }
-
-    /// hash(left) - hash(right), as seen going to the vertex.
-    std::uint64_t flow(const End& end) const {
-        const Labels& l = labels_[end.edge];
-        const std::uint64_t d = hash(l.left) - hash(l.right);
-        return end.isA ? 0 - d : d;
-    }
-
-    bool certifyVertices() const {
-        for (std::size_t i = 0; i < ends_.size();) {
-            std::uint64_t sum = 0;
-            const LatticePoint at = ends_[i].at;
-            for (; i < ends_.size() && ends_[i].at == at; ++i)
-                sum += flow(ends_[i]);
-            if (sum != 0 && sideOf(at) < 0)
-                return false;
-        }
-        return true;
-    }
-
-    bool certifySides(const std::array<std::uint16_t, 4>& corners) const {
-        for (std::size_t side = 0; side < 4; ++side) {
-            std::uint64_t sum = hash(corners[side]) - hash(corners[(side + 1) % 4]);
-            for (const End& end : border_[side])
-                sum += flow(end);
-            if (sum != 0)
-                return false;
-        }
-        return true;
-    }
-
-    const Square square_;
-    const EdgeSet& set_;
-    const Windings corner_;
-    const Labeller& labeller_;
-    std::vector<Labels> labels_;
-    std::vector<End> ends_;             ///< sorted by vertex
-    std::vector<std::uint32_t> endOf_;  ///< place in ends_ of edge e's a (2e) and b (2e + 1)
-    std::array<std::vector<End>, 4> border_;
-    std::vector<std::pair<Windings, std::uint16_t>> seen_;
-};
-
-}  // namespace
-
-PlanarLeaf planarise(const Square& square, std::span<const LeafChord> chords, std::span<const int> windings,
-                     const Labeller& labeller) {
-    const auto set = snap(square, chords);
-    if (!set)
-        return {};
-    return Labelling(square, *set, windings, labeller).run();
+    return true;
 }
 
 }  // namespace vtm::compiler

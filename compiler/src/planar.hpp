@@ -2,55 +2,96 @@
 /// The planar map of one leaf: which paint lies on each side of every boundary in a square.
 ///
 /// clip → snap → merge → label → certify, all on the integer lattice:
-/// - clip: chords are cut at the square; cuts are rounded to even positions of the odd border, so
-///   they keep their order and never meet a corner;
+/// - clip: chains of chords are cut at the square; cuts are rounded to even positions of the odd border,
+///   so they keep their order and never meet a corner;
 /// - snap: crossings are rounded to even points and both chords pass through them, again and again
 ///   until nothing crosses and nothing is split any more (after Hobby 1999, iterated);
-/// - merge: equal edges become one that carries the sum of each layer's change of winding;
-/// - label: a sweep from the square's first corner gives the windings beside an edge; labels go on
-///   along vertices of degree two;
+/// - merge: equal chains become one that carries the sum of each layer's change of winding;
+/// - label: a sweep from the square's border tells where one edge of a connected part stands; from
+///   there one walks along edges and round vertices, crossing one edge after the other;
 /// - certify: see PlanarLeaf::certified.
 #pragma once
 
 #include <array>
-#include <functional>
-#include <span>
 #include <vector>
 
-#include "compiler/src/outline.hpp"
+#include "compiler/src/region_paints.hpp"
+#include "compiler/src/snap.hpp"
 
 namespace vtm::compiler {
 
-/// A chord of one of the leaf's layers, by the layer's place in the leaf's own list.
-struct LeafChord {
-    Chord chord;
-    std::uint32_t layer;
-};
-
-/// A boundary between two different paints.
-struct PlanarEdge {
-    LatticePoint a, b;
-    std::uint16_t left = 0, right = 0;
+/// What lies beside an edge, seen along it from a to b.
+struct Sides {
+    PaintId left = 0, right = 0;
+    bool known = false;
 };
 
 struct PlanarLeaf {
-    std::vector<PlanarEdge> edges;
-    std::array<std::uint16_t, 4> corners{};  ///< paints at Square::corner(k)
-    /// True if every label is proven: the windings close round the border; hash(left) - hash(right)
-    /// cancels over the edges at every inner vertex and adds up to the corners' difference on every
-    /// side. A false label would break one of them (but for 2^-64 of chance).
+    const EdgeSet* set = nullptr;      ///< the edges; nothing if the leaf is beyond the limits
+    std::vector<Sides> sides;          ///< of each edge
+    std::array<PaintId, 4> corners{};  ///< paints at Square::corner(k)
+    /// True if every label is proven: the windings close round every inner vertex and round the border;
+    /// edges are given the same labels from both ends; hash(left) - hash(right) cancels over the edges
+    /// at every inner vertex and adds up to the corners' difference on every side. A false label would
+    /// break one of them (but for 2^-64 of chance).
     bool certified = false;
 };
 
-/// The paint of a region from the windings of the leaf's layers.
-using Labeller = std::function<std::uint16_t(std::span<const int>)>;
+/// Makes planar leaves; keeps its memory from leaf to leaf.
+class Planariser {
+public:
+    /// `strands` by layer, numbered as `regions`, which stands in this leaf, numbers them. Valid until
+    /// the next call.
+    const PlanarLeaf& run(const Square& square, Points points, std::span<const Strand> strands,
+                          RegionPaints& regions);
 
-/// Beyond these a leaf is given up, uncertified, and its caller splits it.
-inline constexpr std::size_t maxLeafEdges = 6000;
-inline constexpr int maxSnapRounds = 60;
+private:
+    struct Axis;
+    struct Place;
+    /// An edge's end at a vertex.
+    struct End {
+        LatticePoint at;
+        std::uint32_t edge;
+        bool isA;
+    };
+    /// A vertex that is being walked round, clockwise from `arrival`.
+    struct Visit {
+        std::uint32_t first, count;  ///< its ends
+        std::uint32_t arrival;       ///< of these
+        std::uint32_t crossed;       ///< ends after it that have been crossed
+        bool followed;               ///< the next end's edge has been followed to its other vertex
+        std::uint64_t windingSum;
+    };
 
-/// `windings` of the layers at the square's first corner.
-PlanarLeaf planarise(const Square& square, std::span<const LeafChord> chords, std::span<const int> windings,
-                     const Labeller& labeller);
+    void collectEnds();
+    void sortRound(std::uint32_t first, std::uint32_t last);
+    LatticePoint next(const End& end) const;
+    int sideOf(LatticePoint p) const;
+    void cross(const Edge& e, int times);
+    Chord chordAt(const Axis& axis, const Edge& e, Coord m) const;
+    static bool isBefore(const Place& f, const Place& e);
+    void sweepTo(std::uint32_t index);
+    void walkFrom(std::uint32_t edge);
+    void arrive(std::uint32_t end);
+    void walk();
+    void label(std::uint32_t edge, const Sides& sides);
+    void along(std::size_t side);
+    bool labelCorners();
+    std::uint64_t flow(const End& end) const;
+    bool certifyVertices() const;
+    bool certifySides() const;
+
+    Snapper snapper_;
+    PlanarLeaf leaf_;
+    Square square_;
+    RegionPaints* regions_ = nullptr;
+    bool consistent_ = true;
+    std::vector<End> ends_;               ///< by vertex, counter-clockwise round each
+    std::vector<std::uint32_t> endOf_;    ///< place in ends_ of edge e's a (2e) and b (2e + 1)
+    std::vector<std::uint32_t> firstOf_;  ///< by end: the first end of its vertex
+    std::vector<std::uint8_t> visited_;   ///< by a vertex's first end; border vertices count as visited
+    std::vector<Visit> visits_;
+    std::array<std::vector<End>, 4> border_;
+};
 
 }  // namespace vtm::compiler

@@ -1,284 +1,329 @@
 #include "compiler/src/snap.hpp"
 
-#include <algorithm>
+#include "compiler/src/clip.hpp"
 
 namespace vtm::compiler {
 namespace {
 
-// ---- clip -------------------------------------------------------------------------------------
+bool isBetween(Coord low, Coord v, Coord high) { return low <= v && v <= high; }
 
-/// Where a→b meets the line x = at (or y = at, with the axes exchanged), rounded to an even position
-/// strictly inside the side.
-Coord cutPosition(Coord a, Coord b, Coord aAcross, Coord bAcross, Coord at, Coord low, Coord high) {
-    const Int128 run = std::int64_t{bAcross} - aAcross;
-    const Int128 rise = std::int64_t{b} - a;
-    const Int128 numerator = a * run + rise * (std::int64_t{at} - aAcross);
-    const Coord cut = run > 0 ? roundToEven(numerator, run) : roundToEven(-numerator, -run);
-    return std::clamp(cut, low + 1, high - 1);
+/// Whether p, known to lie on the line of a→b, lies on the chord, ends included.
+bool isOnChord(LatticePoint a, LatticePoint b, LatticePoint p) {
+    return isBetween(std::min(a.x, b.x), p.x, std::max(a.x, b.x)) &&
+           isBetween(std::min(a.y, b.y), p.y, std::max(a.y, b.y));
 }
 
-/// The part of a chord inside the square, if it has any.
-class Clipper {
-public:
-    explicit Clipper(const Square& square) : square_(square) {}
-
-    std::optional<Chord> clip(const Chord& c) {
-        for (int k = 0; k < 4; ++k)
-            left_[static_cast<std::size_t>(k)] = cornerOnLeft(c.a, c.b, square_.corner(k));
-        Chord part = c;
-        const bool aInside = inside(c.a), bInside = inside(c.b);
-        bool entered = aInside, left = bInside;
-        for (std::size_t side = 0; side < 4; ++side) {
-            const std::size_t next = (side + 1) % 4;
-            if (left_[side] == left_[next] || !spans(c, side))
-                continue;
-            // The sides run counter-clockwise: the first corner of the side by which an edge comes in
-            // lies on its left, of the one by which it leaves on its right.
-            const bool enters = left_[side];
-            (enters ? part.a : part.b) = cut(c, side);
-            (enters ? entered : left) = true;
-        }
-        if (!entered || !left || part.a == part.b)
-            return std::nullopt;
-        return part;
-    }
-
-private:
-    bool inside(LatticePoint p) const {
-        return p.x > square_.x0 && p.x < square_.x1() && p.y > square_.y0 && p.y < square_.y1();
-    }
-    static bool vertical(std::size_t side) { return side % 2 == 1; }
-    Coord line(std::size_t side) const {
-        return side == 0 ? square_.y0 : side == 1 ? square_.x1() : side == 2 ? square_.y1() : square_.x0;
-    }
-    bool spans(const Chord& c, std::size_t side) const {
-        const Coord at = line(side);
-        return vertical(side) ? (c.a.x < at) != (c.b.x < at) : (c.a.y < at) != (c.b.y < at);
-    }
-    LatticePoint cut(const Chord& c, std::size_t side) const {
-        const Coord at = line(side);
-        if (vertical(side))
-            return {at, cutPosition(c.a.y, c.b.y, c.a.x, c.b.x, at, square_.y0, square_.y1())};
-        return {cutPosition(c.a.x, c.b.x, c.a.y, c.b.y, at, square_.x0, square_.x1()), at};
-    }
-
-    const Square square_;
-    std::array<bool, 4> left_{};
-};
-
-// ---- snap -------------------------------------------------------------------------------------
-
-Edge directed(LatticePoint a, LatticePoint b) { return a < b ? Edge{a, b} : Edge{b, a}; }
-
-/// Strictly between the ends of an edge, for a point known to lie on its line.
-bool between(const Edge& e, LatticePoint p) {
-    return p != e.a && p != e.b && std::min(e.a.x, e.b.x) <= p.x && p.x <= std::max(e.a.x, e.b.x) &&
-           std::min(e.a.y, e.b.y) <= p.y && p.y <= std::max(e.a.y, e.b.y);
+bool boxesMeet(const Edge& e, const Edge& f) {
+    return std::max(e.a.x, f.a.x) <= std::min(e.b.x, f.b.x) &&
+           std::max(std::min(e.a.y, e.b.y), std::min(f.a.y, f.b.y)) <=
+               std::min(std::max(e.a.y, e.b.y), std::max(f.a.y, f.b.y));
 }
 
-/// The crossing of two edges that cross properly, rounded to even. `atA`, `atB`: orient(t, s.a),
-/// orient(t, s.b), of opposite signs.
-LatticePoint crossing(const Edge& s, std::int64_t atA, std::int64_t atB) {
+/// The crossing of a→b with a chord that it crosses properly, rounded to even. `atA`, `atB`: on which
+/// side of that chord the ends lie and how far, of opposite signs.
+LatticePoint crossing(LatticePoint a, LatticePoint b, std::int64_t atA, std::int64_t atB) {
     Int128 whole = Int128{atA} - atB, part = atA;
     if (whole < 0)
         whole = -whole, part = -part;
-    const auto along = [&](Coord a, Coord b) {
-        return roundToEven(a * whole + (std::int64_t{b} - a) * part, whole);
+    const auto along = [&](Coord from, Coord to) {
+        return roundToEven(from * whole + (std::int64_t{to} - from) * part, whole);
     };
-    return {along(s.a.x, s.b.x), along(s.a.y, s.b.y)};
+    return {along(a.x, b.x), along(a.y, b.y)};
 }
-
-struct Split {
-    std::uint32_t edge;
-    LatticePoint at;
-};
-
-class Snapper {
-public:
-    explicit Snapper(EdgeSet set) : set_(std::move(set)) {}
-
-    /// False if a limit is met first.
-    bool run() {
-        mergeEqual();
-        fresh_.assign(set_.edges.size(), true);
-        for (int round = 0; round < maxSnapRounds; ++round) {
-            if (set_.edges.size() > maxLeafEdges || !findSplits())
-                return false;
-            if (splits_.empty())
-                return true;
-            applySplits();
-            mergeEqual();
-        }
-        return false;
-    }
-
-    EdgeSet take() { return std::move(set_); }
-
-private:
-    bool findSplits() {
-        splits_.clear();
-        const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
-        for (std::uint32_t i = 0; i < edges.size(); ++i) {
-            for (std::uint32_t j = i + 1; j < edges.size() && edges[j].a.x <= edges[i].b.x; ++j)
-                if (fresh_[i] || fresh_[j])
-                    test(i, j);
-            if (splits_.size() > 4 * maxLeafEdges)
-                return false;
-        }
-        return true;
-    }
-
-    void test(std::uint32_t i, std::uint32_t j) {
-        const Edge &s = set_.edges[i], &t = set_.edges[j];
-        if (std::max(s.a.y, s.b.y) < std::min(t.a.y, t.b.y) ||
-            std::max(t.a.y, t.b.y) < std::min(s.a.y, s.b.y))
-            return;
-        const std::int64_t ta = orient(s.a, s.b, t.a), tb = orient(s.a, s.b, t.b);
-        if ((ta > 0 && tb > 0) || (ta < 0 && tb < 0))
-            return;
-        const std::int64_t sa = orient(t.a, t.b, s.a), sb = orient(t.a, t.b, s.b);
-        if ((sa > 0 && sb > 0) || (sa < 0 && sb < 0))
-            return;
-        if (ta != 0 && tb != 0 && sa != 0 && sb != 0) {
-            const LatticePoint x = crossing(s, sa, sb);
-            split(i, x);
-            split(j, x);
-            return;
-        }
-        splitAtVertex(i, ta, t.a);
-        splitAtVertex(i, tb, t.b);
-        splitAtVertex(j, sa, s.a);
-        splitAtVertex(j, sb, s.b);
-    }
-
-    void splitAtVertex(std::uint32_t edge, std::int64_t side, LatticePoint p) {
-        if (side == 0 && between(set_.edges[edge], p))
-            splits_.push_back({edge, p});
-    }
-
-    void split(std::uint32_t edge, LatticePoint p) {
-        if (p != set_.edges[edge].a && p != set_.edges[edge].b)
-            splits_.push_back({edge, p});
-    }
-
-    /// Replaces every split edge by its parts, ordered along it.
-    void applySplits() {
-        std::vector<Edge> next;
-        std::vector<std::uint8_t> fresh;
-        std::sort(splits_.begin(), splits_.end(), [&](const Split& p, const Split& q) {
-            return p.edge != q.edge ? p.edge < q.edge : progress(p) < progress(q);
-        });
-        std::size_t s = 0;
-        for (std::uint32_t i = 0; i < set_.edges.size(); ++i) {
-            const Edge& e = set_.edges[i];
-            const bool whole = s == splits_.size() || splits_[s].edge != i;
-            LatticePoint from = e.a;
-            for (; s < splits_.size() && splits_[s].edge == i; ++s) {
-                part(next, e, from, splits_[s].at);
-                from = splits_[s].at;
-            }
-            part(next, e, from, e.b);
-            fresh.resize(next.size(), !whole);
-        }
-        set_.edges = std::move(next);
-        fresh_ = std::move(fresh);
-    }
-
-    std::int64_t progress(const Split& s) const {
-        const Edge& e = set_.edges[s.edge];
-        return (std::int64_t{e.b.x} - e.a.x) * (std::int64_t{s.at.x} - e.a.x) +
-               (std::int64_t{e.b.y} - e.a.y) * (std::int64_t{s.at.y} - e.a.y);
-    }
-
-    /// A part may run against the whole (rounding can step back past a steep edge's end): then its
-    /// changes are those of the reversed edge.
-    void part(std::vector<Edge>& into, const Edge& whole, LatticePoint from, LatticePoint to) {
-        if (from == to)
-            return;
-        Edge e = directed(from, to);
-        e.firstChange = whole.firstChange;
-        e.changeCount = whole.changeCount;
-        if (e.a != from) {
-            e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
-            for (std::uint32_t k = 0; k < whole.changeCount; ++k) {
-                const Change c = set_.changes[whole.firstChange + k];
-                set_.changes.push_back({c.layer, -c.winding});
-            }
-        }
-        into.push_back(e);
-    }
-
-    /// Sorts the edges; equal ones become one with their changes added, and those without any
-    /// change vanish.
-    void mergeEqual() {
-        std::vector<std::uint32_t> order(set_.edges.size());
-        for (std::uint32_t i = 0; i < order.size(); ++i)
-            order[i] = i;
-        const auto key = [&](std::uint32_t i) { return std::pair{set_.edges[i].a, set_.edges[i].b}; };
-        std::sort(order.begin(), order.end(),
-                  [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
-        std::vector<Edge> merged;
-        std::vector<std::uint8_t> fresh;
-        for (std::size_t i = 0; i < order.size();) {
-            std::size_t end = i + 1;
-            bool isFresh = !fresh_.empty() && fresh_[order[i]];
-            for (; end < order.size() && key(order[end]) == key(order[i]); ++end)
-                isFresh = isFresh || (!fresh_.empty() && fresh_[order[end]]);
-            Edge e = set_.edges[order[i]];
-            if (end > i + 1)
-                addChanges(e, {order.data() + i, end - i});
-            if (e.changeCount > 0) {
-                merged.push_back(e);
-                fresh.push_back(isFresh);
-            }
-            i = end;
-        }
-        set_.edges = std::move(merged);
-        fresh_ = std::move(fresh);
-    }
-
-    void addChanges(Edge& into, std::span<const std::uint32_t> equal) {
-        sum_.clear();
-        for (std::uint32_t i : equal) {
-            const auto changes = set_.of(set_.edges[i]);
-            sum_.insert(sum_.end(), changes.begin(), changes.end());
-        }
-        std::sort(sum_.begin(), sum_.end(),
-                  [](const Change& p, const Change& q) { return p.layer < q.layer; });
-        into.firstChange = static_cast<std::uint32_t>(set_.changes.size());
-        for (std::size_t i = 0; i < sum_.size();) {
-            Change total{sum_[i].layer, 0};
-            for (; i < sum_.size() && sum_[i].layer == total.layer; ++i)
-                total.winding += sum_[i].winding;
-            if (total.winding != 0)
-                set_.changes.push_back(total);
-        }
-        into.changeCount = static_cast<std::uint32_t>(set_.changes.size()) - into.firstChange;
-    }
-
-    EdgeSet set_;
-    std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
-    std::vector<Split> splits_;
-    std::vector<Change> sum_;
-};
 
 }  // namespace
 
-std::optional<EdgeSet> snap(const Square& square, std::span<const LeafChord> chords) {
-    EdgeSet set;
-    Clipper clipper(square);
-    for (const LeafChord& c : chords)
-        if (const auto part = clipper.clip(c.chord)) {
-            Edge e = directed(part->a, part->b);
-            e.firstChange = static_cast<std::uint32_t>(set.changes.size());
-            e.changeCount = 1;
-            set.changes.push_back({c.layer, e.a == part->a ? 1 : -1});
-            set.edges.push_back(e);
+const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const Strand> strands) {
+    set_.points = points;
+    set_.edges.clear();
+    set_.changes.clear();
+    clip(square, strands);
+    fresh_.assign(set_.edges.size(), true);
+    mergeEqual();
+    for (int round = 0; round < maxSnapRounds; ++round) {
+        if (set_.edges.size() > maxLeafEdges || !findSplits())
+            return nullptr;
+        if (splits_.empty())
+            return &set_;
+        applySplits();
+        mergeEqual();
+    }
+    return nullptr;
+}
+
+// ---- clip -------------------------------------------------------------------------------------
+
+void Snapper::clip(const Square& square, std::span<const Strand> strands) {
+    for (const Strand& s : strands) {
+        Chord ends{set_.points[s.first], set_.points[s.last]};
+        if (s.last == s.first + 1) {
+            const auto inside = compiler::clip(square, ends);
+            if (!inside)
+                continue;
+            ends = *inside;
+        } else {  // all vertices between the ends are inside
+            if (!isInside(square, ends.a))
+                ends.a = compiler::clip(square, {ends.a, set_.points[s.first + 1]})->a;
+            if (!isInside(square, ends.b))
+                ends.b = compiler::clip(square, {set_.points[s.last - 1], ends.b})->b;
         }
-    Snapper snapper(std::move(set));
-    if (!snapper.run())
-        return std::nullopt;
-    return snapper.take();
+        Edge e{ends.a, ends.b, s.first + 1, s.last - s.first - 1, false, 0, 1};
+        e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
+        set_.changes.push_back({s.layer, 1});
+        if (e.b < e.a)
+            reverse(e);
+        set_.edges.push_back(e);
+    }
+}
+
+// ---- meet -------------------------------------------------------------------------------------
+
+Snapper::Band Snapper::bandOf(const Edge& e) const {
+    Band band{static_cast<double>(std::int64_t{e.b.x} - e.a.x),
+              static_cast<double>(std::int64_t{e.b.y} - e.a.y), 0, 0, 0};
+    band.length2 = band.dx * band.dx + band.dy * band.dy;
+    for (std::uint32_t k = 1; k <= e.innerCount; ++k) {
+        const auto o = static_cast<double>(orient(e.a, e.b, set_.vertex(e, k)));
+        band.low = std::min(band.low, o);
+        band.high = std::max(band.high, o);
+    }
+    return band;
+}
+
+/// Whether f lies wholly on one side of e, by more than a step. Its vertices lie in the parallelogram of
+/// its ends moved across by its band: p = q + perp(d_f) o / |d_f|², so orient(e, p) = orient(e, q) + o
+/// (d_e · d_f) / |d_f|². Doubles are off by 2^-50 of 2^60, which is far below a step's |d_e|.
+bool Snapper::isBeside(std::uint32_t e, std::uint32_t f) const {
+    const Edge &s = set_.edges[e], &t = set_.edges[f];
+    const Band &bs = bands_[e], &bt = bands_[f];
+    const double k = (bs.dx * bt.dx + bs.dy * bt.dy) / bt.length2;
+    const auto atA = static_cast<double>(orient(s.a, s.b, t.a)),
+               atB = static_cast<double>(orient(s.a, s.b, t.b));
+    const double low = std::min(atA, atB) + (k > 0 ? k * bt.low : k * bt.high);
+    const double high = std::max(atA, atB) + (k > 0 ? k * bt.high : k * bt.low);
+    const double step = std::abs(bs.dx) + std::abs(bs.dy);
+    return low > bs.high + step || high < bs.low - step;
+}
+
+bool Snapper::findSplits() {
+    splits_.clear();
+    bands_.clear();
+    for (const Edge& e : set_.edges)
+        bands_.push_back(bandOf(e));
+    const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        for (std::uint32_t j = i + 1; j < edges.size() && edges[j].a.x <= edges[i].b.x; ++j)
+            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) && !isBeside(i, j) &&
+                !isBeside(j, i))
+                meet(i, whole(edges[i]), j, whole(edges[j]));
+        if (splits_.size() > 4 * maxLeafEdges)
+            return false;
+    }
+    return true;
+}
+
+/// The chords of a part of edge e with those of a part of f: halves the longer part while their boxes
+/// meet.
+void Snapper::meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q) {
+    const Coord left = std::max(p.from.x, q.from.x), right = std::min(p.to.x, q.to.x);
+    if (left > right)
+        return;
+    const auto [pLow, pHigh] = std::minmax(p.from.y, p.to.y);
+    const auto [qLow, qHigh] = std::minmax(q.from.y, q.to.y);
+    const Coord low = std::max(pLow, qLow), high = std::min(pHigh, qHigh);
+    if (low > high)
+        return;
+    const Edge &s = set_.edges[e], &t = set_.edges[f];
+    if (left == right && low == high) {  // one common point, harmless if it is an end of both
+        const LatticePoint common{left, low};
+        if ((common == s.a || common == s.b) && (common == t.a || common == t.b))
+            return;
+    }
+    const std::uint32_t pCount = p.last - p.first, qCount = q.last - q.first;
+    if (pCount == 1 && qCount == 1)
+        return meetChords(e, p, f, q);
+    const Part& longer = pCount >= qCount ? p : q;
+    const std::uint32_t middle = (longer.first + longer.last) / 2;
+    const LatticePoint at = set_.vertex(pCount >= qCount ? s : t, middle);
+    const Part before{longer.first, middle, longer.from, at}, after{middle, longer.last, at, longer.to};
+    if (pCount >= qCount) {
+        meet(e, before, f, q);
+        meet(e, after, f, q);
+    } else {
+        meet(e, p, f, before);
+        meet(e, p, f, after);
+    }
+}
+
+void Snapper::meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q) {
+    const LatticePoint a = p.from, b = p.to, c = q.from, d = q.to;
+    const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d);
+    if ((atC > 0 && atD > 0) || (atC < 0 && atD < 0))
+        return;
+    const std::int64_t atA = orient(c, d, a), atB = orient(c, d, b);
+    if ((atA > 0 && atB > 0) || (atA < 0 && atB < 0))
+        return;
+    if (atA != 0 && atB != 0 && atC != 0 && atD != 0) {
+        const LatticePoint x = crossing(a, b, atA, atB);
+        split(e, p.first, x);
+        split(f, q.first, x);
+        return;
+    }
+    const auto touch = [&](LatticePoint at) {
+        split(e, p.first, at);
+        split(f, q.first, at);
+    };
+    if (atA == 0 && isOnChord(c, d, a))
+        touch(a);
+    if (atB == 0 && isOnChord(c, d, b))
+        touch(b);
+    if (atC == 0 && isOnChord(a, b, c))
+        touch(c);
+    if (atD == 0 && isOnChord(a, b, d))
+        touch(d);
+}
+
+/// Asks for a cut of the edge at a point of its chord, unless that is an end of the whole edge.
+void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at) {
+    const Edge& e = set_.edges[edge];
+    if (at == e.a || at == e.b)
+        return;
+    const LatticePoint to = set_.vertex(e, chord + 1);
+    if (at == to) {
+        splits_.push_back({edge, chord + 1, at, 0});
+        return;
+    }
+    const LatticePoint from = set_.vertex(e, chord);
+    const std::int64_t progress = (std::int64_t{to.x} - from.x) * (std::int64_t{at.x} - from.x) +
+                                  (std::int64_t{to.y} - from.y) * (std::int64_t{at.y} - from.y);
+    splits_.push_back({edge, chord, at, progress});
+}
+
+// ---- cut --------------------------------------------------------------------------------------
+
+/// Replaces every split edge by its parts, ordered along it.
+void Snapper::applySplits() {
+    nextEdges_.clear();
+    nextFresh_.clear();
+    std::sort(splits_.begin(), splits_.end(), [](const Split& p, const Split& q) {
+        return p.edge != q.edge     ? p.edge < q.edge
+               : p.chord != q.chord ? p.chord < q.chord
+                                    : p.progress < q.progress;
+    });
+    std::size_t s = 0;
+    for (std::uint32_t i = 0; i < set_.edges.size(); ++i) {
+        const Edge e = set_.edges[i];
+        const bool whole = s == splits_.size() || splits_[s].edge != i;
+        LatticePoint from = e.a;
+        std::uint32_t inner = 1;  // the next inner vertex
+        for (; s < splits_.size() && splits_[s].edge == i; ++s) {
+            const Split& cut = splits_[s];
+            const bool atVertex = cut.at == set_.vertex(e, cut.chord);
+            part(e, from, cut.at, inner, atVertex ? cut.chord : cut.chord + 1, true);
+            from = cut.at;
+            inner = cut.chord + 1;
+        }
+        part(e, from, e.b, inner, e.innerCount + 1, !whole);
+    }
+    set_.edges.swap(nextEdges_);
+    fresh_.swap(nextFresh_);
+}
+
+void Snapper::reverse(Edge& e) {
+    std::swap(e.a, e.b);
+    if (e.innerCount > 0) {
+        e.inner = e.backward ? e.inner + 1 - e.innerCount : e.inner + e.innerCount - 1;
+        e.backward = !e.backward;
+    }
+    const std::uint32_t first = e.firstChange;
+    e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
+    for (std::uint32_t k = 0; k < e.changeCount; ++k) {
+        const Change c = set_.changes[first + k];
+        set_.changes.push_back({c.layer, -c.winding});
+    }
+}
+
+/// The part between two points with the vertices firstInner .. innerEnd - 1 of the whole. It may run
+/// against the whole: a vertical part of a falling chain, or one chord, where rounding can step back
+/// past a steep edge's end.
+void Snapper::part(const Edge& whole, LatticePoint from, LatticePoint to, std::uint32_t firstInner,
+                   std::uint32_t innerEnd, bool fresh) {
+    Edge e = whole;
+    e.innerCount = innerEnd > firstInner ? innerEnd - firstInner : 0;
+    if (from == to && e.innerCount == 0)
+        return;
+    e.inner = whole.backward ? whole.inner + 1 - firstInner : whole.inner + firstInner - 1;
+    e.a = from;
+    e.b = to;
+    if (to < from)
+        reverse(e);
+    nextEdges_.push_back(e);
+    nextFresh_.push_back(fresh);
+}
+
+// ---- merge ------------------------------------------------------------------------------------
+
+int Snapper::compare(const Edge& e, const Edge& f) const {
+    if (e.a != f.a)
+        return e.a < f.a ? -1 : 1;
+    if (e.b != f.b)
+        return e.b < f.b ? -1 : 1;
+    if (e.innerCount != f.innerCount)
+        return e.innerCount < f.innerCount ? -1 : 1;
+    for (std::uint32_t k = 1; k <= e.innerCount; ++k) {
+        const LatticePoint p = set_.vertex(e, k), q = set_.vertex(f, k);
+        if (p != q)
+            return p < q ? -1 : 1;
+    }
+    return 0;
+}
+
+/// Sorts the edges; equal ones become one with their changes added, and those without any change
+/// vanish.
+void Snapper::mergeEqual() {
+    order_.resize(set_.edges.size());
+    for (std::uint32_t i = 0; i < order_.size(); ++i)
+        order_[i] = i;
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
+        const int c = compare(set_.edges[i], set_.edges[j]);
+        return c != 0 ? c < 0 : i < j;
+    });
+    nextEdges_.clear();
+    nextFresh_.clear();
+    for (std::size_t i = 0; i < order_.size();) {
+        Edge e = set_.edges[order_[i]];
+        std::size_t end = i + 1;
+        bool fresh = fresh_[order_[i]];
+        for (; end < order_.size() && compare(set_.edges[order_[end]], e) == 0; ++end)
+            fresh = fresh || fresh_[order_[end]];
+        if (end > i + 1)
+            addChanges(e, {order_.data() + i, end - i});
+        if (e.changeCount > 0) {
+            nextEdges_.push_back(e);
+            nextFresh_.push_back(fresh);
+        }
+        i = end;
+    }
+    set_.edges.swap(nextEdges_);
+    fresh_.swap(nextFresh_);
+}
+
+void Snapper::addChanges(Edge& into, std::span<const std::uint32_t> equal) {
+    sum_.clear();
+    for (std::uint32_t i : equal) {
+        const auto changes = set_.of(set_.edges[i]);
+        sum_.insert(sum_.end(), changes.begin(), changes.end());
+    }
+    std::sort(sum_.begin(), sum_.end(), [](const Change& p, const Change& q) { return p.layer < q.layer; });
+    into.firstChange = static_cast<std::uint32_t>(set_.changes.size());
+    for (std::size_t i = 0; i < sum_.size();) {
+        Change total{sum_[i].layer, 0};
+        for (; i < sum_.size() && sum_[i].layer == total.layer; ++i)
+            total.winding += sum_[i].winding;
+        if (total.winding != 0)
+            set_.changes.push_back(total);
+    }
+    into.changeCount = static_cast<std::uint32_t>(set_.changes.size()) - into.firstChange;
 }
 
 }  // namespace vtm::compiler

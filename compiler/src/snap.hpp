@@ -1,12 +1,10 @@
 /// \file
-/// Clipping, snapping and merging: from chords to edges that meet only in vertices.
+/// Clipping, snapping and merging: from strands to edges that meet only in vertices.
 #pragma once
 
-#include <optional>
-#include <span>
 #include <vector>
 
-#include "compiler/src/planar.hpp"
+#include "compiler/src/strand.hpp"
 
 namespace vtm::compiler {
 
@@ -17,22 +15,87 @@ struct Change {
     friend bool operator==(const Change&, const Change&) = default;
 };
 
-/// An edge from a to b, a < b, with the changes of winding across it.
+/// A chain of chords from a to b, a < b, monotone in x and in y, with the changes of winding across
+/// it. Between a and b it runs through `innerCount` vertices of the outlines, the first of them `inner`,
+/// then upwards or (`backward`) downwards.
 struct Edge {
     LatticePoint a, b;
+    std::uint32_t inner = 0, innerCount = 0;
+    bool backward = false;
     std::uint32_t firstChange = 0, changeCount = 0;
 };
 
+/// Workspace of a leaf: edges by (a, b), and what they refer to.
 struct EdgeSet {
+    Points points;
     std::vector<Edge> edges;
     std::vector<Change> changes;
 
     std::span<const Change> of(const Edge& e) const {
         return {changes.data() + e.firstChange, e.changeCount};
     }
+    /// Vertex k of 0 (a) .. innerCount + 1 (b).
+    LatticePoint vertex(const Edge& e, std::uint32_t k) const {
+        return k == 0 ? e.a : k > e.innerCount ? e.b : points[e.backward ? e.inner + 1 - k : e.inner + k - 1];
+    }
 };
 
-/// Nothing if the leaf is beyond its limits.
-std::optional<EdgeSet> snap(const Square& square, std::span<const LeafChord> chords);
+/// Beyond these a leaf is given up, and its caller splits it.
+inline constexpr std::size_t maxLeafEdges = 6000;
+inline constexpr int maxSnapRounds = 60;
+
+/// Turns strands into edges; keeps its memory from leaf to leaf.
+class Snapper {
+public:
+    /// The edges of the strands inside the square; their layers are places in the leaf's own list.
+    /// Nothing if the leaf is beyond its limits. Valid until the next call.
+    const EdgeSet* run(const Square& square, Points points, std::span<const Strand> strands);
+
+private:
+    /// A place where an edge has to be cut: a vertex, or a point on chord `chord` (from vertex `chord`
+    /// to the next).
+    struct Split {
+        std::uint32_t edge;
+        std::uint32_t chord;
+        LatticePoint at;
+        std::int64_t progress;  ///< along the chord
+    };
+
+    /// How far the chain strays from the line a→b, as orient(a, b, ·) of its vertices, and that line.
+    struct Band {
+        double dx, dy, length2, low, high;
+    };
+
+    /// Vertices first .. last of an edge.
+    struct Part {
+        std::uint32_t first, last;
+        LatticePoint from, to;
+    };
+
+    void clip(const Square& square, std::span<const Strand> strands);
+    Band bandOf(const Edge& e) const;
+    bool isBeside(std::uint32_t e, std::uint32_t f) const;
+    bool findSplits();
+    static Part whole(const Edge& e) { return {0, e.innerCount + 1, e.a, e.b}; }
+    void meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
+    void meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
+    void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
+    void applySplits();
+    void reverse(Edge& e);
+    void part(const Edge& whole, LatticePoint from, LatticePoint to, std::uint32_t firstInner,
+              std::uint32_t innerEnd, bool fresh);
+    void mergeEqual();
+    int compare(const Edge& e, const Edge& f) const;
+    void addChanges(Edge& into, std::span<const std::uint32_t> equal);
+
+    EdgeSet set_;
+    std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
+    std::vector<Band> bands_;          ///< of each edge
+    std::vector<Split> splits_;
+    std::vector<Change> sum_;
+    std::vector<Edge> nextEdges_;
+    std::vector<std::uint8_t> nextFresh_;
+    std::vector<std::uint32_t> order_;
+};
 
 }  // namespace vtm::compiler

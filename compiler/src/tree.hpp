@@ -1,49 +1,76 @@
 /// \file
-/// Cells and tree: chords are pushed down a 16-tree until each leaf's planar map is small.
+/// Cells and tree: outlines are pushed down a 16-tree until each leaf's planar map is small.
 #pragma once
 
-#include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "asset/asset.hpp"
+#include "compiler/src/cost.hpp"
+#include "compiler/src/palette.hpp"
 #include "compiler/src/picture.hpp"
 
 namespace vtm::compiler {
 
-/// Where a node stands to a layer.
+/// Where a cell stands to a layer.
 enum class Cover : std::uint8_t { Out, Edge, In };
 
-/// What gives regions their paints, and tells which layers can be forgotten.
+/// What gives regions their paints, and tells which layers can be forgotten. Used by one thread at a time.
 class Painter {
 public:
     virtual ~Painter() = default;
+    /// The same painter for another thread.
+    virtual std::unique_ptr<Painter> clone() const = 0;
     /// The paint where exactly the given layers are inside; `layers` are those that may be, ascending.
-    virtual std::uint16_t paint(std::span<const std::uint32_t> layers,
-                                const std::vector<std::uint8_t>& inside) = 0;
+    virtual PaintId paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
+                          Palette& palette) = 0;
     /// Clears keep[i] for each of the ascending `layers` that cannot show, where cover(layer) says how
     /// it covers the cell.
     virtual void cull(std::span<const std::uint32_t> layers, const std::vector<Cover>& covers,
                       std::vector<std::uint8_t>& keep) = 0;
     /// Mean of paints, for a leaf that could not be proven.
-    virtual std::uint16_t mean(std::span<const std::uint16_t> paints) = 0;
+    virtual PaintId mean(std::span<const PaintId> paints, Palette& palette) = 0;
 };
 
 struct TreeOptions {
     double fitTolerance = 1;  ///< lattice steps
-    unsigned piecesPerLeaf = 12;
+    CostModel cost;
+    /// Instead of the cost model: a leaf with more pieces is split.
+    std::optional<unsigned> piecesPerLeaf;
     unsigned minDepth = 2;  ///< of leaves with pieces: keeps their quantisation below the tolerance
     unsigned maxDepth = 8;
 };
 
-/// Milliseconds spent in each part, added up.
+/// Milliseconds spent in each part, added up over threads.
 struct TreeTimes {
     double push = 0, planarise = 0, fit = 0;
 };
 
-/// Builds the tree over `root` for the given layers (ascending) and appends its nodes, leaves and
-/// pieces to `asset`. Throws LimitError if the outlines are too tangled for the work limit.
-asset::Entry buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
-                       Painter& painter, const TreeOptions& options, asset::Asset& asset, TreeTimes& times);
+/// A map's tree, its places in walking order: a node comes before its children's nodes. Entries of
+/// kind Solid hold a PaintId of `palette`.
+struct Tree {
+    struct Leaf {
+        std::uint32_t firstPiece = 0, pieceCount = 0;
+        std::array<PaintId, 4> corners{};
+    };
+    struct Piece {
+        std::array<std::uint16_t, 2> a{}, b{};
+        std::int16_t slopeA = 0, slopeB = 0;
+        PaintId left = 0, right = 0;
+    };
+    asset::Entry root;
+    std::vector<asset::Node> nodes;
+    std::vector<Leaf> leaves;
+    std::vector<Piece> pieces;
+    Palette palette;
+    std::uint32_t fallbackLeaves = 0;
+};
+
+/// Builds the tree over `root` for the given layers (ascending), on all processors; the result does not
+/// depend on their number. Throws LimitError if the outlines are too tangled for the work limit.
+Tree buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
+               const Painter& painter, const TreeOptions& options, TreeTimes& times);
 
 }  // namespace vtm::compiler

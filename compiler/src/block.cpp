@@ -1,0 +1,284 @@
+#include "compiler/src/block.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "compiler/compile.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::Entry;
+
+/// A leaf with more chords is not tried while it may be split: planarising is quadratic.
+constexpr std::size_t maxChordsToTry = 400;
+/// A cell of the last level with more is filled with the mean of samples.
+constexpr std::size_t maxChordsInLastLeaf = 2000;
+/// A minute or so.
+constexpr std::size_t maxWork = 20'000'000'000;
+/// asset::Leaf::pieceCount is 16 bits.
+constexpr std::size_t maxLeafPieces = 0xFFFF;
+
+class Stopwatch {
+public:
+    explicit Stopwatch(double& into) : into_(into), start_(std::chrono::steady_clock::now()) {}
+    ~Stopwatch() {
+        into_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    double& into_;
+    const std::chrono::steady_clock::time_point start_;
+};
+
+bool isInside(const Layer& layer, int winding) {
+    return layer.rule == scene::FillRule::NonZero ? winding != 0 : winding % 2 != 0;
+}
+
+}  // namespace
+
+void WorkLimit::spend(std::size_t work) {
+    if (spent_.fetch_add(work, std::memory_order_relaxed) + work > maxWork)
+        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maxWork) +
+                         " pairs of chords");
+}
+
+// ---- layers -----------------------------------------------------------------------------------
+
+void Culler::run(Cell& cell) {
+    listLayers(cell, layers_);
+    for (const LayerWinding& w : cell.windings)
+        covers_[w.layer] = isInside(picture_.layers[w.layer], w.winding) ? Cover::In : Cover::Out;
+    for (const Strand& s : cell.strands)
+        covers_[s.layer] = Cover::Edge;
+    keep_.assign(layers_.size(), true);
+    painter_.cull(layers_, covers_, keep_);
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+        covers_[layers_[i]] = keep_[i] ? Cover::In : Cover::Out;  // from here on: kept or not
+    if (std::find(keep_.begin(), keep_.end(), false) != keep_.end()) {
+        std::erase_if(cell.strands, [&](const Strand& s) { return covers_[s.layer] == Cover::Out; });
+        std::erase_if(cell.windings, [&](const LayerWinding& w) { return covers_[w.layer] == Cover::Out; });
+    }
+    for (std::uint32_t layer : layers_)
+        covers_[layer] = Cover::Out;
+}
+
+void LeafRegions::enter(const Cell& cell, Palette& palette) {
+    palette_ = &palette;
+    listLayers(cell, layers);
+    rules_.clear();
+    corner_.assign(layers.size(), 0);
+    for (std::uint32_t layer : layers)
+        rules_.push_back(picture_.layers[layer].rule);
+    std::size_t i = 0;
+    for (const LayerWinding& w : cell.windings) {
+        while (layers[i] != w.layer)
+            ++i;
+        corner_[i] = w.winding;
+    }
+    RegionPaints::enter(rules_, corner_);
+}
+
+PaintId LeafRegions::compute() {
+    for (std::uint32_t i = 0; i < layers.size(); ++i)
+        inside_[layers[i]] = isInside(i);
+    const PaintId result = painter_.paint(layers, inside_, *palette_);
+    for (std::uint32_t layer : layers)
+        inside_[layer] = false;
+    return result;
+}
+
+// ---- build ------------------------------------------------------------------------------------
+
+Tree BlockBuilder::run(Cell cell) {
+    tree_ = {};
+    firstLevel_ = cell.level;
+    tree_.root = build(cell).entry;
+    return std::move(tree_);
+}
+
+/// `cell` is culled already.
+BlockBuilder::Built BlockBuilder::build(Cell& cell) {
+    work_.spend(cell.strands.size() * visitWork);
+    if (cell.strands.empty()) {
+        regions_.enter(cell, tree_.palette);
+        return solid(regions_.paint(), cell.level);
+    }
+    if (cell.level >= options_.maxDepth)
+        return buildLast(cell);
+    if (cell.level < options_.minDepth)
+        return buildNode(cell, push(cell));
+    return options_.piecesPerLeaf ? buildFixed(cell) : buildBest(cell);
+}
+
+BlockBuilder::Built BlockBuilder::buildLast(Cell& cell) {
+    if (distinctChords(cell, maxChordsInLastLeaf) > maxChordsInLastLeaf)
+        return emitMean(cell);
+    const FittedLeaf* leaf = makeLeaf(cell);
+    return leaf ? emit(*leaf, cell.level) : emitMean(cell);
+}
+
+BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
+    if (canTry(cell))
+        if (const FittedLeaf* leaf = makeLeaf(cell); leaf && leaf->pieces.size() <= *options_.piecesPerLeaf)
+            return emit(*leaf, cell.level);
+    return buildNode(cell, push(cell));
+}
+
+/// A leaf if it costs less than its children would, guessed from the number of strands first (about as
+/// many as pieces), then known. Where outlines hide each other the guess can be too high by far, so
+/// children that turn out cheap to join are tried as one leaf after all.
+BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
+    const CostModel& model = options_.cost;
+    const auto strands = static_cast<double>(cell.strands.size());
+    Children* children = nullptr;
+    bool tried = false;
+    if (mayBeWorthSplitting(strands, cell.level)) {
+        children = &push(cell);
+        tried = model.leaf(strands, cell.level) > splitCost(*children, 1);
+    }
+    if (!tried && canTry(cell)) {
+        tried = true;
+        if (const FittedLeaf* leaf = makeLeaf(cell)) {
+            const auto pieces = static_cast<double>(leaf->pieces.size());
+            if (!mayBeWorthSplitting(pieces, cell.level))
+                return emit(*leaf, cell.level);
+            if (!children)
+                children = &push(cell);
+            if (model.leaf(pieces, cell.level) <= splitCost(*children, std::max(1.0, pieces / strands)))
+                return emit(*leaf, cell.level);
+        }
+    }
+    return buildNode(cell, children ? *children : push(cell));
+}
+
+/// Drawing all of the leaf for nothing would not pay for a node.
+bool BlockBuilder::mayBeWorthSplitting(double pieces, unsigned level) const {
+    return CostModel::drawing(pieces, level) > options_.cost.node();
+}
+
+double BlockBuilder::splitCost(const Children& children, double piecesPerStrand) const {
+    double cost = options_.cost.node();
+    for (const Cell& child : children)
+        cost += options_.cost.leaf(static_cast<double>(child.strands.size()) * piecesPerStrand, child.level);
+    return cost;
+}
+
+/// Whether the cell is within the limits of a leaf that may still be split.
+bool BlockBuilder::canTry(const Cell& cell) {
+    const std::size_t distinct = distinctChords(cell, maxChordsToTry);
+    if (distinct > maxChordsToTry)
+        return false;
+    work_.spend(distinct * distinct);
+    return true;
+}
+
+/// Equal chords of many layers (a shape repeated) count once: snapping merges them at once. Stops
+/// counting beyond `most`.
+std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) const {
+    const std::size_t all = cell.chordCount();
+    if (all <= most)
+        return all;
+    std::set<std::pair<LatticePoint, LatticePoint>> ends;
+    for (const Strand& s : cell.strands)
+        for (std::uint32_t i = s.first; i < s.last; ++i) {
+            ends.insert(std::minmax(points_[i], points_[i + 1]));
+            if (ends.size() > most)
+                return ends.size();
+        }
+    return ends.size();
+}
+
+/// What of the cell is in its children, without what cannot show there.
+BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
+    const Stopwatch watch(times_.push);
+    const std::size_t depth = cell.level - firstLevel_;
+    while (children_.size() <= depth)
+        children_.emplace_back();
+    Children& children = children_[depth];
+    splitCell(points_, cell, children);
+    for (Cell& child : children)
+        culler_.run(child);
+    return children;
+}
+
+BlockBuilder::Built BlockBuilder::buildNode(const Cell& cell, Children& children) {
+    const std::size_t index = tree_.nodes.size();  // before its children's: walks need no cycle check
+    tree_.nodes.emplace_back();
+    asset::Node node;
+    double cost = options_.cost.node();
+    for (std::size_t i = 0; i < 16; ++i) {
+        const Built child = build(children[i]);
+        node.children[i] = child.entry;
+        cost += child.cost;
+    }
+    const Entry first = node.children[0];
+    if (first.kind() == Entry::Kind::Solid && std::all_of(node.children.begin(), node.children.end(),
+                                                          [&](Entry e) { return e.bits == first.bits; })) {
+        tree_.nodes.pop_back();  // solid children made no nodes
+        return solid(first.payload(), cell.level);
+    }
+    tree_.nodes[index] = node;
+    return {Entry::make(Entry::Kind::Node, static_cast<std::uint32_t>(index)), cost};
+}
+
+BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {
+    return {Entry::make(Entry::Kind::Solid, paint), options_.cost.leaf(0, level)};
+}
+
+/// Nothing if it cannot be proven, or has too many pieces for the format.
+const FittedLeaf* BlockBuilder::makeLeaf(const Cell& cell) {
+    const PlanarLeaf* planar;
+    {
+        const Stopwatch watch(times_.planarise);
+        regions_.enter(cell, tree_.palette);
+        strands_ = cell.strands;
+        std::uint32_t local = 0;
+        for (Strand& s : strands_) {
+            while (regions_.layers[local] != s.layer)
+                ++local;
+            s.layer = local;
+        }
+        planar = &planariser_.run(cell.square, points_, strands_, regions_);
+    }
+    if (!planar->certified)
+        return nullptr;
+    const Stopwatch watch(times_.fit);
+    const FittedLeaf& fitted = fitter_.run(cell.square, *planar, options_.fitTolerance);
+    return fitted.pieces.size() <= maxLeafPieces ? &fitted : nullptr;
+}
+
+BlockBuilder::Built BlockBuilder::emit(const FittedLeaf& fitted, unsigned level) {
+    if (fitted.pieces.empty())
+        return solid(fitted.corners[0], level);
+    tree_.leaves.push_back({static_cast<std::uint32_t>(tree_.pieces.size()),
+                            static_cast<std::uint32_t>(fitted.pieces.size()), fitted.corners});
+    tree_.pieces.insert(tree_.pieces.end(), fitted.pieces.begin(), fitted.pieces.end());
+    return {Entry::make(Entry::Kind::Leaf, static_cast<std::uint32_t>(tree_.leaves.size() - 1)),
+            options_.cost.leaf(static_cast<double>(fitted.pieces.size()), level)};
+}
+
+/// The fallback: the mean over 4 × 4 points, each classified by winding (after Ganacim et al. 2014).
+BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
+    ++tree_.fallbackLeaves;
+    work_.spend(16 * cell.strands.size() * visitWork);
+    regions_.enter(cell, tree_.palette);
+    std::vector<PaintId> paints;
+    const Coord step = cell.square.side / 8;
+    for (int i = 0; i < 16; ++i) {
+        const LatticePoint p{(cell.square.x0 + (2 * (i % 4) + 1) * step) | 1,
+                             (cell.square.y0 + (2 * (i / 4) + 1) * step) | 1};
+        regions_.toCorner();
+        std::uint32_t local = 0;
+        for (const Strand& s : cell.strands) {
+            while (regions_.layers[local] != s.layer)
+                ++local;
+            if (const int winding = windingBetween(points_, s, cell.square.corner(0), p); winding != 0)
+                regions_.change(local, winding);
+        }
+        paints.push_back(regions_.paint());
+    }
+    return solid(painter_->mean(paints, tree_.palette), cell.level);
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,149 @@
+#include "compiler/src/outline.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "compiler/src/strand.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+Outlines outlineInBox(const scene::Path& path, double tolerance = 0.5) {
+    Outlines outlines;
+    addOutline(outlines, path, scene::identity, tolerance, {-16, -16}, {1000, 1000});
+    return outlines;
+}
+
+std::vector<Chord> chordsOf(const Outlines& outlines) {
+    std::vector<Chord> chords;
+    for (const auto& run : outlines.runs)
+        for (std::uint32_t i = run.first; i < run.last; ++i)
+            chords.push_back(outlines.chord(i));
+    return chords;
+}
+
+int windingAt(const Outlines& outlines, LatticePoint p) {
+    int w = 0;
+    for (const auto& run : outlines.runs)
+        w += windingAlongX(outlines.points, {run.first, run.last, 0}, p.y, -1001, p.x);
+    return w;
+}
+
+scene::Path polygon(const std::vector<scene::Point>& points) {
+    scene::Path path{scene::MoveTo{points[0]}};
+    for (std::size_t i = 1; i < points.size(); ++i)
+        path.push_back(scene::LineTo{points[i]});
+    path.push_back(scene::Close{});
+    return path;
+}
+
+const scene::Path wave{scene::MoveTo{{10, 400}}, scene::CubicTo{{200, -500}, {400, 1300}, {600, 300}},
+                       scene::LineTo{{900, 900}}, scene::QuadTo{{300, 1000}, {20, 700}}, scene::Close{}};
+
+TEST(Winding, isPlusOneInsideAContourThatIsCounterClockwiseInTheNumbers) {
+    const Outlines square = outlineInBox(polygon({{0, 0}, {100, 0}, {100, 100}, {0, 100}}));
+    EXPECT_EQ(windingAt(square, {51, 51}), 1);
+    EXPECT_EQ(windingAt(square, {151, 51}), 0);
+    EXPECT_EQ(windingAt(square, {-51, 51}), 0);
+}
+
+TEST(Winding, isTheSameByEveryWay) {
+    const Outlines outlines = outlineInBox(wave);
+    const LatticePoint from{-21, -21};
+    for (Coord y = -9; y < 1000; y += 14)
+        for (Coord x = -9; x < 1000; x += 14) {
+            int byCorner = 0;
+            for (const auto& run : outlines.runs)
+                byCorner += windingBetween(outlines.points, {run.first, run.last, 0}, from, {x, y});
+            EXPECT_EQ(byCorner, windingAt(outlines, {x, y})) << x << ", " << y;
+        }
+}
+
+TEST(Strand, holdsExactlyTheChordsThatPassThroughASquare) {
+    const Outlines outlines = outlineInBox(wave);
+    for (const Coord side : {16, 64, 256})
+        for (Coord y = -1; y < 1000; y += side)
+            for (Coord x = -1; x < 1000; x += side) {
+                const Square square{x, y, side};
+                for (const auto& run : outlines.runs) {
+                    const Strand s = narrowed(outlines.points, {run.first, run.last, 0}, square);
+                    for (std::uint32_t i = run.first; i < run.last; ++i)
+                        EXPECT_EQ(i >= s.first && i < s.last,
+                                  meets(outlines.points[i], outlines.points[i + 1], square));
+                }
+            }
+}
+
+TEST(Outline, runsAreMonotoneAndFollowEachOther) {
+    const Outlines outlines = outlineInBox(wave);
+    EXPECT_GT(outlines.runs.size(), 3u);
+    EXPECT_LT(outlines.runs.size(), 16u);
+    for (std::size_t r = 0; r < outlines.runs.size(); ++r) {
+        const auto run = outlines.runs[r];
+        EXPECT_EQ(run.first, r > 0 ? outlines.runs[r - 1].last : 0);
+        const LatticePoint a = outlines.points[run.first], b = outlines.points[run.last];
+        for (const std::uint32_t i : {run.first, run.last - 1}) {
+            const Chord c = outlines.chord(i);
+            EXPECT_GE(std::int64_t{c.b.x - c.a.x} * (b.x - a.x), 0);
+            EXPECT_GE(std::int64_t{c.b.y - c.a.y} * (b.y - a.y), 0);
+        }
+    }
+}
+
+TEST(Outline, closesEverySubpath) {
+    const scene::Path path{scene::MoveTo{{10, 10}},
+                           scene::LineTo{{50, 10}},
+                           scene::LineTo{{50, 60}},
+                           scene::MoveTo{{100, 100}},
+                           scene::LineTo{{140, 100}},
+                           scene::LineTo{{140, 160}},
+                           scene::Close{}};
+    LatticePoint sum{};
+    const std::vector<Chord> chords = chordsOf(outlineInBox(path));
+    for (const Chord& c : chords)
+        sum.x += c.b.x - c.a.x, sum.y += c.b.y - c.a.y;
+    EXPECT_EQ(sum, (LatticePoint{0, 0}));
+    EXPECT_EQ(chords.size(), 6u);
+}
+
+TEST(Outline, pointsAloneMakeNoRuns) {
+    const Outlines outlines = outlineInBox(
+        {scene::MoveTo{{10, 10}}, scene::MoveTo{{20, 20}}, scene::LineTo{{20, 20}}, scene::Close{}});
+    EXPECT_TRUE(outlines.runs.empty());
+    EXPECT_TRUE(outlines.points.empty());
+}
+
+TEST(Outline, chordsOfACircleStayWithinTheTolerance) {
+    const scene::Path circle{scene::MoveTo{{900, 500}}, scene::ArcTo{{400, 400}, 0, false, true, {100, 500}},
+                             scene::ArcTo{{400, 400}, 0, false, true, {900, 500}}, scene::Close{}};
+    const std::vector<Chord> chords = chordsOf(outlineInBox(circle, 2));
+    EXPECT_GT(chords.size(), 15u);
+    for (const Chord& c : chords) {
+        const double x = (c.a.x + c.b.x) / 2.0 - 500, y = (c.a.y + c.b.y) / 2.0 - 500;
+        EXPECT_NEAR(std::hypot(x, y), 400, 2 + 1.5);  // sagitta, and even vertices
+    }
+}
+
+TEST(Outline, geometryBeyondTheBoxKeepsItsWindingsInside) {
+    const scene::Path huge{scene::MoveTo{{-1e30, -1e30}}, scene::LineTo{{1e30, -1e30}},
+                           scene::LineTo{{1e30, 500}},
+                           scene::CubicTo{{1e20, 500}, {-1e20, 500}, {-1e30, 500}}, scene::Close{}};
+    const Outlines outlines = outlineInBox(huge);
+    EXPECT_LT(outlines.points.size(), 100u);
+    EXPECT_EQ(windingAt(outlines, {101, 101}), 1);
+    EXPECT_EQ(windingAt(outlines, {901, 401}), 1);
+    EXPECT_EQ(windingAt(outlines, {101, 601}), 0);
+}
+
+TEST(Outline, radiiTooSmallForTheirChordGrow) {
+    const scene::Path arc{scene::MoveTo{{100, 500}}, scene::ArcTo{{1, 1}, 0, false, true, {900, 500}},
+                          scene::Close{}};
+    Coord top = 1000;
+    for (const LatticePoint p : outlineInBox(arc).points)
+        top = std::min(top, p.y);
+    EXPECT_NEAR(top, 100, 2);
+}
+
+}  // namespace
+}  // namespace vtm::compiler
