@@ -4,7 +4,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "scene/path.hpp"
@@ -58,14 +57,6 @@ double bernstein(std::array<double, N> b, double t) {
             b[i] += (b[i + 1] - b[i]) * t;
     return b[0];
 }
-
-/// Coefficients of powers of t, constant term first.
-std::vector<double> powers(std::span<const double> bernsteinCoefficients);
-
-/// Real roots in the open interval (0, 1), rising; roots of even order may be left out.
-std::vector<double> rootsInside(std::span<const double> polynomial);
-double evaluate(std::span<const double> polynomial, double t);
-std::vector<double> derivative(std::span<const double> polynomial);
 
 /// Arc length over [t0, t1], relative error below 1e-9 of the control polygon's length.
 double arcLength(const Cubic& c, double t0, double t1);
