@@ -37,7 +37,8 @@ struct Piece {
 /// |c|r > q^(3/2), with c = γ' × γ'' and q = |γ'|².
 ///
 /// Beside a control point that coincides with its end the curvature grows without limit, while the
-/// curve turns less and less: what is left to turn there is soon too small to matter.
+/// curve turns less and less: what is left to turn there is soon too small to matter. Elsewhere, what a
+/// piece of so little turn is in its middle goes for all of it.
 class BendSearch {
 public:
     explicit BendSearch(const BendOptions& options) : o_(options) {}
@@ -61,6 +62,11 @@ private:
         return std::max(low, -high) * o_.radius >= cube(most);
     }
 
+    bool tightInTheMiddle(const Curvature& k) const {
+        const double middle = std::abs(bernstein(k.cross, 0.5));
+        return middle * o_.radius > cube(bernstein(k.speedSquared, 0.5)) * o_.slack;
+    }
+
     /// γ' keeps within the cone of its coefficients: the widest angle between two of them bounds the turn
     /// (sin θ >= 2θ/π up to a right angle).
     static double turnBound(const std::array<Point, 3>& v) {
@@ -80,10 +86,10 @@ private:
 
     void visit(const Piece& piece, double t0, double t1, int depth) {
         const Curvature& k = piece.k;
-        const bool atAnEnd = t0 == 0 || t1 == 1;
-        if (gentle(k) || (atAnEnd && negligible(piece)))
+        const bool small = negligible(piece), atAnEnd = t0 == 0 || t1 == 1;
+        if (gentle(k) || (small && (atAnEnd || !tightInTheMiddle(k))))
             return add({t0, t1, Bend::Gentle});
-        if (depth == maxSearchDepth || tight(k))
+        if (small || depth == maxSearchDepth || tight(k))
             return add({t0, t1, k.cross[1] > 0 ? Bend::Left : Bend::Right});
         const auto [velocityLeft, velocityRight] = halves(piece.velocity);
         const auto [crossLeft, crossRight] = halves(k.cross);

@@ -43,7 +43,12 @@ double adaptiveLength(const Cubic& c, double t0, double t1, double whole, double
 
 }  // namespace
 
-Point unit(Point v) { return v / std::hypot(v.x, v.y); }
+Point unit(Point v) {
+    const double square = glm::dot(v, v);
+    // Beyond these, squares lose digits or overflow.
+    constexpr double least = 1e-280, most = 1e280;
+    return v / (square > least && square < most ? std::sqrt(square) : std::hypot(v.x, v.y));
+}
 
 Point rotate(Point v, double angle) { return v * std::cos(angle) + perp(v) * std::sin(angle); }
 
@@ -55,16 +60,6 @@ Cubic straightCubic(Point from, Point to) {
 
 Cubic elevate(Point from, Point control, Point to) {
     return {from, lerp(from, control, 2.0 / 3), lerp(to, control, 2.0 / 3), to};
-}
-
-Point pointAt(const Cubic& c, double t) {
-    const double s = 1 - t;
-    return c.p0 * (s * s * s) + c.p1 * (3 * s * s * t) + c.p2 * (3 * s * t * t) + c.p3 * (t * t * t);
-}
-
-Point derivativeAt(const Cubic& c, double t) {
-    const double s = 1 - t;
-    return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
 }
 
 Cubic part(const Cubic& c, double t0, double t1) {

@@ -27,8 +27,14 @@ struct Cubic {
 
 Cubic straightCubic(Point from, Point to);
 Cubic elevate(Point from, Point control, Point to);
-Point pointAt(const Cubic& c, double t);
-Point derivativeAt(const Cubic& c, double t);
+inline Point pointAt(const Cubic& c, double t) {
+    const double s = 1 - t;
+    return c.p0 * (s * s * s) + c.p1 * (3 * s * s * t) + c.p2 * (3 * s * t * t) + c.p3 * (t * t * t);
+}
+inline Point derivativeAt(const Cubic& c, double t) {
+    const double s = 1 - t;
+    return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
+}
 /// The piece over [t0, t1], parametrised over [0, 1] again.
 Cubic part(const Cubic& c, double t0, double t1);
 /// Largest distance of a control point from the start.

@@ -43,42 +43,50 @@ Parameters evenParameters() {
     return u;
 }
 
-/// Newton step towards the point of the cubic on the sample's normal. One is enough: the parameters stay
-/// from one Gauss-Newton step to the next, and what is missing only makes the error look larger.
-double project(const Cubic& c, const Sample& s, double u) {
-    const double slope = glm::dot(derivativeAt(c, u), s.tangent);
-    return slope > 0 ? std::clamp(u - glm::dot(pointAt(c, u) - s.at, s.tangent) / slope, 0.0, 1.0) : u;
-}
+/// A cubic by powers of its parameter, seen from its start.
+struct Powers {
+    Point start, c1, c2, c3;
 
-/// Brings the parameters to the samples' normals. Largest distance of a sample from its point;
-/// infinite if the order is lost.
-double projectAll(const Samples& s, const Cubic& c, Parameters& u) {
-    double error = 0;
-    for (std::size_t i = 1; i + 1 < s.size(); ++i) {
-        u[i] = project(c, s[i], u[i]);
-        if (u[i] < u[i - 1])
-            return infinity;
-        error = std::max(error, glm::distance(pointAt(c, u[i]), s[i].at));
-    }
-    return error;
-}
+    explicit Powers(const Cubic& c)
+        : start(c.p0),
+          c1(3.0 * (c.p1 - c.p0)),
+          c2(3.0 * (c.p2 - c.p1) - c1),
+          c3(c.p3 - c.p0 - 3.0 * (c.p2 - c.p1)) {}
+    Point at(double u) const { return start + ((c3 * u + c2) * u + c1) * u; }
+    Point slope(double u) const { return (c3 * (3 * u) + c2 * 2.0) * u + c1; }
+};
 
-/// Gauss-Newton step of the two arms; zero where the samples do not determine them (a straight line).
-Arms armStep(const Samples& s, const Cubic& c, const Parameters& u) {
+/// The error of a cubic, and the Gauss-Newton step of its arms that would lessen it.
+struct Residuals {
+    double error;  ///< largest distance of a sample from its point; infinite if the order is lost
+    Arms step;     ///< zero where the samples do not determine the arms (a straight line)
+};
+
+/// Brings the parameters to the samples' normals by one step of Newton's. One is enough: the parameters
+/// stay from one Gauss-Newton step to the next, and what is missing only makes the error look larger.
+Residuals project(const Samples& s, const Cubic& cubic, Parameters& u) {
+    const Powers c(cubic);
     const Point t0 = s.front().tangent, t1 = s.back().tangent;
-    double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
+    double square = 0, aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
     for (std::size_t i = 1; i + 1 < s.size(); ++i) {
-        const Point normal = perp(s[i].tangent);
-        const double v = 1 - u[i], residual = glm::dot(s[i].at - pointAt(c, u[i]), normal);
+        const Sample& sample = s[i];
+        const double slope = glm::dot(c.slope(u[i]), sample.tangent);
+        if (slope > 0)
+            u[i] = std::clamp(u[i] - glm::dot(c.at(u[i]) - sample.at, sample.tangent) / slope, 0.0, 1.0);
+        if (u[i] < u[i - 1])
+            return {infinity, {0, 0}};
+        const Point off = sample.at - c.at(u[i]), normal = perp(sample.tangent);
+        const double v = 1 - u[i], residual = glm::dot(off, normal);
         const double a = 3 * v * v * u[i] * glm::dot(t0, normal),
                      b = -3 * v * u[i] * u[i] * glm::dot(t1, normal);
+        square = std::max(square, glm::dot(off, off));
         aa += a * a, ab += a * b, bb += b * b, ar += a * residual, br += b * residual;
     }
     const double determinant = aa * bb - ab * ab;
     constexpr double singular = 1e-12;  // relative: beyond, the step would be rounding noise
     if (!(determinant > singular * (aa + bb) * (aa + bb)))
-        return {0, 0};
-    return {(ar * bb - br * ab) / determinant, (br * aa - ar * ab) / determinant};
+        return {std::sqrt(square), {0, 0}};
+    return {std::sqrt(square), {(ar * bb - br * ab) / determinant, (br * aa - ar * ab) / determinant}};
 }
 
 }  // namespace
@@ -90,12 +98,18 @@ Fit fitCubic(const Samples& s, double tolerance) {
     Arms arms{glm::distance(cubic.p0, cubic.p1), glm::distance(cubic.p3, cubic.p2)}, bestArms = arms;
     const double longest = 4 * glm::distance(cubic.p0, cubic.p3);
     constexpr int maxSteps = 7;  // three to four converge; the rest is for steps taken back
+    // An error that a step from nearby lessens by no more than this share stays as it is; one so many
+    // times the tolerance after the second step will not come down to it.
+    constexpr double stays = 0.7, hopeless = 64;
     for (int step = 0; step < maxSteps && best.error > tolerance; ++step) {
-        const double error = projectAll(s, cubic, u);
-        if (error < best.error) {
-            best = {cubic, error};
+        const Residuals now = project(s, cubic, u);
+        if (now.error < best.error) {
+            if (now.error > tolerance && step > 1 &&
+                (now.error > stays * best.error || now.error > hopeless * tolerance))
+                return {cubic, now.error};
+            best = {cubic, now.error};
             bestArms = arms;
-            arms = glm::clamp(arms + armStep(s, cubic, u), Arms{0, 0}, Arms{longest, longest});
+            arms = glm::clamp(arms + now.step, Arms{0, 0}, Arms{longest, longest});
         } else {
             arms = (arms + 3.0 * bestArms) / 4.0;
             u = evenParameters();
@@ -106,15 +120,15 @@ Fit fitCubic(const Samples& s, double tolerance) {
     return best;
 }
 
-double chordError(const Samples& samples) {
+bool isChord(const Samples& samples, double tolerance) {
     const Point from = samples.front().at, chord = samples.back().at - from;
     const double square = glm::dot(chord, chord);
-    double error = 0;
-    for (const Sample& s : samples) {
+    const auto isNear = [&](const Sample& s) {
         const double along = square > 0 ? std::clamp(glm::dot(s.at - from, chord) / square, 0.0, 1.0) : 0;
-        error = std::max(error, glm::distance(s.at, from + chord * along));
-    }
-    return error;
+        const Point off = s.at - from - chord * along;
+        return glm::dot(off, off) <= tolerance * tolerance;
+    };
+    return isNear(samples[samples.size() / 2]) && std::all_of(samples.begin(), samples.end(), isNear);
 }
 
 }  // namespace vtm::compiler::stroke

@@ -130,7 +130,7 @@ bool hidesBackwardOffsets(const Cubic& c, const OffsetOptions& o, const std::vec
     const Stretch whole(c, {0, 1, Bend::Gentle});
     return std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
         const OffsetCurve inner{whole, span.bend == Bend::Left ? o.radius : -o.radius, false};
-        return span.bend == Bend::Gentle || chordError(inner.samples(0, 1)) <= o.tolerance;
+        return span.bend == Bend::Gentle || isChord(inner.samples(0, 1), o.tolerance);
     });
 }
 
@@ -154,7 +154,7 @@ int pieceCount(double error, double tolerance) {
 
 void appendFit(const OffsetCurve& curve, double u0, double u1, double tolerance, int depth, Side& side) {
     const Samples samples = curve.samples(u0, u1);
-    if (depth == 0 || chordError(samples) <= tolerance)
+    if (depth == 0 || isChord(samples, tolerance))
         return side.lineTo(samples.back().at, gapShare * tolerance);
     const Fit fit = fitCubic(samples, tolerance);
     if (fit.error <= tolerance)
