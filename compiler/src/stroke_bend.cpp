@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -67,27 +68,24 @@ private:
         return middle * o_.radius > cube(bernstein(k.speedSquared, 0.5)) * o_.slack;
     }
 
-    /// γ' keeps within the cone of its coefficients: the widest angle between two of them bounds the turn
-    /// (sin θ >= 2θ/π up to a right angle).
-    static double turnBound(const std::array<Point, 3>& v) {
-        double widest = 0;
-        for (const auto& [a, b] : {std::pair{v[0], v[1]}, {v[1], v[2]}, {v[0], v[2]}}) {
-            const double product = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
-            if (product == 0)
-                continue;
-            if (glm::dot(a, b) <= 0)
-                return 2 * halfPi;
-            widest = std::max(widest, std::abs(cross(a, b)) / product * halfPi);
-        }
-        return widest;
+    /// γ' keeps within the cone of its coefficients: the widest angle between two of them bounds the turn.
+    /// Tested by sines, sin θ >= 2θ/π up to a right angle.
+    bool negligible(const std::array<Point, 3>& velocity) const {
+        return closeTo(velocity[0], velocity[1]) && closeTo(velocity[1], velocity[2]) &&
+               closeTo(velocity[0], velocity[2]);
     }
-
-    bool negligible(const Piece& piece) const { return turnBound(piece.velocity) <= o_.smallTurn / 2; }
+    bool closeTo(Point a, Point b) const {
+        const double sine = o_.smallTurn / std::numbers::pi;  // half of smallTurn
+        const double lengths = std::sqrt(glm::dot(a, a)) * std::sqrt(glm::dot(b, b));
+        return glm::dot(a, b) >= 0 && std::abs(cross(a, b)) <= sine * lengths;
+    }
 
     void visit(const Piece& piece, double t0, double t1, int depth) {
         const Curvature& k = piece.k;
-        const bool small = negligible(piece), atAnEnd = t0 == 0 || t1 == 1;
-        if (gentle(k) || (small && (atAnEnd || !tightInTheMiddle(k))))
+        if (gentle(k))
+            return add({t0, t1, Bend::Gentle});
+        const bool small = negligible(piece.velocity), atAnEnd = t0 == 0 || t1 == 1;
+        if (small && (atAnEnd || !tightInTheMiddle(k)))
             return add({t0, t1, Bend::Gentle});
         if (small || depth == maxSearchDepth || tight(k))
             return add({t0, t1, k.cross[1] > 0 ? Bend::Left : Bend::Right});
@@ -105,8 +103,6 @@ private:
         else
             spans_.push_back(next);
     }
-
-    static constexpr double halfPi = 1.5707963267948966;
 
     const BendOptions& o_;
     std::vector<Span> spans_;

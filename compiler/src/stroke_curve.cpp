@@ -43,13 +43,6 @@ double adaptiveLength(const Cubic& c, double t0, double t1, double whole, double
 
 }  // namespace
 
-Point unit(Point v) {
-    const double square = glm::dot(v, v);
-    // Beyond these, squares lose digits or overflow.
-    constexpr double least = 1e-280, most = 1e280;
-    return v / (square > least && square < most ? std::sqrt(square) : std::hypot(v.x, v.y));
-}
-
 Point rotate(Point v, double angle) { return v * std::cos(angle) + perp(v) * std::sin(angle); }
 
 double angleBetween(Point a, Point b) { return std::atan2(cross(a, b), glm::dot(a, b)); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,14 @@ inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 /// Turned by +90° (x towards y).
 inline Point perp(Point v) { return {-v.y, v.x}; }
 /// `v` must not be zero.
-Point unit(Point v);
+inline Point unit(Point v) {
+    const double square = v.x * v.x + v.y * v.y;
+    // Beyond these, squares lose digits or overflow.
+    constexpr double least = 1e-280, most = 1e280;
+    if (square > least && square < most)
+        return v * (1 / std::sqrt(square));
+    return v / std::hypot(v.x, v.y);
+}
 Point rotate(Point v, double angle);
 /// Signed angle from `a` to `b`, in (-π, π].
 double angleBetween(Point a, Point b);

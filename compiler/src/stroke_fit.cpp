@@ -18,7 +18,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Arms = glm::dvec2;
-using Parameters = std::array<double, std::tuple_size_v<Samples>>;
+
+/// One number for each inner sample.
+constexpr std::size_t inner = std::tuple_size_v<Samples> - 2;
+using Row = std::array<double, inner>;
 
 /// The derivative with respect to the sample's index where a curve starts, from five samples.
 Point startSlope(const Point& a, const Point& b, const Point& c, const Point& d, const Point& e) {
@@ -36,24 +39,37 @@ Cubic initialCubic(const Samples& s) {
     return {s[0].at, s[0].at + s[0].tangent * arm0, s[n].at - s[n].tangent * arm1, s[n].at};
 }
 
-Parameters evenParameters() {
-    Parameters u{};
-    for (std::size_t i = 0; i < u.size(); ++i)
-        u[i] = double(i) / double(u.size() - 1);
+Row evenParameters() {
+    Row u{};
+    for (std::size_t i = 0; i < inner; ++i)
+        u[i] = double(i + 1) / double(inner + 1);
     return u;
 }
 
-/// A cubic by powers of its parameter, seen from its start.
-struct Powers {
-    Point start, c1, c2, c3;
+/// The inner samples by coordinates, seen from the first sample, for loops that do several at once.
+struct Rows {
+    Row x, y, tangentX, tangentY;
+    Row turn0, turn1;  ///< first and last tangent along the sample's normal
 
-    explicit Powers(const Cubic& c)
-        : start(c.p0),
-          c1(3.0 * (c.p1 - c.p0)),
-          c2(3.0 * (c.p2 - c.p1) - c1),
-          c3(c.p3 - c.p0 - 3.0 * (c.p2 - c.p1)) {}
-    Point at(double u) const { return start + ((c3 * u + c2) * u + c1) * u; }
-    Point slope(double u) const { return (c3 * (3 * u) + c2 * 2.0) * u + c1; }
+    explicit Rows(const Samples& s) {
+        for (std::size_t i = 0; i < inner; ++i) {
+            const Sample& sample = s[i + 1];
+            x[i] = sample.at.x - s.front().at.x, y[i] = sample.at.y - s.front().at.y;
+            tangentX[i] = sample.tangent.x, tangentY[i] = sample.tangent.y;
+            turn0[i] = cross(sample.tangent, s.front().tangent);
+            turn1[i] = cross(sample.tangent, s.back().tangent);
+        }
+    }
+};
+
+/// One coordinate of a cubic by powers of its parameter, seen from its start.
+struct Powers {
+    double c1, c2, c3;
+
+    Powers(double p0, double p1, double p2, double p3)
+        : c1(3 * (p1 - p0)), c2(3 * (p2 - p1) - c1), c3(p3 - p0 - 3 * (p2 - p1)) {}
+    double at(double u) const { return ((c3 * u + c2) * u + c1) * u; }
+    double slope(double u) const { return (3 * c3 * u + 2 * c2) * u + c1; }
 };
 
 /// The error of a cubic, and the Gauss-Newton step of its arms that would lessen it.
@@ -64,23 +80,28 @@ struct Residuals {
 
 /// Brings the parameters to the samples' normals by one step of Newton's. One is enough: the parameters
 /// stay from one Gauss-Newton step to the next, and what is missing only makes the error look larger.
-Residuals project(const Samples& s, const Cubic& cubic, Parameters& u) {
-    const Powers c(cubic);
-    const Point t0 = s.front().tangent, t1 = s.back().tangent;
+Residuals project(const Rows& s, const Cubic& cubic, Row& u) {
+    const Powers x(cubic.p0.x, cubic.p1.x, cubic.p2.x, cubic.p3.x),
+        y(cubic.p0.y, cubic.p1.y, cubic.p2.y, cubic.p3.y);
+    Row squares, residuals;
+    for (std::size_t i = 0; i < inner; ++i) {
+        const double tx = s.tangentX[i], ty = s.tangentY[i];
+        const double slope = x.slope(u[i]) * tx + y.slope(u[i]) * ty;
+        const double ahead = (x.at(u[i]) - s.x[i]) * tx + (y.at(u[i]) - s.y[i]) * ty;
+        const double next = u[i] - ahead / slope;
+        u[i] = std::clamp(slope > 0 ? next : u[i], 0.0, 1.0);
+        const double offX = s.x[i] - x.at(u[i]), offY = s.y[i] - y.at(u[i]);
+        squares[i] = offX * offX + offY * offY;
+        residuals[i] = tx * offY - ty * offX;
+    }
     double square = 0, aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
-    for (std::size_t i = 1; i + 1 < s.size(); ++i) {
-        const Sample& sample = s[i];
-        const double slope = glm::dot(c.slope(u[i]), sample.tangent);
-        if (slope > 0)
-            u[i] = std::clamp(u[i] - glm::dot(c.at(u[i]) - sample.at, sample.tangent) / slope, 0.0, 1.0);
-        if (u[i] < u[i - 1])
+    for (std::size_t i = 0; i < inner; ++i) {
+        if (i > 0 && u[i] < u[i - 1])
             return {infinity, {0, 0}};
-        const Point off = sample.at - c.at(u[i]), normal = perp(sample.tangent);
-        const double v = 1 - u[i], residual = glm::dot(off, normal);
-        const double a = 3 * v * v * u[i] * glm::dot(t0, normal),
-                     b = -3 * v * u[i] * u[i] * glm::dot(t1, normal);
-        square = std::max(square, glm::dot(off, off));
-        aa += a * a, ab += a * b, bb += b * b, ar += a * residual, br += b * residual;
+        const double v = 1 - u[i];
+        const double a = 3 * v * v * u[i] * s.turn0[i], b = -3 * v * u[i] * u[i] * s.turn1[i];
+        square = std::max(square, squares[i]);
+        aa += a * a, ab += a * b, bb += b * b, ar += a * residuals[i], br += b * residuals[i];
     }
     const double determinant = aa * bb - ab * ab;
     constexpr double singular = 1e-12;  // relative: beyond, the step would be rounding noise
@@ -93,19 +114,17 @@ Residuals project(const Samples& s, const Cubic& cubic, Parameters& u) {
 
 Fit fitCubic(const Samples& s, double tolerance) {
     Cubic cubic = initialCubic(s);
-    Parameters u = evenParameters();
+    const Rows rows(s);
+    Row u = evenParameters();
     Fit best{cubic, infinity};
     Arms arms{glm::distance(cubic.p0, cubic.p1), glm::distance(cubic.p3, cubic.p2)}, bestArms = arms;
     const double longest = 4 * glm::distance(cubic.p0, cubic.p3);
-    constexpr int maxSteps = 7;  // three to four converge; the rest is for steps taken back
-    // An error that a step from nearby lessens by no more than this share stays as it is; one so many
-    // times the tolerance after the second step will not come down to it.
-    constexpr double stays = 0.7, hopeless = 64;
+    constexpr int maxSteps = 7;     // three to four converge; the rest is for steps taken back
+    constexpr double stays = 0.97;  // a step that lessens the error by no more is the last
     for (int step = 0; step < maxSteps && best.error > tolerance; ++step) {
-        const Residuals now = project(s, cubic, u);
+        const Residuals now = project(rows, cubic, u);
         if (now.error < best.error) {
-            if (now.error > tolerance && step > 1 &&
-                (now.error > stays * best.error || now.error > hopeless * tolerance))
+            if (now.error > stays * best.error)
                 return {cubic, now.error};
             best = {cubic, now.error};
             bestArms = arms;
