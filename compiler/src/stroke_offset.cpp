@@ -126,13 +126,14 @@ struct OffsetCurve {
 /// of a chord, what winds backward there is hidden, too: circles stroked up to their centre.
 bool hidesBackwardOffsets(const Cubic& c, const OffsetOptions& o, const std::vector<Span>& spans) {
     constexpr double hardly = 1.05;  // the offset is a twentieth as long as the curve: samples see all of it
-    if (!isGentle(bends(c, {o.radius, hardly, 0})))
-        return false;
     const Stretch whole(c, {0, 1, Bend::Gentle});
-    return std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
-        const OffsetCurve inner{whole, span.bend == Bend::Left ? o.radius : -o.radius, false};
-        return span.bend == Bend::Gentle || isChord(inner.samples(0, 1), o.tolerance);
-    });
+    return std::all_of(spans.begin(), spans.end(),
+                       [&](const Span& span) {
+                           const double inner = span.bend == Bend::Left ? o.radius : -o.radius;
+                           return span.bend == Bend::Gentle ||
+                                  isChord(OffsetCurve{whole, inner, false}.samples(0, 1), o.tolerance);
+                       }) &&
+           isGentle(bends(c, {o.radius, hardly, 0}));
 }
 
 /// The curve in stretches that are gentle, or tight with monotone curvature and at most 45° of turn.
