@@ -25,10 +25,10 @@ constexpr int steps = 300;
 Piece cubic(const Curve& c) {
     Piece p{CubicTo{c[1], c[2], c[3]}, {}};
     for (int i = 0; i <= steps; ++i) {
-        // Never at an end itself, where coincident controls leave no speed.
+        // Tangents not at an end itself, where coincident controls leave no speed.
         const double t = std::clamp(double(i) / steps, 1e-7, 1 - 1e-7), s = 1 - t;
         const Point d = (c[1] - c[0]) * (s * s) + (c[2] - c[1]) * (2 * s * t) + (c[3] - c[2]) * (t * t);
-        p.spine.emplace_back(at(c, t), glm::normalize(d));
+        p.spine.emplace_back(at(c, double(i) / steps), glm::normalize(d));
     }
     return p;
 }
