@@ -26,11 +26,13 @@ MODULES = {
     "asset": {"image"},
     "compiler": {"scene", "asset", "image"},
     "backend_gl": {"asset", "image"},
+    "conformance/generate": {"scene", "image"},
     "conformance/reference": {"scene", "image"},
     "conformance/compare": {"image"},
 }
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
+MODULES["bench"] = EVERYTHING
 MODULES["tools"] = EVERYTHING
 MODULES["tests"] = EVERYTHING
 
@@ -44,7 +46,8 @@ LIBRARIES = {
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl"},
     r"CLI/.*": {"tools"},
-    r"nlohmann/.*": {"tools", "conformance/cases"},
+    r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
+    r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},
     r"unistd\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder

@@ -39,12 +39,15 @@ struct Options {
     /// Points a side of a pixel, in [1, 256], at which paints that vary (gradients, patterns, images)
     /// are read where few do not do; solid colours need none.
     int samples = 32;
+    /// Curves lie within it of the true outlines, in pixels, > 0: half a 255th of a pixel's colour takes 2e-3
+    /// along a whole side of it.
+    double flatness = 1e-4;
 };
 
 /// The scene on transparent black. Exact: the mean of the composited colour over the pixel's box,
 /// weighted by the exact areas of the regions that outlines cut it into. Compat: each layer's exact
 /// coverage times its paint at the pixel's centre, `over`, layer by layer. The scene is valid.
-/// Throws std::invalid_argument if `samples` is out of range.
+/// Throws std::invalid_argument if `samples` or `flatness` is out of range.
 image::Raster render(const scene::Scene& scene, const View& view, const Options& options = {});
 
 }  // namespace vtm::reference
