@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -31,13 +32,15 @@ std::uint64_t environmentOr(const char* name, std::uint64_t otherwise) {
 
 // ---- one scene --------------------------------------------------------------------------------
 
-/// From the finest that is usual to the coarsest that one would want, and all sizes of leaves.
+/// From the finest that is usual to the coarsest that one would want, and all sizes of leaves. (One piece a
+/// leaf would send every corner down to the last level.)
 compiler::Options optionsOf(std::uint64_t seed) {
     constexpr int bits[] = {16, 16, 12, 10};
-    constexpr unsigned pieces[] = {12, 12, 1, 3, 40};
+    constexpr unsigned pieces[] = {12, 12, 2, 4, 40};
+    std::mt19937_64 random(seed);
     compiler::Options options;
-    options.tolerance = std::ldexp(1.0, -bits[seed % 4]);
-    options.piecesPerLeaf = pieces[seed % 5];
+    options.tolerance = std::ldexp(1.0, -bits[random() % 4]);
+    options.piecesPerLeaf = pieces[random() % 5];
     return options;
 }
 
