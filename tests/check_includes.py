@@ -26,6 +26,7 @@ MODULES = {
     "asset": {"image"},
     "compiler": {"scene", "asset", "image"},
     "backend_gl": {"asset", "image"},
+    "trace": {"scene", "image"},
     "conformance/generate": {"scene", "image"},
     "conformance/reference": {"scene", "image"},
     "conformance/compare": {"image"},
@@ -48,6 +49,7 @@ LIBRARIES = {
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
     r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},
+    r"potracelib\.h": {"trace"},
     r"unistd\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder
