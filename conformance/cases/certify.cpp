@@ -75,6 +75,8 @@ Outlines::Outlines(const scene::Scene& scene) {
 void Outlines::add(const scene::Group& group) {
     if (group.clip)
         add(*group.clip);
+    if (group.mask)
+        add(*group.mask->content);
     for (const scene::Node& node : group.children) {
         if (const auto* child = std::get_if<scene::Group>(&node.value)) {
             add(*child);
