@@ -6,6 +6,7 @@
 #include <random>
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 
 #include "asset/evaluate.hpp"
 
@@ -16,8 +17,9 @@ using scene::Point;
 
 /// Shares of a pixel below it are rounding.
 constexpr double negligible = 1e-12;
-/// Of the outlines, in pixels. Finer ones cost much where a stroke is thousands of pixels wide.
-constexpr double flatness = 1.0 / 64;
+/// How flat the reference makes outlines, as a share of the tolerance. (Dashes move by what it takes from
+/// their path's length.)
+constexpr double flatShare = 1.0 / 64;
 /// Width of a line that stands for an outline, in pixels.
 constexpr double hairline = 1.0 / 64;
 
@@ -48,6 +50,13 @@ Point endOf(const scene::Command& command) {
                 return Point(0);
         },
         command);
+}
+
+/// The least that the map stretches any direction by: its smaller singular value.
+double smallestScale(const scene::Affine& m) {
+    const double sum = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]), d = std::abs(scene::determinant(m));
+    const double larger = std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4 * d * d))) / 2);
+    return larger > 0 ? d / larger : 0;
 }
 
 /// Every subpath ended as a fill ends it.
@@ -97,13 +106,19 @@ void Outlines::add(const scene::Clip& clip) {
         add(*clip.clip);
 }
 
-std::vector<bool> Outlines::touched(const Shape& shape, const reference::View& view) {
+std::vector<bool> Outlines::touched(const Shape& shape, const reference::View& view, double tolerance) {
+    const double flatness = flatShare * tolerance * view.toPixels[0].x;
     std::vector<double> covered;
     std::vector<bool> touched;
     if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
         covered = reference::strokeCoverage(*shape.path, shape.transform, *style, view, flatness);
-        for (const double c : covered)
-            touched.push_back(c > negligible && c < 1 - negligible);
+        scene::StrokeStyle narrow = *style;
+        narrow.width -= 2 * tolerance / smallestScale(shape.transform);
+        const std::vector<double> safe =
+            narrow.width > 0 ? reference::strokeCoverage(*shape.path, shape.transform, narrow, view, flatness)
+                             : std::vector<double>(covered.size());
+        for (std::size_t i = 0; i < covered.size(); ++i)
+            touched.push_back(covered[i] > negligible && safe[i] < 1 - negligible);
         return touched;
     }
     // Edges that coincide cancel in a fill's coverage, not in that of a line along them.
@@ -122,7 +137,7 @@ std::vector<bool> Outlines::farPixels(const Window& window) const {
     const reference::View view{n, n, toPixels(window)};
     std::vector<bool> near(std::size_t(n) * n);
     for (const Shape& shape : shapes_) {
-        const std::vector<bool> one = touched(shape, view);
+        const std::vector<bool> one = touched(shape, view, window.tolerance);
         std::transform(near.begin(), near.end(), one.begin(), near.begin(), std::logical_or());
     }
     std::vector<bool> far(near.size());
@@ -137,10 +152,10 @@ std::vector<bool> Outlines::farPixels(const Window& window) const {
     return far;
 }
 
-bool Outlines::within(Point centre, double reach) const {
-    const reference::View view{1, 1, toPixels({centre, 2 * reach, 1})};
-    return std::ranges::any_of(shapes_,
-                               [&](const Shape& shape) { return touched(shape, view).at(0) == true; });
+bool Outlines::within(Point centre, double reach, double tolerance) const {
+    const reference::View view{1, 1, toPixels({centre, 2 * reach, 1, tolerance})};
+    return std::ranges::any_of(
+        shapes_, [&](const Shape& shape) { return touched(shape, view, tolerance).at(0) == true; });
 }
 
 std::vector<Point> Outlines::somePoints(std::uint64_t seed, int count) const {
@@ -184,7 +199,8 @@ std::string difference(const scene::Scene& scene, const Outlines& outlines, cons
     const std::vector<bool> far = outlines.farPixels(window);
     if (std::ranges::find(far, true) == far.end())
         return {};
-    const image::Raster truth = reference::render(scene, {n, n, toPixels(window)}, {.flatness = flatness});
+    const image::Raster truth = reference::render(scene, {n, n, toPixels(window)},
+                                                  {.flatness = flatShare * window.tolerance / window.pixel});
     const image::Raster drawn = asset::evaluate(asset, {n, n, toPixels(window)});
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x)

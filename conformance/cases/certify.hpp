@@ -15,8 +15,9 @@ namespace vtm::cases {
 /// A square grid of square pixels on the picture.
 struct Window {
     scene::Point centre;
-    double pixel;  ///< side, picture units
-    int pixels;    ///< a side of the window
+    double pixel;      ///< side, picture units
+    int pixels;        ///< a side of the window
+    double tolerance;  ///< of the asset, picture units
 };
 
 /// All outlines of a scene that has neither patterns nor masks: its items', its clips' and the picture's
@@ -28,7 +29,7 @@ public:
     /// The pixels that no outline comes nearer to than one pixel, row by row.
     std::vector<bool> farPixels(const Window& window) const;
     /// Whether an outline runs through the square with this centre and half its side.
-    bool within(scene::Point centre, double reach) const;
+    bool within(scene::Point centre, double reach, double tolerance) const;
     /// Points on or about the outlines: anywhere on a path, for a stroke half its width beside.
     std::vector<scene::Point> somePoints(std::uint64_t seed, int count) const;
 
@@ -40,8 +41,9 @@ private:
     };
     void add(const scene::Group& group);
     void add(const scene::Clip& clip);
-    /// Which pixels the outline runs through.
-    static std::vector<bool> touched(const Shape& shape, const reference::View& view);
+    /// Which pixels the outline runs through. A stroke covers a pixel safely if one narrower by the tolerance
+    /// on both sides does: where its parts just overlap, outlines run inside it.
+    static std::vector<bool> touched(const Shape& shape, const reference::View& view, double tolerance);
 
     std::vector<Shape> shapes_;
 };

@@ -73,7 +73,7 @@ std::string borderViolation(const Scene& scene, const Outlines& outlines, const 
                 const scene::Point p = gap.from + share * (gap.to - gap.from);
                 const bool inside = p.x < scene.width && p.y < scene.height;
                 if (inside && !looksEqualAbout(asset, p, unit / 8) &&
-                    !outlines.within(p, unit * std::sqrt(0.5)))
+                    !outlines.within(p, unit * std::sqrt(0.5), unit))
                     return fmt::format(
                         "squares disagree on their border from {}, {} to {}, {}, far from any outline",
                         gap.from.x, gap.from.y, gap.to.x, gap.to.y);
@@ -85,11 +85,13 @@ std::string borderViolation(const Scene& scene, const Outlines& outlines, const 
 std::string errorViolation(const Scene& scene, const Outlines& outlines, const asset::Asset& asset,
                            double tolerance, std::uint64_t seed) {
     const double side = std::max(scene.width, scene.height);
-    const Window overview{{side / 2, side / 2}, 1.1 * side / overviewPixels, overviewPixels};
+    const Window overview{
+        {side / 2, side / 2}, 1.1 * side / overviewPixels, overviewPixels, tolerance * side};
     std::string found = difference(scene, outlines, asset, overview, colourBound);
     for (const scene::Point& p : outlines.somePoints(seed, closeUps))
         if (found.empty())
-            found = difference(scene, outlines, asset, {p, closeUpPixel * tolerance * side, closeUpPixels},
+            found = difference(scene, outlines, asset,
+                               {p, closeUpPixel * tolerance * side, closeUpPixels, tolerance * side},
                                colourBound + latticeOpening);
     return found;
 }
@@ -268,8 +270,11 @@ void expectSound(const std::filesystem::path& file) {
     const Outlines outlines(scene);
     const double pixel = closeUpPixel * options.tolerance * std::max(scene.width, scene.height);
     for (const scene::Point& p : outlines.somePoints(1, closeUpsOfFile))
-        EXPECT_EQ(difference(scene, outlines, asset, {p, pixel, closeUpPixels}, colourBound + latticeOpening),
-                  "")
+        EXPECT_EQ(
+            difference(scene, outlines, asset,
+                       {p, pixel, closeUpPixels, options.tolerance * std::max(scene.width, scene.height)},
+                       colourBound + latticeOpening),
+            "")
             << file;
 }
 
