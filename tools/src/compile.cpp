@@ -18,6 +18,8 @@ struct CompileOptions {
 };
 
 int compile(const CompileOptions& options) {
+    if (options.source.paper)
+        throw UsageError("compile: a .vtm file holds no paper mode; see render and info --mode paper");
     try {
         Source source = loadSource(options.input, options.source);
         const std::size_t fileBytes = timed(source.stages, "write", [&] {

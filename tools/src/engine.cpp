@@ -15,6 +15,8 @@ namespace {
 class GlEngine : public Engine {
 public:
     image::Raster render(Source& source, const asset::View& view) override {
+        if (source.paper)
+            throw std::runtime_error("paper mode is drawn by --engine asset only");
         if (!gl_)
             gl_ = timed(source.stages, "start", [] { return std::make_unique<Gl>(); });
         const gl::Texture texture =
@@ -34,7 +36,10 @@ private:
 class AssetEngine : public Engine {
 public:
     image::Raster render(Source& source, const asset::View& view) override {
-        return timed(source.stages, "render", [&] { return asset::evaluate(*source.asset, view); });
+        return timed(source.stages, "render", [&] {
+            return source.paper ? asset::evaluate(source.paper->asset, view)
+                                : asset::evaluate(*source.asset, view);
+        });
     }
 };
 

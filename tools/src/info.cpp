@@ -15,14 +15,20 @@ struct InfoOptions {
     bool json = false;
 };
 
+const char* modeOf(const Source& source) {
+    if (source.paper)
+        return "paper";
+    return source.asset->mode == asset::Mode::Exact ? "exact" : "compat";
+}
+
 int info(const InfoOptions& options) {
     try {
         const Source source = loadSource(options.input, options.source);
         Json report = {{"input", options.input},
                        {"width", source.width},
                        {"height", source.height},
-                       {"mode", source.asset->mode == asset::Mode::Exact ? "exact" : "compat"}};
-        report.update(figures(*source.asset));
+                       {"mode", modeOf(source)}};
+        report.update(source.paper ? figures(*source.paper) : figures(*source.asset));
         report["stages_ms"] = toJson(source.stages);
         if (options.json)
             fmt::print("{}\n", report.dump(2));

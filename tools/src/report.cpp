@@ -32,6 +32,18 @@ Json figures(const asset::Asset& asset) {
             {"regions", summary.regions}, {"max_depth", summary.maxDepth}};
 }
 
+Json figures(const compiler::PaperResult& paper) {
+    const asset::PaperSummary summary = asset::summarize(paper.asset);
+    return {{"bytes", summary.bytes},
+            {"prefilter_bytes", summary.mipBytes},
+            {"masks", summary.masks},
+            {"nodes", summary.nodes},
+            {"indirections", summary.indirections},
+            {"cells", summary.cells},
+            {"pieces", summary.pieces},
+            {"approximated_cells", paper.approximatedCells()}};
+}
+
 void printText(const Json& object, int indent) {
     for (const auto& [key, value] : object.items()) {
         if (value.is_object()) {
