@@ -112,8 +112,9 @@ inline constexpr unsigned maxPaperPending = 16;
 struct PaperAsset {
     double width = 0, height = 0;  ///< the picture, user units
     std::vector<PaperMask> masks;
-    std::vector<PaperNode> nodes;  ///< the last one is the root; none: nothing is drawn
-    Asset palette;                 ///< its paints, data and images; nothing else of it
+    std::vector<PaperNode> nodes;
+    std::uint32_t root = noPaperIndex;  ///< none: nothing is drawn
+    Asset palette;                      ///< its paints, data and images; nothing else of it
 };
 
 /// Throws FormatError (asset/container.hpp) unless every index, order and limit above holds.
@@ -148,7 +149,8 @@ struct PaperSample {
 /// One fragment: the recursion walked at a picture point.
 PaperSample sample(const PaperAsset& asset, glm::dvec2 point, const PaperFootprint& pixel);
 
-/// Draws on transparent black, a sample a pixel; adds what it cost to `cost` if there is one. `asset`
+/// Draws on transparent black, a sample a pixel, times the coverage of the picture's rectangle (by the
+/// distance to its nearest side); adds what it cost to `cost` if there is one. `asset`
 /// must be valid. Throws std::length_error if the view is beyond its limits.
 image::Raster evaluate(const PaperAsset& asset, const View& view, PaperCost* cost = nullptr);
 

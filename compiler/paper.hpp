@@ -33,13 +33,14 @@ struct PaperResult {
     /// By mask: cells of the last level that would need more than two pieces and one operator.
     std::vector<std::size_t> approximated;
     std::vector<StageTime> stages;      ///< "masks"
-    std::vector<std::string> warnings;  ///< what the paper's model cannot say and was left out
+    std::vector<std::string> warnings;  ///< what the paper's model cannot say, and what was done
     std::size_t approximatedCells() const;
 };
 
 /// Clips and opacity of groups are nodes as well: a clip is a mask between two sides, a group's opacity
 /// a node without a mask. Blend modes other than normal, masks by luminance or alpha and
-/// pattern paints cannot be said and are left out, with a warning. Throws scene::InvalidScene, LimitError,
+/// pattern paints cannot be said: such groups are drawn as if they had none, such items not at all, with a
+/// warning. Throws scene::InvalidScene, LimitError,
 /// std::invalid_argument (options out of range).
 PaperResult compilePaper(const scene::Scene& scene, const PaperOptions& options = {});
 

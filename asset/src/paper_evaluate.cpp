@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
@@ -53,9 +55,9 @@ public:
         : asset_(asset), point_(point), pixel_(pixel) {}
 
     PaperSample run() {
-        if (asset_.nodes.empty())
+        if (asset_.root == noPaperIndex)
             return sample_;
-        Pending pending(std::uint32_t(asset_.nodes.size() - 1));
+        Pending pending(asset_.root);
         while (!pending.empty())
             visit(pending.take(), pending);
         sample_.color = vec4(sum_);
@@ -102,6 +104,14 @@ private:
     PaperSample sample_;
 };
 
+/// Of the picture's rectangle, by the estimator of row 6.
+double frameCoverage(const PaperAsset& asset, dvec2 point, const PaperFootprint& pixel) {
+    const glm::dmat2 normals = glm::transpose(glm::inverse(pixel.toPixels));
+    const dvec2 inside = glm::min(point, dvec2(asset.width, asset.height) - point);
+    const double distance = std::min(inside.x / glm::length(normals[0]), inside.y / glm::length(normals[1]));
+    return std::clamp(0.5 + distance, 0.0, 1.0);
+}
+
 }  // namespace
 
 PaperCost& PaperCost::operator+=(const PaperCost& o) {
@@ -125,9 +135,12 @@ image::Raster evaluate(const PaperAsset& asset, const View& view, PaperCost* cos
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
             const dvec2 point = inverse * (dvec2(x + 0.5, y + 0.5) - view.toPixels[2]);
+            const double frame = frameCoverage(asset, point, pixel);
+            if (frame == 0)
+                continue;
             const PaperSample s = sample(asset, point, pixel);
             for (int c = 0; c < 4; ++c)
-                raster.pixel(x, y)[c] = std::clamp(s.color[c], 0.0f, 1.0f);
+                raster.pixel(x, y)[c] = std::clamp(float(frame) * s.color[c], 0.0f, 1.0f);
             if (cost != nullptr)
                 *cost += s.cost;
         }

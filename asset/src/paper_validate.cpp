@@ -76,8 +76,8 @@ void checkNode(const PaperAsset& asset, std::size_t index) {
 /// As if every side were taken everywhere: no pixel lets more nodes wait.
 void checkPending(const PaperAsset& asset) {
     std::set<std::uint32_t> pending;
-    if (!asset.nodes.empty())
-        pending.insert(std::uint32_t(asset.nodes.size() - 1));
+    if (asset.root != noPaperIndex)
+        pending.insert(asset.root);
     while (!pending.empty()) {
         require(pending.size() <= maxPaperPending, fmt::format("more than {} nodes wait", maxPaperPending));
         const PaperNode& node = asset.nodes[*pending.rbegin()];
@@ -95,6 +95,7 @@ void validate(const PaperAsset& asset) {
         checkMask(asset.masks[i], fmt::format("mask {}", i));
     for (std::size_t i = 0; i < asset.nodes.size(); ++i)
         checkNode(asset, i);
+    require(asset.root == noPaperIndex || asset.root < asset.nodes.size(), "no such root");
     checkPending(asset);
 }
 

@@ -58,7 +58,8 @@ Paint solid(float r, float g, float b, float a) {
 
 /// Paints 1 to 4: red, green, blue, white at half.
 PaperAsset assetOf(std::vector<PaperMask> masks, std::vector<PaperNode> nodes) {
-    PaperAsset asset{100, 100, std::move(masks), std::move(nodes), {}};
+    PaperAsset asset{100, 100, std::move(masks), std::move(nodes), noPaperIndex, {}};
+    asset.root = std::uint32_t(asset.nodes.size() - 1);
     asset.palette.paints = {
         {}, solid(1, 0, 0, 1), solid(0, 1, 0, 1), solid(0, 0, 1, 1), solid(0.5f, 0.5f, 0.5f, 0.5f)};
     validate(asset);
@@ -325,6 +326,9 @@ TEST(PaperAsset, BadIndicesAreNamed) {
     bad.nodes[1].outside.rest = 1;
     refuses(bad, "node 1: its rest does not come before it");
     bad = good;
+    bad.root = 2;
+    refuses(bad, "no such root");
+    bad = good;
     bad.nodes[0].mask = 1;
     refuses(bad, "node 0: no such mask");
     bad = good;
@@ -350,6 +354,7 @@ TEST(PaperAsset, TooManyWaitingNodesAreRefused) {
         asset.nodes.push_back({noPaperIndex, 0.5f, {}, {}});
     for (std::uint32_t i = 0; i < leaves; ++i)
         asset.nodes.push_back({noPaperIndex, 0.5f, rest(i), rest(leaves + i - 1)});
+    asset.root = 2 * leaves - 1;
     refuses(asset, "more than 16 nodes wait");
 }
 

@@ -66,29 +66,31 @@ private:
     std::vector<std::pair<std::uint32_t, Source>> programs_;
 };
 
+/// What the model cannot say, and what is done instead.
+struct Missing {
+    std::string what, instead;
+    auto operator<=>(const Missing&) const = default;
+};
+
 /// Each function returns the node that shows something over `rest`, or `rest` where nothing is to show.
 class Folding {
 public:
     explicit Folding(PaperResult& result) : result_(result), palette_(result.asset.palette) {}
 
     void run(const scene::Scene& scene) {
-        const std::uint32_t top = group(scene.root, noPaperIndex);
-        // The picture is a primitive of its own: what lies outside its frame is not written.
-        const std::uint32_t frame = mask(scene::rectangle({0, 0}, {scene.width, scene.height}),
-                                         scene::identity, scene::FillRule::NonZero);
-        push({frame, 1, {0, top, false}, {0, noPaperIndex, true}});
+        result_.asset.root = group(scene.root, noPaperIndex);
         palette_.finish();
-        for (const auto& [what, times] : leftOut_)
-            result_.warnings.push_back(what + " (" + std::to_string(times) +
-                                       "): the paper's model has no such thing; left out");
+        for (const auto& [missing, times] : missing_)
+            result_.warnings.push_back(std::string("the paper's model has no ") + missing.what + " (" +
+                                       std::to_string(times) + "): " + missing.instead);
     }
 
 private:
     std::uint32_t group(const scene::Group& g, std::uint32_t rest) {
         if (g.blend != scene::BlendMode::Normal)
-            ++leftOut_["blend modes"];
+            ++missing_[{"blend modes", "drawn as normal"}];
         if (g.mask)
-            ++leftOut_["masks"];
+            ++missing_[{"masks by luminance or alpha", "drawn without"}];
         std::uint32_t inside = rest;
         for (const scene::Node& node : g.children) {
             const auto* item = std::get_if<scene::Item>(&node.value);
@@ -104,7 +106,7 @@ private:
 
     std::uint32_t item(const scene::Item& item, std::uint32_t rest) {
         if (std::holds_alternative<scene::Pattern>(item.paint))
-            ++leftOut_["patterns"];
+            ++missing_[{"patterns", "not drawn"}];
         const std::uint32_t paint = palette_.add(item.paint, item.transform);
         const std::uint32_t shape = mask(*item.path, item.transform, item.geometry);
         result_.maskOfItem.push_back(shape);
@@ -141,7 +143,7 @@ private:
     PaperResult& result_;
     Palette palette_;
     std::size_t cells_ = 0;
-    std::map<std::string, std::size_t> leftOut_;
+    std::map<Missing, std::size_t> missing_;
 };
 
 void checkOptions(const PaperOptions& o) {

@@ -227,7 +227,7 @@ class CompileAndInfo(Command):
 
     def test_paper_mode_has_figures_but_no_file(self):
         report = json.loads(self.vtm("info", self.svg, "--mode", "paper", "--json").stdout)
-        self.assertEqual((report["mode"], report["masks"], report["nodes"]), ("paper", 3, 3))
+        self.assertEqual((report["mode"], report["masks"], report["nodes"]), ("paper", 2, 2))
         for key in ("bytes", "prefilter_bytes", "indirections", "cells", "pieces", "approximated_cells"):
             self.assertIsInstance(report[key], int, key)
         self.assertEqual(report["approximated_cells"], 0)
