@@ -66,6 +66,9 @@ struct PaperCell {
 /// intersection is max(h1, h2), the union -max(-h1, -h2).
 double signedDistance(const PaperCell& cell, glm::dvec2 point, const glm::dmat2& toPixels);
 
+/// Pixels 2^64 texels wide and more: a mask has faded to nothing in single precision.
+inline constexpr double paperLargestLod = 64;
+
 // ---- Masks --------------------------------------------------------------------------------------
 
 /// The mip of the classification function (row 7): shares of texels inside, 255 is 1. Levels of

@@ -88,12 +88,9 @@ double level(const PaperMip& mip, unsigned k, dvec2 uv, PaperCost& cost) {
     return weight.x * weight.y * shrink * shrink * mip.texels.back() / 255;
 }
 
-/// Beyond this a mask's last texel has faded to nothing in single precision.
-constexpr double largestLod = 64;
-
 /// The pixel's longer axis in texels of level 0, as a power of two.
 double levelOfDetail(const PaperMask& mask, double longer) {
-    return std::min(std::log2(longer) + mask.mip.sizeLog2 + 1, largestLod);
+    return std::min(std::log2(longer) + mask.mip.sizeLog2 + 1, paperLargestLod);
 }
 
 /// A level's bilinear filter reaches less than two pixels beyond the square.

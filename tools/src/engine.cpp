@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "asset/evaluate.hpp"
+#include "backend_gl/paper.hpp"
 #include "backend_gl/renderer.hpp"
 #include "conformance/reference/reference.hpp"
 #include "tools/src/commands.hpp"
@@ -15,10 +16,13 @@ namespace {
 class GlEngine : public Engine {
 public:
     image::Raster render(Source& source, const asset::View& view) override {
-        if (source.paper)
-            throw std::runtime_error("paper mode is drawn by --engine asset only");
         if (!gl_)
             gl_ = timed(source.stages, "start", [] { return std::make_unique<Gl>(); });
+        if (source.paper) {
+            const gl::PaperTexture texture =
+                timed(source.stages, "upload", [&] { return gl::PaperTexture(source.paper->asset); });
+            return timed(source.stages, "render", [&] { return gl_->paper.render(texture, view); });
+        }
         const gl::Texture texture =
             timed(source.stages, "upload", [&] { return gl_->renderer.upload(*source.asset); });
         return timed(source.stages, "render", [&] { return gl_->renderer.render(texture, view); });
@@ -29,6 +33,7 @@ private:
     struct Gl {
         gl::Context context;
         gl::Renderer renderer;
+        gl::PaperRenderer paper;
     };
     std::unique_ptr<Gl> gl_;
 };
