@@ -6,8 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include "backend_gl/paper.hpp"
 #include "compiler/paper.hpp"
-#include "conformance/cases/support.hpp"
+#include "conformance/cases/measure.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"
 
@@ -148,6 +149,29 @@ TEST_P(PaperPicture, IsRecognised) {
     const asset::View view = wholePicture(scene, 256);
     const auto paper = compiler::compilePaper(scene);
     EXPECT_LE(compare::compare(asset::evaluate(paper.asset, view), reference(scene, view)).mean, 0.6);
+}
+
+/// Turned, magnified and minified: the shader and its twin on the CPU.
+std::vector<asset::View> viewsOf(const scene::Scene& scene) {
+    const asset::View whole = wholePicture(scene, 160);
+    asset::View turned = whole, near = whole, far = whole;
+    turned.toPixels = {0.3, 0.2, -0.25, 0.28, 40, -10};
+    near.toPixels = {9, 0, 0, 9, -4.5 * scene.width, -4.5 * scene.height};
+    far.toPixels = {0.05, 0, 0, 0.05, 20, 20};
+    return {whole, turned, near, far};
+}
+
+TEST_P(PaperPicture, IsTheSameOnTheGpu) {
+    const gl::Context context;
+    gl::PaperRenderer renderer;
+    const scene::Scene scene = loadScene(examplesDirectory() / (std::string(GetParam()) + ".svg"));
+    const auto paper = compiler::compilePaper(scene);
+    const gl::PaperTexture texture(paper.asset);
+    for (const asset::View& view : viewsOf(scene)) {
+        const compare::Difference d =
+            compare::compare(renderer.render(texture, view), asset::evaluate(paper.asset, view));
+        EXPECT_LE(d.max, assetMax) << "at " << d.worstX << ", " << d.worstY;
+    }
 }
 
 /// At 64 px the trilinear mip of 182 masks, one over the other, is what is seen.
