@@ -161,6 +161,9 @@ image::Raster evaluate(const PaperAsset& asset, const View& view, PaperCost* cos
 struct PaperSummary {
     std::size_t bytes = 0;     ///< masks and nodes as uploaded, mips included, palette not
     std::size_t mipBytes = 0;  ///< of these
+    std::size_t gridBytes =
+        0;  ///< what flat grids of each mask's finest cells would take in place of its tree
+    std::size_t treeBytes = 0;  ///< what the trees with their cells take
     std::size_t masks = 0, nodes = 0, cells = 0, pieces = 0, indirections = 0;
 };
 PaperSummary summarize(const PaperAsset& asset);

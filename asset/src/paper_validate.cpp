@@ -1,5 +1,6 @@
 // What a paper-mode asset must satisfy before it is evaluated or uploaded, and its figures.
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -88,6 +89,19 @@ void checkPending(const PaperAsset& asset) {
     }
 }
 
+/// Levels of the tree above its deepest cell; a node's children stand after it.
+unsigned depthOf(const PaperMask& mask) {
+    std::vector<unsigned> level(mask.nodes.size());
+    unsigned depth = 0;
+    for (std::size_t n = 0; n < mask.nodes.size(); ++n)
+        for (const Entry child : mask.nodes[n].children) {
+            if (child.kind() == Entry::Kind::Node)
+                level[child.payload()] = std::max(level[child.payload()], level[n] + 1);
+            depth = std::max(depth, level[n] + 1);
+        }
+    return depth;
+}
+
 }  // namespace
 
 void validate(const PaperAsset& asset) {
@@ -108,11 +122,12 @@ PaperSummary summarize(const PaperAsset& asset) {
         s.indirections += mask.nodes.size();
         s.cells += mask.cells.size();
         s.mipBytes += mask.mip.texels.size();
+        s.gridBytes += (sizeof(Texel) * cellTexels) << (4 * depthOf(mask));
         for (const PaperCell& cell : mask.cells)
             s.pieces += cell.count;
     }
-    s.bytes = s.mipBytes + sizeof(Texel) * (maskTexels * s.masks + nodeTexels * s.nodes +
-                                            treeNodeTexels * s.indirections + cellTexels * s.cells);
+    s.treeBytes = sizeof(Texel) * (treeNodeTexels * s.indirections + cellTexels * s.cells);
+    s.bytes = s.mipBytes + s.treeBytes + sizeof(Texel) * (maskTexels * s.masks + nodeTexels * s.nodes);
     return s;
 }
 

@@ -42,7 +42,7 @@ class AssetEngine : public Engine {
 public:
     image::Raster render(Source& source, const asset::View& view) override {
         return timed(source.stages, "render", [&] {
-            return source.paper ? asset::evaluate(source.paper->asset, view)
+            return source.paper ? asset::evaluate(source.paper->asset, view, &source.cost.emplace())
                                 : asset::evaluate(*source.asset, view);
         });
     }

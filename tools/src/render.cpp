@@ -91,6 +91,8 @@ void printReport(const Job& job, const Source& source, const asset::View& view) 
         report.update(figures(*source.asset));
     if (source.paper)
         report.update(figures(*source.paper));
+    if (source.cost)
+        report["lookups"] = perPixel(*source.cost, std::uint64_t(view.width) * std::uint64_t(view.height));
     report["stages_ms"] = toJson(source.stages);
     fmt::print("{}\n", report.dump());
 }

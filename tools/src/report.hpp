@@ -36,6 +36,8 @@ Json toJson(const Stages& stages);
 Json figures(const asset::Asset& asset);
 /// Those of paper mode.
 Json figures(const compiler::PaperResult& paper);
+/// What a pixel's lookup touched, on the mean.
+Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels);
 
 /// One `key: value` a line; nested objects indented.
 void printText(const Json& object, int indent = 0);

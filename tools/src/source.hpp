@@ -32,6 +32,7 @@ struct Source {
     std::optional<scene::Scene> scene;  ///< not where the file is an asset
     std::optional<asset::Asset> asset;
     std::optional<compiler::PaperResult> paper;  ///< in place of `asset` in paper mode
+    std::optional<asset::PaperCost> cost;        ///< of drawing `paper` on the CPU
     Stages stages;
 };
 

@@ -181,8 +181,13 @@ class BadUsage(Command):
         self.assertFalse((self.folder / "o.png").exists())
 
     def test_paper_mode(self):
-        image = self.draw("--mode", "paper")
-        self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, PALE_BLUE, NOTHING])
+        for engine in ("gl", "asset"):
+            with self.subTest(engine=engine):
+                image = self.draw("--mode", "paper", engine=engine)
+                self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, PALE_BLUE, NOTHING])
+        report = json.loads(self.vtm("render", self.svg, "-o", "out.png", "--mode", "paper", "--engine", "asset",
+                                     "--json").stdout)
+        self.assertLessEqual(report["lookups"]["masks"], 2)
 
     def test_help_and_version(self):
         self.assertIn("render", self.vtm("--help").stdout)
