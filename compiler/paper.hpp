@@ -22,8 +22,8 @@ struct PaperOptions {
     unsigned mipLog2 = 6;
 };
 
-/// Cells of all masks beyond this number are a LimitError.
-inline constexpr std::size_t maxPaperCells = 4'000'000;
+/// Cells of all masks, and masks, beyond these numbers are a LimitError.
+inline constexpr std::size_t maxPaperCells = 4'000'000, maxPaperMasks = 100'000;
 
 struct PaperResult {
     asset::PaperAsset asset;

@@ -126,6 +126,8 @@ private:
 
     std::uint32_t mask(const scene::Path& path, const scene::Affine& transform,
                        const std::variant<scene::FillRule, scene::StrokeStyle>& geometry) {
+        if (result_.asset.masks.size() >= maxPaperMasks)
+            throw LimitError("the picture would take more than " + std::to_string(maxPaperMasks) + " masks");
         auto made = paper::makeMask(path, transform, geometry, maskOptions(result_.asset, result_.options));
         cells_ += made.mask.cells.size();
         if (cells_ > maxPaperCells)

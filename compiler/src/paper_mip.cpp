@@ -1,6 +1,7 @@
 #include "compiler/src/paper_mip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vtm::compiler::paper {
@@ -15,24 +16,24 @@ struct Crossing {
     int step;
 };
 
-using Lines = std::vector<std::vector<Crossing>>;
+using Lines = std::array<std::vector<Crossing>, linesATexel>;
 
-/// Line k lies at y = (k + 1/2) / count. A chord meets those with min y < y <= max y, whichever
-/// chord a vertex ends.
-Lines crossings(const Outline& outline, int count) {
-    Lines lines;
-    lines.resize(std::size_t(count));
+/// The lines of one row of texels: line k of `count` lies at y = (k + 1/2) / count. A chord meets those with
+/// min y < y <= max y, whichever chord a vertex ends.
+void findCrossings(const Outline& outline, int firstLine, int count, Lines& lines) {
+    for (auto& line : lines)
+        line.clear();
     for (const Chord& c : outline.chords) {
         const auto firstAbove = [&](double y) {
-            return int(std::clamp(std::floor(y * count - 0.5) + 1, 0.0, double(count)));
+            const double line = std::floor(y * count - 0.5) + 1 - firstLine;
+            return int(std::clamp(line, 0.0, double(linesATexel)));
         };
         const int from = firstAbove(std::min(c.a.y, c.b.y)), to = firstAbove(std::max(c.a.y, c.b.y));
         for (int k = from; k < to; ++k) {
-            const double t = ((k + 0.5) / count - c.a.y) / (c.b.y - c.a.y);
+            const double t = ((firstLine + k + 0.5) / count - c.a.y) / (c.b.y - c.a.y);
             lines[std::size_t(k)].push_back({c.a.x + t * (c.b.x - c.a.x), c.b.y > c.a.y ? -1 : 1});
         }
     }
-    return lines;
 }
 
 /// Adds `weight` times the overlap of [from, to] with each texel of a row; all in texels.
@@ -72,9 +73,12 @@ void append(std::vector<std::uint8_t>& texels, const std::vector<double>& shares
 asset::PaperMip makeMip(const Outline& outline, unsigned sizeLog2) {
     int size = 1 << sizeLog2;
     std::vector<double> shares(std::size_t(size) * std::size_t(size));
-    Lines lines = crossings(outline, size * linesATexel);
-    for (std::size_t k = 0; k < lines.size(); ++k)
-        addLine(outline, lines[k], &shares[k / linesATexel * std::size_t(size)], size);
+    Lines lines;
+    for (int row = 0; row < size; ++row) {
+        findCrossings(outline, row * linesATexel, size * linesATexel, lines);
+        for (auto& line : lines)
+            addLine(outline, line, &shares[std::size_t(row) * std::size_t(size)], size);
+    }
     asset::PaperMip mip{sizeLog2, {}};
     append(mip.texels, shares);
     for (; size > 1; size /= 2) {
