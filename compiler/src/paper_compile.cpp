@@ -175,7 +175,7 @@ PaperResult compilePaper(const scene::Scene& scene, const PaperOptions& options)
     try {
         asset::validate(result.asset);
     } catch (const asset::FormatError& error) {
-        throw LimitError(std::string("clips and groups are nested too deeply: ") + error.what());
+        throw LimitError(std::string("the paper mode cannot hold this picture: ") + error.what());
     }
     if (const std::size_t cells = result.approximatedCells(); cells > 0)
         result.warnings.push_back(std::to_string(cells) +
