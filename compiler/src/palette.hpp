@@ -55,7 +55,8 @@ private:
 
     std::vector<PaintProgram> paints_;
     std::unordered_map<std::string, PaintId> index_;
-    PaintId last_ = 0;  ///< the colour asked for last
+    static constexpr unsigned recentBits = 7;
+    std::array<PaintId, 1u << recentBits> recent_{};  ///< colours asked for lately, by a hash
 };
 
 /// Writes the palette as the asset's paints, programs to its data. Solid colours beyond the 65536
