@@ -66,20 +66,20 @@ private:
         double dx, dy, length2, low, high;
     };
 
-    /// Vertices first .. last of an edge.
-    struct Part {
-        std::uint32_t first, last;
+    /// A chord of an edge: from vertex `chord` to the next.
+    struct Step {
+        std::uint32_t chord;
         LatticePoint from, to;
     };
+    struct Walk;
 
     void clip(const Square& square, std::span<const Strand> strands);
     Band bandOf(const Edge& e) const;
     bool isBeside(std::uint32_t e, std::uint32_t f) const;
     bool fanOut(const Edge& e, const Edge& f) const;
     bool findSplits();
-    static Part whole(const Edge& e) { return {0, e.innerCount + 1, e.a, e.b}; }
-    void meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
-    void meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
+    void meet(std::uint32_t e, std::uint32_t f);
+    void meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const Step& q);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
     void applySplits();
     void reverse(Edge& e);
