@@ -13,18 +13,7 @@ bool isOnChord(LatticePoint a, LatticePoint b, LatticePoint p) {
            isBetween(std::min(a.y, b.y), p.y, std::max(a.y, b.y));
 }
 
-/// Whether the edges' boxes have more in common than a corner of both that is an end of both. (What e.b
-/// and f.a share is such a corner if both edges rise or both fall.)
-bool boxesMeet(const Edge& e, const Edge& f) {
-    const Coord left = std::max(e.a.x, f.a.x), right = std::min(e.b.x, f.b.x);
-    const Coord low = std::max(std::min(e.a.y, e.b.y), std::min(f.a.y, f.b.y));
-    const Coord high = std::min(std::max(e.a.y, e.b.y), std::max(f.a.y, f.b.y));
-    if (left > right || low > high)
-        return false;
-    const LatticePoint corner{left, low};
-    return left != right || low != high ||
-           !((corner == e.a || corner == e.b) && (corner == f.a || corner == f.b));
-}
+bool isEnd(const Edge& e, LatticePoint p) { return p == e.a || p == e.b; }
 
 /// The crossing of a→b with a chord that it crosses properly, rounded to even. `atA`, `atB`: on which
 /// side of that chord the ends lie and how far, of opposite signs.
@@ -140,14 +129,25 @@ bool Snapper::fanOut(const Edge& e, const Edge& f) const {
 bool Snapper::findSplits() {
     splits_.clear();
     bands_.clear();
-    for (const Edge& e : set_.edges)
+    boxes_.clear();
+    for (const Edge& e : set_.edges) {
+        const auto [low, high] = std::minmax(e.a.y, e.b.y);
+        boxes_.push_back({e.a.x, e.b.x, low, high});
         bands_.push_back(bandOf(e));
+    }
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-        for (std::uint32_t j = i + 1; j < edges.size() && edges[j].a.x <= edges[i].b.x; ++j)
-            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) &&
+        const Box box = boxes_[i];
+        for (std::uint32_t j = i + 1; j < edges.size() && boxes_[j].left <= box.right; ++j) {
+            const Coord low = std::max(box.low, boxes_[j].low), high = std::min(box.high, boxes_[j].high);
+            if (low > high || !(fresh_[i] || fresh_[j]))
+                continue;
+            const Coord left = boxes_[j].left, right = std::min(box.right, boxes_[j].right);
+            const bool isPoint = left == right && low == high;  // harmless if it is an end of both
+            if (!(isPoint && isEnd(edges[i], {left, low}) && isEnd(edges[j], {left, low})) &&
                 !fanOut(edges[i], edges[j]) && !isBeside(i, j) && !isBeside(j, i))
                 meet(i, j);
+        }
         if (splits_.size() > 4 * maxLeafEdges)
             return false;
     }

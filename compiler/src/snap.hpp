@@ -61,6 +61,11 @@ private:
         std::int64_t progress;  ///< along the chord
     };
 
+    /// Of an edge; (left, y of a) and (right, y of b) are its ends.
+    struct Box {
+        Coord left, right, low, high;
+    };
+
     /// How far the chain strays from the line a→b, as orient(a, b, ·) of its vertices, and that line.
     struct Band {
         double dx, dy, length2, low, high;
@@ -91,6 +96,7 @@ private:
 
     EdgeSet set_;
     std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
+    std::vector<Box> boxes_;           ///< of each edge
     std::vector<Band> bands_;          ///< of each edge
     std::vector<Split> splits_;
     std::vector<Change> sum_;
