@@ -116,9 +116,7 @@ void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
 // ---- quantise ---------------------------------------------------------------------------------
 
 /// Leaf coordinates, unrounded.
-dvec2 Fitter::exact(LatticePoint p) const {
-    return dvec2{p.x - square_.x0, p.y - square_.y0} * scale_;
-}
+dvec2 Fitter::exact(LatticePoint p) const { return dvec2{p.x - square_.x0, p.y - square_.y0} * scale_; }
 
 /// The border's coordinates are kept for points on the border.
 Fitter::Steps Fitter::round(LatticePoint p) const {
@@ -213,11 +211,12 @@ void Fitter::fit(const Chain& chain) {
         from = emitLongest(chain, from, last);
 }
 
-/// Emits the longest piece found by doubling and halving its reach; returns its last point.
+/// Emits the longest piece found by doubling and halving its reach, which begins with what is usual; returns
+/// its last point.
 std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last) {
     std::uint32_t good = from + 1, bad = last + 1;
     Slopes best;
-    for (std::uint32_t reach = 2; good + 1 < bad;) {
+    for (std::uint32_t reach = 6; good + 1 < bad;) {
         const std::uint32_t to = bad > last ? std::min(from + reach, last) : good + (bad - good) / 2;
         Slopes slopes;
         if (tryFit(from, to, slopes)) {

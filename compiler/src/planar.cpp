@@ -78,8 +78,9 @@ void Planariser::collectEnds() {
             sortRound(first, last);
         for (; first < last; ++first) {
             leaf_.endOf[2 * leaf_.ends[first].edge + (leaf_.ends[first].isA ? 0 : 1)] = first;
-            leaf_.firstOf[first] =
-                first > 0 && leaf_.ends[first - 1].at == leaf_.ends[first].at ? leaf_.firstOf[first - 1] : first;
+            leaf_.firstOf[first] = first > 0 && leaf_.ends[first - 1].at == leaf_.ends[first].at
+                                       ? leaf_.firstOf[first - 1]
+                                       : first;
             if (side >= 0)
                 border_[static_cast<std::size_t>(side)].push_back(leaf_.ends[first]);
         }

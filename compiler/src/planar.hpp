@@ -39,7 +39,7 @@ struct PlanarLeaf {
     std::vector<std::uint32_t> endOf;    ///< place in `ends` of edge e's a (2e) and b (2e + 1)
     std::vector<std::uint32_t> firstOf;  ///< by end: the first end of its vertex
     std::vector<Sides> sides;            ///< of each edge
-    std::array<PaintId, 4> corners{};  ///< paints at Square::corner(k)
+    std::array<PaintId, 4> corners{};    ///< paints at Square::corner(k)
     /// True if every label is proven: the windings close round every inner vertex and round the border;
     /// edges are given the same labels from both ends; hash(left) - hash(right) cancels over the edges
     /// at every inner vertex and adds up to the corners' difference on every side. A false label would
@@ -91,7 +91,7 @@ private:
     Square square_;
     RegionPaints* regions_ = nullptr;
     bool consistent_ = true;
-    std::vector<End> ascending_;        ///< the ends b, by vertex
+    std::vector<End> ascending_;         ///< the ends b, by vertex
     std::vector<std::uint8_t> visited_;  ///< by a vertex's first end; border vertices count as visited
     std::vector<Visit> visits_;
     std::array<std::vector<End>, 4> border_;

@@ -51,8 +51,8 @@ private:
 
     std::vector<scene::FillRule> rules_;
     std::vector<int> corner_, windings_;
-    std::uint64_t sum_ = 0;  ///< Σ winding · mixed(layer)
-    std::uint64_t key_ = 0;  ///< of the set of layers that are inside
+    std::uint64_t sum_ = 0;      ///< Σ winding · mixed(layer)
+    std::uint64_t key_ = 0;      ///< of the set of layers that are inside
     std::uint64_t lastKey_ = 0;  ///< asked for last, if any was
     PaintId last_ = 0;
     bool known_ = false;
