@@ -47,22 +47,20 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
 
 void Planariser::collectEnds() {
     const std::vector<Edge>& edges = leaf_.set->edges;
-    const auto isBefore = [](const End& p, const End& q) {
-        return p.at != q.at ? p.at < q.at : p.edge < q.edge;
-    };
-    ascending_.clear();
+    byB_.clear();
     for (std::uint32_t e = 0; e < edges.size(); ++e)
-        ascending_.push_back({edges[e].b, e, false});
-    std::sort(ascending_.begin(), ascending_.end(), isBefore);
+        byB_.emplace_back(sortKey(edges[e].b), e);
+    std::sort(byB_.begin(), byB_.end());
     leaf_.ends.clear();
-    auto b = ascending_.begin();
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {  // by a
-        const End a{edges[e].a, e, true};
-        for (; b != ascending_.end() && isBefore(*b, a); ++b)
-            leaf_.ends.push_back(*b);
-        leaf_.ends.push_back(a);
+    auto b = byB_.begin();
+    const auto pushB = [&] { leaf_.ends.push_back({edges[b->second].b, b->second, false}), ++b; };
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {  // which are sorted by a
+        for (const auto a = std::pair(sortKey(edges[e].a), e); b != byB_.end() && *b < a;)
+            pushB();
+        leaf_.ends.push_back({edges[e].a, e, true});
     }
-    leaf_.ends.insert(leaf_.ends.end(), b, ascending_.end());
+    while (b != byB_.end())
+        pushB();
     leaf_.endOf.resize(leaf_.ends.size());
     leaf_.firstOf.resize(leaf_.ends.size());
     visited_.assign(leaf_.ends.size(), false);

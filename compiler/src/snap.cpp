@@ -323,19 +323,23 @@ int Snapper::compare(const Edge& e, const Edge& f) const {
 void Snapper::mergeEqual() {
     order_.resize(set_.edges.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i)
-        order_[i] = i;
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const int c = compare(set_.edges[i], set_.edges[j]);
-        return c != 0 ? c < 0 : i < j;
+        order_[i] = {sortKey(set_.edges[i].a), i};
+    std::sort(order_.begin(), order_.end(), [&](const Place& p, const Place& q) {
+        if (p.a != q.a)
+            return p.a < q.a;
+        const int c = compare(set_.edges[p.edge], set_.edges[q.edge]);
+        return c != 0 ? c < 0 : p.edge < q.edge;
     });
     nextEdges_.clear();
     nextFresh_.clear();
     for (std::size_t i = 0; i < order_.size();) {
-        Edge e = set_.edges[order_[i]];
+        Edge e = set_.edges[order_[i].edge];
         std::size_t end = i + 1;
-        bool fresh = fresh_[order_[i]];
-        for (; end < order_.size() && compare(set_.edges[order_[end]], e) == 0; ++end)
-            fresh = fresh || fresh_[order_[end]];
+        bool fresh = fresh_[order_[i].edge];
+        for (; end < order_.size() && order_[end].a == order_[i].a &&
+               compare(set_.edges[order_[end].edge], e) == 0;
+             ++end)
+            fresh = fresh || fresh_[order_[end].edge];
         if (end > i + 1)
             addChanges(e, {order_.data() + i, end - i});
         if (e.changeCount > 0) {
@@ -348,10 +352,10 @@ void Snapper::mergeEqual() {
     fresh_.swap(nextFresh_);
 }
 
-void Snapper::addChanges(Edge& into, std::span<const std::uint32_t> equal) {
+void Snapper::addChanges(Edge& into, std::span<const Place> equal) {
     sum_.clear();
-    for (std::uint32_t i : equal) {
-        const auto changes = set_.of(set_.edges[i]);
+    for (const Place& place : equal) {
+        const auto changes = set_.of(set_.edges[place.edge]);
         sum_.insert(sum_.end(), changes.begin(), changes.end());
     }
     std::sort(sum_.begin(), sum_.end(), [](const Change& p, const Change& q) { return p.layer < q.layer; });

@@ -77,6 +77,10 @@ private:
         LatticePoint from, to;
     };
     struct Walk;
+    struct Place {
+        std::uint64_t a;  ///< sortKey of the edge's
+        std::uint32_t edge;
+    };
 
     void clip(const Square& square, std::span<const Strand> strands);
     Band bandOf(const Edge& e) const;
@@ -92,7 +96,7 @@ private:
               std::uint32_t innerEnd, bool fresh);
     void mergeEqual();
     int compare(const Edge& e, const Edge& f) const;
-    void addChanges(Edge& into, std::span<const std::uint32_t> equal);
+    void addChanges(Edge& into, std::span<const Place> equal);
 
     EdgeSet set_;
     std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
@@ -102,7 +106,7 @@ private:
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;
     std::vector<std::uint8_t> nextFresh_;
-    std::vector<std::uint32_t> order_;
+    std::vector<Place> order_;
 };
 
 }  // namespace vtm::compiler
