@@ -7,8 +7,9 @@
 /// - snap: crossings are rounded to even points and both chords pass through them, again and again
 ///   until nothing crosses and nothing is split any more (after Hobby 1999, iterated);
 /// - merge: equal chains become one that carries the sum of each layer's change of winding;
-/// - label: a sweep from the square's border tells where one edge of a connected part stands; from
-///   there one walks along edges and round vertices, crossing one edge after the other;
+/// - label: one walks along the square's border, and from there along edges and round vertices, crossing
+///   one edge after the other; a sweep from the border tells where a part of the map stands that does not
+///   reach it;
 /// - certify: see PlanarLeaf::certified.
 #pragma once
 
@@ -70,6 +71,7 @@ private:
 
     void collectEnds();
     void sortRound(std::uint32_t first, std::uint32_t last);
+    void sortAlong(std::uint32_t first, std::uint32_t last, int side);
     LatticePoint next(const End& end) const;
     int sideOf(LatticePoint p) const;
     void cross(const Edge& e, int times);
@@ -81,7 +83,7 @@ private:
     void walk();
     void label(std::uint32_t edge, const Sides& sides);
     void along(std::size_t side);
-    bool labelCorners();
+    bool labelFromBorder();
     std::uint64_t flow(const End& end) const;
     bool certifyVertices() const;
     bool certifySides() const;
