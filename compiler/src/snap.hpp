@@ -34,6 +34,10 @@ struct EdgeSet {
     std::span<const Change> of(const Edge& e) const {
         return {changes.data() + e.firstChange, e.changeCount};
     }
+    /// Those between a and b, from either end.
+    std::span<const LatticePoint> inner(const Edge& e) const {
+        return points.subspan(e.backward ? e.inner + 1 - e.innerCount : e.inner, e.innerCount);
+    }
     /// Vertex k of 0 (a) .. innerCount + 1 (b).
     LatticePoint vertex(const Edge& e, std::uint32_t k) const {
         return k == 0 ? e.a : k > e.innerCount ? e.b : points[e.backward ? e.inner + 1 - k : e.inner + k - 1];
@@ -85,6 +89,7 @@ private:
     void clip(const Square& square, std::span<const Strand> strands);
     Band bandOf(const Edge& e) const;
     bool isBeside(std::uint32_t e, std::uint32_t f) const;
+    static bool shareEnd(const Edge& e, const Edge& f) { return e.a == f.a || e.b == f.b; }
     bool fanOut(const Edge& e, const Edge& f) const;
     bool findSplits();
     void meet(std::uint32_t e, std::uint32_t f);
