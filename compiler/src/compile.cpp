@@ -150,7 +150,10 @@ public:
         return error;
     }
 
-    void open(std::uint32_t) { emit(Command::Kind::Push); }
+    void open(std::uint32_t) {
+        push();
+        ++depth_;
+    }
 
     void item(const PictureItem& item) {
         MaskPainter painter(picture_, item.layer, none);
@@ -161,11 +164,12 @@ public:
     }
 
     void emptyMask(std::uint32_t) {
-        emit(Command::Kind::Push);
+        push();
         emit(Command::Kind::PopMaskAlpha);
     }
 
     void close(std::uint32_t index) {
+        --depth_;
         const PictureGroup& group = picture_.groups[index];
         if (group.clip != none)
             emit(Command::Kind::ClipMask).map = clipMap(group.clip);
@@ -186,6 +190,13 @@ private:
         command.kind = kind;
         asset_.commands.push_back(command);
         return asset_.commands.back();
+    }
+
+    void push() {
+        if (depth_ == asset::maxPictures)
+            throw LimitError("groups are nested more than " + std::to_string(asset::maxPictures - 1) +
+                             " deep, which compat mode cannot draw");
+        emit(Command::Kind::Push);
     }
 
     std::uint32_t addMask(std::span<const std::uint32_t> layers, const MaskPainter& painter) {
@@ -225,6 +236,7 @@ private:
     MapBuilder& maps_;
     asset::Asset& asset_;
     Palette palette_;
+    unsigned depth_ = 1;  ///< pictures on the stack
 };
 
 }  // namespace

@@ -320,6 +320,23 @@ TEST(Compile, optionsOutOfRangeAreRefused) {
     EXPECT_THROW(compile(s, {.maxDepth = 13}), std::invalid_argument);
 }
 
+TEST(Compile, compatModeNestsAsDeepAsTheFormat) {
+    const auto nested = [](unsigned groups) {
+        Group inner = group({rect({0, 0}, {8, 8}, red)});
+        for (unsigned i = 0; i < groups; ++i) {
+            Group outer;
+            outer.opacity = 0.999f;
+            outer.children = {{rect({8, 8}, {16, 16}, red)}, {inner}};
+            inner = outer;
+        }
+        return picture(inner);
+    };
+    const Options compat{.mode = asset::Mode::Compat};
+    // The picture itself and its root take two of the stack's places.
+    EXPECT_NO_THROW(asset::validate(compile(nested(asset::maxPictures - 3), compat).asset));
+    EXPECT_THROW(compile(nested(asset::maxPictures), compat), LimitError);
+}
+
 TEST(Compile, tooManyTilesAreALimitError) {
     scene::Pattern pattern{
         {0, 0}, {0.01, 0.01}, std::make_shared<Group>(group({rect({0, 0}, {8, 30}, red)}))};
