@@ -11,9 +11,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "asset/pyramid.hpp"
 #include "image/bitmap.hpp"
 
 namespace vtm::asset {
@@ -116,7 +118,8 @@ enum class Op : std::uint32_t {
     Solid,             ///< s = data[argument] (premultiplied floats) · opacity; top = s over top
     Linear,            ///< s = gradient at data[argument] · opacity; top = s over top
     Radial,            ///< likewise
-    Image              ///< likewise
+    Image,             ///< likewise
+    Material           ///< likewise, with a material fill
 };
 inline constexpr unsigned maxStack = 8;
 inline constexpr unsigned maxInstructions = 4096;  ///< of one program
@@ -138,7 +141,8 @@ enum class Blend : std::uint32_t {
     Hue,
     Saturation,
     Color,
-    Luminosity
+    Luminosity,
+    PlusLighter  ///< min(1, s + top)
 };
 
 /// One texel of a program.
@@ -177,7 +181,23 @@ struct ImageFill {
 
 static_assert(sizeof(Node) == 64 && sizeof(Leaf) == 16 && sizeof(Piece) == 16);
 static_assert(sizeof(Instruction) == 16 && sizeof(Gradient) == 48 && sizeof(GradientStop) == 16);
-static_assert(sizeof(ImageFill) == 32);
+/// Three texels. matrix: picture to the space of Asset::materials[material].
+struct MaterialFill {
+    std::array<float, 6> matrix{1, 0, 0, 1, 0, 0};
+    std::uint32_t material = 0;
+    std::uint32_t unused = 0;
+    std::array<float, 4> fallback{};  ///< premultiplied, where no GLSL runs
+};
+
+/// A procedural paint. `glsl` is GLSL ES 3.00 that defines `vec4 NAME(vec2 p)`: the premultiplied colour at
+/// point p. Whoever draws an asset from elsewhere runs its text, in the bounds that GL sets to a shader.
+struct Material {
+    std::string name;  ///< a letter, then letters, digits and single underscores; distinct
+    std::string glsl;  ///< without zero bytes
+};
+inline constexpr std::size_t maxMaterials = 256, maxMaterialName = 64, maxMaterialText = 65536;
+
+static_assert(sizeof(ImageFill) == 32 && sizeof(MaterialFill) == 48);
 
 // ---- Whole ------------------------------------------------------------------------------------
 
@@ -189,6 +209,7 @@ inline constexpr double largestLength = 0x1p40;
 struct Map {
     double x = 0, y = 0, side = 0;
     Entry root;
+    std::uint32_t unused = 0;
 };
 
 /// Pictures on the stack of drawing commands, and commands, at most.
@@ -214,6 +235,7 @@ struct Command {
     std::uint32_t map = 0;
     std::uint32_t paint = 0;
 };
+static_assert(sizeof(Map) == 32 && sizeof(Command) == 20);
 
 enum class Mode : std::uint32_t {
     Exact,  ///< coverage-weighted mean of disjoint regions: one DrawMap, no seams
@@ -229,20 +251,61 @@ struct Asset {
     std::vector<Leaf> leaves;
     std::vector<Piece> pieces;
     std::vector<Paint> paints;
-    std::vector<Texel> data;  ///< programs, gradients, image fills
+    std::vector<Texel> data;  ///< programs, gradients, image and material fills
     std::vector<image::Bitmap> images;
+    std::vector<Material> materials;
     std::uint32_t fallbackLeaves = 0;  ///< leaves averaged from samples because no certificate held
+    Prefilter prefilter;               ///< for minification, optional (asset/prefilter.hpp)
 };
+
+/// The same, as what every function reads: spans over an Asset, or over a file mapped into memory
+/// (asset/mapped_asset.hpp). Valid as long as what they point into.
+struct AssetView {
+    double width = 0, height = 0;
+    Mode mode = Mode::Exact;
+    std::span<const Map> maps;
+    std::span<const Command> commands;
+    std::span<const Node> nodes;
+    std::span<const Leaf> leaves;
+    std::span<const Piece> pieces;
+    std::span<const Paint> paints;
+    std::span<const Texel> data;
+    std::span<const image::Bitmap> images;
+    std::span<const Material> materials;
+    std::uint32_t fallbackLeaves = 0;
+    PrefilterView prefilter;
+
+    AssetView() = default;
+    AssetView(const Asset& a)  // NOLINT(google-explicit-constructor): an asset is passed as it is
+        : width(a.width),
+          height(a.height),
+          mode(a.mode),
+          maps(a.maps),
+          commands(a.commands),
+          nodes(a.nodes),
+          leaves(a.leaves),
+          pieces(a.pieces),
+          paints(a.paints),
+          data(a.data),
+          images(a.images),
+          materials(a.materials),
+          fallbackLeaves(a.fallbackLeaves),
+          prefilter{a.prefilter.size, a.prefilter.texels} {}
+};
+
+/// A copy that owns its records.
+Asset toAsset(const AssetView& view);
 
 /// Figures for `vtm info`.
 struct Summary {
-    std::size_t bytes = 0;   ///< all texels and images, as uploaded
+    std::size_t bytes = 0;  ///< all texels and images, as uploaded, without the prefilter
+    std::size_t prefilterBytes = 0;
     std::size_t leaves = 0;  ///< with pieces
     std::size_t solids = 0;  ///< solid entries of the trees
     std::size_t pieces = 0;
     std::size_t regions = 0;  ///< distinct paints
     unsigned maxDepth = 0;
 };
-Summary summarize(const Asset& asset);
+Summary summarize(const AssetView& asset);
 
 }  // namespace vtm::asset

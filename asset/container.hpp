@@ -5,24 +5,42 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "asset/asset.hpp"
 
 namespace vtm::asset {
 
-/// Says what is wrong with the bytes and at which offset.
+/// Says what is wrong with the bytes and where: an offset, a section, a record.
 class FormatError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-std::vector<std::uint8_t> write(const Asset& asset);
+std::vector<std::uint8_t> write(const AssetView& asset);
 
-/// Reads and validates hostile bytes: whatever they are, a valid asset or a FormatError.
+/// Reads and validates hostile bytes: whatever they are, a valid asset or a FormatError. Copies every
+/// record; asset/mapped_asset.hpp copies none.
 Asset read(std::span<const std::uint8_t> bytes);
+
+/// A line of a file's section table.
+struct SectionInfo {
+    std::string name;
+    std::uint64_t offset = 0;
+    std::uint32_t recordBytes = 0;
+    std::uint64_t count = 0;
+    std::uint32_t checksum = 0;  ///< as stored
+    std::uint32_t found = 0;     ///< of the section's bytes
+
+    std::uint64_t bytes() const { return recordBytes * count; }
+    bool intact() const { return checksum == found; }
+};
+
+/// Also for a file whose sections are damaged; throws FormatError where its header or table is.
+std::vector<SectionInfo> sectionsOf(std::span<const std::uint8_t> bytes);
 
 /// Throws FormatError unless every index, count and number is in range, so that no renderer can be
 /// led astray: tree entries without cycles, piece ranges, paints, programs, stack depths, commands.
-void validate(const Asset& asset);
+void validate(const AssetView& asset);
 
 }  // namespace vtm::asset

@@ -3,12 +3,21 @@
 /// side of the backend is wrong and for drawing where there is no GPU.
 #pragma once
 
+#include <functional>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
 #include "asset/asset.hpp"
 #include "asset/view.hpp"
 
 namespace vtm::asset {
 
-/// Draws the asset on transparent black. Throws std::length_error if the view is beyond its limits.
-image::Raster evaluate(const Asset& asset, const View& view);
+/// The premultiplied colour of Asset::materials[material] at point p of its own space: the twin of its GLSL.
+using MaterialFunction = std::function<glm::vec4(std::uint32_t material, glm::vec2 p)>;
+
+/// Draws the asset on transparent black; materials in their fallback colours unless there is a function for
+/// them. Throws std::length_error if the view is beyond its limits.
+image::Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials = {});
 
 }  // namespace vtm::asset

@@ -91,12 +91,14 @@ Asset programAsset(const std::vector<Instruction>& program, const std::vector<Te
 std::uint32_t addGradient(std::vector<Texel>& data, const Gradient& gradient,
                           const std::vector<GradientStop>& stops);
 std::uint32_t addImage(std::vector<Texel>& data, const ImageFill& fill);
+std::uint32_t addMaterial(std::vector<Texel>& data, const MaterialFill& fill);
 std::uint32_t addColor(std::vector<Texel>& data, glm::vec4 premultiplied);
 
 /// A 4 × 3 picture of distinct straight colours, some translucent.
 image::Bitmap smallPicture();
 
-/// Every operation, gradient kind, spread and image filter, in several regions of several leaves.
+/// Every operation, gradient kind, spread and image filter and a material of one colour, in several regions
+/// of several leaves.
 Asset everyPaint();
 
 /// Blends `mode` of a translucent gradient over another, in one region.

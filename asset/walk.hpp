@@ -8,7 +8,7 @@ namespace vtm::asset {
 
 /// Calls visit(Cell, Entry) for each Solid and Leaf entry below `entry`, depth first.
 template <class Visit>
-void walk(const Asset& asset, Entry entry, Visit&& visit, Cell cell = {}) {
+void walk(const AssetView& asset, Entry entry, Visit&& visit, Cell cell = {}) {
     if (entry.kind() != Entry::Kind::Node) {
         visit(cell, entry);
         return;

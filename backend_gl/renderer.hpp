@@ -34,8 +34,10 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// `asset` must be valid (asset::validate).
-    Texture upload(const asset::Asset& asset);
+    /// `asset` must be valid (asset::validate). Compiles its materials, each list of them once; what is wrong
+    /// in one is a GlError that begins "material 'NAME', line L: ", or with all names where the driver's log
+    /// does not say which.
+    Texture upload(const asset::AssetView& asset);
 
     /// Draws on transparent black into a texture of the renderer's own and reads it back.
     image::Raster render(const Texture& texture, const asset::View& view);

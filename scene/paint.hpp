@@ -2,7 +2,9 @@
 /// Paints: what fills a shape. Source: SVG 2 section 14, OpenVG 1.1 section 9.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -66,6 +68,19 @@ struct ImagePaint {
     Affine transform = identity;
 };
 
-using Paint = std::variant<Color, LinearGradient, RadialGradient, Pattern, ImagePaint>;
+/// A procedural paint: GLSL ES 3.00 that the GL backend compiles into its fragment shaders. The text defines
+///     vec4 NAME(vec2 p)
+/// with the material's name: the premultiplied colour at point p of the material's own space. Functions
+/// beside it share one name space with those of the picture's other materials; derivatives are undefined in
+/// it.
+struct Material {
+    std::string name;  ///< a letter, then letters, digits and single underscores; one text a name in a scene
+    std::string glsl;  ///< without zero bytes
+    Color fallback;    ///< where no GLSL runs
+    Affine transform = identity;
+};
+inline constexpr std::size_t maxMaterialName = 64, maxMaterialText = 65536;  ///< bytes
+
+using Paint = std::variant<Color, LinearGradient, RadialGradient, Pattern, ImagePaint, Material>;
 
 }  // namespace vtm::scene

@@ -19,7 +19,8 @@
 
 namespace vtm::scene {
 
-/// W3C Compositing and Blending Level 1, section 10.
+/// W3C Compositing and Blending Level 1, section 10; last, level 2 section 9.1: min(1, source + backdrop) on
+/// premultiplied colours.
 enum class BlendMode {
     Normal,
     Multiply,
@@ -36,7 +37,15 @@ enum class BlendMode {
     Hue,
     Saturation,
     Color,
-    Luminosity
+    Luminosity,
+    PlusLighter
+};
+
+/// Where a path is inside, filled by a rule or stroked.
+struct Shape {
+    std::shared_ptr<const Path> path;
+    Affine transform = identity;  ///< path space to picture
+    std::variant<FillRule, StrokeStyle> geometry;
 };
 
 /// One filled or stroked path. A shape with both is two items in its paint order.
@@ -87,8 +96,16 @@ struct Group {
     std::shared_ptr<const Mask> mask;  ///< may be null
 };
 
+/// One of two pictures at every point: `inside` where the mask is inside, `outside` elsewhere. It is a
+/// choice, not a layer: a translucent inside does not show the outside. Each side is isolated, and what
+/// was chosen lies over what is below. Source: Ray et al. 2005, the shader algebra b·c1 + (1-b)·c2.
+struct Select {
+    Shape mask;
+    std::shared_ptr<const Group> inside, outside;  ///< null: nothing
+};
+
 struct Node {
-    std::variant<Item, Group> value;
+    std::variant<Item, Group, Select> value;
 };
 
 /// A picture of `width` by `height` user units, its top left corner at the origin. What lies outside
@@ -103,7 +120,7 @@ class InvalidScene : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Levels of groups and clips inside each other, those of masks and patterns included.
+/// Levels of groups, selections and clips inside each other, those of masks and patterns included.
 inline constexpr int maxNesting = 1024;
 
 /// Throws InvalidScene unless every rule of docs/scene.md holds.

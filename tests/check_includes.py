@@ -25,6 +25,7 @@ MODULES = {
     "svg": {"scene", "image"},
     "asset": {"image"},
     "compiler": {"scene", "asset", "image"},
+    "api": {"scene", "compiler", "asset", "image"},
     "backend_gl": {"asset", "image"},
     "conformance/reference": {"scene", "image"},
     "conformance/compare": {"image"},
@@ -32,6 +33,7 @@ MODULES = {
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
 MODULES["tools"] = EVERYTHING
+MODULES["examples"] = EVERYTHING
 MODULES["tests"] = EVERYTHING
 
 ANYWHERE = None
@@ -46,7 +48,7 @@ LIBRARIES = {
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl"},
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "conformance/cases"},
-    r"unistd\.h|sys/.*\.h": ANYWHERE,
+    r"unistd\.h|fcntl\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]*)[>"]')

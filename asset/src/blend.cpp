@@ -119,6 +119,8 @@ float maskLuminance(vec3 c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)
 vec4 blend(Blend mode, vec4 source, vec4 backdrop) {
     if (mode == Blend::Normal)
         return over(source, backdrop);
+    if (mode == Blend::PlusLighter)
+        return glm::min(source + backdrop, vec4(1));
     const vec3 mixed = mixColors(mode, straight(backdrop), straight(source));
     const vec3 color =
         (1 - backdrop.a) * vec3(source) + (1 - source.a) * vec3(backdrop) + source.a * backdrop.a * mixed;

@@ -49,7 +49,7 @@ image::Bitmap decodeImage(const ImageRecord& record, std::span<const std::uint8_
 
 }  // namespace
 
-CodedImages encodeImages(const std::vector<image::Bitmap>& images) {
+CodedImages encodeImages(std::span<const image::Bitmap> images) {
     CodedImages coded;
     for (const image::Bitmap& bitmap : images) {
         const std::vector<std::uint8_t> small = deflated(bitmap.rgba);

@@ -27,7 +27,7 @@ struct CodedImages {
 };
 
 /// Compresses each picture for which that saves bytes.
-CodedImages encodeImages(const std::vector<image::Bitmap>& images);
+CodedImages encodeImages(std::span<const image::Bitmap> images);
 
 /// Throws FormatError.
 std::vector<image::Bitmap> decodeImages(std::span<const ImageRecord> table,

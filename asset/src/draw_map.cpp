@@ -63,8 +63,8 @@ Overlap overlapOf(const PlacedLeaf& leaf, const LeafFrame& frame) {
 /// a chain of pieces.
 class ColorSum {
 public:
-    ColorSum(const Asset& asset, PaintMeaning meaning, vec2 point)
-        : asset_(asset), meaning_(meaning), point_(point) {}
+    ColorSum(const AssetView& asset, PaintMeaning meaning, const MaterialFunction& materials, vec2 point)
+        : asset_(asset), meaning_(meaning), materials_(materials), point_(point) {}
 
     void add(std::uint32_t paint, float weight) {
         if (weight != 0)
@@ -84,22 +84,22 @@ private:
         if (recent_.paint != paint) {
             std::swap(recent_, older_);
             if (recent_.paint != paint)
-                recent_ = {paint, paintColor(asset_, paint, point_)};
+                recent_ = {paint, paintColor(asset_, paint, point_, materials_)};
         }
         return recent_.color;
     }
 
-    const Asset& asset_;
+    const AssetView& asset_;
     PaintMeaning meaning_;
+    const MaterialFunction& materials_;
     vec2 point_;
     Known recent_, older_;
     vec4 sum_{0};
 };
 
-vec4 leafIntegral(const Asset& asset, PaintMeaning meaning, Entry entry, const PlacedLeaf& placed,
-                  const LeafFrame& frame, vec2 samplePoint) {
+vec4 leafIntegral(const AssetView& asset, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame,
+                  ColorSum sum) {
     const Corners corners = cornersOf(frame);
-    ColorSum sum(asset, meaning, samplePoint);
     if (entry.kind() == Entry::Kind::Solid) {
         float area = 0;
         for (std::size_t k = 0; k < 4; ++k)
@@ -119,8 +119,8 @@ vec4 leafIntegral(const Asset& asset, PaintMeaning meaning, Entry entry, const P
     return placed.sign * sum.sum();
 }
 
-void addLeaf(const Asset& asset, PaintMeaning meaning, Entry entry, const PlacedLeaf& placed,
-             const PixelBox& box, image::Raster& target) {
+void addLeaf(const AssetView& asset, PaintMeaning meaning, const MaterialFunction& materials, Entry entry,
+             const PlacedLeaf& placed, const PixelBox& box, image::Raster& target) {
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
             const LeafFrame frame{glm::mat2(placed.linear), vec2(placed.origin - dvec2(x, y))};
@@ -128,14 +128,15 @@ void addLeaf(const Asset& asset, PaintMeaning meaning, Entry entry, const Placed
             if (overlap.empty())
                 continue;
             const vec2 samplePoint(placed.corner + placed.step * dvec2(overlap.centre()));
-            const vec4 color = leafIntegral(asset, meaning, entry, placed, frame, samplePoint);
+            const vec4 color =
+                leafIntegral(asset, entry, placed, frame, {asset, meaning, materials, samplePoint});
             float* pixel = target.pixel(x, y);
             for (int c = 0; c < 4; ++c)
                 pixel[c] += color[c];
         }
 }
 
-bool isTransparent(PaintMeaning meaning, const Asset& asset, Entry entry) {
+bool isTransparent(PaintMeaning meaning, const AssetView& asset, Entry entry) {
     if (entry.kind() != Entry::Kind::Solid)
         return false;
     return meaning == PaintMeaning::Coverage ? entry.payload() == 0
@@ -162,8 +163,8 @@ View crop(const View& view, const PixelBox& box) {
     return cropped;
 }
 
-void addMap(const Asset& asset, const Map& map, const View& view, PaintMeaning meaning,
-            image::Raster& target) {
+void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeaning meaning,
+            const MaterialFunction& materials, image::Raster& target) {
     walk(asset, map.root, [&](Cell cell, Entry entry) {
         if (isTransparent(meaning, asset, entry))
             return;
@@ -171,7 +172,7 @@ void addMap(const Asset& asset, const Map& map, const View& view, PaintMeaning m
         const dvec2 corner(map.x + cell.x * side, map.y + cell.y * side);
         const PixelBox box = pixelsOf(view, corner, side);
         if (!box.empty())
-            addLeaf(asset, meaning, entry, place(view, corner, side), box, target);
+            addLeaf(asset, meaning, materials, entry, place(view, corner, side), box, target);
     });
 }
 

@@ -4,7 +4,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
+#include "asset/evaluate.hpp"
 #include "asset/view.hpp"
 
 namespace vtm::asset {
@@ -28,7 +28,7 @@ enum class PaintMeaning {
 };
 
 /// target += ∫ colour over each pixel's box.
-void addMap(const Asset& asset, const Map& map, const View& view, PaintMeaning meaning,
-            image::Raster& target);
+void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeaning meaning,
+            const MaterialFunction& materials, image::Raster& target);
 
 }  // namespace vtm::asset

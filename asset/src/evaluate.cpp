@@ -36,11 +36,11 @@ struct Mask {
     float at(int x, int y) const { return unit(coverage.pixel(x - box.min.x, y - box.min.y)[0]); }
 };
 
-Mask coverageOf(const Asset& asset, const Map& map, const View& view) {
+Mask coverageOf(const AssetView& asset, const Map& map, const View& view) {
     const PixelBox box = pixelsOf(view, {map.x, map.y}, map.side);
     const View cropped = crop(view, box);
     Mask mask{box, Raster(cropped.width, cropped.height)};
-    addMap(asset, map, cropped, PaintMeaning::Coverage, mask.coverage);
+    addMap(asset, map, cropped, PaintMeaning::Coverage, {}, mask.coverage);
     return mask;
 }
 
@@ -58,7 +58,8 @@ private:
     glm::dvec2 origin_;
 };
 
-void fillMask(const Asset& asset, const Command& command, const View& view, Raster& top) {
+void fillMask(const AssetView& asset, const Command& command, const View& view,
+              const MaterialFunction& materials, Raster& top) {
     const Mask mask = coverageOf(asset, asset.maps[command.map], view);
     const PixelCentres centre(view);
     for (int y = mask.box.min.y; y < mask.box.max.y; ++y)
@@ -66,12 +67,12 @@ void fillMask(const Asset& asset, const Command& command, const View& view, Rast
             const float coverage = mask.at(x, y);
             if (coverage == 0)
                 continue;
-            const vec4 source = paintColor(asset, command.paint, centre(x, y)) * coverage;
+            const vec4 source = paintColor(asset, command.paint, centre(x, y), materials) * coverage;
             store(top.pixel(x, y), over(source, load(top.pixel(x, y))));
         }
 }
 
-void clipMask(const Asset& asset, const Command& command, const View& view, Raster& top) {
+void clipMask(const AssetView& asset, const Command& command, const View& view, Raster& top) {
     const Mask mask = coverageOf(asset, asset.maps[command.map], view);
     for (int y = 0; y < top.height; ++y)
         for (int x = 0; x < top.width; ++x) {
@@ -110,12 +111,13 @@ void pop(const Command& command, std::vector<Raster>& stack) {
                 [&](vec4 s, vec4 b) { return b * maskFactor(maskOp(command.kind), s); });
 }
 
-void execute(const Asset& asset, const Command& command, const View& view, std::vector<Raster>& stack) {
+void execute(const AssetView& asset, const Command& command, const View& view,
+             const MaterialFunction& materials, std::vector<Raster>& stack) {
     switch (command.kind) {
         case Command::Kind::DrawMap:
-            return addMap(asset, asset.maps[command.map], view, PaintMeaning::Color, stack.back());
+            return addMap(asset, asset.maps[command.map], view, PaintMeaning::Color, materials, stack.back());
         case Command::Kind::FillMask:
-            return fillMask(asset, command, view, stack.back());
+            return fillMask(asset, command, view, materials, stack.back());
         case Command::Kind::ClipMask:
             return clipMask(asset, command, view, stack.back());
         case Command::Kind::Push:
@@ -128,11 +130,11 @@ void execute(const Asset& asset, const Command& command, const View& view, std::
 
 }  // namespace
 
-Raster evaluate(const Asset& asset, const View& view) {
+Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials) {
     validate(view);
     std::vector<Raster> stack(1, Raster(view.width, view.height));
     for (const Command& command : asset.commands)
-        execute(asset, command, view, stack);
+        execute(asset, command, view, materials, stack);
     std::ranges::transform(stack.back().rgba, stack.back().rgba.begin(), unit);
     return std::move(stack.back());
 }

@@ -33,7 +33,7 @@ vec4 imagePixel(const image::Bitmap& bitmap, int x, int y) {
 }
 
 /// Premultiplied neighbours are interpolated, so that transparent pixels lend no colour.
-vec4 imageColor(const Asset& asset, const ImageFill& fill, vec2 point) {
+vec4 imageColor(const AssetView& asset, const ImageFill& fill, vec2 point) {
     const image::Bitmap& bitmap = asset.images[fill.image];
     // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes
     // on anyway.
@@ -50,14 +50,25 @@ vec4 imageColor(const Asset& asset, const ImageFill& fill, vec2 point) {
     return glm::mix(top, bottom, f.y);
 }
 
+// ---- Materials ------------------------------------------------------------------------------------
+
+vec4 materialColor(const MaterialFill& fill, vec2 point, const MaterialFunction& materials) {
+    if (!materials)
+        return {fill.fallback[0], fill.fallback[1], fill.fallback[2], fill.fallback[3]};
+    return glm::clamp(materials(fill.material, applyMatrix(fill.matrix, point)), 0.0f, 1.0f);
+}
+
 // ---- Programs -------------------------------------------------------------------------------------
 
-vec4 layerColor(const Asset& asset, const Instruction& in, vec2 point) {
+vec4 layerColor(const AssetView& asset, const Instruction& in, vec2 point,
+                const MaterialFunction& materials) {
     switch (in.op) {
         case Op::Solid:
             return floats(asset.data[in.argument]);
         case Op::Image:
             return imageColor(asset, recordAt<ImageFill>(asset.data, in.argument), point);
+        case Op::Material:
+            return materialColor(recordAt<MaterialFill>(asset.data, in.argument), point, materials);
         case Op::Linear:
             return linearColor({asset.data, in.argument}, point);
         default:
@@ -73,7 +84,8 @@ struct Stack {
     vec4 pop() { return entries[top--]; }
 };
 
-void execute(const Asset& asset, const Instruction& in, vec2 point, Stack& stack) {
+void execute(const AssetView& asset, const Instruction& in, vec2 point, const MaterialFunction& materials,
+             Stack& stack) {
     switch (in.op) {
         case Op::Push:
             return stack.push();
@@ -92,22 +104,23 @@ void execute(const Asset& asset, const Instruction& in, vec2 point, Stack& stack
         }
         default:
             vec4& top = stack.entries[stack.top];
-            top = over(layerColor(asset, in, point) * in.opacity, top);
+            top = over(layerColor(asset, in, point, materials) * in.opacity, top);
     }
 }
 
-vec4 run(const Asset& asset, std::uint32_t first, std::uint32_t count, vec2 point) {
+vec4 run(const AssetView& asset, std::uint32_t first, std::uint32_t count, vec2 point,
+         const MaterialFunction& materials) {
     Stack stack;
     for (std::uint32_t i = 0; i < count; ++i)
-        execute(asset, recordAt<Instruction>(asset.data, first + i), point, stack);
+        execute(asset, recordAt<Instruction>(asset.data, first + i), point, materials, stack);
     return stack.entries[stack.top];
 }
 
 }  // namespace
 
-vec4 paintColor(const Asset& asset, std::uint32_t paint, vec2 point) {
+vec4 paintColor(const AssetView& asset, std::uint32_t paint, vec2 point, const MaterialFunction& materials) {
     const Paint& p = asset.paints[paint];
-    return isProgram(p) ? run(asset, p[0], p[1], point) : floats(p);
+    return isProgram(p) ? run(asset, p[0], p[1], point, materials) : floats(p);
 }
 
 }  // namespace vtm::asset

@@ -5,13 +5,14 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
+#include "asset/evaluate.hpp"
 
 namespace vtm::asset {
 
 inline bool isProgram(const Paint& paint) { return paint[3] == programTag; }
 
 /// Premultiplied colour of a paint at a picture point.
-glm::vec4 paintColor(const Asset& asset, std::uint32_t paint, glm::vec2 point);
+glm::vec4 paintColor(const AssetView& asset, std::uint32_t paint, glm::vec2 point,
+                     const MaterialFunction& materials = {});
 
 }  // namespace vtm::asset

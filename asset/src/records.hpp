@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <span>
 
 #include "asset/asset.hpp"
 
@@ -12,7 +13,7 @@ namespace vtm::asset {
 
 /// The record that begins at a texel.
 template <class Record>
-Record recordAt(const std::vector<Texel>& data, std::size_t texel) {
+Record recordAt(std::span<const Texel> data, std::size_t texel) {
     std::array<Texel, sizeof(Record) / sizeof(Texel)> texels;
     for (std::size_t i = 0; i < texels.size(); ++i)
         texels[i] = data[texel + i];
@@ -22,7 +23,7 @@ Record recordAt(const std::vector<Texel>& data, std::size_t texel) {
 /// A gradient with its stops.
 class GradientView {
 public:
-    GradientView(const std::vector<Texel>& data, std::size_t texel)
+    GradientView(std::span<const Texel> data, std::size_t texel)
         : data_(data),
           firstStop_(texel + sizeof(Gradient) / sizeof(Texel)),
           gradient_(recordAt<Gradient>(data, texel)) {}
@@ -32,7 +33,7 @@ public:
     GradientStop stop(std::size_t i) const { return recordAt<GradientStop>(data_, firstStop_ + i); }
 
 private:
-    const std::vector<Texel>& data_;
+    std::span<const Texel> data_;
     std::size_t firstStop_;
     Gradient gradient_;
 };

@@ -8,7 +8,7 @@ namespace vtm::asset {
 
 namespace {
 
-std::size_t uploadedBytes(const Asset& asset) {
+std::size_t uploadedBytes(const AssetView& asset) {
     std::size_t bytes = asset.nodes.size() * sizeof(Node) + asset.leaves.size() * sizeof(Leaf) +
                         asset.pieces.size() * sizeof(Piece) + asset.paints.size() * sizeof(Paint) +
                         asset.data.size() * sizeof(Texel);
@@ -19,9 +19,10 @@ std::size_t uploadedBytes(const Asset& asset) {
 
 }  // namespace
 
-Summary summarize(const Asset& asset) {
+Summary summarize(const AssetView& asset) {
     Summary summary;
     summary.bytes = uploadedBytes(asset);
+    summary.prefilterBytes = asset.prefilter.texels.size_bytes();
     summary.leaves = asset.leaves.size();
     summary.pieces = asset.pieces.size();
     summary.regions = std::set<Paint>(asset.paints.begin(), asset.paints.end()).size();

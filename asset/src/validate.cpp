@@ -22,7 +22,7 @@ struct Extent {
 
 class Trees {
 public:
-    explicit Trees(const Asset& asset) : asset_(asset) {
+    explicit Trees(const AssetView& asset) : asset_(asset) {
         for (std::size_t i = 0; i < asset.leaves.size(); ++i)
             leaves_.push_back(leafExtentOf(i));
         nodes_.resize(asset.nodes.size());
@@ -64,11 +64,11 @@ private:
         return extent;
     }
 
-    const Asset& asset_;
+    const AssetView& asset_;
     std::vector<Extent> leaves_, nodes_;
 };
 
-void validatePieces(const Asset& asset) {
+void validatePieces(const AssetView& asset) {
     for (std::size_t i = 0; i < asset.pieces.size(); ++i)
         require(asset.pieces[i].slopeA >= -slopeScale && asset.pieces[i].slopeB >= -slopeScale, "pieces", i,
                 "slope is below -1");
@@ -76,10 +76,11 @@ void validatePieces(const Asset& asset) {
 
 bool isLength(double value) { return value >= 1 / largestLength && value <= largestLength; }
 
-void validateMap(const Asset& asset, std::size_t i) {
+void validateMap(const AssetView& asset, std::size_t i) {
     const Map& map = asset.maps[i];
     require(std::abs(map.x) <= largestLength && std::abs(map.y) <= largestLength && isLength(map.side),
             "maps", i, "square is out of range");
+    require(map.unused == 0, "maps", i, "unused word is not zero");
 }
 
 bool drawsMap(Command::Kind kind) {
@@ -99,10 +100,10 @@ unsigned depthAfter(const Command& command, unsigned depth, std::size_t i) {
     return depth - 1;
 }
 
-void validateCommand(const Asset& asset, const std::vector<Extent>& maps, std::size_t i) {
+void validateCommand(const AssetView& asset, const std::vector<Extent>& maps, std::size_t i) {
     const Command& command = asset.commands[i];
     require(command.kind <= Command::Kind::ClipMask, "commands", i, "kind is unknown");
-    require(command.blend <= Blend::Luminosity, "commands", i, "blend mode is unknown");
+    require(command.blend <= Blend::PlusLighter, "commands", i, "blend mode is unknown");
     require(isShare(command.opacity), "commands", i, "opacity is out of range");
     require(!drawsMap(command.kind) || command.map < maps.size(), "commands", i, "names no map");
     require(command.kind != Command::Kind::FillMask || command.paint < asset.paints.size(), "commands", i,
@@ -111,7 +112,7 @@ void validateCommand(const Asset& asset, const std::vector<Extent>& maps, std::s
         require(maps[command.map].largestPaint <= 1, "commands", i, "its map is no mask: a paint is above 1");
 }
 
-void validateCommands(const Asset& asset, const std::vector<Extent>& maps) {
+void validateCommands(const AssetView& asset, const std::vector<Extent>& maps) {
     require(asset.commands.size() <= maxCommands, "commands", maxCommands, "is one too many");
     unsigned depth = 1;
     std::uint64_t drawn = 0;
@@ -126,9 +127,18 @@ void validateCommands(const Asset& asset, const std::vector<Extent>& maps) {
     require(depth == 1, "commands", asset.commands.size(), "groups are left open at the end");
 }
 
+void validatePrefilter(const PrefilterView& prefilter) {
+    const PyramidSize size = prefilter.size;
+    if (size == PyramidSize{})
+        return require(prefilter.texels.empty(), "prefilter", 0, "has texels and no size");
+    require(isPyramidSide(size.width) && isPyramidSide(size.height), "prefilter", 0, "size is not allowed");
+    require(prefilter.texels.size() == size.texelsBefore(size.levels()), "prefilter", prefilter.texels.size(),
+            "number of texels does not match the size");
+}
+
 }  // namespace
 
-void validate(const Asset& asset) {
+void validate(const AssetView& asset) {
     require(isLength(asset.width) && isLength(asset.height), "picture", 0, "size is out of range");
     require(asset.mode <= Mode::Compat, "picture", 0, "mode is unknown");
     validatePaints(asset);
@@ -141,6 +151,7 @@ void validate(const Asset& asset) {
         require(maps.back().depth <= maxLevel, "maps", i, "tree is too deep");
     }
     validateCommands(asset, maps);
+    validatePrefilter(asset.prefilter);
 }
 
 }  // namespace vtm::asset

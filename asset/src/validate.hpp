@@ -19,6 +19,6 @@ inline void require(bool holds, const char* section, std::size_t index, const ch
 
 inline bool isShare(float value) { return value >= 0 && value <= 1; }
 
-void validatePaints(const Asset& asset);
+void validatePaints(const AssetView& asset);
 
 }  // namespace vtm::asset

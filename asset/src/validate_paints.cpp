@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 #include "asset/src/records.hpp"
 #include "asset/src/validate.hpp"
@@ -19,10 +21,10 @@ bool areFinite(const std::array<float, 6>& numbers) {
 /// Asset::data with, for each texel, how many gradient stops in order begin there: found once, so
 /// that overlapping gradients of a hostile file cost nothing each.
 struct Data {
-    const Asset& asset;
+    const AssetView& asset;
     std::vector<std::uint32_t> stopRuns;
 
-    explicit Data(const Asset& a) : asset(a), stopRuns(a.data.size() + 1) {
+    explicit Data(const AssetView& a) : asset(a), stopRuns(a.data.size() + 1) {
         for (std::size_t i = a.data.size(); i-- > 0;) {
             const float offset = stopOffset(i);
             if (!isShare(offset))
@@ -60,6 +62,17 @@ void validateImageFill(const Data& data, std::size_t texel) {
     require(fill.bilinear <= 1, "data", texel, "image fill's filter is unknown");
 }
 
+void validateMaterialFill(const Data& data, std::size_t texel) {
+    require(data.holds(texel, sizeof(MaterialFill) / sizeof(Texel)), "data", texel,
+            "material fill is out of bounds");
+    const auto fill = recordAt<MaterialFill>(data.asset.data, texel);
+    require(areFinite(fill.matrix), "data", texel, "material fill's matrix is not finite");
+    require(fill.material < data.asset.materials.size(), "data", texel, "material fill names no material");
+    require(fill.unused == 0, "data", texel, "material fill's unused word is not zero");
+    require(std::ranges::all_of(fill.fallback, isShare), "data", texel,
+            "material fill's fallback colour is out of range");
+}
+
 void validateLayer(const Data& data, const Instruction& in) {
     switch (in.op) {
         case Op::Solid:
@@ -68,6 +81,8 @@ void validateLayer(const Data& data, const Instruction& in) {
                            "colour is out of range");
         case Op::Image:
             return validateImageFill(data, in.argument);
+        case Op::Material:
+            return validateMaterialFill(data, in.argument);
         default:
             return validateGradient(data, in.argument);
     }
@@ -93,8 +108,8 @@ void validateProgram(const Data& data, std::size_t index) {
     unsigned depth = 1;
     for (std::uint32_t i = 0; i < paint[1]; ++i) {
         const auto in = recordAt<Instruction>(data.asset.data, paint[0] + i);
-        require(in.op <= Op::Image, "paints", index, "operation is unknown");
-        require(in.blend <= Blend::Luminosity, "paints", index, "blend mode is unknown");
+        require(in.op <= Op::Material, "paints", index, "operation is unknown");
+        require(in.blend <= Blend::PlusLighter, "paints", index, "blend mode is unknown");
         require(isShare(in.opacity), "paints", index, "opacity is out of range");
         if (in.op >= Op::Solid)
             validateLayer(data, in);
@@ -103,7 +118,7 @@ void validateProgram(const Data& data, std::size_t index) {
     require(depth == 1, "paints", index, "program leaves groups open");
 }
 
-void validateImages(const Asset& asset) {
+void validateImages(const AssetView& asset) {
     std::int64_t pixels = 0;
     for (std::size_t i = 0; i < asset.images.size(); ++i) {
         const image::Bitmap& bitmap = asset.images[i];
@@ -115,10 +130,32 @@ void validateImages(const Asset& asset) {
     }
 }
 
+/// What GLSL leaves to its users: no leading gl_, no double underscore (GLSL ES 3.00 section 3.8).
+bool isMaterialName(const std::string& name) {
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto isRest = [&](char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; };
+    return !name.empty() && name.size() <= maxMaterialName && isLetter(name[0]) &&
+           std::ranges::all_of(name, isRest) && name.find("__") == std::string::npos &&
+           !name.starts_with("gl_");
+}
+
+void validateMaterials(const AssetView& asset) {
+    require(asset.materials.size() <= maxMaterials, "materials", maxMaterials, "is one too many");
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < asset.materials.size(); ++i) {
+        const Material& material = asset.materials[i];
+        require(isMaterialName(material.name), "materials", i, "name is no plain identifier");
+        require(names.insert(material.name).second, "materials", i, "name is taken");
+        require(material.glsl.size() <= maxMaterialText && material.glsl.find('\0') == std::string::npos,
+                "materials", i, "text holds a zero byte or is too long");
+    }
+}
+
 }  // namespace
 
-void validatePaints(const Asset& asset) {
+void validatePaints(const AssetView& asset) {
     validateImages(asset);
+    validateMaterials(asset);
     require(!asset.paints.empty() && asset.paints[0] == Paint{}, "paints", 0, "must be transparent");
     require(asset.paints.size() <= 65536, "paints", 65536, "cannot be named by 16 bits");
     const Data data(asset);

@@ -10,7 +10,7 @@ namespace {
 
 using glm::vec4;
 
-constexpr unsigned modes = unsigned(Blend::Luminosity) + 1;
+constexpr unsigned modes = unsigned(Blend::PlusLighter) + 1;
 
 void expectNear(vec4 a, vec4 b, const char* what = "") {
     for (int c = 0; c < 4; ++c)
@@ -50,6 +50,12 @@ TEST(Blend, SeparableModesOnOpaqueGreys) {
             << "mode " << unsigned(c.mode) << " of " << c.source << " on " << c.backdrop;
         EXPECT_EQ(result.a, 1);
     }
+}
+
+TEST(Blend, PlusLighterAddsUpToOne) {
+    expectNear(blend(Blend::PlusLighter, {0.25f, 0.125f, 0, 0.25f}, {0.5f, 0.25f, 0, 0.5f}),
+               {0.75f, 0.375f, 0, 0.75f});
+    expectNear(blend(Blend::PlusLighter, {0.5f, 0.25f, 0, 1}, {0.75f, 0, 0, 1}), {1, 0.25f, 0, 1});
 }
 
 float lum(vec4 c) { return 0.3f * c.r + 0.59f * c.g + 0.11f * c.b; }

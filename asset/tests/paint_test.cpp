@@ -143,6 +143,16 @@ TEST(Paint, ImagesBilinear) {
     expectNear(imageAt({99, 99}, 1), pixel(3, 2));
 }
 
+TEST(Paint, MaterialsAreTheCallersOrTheirFallback) {
+    std::vector<Texel> data;
+    addMaterial(data, {{2, 0, 0, 2, 0, 1}, 3, 0, {0.25f, 0, 0, 0.5f}});
+    const Asset asset = programAsset({{Op::Material, {}, 0.5f, 0}}, data);
+    const std::uint32_t paint = asset.maps[0].root.payload();
+    expectNear(paintColor(asset, paint, {3, 4}), vec4(0.125f, 0, 0, 0.25f));
+    const auto place = [](std::uint32_t material, vec2 p) { return vec4(p.x / 10, p.y / 10, material, 2); };
+    expectNear(paintColor(asset, paint, {3, 4}, place), vec4(0.3f, 0.45f, 0.5f, 0.5f));
+}
+
 TEST(Paint, LayersComposeInOrder) {
     std::vector<Texel> data;
     const std::uint32_t red50 = addColor(data, {0.5f, 0, 0, 0.5f}), blue1 = addColor(data, blue);

@@ -101,6 +101,11 @@ std::uint32_t addImage(std::vector<Texel>& data, const ImageFill& fill) {
     return std::uint32_t(data.size() - sizeof(ImageFill) / sizeof(Texel));
 }
 
+std::uint32_t addMaterial(std::vector<Texel>& data, const MaterialFill& fill) {
+    append(data, fill);
+    return std::uint32_t(data.size() - sizeof(MaterialFill) / sizeof(Texel));
+}
+
 std::uint32_t addColor(std::vector<Texel>& data, glm::vec4 premultiplied) {
     append(data, premultiplied);
     return std::uint32_t(data.size() - 1);
@@ -147,6 +152,9 @@ Asset everyPaint() {
         paints.push_back(
             addProgram(asset, {layer(Op::Image, bilinear), layer(Op::Push, 0), layer(Op::Linear, ramp),
                                layer(Op::Solid, color), layer(mask, 0)}));
+    asset.materials = {{"plain", "vec4 plain(vec2 p) { return vec4(0.25, 0.125, 0.0, 0.5); }"}};
+    const std::uint32_t plain = addMaterial(data, {{1, 0, 0, 1, 0, 0}, 0, 0, {0.25f, 0.125f, 0, 0.5f}});
+    paints.push_back(addProgram(asset, {layer(Op::Linear, ramp), layer(Op::Material, plain, 0.5f)}));
     Node root;
     for (std::uint32_t i = 0; i < 16; ++i) {
         const std::uint16_t a = paints[i % paints.size()], b = paints[(i * 5 + 3) % paints.size()];

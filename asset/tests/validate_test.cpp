@@ -6,6 +6,7 @@
 
 #include "asset/container.hpp"
 #include "asset/testing.hpp"
+#include "asset/testing_files.hpp"
 
 namespace vtm::asset::test {
 namespace {
@@ -75,9 +76,9 @@ const std::vector<Breach> breaches{
     {"paints[5]: program is too long", everyPaint,
      [](Asset& a) { a.paints[firstProgram][1] = maxInstructions + 1; }},
     {"paints[5]: operation is unknown", everyPaint,
-     [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.op = Op(9); }); }},
+     [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.op = Op(10); }); }},
     {"paints[14]: blend mode is unknown", everyPaint,
-     [](Asset& a) { edit(a, masked, 4, [](Instruction& in) { in.blend = Blend(16); }); }},
+     [](Asset& a) { edit(a, masked, 4, [](Instruction& in) { in.blend = Blend(17); }); }},
     {"paints[5]: opacity is out of range", everyPaint,
      [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.opacity = -0.1f; }); }},
     {"paints[14]: program pops an empty stack", everyPaint,
@@ -90,7 +91,7 @@ const std::vector<Breach> breaches{
          a.paints[1] = {0, maxStack, 0, programTag};
      }},
     {"commands[0]: kind is unknown", disc, [](Asset& a) { a.commands[0].kind = Command::Kind(8); }},
-    {"commands[0]: blend mode is unknown", disc, [](Asset& a) { a.commands[0].blend = Blend(16); }},
+    {"commands[0]: blend mode is unknown", disc, [](Asset& a) { a.commands[0].blend = Blend(17); }},
     {"commands[0]: opacity is out of range", disc, [](Asset& a) { a.commands[0].opacity = 2; }},
     {"commands[0]: names no map", disc, [](Asset& a) { a.commands[0].map = 1; }},
     {"commands[0]: names no paint", layers, [](Asset& a) { a.commands[0].paint = 6; }},
@@ -103,6 +104,34 @@ const std::vector<Breach> breaches{
      [](Asset& a) {
          a.commands.assign(maxPictures, {Command::Kind::Push, {}, 1, 0, 0});
      }},
+    {"materials[0]: name is no plain identifier", everyPaint, [](Asset& a) { a.materials[0].name = "1a"; }},
+    {"materials[0]: name is no plain identifier", everyPaint, [](Asset& a) { a.materials[0].name = "a__b"; }},
+    {"materials[0]: name is no plain identifier", everyPaint, [](Asset& a) { a.materials[0].name = "gl_a"; }},
+    {"materials[0]: name is no plain identifier", everyPaint,
+     [](Asset& a) { a.materials[0].name.assign(maxMaterialName + 1, 'a'); }},
+    {"materials[1]: name is taken", everyPaint, [](Asset& a) { a.materials.push_back(a.materials[0]); }},
+    {"materials[0]: text holds a zero byte or is too long", everyPaint,
+     [](Asset& a) { a.materials[0].glsl.push_back('\0'); }},
+    {"materials[0]: text holds a zero byte or is too long", everyPaint,
+     [](Asset& a) { a.materials[0].glsl.assign(maxMaterialText + 1, ' '); }},
+    {"maps[0]: unused word is not zero", disc, [](Asset& a) { a.maps[0].unused = 1; }},
+    {"prefilter[0]: size is not allowed", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {0, 4};
+     }},
+    {"prefilter[0]: size is not allowed", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {5, 4};
+     }},
+    {"prefilter[0]: size is not allowed", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {4, 2 * maxPyramidSide};
+     }},
+    {"prefilter[15]: number of texels does not match the size", everySection,
+     [](Asset& a) {
+         a.prefilter.size = {4, 4};
+     }},
+    {"prefilter[0]: has texels and no size", everySection, [](Asset& a) { a.prefilter.size = {}; }},
     {"images[0]: bytes do not match the size", everyPaint, [](Asset& a) { a.images[0].rgba.pop_back(); }},
     {"images[0]: picture is empty", everyPaint, [](Asset& a) { a.images[0].width = 0; }},
     {"images[0]: pictures have too many pixels", everyPaint, [](Asset& a) { a.images[0].width = 1 << 30; }},
@@ -162,6 +191,32 @@ TEST(Validate, Gradients) {
               "data[0]: gradient's focal circle is out of range");
     EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.matrix[4] = INFINITY; }),
               "data[0]: gradient's matrix is not finite");
+}
+
+TEST(Validate, MaterialFills) {
+    const auto refusalOf = [](const MaterialFill& fill, std::size_t cut = 0) -> std::string {
+        std::vector<Texel> data;
+        addMaterial(data, fill);
+        data.resize(data.size() - cut);
+        Asset asset = programAsset({}, {});
+        asset.materials = {{"a", ""}};
+        const auto program = std::bit_cast<Texel>(Instruction{Op::Material, {}, 1, 1});
+        asset.data = {program};
+        asset.data.insert(asset.data.end(), data.begin(), data.end());
+        asset.paints.back() = {0, 1, 0, programTag};
+        try {
+            validate(asset);
+        } catch (const FormatError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_EQ(refusalOf({}), "");
+    EXPECT_EQ(refusalOf({}, 1), "data[1]: material fill is out of bounds");
+    EXPECT_EQ(refusalOf({{NAN}}), "data[1]: material fill's matrix is not finite");
+    EXPECT_EQ(refusalOf({{}, 1}), "data[1]: material fill names no material");
+    EXPECT_EQ(refusalOf({{}, 0, 1}), "data[1]: material fill's unused word is not zero");
+    EXPECT_EQ(refusalOf({{}, 0, 0, {2}}), "data[1]: material fill's fallback colour is out of range");
 }
 
 TEST(Validate, ImageFills) {

@@ -82,6 +82,8 @@ vec3 mixColors(uint mode, vec3 b, vec3 s) {
 vec4 blend(uint mode, vec4 source, vec4 backdrop) {
     if (mode == blendNormal)
         return over(source, backdrop);
+    if (mode == blendPlusLighter)
+        return min(source + backdrop, 1.0);
     vec3 mixed = mixColors(mode, straight(backdrop), straight(source));
     return vec4((1.0 - backdrop.a) * source.rgb + (1.0 - source.a) * backdrop.rgb + source.a * backdrop.a * mixed,
                 source.a + backdrop.a - source.a * backdrop.a);

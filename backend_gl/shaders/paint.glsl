@@ -1,9 +1,15 @@
 // The stack machine of paint programs.
 // Requires: fetch.glsl, gradient.glsl, image.glsl, blend.glsl; constants op*, maxStack; LINEAR, RADIAL,
-// IMAGE, GROUPS, MIXING defined as 1 or 0: what the asset's programs contain. Some drivers run both
-// sides of every branch, so what cannot occur is left out.
+// IMAGE, GROUPS, MIXING, MATERIAL defined as 1 or 0: what the asset's programs contain. Some drivers run
+// both sides of every branch, so what cannot occur is left out. Where MATERIAL is 1: materialColor, which
+// src/materials.cpp makes.
 // Twin of: asset/src/paint.cpp.
 // Exports: paintColor.
+
+#if MATERIAL
+// Premultiplied colour of a material at a point of its space.
+vec4 materialColor(uint material, vec2 p);
+#endif
 
 vec4 layerColor(uint op, uint argument, vec2 point) {
 #if LINEAR || RADIAL
@@ -13,6 +19,12 @@ vec4 layerColor(uint op, uint argument, vec2 point) {
 #if IMAGE
     if (op == opImage)
         return imageColor(argument, point);
+#endif
+#if MATERIAL
+    if (op == opMaterial) {
+        uvec4 a = texelAt(argument), b = texelAt(argument + 1u);
+        return clamp(materialColor(b.z, applyMatrix(a, b, point)), 0.0, 1.0);
+    }
 #endif
     return uintBitsToFloat(texelAt(argument));
 }
@@ -65,7 +77,7 @@ vec4 runProgram(uint first, uint count, vec2 point) {
 // Premultiplied colour of a paint at a picture point.
 vec4 paintColor(uint paint, vec2 point) {
     uvec4 texel = paintAt(paint);
-#if LINEAR || RADIAL || IMAGE || GROUPS
+#if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
     return isProgram(texel) ? runProgram(texel.x, texel.y, point) : uintBitsToFloat(texel);
 #else
     return uintBitsToFloat(texel);

@@ -38,8 +38,8 @@ std::string operations() {
            constant("opPopMaskLinear", Op::PopMaskLinear) + constant("opPopMaskAlpha", Op::PopMaskAlpha) +
            constant("opSolid", Op::Solid) + constant("opLinear", Op::Linear) +
            constant("opRadial", Op::Radial) + constant("opImage", Op::Image) +
-           constant("spreadPad", Spread::Pad) + constant("spreadReflect", Spread::Reflect) +
-           constant("spreadRepeat", Spread::Repeat);
+           constant("opMaterial", Op::Material) + constant("spreadPad", Spread::Pad) +
+           constant("spreadReflect", Spread::Reflect) + constant("spreadRepeat", Spread::Repeat);
 }
 
 std::string blendModes() {
@@ -50,7 +50,8 @@ std::string blendModes() {
            constant("blendHardLight", Blend::HardLight) + constant("blendSoftLight", Blend::SoftLight) +
            constant("blendDifference", Blend::Difference) + constant("blendExclusion", Blend::Exclusion) +
            constant("blendHue", Blend::Hue) + constant("blendSaturation", Blend::Saturation) +
-           constant("blendColor", Blend::Color) + constant("blendLuminosity", Blend::Luminosity);
+           constant("blendColor", Blend::Color) + constant("blendLuminosity", Blend::Luminosity) +
+           constant("blendPlusLighter", Blend::PlusLighter);
 }
 
 std::string actions() {

@@ -20,6 +20,8 @@ unsigned flagsOf(const asset::Instruction& in) {
             return Features::Radial;
         case Op::Image:
             return Features::Image;
+        case Op::Material:
+            return Features::Material;
         case Op::Push:
             return Features::Groups;
         case Op::Pop:
@@ -37,12 +39,13 @@ std::string Features::defines() const {
                                      {Radial, "RADIAL"},
                                      {Image, "IMAGE"},
                                      {Groups, "GROUPS"},
-                                     {Mixing, "MIXING"}})
+                                     {Mixing, "MIXING"},
+                                     {Material, "MATERIAL"}})
         text += fmt::format("#define {} {}\n", name, (flags_ & flag) != 0 ? 1 : 0);
     return text;
 }
 
-Features featuresOf(const asset::Asset& asset) {
+Features featuresOf(const asset::AssetView& asset) {
     unsigned flags = 0;
     for (const asset::Paint& paint : asset.paints) {
         if (paint[3] != asset::programTag)

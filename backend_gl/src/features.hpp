@@ -11,12 +11,13 @@ namespace vtm::gl {
 /// A set of flags; the names are the macros of paint.glsl.
 class Features {
 public:
-    enum Flag : unsigned { Linear = 1, Radial = 2, Image = 4, Groups = 8, Mixing = 16 };
-    static constexpr unsigned combinations = 32;
+    enum Flag : unsigned { Linear = 1, Radial = 2, Image = 4, Groups = 8, Mixing = 16, Material = 32 };
+    static constexpr unsigned combinations = 64;
 
     Features() = default;
     explicit Features(unsigned flags) : flags_(flags) {}
     unsigned flags() const { return flags_; }
+    bool has(Flag flag) const { return (flags_ & flag) != 0; }
 
     /// #define lines, one a flag.
     std::string defines() const;
@@ -26,6 +27,6 @@ private:
 };
 
 /// Of all paint programs of an asset together. Mixing is blend modes other than Normal, and masks.
-Features featuresOf(const asset::Asset& asset);
+Features featuresOf(const asset::AssetView& asset);
 
 }  // namespace vtm::gl

@@ -14,11 +14,11 @@ using asset::Cell;
 using asset::Entry;
 using Command = asset::Command;
 
-bool isProgram(const asset::Asset& asset, std::uint32_t paint) {
+bool isProgram(const asset::AssetView& asset, std::uint32_t paint) {
     return asset.paints[paint][3] == asset::programTag;
 }
 
-bool usesPrograms(const asset::Asset& asset, const asset::Leaf& leaf) {
+bool usesPrograms(const asset::AssetView& asset, const asset::Leaf& leaf) {
     const auto program = [&](std::uint32_t paint) { return isProgram(asset, paint); };
     const auto* first = asset.pieces.data() + leaf.firstPiece;
     return std::ranges::any_of(leaf.corners, program) ||
@@ -27,7 +27,7 @@ bool usesPrograms(const asset::Asset& asset, const asset::Leaf& leaf) {
            });
 }
 
-CostClass costOf(const asset::Asset& asset, bool coverage, Entry entry) {
+CostClass costOf(const asset::AssetView& asset, bool coverage, Entry entry) {
     const bool solid = entry.kind() == Entry::Kind::Solid;
     if (!coverage &&
         (solid ? isProgram(asset, entry.payload()) : usesPrograms(asset, asset.leaves[entry.payload()])))
@@ -35,14 +35,14 @@ CostClass costOf(const asset::Asset& asset, bool coverage, Entry entry) {
     return solid ? CostClass::Solid : CostClass::Pieces;
 }
 
-bool isTransparent(const asset::Asset& asset, bool coverage, Entry entry) {
+bool isTransparent(const asset::AssetView& asset, bool coverage, Entry entry) {
     if (entry.kind() != Entry::Kind::Solid)
         return false;
     return coverage ? entry.payload() == 0 : asset.paints[entry.payload()] == asset::Paint{};
 }
 
 /// The maps that the commands draw, each once a meaning, in order of first use.
-void listUses(const asset::Asset& asset, InstanceList& list) {
+void listUses(const asset::AssetView& asset, InstanceList& list) {
     list.asColor.resize(asset.maps.size());
     list.asCoverage.resize(asset.maps.size());
     for (const Command& command : asset.commands) {
@@ -66,7 +66,7 @@ void grow(DrawnMap& drawn, Cell cell) {
 
 using ByClass = std::array<std::vector<Instance>, costClassCount>;
 
-void addMap(const asset::Asset& asset, DrawnMap& drawn, ByClass& instances) {
+void addMap(const asset::AssetView& asset, DrawnMap& drawn, ByClass& instances) {
     for (unsigned c = 0; c < costClassCount; ++c)
         drawn.ranges[c].first = instances[c].size();
     asset::walk(asset, asset.maps[drawn.map].root, [&](Cell cell, Entry entry) {
@@ -82,7 +82,7 @@ void addMap(const asset::Asset& asset, DrawnMap& drawn, ByClass& instances) {
 
 }  // namespace
 
-InstanceList makeInstances(const asset::Asset& asset) {
+InstanceList makeInstances(const asset::AssetView& asset) {
     if (asset.maps.size() > maxMaps)
         throw GlError("more maps than an instance can name");
     InstanceList list;

@@ -46,6 +46,6 @@ struct InstanceList {
 
 /// Of every map that a command draws. Instances are in order of cost class, then of first use, so
 /// that maps used one after another make one run of instances a class.
-InstanceList makeInstances(const asset::Asset& asset);
+InstanceList makeInstances(const asset::AssetView& asset);
 
 }  // namespace vtm::gl

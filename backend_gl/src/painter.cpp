@@ -131,7 +131,8 @@ void Painter::drawInstances(const std::vector<std::uint32_t>& drawn, bool covera
         const std::vector<Range> runs = runsOf(asset_.list, drawn, cost);
         if (runs.empty())
             continue;
-        const Program& program = workshop_.programs.leaf(CostClass(cost), asset_.features);
+        const Program& program =
+            workshop_.programs.leaf(CostClass(cost), asset_.features, asset_.materialSet);
         use(program);
         glUniform1i(program.uniform("paintsAreCoverage"), coverage);
         for (const Range& run : runs) {
@@ -283,7 +284,8 @@ void Painter::use(const Program& program) const {
 void Painter::useFill() {
     const bool programs =
         std::ranges::any_of(pending_, [&](const PendingFill& fill) { return asset_.isProgram[fill.paint]; });
-    const Program& program = workshop_.programs.fill(programs ? asset_.features : Features());
+    const Program& program =
+        workshop_.programs.fill(programs ? asset_.features : Features(), asset_.materialSet);
     use(program);
     const glm::dmat2 inverse = glm::inverse(glm::dmat2(view_.toPixels[0], view_.toPixels[1]));
     const glm::dvec2 pixel = glm::dvec2(view_.width, view_.height) * 0.5;

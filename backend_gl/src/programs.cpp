@@ -20,34 +20,51 @@ void bindUnits(const Program& program) {
 
 }  // namespace
 
-const Program& Programs::leaf(CostClass cost, Features features) {
+unsigned Programs::materialSet(std::span<const asset::Material> materials) {
+    std::string source = materialsSource(materials);
+    for (unsigned i = 0; i < materialSets_.size(); ++i)
+        if (materialSets_[i].source == source)
+            return i;
+    materialSets_.push_back({{materials.begin(), materials.end()}, std::move(source)});
+    return unsigned(materialSets_.size() - 1);
+}
+
+const Program& Programs::leaf(CostClass cost, Features features, unsigned materialSet) {
     switch (cost) {
         case CostClass::Solid:
             return get(Kind::Solid, {});
         case CostClass::Pieces:
             return get(Kind::Pieces, {});
         default:
-            return get(Kind::General, features);
+            return get(Kind::General, features, materialSet);
     }
 }
 
-const Program& Programs::fill(Features features) { return get(Kind::Fill, features); }
+const Program& Programs::fill(Features features, unsigned materialSet) {
+    return get(Kind::Fill, features, materialSet);
+}
 const Program& Programs::layer() { return get(Kind::Layer, {}); }
 const Program& Programs::blend() { return get(Kind::Blend, {}); }
 
-const Program& Programs::get(Kind kind, Features features) {
-    const std::pair key(kind, features.flags());
+const Program& Programs::get(Kind kind, Features features, unsigned materialSet) {
+    const std::tuple key(kind, features.flags(), features.has(Features::Material) ? materialSet : 0);
     auto found = programs_.find(key);
     if (found == programs_.end()) {
-        found = programs_.emplace(key, make(kind, features)).first;
+        try {
+            found = programs_.emplace(key, make(kind, features, materialSet)).first;
+        } catch (const GlError& error) {
+            throw GlError(blamedOnMaterial(materialSets_[materialSet].materials, error.what()));
+        }
         bindUnits(found->second);
     }
     return found->second;
 }
 
-Program Programs::make(Kind kind, Features features) {
+Program Programs::make(Kind kind, Features features, unsigned materialSet) const {
     using namespace shaders;
     const std::string defines = features.defines();
+    const MaterialSet& set = materialSets_[materialSet];
+    const std::string_view materials = features.has(Features::Material) ? std::string_view(set.source) : "";
     switch (kind) {
         case Kind::Solid:
             return {"solid", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, solid_fragment}};
@@ -57,11 +74,11 @@ Program Programs::make(Kind kind, Features features) {
             return {"general",
                     {fetch, leaf_vertex},
                     {defines, fetch, coverage, leaf_placement, shaders::blend, gradient, image, paint,
-                     general_fragment}};
+                     general_fragment, materials}};
         case Kind::Fill:
             return {"fill",
                     {box_vertex},
-                    {defines, fetch, shaders::blend, gradient, image, paint, fill_fragment}};
+                    {defines, fetch, shaders::blend, gradient, image, paint, fill_fragment, materials}};
         case Kind::Layer:
             return {"layer", {box_vertex}, {shaders::blend, layer_fragment}};
         default:

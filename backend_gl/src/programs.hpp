@@ -3,9 +3,12 @@
 #pragma once
 
 #include <map>
-#include <utility>
+#include <span>
+#include <tuple>
+#include <vector>
 
 #include "backend_gl/src/features.hpp"
+#include "backend_gl/src/materials.hpp"
 #include "backend_gl/src/program.hpp"
 
 namespace vtm::gl {
@@ -24,18 +27,26 @@ enum class Unit : int { Texels, Images, Placements, Layer, Backdrop };
 /// Each throws GlError with the driver's log where a program does not compile.
 class Programs {
 public:
-    /// Only General looks at the features.
-    const Program& leaf(CostClass cost, Features features);
-    const Program& fill(Features features);
+    /// Materials that programs are compiled with, each list once. Number 0 is none.
+    unsigned materialSet(std::span<const asset::Material> materials);
+
+    /// Only General looks at the features and materials.
+    const Program& leaf(CostClass cost, Features features, unsigned materialSet = 0);
+    const Program& fill(Features features, unsigned materialSet = 0);
     const Program& layer();
     const Program& blend();
 
 private:
     enum class Kind : unsigned { Solid, Pieces, General, Fill, Layer, Blend };
-    const Program& get(Kind kind, Features features);
-    static Program make(Kind kind, Features features);
+    const Program& get(Kind kind, Features features, unsigned materialSet = 0);
+    Program make(Kind kind, Features features, unsigned materialSet) const;
 
-    std::map<std::pair<Kind, unsigned>, Program> programs_;
+    struct MaterialSet {
+        std::vector<asset::Material> materials;
+        std::string source;
+    };
+    std::vector<MaterialSet> materialSets_{{{}, materialsSource({})}};
+    std::map<std::tuple<Kind, unsigned, unsigned>, Program> programs_;
 };
 
 }  // namespace vtm::gl

@@ -61,8 +61,15 @@ struct Renderer::Impl {
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
-Texture Renderer::upload(const asset::Asset& asset) {
-    return Texture(std::make_unique<Texture::Impl>(asset));
+Texture Renderer::upload(const asset::AssetView& asset) {
+    Programs& programs = impl_->workshop.programs;
+    auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
+    // Users' errors come at once, not with the first picture.
+    if (texture->features.has(Features::Material))
+        asset.mode == asset::Mode::Exact
+            ? programs.leaf(CostClass::General, texture->features, texture->materialSet)
+            : programs.fill(texture->features, texture->materialSet);
+    return Texture(std::move(texture));
 }
 
 image::Raster Renderer::render(const Texture& texture, const asset::View& view) {

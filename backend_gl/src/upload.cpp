@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #include "backend_gl/src/constants.hpp"
 
@@ -10,13 +11,13 @@ namespace vtm::gl {
 
 namespace {
 
-using asset::Asset;
+using asset::AssetView;
 using asset::Texel;
 
 constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
 
 template <class Record>
-GLuint append(std::vector<Texel>& texels, const std::vector<Record>& records) {
+GLuint append(std::vector<Texel>& texels, std::span<const Record> records) {
     static_assert(sizeof(Record) % sizeof(Texel) == 0);
     const std::size_t first = texels.size();
     texels.resize(first + records.size() * (sizeof(Record) / sizeof(Texel)));
@@ -26,7 +27,7 @@ GLuint append(std::vector<Texel>& texels, const std::vector<Record>& records) {
     return GLuint(first);
 }
 
-std::vector<Texel> imageList(const Asset& asset) {
+std::vector<Texel> imageList(const AssetView& asset) {
     std::vector<Texel> list;
     std::uint32_t pixels = 0;
     for (const image::Bitmap& bitmap : asset.images) {
@@ -37,13 +38,13 @@ std::vector<Texel> imageList(const Asset& asset) {
 }
 
 /// The trees themselves stay behind: instances stand for them.
-std::vector<Texel> joinedTexels(const Asset& asset, Sections& sections) {
+std::vector<Texel> joinedTexels(const AssetView& asset, Sections& sections) {
     std::vector<Texel> texels;
     sections.leaves = append(texels, asset.leaves);
     sections.pieces = append(texels, asset.pieces);
     sections.paints = append(texels, asset.paints);
     sections.data = append(texels, asset.data);
-    sections.images = append(texels, imageList(asset));
+    sections.images = append<Texel>(texels, imageList(asset));
     return texels;
 }
 
@@ -63,7 +64,7 @@ TextureHandle layOut(Items& items, std::size_t itemsPerTexel, unsigned columnsLo
     return texture;
 }
 
-TextureHandle uploadImages(const Asset& asset) {
+TextureHandle uploadImages(const AssetView& asset) {
     std::vector<std::uint8_t> pixels;
     for (const image::Bitmap& bitmap : asset.images)
         pixels.insert(pixels.end(), bitmap.rgba.begin(), bitmap.rgba.end());
@@ -81,8 +82,12 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 
 }  // namespace
 
-UploadedAsset::UploadedAsset(const Asset& asset)
-    : maps(asset.maps), commands(asset.commands), list(makeInstances(asset)), features(featuresOf(asset)) {
+UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
+    : maps(asset.maps.begin(), asset.maps.end()),
+      commands(asset.commands.begin(), asset.commands.end()),
+      list(makeInstances(asset)),
+      features(featuresOf(asset)),
+      materialSet(materials) {
     for (const asset::Paint& paint : asset.paints)
         isProgram.push_back(paint[3] == asset::programTag);
     std::vector<Texel> joined = joinedTexels(asset, sections);

@@ -19,12 +19,13 @@ struct Sections {
 };
 
 struct UploadedAsset {
-    explicit UploadedAsset(const asset::Asset& asset);
+    UploadedAsset(const asset::AssetView& asset, unsigned materialSet);
 
     std::vector<asset::Map> maps;
     std::vector<asset::Command> commands;
     InstanceList list;
     Features features;            ///< of the paint programs
+    unsigned materialSet;         ///< of Programs
     std::vector<bool> isProgram;  ///< by paint
     Sections sections;
     TextureHandle texels, images;

@@ -58,7 +58,7 @@ TEST_F(Gl, EveryPaint) { expectTwins(*renderer, everyPaint()); }
 TEST_F(Gl, CompatCommands) { expectTwins(*renderer, layers()); }
 
 TEST_F(Gl, EveryBlendMode) {
-    for (unsigned mode = 0; mode <= unsigned(asset::Blend::Luminosity); ++mode) {
+    for (unsigned mode = 0; mode <= unsigned(asset::Blend::PlusLighter); ++mode) {
         SCOPED_TRACE(mode);
         expectTwins(*renderer, blendAsset(asset::Blend(mode)), 4);
     }
@@ -128,7 +128,7 @@ Asset randomLayers(std::mt19937& random) {
             ++open;
         } else if (choice == 11 && open > 0) {
             const K kinds[] = {K::Pop, K::Pop, K::PopMaskAlpha, K::PopMaskLuminance, K::PopMaskLinear};
-            asset.commands.push_back({kinds[any(5)], asset::Blend(any(16)), float(any(5)) / 4, 0, 0});
+            asset.commands.push_back({kinds[any(5)], asset::Blend(any(17)), float(any(5)) / 4, 0, 0});
             --open;
         } else if (choice == 9 && open > 0) {
             asset.commands.push_back({K::ClipMask, {}, 1, any(asset.maps.size()), 0});

@@ -66,17 +66,17 @@ void Culler::run(Cell& cell) {
 void LeafRegions::enter(const Cell& cell, Palette& palette) {
     palette_ = &palette;
     listLayers(cell, layers);
-    std::vector<scene::FillRule> rules;
-    std::vector<int> corner(layers.size());
+    rules_.clear();
+    corner_.assign(layers.size(), 0);
     for (std::uint32_t layer : layers)
-        rules.push_back(picture_.layers[layer].rule);
+        rules_.push_back(picture_.layers[layer].rule);
     std::size_t i = 0;
     for (const LayerWinding& w : cell.windings) {
         while (layers[i] != w.layer)
             ++i;
-        corner[i] = w.winding;
+        corner_[i] = w.winding;
     }
-    RegionPaints::enter(std::move(rules), std::move(corner));
+    RegionPaints::enter(rules_, corner_);
 }
 
 PaintId LeafRegions::compute() {

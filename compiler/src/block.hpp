@@ -58,6 +58,8 @@ private:
     Painter& painter_;
     Palette* palette_ = nullptr;
     std::vector<std::uint8_t> inside_;  ///< by layer
+    std::vector<scene::FillRule> rules_;
+    std::vector<int> corner_;
 };
 
 /// Builds blocks, one after the other, keeping its memory.

@@ -1,53 +1,80 @@
 #include "compiler/src/cell.hpp"
 
+#include <bit>
+
 namespace vtm::compiler {
 namespace {
 
 /// Further left than any geometry reaches.
 constexpr Coord outside = 1 << 20;
 
-/// Adds what the strand changes between the cell's first corner and its children's: along the first
-/// column up to row j, then along row j.
-void addWindings(Points points, const Strand& strand, const Square& square, std::array<int, 16>& windings) {
-    const Coord step = square.side / 4;
-    const LatticePoint from = points[strand.first], to = points[strand.last];
-    const bool crossesColumn = (from.x < square.x0) != (to.x < square.x0);
-    for (int j = 0; j < 4; ++j) {
-        const Coord y = square.y0 + j * step;
-        if (j > 0 && crossesColumn)
-            if (const int up = windingAlongY(points, strand, square.x0, square.y0, y); up != 0)
-                for (int i = 0; i < 4; ++i)
-                    windings[static_cast<std::size_t>(4 * j + i)] += up;
-        const std::uint32_t c = chordAtY(points, strand, y);
-        if (c == strand.last)
-            continue;
-        const LatticePoint a = points[c], b = points[c + 1];
-        const int before = cornerOnLeft(a, b, {square.x0, y});
-        for (int i = 1; i < 4; ++i)
-            windings[static_cast<std::size_t>(4 * j + i)] +=
-                int{cornerOnLeft(a, b, {square.x0 + i * step, y})} - before;
-    }
-}
+/// Hands strands down to 16 children. A square's side is a power of two.
+class Splitter {
+public:
+    Splitter(Points points, const Square& square, std::array<Cell, 16>& children)
+        : points_(points),
+          square_(square),
+          step_(square.side / 4),
+          shift_(std::countr_zero(static_cast<std::uint32_t>(step_))),
+          children_(children) {}
 
-void pushStrand(Points points, const Strand& strand, const Square& square, std::array<Cell, 16>& children) {
-    const Coord step = square.side / 4;
-    const auto place = [&](Coord v, Coord origin) {
-        const std::int64_t offset = std::int64_t{v} - origin;
-        return offset < step ? 0 : static_cast<int>(std::min<std::int64_t>(offset / step, 3));
-    };
-    const LatticePoint from = points[strand.first], to = points[strand.last];
-    const auto [left, right] = std::minmax(from.x, to.x);
-    const auto [low, high] = std::minmax(from.y, to.y);
-    const int i0 = place(left, square.x0), i1 = place(right, square.x0);
-    const int j0 = place(low, square.y0), j1 = place(high, square.y0);
-    for (int j = j0; j <= j1; ++j)
-        for (int i = i0; i <= i1; ++i) {
-            Cell& child = children[static_cast<std::size_t>(4 * j + i)];
-            const Strand part = narrowed(points, strand, child.square);
-            if (part.first != part.last)
-                child.strands.push_back(part);
+    void push(const Strand& strand, std::array<int, 16>& windings) {
+        const LatticePoint from = points_[strand.first], to = points_[strand.last];
+        const auto [left, right] = std::minmax(from.x, to.x);
+        const auto [low, high] = std::minmax(from.y, to.y);
+        const int i0 = place(left - std::int64_t{square_.x0}), i1 = place(right - std::int64_t{square_.x0});
+        const int j0 = place(low - std::int64_t{square_.y0}), j1 = place(high - std::int64_t{square_.y0});
+        const bool within =
+            left > square_.x0 && right < square_.x1() && low > square_.y0 && high < square_.y1();
+        if (within && i0 == i1 && j0 == j1) {
+            children_[index(i0, j0)].strands.push_back(strand);
+            return;  // crosses no line between first corners
         }
-}
+        for (int j = j0; j <= j1; ++j)
+            for (int i = i0; i <= i1; ++i) {
+                Cell& child = children_[index(i, j)];
+                const Strand part = narrowed(points_, strand, child.square);
+                if (part.first != part.last)
+                    child.strands.push_back(part);
+            }
+        if (left < square_.x0 && right > square_.x0)
+            addAlongColumn(strand, windings);
+        for (int j = low < square_.y0 ? 0 : j0 + 1; j <= j1; ++j)
+            addAlongRow(strand, j, windings);
+    }
+
+private:
+    static std::size_t index(int i, int j) { return static_cast<std::size_t>(4 * j + i); }
+    int place(std::int64_t offset) const {
+        return static_cast<int>(std::clamp<std::int64_t>(offset >> shift_, 0, 3));
+    }
+
+    /// The children's windings are those at their first corners, reached along the first column up to row
+    /// j, then along row j.
+    void addAlongColumn(const Strand& strand, std::array<int, 16>& windings) const {
+        for (int j = 1; j < 4; ++j) {
+            const int up = windingAlongY(points_, strand, square_.x0, square_.y0, square_.y0 + j * step_);
+            for (int i = 0; i < 4; ++i)
+                windings[index(i, j)] += up;
+        }
+    }
+    void addAlongRow(const Strand& strand, int j, std::array<int, 16>& windings) const {
+        const Coord y = square_.y0 + j * step_;
+        const std::uint32_t c = chordAtY(points_, strand, y);
+        if (c == strand.last)
+            return;
+        const LatticePoint a = points_[c], b = points_[c + 1];
+        const int before = cornerOnLeft(a, b, {square_.x0, y});
+        for (int i = 1; i < 4; ++i)
+            windings[index(i, j)] += int{cornerOnLeft(a, b, {square_.x0 + i * step_, y})} - before;
+    }
+
+    const Points points_;
+    const Square square_;
+    const Coord step_;
+    const int shift_;
+    std::array<Cell, 16>& children_;
+};
 
 }  // namespace
 
@@ -87,6 +114,7 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
         child.strands.clear();
         child.windings.clear();
     }
+    Splitter splitter(points, cell.square, children);
     auto known = cell.windings.begin();
     const auto copyKnown = [&](std::uint32_t below) {
         for (; known != cell.windings.end() && known->layer < below; ++known)
@@ -101,10 +129,8 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
             base = (known++)->winding;
         std::array<int, 16> windings;
         windings.fill(base);
-        for (; s < cell.strands.size() && cell.strands[s].layer == layer; ++s) {
-            pushStrand(points, cell.strands[s], cell.square, children);
-            addWindings(points, cell.strands[s], cell.square, windings);
-        }
+        for (; s < cell.strands.size() && cell.strands[s].layer == layer; ++s)
+            splitter.push(cell.strands[s], windings);
         for (std::size_t i = 0; i < 16; ++i)
             if (windings[i] != 0)
                 children[i].windings.push_back({layer, windings[i]});

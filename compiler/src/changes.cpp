@@ -165,7 +165,7 @@ private:
         const ClipExpression& e = picture_.clips[index];
         std::uint64_t h = mixed(clip(e.outer), e.terms.size());
         for (const ClipExpression::Term& term : e.terms)
-            h = mixed(mixed(h, names_[term.layer]), clip(term.clip));
+            h = mixed(mixed(mixed(h, names_[term.layer]), term.inverted), clip(term.clip));
         return mixed(h, 1);
     }
 

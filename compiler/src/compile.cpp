@@ -102,7 +102,7 @@ public:
             return;
         }
         Command& pop = emit(Command::Kind::Pop);
-        pop.blend = static_cast<asset::Blend>(group.blend);
+        pop.blend = group.adds ? asset::Blend::PlusLighter : static_cast<asset::Blend>(group.blend);
         pop.opacity = group.opacity;
     }
 
@@ -176,6 +176,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     asset.data = std::move(picture.data);
     for (const auto& image : picture.images)
         asset.images.push_back(*image);
+    asset.materials = std::move(picture.materials);
     MapBuilder maps(picture, lattice, options, asset);
     float error = 0;
     if (options.mode == asset::Mode::Exact)

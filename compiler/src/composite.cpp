@@ -19,7 +19,6 @@ Color scaled(Color c, float by) {
 /// One isolated group while it is being composited: the steps that build it on transparent black.
 struct Frame {
     PaintProgram steps;
-    bool onlySources = true;  ///< no nested groups: the steps may be moved onto another frame
 
     bool constant() const { return Palette::isConstant(steps); }
     Color color() const { return Palette::colorOf(steps); }
@@ -43,21 +42,72 @@ struct Frame {
         steps.push_back(step);
     }
 
-    void clear() {
-        steps.clear();
-        onlySources = true;
+    void clear() { steps.clear(); }
+
+    /// Whether all layers are laid over what is there: then they may be moved onto another frame, since
+    /// `over` is associative. Blend modes and masks see what is in the frame.
+    bool onlyOver() const {
+        unsigned depth = 0;
+        return std::none_of(steps.begin(), steps.end(), [&](const PaintStep& step) {
+            depth = depthAfter(step, depth);
+            return depth == 0 && isPop(step) &&
+                   (step.instruction.op != Op::Pop || step.instruction.blend != asset::Blend::Normal);
+        });
     }
 
     void nested(const Frame& child, Op pop, asset::Blend blend, float opacity) {
         steps.push_back({Instruction{Op::Push}, {}});
         steps.insert(steps.end(), child.steps.begin(), child.steps.end());
         steps.push_back({Instruction{pop, blend, opacity, 0}, {}});
-        onlySources = false;
+    }
+
+    /// The child's layers, one by one; it has onlyOver.
+    void laid(const Frame& child) {
+        unsigned depth = 0;
+        for (const PaintStep& step : child.steps) {
+            if (depth == 0 && step.instruction.op >= Op::Solid)
+                source(step, false);
+            else
+                steps.push_back(step);
+            depth = depthAfter(step, depth);
+        }
+    }
+
+    /// While the frame is a single group, laid on nothing, that group gives way to its content. Returns its
+    /// opacity.
+    float unwrap() {
+        float opacity = 1;
+        while (isOneGroup()) {
+            opacity *= steps.back().instruction.opacity;
+            steps.pop_back();
+            steps.erase(steps.begin());
+        }
+        return opacity;
+    }
+
+private:
+    static bool isPop(const PaintStep& step) {
+        return step.instruction.op > Op::Push && step.instruction.op < Op::Solid;
+    }
+    static unsigned depthAfter(const PaintStep& step, unsigned depth) {
+        return step.instruction.op == Op::Push ? depth + 1 : isPop(step) ? depth - 1 : depth;
+    }
+
+    bool isOneGroup() const {
+        if (steps.size() < 2 || steps.front().instruction.op != Op::Push ||
+            steps.back().instruction.op != Op::Pop)
+            return false;
+        unsigned depth = 0;
+        return std::none_of(steps.begin(), steps.end() - 1, [&](const PaintStep& step) {
+            depth = depthAfter(step, depth);
+            return depth == 0;
+        });
     }
 };
 
 // The asset's modes are numbered like the scene's: they are cast, not looked up.
-static_assert(static_cast<int>(asset::Blend::Luminosity) == static_cast<int>(scene::BlendMode::Luminosity) &&
+static_assert(static_cast<int>(asset::Blend::PlusLighter) ==
+                  static_cast<int>(scene::BlendMode::PlusLighter) &&
               static_cast<int>(asset::Blend::HardLight) == static_cast<int>(scene::BlendMode::HardLight));
 
 /// Luminance of a premultiplied colour, W3C masking level 1 section 7.10.1.
@@ -95,20 +145,23 @@ private:
     static void blend(Frame& parent, Frame& child, const PictureGroup& group) {
         if (child.steps.empty())
             return;
-        if (parent.steps.empty() && group.opacity >= 1) {  // nothing below: blending changes nothing
+        const float opacity = group.opacity * child.unwrap();
+        if (parent.steps.empty() && opacity >= 1) {  // nothing below: blending changes nothing
             parent = std::move(child);
             return;
         }
         const bool normal = group.blend == scene::BlendMode::Normal || parent.steps.empty();
-        if (normal && child.constant())
-            parent.solid(scaled(child.color(), group.opacity));
-        else if (normal && group.opacity >= 1 && child.onlySources)
-            for (const PaintStep& step : child.steps)
-                parent.source(step, false);
-        else
+        if (normal && child.constant()) {
+            parent.solid(scaled(child.color(), opacity));
+        } else if (normal && child.steps.size() == 1) {
+            child.steps[0].instruction.opacity *= opacity;
+            parent.source(child.steps[0], false);
+        } else if (normal && opacity >= 1 && child.onlyOver()) {
+            parent.laid(child);
+        } else {
             parent.nested(child, Op::Pop,
-                          normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend),
-                          group.opacity);
+                          normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend), opacity);
+        }
     }
 
     static void mask(Frame& parent, const Frame& child, GroupRole role) {

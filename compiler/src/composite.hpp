@@ -27,7 +27,7 @@ bool insideClip(const Picture& picture, std::uint32_t clip, const Inside& inside
         return true;
     const ClipExpression& e = picture.clips[clip];
     const bool any = std::any_of(e.terms.begin(), e.terms.end(), [&](const ClipExpression::Term& term) {
-        return inside(term.layer) && insideClip(picture, term.clip, inside);
+        return bool(inside(term.layer)) != term.inverted && insideClip(picture, term.clip, inside);
     });
     return any && insideClip(picture, e.outer, inside);
 }

@@ -155,6 +155,7 @@ private:
             isJoined ? joinBlocks(*kept_.partition, kept_.paints.indices(), next) : last.maps[0].root;
         next.maps = {{0, 0, std::max(kept_.width, kept_.height), root}};
         next.commands = {asset::Command{}};
+        next.materials = picture_.materials;
         const bool newImages = update.anew || picture_.images != kept_.picture.images;
         if (newImages)
             for (const auto& image : picture_.images)

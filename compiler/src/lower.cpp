@@ -56,6 +56,8 @@ private:
         for (const scene::Node& node : g.children) {
             if (const auto* item = std::get_if<scene::Item>(&node.value))
                 this->item(*item, outer, into);
+            else if (const auto* chosen = std::get_if<scene::Select>(&node.value))
+                select(*chosen, outer, into);
             else
                 group(std::get<scene::Group>(node.value), outer, openGroup(into));
         }
@@ -70,6 +72,25 @@ private:
         children(g, outer, index);
         if (g.mask)
             mask(*g.mask, outer, index);
+    }
+
+    /// Two groups in one, clipped by the same layer and by its complement.
+    void select(const scene::Select& s, const Affine& outer, std::uint32_t into) {
+        const std::uint32_t both = openGroup(into);
+        const std::uint32_t mask = geometryLayer(s.mask, compose(outer, s.mask.transform));
+        side(s.inside, {mask, none, false}, outer, both);
+        side(s.outside, {mask, none, true}, outer, both);
+    }
+
+    void side(const std::shared_ptr<const scene::Group>& content, ClipExpression::Term term,
+              const Affine& outer, std::uint32_t into) {
+        if (!content)
+            return;
+        const std::uint32_t index = openGroup(into);
+        picture_.groups[index].adds = term.inverted;
+        picture_.groups[index].clip = push({{term}, none});
+        // The side's own opacity, clip and mask belong to its content: one group further in.
+        group(*content, outer, openGroup(index));
     }
 
     std::uint32_t openGroup(std::uint32_t parent) {
@@ -129,7 +150,7 @@ private:
         const std::uint32_t index = openGroup(into);
         const std::uint32_t shape = geometryLayer(item, transform);
         picture_.groups[index].opacity = item.opacity;
-        picture_.groups[index].clip = push({{{shape, none}}, none});
+        picture_.groups[index].clip = push({{{shape, none, false}}, none});
         const Affine toPicture = compose(transform, pattern.transform);
         const auto toPattern = scene::inverse(toPicture);
         const Box seen = bounds(picture_.layers[shape]).cut(frame_);
@@ -155,14 +176,16 @@ private:
               const Affine& toPicture, std::uint32_t into) {
         const std::uint32_t index = openGroup(into);
         const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
-        picture_.groups[index].clip = push({{{cut, none}}, none});
+        picture_.groups[index].clip = push({{{cut, none, false}}, none});
         group(*pattern.content, toPicture, openGroup(index));
     }
 
-    std::uint32_t geometryLayer(const scene::Item& item, const Affine& transform) {
-        if (const auto* rule = std::get_if<scene::FillRule>(&item.geometry))
-            return layer({item.path, transform}, *rule);
-        return layer({item.path, transform, &std::get<scene::StrokeStyle>(item.geometry)},
+    /// Of an item or a shape.
+    template <class Shaped>
+    std::uint32_t geometryLayer(const Shaped& shape, const Affine& transform) {
+        if (const auto* rule = std::get_if<scene::FillRule>(&shape.geometry))
+            return layer({shape.path, transform}, *rule);
+        return layer({shape.path, transform, &std::get<scene::StrokeStyle>(shape.geometry)},
                      scene::FillRule::NonZero);
     }
 
@@ -172,6 +195,7 @@ private:
         if (cache_ && !known)
             cache_->add(origin, runs);
         picture_.layers.push_back({rule, runs.first, runs.count});
+        checkLimits();
         picture_.itemOfLayer.push_back(none);
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
     }
@@ -185,7 +209,6 @@ private:
             if (stretch > 0 && std::isfinite(stretch))
                 outline(strokeOutline(*origin.path, *origin.stroke, tolerance_ / stretch), origin.transform);
         }
-        checkLimits();
         return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
     }
 

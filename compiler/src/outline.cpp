@@ -35,7 +35,7 @@ public:
             for (double t : boxCuts(current_, to))
                 if (t > 0 && t < 1)
                     emit(quantise(lerp(current_, to, t)));
-        emit(quantise(to));
+        emit(inside ? nearestEven(to) : quantise(to));
         current_ = to;
         inside_ = inside;
     }
@@ -71,21 +71,32 @@ private:
     }
 
     LatticePoint quantise(Point p) const {
-        const auto even = [](double v) { return static_cast<Coord>(2 * std::floor(v / 2 + 0.5)); };
-        return {even(std::clamp(p.x, min_.x, max_.x)), even(std::clamp(p.y, min_.y, max_.y))};
+        return nearestEven({std::clamp(p.x, min_.x, max_.x), std::clamp(p.y, min_.y, max_.y)});
+    }
+
+    /// Of a point in the box, which keeps it within Coord. Truncation and a correction: floor without a call.
+    static LatticePoint nearestEven(Point p) {
+        const auto even = [](double v) {
+            const double nearest = v / 2 + 0.5;
+            const auto whole = static_cast<Coord>(nearest);
+            return 2 * (whole - static_cast<Coord>(nearest < whole));
+        };
+        return {even(p.x), even(p.y)};
     }
 
     void emit(LatticePoint to) {
         const LatticePoint from = points_.back();
         if (to == from)
             return;
-        const int dx = (to.x > from.x) - (to.x < from.x), dy = (to.y > from.y) - (to.y < from.y);
-        if (dx * dirX_ < 0 || dy * dirY_ < 0)
+        // Seen without branches, whose outcome is random: the directions taken, one bit each.
+        const unsigned steps = unsigned(to.x < from.x) | unsigned(to.x > from.x) << 1 |
+                               unsigned(to.y < from.y) << 2 | unsigned(to.y > from.y) << 3;
+        unsigned taken = taken_ | steps;
+        if ((taken & (taken >> 1) & 0b0101u) != 0) {
             endRun();
-        if (dx != 0)
-            dirX_ = dx;
-        if (dy != 0)
-            dirY_ = dy;
+            taken = steps;
+        }
+        taken_ = taken;
         points_.push_back(to);
     }
 
@@ -94,7 +105,7 @@ private:
         if (last > runStart_)
             runs_.push_back({runStart_, last});
         runStart_ = last;
-        dirX_ = dirY_ = 0;
+        taken_ = 0;
     }
 
     std::vector<LatticePoint>& points_;
@@ -103,7 +114,7 @@ private:
     Point current_{};
     bool inside_ = false, started_ = false;
     std::uint32_t contourStart_ = 0, runStart_ = 0;
-    int dirX_ = 0, dirY_ = 0;  ///< of the run so far; 0: not known yet
+    unsigned taken_ = 0;  ///< directions of the run so far, one bit each: -x, +x, -y, +y
 };
 
 bool beyondOneSide(const Cubic& c, Point min, Point max) {
@@ -128,11 +139,11 @@ std::array<Cubic, 2> halve(const Cubic& c) {
 
 /// Chords needed so that none is further than `tolerance` from the curve: the chord of a step h
 /// deviates by at most h² max|P''| / 8, and |P''| <= 6 max|second difference of the controls|
-/// (Wang, Shen 1988). Domain: any cubic; the count may be infinite.
+/// (Wang, Shen 1988). Domain: any cubic. Not rounded up, and infinite for infinite curves.
 double chordsNeeded(const Cubic& c, double tolerance) {
     const Point d0 = c[0] - c[1] * 2.0 + c[2], d1 = c[1] - c[2] * 2.0 + c[3];
     const double second = std::sqrt(std::max(d0.x * d0.x + d0.y * d0.y, d1.x * d1.x + d1.y * d1.y));
-    return std::max(1.0, std::ceil(std::sqrt(0.75 * second / tolerance)));
+    return std::sqrt(0.75 * second / tolerance);
 }
 
 /// Cubics that would need more chords than this are halved first, so that parts outside the box can
@@ -142,14 +153,15 @@ constexpr double chordsAtOnce = 8;
 constexpr int maxHalvings = 400;
 
 void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) {
-    const double n = chordsNeeded(c, tolerance);
-    if (beyondOneSide(c, sink.min(), sink.max()) || n <= 1 || halvings >= maxHalvings) {
+    const double needed = chordsNeeded(c, tolerance);
+    if (beyondOneSide(c, sink.min(), sink.max()) || !(needed > 1) || halvings >= maxHalvings) {
         sink.line(c[3]);
         return;
     }
-    if (n <= chordsAtOnce) {
-        for (int i = 1; i < static_cast<int>(n); ++i)
-            sink.line(evaluate(c, i / n));
+    if (needed <= chordsAtOnce) {
+        const int whole = static_cast<int>(needed), n = whole + (needed > whole);
+        for (int i = 1; i < n; ++i)
+            sink.line(evaluate(c, i / double(n)));
         sink.line(c[3]);
         return;
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "compiler/compile.hpp"
+
 namespace vtm::compiler {
 namespace {
 
@@ -16,6 +18,8 @@ std::array<float, 6> floats(const Affine& m) {
     const auto f = [](double v) { return static_cast<float>(v); };
     return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
 }
+
+std::array<float, 4> premultiplied(const Color& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
 
 std::uint16_t unorm16(float v) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f));
@@ -50,6 +54,8 @@ std::optional<std::uint32_t> PaintTable::add(const scene::Paint& paint, const Af
         return radial(*g, compose(item, g->transform));
     if (const auto* image = std::get_if<scene::ImagePaint>(&paint))
         return bitmap(*image, compose(item, image->transform));
+    if (const auto* m = std::get_if<scene::Material>(&paint))
+        return material(*m, compose(item, m->transform));
     return std::nullopt;
 }
 
@@ -59,7 +65,7 @@ std::uint32_t PaintTable::push(Source source) {
 }
 
 std::optional<std::uint32_t> PaintTable::solid(const Color& c) {
-    return push({asset::Op::Solid, {c.r * c.a, c.g * c.a, c.b * c.a, c.a}, 0, c.a >= 1});
+    return push({asset::Op::Solid, premultiplied(c), 0, c.a >= 1});
 }
 
 std::uint32_t PaintTable::record(asset::Gradient gradient, const std::vector<GradientStop>& stops) {
@@ -110,6 +116,24 @@ std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, 
     append(picture_.data,
            asset::ImageFill{floats(*inverse), found->second, image.filter == scene::ImageFilter::Bilinear});
     return push({asset::Op::Image, {}, at, false});
+}
+
+static_assert(scene::maxMaterialName == asset::maxMaterialName &&
+              scene::maxMaterialText == asset::maxMaterialText);
+
+std::optional<std::uint32_t> PaintTable::material(const scene::Material& m, const Affine& toPicture) {
+    const auto inverse = scene::inverse(toPicture);
+    if (!inverse)
+        return std::nullopt;
+    const auto [found, isNew] =
+        materials_.try_emplace(m.name, static_cast<std::uint32_t>(picture_.materials.size()));
+    if (isNew && picture_.materials.size() >= asset::maxMaterials)
+        throw LimitError("the picture has more than " + std::to_string(asset::maxMaterials) + " materials");
+    if (isNew)
+        picture_.materials.push_back({m.name, m.glsl});
+    const auto at = static_cast<std::uint32_t>(picture_.data.size());
+    append(picture_.data, asset::MaterialFill{floats(*inverse), found->second, 0, premultiplied(m.fallback)});
+    return push({asset::Op::Material, {}, at, false});
 }
 
 }  // namespace vtm::compiler

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <map>
+#include <string>
 
 #include "compiler/src/picture.hpp"
 
 namespace vtm::compiler {
 
-/// Appends sources to a picture, each distinct bitmap once.
+/// Appends sources to a picture, each distinct bitmap and material once. More than asset::maxMaterials are a
+/// LimitError.
 class PaintTable {
 public:
     explicit PaintTable(Picture& picture) : picture_(picture) {}
@@ -25,10 +27,12 @@ private:
     std::optional<std::uint32_t> radial(const scene::RadialGradient& gradient,
                                         const scene::Affine& toPicture);
     std::optional<std::uint32_t> bitmap(const scene::ImagePaint& image, const scene::Affine& toPicture);
+    std::optional<std::uint32_t> material(const scene::Material& material, const scene::Affine& toPicture);
     std::uint32_t record(asset::Gradient gradient, const std::vector<scene::GradientStop>& stops);
 
     Picture& picture_;
     std::map<const image::Bitmap*, std::uint32_t> images_;
+    std::map<std::string, std::uint32_t> materials_;  ///< by name: a valid scene has one text for each
 };
 
 }  // namespace vtm::compiler

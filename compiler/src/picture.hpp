@@ -29,7 +29,7 @@ struct Layer {
 
 /// What an item is painted with.
 struct Source {
-    asset::Op op = asset::Op::Solid;  ///< Solid, Linear, Radial or Image
+    asset::Op op = asset::Op::Solid;  ///< Solid, Linear, Radial, Image or Material
     std::array<float, 4> color{};     ///< Solid: premultiplied
     std::uint32_t data = 0;           ///< otherwise: the record in Picture::data
     bool opaque = false;              ///< alpha 1 everywhere
@@ -47,6 +47,7 @@ struct ClipExpression {
     struct Term {
         std::uint32_t layer = 0;
         std::uint32_t clip = none;
+        bool inverted = false;  ///< outside the layer instead of inside
     };
     std::vector<Term> terms;
     std::uint32_t outer = none;
@@ -62,6 +63,9 @@ struct PictureGroup {
     std::uint32_t clip = none;
     std::uint32_t mask = none;  ///< the mask's group, a child of this one that comes after the items
     unsigned depth = 0;
+    /// The outside of a selection. Where regions are disjoint it is a group like any other; where coverage is
+    /// a factor (compat mode) it is added to the inside, so that their shares add up to one.
+    bool adds = false;
 };
 
 struct Picture {
@@ -72,8 +76,9 @@ struct Picture {
         groups;  ///< parents before children; 0 is the ground, the scene's root lies in it
     std::vector<ClipExpression> clips;
     std::vector<Source> sources;
-    std::vector<asset::Texel> data;  ///< gradients and image fills
+    std::vector<asset::Texel> data;  ///< gradients, image and material fills
     std::vector<std::shared_ptr<const image::Bitmap>> images;
+    std::vector<asset::Material> materials;
     std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
 };
 

@@ -2,16 +2,16 @@
 
 namespace vtm::compiler {
 
-void RegionPaints::enter(std::vector<scene::FillRule> rules, std::vector<int> corner) {
-    rules_ = std::move(rules);
-    corner_ = std::move(corner);
-    seen_.clear();
-    hasLast_ = false;
+void RegionPaints::enter(std::span<const scene::FillRule> rules, std::span<const int> corner) {
+    rules_.assign(rules.begin(), rules.end());
+    corner_.assign(corner.begin(), corner.end());
+    few_.clear();
+    many_.clear();
     toCorner();
 }
 
 void RegionPaints::toCorner() {
-    windings_ = corner_;
+    windings_.assign(corner_.begin(), corner_.end());
     sum_ = key_ = 0;
     for (std::uint32_t layer = 0; layer < windings_.size(); ++layer) {
         sum_ += static_cast<std::uint64_t>(std::int64_t{windings_[layer]}) * mixed(layer);
@@ -21,14 +21,18 @@ void RegionPaints::toCorner() {
 }
 
 PaintId RegionPaints::paint() {
-    if (hasLast_ && lastKey_ == key_)
-        return lastPaint_;
-    const auto [found, isNew] = seen_.try_emplace(key_, 0);
+    constexpr std::size_t few = 16;
+    for (std::size_t i = few_.size(); i-- > 0;)
+        if (few_[i].first == key_)
+            return few_[i].second;
+    if (few_.size() < few) {
+        few_.emplace_back(key_, compute());
+        return few_.back().second;
+    }
+    const auto [found, isNew] = many_.try_emplace(key_, 0);
     if (isNew)
         found->second = compute();
-    hasLast_ = true;
-    lastKey_ = key_;
-    return lastPaint_ = found->second;
+    return found->second;
 }
 
 }  // namespace vtm::compiler

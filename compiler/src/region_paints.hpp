@@ -25,7 +25,7 @@ public:
     virtual ~RegionPaints() = default;
 
     /// Enters a leaf: its layers' rules, and their windings at its first corner.
-    void enter(std::vector<scene::FillRule> rules, std::vector<int> corner);
+    void enter(std::span<const scene::FillRule> rules, std::span<const int> corner);
     /// Goes to the first corner.
     void toCorner();
     /// Crosses an edge of a layer.
@@ -52,10 +52,9 @@ private:
     std::vector<int> corner_, windings_;
     std::uint64_t sum_ = 0;  ///< Σ winding · mixed(layer)
     std::uint64_t key_ = 0;  ///< of the set of layers that are inside
-    std::unordered_map<std::uint64_t, PaintId> seen_;
-    std::uint64_t lastKey_ = 0;
-    PaintId lastPaint_ = 0;
-    bool hasLast_ = false;
+    /// Paints by key: a few in a list, more in a map.
+    std::vector<std::pair<std::uint64_t, PaintId>> few_;
+    std::unordered_map<std::uint64_t, PaintId> many_;
 };
 
 }  // namespace vtm::compiler

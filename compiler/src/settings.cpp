@@ -12,9 +12,10 @@ constexpr int stepBits = 6;
 /// Cells of the last level still have this many steps a side.
 constexpr int lastCellBits = 4;
 
-/// Of the whole tolerance: what chords may take from the curves, and pieces from the chords. The rest
-/// is left to quantisation.
-constexpr double chordShare = 1.0 / 4, fitShare = 1.0 / 2, quantisationShare = 1.0 / 8;
+/// Of the whole tolerance: what chords may take from the curves, pieces from the chords, and rounding
+/// from the pieces' ends. The eighth that is left is the lattice's: snapping moves a point by a step or
+/// two, which are a sixteenth of the smallest tolerance each.
+constexpr double chordShare = 3.0 / 16, fitShare = 1.0 / 2, quantisationShare = 3.0 / 16;
 
 }  // namespace
 

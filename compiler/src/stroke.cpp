@@ -49,6 +49,9 @@ constexpr double largestSize = 1e48;
 /// Tolerances are raised to this share of the coordinates: finer fits would chase rounding errors.
 constexpr double finestShare = 1e-11;
 
+/// Hairlines are as exact as this share of their width, so that they keep their coverage to a sixteenth.
+constexpr double hairlineShare = 1.0 / 32;
+
 Point endPoint(const Segment& s) { return s.curve.p3; }
 
 class Outliner {
@@ -291,7 +294,8 @@ scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& sty
     const double size = stroke::largestCoordinate(path) + style.width;
     if (!(size <= stroke::largestSize))
         throw LimitError("stroke: coordinates or width beyond 1e48");
-    tolerance = std::max(tolerance, stroke::finestShare * size);
+    tolerance =
+        std::max(std::min(tolerance, stroke::hairlineShare * style.width), stroke::finestShare * size);
     scene::Path outline;
     stroke::Outliner outliner(style, tolerance, outline);
     std::size_t dashes = 0;

@@ -41,18 +41,7 @@ double adaptiveLength(const Cubic& c, double t0, double t1, double whole, double
            adaptiveLength(c, mid, t1, right, tolerance / 2, depth - 1);
 }
 
-double bisect(std::span<const double> polynomial, double low, double high) {
-    const bool lowNegative = evaluate(polynomial, low) < 0;
-    for (int i = 0; i < 60 && low < high; ++i) {
-        const double mid = (low + high) / 2;
-        ((evaluate(polynomial, mid) < 0) == lowNegative ? low : high) = mid;
-    }
-    return (low + high) / 2;
-}
-
 }  // namespace
-
-Point unit(Point v) { return v / std::hypot(v.x, v.y); }
 
 Point rotate(Point v, double angle) { return v * std::cos(angle) + perp(v) * std::sin(angle); }
 
@@ -64,16 +53,6 @@ Cubic straightCubic(Point from, Point to) {
 
 Cubic elevate(Point from, Point control, Point to) {
     return {from, lerp(from, control, 2.0 / 3), lerp(to, control, 2.0 / 3), to};
-}
-
-Point pointAt(const Cubic& c, double t) {
-    const double s = 1 - t;
-    return c.p0 * (s * s * s) + c.p1 * (3 * s * s * t) + c.p2 * (3 * s * t * t) + c.p3 * (t * t * t);
-}
-
-Point derivativeAt(const Cubic& c, double t) {
-    const double s = 1 - t;
-    return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
 }
 
 Cubic part(const Cubic& c, double t0, double t1) {
@@ -108,54 +87,6 @@ Curvature curvature(const Cubic& c) {
     return {{2 * cross(a, b), cross(a, d), 2 * cross(b, d)},
             {glm::dot(a, a), glm::dot(a, b), (2 * glm::dot(b, b) + glm::dot(a, d)) / 3, glm::dot(b, d),
              glm::dot(d, d)}};
-}
-
-std::vector<double> powers(std::span<const double> bernsteinCoefficients) {
-    // Coefficient k: the k-th forward difference at 0, times n over k.
-    std::vector<double> result(bernsteinCoefficients.begin(), bernsteinCoefficients.end());
-    const std::size_t n = result.size() - 1;
-    for (std::size_t k = 1; k <= n; ++k)
-        for (std::size_t i = n; i >= k; --i)
-            result[i] -= result[i - 1];
-    double binomial = 1;
-    for (std::size_t k = 1; k <= n; ++k) {
-        binomial *= double(n - k + 1) / double(k);
-        result[k] *= binomial;
-    }
-    return result;
-}
-
-double evaluate(std::span<const double> polynomial, double t) {
-    double value = 0;
-    for (auto i = polynomial.size(); i-- > 0;)
-        value = value * t + polynomial[i];
-    return value;
-}
-
-std::vector<double> derivative(std::span<const double> polynomial) {
-    std::vector<double> result;
-    for (std::size_t i = 1; i < polynomial.size(); ++i)
-        result.push_back(double(i) * polynomial[i]);
-    return result;
-}
-
-std::vector<double> rootsInside(std::span<const double> polynomial) {
-    if (polynomial.size() < 2)
-        return {};
-    // Between neighbouring extremes the polynomial is monotone and has at most one root.
-    std::vector<double> stops = rootsInside(derivative(polynomial));
-    stops.insert(stops.begin(), 0.0);
-    stops.push_back(1.0);
-    std::vector<double> roots;
-    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-        const double low = evaluate(polynomial, stops[i]), high = evaluate(polynomial, stops[i + 1]);
-        if ((low < 0) == (high < 0))
-            continue;
-        const double root = bisect(polynomial, stops[i], stops[i + 1]);
-        if (root > 0 && root < 1)
-            roots.push_back(root);
-    }
-    return roots;
 }
 
 double arcLength(const Cubic& c, double t0, double t1) {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "scene/path.hpp"
@@ -17,7 +17,14 @@ inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 /// Turned by +90° (x towards y).
 inline Point perp(Point v) { return {-v.y, v.x}; }
 /// `v` must not be zero.
-Point unit(Point v);
+inline Point unit(Point v) {
+    const double square = v.x * v.x + v.y * v.y;
+    // Beyond these, squares lose digits or overflow.
+    constexpr double least = 1e-280, most = 1e280;
+    if (square > least && square < most)
+        return v * (1 / std::sqrt(square));
+    return v / std::hypot(v.x, v.y);
+}
 Point rotate(Point v, double angle);
 /// Signed angle from `a` to `b`, in (-π, π].
 double angleBetween(Point a, Point b);
@@ -28,8 +35,14 @@ struct Cubic {
 
 Cubic straightCubic(Point from, Point to);
 Cubic elevate(Point from, Point control, Point to);
-Point pointAt(const Cubic& c, double t);
-Point derivativeAt(const Cubic& c, double t);
+inline Point pointAt(const Cubic& c, double t) {
+    const double s = 1 - t;
+    return c.p0 * (s * s * s) + c.p1 * (3 * s * s * t) + c.p2 * (3 * s * t * t) + c.p3 * (t * t * t);
+}
+inline Point derivativeAt(const Cubic& c, double t) {
+    const double s = 1 - t;
+    return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
+}
 /// The piece over [t0, t1], parametrised over [0, 1] again.
 Cubic part(const Cubic& c, double t0, double t1);
 /// Largest distance of a control point from the start.
@@ -58,14 +71,6 @@ double bernstein(std::array<double, N> b, double t) {
             b[i] += (b[i + 1] - b[i]) * t;
     return b[0];
 }
-
-/// Coefficients of powers of t, constant term first.
-std::vector<double> powers(std::span<const double> bernsteinCoefficients);
-
-/// Real roots in the open interval (0, 1), rising; roots of even order may be left out.
-std::vector<double> rootsInside(std::span<const double> polynomial);
-double evaluate(std::span<const double> polynomial, double t);
-std::vector<double> derivative(std::span<const double> polynomial);
 
 /// Arc length over [t0, t1], relative error below 1e-9 of the control polygon's length.
 double arcLength(const Cubic& c, double t0, double t1);

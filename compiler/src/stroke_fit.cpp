@@ -18,7 +18,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Arms = glm::dvec2;
-using Parameters = std::array<double, std::tuple_size_v<Samples>>;
+
+/// One number for each inner sample.
+constexpr std::size_t inner = std::tuple_size_v<Samples> - 2;
+using Row = std::array<double, inner>;
 
 /// The derivative with respect to the sample's index where a curve starts, from five samples.
 Point startSlope(const Point& a, const Point& b, const Point& c, const Point& d, const Point& e) {
@@ -36,66 +39,96 @@ Cubic initialCubic(const Samples& s) {
     return {s[0].at, s[0].at + s[0].tangent * arm0, s[n].at - s[n].tangent * arm1, s[n].at};
 }
 
-Parameters evenParameters() {
-    Parameters u{};
-    for (std::size_t i = 0; i < u.size(); ++i)
-        u[i] = double(i) / double(u.size() - 1);
+Row evenParameters() {
+    Row u{};
+    for (std::size_t i = 0; i < inner; ++i)
+        u[i] = double(i + 1) / double(inner + 1);
     return u;
 }
 
-/// Newton step towards the point of the cubic on the sample's normal. One is enough: the parameters stay
-/// from one Gauss-Newton step to the next, and what is missing only makes the error look larger.
-double project(const Cubic& c, const Sample& s, double u) {
-    const double slope = glm::dot(derivativeAt(c, u), s.tangent);
-    return slope > 0 ? std::clamp(u - glm::dot(pointAt(c, u) - s.at, s.tangent) / slope, 0.0, 1.0) : u;
-}
+/// The inner samples by coordinates, seen from the first sample, for loops that do several at once.
+struct Rows {
+    Row x, y, tangentX, tangentY;
+    Row turn0, turn1;  ///< first and last tangent along the sample's normal
 
-/// Brings the parameters to the samples' normals. Largest distance of a sample from its point;
-/// infinite if the order is lost.
-double projectAll(const Samples& s, const Cubic& c, Parameters& u) {
-    double error = 0;
-    for (std::size_t i = 1; i + 1 < s.size(); ++i) {
-        u[i] = project(c, s[i], u[i]);
-        if (u[i] < u[i - 1])
-            return infinity;
-        error = std::max(error, glm::distance(pointAt(c, u[i]), s[i].at));
+    explicit Rows(const Samples& s) {
+        for (std::size_t i = 0; i < inner; ++i) {
+            const Sample& sample = s[i + 1];
+            x[i] = sample.at.x - s.front().at.x, y[i] = sample.at.y - s.front().at.y;
+            tangentX[i] = sample.tangent.x, tangentY[i] = sample.tangent.y;
+            turn0[i] = cross(sample.tangent, s.front().tangent);
+            turn1[i] = cross(sample.tangent, s.back().tangent);
+        }
     }
-    return error;
-}
+};
 
-/// Gauss-Newton step of the two arms; zero where the samples do not determine them (a straight line).
-Arms armStep(const Samples& s, const Cubic& c, const Parameters& u) {
-    const Point t0 = s.front().tangent, t1 = s.back().tangent;
-    double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
-    for (std::size_t i = 1; i + 1 < s.size(); ++i) {
-        const Point normal = perp(s[i].tangent);
-        const double v = 1 - u[i], residual = glm::dot(s[i].at - pointAt(c, u[i]), normal);
-        const double a = 3 * v * v * u[i] * glm::dot(t0, normal),
-                     b = -3 * v * u[i] * u[i] * glm::dot(t1, normal);
-        aa += a * a, ab += a * b, bb += b * b, ar += a * residual, br += b * residual;
+/// One coordinate of a cubic by powers of its parameter, seen from its start.
+struct Powers {
+    double c1, c2, c3;
+
+    Powers(double p0, double p1, double p2, double p3)
+        : c1(3 * (p1 - p0)), c2(3 * (p2 - p1) - c1), c3(p3 - p0 - 3 * (p2 - p1)) {}
+    double at(double u) const { return ((c3 * u + c2) * u + c1) * u; }
+    double slope(double u) const { return (3 * c3 * u + 2 * c2) * u + c1; }
+};
+
+/// The error of a cubic, and the Gauss-Newton step of its arms that would lessen it.
+struct Residuals {
+    double error;  ///< largest distance of a sample from its point; infinite if the order is lost
+    Arms step;     ///< zero where the samples do not determine the arms (a straight line)
+};
+
+/// Brings the parameters to the samples' normals by one step of Newton's. One is enough: the parameters
+/// stay from one Gauss-Newton step to the next, and what is missing only makes the error look larger.
+Residuals project(const Rows& s, const Cubic& cubic, Row& u) {
+    const Powers x(cubic.p0.x, cubic.p1.x, cubic.p2.x, cubic.p3.x),
+        y(cubic.p0.y, cubic.p1.y, cubic.p2.y, cubic.p3.y);
+    Row squares, residuals;
+    for (std::size_t i = 0; i < inner; ++i) {
+        const double tx = s.tangentX[i], ty = s.tangentY[i];
+        const double slope = x.slope(u[i]) * tx + y.slope(u[i]) * ty;
+        const double ahead = (x.at(u[i]) - s.x[i]) * tx + (y.at(u[i]) - s.y[i]) * ty;
+        const double next = u[i] - ahead / slope;
+        u[i] = std::clamp(slope > 0 ? next : u[i], 0.0, 1.0);
+        const double offX = s.x[i] - x.at(u[i]), offY = s.y[i] - y.at(u[i]);
+        squares[i] = offX * offX + offY * offY;
+        residuals[i] = tx * offY - ty * offX;
+    }
+    double square = 0, aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
+    for (std::size_t i = 0; i < inner; ++i) {
+        if (i > 0 && u[i] < u[i - 1])
+            return {infinity, {0, 0}};
+        const double v = 1 - u[i];
+        const double a = 3 * v * v * u[i] * s.turn0[i], b = -3 * v * u[i] * u[i] * s.turn1[i];
+        square = std::max(square, squares[i]);
+        aa += a * a, ab += a * b, bb += b * b, ar += a * residuals[i], br += b * residuals[i];
     }
     const double determinant = aa * bb - ab * ab;
     constexpr double singular = 1e-12;  // relative: beyond, the step would be rounding noise
     if (!(determinant > singular * (aa + bb) * (aa + bb)))
-        return {0, 0};
-    return {(ar * bb - br * ab) / determinant, (br * aa - ar * ab) / determinant};
+        return {std::sqrt(square), {0, 0}};
+    return {std::sqrt(square), {(ar * bb - br * ab) / determinant, (br * aa - ar * ab) / determinant}};
 }
 
 }  // namespace
 
 Fit fitCubic(const Samples& s, double tolerance) {
     Cubic cubic = initialCubic(s);
-    Parameters u = evenParameters();
+    const Rows rows(s);
+    Row u = evenParameters();
     Fit best{cubic, infinity};
     Arms arms{glm::distance(cubic.p0, cubic.p1), glm::distance(cubic.p3, cubic.p2)}, bestArms = arms;
     const double longest = 4 * glm::distance(cubic.p0, cubic.p3);
-    constexpr int maxSteps = 7;  // three to four converge; the rest is for steps taken back
+    constexpr int maxSteps = 7;     // three to four converge; the rest is for steps taken back
+    constexpr double stays = 0.97;  // a step that lessens the error by no more is the last
     for (int step = 0; step < maxSteps && best.error > tolerance; ++step) {
-        const double error = projectAll(s, cubic, u);
-        if (error < best.error) {
-            best = {cubic, error};
+        const Residuals now = project(rows, cubic, u);
+        if (now.error < best.error) {
+            if (now.error > stays * best.error)
+                return {cubic, now.error};
+            best = {cubic, now.error};
             bestArms = arms;
-            arms = glm::clamp(arms + armStep(s, cubic, u), Arms{0, 0}, Arms{longest, longest});
+            arms = glm::clamp(arms + now.step, Arms{0, 0}, Arms{longest, longest});
         } else {
             arms = (arms + 3.0 * bestArms) / 4.0;
             u = evenParameters();
@@ -106,15 +139,15 @@ Fit fitCubic(const Samples& s, double tolerance) {
     return best;
 }
 
-double chordError(const Samples& samples) {
+bool isChord(const Samples& samples, double tolerance) {
     const Point from = samples.front().at, chord = samples.back().at - from;
     const double square = glm::dot(chord, chord);
-    double error = 0;
-    for (const Sample& s : samples) {
+    const auto isNear = [&](const Sample& s) {
         const double along = square > 0 ? std::clamp(glm::dot(s.at - from, chord) / square, 0.0, 1.0) : 0;
-        error = std::max(error, glm::distance(s.at, from + chord * along));
-    }
-    return error;
+        const Point off = s.at - from - chord * along;
+        return glm::dot(off, off) <= tolerance * tolerance;
+    };
+    return isNear(samples[samples.size() / 2]) && std::all_of(samples.begin(), samples.end(), isNear);
 }
 
 }  // namespace vtm::compiler::stroke

@@ -25,7 +25,7 @@ struct Fit {
 /// Keeps the end points and end tangents exactly; stops at the tolerance.
 Fit fitCubic(const Samples& samples, double tolerance);
 
-/// Largest distance of a sample from the chord.
-double chordError(const Samples& samples);
+/// Whether all samples lie within the tolerance of the chord.
+bool isChord(const Samples& samples, double tolerance);
 
 }  // namespace vtm::compiler::stroke

@@ -4,8 +4,11 @@
 // from s = 1/κ on, and its loops would count negatively. There the inner side follows the evolute
 // s = 1/κ instead of the offset: the Jacobian stays non-negative, and the ribbon's winding stays the
 // number of covers. What lies beyond the evolute is covered with a Jacobian that is negative throughout,
-// so it makes a contour of its own, wound the other way round. (Every point there lies nearer than r to
-// some other point of the curve or to one of its ends, so round caps and joins cover it already.)
+// so it makes a contour of its own, wound the other way round. Such a contour is rarely needed. At a point
+// P beyond the evolute of γ(t) the distance to the curve has a maximum at t; towards either end it falls
+// to a minimum, the foot of another normal that covers P already, or to the end itself, which covers P if
+// its cap or join is round. An end farther than 2r from γ(t) is farther from P than γ(t) is: the minimum
+// comes before.
 //
 // The evolute is a chain of parabolas: between two normals that differ by at most 45°, both end tangents
 // of the evolute are the normals themselves, and they meet between curve and offset, in the control point.
@@ -13,12 +16,14 @@
 #include "compiler/src/stroke_offset.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "compiler/src/stroke_bend.hpp"
 #include "compiler/src/stroke_fit.hpp"
 
 namespace vtm::compiler::stroke {
@@ -39,117 +44,14 @@ Side reversed(const Side& side) {
 
 namespace {
 
-/// A fit halves at least once a level, so 2^-20 of a segment is reached at most; what is left there
-/// is a straight edge.
+/// A fit is cut at least in two at each level. What is left at the last one, far below the tolerance, is a
+/// straight edge.
 constexpr int maxFitDepth = 20;
-
-/// Halvings in search of the places where a curve becomes tight: 2^-24 of a segment.
-constexpr int maxSearchDepth = 24;
 
 /// A curve that is tighter than the radius by less than this share of the tolerance counts as gentle:
 /// offset and evolute are no further apart than that, and circles stroked up to their centre are not
 /// chopped up by the ripple of their cubics.
 constexpr double tightShare = 0.25;
-
-/// What a stretch of the curve is to a stroke: gentle, or bent more than the radius to one side.
-enum class Bend { Gentle, Left, Right };
-
-struct Span {
-    double t0, t1;
-    Bend bend;
-};
-
-/// The two halves of a Bernstein polynomial's interval.
-template <std::size_t N>
-std::pair<std::array<double, N>, std::array<double, N>> halves(std::array<double, N> b) {
-    std::array<double, N> left{};
-    for (std::size_t n = N; n > 0; --n) {
-        left[N - n] = b[0];
-        for (std::size_t i = 0; i + 1 < n; ++i)
-            b[i] = (b[i] + b[i + 1]) / 2;
-    }
-    return {left, b};
-}
-
-/// Finds the tight stretches of a curve by halving until the bounds of κ decide. |κ|r > 1 is tested
-/// as |c|r > q^(3/2), with c = γ' × γ'' and q = |γ'|².
-class TightSearch {
-public:
-    /// Up to `slack` times the limit of the curvature counts as gentle.
-    TightSearch(double radius, double slack) : radius_(radius), slack_(slack) {}
-
-    std::vector<Span> run(const Cubic& c) {
-        visit(curvature(c), 0, 1, 0);
-        return std::move(spans_);
-    }
-
-private:
-    static double cube(double q) { return q > 0 ? q * std::sqrt(q) : 0; }
-
-    bool gentle(const Curvature& k) const {
-        const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
-        const double least = *std::min_element(k.speedSquared.begin(), k.speedSquared.end());
-        return std::max(-low, high) * radius_ <= cube(least) * slack_;
-    }
-    bool tight(const Curvature& k) const {
-        const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
-        const double most = *std::max_element(k.speedSquared.begin(), k.speedSquared.end());
-        return std::max(low, -high) * radius_ >= cube(most);
-    }
-
-    void visit(const Curvature& k, double t0, double t1, int depth) {
-        if (gentle(k))
-            return add({t0, t1, Bend::Gentle});
-        if (depth == maxSearchDepth || tight(k))
-            return add({t0, t1, k.cross[1] > 0 ? Bend::Left : Bend::Right});
-        const auto [crossLeft, crossRight] = halves(k.cross);
-        const auto [speedLeft, speedRight] = halves(k.speedSquared);
-        const double middle = (t0 + t1) / 2;
-        visit({crossLeft, speedLeft}, t0, middle, depth + 1);
-        visit({crossRight, speedRight}, middle, t1, depth + 1);
-    }
-
-    void add(Span next) {
-        if (!spans_.empty() && spans_.back().bend == next.bend)
-            spans_.back().t1 = next.t1;
-        else
-            spans_.push_back(next);
-    }
-
-    double radius_, slack_;
-    std::vector<Span> spans_;
-};
-
-std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
-    std::vector<double> result(a.size() + b.size() - 1);
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t j = 0; j < b.size(); ++j)
-            result[i + j] += a[i] * b[j];
-    return result;
-}
-
-/// κ = c / q^(3/2), so κ' vanishes with 2c'q - 3cq'.
-std::vector<double> curvatureExtremes(const Cubic& curve) {
-    const Curvature k = curvature(curve);
-    const std::vector<double> c = powers(k.cross), q = powers(k.speedSquared);
-    std::vector<double> slope = product(derivative(c), q);
-    const std::vector<double> other = product(c, derivative(q));
-    for (std::size_t i = 0; i < slope.size(); ++i)
-        slope[i] = 2 * slope[i] - 3 * other[i];
-    return rootsInside(slope);
-}
-
-/// Where the tangent points along a multiple of 45°: tight stretches between such places turn by no
-/// more.
-std::vector<double> octantStops(const Cubic& c) {
-    std::vector<double> stops;
-    for (const Point d : {Point{1, 0}, Point{1, 1}, Point{0, 1}, Point{-1, 1}}) {
-        const double a = cross(c.p1 - c.p0, d), b = cross(c.p2 - c.p1, d), e = cross(c.p3 - c.p2, d);
-        const std::vector<double> roots = rootsInside(std::vector{a, 2 * (b - a), a - 2 * b + e});
-        stops.insert(stops.end(), roots.begin(), roots.end());
-    }
-    return stops;
-}
 
 /// A stretch of a curve by a parameter u in [0, 1]: even in t where the curve is gentle, even in the
 /// tangent's angle where it is tight (the offsets' arc length follows the angle there).
@@ -167,6 +69,11 @@ public:
         if (span_.bend == Bend::Gentle)
             return span_.t0 + (span_.t1 - span_.t0) * u;
         return whereTangent(rotate(start_, turn_ * u));
+    }
+    double lengthBound() const {
+        const Cubic piece = part(c_, span_.t0, span_.t1);
+        return glm::distance(piece.p0, piece.p1) + glm::distance(piece.p1, piece.p2) +
+               glm::distance(piece.p2, piece.p3);
     }
     Point point(double u) const { return pointAt(c_, parameter(u)); }
     Point tangent(double u) const { return tangentAt(c_, parameter(u)); }
@@ -215,64 +122,74 @@ struct OffsetCurve {
     }
 };
 
-bool isGentle(const std::vector<Span>& spans) {
-    return spans.size() == 1 && spans.front().bend == Bend::Gentle;
-}
-
 /// Where the curve is hardly tighter than the radius and all of its inner offset stays within the tolerance
 /// of a chord, what winds backward there is hidden, too: circles stroked up to their centre.
 bool hidesBackwardOffsets(const Cubic& c, const OffsetOptions& o, const std::vector<Span>& spans) {
     constexpr double hardly = 1.05;  // the offset is a twentieth as long as the curve: samples see all of it
-    if (!isGentle(TightSearch(o.radius, hardly).run(c)))
-        return false;
     const Stretch whole(c, {0, 1, Bend::Gentle});
-    return std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
-        const OffsetCurve inner{whole, span.bend == Bend::Left ? o.radius : -o.radius, false};
-        return span.bend == Bend::Gentle || chordError(inner.samples(0, 1)) <= o.tolerance;
-    });
+    return std::all_of(spans.begin(), spans.end(),
+                       [&](const Span& span) {
+                           const double inner = span.bend == Bend::Left ? o.radius : -o.radius;
+                           return span.bend == Bend::Gentle ||
+                                  isChord(OffsetCurve{whole, inner, false}.samples(0, 1), o.tolerance);
+                       }) &&
+           isGentle(bends(c, {o.radius, hardly, 0}));
 }
 
 /// The curve in stretches that are gentle, or tight with monotone curvature and at most 45° of turn.
-std::vector<Span> classify(const Cubic& c, const OffsetOptions& options) {
-    const double slack = 1 + tightShare * options.tolerance / options.radius;
-    const std::vector<Span> spans = TightSearch(options.radius, slack).run(c);
-    if (isGentle(spans) || hidesBackwardOffsets(c, options, spans))
+std::vector<Span> classify(const Cubic& c, const OffsetOptions& o) {
+    const double slack = 1 + tightShare * o.tolerance / o.radius;
+    const double smallTurn = gapShare * o.tolerance / o.radius;
+    const std::vector<Span> spans = bends(c, {o.radius, slack, smallTurn});
+    if (isGentle(spans) || hidesBackwardOffsets(c, o, spans))
         return {{0, 1, Bend::Gentle}};
-    std::vector<double> stops = curvatureExtremes(c);
-    const std::vector<double> octants = octantStops(c);
-    stops.insert(stops.end(), octants.begin(), octants.end());
-    std::sort(stops.begin(), stops.end());
-    std::vector<Span> result;
-    for (Span span : spans) {
-        if (span.bend != Bend::Gentle)
-            for (const double t : stops)
-                if (t > span.t0 && t < span.t1) {
-                    result.push_back({span.t0, t, span.bend});
-                    span.t0 = t;
-                }
-        result.push_back(span);
-    }
-    return result;
+    return cutTight(c, spans, smallTurn);
 }
+
+constexpr int maxPieces = 8;
 
 /// How many pieces bring the error of a fit below the tolerance, by its sixth order.
 int pieceCount(double error, double tolerance) {
-    constexpr double most = 8;
     if (!std::isfinite(error))
         return 2;
-    return int(std::clamp(std::ceil(std::pow(error / tolerance, 1.0 / 6)), 2.0, most));
+    return int(std::clamp(std::ceil(std::pow(error / tolerance, 1.0 / 6)), 2.0, double(maxPieces)));
+}
+
+/// Ends of the pieces as shares of the stretch, the first 0. Pieces take equal sums of the square roots of
+/// the turns between samples: shorter ones where the curve bends, longer ones where it hardly does. A tenth
+/// goes by the parameter alone, so that no piece is without end.
+std::array<double, maxPieces + 1> cuts(const Samples& s, int count) {
+    constexpr double evenShare = 0.1;
+    constexpr std::size_t steps = std::tuple_size_v<Samples> - 1;
+    std::array<double, steps + 1> sums{};
+    for (std::size_t i = 0; i < steps; ++i)
+        sums[i + 1] = sums[i] + std::sqrt(std::abs(cross(s[i].tangent, s[i + 1].tangent)));
+    const double even = sums[steps] > 0 ? sums[steps] * evenShare / steps : 1;
+    for (std::size_t i = 0; i <= steps; ++i)
+        sums[i] += even * double(i);
+    std::array<double, maxPieces + 1> result{};
+    std::size_t at = 0;
+    for (int k = 1; k < count; ++k) {
+        const double goal = sums[steps] * k / count;
+        while (sums[at + 1] < goal)
+            ++at;
+        result[std::size_t(k)] = (double(at) + (goal - sums[at]) / (sums[at + 1] - sums[at])) / steps;
+    }
+    result[std::size_t(count)] = 1;
+    return result;
 }
 
 void appendFit(const OffsetCurve& curve, double u0, double u1, double tolerance, int depth, Side& side) {
     const Samples samples = curve.samples(u0, u1);
-    if (depth == 0 || chordError(samples) <= tolerance)
+    if (depth == 0 || isChord(samples, tolerance))
         return side.lineTo(samples.back().at, gapShare * tolerance);
     const Fit fit = fitCubic(samples, tolerance);
     if (fit.error <= tolerance)
         return side.cubicTo(fit.cubic.p1, fit.cubic.p2, fit.cubic.p3);
     const int count = pieceCount(fit.error, tolerance);
-    for (int i = 0; i < count; ++i)
-        appendFit(curve, u0 + (u1 - u0) * i / count, u0 + (u1 - u0) * (i + 1) / count, tolerance, depth - 1,
+    const auto shares = cuts(samples, count);
+    for (std::size_t i = 0; i < std::size_t(count); ++i)
+        appendFit(curve, u0 + (u1 - u0) * shares[i], u0 + (u1 - u0) * shares[i + 1], tolerance, depth - 1,
                   side);
 }
 
@@ -394,8 +311,15 @@ private:
         const Evolute evolute(curve_, stretch, inner, o_.tolerance);
         innerSide.lineTo(evolute.at(0), gapShare * o_.tolerance);
         evolute.append(0, 1, maxFitDepth, innerSide);
-        if (o_.beyond)
+        if (o_.beyond && !hidesBeyond(stretch))
             sweepBeyond(stretch, evolute, bend, inner);
+    }
+
+    /// An end lies farther than 2r from all of the stretch, which is no longer than its controls' polygon.
+    bool hidesBeyond(const Stretch& stretch) const {
+        const Point at = stretch.point(0);
+        const double away = std::max(glm::distance(at, curve_.p0), glm::distance(at, curve_.p3));
+        return away > 2 * o_.radius + stretch.lengthBound();
     }
 
     void sweepBeyond(const Stretch& stretch, const Evolute& evolute, Bend bend, double inner) {

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "compiler/src/stroke_roots.hpp"
+
 namespace vtm::compiler::stroke {
 
 namespace {
@@ -30,11 +32,22 @@ bool isStraight(const Cubic& c) {
            std::abs(cross(chord, c.p2 - c.p0)) <= straightness * size * length;
 }
 
-std::vector<double> cusps(const Cubic& c) {
-    const std::vector<double> squared = powers(curvature(c).speedSquared);
+/// Whether the directions of the controls keep within half a turn, so that the speed cannot vanish inside.
+bool runsForward(const Cubic& c) {
+    const Point chord = c.p3 - c.p0;
+    const double a = glm::dot(c.p1 - c.p0, chord), b = glm::dot(c.p2 - c.p1, chord),
+                 d = glm::dot(c.p3 - c.p2, chord);
+    return a >= 0 && b > 0 && d >= 0;
+}
+
+Roots<3> cusps(const Cubic& c) {
+    if (runsForward(c))
+        return {};
     const double least = cuspSpeed * extent(c);
-    std::vector<double> result = rootsInside(derivative(squared));
-    std::erase_if(result, [&](double t) { return glm::length(derivativeAt(c, t)) > least; });
+    Roots<3> result;
+    for (const double t : rootsInside(derivative(powers(curvature(c).speedSquared))))
+        if (glm::length(derivativeAt(c, t)) <= least)
+            result.add(t);
     return result;
 }
 

@@ -151,6 +151,89 @@ TEST_P(BothModes, blendModesSeeWhatLiesBelow) {
     expectNear(pixel(picture(root), 20, 20, GetParam()), {0.5f, 0.5f, 0.25f, 1});
 }
 
+scene::Material rampMaterial(float alpha, const scene::Affine& transform = scene::identity) {
+    return {"ramp", "vec4 ramp(vec2 p) { return vec4(p / 64.0, 0.0, 1.0); }", {0, 0, 1, alpha}, transform};
+}
+
+TEST_P(BothModes, materialsComeThroughOnceAName) {
+    auto second = rect({32, 0}, {64, 64}, rampMaterial(1, scene::translation(32, 0)));
+    second.transform = scene::scaling(1, 2);
+    const auto s = picture(group({rect({0, 0}, {32, 64}, rampMaterial(0.5f)), second}));
+    Options options;
+    options.mode = GetParam();
+    const asset::Asset asset = compile(s, options).asset;
+    asset::validate(asset);
+    ASSERT_EQ(asset.materials.size(), 1u);
+    EXPECT_EQ(asset.materials[0].name, "ramp");
+    EXPECT_EQ(asset.materials[0].glsl, rampMaterial(1).glsl);
+    const auto color = [](std::uint32_t, glm::vec2 p) { return glm::vec4(p.x / 64, p.y / 64, 0, 1); };
+    const image::Raster drawn = asset::evaluate(asset, {64, 64}, color),
+                        plain = asset::evaluate(asset, {64, 64});
+    const auto at = [](const image::Raster& raster, int x, int y) {
+        return std::array<float, 4>{raster.pixel(x, y)[0], raster.pixel(x, y)[1], raster.pixel(x, y)[2],
+                                    raster.pixel(x, y)[3]};
+    };
+    expectNear(at(drawn, 10, 20), {10.5f / 64, 20.5f / 64, 0, 1});
+    expectNear(at(drawn, 40, 20), {8.5f / 64, 10.25f / 64, 0, 1});
+    expectNear(at(plain, 10, 20), {0, 0, 0.5f, 0.5f});
+    expectNear(at(plain, 40, 20), {0, 0, 1, 1});
+}
+
+TEST(Compile, tooManyMaterialsAreALimitError) {
+    Group root;
+    for (std::size_t i = 0; i <= asset::maxMaterials; ++i)
+        root.children.push_back({rect({0, 0}, {9, 9}, scene::Material{"m" + std::to_string(i), "", {}})});
+    EXPECT_THROW(compile(picture(root)), LimitError);
+}
+
+scene::Select select(Path mask, std::vector<Item> inside, std::vector<Item> outside) {
+    return {{std::make_shared<Path>(std::move(mask)), scene::identity, scene::FillRule::NonZero},
+            std::make_shared<Group>(group(std::move(inside))),
+            std::make_shared<Group>(group(std::move(outside)))};
+}
+
+TEST_P(BothModes, aSelectionShowsOneOfItsSidesAtEveryPoint) {
+    Group root = group({rect({0, 0}, {64, 64}, green)});
+    root.children.push_back(
+        {select(scene::rectangle({10, 10}, {30.25, 30}), {rect({0, 0}, {64, 64}, Color{1, 0, 0, 0.5f})},
+                {rect({0, 0}, {64, 64}, blue)})});
+    const auto s = picture(root);
+    expectNear(pixel(s, 20, 20, GetParam()), {0.5f, 0.5f, 0, 1});
+    expectNear(pixel(s, 50, 50, GetParam()), {0, 0, 1, 1});
+    expectNear(pixel(s, 30, 20, GetParam()), {0.125f, 0.125f, 0.75f, 1});
+}
+
+TEST_P(BothModes, theSharesOfASelectionAddUpToOne) {
+    Group root;
+    root.children.push_back({select(scene::rectangle({10, 10}, {30.25, 30.5}), {rect({0, 0}, {64, 64}, red)},
+                                    {rect({0, 0}, {64, 64}, blue)})});
+    expectNear(pixel(picture(root), 30, 20, GetParam()), {0.25f, 0, 0.75f, 1});
+    expectNear(pixel(picture(root), 30, 30, GetParam()), {0.125f, 0, 0.875f, 1});
+}
+
+TEST_P(BothModes, selectionsNest) {
+    const Path left = scene::rectangle({0, 0}, {32, 64}), top = scene::rectangle({0, 0}, {64, 32});
+    Group inside, outside, root;
+    inside.children.push_back({select(top, {rect({0, 0}, {64, 64}, red)}, {rect({0, 0}, {64, 64}, green)})});
+    outside.children.push_back({select(top, {}, {rect({0, 0}, {64, 64}, blue)})});
+    scene::Select both = select(left, {}, {});
+    both.inside = std::make_shared<Group>(inside);
+    both.outside = std::make_shared<Group>(outside);
+    root.children.push_back({both});
+    const auto s = picture(root);
+    expectNear(pixel(s, 10, 10, GetParam()), {1, 0, 0, 1});
+    expectNear(pixel(s, 10, 50, GetParam()), {0, 1, 0, 1});
+    expectNear(pixel(s, 50, 10, GetParam()), {0, 0, 0, 0});
+    expectNear(pixel(s, 50, 50, GetParam()), {0, 0, 1, 1});
+}
+
+TEST(Compile, anOpaqueSideHidesWhatLiesBelow) {
+    Group root = group({rect({3, 5}, {40, 41}, red)});
+    root.children.push_back({select(scene::rectangle({16, 16}, {48, 32}), {rect({0, 0}, {64, 64}, green)},
+                                    {rect({0, 0}, {64, 64}, blue)})});
+    EXPECT_EQ(asset::summarize(compile(picture(root)).asset).pieces, 0u);
+}
+
 TEST_P(BothModes, gradientsAreEvaluatedWherePixelsAre) {
     scene::LinearGradient g{{0, 0}, {64, 0}, {{0, black}, {1, white}}};
     const auto s = picture(group({rect({0, 0}, {64, 64}, g)}));

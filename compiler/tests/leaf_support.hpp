@@ -84,8 +84,8 @@ inline TestLeaf leafOf(const Square& square, const std::vector<Polygon>& polygon
 /// Each combination of inside and outside is a paint of its own.
 class BitPaints : public RegionPaints {
 public:
-    explicit BitPaints(std::vector<int> corner) : layers_(static_cast<std::uint32_t>(corner.size())) {
-        enter(std::vector<scene::FillRule>(layers_), std::move(corner));
+    explicit BitPaints(std::span<const int> corner) : layers_(static_cast<std::uint32_t>(corner.size())) {
+        enter(std::vector<scene::FillRule>(layers_), corner);
     }
 
 private:

@@ -72,7 +72,9 @@ private:
                 return scene::LinearGradient{place(), place(), stops()};
             case 1:
                 return scene::RadialGradient{{30, 30}, uniform(5, 40), {31, 32}, 0, stops()};
-            case 2: {
+            case 2:
+                return scene::Material{"stone", "vec4 stone(vec2 p) { return vec4(1.0); }", color()};
+            case 3: {
                 Group tile;
                 tile.children.push_back({fill(scene::rectangle({0, 0}, {uniform(2, 9), 7}), color())});
                 return scene::Pattern{{0, 0}, {11, 13}, std::make_shared<Group>(std::move(tile))};
@@ -134,12 +136,24 @@ private:
         return clip;
     }
 
-    std::shared_ptr<const scene::Mask> mask() {
+    std::shared_ptr<const Group> content() {
         auto content = std::make_shared<Group>();
         for (std::size_t i = below(4); i-- > 0;)
-            content->children.push_back({item()});
+            content->children.emplace_back().value = item();
+        return content;
+    }
+
+    scene::Select select() {
+        scene::Select select;
+        select.mask.path = std::make_shared<scene::Path>(path());
+        select.inside = chance(4) ? nullptr : content();
+        select.outside = chance(4) ? nullptr : content();
+        return select;
+    }
+
+    std::shared_ptr<const scene::Mask> mask() {
         auto mask = std::make_shared<scene::Mask>();
-        mask->content = content;
+        mask->content = content();
         mask->kind = chance(2) ? scene::MaskKind::Alpha : scene::MaskKind::Luminance;
         return mask;
     }
@@ -151,8 +165,8 @@ private:
         for (scene::Node& node : group.children) {
             if (auto* inner = std::get_if<Group>(&node.value))
                 collect(*inner, groups, items);
-            else
-                items.push_back(&std::get<Item>(node.value));
+            else if (auto* item = std::get_if<Item>(&node.value))
+                items.push_back(item);
         }
     }
 
@@ -169,7 +183,7 @@ private:
         std::vector<Item*> items;
         collect(scene_.root, groups, items);
         if (items.empty()) {
-            scene_.root.children.push_back({item()});
+            scene_.root.children.emplace_back().value = item();
             return std::get<Item>(scene_.root.children.back().value);
         }
         return *items[below(items.size())];
@@ -193,7 +207,8 @@ private:
     void insert() {
         Group& group = anyGroup();
         const auto at = static_cast<std::ptrdiff_t>(below(group.children.size() + 1));
-        group.children.insert(group.children.begin() + at, scene::Node{item()});
+        group.children.insert(group.children.begin() + at,
+                              chance(8) ? scene::Node{select()} : scene::Node{item()});
     }
     void remove() {
         Group& group = anyGroup();

@@ -61,12 +61,18 @@ class Seams : public testing::Test {
 protected:
     /// The worst over views that turn the picture on the raster, and the shapes in the picture.
     double worstLeak(const std::vector<Path>& shapes, const Path& inside, asset::Mode mode) {
+        return worstLeak(inside, mode, [&](const scene::Affine& m) { return onWhite(shapes, m); });
+    }
+
+    /// `make` places the shapes, which cover `inside` together, by an affine map.
+    template <class Make>
+    double worstLeak(const Path& inside, asset::Mode mode, Make make) {
         compiler::Options options;
         options.mode = mode;
         double worst = 0;
         for (int i = 0; i < views; ++i) {
             const scene::Affine inPicture = turned(angle());
-            const asset::Asset asset = compiler::compile(onWhite(shapes, inPicture), options).asset;
+            const asset::Asset asset = compiler::compile(make(inPicture), options).asset;
             const scene::Affine toPixels = view(std::exp2(i % 4 - 2));
             const auto covered = reference::fillCoverage(inside, inPicture, scene::FillRule::NonZero,
                                                          {raster, raster, toPixels});
@@ -104,6 +110,30 @@ TEST_F(Seams, TwoRectangles) {
 /// That the tests above and below would see a leak: blended layers let a quarter of the ground through
 /// where each covers half a pixel, 64 of 255.
 TEST_F(Seams, LayersDoLeak) { EXPECT_GT(worstLeak(twoRectangles, theirUnion, asset::Mode::Compat), 55); }
+
+/// Black inside of a bow of cubics and blue outside of it, on white: two sides with one boundary.
+scene::Scene selectedOnWhite(const scene::Affine& transform) {
+    const Path bow{scene::MoveTo{{40, 128}}, scene::CubicTo{{60, 10}, {170, 60}, {216, 128}},
+                   scene::CubicTo{{150, 150}, {190, 240}, {40, 128}}, scene::Close{}};
+    const Path all = scene::rectangle({-500, -500}, {1000, 1000});
+    scene::Select select{
+        {std::make_shared<Path>(bow), transform, scene::FillRule::NonZero}, nullptr, nullptr};
+    scene::Group content;
+    content.children.push_back(filled(all, scene::identity, {0, 0, 0, 1}));
+    select.inside = std::make_shared<scene::Group>(content);
+    content.children[0] = filled(all, scene::identity, {0, 0, 1, 1});
+    select.outside = std::make_shared<scene::Group>(content);
+    scene::Scene scene = onWhite({}, transform);
+    scene.root.children.push_back({select});
+    return scene;
+}
+
+/// Red is white's alone. In compat mode, too, the sides' shares add up to one.
+TEST_F(Seams, TheSidesOfASelection) {
+    const Path inside = scene::rectangle({60, 60}, {196, 196});  // inside the picture at any angle
+    EXPECT_LE(worstLeak(inside, asset::Mode::Exact, selectedOnWhite), leakBound);
+    EXPECT_LE(worstLeak(inside, asset::Mode::Compat, selectedOnWhite), leakBound);
+}
 
 TEST_F(Seams, DiscOfTwelveSectors) {
     constexpr int sectors = 12;

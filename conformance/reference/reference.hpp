@@ -4,7 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
+
+#include <glm/vec4.hpp>
 
 #include "image/bitmap.hpp"
 #include "scene/scene.hpp"
@@ -34,11 +37,16 @@ std::vector<double> strokeCoverage(const scene::Path& path, const scene::Affine&
 
 enum class Mode { Exact, Compat };
 
+/// The premultiplied colour of a material at point p of its own space.
+using MaterialFunction = std::function<glm::dvec4(const scene::Material& material, scene::Point p)>;
+
 struct Options {
     Mode mode = Mode::Exact;
     /// Points a side of a pixel, in [1, 256], at which paints that vary (gradients, patterns, images)
     /// are read where few do not do; solid colours need none.
     int samples = 32;
+    /// Draws materials, from several threads at once; without it they have their fallback colours.
+    MaterialFunction materials = {};
 };
 
 /// The scene on transparent black. Exact: the mean of the composited colour over the pixel's box,

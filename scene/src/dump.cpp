@@ -13,10 +13,10 @@ namespace vtm::scene {
 
 namespace {
 
-constexpr std::array blendNames{"normal",     "multiply",   "screen",      "overlay",
-                                "darken",     "lighten",    "color-dodge", "color-burn",
-                                "hard-light", "soft-light", "difference",  "exclusion",
-                                "hue",        "saturation", "color",       "luminosity"};
+constexpr std::array blendNames{"normal",     "multiply",    "screen",     "overlay",    "darken",
+                                "lighten",    "color-dodge", "color-burn", "hard-light", "soft-light",
+                                "difference", "exclusion",   "hue",        "saturation", "color",
+                                "luminosity", "plus-lighter"};
 constexpr std::array spreadNames{"pad", "reflect", "repeat"};
 constexpr std::array capNames{"butt", "round", "square"};
 constexpr std::array joinNames{"miter", "miter-clip", "round", "bevel"};
@@ -134,16 +134,34 @@ private:
     }
 
     void node(const Node& n) {
-        if (const auto* inner = std::get_if<Group>(&n.value))
-            group("group", *inner);
-        else
-            item(std::get<Item>(n.value));
+        std::visit([this](const auto& value) { write(value); }, n.value);
     }
 
-    void item(const Item& i) {
-        const auto* rule = std::get_if<FillRule>(&i.geometry);
-        std::string head =
-            rule ? std::string("fill ") + name(ruleNames, *rule) : text(std::get<StrokeStyle>(i.geometry));
+    void write(const Group& g) { group("group", g); }
+
+    template <class Shaped>
+    static std::string geometry(const Shaped& s) {
+        const auto* rule = std::get_if<FillRule>(&s.geometry);
+        return rule ? std::string("fill ") + name(ruleNames, *rule) : text(std::get<StrokeStyle>(s.geometry));
+    }
+
+    void write(const Select& s) {
+        line("select " + geometry(s.mask) + matrix(s.mask.transform));
+        Indent in(*this);
+        if (tooDeep())
+            return;
+        path(s.mask.path);
+        side("inside", s.inside);
+        side("outside", s.outside);
+    }
+
+    void side(const char* kind, const std::shared_ptr<const Group>& g) {
+        const auto [head, isNew] = label(kind, g);
+        isNew ? group(head, *g) : line(head);
+    }
+
+    void write(const Item& i) {
+        std::string head = geometry(i);
         if (i.opacity != 1)
             head += " opacity " + text(i.opacity);
         line(head + matrix(i.transform));
@@ -178,6 +196,11 @@ private:
         if (isNew)
             head += fmt::format(" {} x {}", p.bitmap->width, p.bitmap->height);
         line(head + " " + name(filterNames, p.filter) + matrix(p.transform));
+    }
+
+    void paint(const Material& m) {
+        line(fmt::format("material {} {} bytes ", m.name, m.glsl.size()) + text(m.fallback) +
+             matrix(m.transform));
     }
 
     void content(const std::shared_ptr<const Group>& g) {

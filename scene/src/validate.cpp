@@ -87,15 +87,37 @@ private:
     }
 
     Height node(const Node& n) {
-        const auto* inner = std::get_if<Group>(&n.value);
-        return inner ? group(*inner) : item(std::get<Item>(n.value));
+        return std::visit([this](const auto& value) { return check(value); }, n.value);
+    }
+
+    Height check(const Group& g) { return group(g); }
+    Height check(const Item& i) { return item(i); }
+
+    Height check(const Select& s) {
+        checkLevel(1);
+        ++level_;
+        path(s.mask.path);
+        report(fault(s.mask));
+        Height height = s.inside ? content("inside", s.inside) : 0;
+        if (s.outside)
+            height = std::max(height, content("outside", s.outside));
+        --level_;
+        return height + 1;
     }
 
     Height item(const Item& i) {
         path(i.path);
         report(fault(i));
+        if (const auto* procedural = std::get_if<Material>(&i.paint))
+            material(*procedural);
         const auto* tiled = std::get_if<Pattern>(&i.paint);
         return tiled ? content("pattern", tiled->content) : 0;
+    }
+
+    void material(const Material& m) {
+        const auto known = texts_.emplace(m.name, &m.glsl).first;
+        if (*known->second != m.glsl)
+            report("material '" + m.name + "' has another text than before");
     }
 
     void path(const std::shared_ptr<const Path>& shape) {
@@ -150,6 +172,7 @@ private:
     std::vector<std::string> position_;
     int level_ = 0;
     std::unordered_map<const void*, Height> heights_;
+    std::unordered_map<std::string, const std::string*> texts_;  ///< of materials, by name
 };
 
 }  // namespace

@@ -20,6 +20,15 @@ bool known(Enum value, Enum last) {
     return int(value) >= 0 && value <= last;
 }
 
+/// What GLSL leaves to its users: no leading gl_, no double underscore (GLSL ES 3.00 section 3.8).
+bool isMaterialName(const std::string& name) {
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto isRest = [&](char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; };
+    return !name.empty() && name.size() <= maxMaterialName && isLetter(name[0]) &&
+           std::all_of(name.begin(), name.end(), isRest) && name.find("__") == std::string::npos &&
+           !name.starts_with("gl_");
+}
+
 struct AllFinite {
     bool operator()(const MoveTo& c) const { return finite(c.to); }
     bool operator()(const LineTo& c) const { return finite(c.to); }
@@ -144,6 +153,22 @@ std::string fault(const ImagePaint& p) {
     return fmt::format("image of {} x {} pixels has {} bytes", b.width, b.height, b.rgba.size());
 }
 
+std::string fault(const Material& m) {
+    if (!finite(m.transform))
+        return "material transform is not finite";
+    if (!isMaterialName(m.name))
+        return fmt::format("material name '{}' is no plain identifier", m.name.substr(0, maxMaterialName));
+    if (m.glsl.size() > maxMaterialText || m.glsl.find('\0') != std::string::npos)
+        return fmt::format("text of material '{}' holds a zero byte or more than {} bytes", m.name,
+                           maxMaterialText);
+    return fault(m.fallback);
+}
+
+std::string fault(const Shape& s) {
+    return finite(s.transform) ? std::visit([](const auto& g) { return fault(g); }, s.geometry)
+                               : "transform is not finite";
+}
+
 std::string fault(const Item& i) {
     if (!finite(i.transform))
         return "transform is not finite";
@@ -157,7 +182,8 @@ std::string fault(const Item& i) {
 std::string fault(const Group& g) {
     if (!inUnit(g.opacity))
         return fmt::format("opacity is {}, not in [0, 1]", g.opacity);
-    return known(g.blend, BlendMode::Luminosity) ? "" : fmt::format("blend mode {} is unknown", int(g.blend));
+    return known(g.blend, BlendMode::PlusLighter) ? ""
+                                                  : fmt::format("blend mode {} is unknown", int(g.blend));
 }
 
 std::string fault(const ClipShape& shape) {

@@ -34,6 +34,37 @@ TEST(Dump, OneNodeALine) {
               "      linear 0 0 1 0 pad 0 rgba(0 0 0 1) 1 rgba(1 1 1 1)\n");
 }
 
+TEST(Dump, SelectionsNameTheirSides) {
+    Scene s = sceneOf(redSquare());
+    auto side = std::make_shared<const Group>(s.root);
+    s.root.children.push_back({Select{{unitSquare(), scaling(2, 3), FillRule::EvenOdd}, side, side}});
+    s.root.children.push_back({Select{{unitSquare(), identity, StrokeStyle{}}, side, nullptr}});
+    EXPECT_EQ(dump(s),
+              "scene 20 x 10\n"
+              "group\n"
+              "  fill nonzero\n"
+              "    path #1 M 0 0 L 1 0 L 1 1 L 0 1 Z\n"
+              "    rgba(1 0 0 1)\n"
+              "  select fill evenodd matrix(2 0 0 3 0 0)\n"
+              "    path #2 M 0 0 L 1 0 L 1 1 L 0 1 Z\n"
+              "    inside #3\n"
+              "      fill nonzero\n"
+              "        path #1\n"
+              "        rgba(1 0 0 1)\n"
+              "    outside #3\n"
+              "  select stroke 1 butt miter limit 4\n"
+              "    path #4 M 0 0 L 1 0 L 1 1 L 0 1 Z\n"
+              "    inside #3\n"
+              "    outside none\n");
+}
+
+TEST(Dump, MaterialsByNameAndSize) {
+    Item item = redSquare();
+    item.paint = Material{"wood", "12345", {1, 0, 0, 0.5f}, scaling(2, 2)};
+    EXPECT_NE(dump(sceneOf(item)).find("    material wood 5 bytes rgba(1 0 0 0.5) matrix(2 0 0 2 0 0)\n"),
+              std::string::npos);
+}
+
 TEST(Dump, SharedPartsOnce) {
     const Item item = redSquare();
     Scene s = sceneOf(item);

@@ -198,8 +198,8 @@ TEST(Validate, ClipsAndMasks) {
     auto content = std::make_shared<Group>();
     s.root.mask = std::make_shared<const Mask>(Mask{content});
     EXPECT_EQ(complaint(s), "");
-    content->blend = BlendMode(16);
-    EXPECT_EQ(complaint(s), "root/mask: blend mode 16 is unknown");
+    content->blend = BlendMode(17);
+    EXPECT_EQ(complaint(s), "root/mask: blend mode 17 is unknown");
     deeper->shapes[0].path = nullptr;
     EXPECT_EQ(complaint(s), "root/clip/clip/0/path: is missing");
     s.root.clip = nullptr;
@@ -258,6 +258,64 @@ TEST(Validate, SharedPartsCountOnEveryWayToThem) {
     }
     s.root.children.push_back({std::move(bottom)});
     EXPECT_NE(complaint(s).find("nested more than 1024 levels"), std::string::npos);
+}
+
+TEST(Validate, Materials) {
+    const Material plain{"plain_1", "vec4 plain_1(vec2 p) { return vec4(0.0); }", {}, identity};
+    const auto changed = [&](const std::function<void(Material&)>& change) {
+        Material material = plain;
+        change(material);
+        return complaint(painted(material));
+    };
+    EXPECT_EQ(complaint(painted(plain)), "");
+    for (const std::string name : {"", "1a", "_a", "a b", "a__b", "gl_a", "ä"})
+        EXPECT_EQ(changed([&](Material& m) { m.name = name; }),
+                  "root/0: material name '" + name + "' is no plain identifier");
+    EXPECT_NE(changed([](Material& m) { m.name.assign(maxMaterialName + 1, 'a'); }), "");
+    EXPECT_NE(changed([](Material& m) { m.glsl.assign(maxMaterialText + 1, ' '); }), "");
+    EXPECT_NE(changed([](Material& m) { m.glsl += '\0'; }), "");
+    EXPECT_NE(changed([](Material& m) { m.fallback.r = 2; }), "");
+    EXPECT_NE(changed([](Material& m) { m.transform[0].x = nan; }), "");
+}
+
+TEST(Validate, AMaterialHasOneText) {
+    Scene s = sceneOf(painted(Material{"a", "one", {}, identity}));
+    s.root.children.push_back({painted(Material{"a", "one", {1, 0, 0, 1}, scaling(2, 2)})});
+    EXPECT_EQ(complaint(s), "");
+    s.root.children.push_back({painted(Material{"a", "two", {}, identity})});
+    EXPECT_EQ(complaint(s), "root/2: material 'a' has another text than before");
+}
+
+TEST(Validate, SelectionsCountAsALevelOnBothSides) {
+    Select select{{unitSquare(), identity, FillRule::NonZero}, nullptr, nullptr};
+    Scene s = sceneOf(redSquare());
+    s.root.children.push_back({select});
+    EXPECT_EQ(complaint(s), "");
+    for (auto* side : {&select.inside, &select.outside}) {
+        *side = std::make_shared<const Group>(nested(maxNesting - 2));
+        s.root.children.back() = {select};
+        EXPECT_EQ(complaint(s), "");
+        *side = std::make_shared<const Group>(nested(maxNesting - 1));
+        s.root.children.back() = {select};
+        EXPECT_NE(complaint(s).find("nested more than 1024 levels"), std::string::npos);
+        *side = nullptr;
+    }
+}
+
+TEST(Validate, SelectionsNameWhereTheyAreWrong) {
+    Select select{{unitSquare(), scaling(nan, 1), FillRule::NonZero}, nullptr, nullptr};
+    Scene s = sceneOf(redSquare());
+    s.root.children.push_back({select});
+    EXPECT_EQ(complaint(s), "root/1: transform is not finite");
+    select.mask.transform = identity;
+    Group side;
+    side.opacity = 2;
+    select.outside = std::make_shared<const Group>(side);
+    s.root.children.back() = {select};
+    EXPECT_EQ(complaint(s), "root/1/outside: opacity is 2, not in [0, 1]");
+    select.mask.path = nullptr;
+    s.root.children.back() = {select};
+    EXPECT_EQ(complaint(s), "root/1/path: is missing");
 }
 
 TEST(Validate, SharingTakesNoExponentialTime) {

@@ -16,13 +16,17 @@ bool blends(const scene::Node& node) {
 
 /// A group that only its opacity tells from its one child gives way to that child.
 bool foldsIntoChild(const scene::Group& group) {
-    return group.children.size() == 1 && group.blend == scene::BlendMode::Normal && !group.clip &&
-           !group.mask && !blends(group.children.front());
+    return group.children.size() == 1 && !std::holds_alternative<scene::Select>(group.children[0].value) &&
+           group.blend == scene::BlendMode::Normal && !group.clip && !group.mask &&
+           !blends(group.children.front());
 }
 
 scene::Node folded(scene::Group group) {
     scene::Node child = std::move(group.children.front());
-    std::visit([&](auto& value) { value.opacity *= group.opacity; }, child.value);
+    if (auto* item = std::get_if<scene::Item>(&child.value))
+        item->opacity *= group.opacity;
+    else
+        std::get<scene::Group>(child.value).opacity *= group.opacity;
     return child;
 }
 

@@ -196,7 +196,8 @@ std::optional<scene::BlendMode> parseBlend(std::string_view text, const Units&) 
                                                 {"hue", BlendMode::Hue},
                                                 {"saturation", BlendMode::Saturation},
                                                 {"color", BlendMode::Color},
-                                                {"luminosity", BlendMode::Luminosity}};
+                                                {"luminosity", BlendMode::Luminosity},
+                                                {"plus-lighter", BlendMode::PlusLighter}};
     return findKeyword(text, table);
 }
 

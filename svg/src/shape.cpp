@@ -70,9 +70,16 @@ void Converter::fillShape(const Element& element, const Scope& scope, CachedShap
     const Box& box = boxOf(shape);
     if (scope.style.fillOpacity <= 0 || !(box.width() > 0 && box.height() > 0))
         return;
-    if (auto fill = paint(scope.style.fill, element, scope, box))
-        out.push_back({scene::Item{shape.path, scope.transform, scope.style.fillRule, std::move(*fill),
-                                   static_cast<float>(scope.style.fillOpacity)}});
+    auto fill = paint(scope.style.fill, element, scope, box);
+    if (!fill)
+        return;
+    scene::Item item;
+    item.path = shape.path;
+    item.transform = scope.transform;
+    item.geometry = scope.style.fillRule;
+    item.paint = std::move(*fill);
+    item.opacity = static_cast<float>(scope.style.fillOpacity);
+    out.push_back({std::move(item)});
 }
 
 void Converter::strokeShape(const Element& element, const Scope& scope, CachedShape& shape, Nodes& out) {

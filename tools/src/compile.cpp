@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "asset/container.hpp"
+#include "asset/prefilter.hpp"
 #include "image/codec.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/source.hpp"
@@ -14,12 +15,15 @@ namespace {
 struct CompileOptions {
     std::string input, output;
     SourceOptions source;
-    bool json = false;
+    bool prefilter = false, json = false;
 };
 
 int compile(const CompileOptions& options) {
     try {
         Source source = loadSource(options.input, options.source);
+        if (options.prefilter)
+            source.asset->prefilter =
+                timed(source.stages, "prefilter", [&] { return asset::buildPrefilter(*source.asset); });
         const std::size_t fileBytes = timed(source.stages, "write", [&] {
             const auto bytes = asset::write(*source.asset);
             image::writeFile(options.output, bytes);
@@ -44,6 +48,8 @@ void addCompile(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("compile", "Make a .vtm file of an SVG file");
     command->add_option("IN", options->input, "SVG file")->required();
     command->add_option("-o,--output", options->output, "The .vtm file")->required();
+    command->add_flag("--prefilter", options->prefilter,
+                      "Add a pyramid of means for textures that are seen from afar");
     command->add_flag("--json", options->json, "Print figures and times");
     addSourceOptions(*command, options->source);
     command->callback([options, &exitCode] { exitCode = compile(*options); });

@@ -7,6 +7,7 @@
 #include "backend_gl/renderer.hpp"
 #include "conformance/reference/reference.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/report.hpp"
 
 namespace vtm::tools {
 
@@ -34,6 +35,8 @@ private:
 class AssetEngine : public Engine {
 public:
     image::Raster render(Source& source, const asset::View& view) override {
+        if (!source.asset->materials.empty())
+            printWarning("warning: no GLSL runs on the CPU; materials have their fallback colours");
         return timed(source.stages, "render", [&] { return asset::evaluate(*source.asset, view); });
     }
 };

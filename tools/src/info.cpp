@@ -1,7 +1,10 @@
+#include <filesystem>
 #include <memory>
 
 #include <fmt/core.h>
 
+#include "asset/container.hpp"
+#include "image/codec.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/source.hpp"
 
@@ -15,20 +18,63 @@ struct InfoOptions {
     bool json = false;
 };
 
+/// A file's section table; empty for what is no .vtm file. It is read before the asset, so that a
+/// damaged file still shows which of its sections are whole.
+std::vector<asset::SectionInfo> sectionsOf(const std::string& path) {
+    if (std::filesystem::path(path).extension() != ".vtm")
+        return {};
+    return asset::sectionsOf(image::readFile(path));
+}
+
+Json listOf(const std::vector<asset::SectionInfo>& sections) {
+    Json list = Json::array();
+    for (const asset::SectionInfo& section : sections)
+        list.push_back({{"name", section.name},
+                        {"offset", section.offset},
+                        {"record_bytes", section.recordBytes},
+                        {"count", section.count},
+                        {"bytes", section.bytes()},
+                        {"crc32", fmt::format("{:08x}", section.checksum)},
+                        {"intact", section.intact()}});
+    return list;
+}
+
+void printSections(const std::vector<asset::SectionInfo>& sections) {
+    fmt::print("{:<12}{:>10}{:>12}{:>14}{:>12}  checksum\n", "section", "offset", "bytes", "records",
+               "bytes each");
+    for (const asset::SectionInfo& section : sections)
+        fmt::print("{:<12}{:>10}{:>12}{:>14}{:>12}  {:08x} {}\n", section.name, section.offset,
+                   section.bytes(), section.count, section.recordBytes, section.checksum,
+                   section.intact() ? "ok" : fmt::format("DAMAGED: is {:08x}", section.found));
+}
+
+void print(Json report, const std::vector<asset::SectionInfo>& sections, bool json) {
+    if (json) {
+        if (!sections.empty())
+            report["sections"] = listOf(sections);
+        fmt::print("{}\n", report.dump(2));
+        return;
+    }
+    printText(report);
+    if (!sections.empty())
+        printSections(sections);
+}
+
 int info(const InfoOptions& options) {
+    Json report = {{"input", options.input}};
+    std::vector<asset::SectionInfo> sections;
     try {
+        sections = sectionsOf(options.input);
         const Source source = loadSource(options.input, options.source);
-        Json report = {{"input", options.input},
-                       {"width", source.width},
-                       {"height", source.height},
-                       {"mode", source.asset->mode == asset::Mode::Exact ? "exact" : "compat"}};
+        report["width"] = source.width;
+        report["height"] = source.height;
+        report["mode"] = source.asset->mode == asset::Mode::Exact ? "exact" : "compat";
         report.update(figures(*source.asset));
         report["stages_ms"] = toJson(source.stages);
-        if (options.json)
-            fmt::print("{}\n", report.dump(2));
-        else
-            printText(report);
+        print(report, sections, options.json);
     } catch (...) {
+        if (!sections.empty())
+            print(report, sections, options.json);
         fmt::print(stderr, "{}\n", describeError(options.input));
         return badInput;
     }

@@ -26,10 +26,17 @@ Json toJson(const Stages& stages) {
 
 Json figures(const asset::Asset& asset) {
     const asset::Summary summary = asset::summarize(asset);
-    return {{"bytes", summary.bytes},     {"prefilter_bytes", 0},
-            {"leaves", summary.leaves},   {"solids", summary.solids},
-            {"pieces", summary.pieces},   {"fallback_leaves", asset.fallbackLeaves},
-            {"regions", summary.regions}, {"max_depth", summary.maxDepth}};
+    const asset::PyramidSize& prefilter = asset.prefilter.size;
+    return {{"bytes", summary.bytes},
+            {"prefilter_bytes", summary.prefilterBytes},
+            {"prefilter_width", prefilter.width},
+            {"prefilter_height", prefilter.height},
+            {"leaves", summary.leaves},
+            {"solids", summary.solids},
+            {"pieces", summary.pieces},
+            {"fallback_leaves", asset.fallbackLeaves},
+            {"regions", summary.regions},
+            {"max_depth", summary.maxDepth}};
 }
 
 void printText(const Json& object, int indent) {

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 import zlib
 
-from PIL import Image
+from PIL import Image, ImageStat
 
 VTM = ""  # the program under test
 
@@ -217,6 +217,49 @@ class CompileAndInfo(Command):
         for stage in ("parse", "lower", "compile"):
             self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
         self.assertIn("leaves: ", self.vtm("info", self.svg).stdout)
+
+    def test_prefilter(self):
+        """The size of a real drawing's, its bytes beside those of the tree, and the last level's mean."""
+        drawing = pathlib.Path(__file__).resolve().parents[2] / "examples" / "rose_window.svg"
+        self.vtm("compile", drawing, "-o", "plain.vtm")
+        plain = json.loads(self.vtm("info", "plain.vtm", "--json").stdout)
+        made = json.loads(self.vtm("compile", drawing, "-o", "filtered.vtm", "--prefilter", "--json").stdout)
+        self.assertGreaterEqual(made["stages_ms"]["prefilter"], 0)
+        report = json.loads(self.vtm("info", "filtered.vtm", "--json").stdout)
+        self.assertEqual((report["bytes"], plain["prefilter_bytes"]), (plain["bytes"], 0))
+        self.assertGreaterEqual(report["prefilter_width"], 16)
+        self.assertLessEqual(report["prefilter_width"], 512)
+        section = report["sections"][-1]
+        self.assertEqual((section["name"], section["bytes"]), ("prefilter", report["prefilter_bytes"]))
+        file = (self.folder / "filtered.vtm").read_bytes()
+        last = file[section["offset"] + section["bytes"] - 4:][:4]
+        self.vtm("render", drawing, "-o", "whole.png", "--engine", "asset", "--width", "256")
+        self.assertTrue(all(pixel[3] == 255 for pixel in self.picture("whole.png").getdata()))
+        for mean, of in zip(last, ImageStat.Stat(self.picture("whole.png")).mean):
+            self.assertAlmostEqual(mean, of, delta=1)
+
+    def test_info_lists_the_sections(self):
+        self.vtm("compile", self.svg, "-o", "square.vtm")
+        sections = json.loads(self.vtm("info", "square.vtm", "--json").stdout)["sections"]
+        self.assertEqual([s["name"] for s in sections[:4]], ["picture", "maps", "commands", "nodes"])
+        for section in sections:
+            self.assertEqual((section["offset"] % 64, section["intact"]), (0, True), section)
+            self.assertEqual(section["bytes"], section["count"] * section["record_bytes"])
+        self.assertRegex(self.vtm("info", "square.vtm").stdout, r"\npaints .* ok\n")
+
+    def test_info_of_a_damaged_file_names_the_section(self):
+        self.vtm("compile", self.svg, "-o", "square.vtm")
+        path = self.folder / "square.vtm"
+        paints = next(s for s in json.loads(self.vtm("info", path, "--json").stdout)["sections"]
+                      if s["name"] == "paints")
+        file = bytearray(path.read_bytes())
+        file[paints["offset"] + 5] ^= 1
+        path.write_bytes(file)
+        done = self.vtm("info", path, expect=1)
+        self.assertIn("section paints: checksum does not match", done.stderr)
+        self.assertRegex(done.stdout, r"\npaints .* DAMAGED: is [0-9a-f]{8}\n")
+        report = json.loads(self.vtm("info", path, "--json", expect=1).stdout)
+        self.assertEqual([s["name"] for s in report["sections"] if not s["intact"]], ["paints"])
 
     def test_compiled_file_keeps_its_mode(self):
         self.vtm("compile", self.svg, "-o", "square.vtm", "--mode", "compat")

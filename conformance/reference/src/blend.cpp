@@ -110,10 +110,13 @@ double linearLight(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0
 
 }  // namespace
 
-/// Sections 5 and 9: co = (1 - αb)·αs·Cs + (1 - αs)·αb·Cb + αb·αs·B(Cb, Cs).
+/// Sections 5 and 9; level 2 section 9.1 for PlusLighter: co = (1 - αb)·αs·Cs + (1 - αs)·αb·Cb + αb·αs·B(Cb,
+/// Cs).
 Colour blend(BlendMode mode, const Colour& backdrop, const Colour& source) {
     if (mode == BlendMode::Normal || backdrop.a <= 0 || source.a <= 0)
         return over(backdrop, source);
+    if (mode == BlendMode::PlusLighter)
+        return glm::min(backdrop + source, Colour(1));
     const Rgb mixed = blendColor(mode, straight(backdrop), straight(source));
     const Rgb colour =
         (1 - backdrop.a) * Rgb(source) + (1 - source.a) * Rgb(backdrop) + backdrop.a * source.a * mixed;

@@ -92,7 +92,7 @@ struct RowCanvas {
     Coverage shareOf(const GroupNode& group) {
         Coverage share(std::size_t(picture.width), group.opacity);
         if (group.clip != none)
-            multiply(share, clipShare(group.clip));
+            multiply(share, group.outside ? complement(clipShare(group.clip)) : clipShare(group.clip));
         if (group.mask != none)
             multiply(share, maskShare(group.mask));
         return share;
@@ -101,6 +101,12 @@ struct RowCanvas {
     static void multiply(Coverage& share, const Coverage& by) {
         for (std::size_t x = 0; x < share.size(); ++x)
             share[x] *= by[x];
+    }
+
+    static Coverage complement(Coverage share) {
+        for (double& part : share)
+            part = 1 - part;
+        return share;
     }
 
     /// Shapes are laid over each other like layers.

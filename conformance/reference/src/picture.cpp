@@ -48,8 +48,12 @@ std::shared_ptr<const scene::Clip> rectangleClip(Point min, Point max) {
 
 class Maker {
 public:
-    Maker(const View& view, double flatness, Patterns patterns)
-        : view_(view), flatness_(flatness), patterns_(patterns), edges_(view.width, view.height) {
+    Maker(const View& view, double flatness, Patterns patterns, const MaterialFunction& materials)
+        : view_(view),
+          flatness_(flatness),
+          patterns_(patterns),
+          materials_(materials),
+          edges_(view.width, view.height) {
         picture_.width = view.width;
         picture_.height = view.height;
     }
@@ -87,9 +91,26 @@ private:
         for (const scene::Node& child : group.children) {
             if (const auto* item = std::get_if<scene::Item>(&child.value))
                 addItem(*item, tree, place);
+            else if (const auto* select = std::get_if<scene::Select>(&child.value))
+                addSelect(*select, tree, place);
             else
                 addGroup(std::get<scene::Group>(child.value), tree, place);
         }
+    }
+
+    /// Two groups in one, cut by the mask and by its complement, whose shares of a pixel add up.
+    void addSelect(const scene::Select& select, int tree, int parent) {
+        const int both = pushGroup(tree, parent, none);
+        const int mask =
+            clipOf(scene::Item{select.mask.path, select.mask.transform, select.mask.geometry, {}});
+        const int inside = pushGroup(tree, both, mask);
+        if (select.inside)
+            addGroup(*select.inside, tree, inside);
+        const int outside = pushGroup(tree, both, mask);
+        groupsOf(tree)[std::size_t(outside)].outside = true;
+        groupsOf(tree)[std::size_t(outside)].blend = scene::BlendMode::PlusLighter;
+        if (select.outside)
+            addGroup(*select.outside, tree, outside);
     }
 
     std::vector<GroupNode>& groupsOf(int tree) { return picture_.trees[std::size_t(tree)].groups; }
@@ -130,10 +151,7 @@ private:
                          maxTiledItems / double(itemCount(*pattern.content)));
         if (!tiles)
             return false;
-        const int clip = int(picture_.clips.size());
-        picture_.clips.push_back({{{addShape({ruleOf(item), true, clip, 0}), none}}, none});
-        addOutline(item, picture_.clips.back().parts[0].shape, edges_);
-        const int all = pushGroup(tree, group, clip);
+        const int all = pushGroup(tree, group, clipOf(item));
         groupsOf(tree)[std::size_t(all)].opacity = item.opacity;
         for (const Affine& tile : *tiles)
             addTile(pattern, tile, tree, all);
@@ -162,6 +180,14 @@ private:
     int addShape(const Shape& shape) {
         picture_.shapes.push_back(shape);
         return int(picture_.shapes.size()) - 1;
+    }
+
+    /// By an item's outline.
+    int clipOf(const scene::Item& item) {
+        const int clip = int(picture_.clips.size());
+        picture_.clips.push_back({{{addShape({ruleOf(item), true, clip, 0}), none}}, none});
+        addOutline(item, picture_.clips.back().parts[0].shape, edges_);
+        return clip;
     }
 
     int clipOf(const std::shared_ptr<const scene::Clip>& clip) {
@@ -233,6 +259,14 @@ private:
         });
     }
 
+    Shader shaderOf(const scene::Material& material, const Affine& toPixels) const {
+        if (!materials_)
+            return SolidShader{premultiplied(material.fallback)};
+        return withInverse(material, toPixels, [&](const Affine& toPaint) {
+            return MaterialShader{toPaint, material, materials_};
+        });
+    }
+
     Shader shaderOf(const scene::Pattern& pattern, const Affine& toPixels) {
         return withInverse(pattern, toPixels, [&](const Affine& toPaint) {
             const Vector size = pattern.max - pattern.min;
@@ -252,8 +286,8 @@ private:
         const TileKey key{content.get(), {toTile[0].x, toTile[1].y, toTile[2].x, toTile[2].y}};
         std::shared_ptr<const Picture>& tile = tiles_[key];
         if (!tile) {
-            Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness,
-                        Patterns::Sampled);
+            Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness, Patterns::Sampled,
+                        materials_);
             maker.addRoot(*content, nullptr);
             tile = std::make_shared<const Picture>(maker.take());
         }
@@ -265,6 +299,7 @@ private:
     View view_;
     double flatness_;
     Patterns patterns_;
+    const MaterialFunction& materials_;
     EdgeList edges_;
     Picture picture_;
     std::map<const scene::Clip*, int> clips_;
@@ -274,8 +309,9 @@ private:
 
 }  // namespace
 
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns) {
-    Maker maker(view, flatness, patterns);
+Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
+                    const MaterialFunction& materials) {
+    Maker maker(view, flatness, patterns, materials);
     maker.addRoot(scene.root, rectangleClip({0, 0}, {scene.width, scene.height}));
     return maker.take();
 }

@@ -33,6 +33,7 @@ struct GroupNode {
     double opacity = 1;
     scene::BlendMode blend = scene::BlendMode::Normal;
     int clip = none, mask = none;
+    bool outside = false;  ///< shown where the clip is not
 };
 
 /// Layers in painter's order; group 0 is the root. Groups that change nothing are dissolved.
@@ -71,6 +72,7 @@ enum class Patterns {
 };
 
 /// What lies outside the scene's rectangle is cut off by a clip of the root.
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns);
+Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
+                    const MaterialFunction& materials);
 
 }  // namespace vtm::reference

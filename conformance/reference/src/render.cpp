@@ -45,10 +45,10 @@ image::Raster render(const scene::Scene& scene, const View& view, const Options&
     if (options.samples < 1 || options.samples > 256)
         throw std::invalid_argument("reference: " + std::to_string(options.samples) + " samples");
     if (options.mode == Mode::Compat) {
-        const Picture picture = makePicture(scene, view, flatness, Patterns::Sampled);
+        const Picture picture = makePicture(scene, view, flatness, Patterns::Sampled, options.materials);
         return renderRows(picture, [&] { return std::make_unique<CompatRows>(picture); });
     }
-    const Picture picture = makePicture(scene, view, flatness, Patterns::LaidOut);
+    const Picture picture = makePicture(scene, view, flatness, Patterns::LaidOut, options.materials);
     return renderRows(picture, [&] { return std::make_unique<ExactRows>(picture, options.samples); });
 }
 

@@ -35,7 +35,7 @@ struct PointCanvas {
     void close(const GroupNode& group) {
         Colour colour = sampler.stack_.back() * group.opacity;
         sampler.stack_.pop_back();
-        if (colour.a > 0 && group.clip != none && !sampler.insideClip(group.clip))
+        if (colour.a > 0 && group.clip != none && sampler.insideClip(group.clip) == group.outside)
             colour = Colour(0);
         if (colour.a > 0 && group.mask != none)
             colour *= sampler.maskAt(group.mask, p);
@@ -100,15 +100,17 @@ Colour Sampler::shade(int index, Point p) {
     const Shader& shader = picture_.shaders[std::size_t(index)];
     if (const auto* solid = std::get_if<SolidShader>(&shader))
         return solid->colour;
-    const bool rough =
-        std::holds_alternative<TileShader>(shader) || std::holds_alternative<ImageShader>(shader);
-    variation_ = std::max(variation_, rough ? Variation::Rough : Variation::Smooth);
+    const bool smooth =
+        std::holds_alternative<LinearShader>(shader) || std::holds_alternative<RadialShader>(shader);
+    variation_ = std::max(variation_, smooth ? Variation::Smooth : Variation::Rough);
     if (const auto* tile = std::get_if<TileShader>(&shader))
         return tileColour(index, *tile, p);
     if (const auto* linear = std::get_if<LinearShader>(&shader))
         return linear->at(p);
     if (const auto* radial = std::get_if<RadialShader>(&shader))
         return radial->at(p);
+    if (const auto* material = std::get_if<MaterialShader>(&shader))
+        return material->at(p);
     return std::get<ImageShader>(shader).at(p);
 }
 

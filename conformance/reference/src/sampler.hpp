@@ -13,7 +13,7 @@ namespace vtm::reference {
 enum class Variation {
     Constant,
     Smooth,  ///< gradients: nearly linear almost everywhere
-    Rough    ///< patterns and images: may hold any detail
+    Rough    ///< patterns, images and materials: may hold any detail
 };
 
 /// Not for use by two threads.

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "conformance/reference/reference.hpp"
 #include "conformance/reference/src/blend.hpp"
 #include "conformance/reference/src/geometry.hpp"
 #include "scene/paint.hpp"
@@ -64,6 +65,14 @@ struct ImageShader {
     Colour at(Point p) const;
 };
 
+struct MaterialShader {
+    Affine toPaint;
+    scene::Material material;
+    MaterialFunction function;  ///< not empty
+
+    Colour at(Point p) const { return function(material, scene::apply(toPaint, p)); }
+};
+
 /// A pattern: `tile` shows one period, `tileSize` of its pixels wide and high.
 struct TileShader {
     Affine toTile;  ///< from the raster to the first tile's pixels
@@ -74,6 +83,6 @@ struct TileShader {
     Point wrapped(Point p) const;
 };
 
-using Shader = std::variant<SolidShader, LinearShader, RadialShader, ImageShader, TileShader>;
+using Shader = std::variant<SolidShader, LinearShader, RadialShader, ImageShader, MaterialShader, TileShader>;
 
 }  // namespace vtm::reference

@@ -39,10 +39,15 @@ std::optional<std::vector<Affine>> tilesMeeting(const Box& region, const scene::
 }
 
 std::size_t itemCount(const scene::Group& group) {
+    const auto side = [](const auto& part) { return part ? itemCount(*part) : 0; };
     std::size_t count = 1;
     for (const scene::Node& node : group.children) {
-        const auto* child = std::get_if<scene::Group>(&node.value);
-        count += child ? itemCount(*child) : 1;
+        if (const auto* child = std::get_if<scene::Group>(&node.value))
+            count += itemCount(*child);
+        else if (const auto* select = std::get_if<scene::Select>(&node.value))
+            count += 1 + side(select->inside) + side(select->outside);
+        else
+            ++count;
     }
     return count;
 }

@@ -53,6 +53,12 @@ TEST_P(Blending, HalfTransparentColours) {
     }
 }
 
+TEST_P(Blending, PlusLighterAddsUpToOne) {
+    expectPixel(draw(blended(BlendMode::PlusLighter, {0.8f, 0.4f, 0.2f, 0.5f}, {0.2f, 0.6f, 1, 0.25f})), 3, 3,
+                {0.45, 0.35, 0.35, 0.75});
+    expectPixel(draw(blended(BlendMode::PlusLighter, backdrop, source)), 3, 3, {1, 1, 0.7, 1});
+}
+
 TEST_P(Blending, DodgeAndBurnAtTheirPoles) {
     expectPixel(draw(blended(BlendMode::ColorDodge, black, white)), 3, 3, {0, 0, 0, 1});
     expectPixel(draw(blended(BlendMode::ColorDodge, red, white)), 3, 3, {1, 0, 0, 1});

@@ -184,5 +184,18 @@ TEST_P(Paints, BilinearImageIsPremultiplied) {
     expectPixel(raster, 2, 2, {0.0625, 0.1875, 0.1875, 0.4375}, 1e-6);
 }
 
+TEST(Materials, AreTheCallersOrTheirFallback) {
+    const Material material{"a", "", {1, 0, 0, 0.5f}, scaling(2, 2)};
+    const Scene scene = sceneOf({{fillAll(material, 0.5f)}});
+    for (const Mode mode : {Mode::Exact, Mode::Compat}) {
+        Options options{mode, 32};
+        expectPixel(render(scene, {8, 8}, options), 3, 3, {0.25, 0, 0, 0.25});
+        options.materials = [](const scene::Material& m, Point p) {
+            return glm::dvec4(m.fallback.r, p.x / 10, p.y / 10, 1);
+        };
+        expectPixel(render(scene, {8, 8}, options), 3, 5, {0.5, 0.0875, 0.1375, 0.5});
+    }
+}
+
 }  // namespace
 }  // namespace vtm::reference

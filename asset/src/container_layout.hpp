@@ -1,0 +1,88 @@
+/// \file
+/// What stands where in a `.vtm` file: docs/asset_format.md in code.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "asset/asset.hpp"
+
+namespace vtm::asset {
+
+// Sections are the records themselves; a big-endian machine would have to swap every word.
+static_assert(std::endian::native == std::endian::little);
+
+/// A carriage return, a line feed and DOS's end of file: transfers as text damage it visibly.
+inline constexpr std::array<std::uint8_t, 8> fileMagic{'V', 'T', 'M', 0xB6, '\r', '\n', 0x1A, '\n'};
+inline constexpr std::uint32_t fileVersion = 2;
+inline constexpr std::uint32_t endianMark = 0x01020304;
+/// Where sections begin: a cache line, and a multiple of every record's alignment.
+inline constexpr std::size_t sectionAlignment = 64;
+
+struct FileHeader {
+    std::array<std::uint8_t, 8> magic{};
+    std::uint32_t version = 0, endian = 0;
+    std::uint64_t fileBytes = 0;
+    std::uint32_t sections = 0;
+    std::uint32_t checksum = 0;  ///< of what stands before it and of the section table
+};
+static_assert(sizeof(FileHeader) == 32);
+
+/// Numbers are part of the format: they are never used again for something else.
+enum class SectionKind : std::uint32_t {
+    Picture,
+    Maps,
+    Commands,
+    Nodes,
+    Leaves,
+    Pieces,
+    Paints,
+    Data,
+    Images,
+    ImageBytes,
+    Prefilter,
+    Materials,
+    MaterialBytes
+};
+/// Sections up to this one stand in every file, empty or not; those after it only where they are not
+/// empty.
+inline constexpr SectionKind lastRequired = SectionKind::ImageBytes;
+inline constexpr SectionKind lastKnown = SectionKind::MaterialBytes;
+/// A reader skips a section of unknown kind if this bit is set, and refuses the file if it is not.
+inline constexpr std::uint32_t ignorableBit = 0x80000000u;
+/// Bounds the table of a hostile file.
+inline constexpr std::uint32_t maxSections = 64;
+
+/// "pieces"; a number for kinds that are unknown.
+std::string nameOf(SectionKind kind);
+
+/// A line of the section table.
+struct SectionLine {
+    SectionKind kind = SectionKind::Picture;
+    std::uint32_t recordBytes = 0;
+    std::uint64_t offset = 0, count = 0;
+    std::uint32_t checksum = 0;
+    std::uint32_t unused = 0;
+};
+static_assert(sizeof(SectionLine) == 32);
+
+struct PictureRecord {
+    double width = 0, height = 0;
+    Mode mode = Mode::Exact;
+    std::uint32_t fallbackLeaves = 0;
+    PyramidSize prefilter;
+};
+static_assert(sizeof(PictureRecord) == 32);
+
+constexpr std::uint64_t alignedOffset(std::uint64_t offset) {
+    return (offset + sectionAlignment - 1) / sectionAlignment * sectionAlignment;
+}
+
+std::uint32_t checksumOf(std::span<const std::uint8_t> bytes);
+/// Of a file's header and section table, which end at `end`.
+std::uint32_t headerChecksum(std::span<const std::uint8_t> file, std::size_t end);
+
+}  // namespace vtm::asset

@@ -1,0 +1,183 @@
+#include "asset/src/container_read.hpp"
+
+#include <cstring>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "asset/src/container_images.hpp"
+#include "asset/src/container_layout.hpp"
+#include "asset/src/container_materials.hpp"
+#include "asset/src/validate.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+void require(bool holds, std::uint64_t offset, std::string_view what) {
+    if (!holds)
+        throw FormatError(fmt::format("offset {}: {}", offset, what));
+}
+
+template <class Record>
+Record load(Bytes bytes, std::size_t offset) {
+    Record record;
+    std::memcpy(&record, bytes.data() + offset, sizeof record);
+    return record;
+}
+
+std::size_t lineOffset(std::size_t i) { return sizeof(FileHeader) + i * sizeof(SectionLine); }
+
+FileHeader checkedHeader(Bytes bytes) {
+    require(bytes.size() >= sizeof(FileHeader), bytes.size(), "file ends inside its header");
+    const auto header = load<FileHeader>(bytes, 0);
+    require(header.magic == fileMagic, 0, "not a .vtm file");
+    require(header.endian == endianMark, offsetof(FileHeader, endian), "byte order is not little-endian");
+    require(header.version == fileVersion, offsetof(FileHeader, version),
+            fmt::format("version {} is unknown; this reader knows {}", header.version, fileVersion));
+    require(header.fileBytes == bytes.size(), offsetof(FileHeader, fileBytes),
+            fmt::format("file should have {} bytes and has {}", header.fileBytes, bytes.size()));
+    require(header.sections <= maxSections, offsetof(FileHeader, sections),
+            "number of sections is too large");
+    require(bytes.size() >= lineOffset(header.sections), bytes.size(), "file ends inside its section table");
+    require(header.checksum == headerChecksum(bytes, lineOffset(header.sections)),
+            offsetof(FileHeader, checksum), "checksum of header and section table does not match");
+    return header;
+}
+
+/// The table's lines, each held against the end of the section before: so none overlap, none reach beyond
+/// the file, and between and behind them stand only the zeros that fill them up.
+std::vector<SectionLine> checkedTable(Bytes bytes) {
+    const FileHeader header = checkedHeader(bytes);
+    std::uint64_t next = lineOffset(header.sections);
+    const auto skipPadding = [&] {
+        const std::uint64_t end = next;
+        next = alignedOffset(end);
+        require(next <= bytes.size(), end, "file ends inside padding");
+        for (std::uint64_t i = end; i < next; ++i)
+            require(bytes[i] == 0, i, "padding is not zero");
+    };
+    skipPadding();
+    std::vector<SectionLine> lines;
+    for (std::size_t i = 0; i < header.sections; ++i) {
+        const auto line = load<SectionLine>(bytes, lineOffset(i));
+        const auto check = [&](bool holds, std::string_view what) {
+            require(holds, lineOffset(i), fmt::format("section {}: {}", nameOf(line.kind), what));
+        };
+        check(lines.empty() || lines.back().kind < line.kind, "kinds do not ascend");
+        check(line.unused == 0, "unused word is not zero");
+        check(line.recordBytes > 0, "records have no size");
+        check(line.offset == next, "does not begin where the section before ends");
+        check(line.count <= (bytes.size() - next) / line.recordBytes, "reaches beyond the end of the file");
+        next += line.count * line.recordBytes;
+        skipPadding();
+        lines.push_back(line);
+    }
+    require(next == bytes.size(), next, "bytes are left over behind the last section");
+    return lines;
+}
+
+Bytes bytesOf(Bytes file, const SectionLine& line) {
+    return file.subspan(line.offset, line.count * line.recordBytes);
+}
+
+class Sections {
+public:
+    explicit Sections(Bytes file) : file_(file), lines_(checkedTable(file)) {
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            const SectionLine& line = lines_[i];
+            const bool known = line.kind <= lastKnown;
+            const bool ignorable = (std::uint32_t(line.kind) & ignorableBit) != 0;
+            require(known || ignorable, lineOffset(i),
+                    fmt::format("section {}: kind is unknown", nameOf(line.kind)));
+            require(line.checksum == checksumOf(bytesOf(file, line)), line.offset,
+                    fmt::format("section {}: checksum does not match", nameOf(line.kind)));
+        }
+    }
+
+    /// The records where they lie; none if an optional section is absent.
+    template <class Record>
+    std::span<const Record> take(SectionKind kind) const {
+        const auto line = std::ranges::find(lines_, kind, &SectionLine::kind);
+        if (line == lines_.end()) {
+            require(kind > lastRequired, sizeof(FileHeader),
+                    fmt::format("section {}: is missing", nameOf(kind)));
+            return {};
+        }
+        const std::size_t where = lineOffset(std::size_t(line - lines_.begin()));
+        require(line->recordBytes == sizeof(Record), where,
+                fmt::format("section {}: size of its records is {}, not {}", nameOf(kind), line->recordBytes,
+                            sizeof(Record)));
+        require(kind <= lastRequired || line->count > 0, where,
+                fmt::format("section {}: is empty and should be left out", nameOf(kind)));
+        return {reinterpret_cast<const Record*>(file_.data() + line->offset), std::size_t(line->count)};
+    }
+
+private:
+    Bytes file_;
+    std::vector<SectionLine> lines_;
+};
+
+void readPicture(const Sections& sections, AssetView& view) {
+    const auto records = sections.take<PictureRecord>(SectionKind::Picture);
+    asset::require(records.size() == 1, "picture", records.size(), "must be one record");
+    view.width = records[0].width;
+    view.height = records[0].height;
+    view.mode = records[0].mode;
+    view.fallbackLeaves = records[0].fallbackLeaves;
+    view.prefilter.size = records[0].prefilter;
+}
+
+}  // namespace
+
+Contents openContents(Bytes bytes) {
+    const Sections sections(bytes);
+    Contents contents;
+    AssetView& view = contents.view;
+    readPicture(sections, view);
+    view.maps = sections.take<Map>(SectionKind::Maps);
+    view.commands = sections.take<Command>(SectionKind::Commands);
+    view.nodes = sections.take<Node>(SectionKind::Nodes);
+    view.leaves = sections.take<Leaf>(SectionKind::Leaves);
+    view.pieces = sections.take<Piece>(SectionKind::Pieces);
+    view.paints = sections.take<Paint>(SectionKind::Paints);
+    view.data = sections.take<Texel>(SectionKind::Data);
+    view.prefilter.texels = sections.take<Rgba8>(SectionKind::Prefilter);
+    contents.images = decodeImages(sections.take<ImageRecord>(SectionKind::Images),
+                                   sections.take<std::uint8_t>(SectionKind::ImageBytes));
+    view.images = contents.images;
+    contents.materials = decodeMaterials(sections.take<MaterialRecord>(SectionKind::Materials),
+                                         sections.take<std::uint8_t>(SectionKind::MaterialBytes));
+    view.materials = contents.materials;
+    validate(view);
+    return contents;
+}
+
+Asset read(Bytes bytes) {
+    std::vector<Texel> moved;
+    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % recordAlignment != 0) {
+        static_assert(sizeof(Texel) == recordAlignment);  // and new aligns to as much
+        moved.resize((bytes.size() + sizeof(Texel) - 1) / sizeof(Texel));
+        std::memcpy(moved.data(), bytes.data(), bytes.size());
+        bytes = {reinterpret_cast<const std::uint8_t*>(moved.data()), bytes.size()};
+    }
+    Contents contents = openContents(bytes);
+    contents.view.images = {};
+    contents.view.materials = {};
+    Asset asset = toAsset(contents.view);
+    asset.images = std::move(contents.images);
+    asset.materials = std::move(contents.materials);
+    return asset;
+}
+
+std::vector<SectionInfo> sectionsOf(Bytes bytes) {
+    std::vector<SectionInfo> sections;
+    for (const SectionLine& line : checkedTable(bytes))
+        sections.push_back({nameOf(line.kind), line.offset, line.recordBytes, line.count, line.checksum,
+                            checksumOf(bytesOf(bytes, line))});
+    return sections;
+}
+
+}  // namespace vtm::asset

@@ -1,0 +1,74 @@
+#include <cstring>
+
+#include "asset/container.hpp"
+#include "asset/src/container_images.hpp"
+#include "asset/src/container_layout.hpp"
+#include "asset/src/container_materials.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+/// A section that waits to be written: the bytes of its records.
+struct Pending {
+    SectionLine line;
+    std::span<const std::uint8_t> bytes;
+};
+
+template <class Record>
+Pending section(SectionKind kind, std::span<const Record> records) {
+    const std::span bytes(reinterpret_cast<const std::uint8_t*>(records.data()), records.size_bytes());
+    return {{kind, sizeof(Record), 0, records.size(), checksumOf(bytes), 0}, bytes};
+}
+
+template <class Record>
+void put(std::vector<std::uint8_t>& file, std::size_t offset, const Record& record) {
+    std::memcpy(&file[offset], &record, sizeof record);
+}
+
+std::vector<std::uint8_t> assemble(std::vector<Pending>& sections) {
+    const std::size_t tableEnd = sizeof(FileHeader) + sections.size() * sizeof(SectionLine);
+    std::uint64_t end = alignedOffset(tableEnd);
+    for (Pending& s : sections) {
+        s.line.offset = end;
+        end = alignedOffset(end + s.bytes.size());
+    }
+    std::vector<std::uint8_t> file(end);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        put(file, sizeof(FileHeader) + i * sizeof(SectionLine), sections[i].line);
+        std::ranges::copy(sections[i].bytes, file.begin() + std::ptrdiff_t(sections[i].line.offset));
+    }
+    FileHeader header{fileMagic, fileVersion, endianMark, end, std::uint32_t(sections.size()), 0};
+    put(file, 0, header);
+    header.checksum = headerChecksum(file, tableEnd);
+    put(file, 0, header);
+    return file;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> write(const AssetView& asset) {
+    const PictureRecord picture{asset.width, asset.height, asset.mode, asset.fallbackLeaves,
+                                asset.prefilter.size};
+    const CodedImages images = encodeImages(asset.images);
+    const CodedMaterials materials = encodeMaterials(asset.materials);
+    std::vector<Pending> sections{section(SectionKind::Picture, std::span(&picture, 1)),
+                                  section(SectionKind::Maps, asset.maps),
+                                  section(SectionKind::Commands, asset.commands),
+                                  section(SectionKind::Nodes, asset.nodes),
+                                  section(SectionKind::Leaves, asset.leaves),
+                                  section(SectionKind::Pieces, asset.pieces),
+                                  section(SectionKind::Paints, asset.paints),
+                                  section(SectionKind::Data, asset.data),
+                                  section(SectionKind::Images, std::span(images.table)),
+                                  section(SectionKind::ImageBytes, std::span(images.bytes))};
+    if (!asset.prefilter.texels.empty())
+        sections.push_back(section(SectionKind::Prefilter, asset.prefilter.texels));
+    if (!materials.table.empty()) {
+        sections.push_back(section(SectionKind::Materials, std::span(materials.table)));
+        sections.push_back(section(SectionKind::MaterialBytes, std::span(materials.bytes)));
+    }
+    return assemble(sections);
+}
+
+}  // namespace vtm::asset
