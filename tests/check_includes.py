@@ -27,11 +27,14 @@ MODULES = {
     "compiler": {"scene", "asset", "image"},
     "api": {"scene", "compiler", "asset", "image"},
     "backend_gl": {"asset", "image"},
+    "trace": {"scene", "image"},
+    "conformance/generate": {"scene", "image"},
     "conformance/reference": {"scene", "image"},
     "conformance/compare": {"image"},
 }
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
+MODULES["bench"] = EVERYTHING
 MODULES["tools"] = EVERYTHING
 MODULES["examples"] = EVERYTHING
 MODULES["tests"] = EVERYTHING
@@ -47,7 +50,9 @@ LIBRARIES = {
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl"},
     r"CLI/.*": {"tools"},
-    r"nlohmann/.*": {"tools", "conformance/cases"},
+    r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
+    r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},
+    r"potracelib\.h": {"trace"},
     r"unistd\.h|fcntl\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder

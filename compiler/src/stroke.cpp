@@ -172,6 +172,9 @@ private:
         const double sign = angle > 0 ? 1 : -1;
         outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign);
         innerJoin(angle > 0 ? ribbon_.left : ribbon_.right, a, b, sign);
+        if (b.afterCusp && showsBeyond())  // the other half of the disc that the normal sweeps there
+            ribbon_.beyond.push_back(
+                sector(endPoint(a), perp(endTangent(a.curve)) * (sign * radius_), angle));
     }
 
     void innerJoin(Side& inner, const Segment& a, const Segment& b, double sign) const {

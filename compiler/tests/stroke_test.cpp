@@ -52,6 +52,20 @@ Path circle(Point center, double radius) {
             Close{}};
 }
 
+// --- cusps ---------------------------------------------------------------------------------------
+
+/// Arms shorter than the stroke is wide do not hide what the normal sweeps behind a cusp.
+TEST(Stroke, TurnsAllTheWayRoundAtACusp) {
+    const Path path{MoveTo{{0, 0}}, CubicTo{{1, 1}, {0, 1}, {1, 0}}};  // its tip at (0.5, 0.75), pointing up
+    const Path outline = strokeOutline(path, style(20), 1e-4);
+    const Point tip{0.5, 0.75};
+    for (int i = 0; i < 64; ++i) {
+        const Point out{std::cos(2 * pi * i / 64), std::sin(2 * pi * i / 64)};
+        EXPECT_TRUE(inside(outline, tip + 9.99 * out)) << i;
+    }
+    EXPECT_FALSE(inside(outline, tip + Point{0, 10.01}));
+}
+
 // --- the stroke is the set of points near the path ----------------------------------------------------
 
 /// Random points, half of them close to the boundary, must be inside or outside as their distance to the

@@ -21,5 +21,6 @@ void addRender(CLI::App& app, int& exitCode);
 void addCompile(CLI::App& app, int& exitCode);
 void addInfo(CLI::App& app, int& exitCode);
 void addDiff(CLI::App& app, int& exitCode);
+void addTrace(CLI::App& app, int& exitCode);
 
 }  // namespace vtm::tools

@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
     addCompile(app, exitCode);
     addInfo(app, exitCode);
     addDiff(app, exitCode);
+    addTrace(app, exitCode);
     try {
         app.parse(argc, argv);
         return exitCode;

@@ -301,6 +301,50 @@ class Diff(Command):
         self.assertIn("square.svg", self.vtm("diff", self.svg, self.svg, expect=1).stderr)
 
 
+class Trace(Command):
+    def setUp(self):
+        super().setUp()
+        picture = Image.new("RGBA", (60, 40), (255, 255, 255, 255))
+        picture.paste((200, 30, 40, 255), (10, 10, 40, 30))
+        picture.save(self.folder / "in.png")
+        done = subprocess.run([VTM, "trace", "in.png", "-o", "out.svg"], capture_output=True, text=True,
+                              cwd=self.folder, timeout=120)
+        self.potrace = done.returncode == 0
+        self.message = done.stderr
+
+    def require_potrace(self):
+        if not self.potrace:
+            self.skipTest("built without potrace (VTM_WITH_POTRACE)")
+
+    def test_says_when_it_was_built_without_potrace(self):
+        if self.potrace:
+            self.skipTest("built with potrace")
+        self.assertIn("VTM_WITH_POTRACE", self.message)
+        self.vtm("trace", "in.png", "-o", "out.svg", expect=2)
+        self.assertFalse((self.folder / "out.svg").exists())
+
+    def test_svg_draws_what_was_traced(self):
+        self.require_potrace()
+        self.vtm("render", "out.svg", "-o", "out.png", "--engine", "reference")
+        image = self.picture("out.png")
+        self.assertEqual(image.size, (60, 40))
+        self.assertEqual([image.getpixel(p) for p in ((25, 20), (5, 20), (50, 35))],
+                         [(200, 30, 40, 255), (255, 255, 255, 255), (255, 255, 255, 255)])
+
+    def test_asset_draws_what_was_traced(self):
+        self.require_potrace()
+        self.vtm("trace", "in.png", "-o", "out.vtm", "--colors", "2", "--speckle", "0", "--smooth", "0")
+        self.vtm("render", "out.vtm", "-o", "out.png", "--engine", "asset")
+        self.assertEqual(self.picture("out.png").getpixel((25, 20)), (200, 30, 40, 255))
+
+    def test_bad_input_and_usage(self):
+        self.require_potrace()
+        self.assertIn("square.svg", self.vtm("trace", self.svg, "-o", "x.svg", expect=1).stderr)
+        self.assertIn("none.png", self.vtm("trace", "none.png", "-o", "x.svg", expect=1).stderr)
+        self.assertIn("x.foo", self.vtm("trace", "in.png", "-o", "x.foo", expect=2).stderr)
+        self.vtm("trace", "in.png", "-o", "x.svg", "--colors", "0", expect=2)
+
+
 def write_png16(path, pixel):
     """One RGBA pixel of 16-bit channels."""
     def chunk(kind, data):

@@ -43,12 +43,27 @@ std::vector<double> fillCoverage(const scene::Path& path, const scene::Affine& t
     return coverageOf(edges, rule, view);
 }
 
-std::vector<double> strokeCoverage(const scene::Path& path, const scene::Affine& transform,
-                                   const scene::StrokeStyle& style, const View& view, double flatness) {
+namespace {
+
+EdgeList edgesOf(const scene::Path& path, const scene::Affine& transform, const scene::StrokeStyle& style,
+                 const View& view, double flatness) {
     checkView(view);
     EdgeList edges(view.width, view.height);
     addStroke(path, style, scene::compose(view.toPixels, transform), view, flatness, 0, edges);
+    return edges;
+}
+
+}  // namespace
+
+std::vector<double> strokeCoverage(const scene::Path& path, const scene::Affine& transform,
+                                   const scene::StrokeStyle& style, const View& view, double flatness) {
+    EdgeList edges = edgesOf(path, transform, style, view, flatness);
     return coverageOf(edges, scene::FillRule::NonZero, view);
+}
+
+std::size_t strokeEdges(const scene::Path& path, const scene::Affine& transform,
+                        const scene::StrokeStyle& style, const View& view, double flatness) {
+    return edgesOf(path, transform, style, view, flatness).edges().size();
 }
 
 }  // namespace vtm::reference

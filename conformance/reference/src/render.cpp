@@ -9,9 +9,6 @@
 namespace vtm::reference {
 namespace {
 
-/// Pixels: half a 255th of a pixel's colour takes 2e-3 along a whole side of it.
-constexpr double flatness = 1e-4;
-
 void store(std::span<const Colour> row, float* out) {
     for (const Colour& colour : row)
         for (int c = 0; c < 4; ++c)
@@ -44,11 +41,14 @@ image::Raster render(const scene::Scene& scene, const View& view, const Options&
     checkView(view);
     if (options.samples < 1 || options.samples > 256)
         throw std::invalid_argument("reference: " + std::to_string(options.samples) + " samples");
+    if (!(options.flatness > 0))
+        throw std::invalid_argument("reference: flatness must be > 0");
     if (options.mode == Mode::Compat) {
-        const Picture picture = makePicture(scene, view, flatness, Patterns::Sampled, options.materials);
+        const Picture picture =
+            makePicture(scene, view, options.flatness, Patterns::Sampled, options.materials);
         return renderRows(picture, [&] { return std::make_unique<CompatRows>(picture); });
     }
-    const Picture picture = makePicture(scene, view, flatness, Patterns::LaidOut, options.materials);
+    const Picture picture = makePicture(scene, view, options.flatness, Patterns::LaidOut, options.materials);
     return renderRows(picture, [&] { return std::make_unique<ExactRows>(picture, options.samples); });
 }
 

@@ -77,6 +77,10 @@ public:
 
     /// False once there are too many dashes.
     bool walk(const Strand& strand) {
+        if (isDot(strand)) {
+            dashes_.push_back(strand);
+            return dashes_.size() <= maxDashes;
+        }
         index_ = 0;
         left_ = pattern_[0];
         walked_ = 0;
@@ -99,6 +103,11 @@ public:
     std::vector<Strand> take() { return std::move(dashes_); }
 
 private:
+    /// Dots are drawn wherever the pattern stands.
+    static bool isDot(const Strand& strand) {
+        return strand.runs.size() == 1 && strand.runs.front().size() == 2 &&
+               strand.runs.front().front().at == strand.runs.front().back().at;
+    }
     bool on() const { return index_ % 2 == 0; }
 
     void nextElement() {

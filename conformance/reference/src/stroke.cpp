@@ -17,7 +17,8 @@ constexpr double maxTurn = std::numbers::pi / 16;
 constexpr double widestHalf = 1e7;
 /// A mitre at its limit up to rounding is kept.
 constexpr double miterSlack = 1e-9;
-/// Curves out of view keep their length to about this share squared, for the dashes after them.
+/// Curves out of view keep their length to about this share squared, for the dashes after them; where there
+/// are none, each becomes its chord.
 constexpr double hiddenTolerance = 1e-5;
 
 /// The turn between two radii whose chord lies within `tolerance` of the circle:
@@ -60,7 +61,8 @@ public:
     Fineness fineness(double flatness) const {
         const bool mitred = style_.join == scene::Join::Miter || style_.join == scene::Join::MiterClip;
         const double farthest = std::max(std::numbers::sqrt2, mitred ? style_.miterLimit : 1.0);
-        return {toPixels_, view_.grownBy(reach_ * farthest + 1), flatness, turn_, hiddenTolerance};
+        return {toPixels_, view_.grownBy(reach_ * farthest + 1), flatness, turn_,
+                style_.dashes.empty() ? wholePiece : hiddenTolerance};
     }
 
     void stroke(const Strand& strand) {

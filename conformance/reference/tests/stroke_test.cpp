@@ -63,6 +63,15 @@ TEST(StrokeCoverage, CapsAtAllAngles) {
     }
 }
 
+TEST(StrokeCoverage, DotsAreDrawnInGapsToo) {
+    StrokeStyle style = styleOf(4, Cap::Square);
+    style.dashes = {3, 5};
+    for (const double phase : {0.0, 4.0}) {
+        style.dashPhase = phase;
+        EXPECT_NEAR(area({MoveTo{{20, 20}}, LineTo{{20, 20}}}, style), 16, rounding);
+    }
+}
+
 /// A right angle between two lines of length 30: what the join adds to the two rectangles.
 double joinArea(const StrokeStyle& style, bool mirrored) {
     const Path path = mirrored ? Path{MoveTo{{40, 10}}, LineTo{{40, 40}}, LineTo{{10, 40}}}

@@ -1,0 +1,50 @@
+/// \file
+/// How time and memory are measured.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace vtm::bench {
+
+/// CPU time of this process in milliseconds: all its threads, no waiting.
+double cpuMilliseconds();
+/// Wall time in milliseconds.
+double wallMilliseconds();
+
+/// CPU milliseconds of one call.
+template <class Work>
+double cpuTime(Work&& work) {
+    const double start = cpuMilliseconds();
+    work();
+    return cpuMilliseconds() - start;
+}
+
+double median(std::vector<double> values);
+
+/// Two things that took turns, so that both met the same machine.
+struct Paired {
+    double first = 0, second = 0;  ///< medians, CPU milliseconds
+    double ratio = 0;              ///< median of second / first, pair by pair
+    double low = 0, high = 0;      ///< quartiles of that ratio
+    int pairs = 0;
+};
+
+/// Pairs until `budget` (CPU milliseconds) is spent, at least five, at most `most`. One pair before them is
+/// not counted.
+Paired pairwise(const std::function<void()>& first, const std::function<void()>& second, double budget,
+                int most);
+
+/// What a child process used.
+struct ChildUse {
+    double cpu = 0, wall = 0;  ///< milliseconds
+    double peakBytes = 0;      ///< largest resident set, that of the bare process taken off
+    double result = 0;         ///< what `work` returned
+};
+
+/// Runs `prepare` and `work` in a child process, so that peaks do not add up; times are those of `work`
+/// alone. Nothing if the child failed.
+std::optional<ChildUse> inChild(const std::function<void()>& prepare, const std::function<double()>& work);
+
+}  // namespace vtm::bench

@@ -1,0 +1,19 @@
+/// \file
+/// The comparisons, one a file.
+#pragma once
+
+#include "bench/src/files.hpp"
+#include "bench/src/table.hpp"
+
+namespace vtm::bench {
+
+/// Encoding against one drawing by librsvg at 1024 pixels.
+Report peers(const std::vector<File>& files);
+/// Bytes against a flat grid of equal finest cells, on the files and on a font.
+Report compression(const std::vector<File>& files, const std::string& font);
+/// Time, memory and bytes over the number of curves, up to `largest`.
+Report scaling(std::size_t largest);
+/// Bytes against fragment cost for settings of leaf size and depth.
+Report sweep(const std::vector<File>& files);
+
+}  // namespace vtm::bench

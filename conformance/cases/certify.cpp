@@ -1,0 +1,224 @@
+#include "conformance/cases/certify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "asset/evaluate.hpp"
+
+namespace vtm::cases {
+namespace {
+
+using scene::Point;
+
+/// Shares of a pixel below it are rounding.
+constexpr double negligible = 1e-12;
+/// How flat the reference makes outlines, as a share of the tolerance. (Dashes move by what it takes from
+/// their path's length.)
+constexpr double flatShare = 1.0 / 64;
+/// Width of a line that stands for an outline, in pixels.
+constexpr double hairline = 1.0 / 64;
+/// A view with so many more edges of one stroke than pixels, as where a wide dashed one turns tighter than it
+/// is wide, takes the reference minutes: all of it counts as near an outline.
+constexpr std::size_t tangled = 400;
+
+scene::Affine toPixels(const Window& window) {
+    const double scale = 1 / window.pixel;
+    const Point origin = Point(window.pixels / 2.0) - scale * window.centre;
+    return {scale, 0, 0, scale, origin.x, origin.y};
+}
+
+Point interpolate(Point from, const scene::Command& command, double t) {
+    const double u = 1 - t;
+    if (const auto* line = std::get_if<scene::LineTo>(&command))
+        return u * from + t * line->to;
+    if (const auto* quad = std::get_if<scene::QuadTo>(&command))
+        return u * u * from + 2 * u * t * quad->control + t * t * quad->to;
+    if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
+        return u * u * u * from + 3 * u * u * t * cubic->control1 + 3 * u * t * t * cubic->control2 +
+               t * t * t * cubic->to;
+    return from;
+}
+
+Point endOf(const scene::Command& command) {
+    return std::visit(
+        [](const auto& c) {
+            if constexpr (requires { c.to; })
+                return c.to;
+            else
+                return Point(0);
+        },
+        command);
+}
+
+/// The least that the map stretches any direction by: its smaller singular value.
+double smallestScale(const scene::Affine& m) {
+    const double sum = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]), d = std::abs(scene::determinant(m));
+    const double larger = std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4 * d * d))) / 2);
+    return larger > 0 ? d / larger : 0;
+}
+
+/// Every subpath ended as a fill ends it.
+scene::Path closed(const scene::Path& path) {
+    scene::Path result;
+    for (const scene::Command& command : path) {
+        const bool open = !result.empty() && !std::holds_alternative<scene::Close>(result.back());
+        if (open && std::holds_alternative<scene::MoveTo>(command))
+            result.push_back(scene::Close{});
+        result.push_back(command);
+    }
+    if (!result.empty())
+        result.push_back(scene::Close{});
+    return result;
+}
+
+}  // namespace
+
+Outlines::Outlines(const scene::Scene& scene) {
+    const auto border = scene::rectangle({0, 0}, {scene.width, scene.height});
+    shapes_.push_back({std::make_shared<scene::Path>(border), scene::identity, scene::FillRule::NonZero});
+    add(scene.root);
+}
+
+void Outlines::add(const scene::Group& group) {
+    if (group.clip)
+        add(*group.clip);
+    if (group.mask)
+        add(*group.mask->content);
+    for (const scene::Node& node : group.children) {
+        if (const auto* child = std::get_if<scene::Group>(&node.value)) {
+            add(*child);
+            continue;
+        }
+        const auto& item = std::get<scene::Item>(node.value);
+        shapes_.push_back({item.path, item.transform, item.geometry});
+    }
+}
+
+void Outlines::add(const scene::Clip& clip) {
+    for (const scene::ClipShape& shape : clip.shapes) {
+        shapes_.push_back({shape.path, shape.transform, shape.rule});
+        if (shape.clip)
+            add(*shape.clip);
+    }
+    if (clip.clip)
+        add(*clip.clip);
+}
+
+std::vector<bool> Outlines::touched(const Shape& shape, const reference::View& view, double tolerance) {
+    const double flatness = flatShare * tolerance * view.toPixels[0].x;
+    std::vector<double> covered;
+    std::vector<bool> touched;
+    if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
+        const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
+        if (reference::strokeEdges(*shape.path, shape.transform, *style, view, flatness) > tangled + pixels)
+            return std::vector<bool>(pixels, true);
+        covered = reference::strokeCoverage(*shape.path, shape.transform, *style, view, flatness);
+        scene::StrokeStyle narrow = *style;
+        narrow.width -= 2 * tolerance / smallestScale(shape.transform);
+        const std::vector<double> safe =
+            narrow.width > 0 ? reference::strokeCoverage(*shape.path, shape.transform, narrow, view, flatness)
+                             : std::vector<double>(covered.size());
+        for (std::size_t i = 0; i < covered.size(); ++i)
+            touched.push_back(covered[i] > negligible && safe[i] < 1 - negligible);
+        return touched;
+    }
+    // Edges that coincide cancel in a fill's coverage, not in that of a line along them.
+    scene::StrokeStyle line;
+    const scene::Affine m = scene::compose(view.toPixels, shape.transform);
+    line.width =
+        hairline / std::max({std::abs(m[0].x), std::abs(m[0].y), std::abs(m[1].x), std::abs(m[1].y)});
+    covered = reference::strokeCoverage(closed(*shape.path), shape.transform, line, view, flatness);
+    for (const double c : covered)
+        touched.push_back(c > 0);
+    return touched;
+}
+
+std::vector<bool> Outlines::farPixels(const Window& window) const {
+    const int n = window.pixels;
+    const reference::View view{n, n, toPixels(window)};
+    std::vector<bool> near(std::size_t(n) * n);
+    for (const Shape& shape : shapes_) {
+        const std::vector<bool> one = touched(shape, view, window.tolerance);
+        std::transform(near.begin(), near.end(), one.begin(), near.begin(), std::logical_or());
+    }
+    std::vector<bool> far(near.size());
+    for (int y = 1; y < n - 1; ++y)
+        for (int x = 1; x < n - 1; ++x) {
+            bool any = false;
+            for (int j = y - 1; j <= y + 1; ++j)
+                for (int i = x - 1; i <= x + 1; ++i)
+                    any = any || near[std::size_t(j * n + i)];
+            far[std::size_t(y * n + x)] = !any;
+        }
+    return far;
+}
+
+bool Outlines::within(Point centre, double reach, double tolerance) const {
+    const reference::View view{1, 1, toPixels({centre, 2 * reach, 1, tolerance})};
+    return std::ranges::any_of(
+        shapes_, [&](const Shape& shape) { return touched(shape, view, tolerance).at(0) == true; });
+}
+
+std::vector<Point> Outlines::somePoints(std::uint64_t seed, int count) const {
+    std::mt19937_64 random(seed);
+    const auto share = [&] { return std::ldexp(double(random() >> 11), -53); };
+    std::vector<Point> points;
+    for (int i = 0; i < count; ++i) {
+        const Shape& shape = shapes_[random() % shapes_.size()];
+        if (shape.path->empty())
+            continue;
+        const std::size_t k = random() % shape.path->size();
+        Point p = interpolate(k == 0 ? Point(0) : endOf((*shape.path)[k - 1]), (*shape.path)[k], share());
+        if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
+            const double angle = 6.283185307179586 * share();
+            p += style->width / 2 * Point(std::cos(angle), std::sin(angle));
+        }
+        points.push_back(scene::apply(shape.transform, p));
+    }
+    return points;
+}
+
+namespace {
+
+/// How much a channel varies over the pixels about one: outlines being far, its paint does. The mean over a
+/// pixel, which the reference takes, is within half of that of its middle, which the asset shows.
+float rangeAround(const image::Raster& raster, int x, int y, int channel) {
+    float low = raster.pixel(x, y)[channel], high = low;
+    for (int j = y - 1; j <= y + 1; ++j)
+        for (int i = x - 1; i <= x + 1; ++i) {
+            low = std::min(low, raster.pixel(i, j)[channel]);
+            high = std::max(high, raster.pixel(i, j)[channel]);
+        }
+    return high - low;
+}
+
+}  // namespace
+
+std::string difference(const scene::Scene& scene, const Outlines& outlines, const asset::Asset& asset,
+                       const Window& window, double bound) {
+    const int n = window.pixels;
+    const std::vector<bool> far = outlines.farPixels(window);
+    if (std::ranges::find(far, true) == far.end())
+        return {};
+    const image::Raster truth = reference::render(scene, {n, n, toPixels(window)},
+                                                  {.flatness = flatShare * window.tolerance / window.pixel});
+    const image::Raster drawn = asset::evaluate(asset, {n, n, toPixels(window)});
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            for (int c = 0; far[std::size_t(y * n + x)] && c < 4; ++c) {
+                const float wanted = truth.pixel(x, y)[c], got = drawn.pixel(x, y)[c];
+                if (!(std::abs(wanted - got) <= bound + rangeAround(truth, x, y, c) / 2)) {
+                    const Point at = window.centre + (Point(x, y) + 0.5 - n / 2.0) * window.pixel;
+                    return fmt::format("channel {} at {}, {} (pixels of {}) is {}, not {}", c, at.x, at.y,
+                                       window.pixel, got, wanted);
+                }
+            }
+    return {};
+}
+
+}  // namespace vtm::cases

@@ -1,0 +1,13 @@
+/// \file
+/// Random paints.
+#pragma once
+
+#include "conformance/generate/src/random.hpp"
+#include "scene/paint.hpp"
+
+namespace vtm::generate {
+
+/// A colour, opaque or not, or a gradient without sharp edges over about [0, side]².
+scene::Paint randomPaint(Random& random, double side);
+
+}  // namespace vtm::generate

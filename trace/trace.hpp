@@ -1,0 +1,37 @@
+/// \file
+/// Bitmaps in, scenes out: vectorising (paper row 15). The outlines are found by potrace, an optional
+/// component, since its licence is the GPL; built without it, `available()` is false and everything else here
+/// works as if it were not there.
+#pragma once
+
+#include <stdexcept>
+
+#include "image/bitmap.hpp"
+#include "scene/scene.hpp"
+
+namespace vtm::trace {
+
+struct Options {
+    /// Colours of the result, at most, in [1, 256]. Fewer where the picture has fewer.
+    int colors = 8;
+    /// Spots of so many pixels are left out, in [0, 1000000].
+    int speckle = 2;
+    /// Corners are rounded more the larger it is: from 0, polygons, to 1.3334, no corners.
+    double smooth = 1;
+};
+
+/// Says why nothing can be traced: options out of range, an empty picture, no potrace.
+class TraceError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Whether potrace was built in.
+bool available();
+
+/// A scene of the picture's size in pixels, one item a colour. Colours are clustered by how far apart they
+/// look (OKLab). They are stacked, the lightest at the bottom: each covers its own pixels and those of all
+/// darker ones, so that no gap shows between them. Pixels of which less than half is covered (alpha below
+/// 128) stay empty, others count as opaque.
+scene::Scene trace(const image::Bitmap& bitmap, const Options& options = {});
+
+}  // namespace vtm::trace
