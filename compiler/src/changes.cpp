@@ -136,12 +136,11 @@ public:
 
     LayerMeaning of(const PictureItem& item) const {
         const Source& source = picture_.sources[item.source];
-        std::uint64_t paint = mixed(paints_[item.group], bits(item.opacity));
-        paint = mixed(paint, std::uint64_t{static_cast<std::uint32_t>(source.op)} << 32 | source.data);
-        for (float c : source.color)
-            paint = mixed(paint, bits(c));
-        return {mixed(clips_[item.group], hides(picture_, item, hides_[item.group])),
-                mixed(paint, source.opaque)};
+        const auto& c = source.color;
+        std::uint64_t paint = mixed(paints_[item.group], bits(item.opacity) << 32 | source.data);
+        paint = mixed(paint, std::uint64_t{static_cast<std::uint32_t>(source.op)} << 1 | source.opaque);
+        paint = mixed(mixed(paint, bits(c[0]) << 32 | bits(c[1])), bits(c[2]) << 32 | bits(c[3]));
+        return {mixed(clips_[item.group], hides(picture_, item, hides_[item.group])), paint};
     }
 
 private:

@@ -51,7 +51,7 @@ public:
         update.outlines = kept_.cache.added();
         compare();
         if (update.anew)
-            kept_.partition.emplace(kept_.lattice.square(), strandsPerBlock(picture_.outlines.runs.size()));
+            kept_.partition.emplace(kept_.lattice.square(), strandsPerBlock(kept_.cache.usedRuns()));
         if (update.anew || geometryChanged_)
             update.blocks = build();
         update.blocksInAll = kept_.partition->blocks().size();
@@ -134,6 +134,9 @@ private:
                 corner = place(corner);
         for (Tree::Piece& piece : tree.pieces)
             piece.left = place(piece.left), piece.right = place(piece.right);
+        tree.nodes.shrink_to_fit();
+        tree.leaves.shrink_to_fit();
+        tree.pieces.shrink_to_fit();
         block.tree = std::move(tree);
         block.dirty = false;
         for (PaintId id : before)  // last, so that what stays in use keeps its place
@@ -199,21 +202,9 @@ Kept::Kept(double pictureWidth, double pictureHeight, const Options& options)
     : width(pictureWidth), height(pictureHeight), lattice(width, height, latticeBits(options)) {}
 
 bool Kept::isWorn() const {
-    /// Beyond this factor; seldom enough to be paid for by the edits in between.
-    constexpr std::size_t factor = 4;
-    std::size_t runs = 0, points = 0;
-    for (const Layer& layer : picture.layers) {
-        if (layer.runCount == 0)
-            continue;
-        const std::vector<Run>& all = picture.outlines.runs;
-        runs += layer.runCount;
-        points += all[layer.firstRun + layer.runCount - 1].last - all[layer.firstRun].first + 1;
-    }
-    constexpr std::size_t fewPoints = 1u << 16, fewOutlines = 1u << 12;
-    const std::size_t wanted = strandsPerBlock(runs), most = partition->most();
-    return wanted > factor * most || most > factor * wanted ||
-           picture.outlines.points.size() > factor * points + fewPoints ||
-           cache.size() > factor * picture.layers.size() + fewOutlines;
+    constexpr std::size_t factor = 4;  // seldom enough to be paid for by the edits in between
+    const std::size_t wanted = strandsPerBlock(cache.usedRuns()), most = partition->most();
+    return wanted > factor * most || most > factor * wanted || cache.isWorn(picture.outlines);
 }
 
 Update edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options) {

@@ -131,7 +131,7 @@ private:
     }
 
     void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
-        const Affine transform = compose(outer, item.transform);
+        const Affine transform = outer == scene::identity ? item.transform : compose(outer, item.transform);
         if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
             patternItem(item, *pattern, transform, into);
             return;
@@ -190,10 +190,12 @@ private:
     }
 
     std::uint32_t layer(const OutlineOrigin& origin, scene::FillRule rule) {
+        const std::size_t pointsBefore = picture_.outlines.points.size();
         const std::optional<RunRange> known = cache_ ? cache_->find(origin) : std::nullopt;
         const RunRange runs = known ? *known : outline(origin);
         if (cache_ && !known)
-            cache_->add(origin, runs);
+            cache_->add(origin, runs,
+                        static_cast<std::uint32_t>(picture_.outlines.points.size() - pointsBefore));
         picture_.layers.push_back({rule, runs.first, runs.count});
         checkLimits();
         picture_.itemOfLayer.push_back(none);

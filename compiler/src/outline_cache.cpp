@@ -7,8 +7,8 @@ namespace vtm::compiler {
 Outlines OutlineCache::take() {
     lastOrder_.swap(order_);
     order_.clear();
-    next_ = 0;
-    added_ = 0;
+    next_ = nextKnown_ = 0;
+    added_ = usedRuns_ = usedPoints_ = 0;
     return std::move(outlines_);
 }
 
@@ -27,9 +27,12 @@ std::size_t OutlineCache::hash(const OutlineOrigin& o) {
 }
 
 RunRange OutlineCache::use(std::uint32_t entry) {
-    entries_[entry].place = static_cast<std::uint32_t>(order_.size());
+    Entry& e = entries_[entry];
+    e.place = static_cast<std::uint32_t>(order_.size());
     order_.push_back(entry);
-    return entries_[entry].runs;
+    usedRuns_ += e.runs.count;
+    usedPoints_ += e.points;
+    return e.runs;
 }
 
 std::optional<RunRange> OutlineCache::find(const OutlineOrigin& origin) {
@@ -44,14 +47,33 @@ std::optional<RunRange> OutlineCache::find(const OutlineOrigin& origin) {
     return std::nullopt;
 }
 
-void OutlineCache::add(const OutlineOrigin& origin, RunRange runs) {
+void OutlineCache::add(const OutlineOrigin& origin, RunRange runs, std::uint32_t points) {
     const auto number = static_cast<std::uint32_t>(entries_.size());
     entries_.push_back({origin.path, origin.transform,
-                        origin.stroke ? std::optional(*origin.stroke) : std::nullopt, runs, 0});
+                        origin.stroke ? std::optional(*origin.stroke) : std::nullopt, runs, points, 0});
     index_.emplace(hash(origin), number);
-    paths_.insert(origin.path.get());
+    paths_.emplace(origin.path.get(), number);
     ++added_;
     use(number);
+}
+
+bool OutlineCache::knows(const scene::Path& path) {
+    if (nextKnown_ < order_.size() && entries_[order_[nextKnown_]].path.get() == &path) {
+        ++nextKnown_;
+        return true;
+    }
+    const auto found = paths_.find(&path);
+    if (found == paths_.end())
+        return false;
+    nextKnown_ = entries_[found->second].place + 1;
+    return true;
+}
+
+bool OutlineCache::isWorn(const Outlines& store) const {
+    /// Beyond this factor; seldom enough to be paid for by the edits in between.
+    constexpr std::size_t factor = 4, fewPoints = 1u << 16, fewOutlines = 1u << 12;
+    return store.points.size() > factor * usedPoints_ + fewPoints ||
+           entries_.size() > factor * order_.size() + fewOutlines;
 }
 
 std::shared_ptr<const scene::Path> OutlineCache::rectangle(scene::Point min, scene::Point max) {

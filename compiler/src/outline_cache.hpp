@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "compiler/src/outline.hpp"
@@ -38,16 +37,19 @@ public:
     void put(Outlines outlines) { outlines_ = std::move(outlines); }
 
     std::optional<RunRange> find(const OutlineOrigin& origin);
-    void add(const OutlineOrigin& origin, RunRange runs);
+    /// `points`: how many of the store's the outline takes.
+    void add(const OutlineOrigin& origin, RunRange runs, std::uint32_t points);
 
     /// One path for each rectangle.
     std::shared_ptr<const scene::Path> rectangle(scene::Point min, scene::Point max);
     /// How many were added in this lowering.
     std::size_t added() const { return added_; }
-    /// How many are kept, used or not.
-    std::size_t size() const { return entries_.size(); }
-    /// Whether an outline of the path is there.
-    bool knows(const scene::Path& path) const { return paths_.contains(&path); }
+    /// Runs of those that it used.
+    std::size_t usedRuns() const { return usedRuns_; }
+    /// Whether most of the outlines in the store are no longer used.
+    bool isWorn(const Outlines& store) const;
+    /// Whether an outline of the path is there; fast if it follows the one asked for before.
+    bool knows(const scene::Path& path);
 
 private:
     struct Entry {
@@ -55,6 +57,7 @@ private:
         scene::Affine transform;
         std::optional<scene::StrokeStyle> stroke;
         RunRange runs;
+        std::uint32_t points;
         std::uint32_t place;  ///< in the order of the last lowering that used it
     };
     static bool matches(const Entry& entry, const OutlineOrigin& origin);
@@ -64,13 +67,14 @@ private:
     Outlines outlines_;
     std::vector<Entry> entries_;
     std::unordered_multimap<std::size_t, std::uint32_t> index_;
-    std::unordered_set<const scene::Path*> paths_;
+    std::unordered_map<const scene::Path*, std::uint32_t> paths_;  ///< an entry of each
     std::map<std::array<double, 4>, std::shared_ptr<const scene::Path>> rectangles_;
     /// Entries in the order in which the last lowering and this one asked for them. Most are asked for in
     /// the same order again, so the next one is tried before the index.
     std::vector<std::uint32_t> lastOrder_, order_;
-    std::uint32_t next_ = 0;
-    std::size_t added_ = 0;
+    std::uint32_t next_ = 0;       ///< in lastOrder_
+    std::uint32_t nextKnown_ = 0;  ///< in order_
+    std::size_t added_ = 0, usedRuns_ = 0, usedPoints_ = 0;
 };
 
 }  // namespace vtm::compiler

@@ -7,6 +7,8 @@
 namespace vtm::compiler {
 namespace {
 
+std::uint64_t bitOf(std::uint32_t name) { return std::uint64_t{1} << name % 64; }
+
 /// The colour between constant paints; of others, the middle one.
 PaintProgram meanOf(const std::vector<PaintProgram>& programs) {
     Color sum{};
@@ -48,6 +50,8 @@ PaintId StackPaints::use(const Stack& stack) {
         Entry& entry = entries_[found->second];
         entry.stack = &found->first;
         entry.isNew = true;
+        for (std::uint32_t name : stack)
+            entry.names |= bitOf(name);
     }
     ++entries_[found->second].users;
     return found->second;
@@ -65,14 +69,16 @@ void StackPaints::release(PaintId id) {
 
 std::size_t StackPaints::update(const Picture& picture, const LayerNames& names,
                                 const std::vector<std::uint8_t>& changed) {
+    std::uint64_t bits = 0;
+    for (std::uint32_t name = 0; name < changed.size(); ++name)
+        bits |= changed[name] ? bitOf(name) : 0;
+    const auto holdsChanged = [&](const Stack& stack) {
+        return std::any_of(stack.begin(), stack.end(),
+                           [&](std::uint32_t name) { return name != none && changed[name]; });
+    };
     std::size_t count = 0;
     for (Entry& entry : entries_) {
-        if (!entry.stack)
-            continue;
-        const bool stale =
-            entry.isNew || std::any_of(entry.stack->begin(), entry.stack->end(),
-                                       [&](std::uint32_t name) { return name != none && changed[name]; });
-        if (!stale)
+        if (!entry.isNew && !((entry.names & bits) != 0 && holdsChanged(*entry.stack)))
             continue;
         const bool wasConstant = Palette::isConstant(entry.program);
         entry.program = programOf(picture, names, *entry.stack);

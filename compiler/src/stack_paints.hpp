@@ -36,6 +36,7 @@ private:
         const Stack* stack = nullptr;  ///< key of the index; null: free
         std::uint32_t users = 0;
         bool isNew = false, isChanged = false;
+        std::uint64_t names = 0;  ///< a bit for each name modulo 64: most stacks need not be looked into
         PaintProgram program;
     };
     bool encodeAll(const Picture& picture, asset::Asset& after, float& error);
