@@ -20,7 +20,8 @@ struct Update {
 
 /// Keeps what compiling a scene found, so that the next scene, which differs in little, costs little
 /// (docs/session.md). Scenes are values: an edited scene shares its unchanged paths with the one before, and
-/// a path is known again by its pointer. Everything else is compared by value.
+/// a path or bitmap is known again by its pointer, so it must not be changed in place. Everything else is
+/// compared by value.
 ///
 /// The result draws what `compile` of the same scene draws; it is larger by the boundaries between regions
 /// that have the same colour now and may have different ones later. In compat mode every update compiles
@@ -35,11 +36,11 @@ public:
 
     /// Valid until the next update. Its asset has no prefilter.
     const Result& result() const;
-    /// Of the last call of `update`, or the constructor.
+    /// Of the last `update` that did not throw, or the constructor.
     const Update& lastUpdate() const;
 
     /// Compiles `scene` in place of the last. If it throws, what `compile` throws, the result stays as it was
-    /// and the next update compiles anew.
+    /// and the next update may compile anew.
     const Result& update(const scene::Scene& scene);
 
 private:
