@@ -6,6 +6,7 @@
 
 #include "asset/asset.hpp"
 #include "asset/coverage.hpp"
+#include "asset/paper.hpp"
 
 namespace vtm::gl {
 
@@ -30,6 +31,16 @@ std::string layout() {
 
            fmt::format("const int chordCount = {};\nconst float smallestSpan = {:.17g};\n", asset::chordCount,
                        asset::smallestSpan);
+}
+
+std::string paperMode() {
+    return constant("kindNode", asset::Entry::Kind::Node) + constant("paperNone", asset::noPaperIndex) +
+           constant("paperIntersection", 1 + unsigned(asset::PaperOperator::Intersection)) +
+           fmt::format(
+               "const int paperPending = {};\nconst float paperMargin = {:.17g};\nconst float paperExtent = "
+               "{:.1f};\nconst float paperSlopeScale = {:.17g};\nconst float paperLargestLod = {:.1f};\n",
+               asset::maxPaperPending, asset::paperMargin, asset::paperExtent, asset::paperSlopeScale,
+               asset::paperLargestLod);
 }
 
 std::string operations() {
@@ -61,6 +72,6 @@ std::string actions() {
 
 }  // namespace
 
-std::string glslConstants() { return layout() + operations() + blendModes() + actions(); }
+std::string glslConstants() { return layout() + paperMode() + operations() + blendModes() + actions(); }
 
 }  // namespace vtm::gl

@@ -19,6 +19,8 @@ struct CompileOptions {
 };
 
 int compile(const CompileOptions& options) {
+    if (options.source.paper)
+        throw UsageError("compile: a .vtm file holds no paper mode; see render and info --mode paper");
     try {
         Source source = loadSource(options.input, options.source);
         if (options.prefilter)

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "asset/evaluate.hpp"
+#include "backend_gl/paper.hpp"
 #include "backend_gl/renderer.hpp"
 #include "conformance/reference/reference.hpp"
 #include "tools/src/commands.hpp"
@@ -18,6 +19,11 @@ public:
     image::Raster render(Source& source, const asset::View& view) override {
         if (!gl_)
             gl_ = timed(source.stages, "start", [] { return std::make_unique<Gl>(); });
+        if (source.paper) {
+            const gl::PaperTexture texture =
+                timed(source.stages, "upload", [&] { return gl::PaperTexture(source.paper->asset); });
+            return timed(source.stages, "render", [&] { return gl_->paper.render(texture, view); });
+        }
         const gl::Texture texture =
             timed(source.stages, "upload", [&] { return gl_->renderer.upload(*source.asset); });
         return timed(source.stages, "render", [&] { return gl_->renderer.render(texture, view); });
@@ -28,6 +34,7 @@ private:
     struct Gl {
         gl::Context context;
         gl::Renderer renderer;
+        gl::PaperRenderer paper;
     };
     std::unique_ptr<Gl> gl_;
 };
@@ -35,9 +42,12 @@ private:
 class AssetEngine : public Engine {
 public:
     image::Raster render(Source& source, const asset::View& view) override {
-        if (!source.asset->materials.empty())
+        if (!source.paper && !source.asset->materials.empty())
             printWarning("warning: no GLSL runs on the CPU; materials have their fallback colours");
-        return timed(source.stages, "render", [&] { return asset::evaluate(*source.asset, view); });
+        return timed(source.stages, "render", [&] {
+            return source.paper ? asset::evaluate(source.paper->asset, view, &source.cost.emplace())
+                                : asset::evaluate(*source.asset, view);
+        });
     }
 };
 

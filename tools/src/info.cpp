@@ -60,6 +60,12 @@ void print(Json report, const std::vector<asset::SectionInfo>& sections, bool js
         printSections(sections);
 }
 
+const char* modeOf(const Source& source) {
+    if (source.paper)
+        return "paper";
+    return source.asset->mode == asset::Mode::Exact ? "exact" : "compat";
+}
+
 int info(const InfoOptions& options) {
     Json report = {{"input", options.input}};
     std::vector<asset::SectionInfo> sections;
@@ -68,8 +74,8 @@ int info(const InfoOptions& options) {
         const Source source = loadSource(options.input, options.source);
         report["width"] = source.width;
         report["height"] = source.height;
-        report["mode"] = source.asset->mode == asset::Mode::Exact ? "exact" : "compat";
-        report.update(figures(*source.asset));
+        report["mode"] = modeOf(source);
+        report.update(source.paper ? figures(*source.paper) : figures(*source.asset));
         report["stages_ms"] = toJson(source.stages);
         print(report, sections, options.json);
     } catch (...) {

@@ -89,6 +89,10 @@ void printReport(const Job& job, const Source& source, const asset::View& view) 
         {"input", job.input}, {"output", job.output}, {"width", view.width}, {"height", view.height}};
     if (source.asset)
         report.update(figures(*source.asset));
+    if (source.paper)
+        report.update(figures(*source.paper));
+    if (source.cost)
+        report["lookups"] = perPixel(*source.cost, std::uint64_t(view.width) * std::uint64_t(view.height));
     report["stages_ms"] = toJson(source.stages);
     fmt::print("{}\n", report.dump());
 }

@@ -39,6 +39,30 @@ Json figures(const asset::Asset& asset) {
             {"max_depth", summary.maxDepth}};
 }
 
+Json figures(const compiler::PaperResult& paper) {
+    const asset::PaperSummary summary = asset::summarize(paper.asset);
+    return {{"bytes", summary.bytes},
+            {"prefilter_bytes", summary.mipBytes},
+            {"tree_bytes", summary.treeBytes},
+            {"grid_bytes", summary.gridBytes},
+            {"masks", summary.masks},
+            {"nodes", summary.nodes},
+            {"indirections", summary.indirections},
+            {"cells", summary.cells},
+            {"pieces", summary.pieces},
+            {"approximated_cells", paper.approximatedCells()}};
+}
+
+Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels) {
+    const auto share = [&](std::uint64_t count) { return double(count) / double(pixels); };
+    return {{"nodes", share(cost.nodes)},
+            {"masks", share(cost.masks)},
+            {"indirections", share(cost.indirections)},
+            {"cells", share(cost.cells)},
+            {"mips", share(cost.mips)},
+            {"paints", share(cost.paints)}};
+}
+
 void printText(const Json& object, int indent) {
     for (const auto& [key, value] : object.items()) {
         if (value.is_object()) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "asset/asset.hpp"
+#include "compiler/paper.hpp"
 
 namespace vtm::tools {
 
@@ -33,6 +34,10 @@ Json toJson(const Stages& stages);
 
 /// The figures that `compile`, `info` and `render` share.
 Json figures(const asset::Asset& asset);
+/// Those of paper mode.
+Json figures(const compiler::PaperResult& paper);
+/// What a pixel's lookup touched, on the mean.
+Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels);
 
 /// One `key: value` a line; nested objects indented.
 void printText(const Json& object, int indent = 0);

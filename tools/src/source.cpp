@@ -18,11 +18,12 @@ const std::map<std::string, asset::Mode> modes{{"exact", asset::Mode::Exact},
                                                {"compat", asset::Mode::Compat}};
 
 void chooseMode(SourceOptions& options, const std::string& name) {
-    if (name == "paper")
-        throw UsageError("--mode paper is not available yet; choose exact or compat");
+    options.paper = name == "paper";
+    if (options.paper)
+        return;
     const auto mode = modes.find(name);
     if (mode == modes.end())
-        throw UsageError(fmt::format("--mode: '{}' is neither exact nor compat", name));
+        throw UsageError(fmt::format("--mode: '{}' is none of exact, compat, paper", name));
     options.mode = mode->second;
     options.compiler.mode = mode->second;
 }
@@ -48,6 +49,8 @@ std::vector<std::uint8_t> readBytes(const std::string& path, Stages& stages) {
 }
 
 void loadAsset(Source& source, const std::string& path, const SourceOptions& options) {
+    if (options.paper)
+        throw std::runtime_error("is compiled; paper mode draws SVG files only");
     const auto bytes = readBytes(path, source.stages);
     source.asset = timed(source.stages, "parse", [&] { return asset::read(bytes); });
     if (options.mode && *options.mode != source.asset->mode)
@@ -69,13 +72,26 @@ void parseSvg(Source& source, const std::string& path, svg::Options options) {
     source.scene = std::move(document.scene);
 }
 
+void printWarnings(const std::string& path, const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
+        printWarning(fmt::format("{}: warning: {}", path, warning));
+}
+
+void compilePaper(Source& source, const std::string& path, const compiler::Options& options) {
+    compiler::PaperOptions paper;
+    paper.tolerance = options.tolerance;
+    compiler::PaperResult result =
+        timed(source.stages, "compile", [&] { return compiler::compilePaper(*source.scene, paper); });
+    printWarnings(path, result.warnings);
+    source.paper = std::move(result);
+}
+
 void compileScene(Source& source, const std::string& path, const compiler::Options& options) {
     compiler::Result result =
         timed(source.stages, "compile", [&] { return compiler::compile(*source.scene, options); });
     for (const auto& [stage, milliseconds] : result.stages)
         source.stages.emplace_back(stage, milliseconds);
-    for (const std::string& warning : result.warnings)
-        printWarning(fmt::format("{}: warning: {}", path, warning));
+    printWarnings(path, result.warnings);
     source.asset = std::move(result.asset);
 }
 
@@ -84,7 +100,8 @@ void compileScene(Source& source, const std::string& path, const compiler::Optio
 void addSourceOptions(CLI::App& command, SourceOptions& options) {
     command.add_option_function<std::string>(
         "--mode", [&options](const std::string& name) { chooseMode(options, name); },
-        "exact: no seams (default); compat: layer by layer, as other renderers do");
+        "exact: no seams (default); compat: layer by layer, as other renderers do; paper: as published in "
+        "2005, to compare with");
     // The compiler's own range (compiler::Options::tolerance).
     command
         .add_option("--tolerance", options.compiler.tolerance,
@@ -103,7 +120,9 @@ Source loadSource(const std::string& path, const SourceOptions& options, bool co
         loadAsset(source, path, options);
     } else {
         parseSvg(source, path, options.svg);
-        if (compile)
+        if (compile && options.paper)
+            compilePaper(source, path, options.compiler);
+        else if (compile)
             compileScene(source, path, options.compiler);
     }
     return source;

@@ -9,6 +9,7 @@
 
 #include "asset/asset.hpp"
 #include "compiler/compile.hpp"
+#include "compiler/paper.hpp"
 #include "scene/scene.hpp"
 #include "svg/load.hpp"
 #include "tools/src/report.hpp"
@@ -20,6 +21,7 @@ struct SourceOptions {
     compiler::Options compiler;
     /// As typed; an asset has its own mode, which must not contradict it.
     std::optional<asset::Mode> mode;
+    bool paper = false;  ///< --mode paper, for SVG files only
 };
 
 /// --mode, --tolerance and what the importer needs: fonts, dpi, language.
@@ -29,6 +31,8 @@ struct Source {
     double width = 0, height = 0;       ///< user units
     std::optional<scene::Scene> scene;  ///< not where the file is an asset
     std::optional<asset::Asset> asset;
+    std::optional<compiler::PaperResult> paper;  ///< in place of `asset` in paper mode
+    std::optional<asset::PaperCost> cost;        ///< of drawing `paper` on the CPU
     Stages stages;
 };
 

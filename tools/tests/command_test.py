@@ -180,9 +180,14 @@ class BadUsage(Command):
                 self.assertNotEqual(self.vtm(*arguments, expect=2).stderr, "")
         self.assertFalse((self.folder / "o.png").exists())
 
-    def test_paper_mode_is_not_there_yet(self):
-        done = self.vtm("render", self.svg, "-o", "out.png", "--mode", "paper", expect=2)
-        self.assertIn("not available yet", done.stderr)
+    def test_paper_mode(self):
+        for engine in ("gl", "asset"):
+            with self.subTest(engine=engine):
+                image = self.draw("--mode", "paper", engine=engine)
+                self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)], [RED, PALE_BLUE, NOTHING])
+        report = json.loads(self.vtm("render", self.svg, "-o", "out.png", "--mode", "paper", "--engine", "asset",
+                                     "--json").stdout)
+        self.assertLessEqual(report["lookups"]["masks"], 2)
 
     def test_help_and_version(self):
         self.assertIn("render", self.vtm("--help").stdout)
@@ -267,6 +272,16 @@ class CompileAndInfo(Command):
         self.assertIn("mode", self.vtm("render", "square.vtm", "-o", "o.png", "--mode", "exact", expect=1).stderr)
         self.assertIn("reference", self.vtm("render", "square.vtm", "-o", "o.png", "--engine", "reference",
                                             expect=1).stderr)
+
+    def test_paper_mode_has_figures_but_no_file(self):
+        report = json.loads(self.vtm("info", self.svg, "--mode", "paper", "--json").stdout)
+        self.assertEqual((report["mode"], report["masks"], report["nodes"]), ("paper", 2, 2))
+        for key in ("bytes", "prefilter_bytes", "indirections", "cells", "pieces", "approximated_cells"):
+            self.assertIsInstance(report[key], int, key)
+        self.assertEqual(report["approximated_cells"], 0)
+        self.vtm("compile", self.svg, "-o", "square.vtm", "--mode", "paper", expect=2)
+        self.vtm("compile", self.svg, "-o", "square.vtm")
+        self.assertIn("paper", self.vtm("render", "square.vtm", "-o", "o.png", "--mode", "paper", expect=1).stderr)
 
 
 class Diff(Command):
