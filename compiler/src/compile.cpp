@@ -174,8 +174,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     asset.height = scene.height;
     asset.mode = options.mode;
     asset.data = std::move(picture.data);
-    for (const auto& image : picture.images)
-        asset.images.push_back(*image);
+    asset.images = bitmapsOf(picture);
     asset.materials = std::move(picture.materials);
     MapBuilder maps(picture, lattice, options, asset);
     float error = 0;

@@ -161,8 +161,7 @@ private:
         next.materials = picture_.materials;
         const bool newImages = update.anew || picture_.images != kept_.picture.images;
         if (newImages)
-            for (const auto& image : picture_.images)
-                next.images.push_back(*image);
+            next.images = bitmapsOf(picture_);
         if (!isJoined)
             next.fallbackLeaves = last.fallbackLeaves;
         const auto milliseconds = [](Clock::time_point a, Clock::time_point b) {

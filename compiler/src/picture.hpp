@@ -82,6 +82,14 @@ struct Picture {
     std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
 };
 
+/// Copies, for the asset.
+inline std::vector<image::Bitmap> bitmapsOf(const Picture& picture) {
+    std::vector<image::Bitmap> bitmaps;
+    for (const auto& image : picture.images)
+        bitmaps.push_back(*image);
+    return bitmaps;
+}
+
 /// Limits of lowering; beyond them a LimitError.
 inline constexpr std::size_t maxChords = 50'000'000;
 inline constexpr std::size_t maxLayers = 4'000'000;
