@@ -14,7 +14,7 @@ namespace vtm::compiler {
 namespace {
 
 /// A block has this part of the picture's strands, but at least so many.
-constexpr std::size_t blockShare = 256, leastBlock = 64;
+constexpr std::size_t blockShare = 256, leastBlock = 16;
 
 std::size_t strandsPerBlock(std::size_t runs) { return std::max(leastBlock, runs / blockShare); }
 
