@@ -9,6 +9,10 @@ namespace {
 constexpr Coord outside = 1 << 20;
 
 /// Hands strands down to 16 children. A square's side is a power of two.
+///
+/// A strand visits the children one after the other: where its next chord across a column's line and the
+/// next across a row's line are found, the earlier one leads to the neighbour. All vertices but its ends are
+/// inside the square, so a line of the square's own border is crossed by the first or the last chord.
 class Splitter {
 public:
     Splitter(Points points, const Square& square, std::array<Cell, 16>& children)
@@ -20,27 +24,44 @@ public:
 
     void push(const Strand& strand, std::array<int, 16>& windings) {
         const LatticePoint from = points_[strand.first], to = points_[strand.last];
-        const auto [left, right] = std::minmax(from.x, to.x);
-        const auto [low, high] = std::minmax(from.y, to.y);
-        const int i0 = place(left - std::int64_t{square_.x0}), i1 = place(right - std::int64_t{square_.x0});
-        const int j0 = place(low - std::int64_t{square_.y0}), j1 = place(high - std::int64_t{square_.y0});
-        const bool within =
-            left > square_.x0 && right < square_.x1() && low > square_.y0 && high < square_.y1();
-        if (within && i0 == i1 && j0 == j1) {
-            children_[index(i0, j0)].strands.push_back(strand);
-            return;  // crosses no line between first corners
-        }
-        for (int j = j0; j <= j1; ++j)
-            for (int i = i0; i <= i1; ++i) {
-                Cell& child = children_[index(i, j)];
-                const Strand part = narrowed(points_, strand, child.square);
-                if (part.first != part.last)
-                    child.strands.push_back(part);
+        const bool right = to.x >= from.x, up = to.y >= from.y;
+        int i = column(from.x), j = row(from.y);
+        const int iEnd = column(to.x), jEnd = row(to.y);
+        addAtBorder(strand, right, up, windings);
+        const auto nextX = [&](std::uint32_t chord) {
+            if (i == iEnd)
+                return strand.last;
+            const Coord x = lineX(right ? i + 1 : i);
+            return firstWhere(chord, strand.last,
+                              [&](std::uint32_t k) { return (points_[k + 1].x > x) == right; });
+        };
+        const auto nextY = [&](std::uint32_t chord) {
+            if (j == jEnd)
+                return strand.last;
+            const Coord y = lineY(up ? j + 1 : j);
+            return firstWhere(chord, strand.last,
+                              [&](std::uint32_t k) { return (points_[k + 1].y > y) == up; });
+        };
+        Strand part = strand;
+        std::uint32_t atX = nextX(strand.first), atY = nextY(strand.first);
+        while (i != iEnd || j != jEnd) {
+            const int lineI = right ? i + 1 : i, lineJ = up ? j + 1 : j;
+            const bool x = atX < atY || (atX == atY && meetsXFirst(atX, {lineX(lineI), lineY(lineJ)}, right == up));
+            const std::uint32_t chord = x ? atX : atY;
+            part.last = chord + 1;
+            add(strand, part, i, j);
+            part.first = chord;
+            if (x) {
+                i += right ? 1 : -1;
+                atX = nextX(chord);
+            } else {
+                addAlongRow(chord, lineJ, windings);
+                j += up ? 1 : -1;
+                atY = nextY(chord);
             }
-        if (left < square_.x0 && right > square_.x0)
-            addAlongColumn(strand, windings);
-        for (int j = low < square_.y0 ? 0 : j0 + 1; j <= j1; ++j)
-            addAlongRow(strand, j, windings);
+        }
+        part.last = strand.last;
+        add(strand, part, i, j);
     }
 
 private:
@@ -48,25 +69,47 @@ private:
     int place(std::int64_t offset) const {
         return static_cast<int>(std::clamp<std::int64_t>(offset >> shift_, 0, 3));
     }
+    int column(Coord x) const { return place(x - std::int64_t{square_.x0}); }
+    int row(Coord y) const { return place(y - std::int64_t{square_.y0}); }
+    Coord lineX(int i) const { return square_.x0 + i * step_; }
+    Coord lineY(int j) const { return square_.y0 + j * step_; }
+
+    /// Whether a chord across both lines through `corner` meets the column's first.
+    bool meetsXFirst(std::uint32_t chord, LatticePoint corner, bool risesToTheRight) const {
+        return cornerOnLeft(points_[chord], points_[chord + 1], corner) == risesToTheRight;
+    }
+
+    /// The first and the last chord may come from outside and pass the child by.
+    void add(const Strand& strand, const Strand& part, int i, int j) {
+        Cell& child = children_[index(i, j)];
+        const bool mayMiss = part.last == part.first + 1 &&
+                             (part.first == strand.first || part.last == strand.last);
+        if (!mayMiss || meets(points_[part.first], points_[part.last], child.square))
+            child.strands.push_back(part);
+    }
 
     /// The children's windings are those at their first corners, reached along the first column up to row
     /// j, then along row j.
-    void addAlongColumn(const Strand& strand, std::array<int, 16>& windings) const {
-        for (int j = 1; j < 4; ++j) {
-            const int up = windingAlongY(points_, strand, square_.x0, square_.y0, square_.y0 + j * step_);
-            for (int i = 0; i < 4; ++i)
-                windings[index(i, j)] += up;
+    void addAtBorder(const Strand& strand, bool right, bool up, std::array<int, 16>& windings) const {
+        const LatticePoint from = points_[strand.first], to = points_[strand.last];
+        if ((from.x < square_.x0) != (to.x < square_.x0)) {
+            const std::uint32_t c = right ? strand.first : strand.last - 1;
+            const LatticePoint a = points_[c], b = points_[c + 1];
+            const int before = cornerOnLeft(a, b, {square_.x0, square_.y0});
+            for (int j = 1; j < 4; ++j) {
+                const int change = int{cornerOnLeft(a, b, {square_.x0, lineY(j)})} - before;
+                for (int i = 0; i < 4; ++i)
+                    windings[index(i, j)] += change;
+            }
         }
+        if ((from.y < square_.y0) != (to.y < square_.y0))
+            addAlongRow(up ? strand.first : strand.last - 1, 0, windings);
     }
-    void addAlongRow(const Strand& strand, int j, std::array<int, 16>& windings) const {
-        const Coord y = square_.y0 + j * step_;
-        const std::uint32_t c = chordAtY(points_, strand, y);
-        if (c == strand.last)
-            return;
-        const LatticePoint a = points_[c], b = points_[c + 1];
-        const int before = cornerOnLeft(a, b, {square_.x0, y});
+    void addAlongRow(std::uint32_t chord, int j, std::array<int, 16>& windings) const {
+        const LatticePoint a = points_[chord], b = points_[chord + 1];
+        const int before = cornerOnLeft(a, b, {square_.x0, lineY(j)});
         for (int i = 1; i < 4; ++i)
-            windings[index(i, j)] += int{cornerOnLeft(a, b, {square_.x0 + i * step_, y})} - before;
+            windings[index(i, j)] += int{cornerOnLeft(a, b, {lineX(i), lineY(j)})} - before;
     }
 
     const Points points_;

@@ -27,7 +27,8 @@ double maxSecondDerivative(double mA, double mB) {
 }
 
 std::int16_t stored(double slope) {
-    return static_cast<std::int16_t>(std::lround(std::clamp(slope, -1.0, 1.0) * double{asset::slopeScale}));
+    const double scaled = std::clamp(slope, -1.0, 1.0) * double{asset::slopeScale};
+    return static_cast<std::int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
 }
 
 dvec2 point(const std::array<std::uint16_t, 2>& s) { return {s[0], s[1]}; }
@@ -36,7 +37,8 @@ dvec2 point(const std::array<std::uint16_t, 2>& s) { return {s[0], s[1]}; }
 
 const FittedLeaf& Fitter::run(const Square& square, const PlanarLeaf& leaf, double tolerance) {
     square_ = square;
-    tolerance_ = tolerance * leafStepsPerStep();
+    scale_ = extent / square.side;
+    tolerance_ = tolerance * scale_;
     leaf_.pieces.clear();
     leaf_.corners = leaf.corners;
     link(leaf);
@@ -116,11 +118,9 @@ void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
 
 // ---- quantise ---------------------------------------------------------------------------------
 
-double Fitter::leafStepsPerStep() const { return extent / square_.side; }
-
 /// Leaf coordinates, unrounded.
 dvec2 Fitter::exact(LatticePoint p) const {
-    return dvec2{p.x - square_.x0, p.y - square_.y0} * leafStepsPerStep();
+    return dvec2{p.x - square_.x0, p.y - square_.y0} * scale_;
 }
 
 /// The border's coordinates are kept for points on the border.
@@ -130,7 +130,7 @@ Fitter::Steps Fitter::round(LatticePoint p) const {
             return 0;
         if (at == high)
             return asset::leafExtent;
-        return static_cast<std::uint16_t>(std::clamp(std::floor(u + 0.5), 1.0, extent - 1));
+        return static_cast<std::uint16_t>(std::clamp(u + 0.5, 1.0, extent - 1));
     };
     const dvec2 u = exact(p);
     return {one(u.x, p.x, square_.x0, square_.x1()), one(u.y, p.y, square_.y0, square_.y1())};
@@ -190,7 +190,7 @@ bool Fitter::cutAlong(const Chain& chain, Side from, Side to, PaintId outer, Pai
 /// Whether an edge runs within reach of one of the sides from `from` on. The first and the last
 /// side are met only near their corners, unless there is but one.
 bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
-    const int reach = 1 + static_cast<int>(leafStepsPerStep());  // leaf coordinates
+    const int reach = 1 + static_cast<int>(scale_);  // leaf coordinates
     const auto near = [&](Side side) { return distance(p, side) <= reach && distance(q, side) <= reach; };
     for (Side k = 0; k <= sides; ++k) {
         const Side side = (from + k) % 4;

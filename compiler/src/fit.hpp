@@ -47,7 +47,6 @@ private:
     const End* next(const PlanarLeaf& leaf, LatticePoint at, std::uint32_t edge) const;
     void follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA);
 
-    double leafStepsPerStep() const;
     glm::dvec2 exact(LatticePoint p) const;
     Steps round(LatticePoint p) const;
 
@@ -63,6 +62,7 @@ private:
     void emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m);
 
     Square square_;
+    double scale_ = 1;      ///< leaf coordinates a lattice step
     double tolerance_ = 0;  ///< leaf coordinates
     std::vector<End> ends_;
     std::vector<std::uint8_t> used_;

@@ -40,6 +40,16 @@ public:
         inside_ = inside;
     }
 
+    /// Where the line so far and its next point are known to be inside the box.
+    void lineInside(Point to) {
+        emit(nearestEven(to));
+        current_ = to;
+    }
+    /// Whether the line so far ends inside the box and all of the curve lies there.
+    bool keepsInside(const Cubic& c) const {
+        return inside_ && isInside(c[1]) && isInside(c[2]) && isInside(c[3]);
+    }
+
     /// Ends the last contour.
     void finish() {
         if (!started_)
@@ -126,10 +136,17 @@ bool beyondOneSide(const Cubic& c, Point min, Point max) {
     return false;
 }
 
-Point evaluate(const Cubic& c, double t) {
-    const double u = 1 - t;
-    return c[0] * (u * u * u) + c[1] * (3 * u * u * t) + c[2] * (3 * u * t * t) + c[3] * (t * t * t);
-}
+/// A cubic by powers: ((a t + b) t + c) t + d.
+struct Polynomial {
+    Point a, b, c, d;
+
+    explicit Polynomial(const Cubic& p)
+        : a(p[3] - p[0] + 3.0 * (p[1] - p[2])),
+          b(3.0 * (p[0] - 2.0 * p[1] + p[2])),
+          c(3.0 * (p[1] - p[0])),
+          d(p[0]) {}
+    Point at(double t) const { return ((a * t + b) * t + c) * t + d; }
+};
 
 std::array<Cubic, 2> halve(const Cubic& c) {
     const Point a = lerp(c[0], c[1], 0.5), b = lerp(c[1], c[2], 0.5), d = lerp(c[2], c[3], 0.5);
@@ -160,8 +177,15 @@ void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) 
     }
     if (needed <= chordsAtOnce) {
         const int whole = static_cast<int>(needed), n = whole + (needed > whole);
+        const Polynomial curve(c);
+        if (sink.keepsInside(c)) {
+            for (int i = 1; i < n; ++i)
+                sink.lineInside(curve.at(i / double(n)));
+            sink.lineInside(c[3]);
+            return;
+        }
         for (int i = 1; i < n; ++i)
-            sink.line(evaluate(c, i / double(n)));
+            sink.line(curve.at(i / double(n)));
         sink.line(c[3]);
         return;
     }

@@ -91,6 +91,8 @@ Cover PicturePainter::groupCover(std::uint32_t group, const std::vector<Cover>& 
 bool PicturePainter::hidesAllBelow(const PictureItem& item, const std::vector<Cover>& covers) const {
     if (covers[item.layer] != Cover::In || !picture_.sources[item.source].opaque || item.opacity < 1)
         return false;
+    if (plain_[item.group])
+        return true;
     for (std::uint32_t g = item.group; g != none; g = picture_.groups[g].parent) {
         const PictureGroup& group = picture_.groups[g];
         if (group.role != GroupRole::Plain || group.opacity < 1 || group.blend != scene::BlendMode::Normal ||
@@ -129,10 +131,13 @@ void PicturePainter::cull(std::span<const std::uint32_t> layers, const std::vect
         if (index == none)
             continue;
         const PictureItem& item = picture_.items[index];
-        if (hidden || covers[item.layer] == Cover::Out || groupCover(item.group, covers) == Cover::Out)
+        const bool clipped = !plain_[item.group];
+        if (hidden || covers[item.layer] == Cover::Out ||
+            (clipped && groupCover(item.group, covers) == Cover::Out))
             continue;
         want(item.layer);
-        markClips(item.group);
+        if (clipped)
+            markClips(item.group);
         hidden = hidesAllBelow(item, covers);
     }
     for (std::size_t i = 0; i < layers.size(); ++i)

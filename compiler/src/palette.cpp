@@ -89,9 +89,12 @@ PaintId Palette::intern(const PaintProgram& program) {
 }
 
 PaintId Palette::solid(const Color& c) {
-    if (last_ < paints_.size() && isConstant(paints_[last_]) && colorOf(paints_[last_]) == c)
-        return last_;
-    return last_ = intern({{asset::Instruction{Op::Solid}, c}});
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 4>>(c);
+    const std::uint32_t hash = (bits[0] ^ bits[1] * 3 ^ bits[2] * 5 ^ bits[3] * 7) * 0x9E3779B1u;
+    PaintId& recent = recent_[hash >> (32 - recentBits)];
+    if (recent < paints_.size() && isConstant(paints_[recent]) && colorOf(paints_[recent]) == c)
+        return recent;
+    return recent = intern({{asset::Instruction{Op::Solid}, c}});
 }
 
 PaintId Palette::add(const PaintProgram& program) {

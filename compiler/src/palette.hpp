@@ -58,7 +58,8 @@ private:
 
     std::vector<PaintProgram> paints_;
     std::unordered_map<std::string, PaintId> index_;
-    PaintId last_ = 0;  ///< the colour asked for last
+    static constexpr unsigned recentBits = 7;
+    std::array<PaintId, 1u << recentBits> recent_{};  ///< colours asked for lately, by a hash
 };
 
 /// One paint; a program, and the colours it uses, are appended to `data`. Throws LimitError if its groups are

@@ -13,10 +13,17 @@ bool isOnChord(LatticePoint a, LatticePoint b, LatticePoint p) {
            isBetween(std::min(a.y, b.y), p.y, std::max(a.y, b.y));
 }
 
+/// Whether the edges' boxes have more in common than a corner of both that is an end of both. (What e.b
+/// and f.a share is such a corner if both edges rise or both fall.)
 bool boxesMeet(const Edge& e, const Edge& f) {
-    return std::max(e.a.x, f.a.x) <= std::min(e.b.x, f.b.x) &&
-           std::max(std::min(e.a.y, e.b.y), std::min(f.a.y, f.b.y)) <=
-               std::min(std::max(e.a.y, e.b.y), std::max(f.a.y, f.b.y));
+    const Coord left = std::max(e.a.x, f.a.x), right = std::min(e.b.x, f.b.x);
+    const Coord low = std::max(std::min(e.a.y, e.b.y), std::min(f.a.y, f.b.y));
+    const Coord high = std::min(std::max(e.a.y, e.b.y), std::max(f.a.y, f.b.y));
+    if (left > right || low > high)
+        return false;
+    const LatticePoint corner{left, low};
+    return left != right || low != high ||
+           !((corner == e.a || corner == e.b) && (corner == f.a || corner == f.b));
 }
 
 /// The crossing of a→b with a chord that it crosses properly, rounded to even. `atA`, `atB`: on which
@@ -105,6 +112,31 @@ bool Snapper::isBeside(std::uint32_t e, std::uint32_t f) const {
     return low > bs.high + step || high < bs.low - step;
 }
 
+/// Whether e and f, which begin in one vertex (or end in one), have nothing else in common, since they leave
+/// it within different sectors. Both lie in the half plane right (left) of it.
+bool Snapper::fanOut(const Edge& e, const Edge& f) const {
+    const bool fromA = e.a == f.a;
+    if (!fromA && e.b != f.b)
+        return false;
+    const LatticePoint at = fromA ? e.a : e.b;
+    const std::int64_t turn = orient(at, fromA ? e.b : e.a, fromA ? f.b : f.a);
+    if (turn == 0)
+        return false;
+    // The sides of their sectors that face each other.
+    const auto extreme = [&](const Edge& g, bool leftmost) {
+        LatticePoint side = fromA ? g.b : g.a;
+        for (std::uint32_t k = 1; k <= g.innerCount; ++k) {
+            const LatticePoint v = set_.vertex(g, k);
+            const std::int64_t o = orient(at, side, v);
+            if (leftmost ? o > 0 : o < 0)
+                side = v;
+        }
+        return side;
+    };
+    const std::int64_t between = orient(at, extreme(e, turn > 0), extreme(f, turn < 0));
+    return turn > 0 ? between > 0 : between < 0;
+}
+
 bool Snapper::findSplits() {
     splits_.clear();
     bands_.clear();
@@ -113,8 +145,8 @@ bool Snapper::findSplits() {
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
         for (std::uint32_t j = i + 1; j < edges.size() && edges[j].a.x <= edges[i].b.x; ++j)
-            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) && !isBeside(i, j) &&
-                !isBeside(j, i))
+            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) &&
+                !fanOut(edges[i], edges[j]) && !isBeside(i, j) && !isBeside(j, i))
                 meet(i, whole(edges[i]), j, whole(edges[j]));
         if (splits_.size() > 4 * maxLeafEdges)
             return false;

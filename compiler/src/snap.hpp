@@ -75,6 +75,7 @@ private:
     void clip(const Square& square, std::span<const Strand> strands);
     Band bandOf(const Edge& e) const;
     bool isBeside(std::uint32_t e, std::uint32_t f) const;
+    bool fanOut(const Edge& e, const Edge& f) const;
     bool findSplits();
     static Part whole(const Edge& e) { return {0, e.innerCount + 1, e.a, e.b}; }
     void meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
