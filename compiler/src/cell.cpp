@@ -46,7 +46,8 @@ public:
         std::uint32_t atX = nextX(strand.first), atY = nextY(strand.first);
         while (i != iEnd || j != jEnd) {
             const int lineI = right ? i + 1 : i, lineJ = up ? j + 1 : j;
-            const bool x = atX < atY || (atX == atY && meetsXFirst(atX, {lineX(lineI), lineY(lineJ)}, right == up));
+            const bool x =
+                atX < atY || (atX == atY && meetsXFirst(atX, {lineX(lineI), lineY(lineJ)}, right == up));
             const std::uint32_t chord = x ? atX : atY;
             part.last = chord + 1;
             add(strand, part, i, j);
@@ -82,8 +83,8 @@ private:
     /// The first and the last chord may come from outside and pass the child by.
     void add(const Strand& strand, const Strand& part, int i, int j) {
         Cell& child = children_[index(i, j)];
-        const bool mayMiss = part.last == part.first + 1 &&
-                             (part.first == strand.first || part.last == strand.last);
+        const bool mayMiss =
+            part.last == part.first + 1 && (part.first == strand.first || part.last == strand.last);
         if (!mayMiss || meets(points_[part.first], points_[part.last], child.square))
             child.strands.push_back(part);
     }

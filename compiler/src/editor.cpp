@@ -89,7 +89,7 @@ private:
     /// Builds the blocks that are not what they were; returns their number.
     std::size_t build() {
         EditablePainter painter(picture_, kept_.names.names());
-        kept_.partition->update(picture_, changes_, touched_, painter);
+        kept_.partition->update(kept_.picture.layers, picture_, changes_, touched_, painter);
         std::vector<Partition::Block*> dirty;
         for (Partition::Block& block : kept_.partition->blocks())
             if (block.dirty)
@@ -139,6 +139,7 @@ private:
         tree.pieces.shrink_to_fit();
         block.tree = std::move(tree);
         block.dirty = false;
+        block.place.reset();
         for (PaintId id : before)  // last, so that what stays in use keeps its place
             kept_.paints.release(id);
     }
@@ -155,7 +156,8 @@ private:
                                                last, next, colourError_);
         const bool isJoined = update.blocks > 0 || moved;
         const asset::Entry root =
-            isJoined ? joinBlocks(*kept_.partition, kept_.paints.indices(), next) : last.maps[0].root;
+            isJoined ? joinBlocks(*kept_.partition, kept_.paints.indices(), moved ? nullptr : &last, next)
+                     : last.maps[0].root;
         next.maps = {{0, 0, std::max(kept_.width, kept_.height), root}};
         next.commands = {asset::Command{}};
         next.materials = picture_.materials;

@@ -119,9 +119,7 @@ void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
 // ---- quantise ---------------------------------------------------------------------------------
 
 /// Leaf coordinates, unrounded.
-dvec2 Fitter::exact(LatticePoint p) const {
-    return dvec2{p.x - square_.x0, p.y - square_.y0} * scale_;
-}
+dvec2 Fitter::exact(LatticePoint p) const { return dvec2{p.x - square_.x0, p.y - square_.y0} * scale_; }
 
 /// The border's coordinates are kept for points on the border.
 Fitter::Steps Fitter::round(LatticePoint p) const {

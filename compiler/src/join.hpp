@@ -6,9 +6,10 @@
 
 namespace vtm::compiler {
 
-/// Appends the blocks' trees to the asset's nodes, leaves, pieces and count of fallback leaves; `paints`: the
-/// asset's index of each paint. Returns the root.
-asset::Entry joinBlocks(const Partition& partition, std::span<const std::uint16_t> paints,
-                        asset::Asset& asset);
+/// Appends the blocks' trees to `next`: nodes, leaves, pieces and count of fallback leaves; `paints`: its
+/// index of each paint. `last`: the asset that was joined before, if paints have the same indices there: the
+/// blocks that were not built since are copied from it. Returns the root.
+asset::Entry joinBlocks(Partition& partition, std::span<const std::uint16_t> paints, const asset::Asset* last,
+                        asset::Asset& next);
 
 }  // namespace vtm::compiler

@@ -19,14 +19,12 @@ struct LayerBox {
     }
 };
 
-LayerBox boxOf(const Picture& picture, std::uint32_t index) {
-    const Layer& layer = picture.layers[index];
-    const Points points = picture.outlines.points;
+LayerBox boxOf(const Outlines& outlines, const Layer& layer, std::uint32_t index) {
     constexpr Coord least = std::numeric_limits<Coord>::min(), most = std::numeric_limits<Coord>::max();
     LayerBox box{index, {most, most}, {least, least}};
     for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r)
         for (const LatticePoint p :
-             {points[picture.outlines.runs[r].first], points[picture.outlines.runs[r].last]}) {
+             {outlines.points[outlines.runs[r].first], outlines.points[outlines.runs[r].last]}) {
             box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
             box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
         }
@@ -38,6 +36,15 @@ bool contains(const Entries& entries, std::uint32_t layer) {
     const auto at = std::lower_bound(entries.begin(), entries.end(), layer,
                                      [](const auto& e, std::uint32_t l) { return e.layer < l; });
     return at != entries.end() && at->layer == layer;
+}
+
+/// The layers that have no index in the other picture.
+std::vector<std::uint32_t> nowhere(const std::vector<std::uint32_t>& indices) {
+    std::vector<std::uint32_t> layers;
+    for (std::uint32_t i = 0; i < indices.size(); ++i)
+        if (indices[i] == none)
+            layers.push_back(i);
+    return layers;
 }
 
 template <class Entries>
@@ -63,16 +70,13 @@ Partition::Partition(const Square& root, std::size_t most)
     blocks_[0].cell.square = root;
 }
 
-void Partition::update(const Picture& picture, const LayerChanges& changes,
+void Partition::update(const std::vector<Layer>& before, const Picture& picture, const LayerChanges& changes,
                        const std::vector<std::uint32_t>& touched, Painter& painter) {
     const Points points = picture.outlines.points;
-    renumber(changes.after, changes.renumbers());
-    markBlocks(picture, touched);
-    std::vector<std::uint32_t> added;
-    for (std::uint32_t i = 0; i < changes.before.size(); ++i)
-        if (changes.before[i] == none)
-            added.push_back(i);
-    if (!added.empty()) {
+    mark(picture.outlines, before, nowhere(changes.after));
+    renumber(changes);
+    mark(picture.outlines, picture.layers, touched);
+    if (const std::vector<std::uint32_t> added = nowhere(changes.before); !added.empty()) {
         Cell cell = rootCell(picture, root_, added);
         insert(points, top_, cell);
     }
@@ -80,38 +84,27 @@ void Partition::update(const Picture& picture, const LayerChanges& changes,
     splitLarge(points, culler, top_);
 }
 
-/// Replaces the layers' indices and takes those out that are gone.
-void Partition::renumber(const std::vector<std::uint32_t>& after, bool all) {
-    std::vector<std::uint32_t> gone;
-    for (std::uint32_t i = 0; i < after.size(); ++i)
-        if (after[i] == none)
-            gone.push_back(i);
-    if (gone.empty() && !all)
-        return;
-    for (Block& block : blocks_) {
-        Cell& cell = block.cell;
-        const std::size_t size = cell.strands.size() + cell.windings.size();
-        const bool concerned = all || gone.size() > 16 || std::any_of(gone.begin(), gone.end(), [&](auto l) {
-                                   return contains(cell.strands, l) || contains(cell.windings, l);
-                               });
-        if (!concerned)
-            continue;
-        compiler::renumber(cell.strands, after);
-        compiler::renumber(cell.windings, after);
-        block.dirty |= cell.strands.size() + cell.windings.size() != size;
-    }
+/// Marks the blocks in which layers are.
+void Partition::mark(const Outlines& outlines, const std::vector<Layer>& layers,
+                     const std::vector<std::uint32_t>& which) {
+    std::vector<LayerBox> boxes;
+    for (std::uint32_t layer : which)
+        boxes.push_back(boxOf(outlines, layers[layer], layer));
+    for (Block& block : blocks_)
+        block.dirty |= std::any_of(boxes.begin(), boxes.end(), [&](const LayerBox& box) {
+            return box.reaches(block.cell.square) &&
+                   (contains(block.cell.strands, box.layer) || contains(block.cell.windings, box.layer));
+        });
 }
 
-void Partition::markBlocks(const Picture& picture, const std::vector<std::uint32_t>& touched) {
-    std::vector<LayerBox> boxes;
-    for (std::uint32_t layer : touched)
-        boxes.push_back(boxOf(picture, layer));
-    if (!boxes.empty())
-        for (Block& block : blocks_)
-            block.dirty |= std::any_of(boxes.begin(), boxes.end(), [&](const LayerBox& box) {
-                return box.reaches(block.cell.square) &&
-                       (contains(block.cell.strands, box.layer) || contains(block.cell.windings, box.layer));
-            });
+/// Replaces the layers' indices and takes those out that are gone: their blocks are marked.
+void Partition::renumber(const LayerChanges& changes) {
+    const bool all = changes.renumbers();
+    for (Block& block : blocks_)
+        if (all || block.dirty) {
+            compiler::renumber(block.cell.strands, changes.after);
+            compiler::renumber(block.cell.windings, changes.after);
+        }
 }
 
 void Partition::insert(Points points, Top& top, Cell& cell) {

@@ -20,6 +20,12 @@ public:
         Tree tree;
         std::vector<PaintId> paints;  ///< the tree's, each once
         bool dirty = true;            ///< the tree is not that of the cell
+        /// Where the tree is in the asset: its root, and its first node, leaf and piece.
+        struct Place {
+            asset::Entry root;
+            std::uint32_t node = 0, leaf = 0, piece = 0;
+        };
+        std::optional<Place> place;  ///< nothing if it was built since the asset was
     };
     /// The tree above the blocks.
     struct Top {
@@ -31,8 +37,9 @@ public:
     Partition(const Square& root, std::size_t most);
 
     /// Takes layers out and in, and marks the blocks that they or the layers `touched` (indices now) pass
-    /// through. Blocks that have grown too large are split.
-    void update(const Picture& picture, const LayerChanges& changes,
+    /// through. Blocks that have grown too large are split. `before`: the layers before, whose outlines are
+    /// in the picture's store.
+    void update(const std::vector<Layer>& before, const Picture& picture, const LayerChanges& changes,
                 const std::vector<std::uint32_t>& touched, Painter& painter);
 
     std::size_t most() const { return most_; }
@@ -41,8 +48,9 @@ public:
     const std::vector<Block>& blocks() const { return blocks_; }
 
 private:
-    void markBlocks(const Picture& picture, const std::vector<std::uint32_t>& touched);
-    void renumber(const std::vector<std::uint32_t>& after, bool all);
+    void mark(const Outlines& outlines, const std::vector<Layer>& layers,
+              const std::vector<std::uint32_t>& which);
+    void renumber(const LayerChanges& changes);
     void insert(Points points, Top& top, Cell& cell);
     void splitLarge(Points points, Culler& culler, Top& top);
 

@@ -145,8 +145,8 @@ bool Snapper::findSplits() {
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
         for (std::uint32_t j = i + 1; j < edges.size() && edges[j].a.x <= edges[i].b.x; ++j)
-            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) &&
-                !fanOut(edges[i], edges[j]) && !isBeside(i, j) && !isBeside(j, i))
+            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) && !fanOut(edges[i], edges[j]) &&
+                !isBeside(i, j) && !isBeside(j, i))
                 meet(i, whole(edges[i]), j, whole(edges[j]));
         if (splits_.size() > 4 * maxLeafEdges)
             return false;
