@@ -289,6 +289,39 @@ TEST(Session, doesNotKeepOutlinesForEver) {
     expectFresh(session, scene);
 }
 
+/// Translucent strips that cross: each crossing is a stack of its own.
+Scene strips(int count) {
+    Scene scene{2.0 * count, 2.0 * count, {}};
+    for (int i = 0; i < 2 * count; ++i) {
+        const double at = 2 * (i % count) + 0.5, end = 2 * count;
+        Item item;
+        item.path = std::make_shared<scene::Path>(i < count ? scene::rectangle({at, 0}, {at + 1, end})
+                                                            : scene::rectangle({0, at}, {end, at + 1}));
+        item.paint = Color{float(i % 17) / 16, float(i % 29) / 28, float(i) / float(2 * count), 0.5f};
+        scene.root.children.push_back({item});
+    }
+    return scene;
+}
+
+TEST(Session, editsMoreStacksThanTheFormatHasPaints) {
+    constexpr int count = 260;
+    static_assert(count * count > 65536);
+    Options options;
+    options.tolerance = 1.0 / 4096;
+    Scene scene = strips(count);
+    Session session(scene, options);
+    for (const int child : {0, 300, 519}) {
+        itemOf(scene, child).paint = Color{1, 0.5f, 0, 0.25f};
+        session.update(scene);
+        EXPECT_EQ(session.lastUpdate().blocks, 0u);
+        expectFresh(session, scene, options);
+    }
+    itemOf(scene, 300).transform = scene::translation(0, 1.25);
+    session.update(scene);
+    EXPECT_FALSE(session.lastUpdate().anew);
+    expectFresh(session, scene, options);
+}
+
 /// Translucent groups in each other, each with a second item: they cannot be folded.
 Group nested(int depth) {
     Group group;
