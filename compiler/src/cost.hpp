@@ -10,8 +10,10 @@
 /// which only moves the balance that nanosecondsPerByte sets.
 #pragma once
 
-#include <cmath>
+#include <array>
 #include <cstddef>
+
+#include "asset/asset.hpp"
 
 namespace vtm::compiler {
 
@@ -21,12 +23,18 @@ struct CostModel {
     static constexpr double nominalPixels = 1024;
     static constexpr double perLeafFragment = 50, perPiece = 43, perSolidFragment = 5;
 
-    static double area(unsigned level) {
-        const double side = std::ldexp(nominalPixels, -2 * static_cast<int>(level)) + 1;
-        return side * side;
-    }
+    /// By level: (side + 1)².
+    static constexpr auto area = [] {
+        std::array<double, asset::maxLevel + 1> areas{};
+        double side = nominalPixels;
+        for (double& a : areas) {
+            a = (side + 1) * (side + 1);
+            side /= 4;
+        }
+        return areas;
+    }();
     static double drawing(double pieces, unsigned level) {
-        return area(level) * (pieces > 0 ? perLeafFragment + pieces * perPiece : perSolidFragment);
+        return area[level] * (pieces > 0 ? perLeafFragment + pieces * perPiece : perSolidFragment);
     }
     double leaf(double pieces, unsigned level) const {
         return drawing(pieces, level) + nanosecondsPerByte * (pieces > 0 ? 16 + 16 * pieces : 0);

@@ -50,47 +50,47 @@ const FittedLeaf& Fitter::run(const Square& square, const PlanarLeaf& leaf, doub
 
 // ---- chains -----------------------------------------------------------------------------------
 
+constexpr std::uint32_t noEdge = 0xFFFFFFFFu;
+
+bool isVisible(const Sides& sides) { return sides.left != sides.right; }
+
 /// Links visible edges into chains through vertices where exactly two of them meet.
 void Fitter::link(const PlanarLeaf& leaf) {
-    const std::vector<Edge>& edges = leaf.set->edges;
-    ends_.clear();
+    const auto count = static_cast<std::uint32_t>(leaf.sides.size());
     chains_.clear();
     points_.clear();
-    used_.assign(edges.size(), false);
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-        if (leaf.sides[e].left == leaf.sides[e].right) {
-            used_[e] = true;
-            continue;
-        }
-        ends_.push_back({edges[e].a, e});
-        ends_.push_back({edges[e].b, e});
-    }
-    std::sort(ends_.begin(), ends_.end(),
-              [](const End& p, const End& q) { return p.at != q.at ? p.at < q.at : p.edge < q.edge; });
-    for (std::uint32_t e = 0; e < edges.size(); ++e)
+    used_.resize(count);
+    for (std::uint32_t e = 0; e < count; ++e)
+        used_[e] = !isVisible(leaf.sides[e]);
+    for (std::uint32_t e = 0; e < count; ++e)
         if (!used_[e]) {
-            const bool endsAtA = !next(leaf, edges[e].a, e);
-            if (endsAtA || !next(leaf, edges[e].b, e))
+            const bool endsAtA = next(leaf, e, false) == noEdge;
+            if (endsAtA || next(leaf, e, true) == noEdge)
                 follow(leaf, e, endsAtA);
         }
-    for (std::uint32_t e = 0; e < edges.size(); ++e)
+    for (std::uint32_t e = 0; e < count; ++e)
         if (!used_[e])
             follow(leaf, e, true);  // a closed loop
 }
 
-/// The other edge at a vertex of degree two that carries on with the same paints.
-const Fitter::End* Fitter::next(const PlanarLeaf& leaf, LatticePoint at, std::uint32_t edge) const {
-    const auto first = std::lower_bound(ends_.begin(), ends_.end(), at,
-                                        [](const End& p, LatticePoint q) { return p.at < q; });
-    if (ends_.end() - first < 2 || first[1].at != at || (ends_.end() - first > 2 && first[2].at == at))
-        return nullptr;
-    const End* other = &(first->edge == edge ? first[1] : first[0]);
-    const Edge &e = leaf.set->edges[edge], &f = leaf.set->edges[other->edge];
+/// The edge that carries on with the same paints at a vertex where but one other visible edge ends.
+std::uint32_t Fitter::next(const PlanarLeaf& leaf, std::uint32_t edge, bool atB) {
+    const std::uint32_t self = leaf.endOf[2 * edge + (atB ? 1 : 0)], first = leaf.firstOf[self];
+    const PlanarLeaf::End* other = nullptr;
+    for (std::uint32_t i = first; i < leaf.ends.size() && leaf.firstOf[i] == first; ++i) {
+        if (i == self || !isVisible(leaf.sides[leaf.ends[i].edge]))
+            continue;
+        if (other)
+            return noEdge;
+        other = &leaf.ends[i];
+    }
+    if (!other)
+        return noEdge;
     const Sides &s = leaf.sides[edge], &t = leaf.sides[other->edge];
-    const bool sameDirection = (e.b == at) == (f.a == at);
+    const bool sameDirection = atB == other->isA;
     const bool matches =
         sameDirection ? s.left == t.left && s.right == t.right : s.left == t.right && s.right == t.left;
-    return matches ? other : nullptr;
+    return matches ? other->edge : noEdge;
 }
 
 void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
@@ -99,7 +99,7 @@ void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
     Chain chain{static_cast<std::uint32_t>(points_.size()), 0, fromA ? sides.left : sides.right,
                 fromA ? sides.right : sides.left};
     points_.push_back(fromA ? edges[edge].a : edges[edge].b);
-    for (LatticePoint at = points_.back();;) {
+    for (LatticePoint at = points_.back(); edge != noEdge && !used_[edge];) {
         used_[edge] = true;
         const Edge& e = edges[edge];
         const bool forward = e.a == at;
@@ -107,10 +107,7 @@ void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
             points_.push_back(leaf.set->vertex(e, forward ? k : e.innerCount + 1 - k));
         at = forward ? e.b : e.a;
         points_.push_back(at);
-        const End* end = next(leaf, at, edge);
-        if (!end || used_[end->edge])
-            break;
-        edge = end->edge;
+        edge = next(leaf, edge, forward);
     }
     chain.count = static_cast<std::uint32_t>(points_.size()) - chain.first;
     chains_.push_back(chain);
@@ -214,11 +211,12 @@ void Fitter::fit(const Chain& chain) {
         from = emitLongest(chain, from, last);
 }
 
-/// Emits the longest piece found by doubling and halving its reach; returns its last point.
+/// Emits the longest piece found by doubling and halving its reach, which begins with what is usual; returns
+/// its last point.
 std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last) {
     std::uint32_t good = from + 1, bad = last + 1;
     Slopes best;
-    for (std::uint32_t reach = 2; good + 1 < bad;) {
+    for (std::uint32_t reach = 6; good + 1 < bad;) {
         const std::uint32_t to = bad > last ? std::min(from + reach, last) : good + (bad - good) / 2;
         Slopes slopes;
         if (tryFit(from, to, slopes)) {
@@ -243,23 +241,31 @@ bool Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
     if (length2 == 0)
         return false;
     const double length = std::sqrt(length2), scale = 1 / length2;
-    local_.clear();
-    double previous = 0;
-    for (std::uint32_t i = from + 1; i < to; ++i) {
-        const dvec2 d = exact_[i] - a;
-        const dvec2 st{glm::dot(d, ab) * scale, (ab.x * d.y - ab.y * d.x) * scale};
-        if (!(st.x > previous && st.x < 1))
+    const std::uint32_t count = to - from - 1;
+    if (local_.size() < count)
+        local_.resize(count);
+    // Normal equations of t(s_i) = mA p_i + mB q_i; a whisper of regularisation keeps the case of one inner
+    // point solvable and prefers small slopes.
+    constexpr double whisper = 1e-9;
+    double pp = whisper, pq = 0, qq = whisper, pt = 0, qt = 0, previous = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const dvec2 d = exact_[from + 1 + i] - a;
+        const double s = glm::dot(d, ab) * scale, t = (ab.x * d.y - ab.y * d.x) * scale;
+        if (!(s > previous && s < 1))
             return false;
-        previous = st.x;
-        local_.push_back(st);
+        local_[i] = {s, t};
+        const double h = s * (1 - s), p = h * (1 - s), q = -h * s;
+        pp += p * p, pq += p * q, qq += q * q, pt += p * t, qt += q * t;
+        previous = s;
     }
-    Slopes m = leastSquares();
+    const double whole = pp * qq - pq * pq;
+    Slopes m{(pt * qq - qt * pq) / whole, (qt * pp - pt * pq) / whole};
     if (!(std::abs(m.a) <= maxSlope && std::abs(m.b) <= maxSlope))
         return false;
     m = {stored(m.a) / double{asset::slopeScale}, stored(m.b) / double{asset::slopeScale}};
     const double sag = maxSecondDerivative(m.a, m.b) / 8, most = tolerance_ / length;
     double s = 0;
-    for (const dvec2& p : local_) {
+    for (const dvec2& p : std::span(local_.data(), count)) {
         const double step = p.x - s;
         if (std::abs(p.y - displacement(m.a, m.b, p.x)) + sag * step * step > most)
             return false;
@@ -267,19 +273,6 @@ bool Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
     }
     slopes = m;
     return sag * (1 - s) * (1 - s) <= most;
-}
-
-/// Normal equations of t(s_i) = mA p_i + mB q_i; a whisper of regularisation keeps the case of
-/// one inner point solvable and prefers small slopes.
-Fitter::Slopes Fitter::leastSquares() const {
-    constexpr double whisper = 1e-9;
-    double pp = whisper, pq = 0, qq = whisper, pt = 0, qt = 0;
-    for (const dvec2& st : local_) {
-        const double s = st.x, h = s * (1 - s), p = h * (1 - s), q = -h * s;
-        pp += p * p, pq += p * q, qq += q * q, pt += p * st.y, qt += q * st.y;
-    }
-    const double det = pp * qq - pq * pq;
-    return {(pt * qq - qt * pq) / det, (qt * pp - pt * pq) / det};
 }
 
 void Fitter::emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m) {

@@ -33,18 +33,13 @@ private:
         std::uint32_t first, count;  ///< of points_
         PaintId left, right;
     };
-    /// A visible edge's end at a vertex.
-    struct End {
-        LatticePoint at;
-        std::uint32_t edge;
-    };
     /// Slopes of a piece over its chord.
     struct Slopes {
         double a = 0, b = 0;
     };
 
     void link(const PlanarLeaf& leaf);
-    const End* next(const PlanarLeaf& leaf, LatticePoint at, std::uint32_t edge) const;
+    static std::uint32_t next(const PlanarLeaf& leaf, std::uint32_t edge, bool atB);
     void follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA);
 
     glm::dvec2 exact(LatticePoint p) const;
@@ -58,13 +53,11 @@ private:
     void fit(const Chain& chain);
     std::uint32_t emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last);
     bool tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes);
-    Slopes leastSquares() const;
     void emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m);
 
     Square square_;
     double scale_ = 1;      ///< leaf coordinates a lattice step
     double tolerance_ = 0;  ///< leaf coordinates
-    std::vector<End> ends_;
     std::vector<std::uint8_t> used_;
     std::vector<LatticePoint> points_;
     std::vector<Chain> chains_;

@@ -47,32 +47,42 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
 
 void Planariser::collectEnds() {
     const std::vector<Edge>& edges = leaf_.set->edges;
-    ends_.clear();
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-        ends_.push_back({edges[e].a, e, true});
-        ends_.push_back({edges[e].b, e, false});
+    const auto isBefore = [](const End& p, const End& q) {
+        return p.at != q.at ? p.at < q.at : p.edge < q.edge;
+    };
+    ascending_.clear();
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+        ascending_.push_back({edges[e].b, e, false});
+    std::sort(ascending_.begin(), ascending_.end(), isBefore);
+    leaf_.ends.clear();
+    auto b = ascending_.begin();
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {  // by a
+        const End a{edges[e].a, e, true};
+        for (; b != ascending_.end() && isBefore(*b, a); ++b)
+            leaf_.ends.push_back(*b);
+        leaf_.ends.push_back(a);
     }
-    std::sort(ends_.begin(), ends_.end(),
-              [](const End& p, const End& q) { return p.at != q.at ? p.at < q.at : p.edge < q.edge; });
-    endOf_.resize(ends_.size());
-    firstOf_.resize(ends_.size());
-    visited_.assign(ends_.size(), false);
+    leaf_.ends.insert(leaf_.ends.end(), b, ascending_.end());
+    leaf_.endOf.resize(leaf_.ends.size());
+    leaf_.firstOf.resize(leaf_.ends.size());
+    visited_.assign(leaf_.ends.size(), false);
     for (auto& side : border_)
         side.clear();
-    for (std::uint32_t first = 0; first < ends_.size();) {
+    for (std::uint32_t first = 0; first < leaf_.ends.size();) {
         std::uint32_t last = first + 1;
-        while (last < ends_.size() && ends_[last].at == ends_[first].at)
+        while (last < leaf_.ends.size() && leaf_.ends[last].at == leaf_.ends[first].at)
             ++last;
-        const int side = sideOf(ends_[first].at);
+        const int side = sideOf(leaf_.ends[first].at);
         visited_[first] = side >= 0;
         if (last - first > 2 && side < 0)
             sortRound(first, last);
         for (; first < last; ++first) {
-            endOf_[2 * ends_[first].edge + (ends_[first].isA ? 0 : 1)] = first;
-            firstOf_[first] =
-                first > 0 && ends_[first - 1].at == ends_[first].at ? firstOf_[first - 1] : first;
+            leaf_.endOf[2 * leaf_.ends[first].edge + (leaf_.ends[first].isA ? 0 : 1)] = first;
+            leaf_.firstOf[first] = first > 0 && leaf_.ends[first - 1].at == leaf_.ends[first].at
+                                       ? leaf_.firstOf[first - 1]
+                                       : first;
             if (side >= 0)
-                border_[static_cast<std::size_t>(side)].push_back(ends_[first]);
+                border_[static_cast<std::size_t>(side)].push_back(leaf_.ends[first]);
         }
     }
 }
@@ -85,9 +95,9 @@ LatticePoint Planariser::next(const End& end) const {
 
 /// Counter-clockwise by direction, from -y.
 void Planariser::sortRound(std::uint32_t first, std::uint32_t last) {
-    const LatticePoint at = ends_[first].at;
+    const LatticePoint at = leaf_.ends[first].at;
     const auto isRight = [&](LatticePoint p) { return p.x > at.x || (p.x == at.x && p.y < at.y); };
-    std::sort(ends_.begin() + first, ends_.begin() + last, [&](const End& p, const End& q) {
+    std::sort(leaf_.ends.begin() + first, leaf_.ends.begin() + last, [&](const End& p, const End& q) {
         const LatticePoint a = next(p), b = next(q);
         if (isRight(a) != isRight(b))
             return isRight(a);
@@ -182,22 +192,22 @@ void Planariser::sweepTo(std::uint32_t index) {
 void Planariser::walkFrom(std::uint32_t edge) {
     const Edge& e = leaf_.set->edges[edge];
     const PaintId left = regions_->paint();
-    arrive(endOf_[2 * edge + 1]);
+    arrive(leaf_.endOf[2 * edge + 1]);
     walk();
     cross(e, -1);
     label(edge, {left, regions_->paint(), true});
-    arrive(endOf_[2 * edge]);
+    arrive(leaf_.endOf[2 * edge]);
     walk();
 }
 
 /// At the end of an edge that has been followed with the region on its left.
 void Planariser::arrive(std::uint32_t end) {
-    const std::uint32_t first = firstOf_[end];
+    const std::uint32_t first = leaf_.firstOf[end];
     if (visited_[first])
         return;
     visited_[first] = true;
     std::uint32_t count = 1;
-    while (first + count < ends_.size() && firstOf_[first + count] == first)
+    while (first + count < leaf_.ends.size() && leaf_.firstOf[first + count] == first)
         ++count;
     visits_.push_back({first, count, end - first, 0, false, regions_->windingSum()});
 }
@@ -210,11 +220,11 @@ void Planariser::walk() {
         Visit& visit = visits_.back();
         const std::uint32_t step = visit.crossed + 1;
         const End& end =
-            ends_[visit.first + (visit.arrival + visit.count - step % visit.count) % visit.count];
+            leaf_.ends[visit.first + (visit.arrival + visit.count - step % visit.count) % visit.count];
         const Edge& e = leaf_.set->edges[end.edge];
         if (step < visit.count && !visit.followed) {
             visit.followed = true;
-            arrive(endOf_[2 * end.edge + (end.isA ? 1 : 0)]);
+            arrive(leaf_.endOf[2 * end.edge + (end.isA ? 1 : 0)]);
             continue;
         }
         const PaintId left = regions_->paint();
@@ -267,11 +277,11 @@ std::uint64_t Planariser::flow(const End& end) const {
 }
 
 bool Planariser::certifyVertices() const {
-    for (std::size_t i = 0; i < ends_.size();) {
+    for (std::size_t i = 0; i < leaf_.ends.size();) {
         std::uint64_t sum = 0;
-        const LatticePoint at = ends_[i].at;
-        for (; i < ends_.size() && ends_[i].at == at; ++i)
-            sum += flow(ends_[i]);
+        const LatticePoint at = leaf_.ends[i].at;
+        for (; i < leaf_.ends.size() && leaf_.ends[i].at == at; ++i)
+            sum += flow(leaf_.ends[i]);
         if (sum != 0 && sideOf(at) < 0)
             return false;
     }

@@ -27,9 +27,19 @@ struct Sides {
 };
 
 struct PlanarLeaf {
-    const EdgeSet* set = nullptr;      ///< the edges; nothing if the leaf is beyond the limits
-    std::vector<Sides> sides;          ///< of each edge
-    std::array<PaintId, 4> corners{};  ///< paints at Square::corner(k)
+    /// An edge's end at a vertex.
+    struct End {
+        LatticePoint at;
+        std::uint32_t edge;
+        bool isA;
+    };
+
+    const EdgeSet* set = nullptr;        ///< the edges; nothing if the leaf is beyond the limits
+    std::vector<End> ends;               ///< by vertex, counter-clockwise round each
+    std::vector<std::uint32_t> endOf;    ///< place in `ends` of edge e's a (2e) and b (2e + 1)
+    std::vector<std::uint32_t> firstOf;  ///< by end: the first end of its vertex
+    std::vector<Sides> sides;            ///< of each edge
+    std::array<PaintId, 4> corners{};    ///< paints at Square::corner(k)
     /// True if every label is proven: the windings close round every inner vertex and round the border;
     /// edges are given the same labels from both ends; hash(left) - hash(right) cancels over the edges
     /// at every inner vertex and adds up to the corners' difference on every side. A false label would
@@ -48,12 +58,7 @@ public:
 private:
     struct Axis;
     struct Place;
-    /// An edge's end at a vertex.
-    struct End {
-        LatticePoint at;
-        std::uint32_t edge;
-        bool isA;
-    };
+    using End = PlanarLeaf::End;
     /// A vertex that is being walked round, clockwise from `arrival`.
     struct Visit {
         std::uint32_t first, count;  ///< its ends
@@ -86,10 +91,8 @@ private:
     Square square_;
     RegionPaints* regions_ = nullptr;
     bool consistent_ = true;
-    std::vector<End> ends_;               ///< by vertex, counter-clockwise round each
-    std::vector<std::uint32_t> endOf_;    ///< place in ends_ of edge e's a (2e) and b (2e + 1)
-    std::vector<std::uint32_t> firstOf_;  ///< by end: the first end of its vertex
-    std::vector<std::uint8_t> visited_;   ///< by a vertex's first end; border vertices count as visited
+    std::vector<End> ascending_;         ///< the ends b, by vertex
+    std::vector<std::uint8_t> visited_;  ///< by a vertex's first end; border vertices count as visited
     std::vector<Visit> visits_;
     std::array<std::vector<End>, 4> border_;
 };

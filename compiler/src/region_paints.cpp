@@ -7,6 +7,7 @@ void RegionPaints::enter(std::span<const scene::FillRule> rules, std::span<const
     corner_.assign(corner.begin(), corner.end());
     few_.clear();
     many_.clear();
+    known_ = false;
     toCorner();
 }
 
@@ -21,6 +22,15 @@ void RegionPaints::toCorner() {
 }
 
 PaintId RegionPaints::paint() {
+    if (!known_ || lastKey_ != key_) {
+        last_ = find();
+        lastKey_ = key_;
+        known_ = true;
+    }
+    return last_;
+}
+
+PaintId RegionPaints::find() {
     constexpr std::size_t few = 16;
     for (std::size_t i = few_.size(); i-- > 0;)
         if (few_[i].first == key_)

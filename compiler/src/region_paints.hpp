@@ -47,11 +47,15 @@ public:
 private:
     /// The paint where exactly the layers are inside for which isInside() says so.
     virtual PaintId compute() = 0;
+    PaintId find();
 
     std::vector<scene::FillRule> rules_;
     std::vector<int> corner_, windings_;
-    std::uint64_t sum_ = 0;  ///< Σ winding · mixed(layer)
-    std::uint64_t key_ = 0;  ///< of the set of layers that are inside
+    std::uint64_t sum_ = 0;      ///< Σ winding · mixed(layer)
+    std::uint64_t key_ = 0;      ///< of the set of layers that are inside
+    std::uint64_t lastKey_ = 0;  ///< asked for last, if any was
+    PaintId last_ = 0;
+    bool known_ = false;
     /// Paints by key: a few in a list, more in a map.
     std::vector<std::pair<std::uint64_t, PaintId>> few_;
     std::unordered_map<std::uint64_t, PaintId> many_;

@@ -13,18 +13,7 @@ bool isOnChord(LatticePoint a, LatticePoint b, LatticePoint p) {
            isBetween(std::min(a.y, b.y), p.y, std::max(a.y, b.y));
 }
 
-/// Whether the edges' boxes have more in common than a corner of both that is an end of both. (What e.b
-/// and f.a share is such a corner if both edges rise or both fall.)
-bool boxesMeet(const Edge& e, const Edge& f) {
-    const Coord left = std::max(e.a.x, f.a.x), right = std::min(e.b.x, f.b.x);
-    const Coord low = std::max(std::min(e.a.y, e.b.y), std::min(f.a.y, f.b.y));
-    const Coord high = std::min(std::max(e.a.y, e.b.y), std::max(f.a.y, f.b.y));
-    if (left > right || low > high)
-        return false;
-    const LatticePoint corner{left, low};
-    return left != right || low != high ||
-           !((corner == e.a || corner == e.b) && (corner == f.a || corner == f.b));
-}
+bool isEnd(const Edge& e, LatticePoint p) { return p == e.a || p == e.b; }
 
 /// The crossing of a→b with a chord that it crosses properly, rounded to even. `atA`, `atB`: on which
 /// side of that chord the ends lie and how far, of opposite signs.
@@ -140,54 +129,73 @@ bool Snapper::fanOut(const Edge& e, const Edge& f) const {
 bool Snapper::findSplits() {
     splits_.clear();
     bands_.clear();
-    for (const Edge& e : set_.edges)
+    boxes_.clear();
+    for (const Edge& e : set_.edges) {
+        const auto [low, high] = std::minmax(e.a.y, e.b.y);
+        boxes_.push_back({e.a.x, e.b.x, low, high});
         bands_.push_back(bandOf(e));
+    }
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-        for (std::uint32_t j = i + 1; j < edges.size() && edges[j].a.x <= edges[i].b.x; ++j)
-            if ((fresh_[i] || fresh_[j]) && boxesMeet(edges[i], edges[j]) && !fanOut(edges[i], edges[j]) &&
-                !isBeside(i, j) && !isBeside(j, i))
-                meet(i, whole(edges[i]), j, whole(edges[j]));
+        const Box box = boxes_[i];
+        for (std::uint32_t j = i + 1; j < edges.size() && boxes_[j].left <= box.right; ++j) {
+            const Coord low = std::max(box.low, boxes_[j].low), high = std::min(box.high, boxes_[j].high);
+            if (low > high || !(fresh_[i] || fresh_[j]))
+                continue;
+            const Coord left = boxes_[j].left, right = std::min(box.right, boxes_[j].right);
+            const bool isPoint = left == right && low == high;  // harmless if it is an end of both
+            if (!(isPoint && isEnd(edges[i], {left, low}) && isEnd(edges[j], {left, low})) &&
+                !fanOut(edges[i], edges[j]) && !isBeside(i, j) && !isBeside(j, i))
+                meet(i, j);
+        }
         if (splits_.size() > 4 * maxLeafEdges)
             return false;
     }
     return true;
 }
 
-/// The chords of a part of edge e with those of a part of f: halves the longer part while their boxes
-/// meet.
-void Snapper::meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q) {
-    const Coord left = std::max(p.from.x, q.from.x), right = std::min(p.to.x, q.to.x);
-    if (left > right)
-        return;
-    const auto [pLow, pHigh] = std::minmax(p.from.y, p.to.y);
-    const auto [qLow, qHigh] = std::minmax(q.from.y, q.to.y);
-    const Coord low = std::max(pLow, qLow), high = std::min(pHigh, qHigh);
-    if (low > high)
-        return;
-    const Edge &s = set_.edges[e], &t = set_.edges[f];
-    if (left == right && low == high) {  // one common point, harmless if it is an end of both
-        const LatticePoint common{left, low};
-        if ((common == s.a || common == s.b) && (common == t.a || common == t.b))
-            return;
+/// A chord of an edge, moving along it.
+struct Snapper::Walk {
+    const EdgeSet& set;
+    const Edge& edge;
+    std::uint32_t chord;
+    LatticePoint from, to;
+
+    /// At the first chord that ends at `left` or to its right.
+    Walk(const EdgeSet& s, const Edge& e, Coord left)
+        : set(s),
+          edge(e),
+          chord(firstWhere(0, e.innerCount, [&](std::uint32_t k) { return s.vertex(e, k + 1).x >= left; })),
+          from(s.vertex(e, chord)),
+          to(s.vertex(e, chord + 1)) {}
+
+    bool isLast() const { return chord == edge.innerCount; }
+    void next() {
+        ++chord;
+        from = to;
+        to = set.vertex(edge, chord + 1);
     }
-    const std::uint32_t pCount = p.last - p.first, qCount = q.last - q.first;
-    if (pCount == 1 && qCount == 1)
-        return meetChords(e, p, f, q);
-    const Part& longer = pCount >= qCount ? p : q;
-    const std::uint32_t middle = (longer.first + longer.last) / 2;
-    const LatticePoint at = set_.vertex(pCount >= qCount ? s : t, middle);
-    const Part before{longer.first, middle, longer.from, at}, after{middle, longer.last, at, longer.to};
-    if (pCount >= qCount) {
-        meet(e, before, f, q);
-        meet(e, after, f, q);
-    } else {
-        meet(e, p, f, before);
-        meet(e, p, f, after);
+};
+
+/// All chords of e that meet chords of f. Both chains go to the right: the chord that ends first is done
+/// with the other's. (Chords that only begin where another ends share a vertex with one that is looked at.)
+void Snapper::meet(std::uint32_t e, std::uint32_t f) {
+    const Edge &s = set_.edges[e], &t = set_.edges[f];
+    const Coord right = std::min(s.b.x, t.b.x);
+    const Coord left = std::max(s.a.x, t.a.x);
+    for (Walk p(set_, s, left), q(set_, t, left);;) {
+        if (std::max(std::min(p.from.y, p.to.y), std::min(q.from.y, q.to.y)) <=
+            std::min(std::max(p.from.y, p.to.y), std::max(q.from.y, q.to.y)))
+            meetChords(e, {p.chord, p.from, p.to}, f, {q.chord, q.from, q.to});
+        const bool movesP = q.isLast() || (!p.isLast() && p.to.x <= q.to.x);
+        Walk& mover = movesP ? p : q;
+        if (mover.isLast() || mover.to.x > right)
+            return;
+        mover.next();
     }
 }
 
-void Snapper::meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q) {
+void Snapper::meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const Step& q) {
     const LatticePoint a = p.from, b = p.to, c = q.from, d = q.to;
     const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d);
     if ((atC > 0 && atD > 0) || (atC < 0 && atD < 0))
@@ -197,13 +205,13 @@ void Snapper::meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const 
         return;
     if (atA != 0 && atB != 0 && atC != 0 && atD != 0) {
         const LatticePoint x = crossing(a, b, atA, atB);
-        split(e, p.first, x);
-        split(f, q.first, x);
+        split(e, p.chord, x);
+        split(f, q.chord, x);
         return;
     }
     const auto touch = [&](LatticePoint at) {
-        split(e, p.first, at);
-        split(f, q.first, at);
+        split(e, p.chord, at);
+        split(f, q.chord, at);
     };
     if (atA == 0 && isOnChord(c, d, a))
         touch(a);

@@ -61,25 +61,30 @@ private:
         std::int64_t progress;  ///< along the chord
     };
 
+    /// Of an edge; (left, y of a) and (right, y of b) are its ends.
+    struct Box {
+        Coord left, right, low, high;
+    };
+
     /// How far the chain strays from the line a→b, as orient(a, b, ·) of its vertices, and that line.
     struct Band {
         double dx, dy, length2, low, high;
     };
 
-    /// Vertices first .. last of an edge.
-    struct Part {
-        std::uint32_t first, last;
+    /// A chord of an edge: from vertex `chord` to the next.
+    struct Step {
+        std::uint32_t chord;
         LatticePoint from, to;
     };
+    struct Walk;
 
     void clip(const Square& square, std::span<const Strand> strands);
     Band bandOf(const Edge& e) const;
     bool isBeside(std::uint32_t e, std::uint32_t f) const;
     bool fanOut(const Edge& e, const Edge& f) const;
     bool findSplits();
-    static Part whole(const Edge& e) { return {0, e.innerCount + 1, e.a, e.b}; }
-    void meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
-    void meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
+    void meet(std::uint32_t e, std::uint32_t f);
+    void meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const Step& q);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
     void applySplits();
     void reverse(Edge& e);
@@ -91,6 +96,7 @@ private:
 
     EdgeSet set_;
     std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
+    std::vector<Box> boxes_;           ///< of each edge
     std::vector<Band> bands_;          ///< of each edge
     std::vector<Split> splits_;
     std::vector<Change> sum_;
