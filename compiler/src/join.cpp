@@ -56,6 +56,8 @@ private:
     }
 
     Entry append(Block& block) {
+        if (block.tree.root.kind() == Entry::Kind::Solid)  // no records, hence no place
+            return encodeTree(block.tree, paints_, next_);
         const Block::Place place{{},
                                  static_cast<std::uint32_t>(next_.nodes.size()),
                                  static_cast<std::uint32_t>(next_.leaves.size()),

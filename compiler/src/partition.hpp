@@ -25,7 +25,7 @@ public:
             asset::Entry root;
             std::uint32_t node = 0, leaf = 0, piece = 0;
         };
-        std::optional<Place> place;  ///< nothing if it was built since the asset was
+        std::optional<Place> place;  ///< nothing if it was built since the asset was, or is solid
     };
     /// The tree above the blocks.
     struct Top {
