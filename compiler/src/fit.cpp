@@ -200,12 +200,10 @@ bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
 // ---- fit --------------------------------------------------------------------------------------
 
 void Fitter::fit(const Chain& chain) {
-    exact_.clear();
-    rounded_.clear();
-    for (std::uint32_t i = 0; i < chain.count; ++i) {
-        exact_.push_back(exact(points_[chain.first + i]));
-        rounded_.push_back(round(points_[chain.first + i]));
-    }
+    first_ = chain.first;
+    exact_.resize(chain.count);
+    for (std::uint32_t i = 0; i < chain.count; ++i)
+        exact_[i] = exact(points_[first_ + i]);
     const std::uint32_t last = chain.count - 1;
     for (std::uint32_t from = 0; from < last;)
         from = emitLongest(chain, from, last);
@@ -236,7 +234,7 @@ std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::u
 /// Least squares over the points between, in the basis of the rounded chord; then the bound: at
 /// the points the measured distance, between them the sag of cubic and chain, |t''| ds² / 8.
 bool Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
-    const dvec2 a = point(rounded_[from]), ab = point(rounded_[to]) - a;
+    const dvec2 a = point(rounded(from)), ab = point(rounded(to)) - a;
     const double length2 = glm::dot(ab, ab);
     if (length2 == 0)
         return false;
@@ -276,9 +274,10 @@ bool Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
 }
 
 void Fitter::emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m) {
-    if (rounded_[from] == rounded_[to])
+    const Steps a = rounded(from), b = rounded(to);
+    if (a == b)
         return;  // shorter than half a step: no area
-    leaf_.pieces.push_back({rounded_[from], rounded_[to], stored(m.a), stored(m.b), chain.left, chain.right});
+    leaf_.pieces.push_back({a, b, stored(m.a), stored(m.b), chain.left, chain.right});
 }
 
 }  // namespace vtm::compiler

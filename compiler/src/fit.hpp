@@ -44,6 +44,8 @@ private:
 
     glm::dvec2 exact(LatticePoint p) const;
     Steps round(LatticePoint p) const;
+    /// Of point i of the chain at hand.
+    Steps rounded(std::uint32_t i) const { return round(points_[first_ + i]); }
 
     void cutSlivers();
     bool isSliver(const Chain& chain);
@@ -62,7 +64,7 @@ private:
     std::vector<LatticePoint> points_;
     std::vector<Chain> chains_;
     std::vector<glm::dvec2> exact_;  ///< the chain at hand in leaf coordinates
-    std::vector<Steps> rounded_;
+    std::uint32_t first_ = 0;        ///< of its points
     std::vector<glm::dvec2> local_;
     FittedLeaf leaf_;
 };

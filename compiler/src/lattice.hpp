@@ -23,6 +23,12 @@ struct LatticePoint {
     friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
 };
 
+/// Ordered as points are, in one comparison.
+inline std::uint64_t sortKey(LatticePoint p) {
+    const auto unsignedOrder = [](Coord v) { return static_cast<std::uint32_t>(v) ^ 0x8000'0000u; };
+    return std::uint64_t{unsignedOrder(p.x)} << 32 | unsignedOrder(p.y);
+}
+
 inline constexpr int maxLatticeBits = 28;
 
 /// Twice the signed area of (a, b, c): positive if c lies on the left of a→b.

@@ -178,14 +178,15 @@ void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) 
     if (needed <= chordsAtOnce) {
         const int whole = static_cast<int>(needed), n = whole + (needed > whole);
         const Polynomial curve(c);
+        const double step = 1.0 / n;
         if (sink.keepsInside(c)) {
             for (int i = 1; i < n; ++i)
-                sink.lineInside(curve.at(i / double(n)));
+                sink.lineInside(curve.at(i * step));
             sink.lineInside(c[3]);
             return;
         }
         for (int i = 1; i < n; ++i)
-            sink.line(curve.at(i / double(n)));
+            sink.line(curve.at(i * step));
         sink.line(c[3]);
         return;
     }

@@ -7,6 +7,9 @@ namespace {
 
 int sign(std::int64_t v) { return (v > 0) - (v < 0); }
 
+/// Sides 0 and 2 are followed along +x, 1 and 3 along +y.
+bool isInsideOnLeft(std::size_t side) { return side < 2; }
+
 }  // namespace
 
 /// A direction of sweeping over the edges: along +x at a height between two lattice rows, or along
@@ -34,12 +37,13 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
     leaf_.sides.assign(leaf_.set->edges.size(), {});
     consistent_ = true;
     collectEnds();
+    const bool cornersAgree = labelFromBorder();
     for (std::uint32_t e = 0; e < leaf_.sides.size(); ++e)
         if (!leaf_.sides[e].known) {
             sweepTo(e);
             walkFrom(e);
         }
-    leaf_.certified = labelCorners() && consistent_ && certifyVertices() && certifySides();
+    leaf_.certified = cornersAgree && consistent_ && certifyVertices() && certifySides();
     return leaf_;
 }
 
@@ -47,22 +51,20 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
 
 void Planariser::collectEnds() {
     const std::vector<Edge>& edges = leaf_.set->edges;
-    const auto isBefore = [](const End& p, const End& q) {
-        return p.at != q.at ? p.at < q.at : p.edge < q.edge;
-    };
-    ascending_.clear();
+    byB_.clear();
     for (std::uint32_t e = 0; e < edges.size(); ++e)
-        ascending_.push_back({edges[e].b, e, false});
-    std::sort(ascending_.begin(), ascending_.end(), isBefore);
+        byB_.emplace_back(sortKey(edges[e].b), e);
+    std::sort(byB_.begin(), byB_.end());
     leaf_.ends.clear();
-    auto b = ascending_.begin();
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {  // by a
-        const End a{edges[e].a, e, true};
-        for (; b != ascending_.end() && isBefore(*b, a); ++b)
-            leaf_.ends.push_back(*b);
-        leaf_.ends.push_back(a);
+    auto b = byB_.begin();
+    const auto pushB = [&] { leaf_.ends.push_back({edges[b->second].b, b->second, false}), ++b; };
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {  // which are sorted by a
+        for (const auto a = std::pair(sortKey(edges[e].a), e); b != byB_.end() && *b < a;)
+            pushB();
+        leaf_.ends.push_back({edges[e].a, e, true});
     }
-    leaf_.ends.insert(leaf_.ends.end(), b, ascending_.end());
+    while (b != byB_.end())
+        pushB();
     leaf_.endOf.resize(leaf_.ends.size());
     leaf_.firstOf.resize(leaf_.ends.size());
     visited_.assign(leaf_.ends.size(), false);
@@ -74,8 +76,8 @@ void Planariser::collectEnds() {
             ++last;
         const int side = sideOf(leaf_.ends[first].at);
         visited_[first] = side >= 0;
-        if (last - first > 2 && side < 0)
-            sortRound(first, last);
+        if (side >= 0 ? last - first > 1 : last - first > 2)
+            side >= 0 ? sortAlong(first, last, side) : sortRound(first, last);
         for (; first < last; ++first) {
             leaf_.endOf[2 * leaf_.ends[first].edge + (leaf_.ends[first].isA ? 0 : 1)] = first;
             leaf_.firstOf[first] = first > 0 && leaf_.ends[first - 1].at == leaf_.ends[first].at
@@ -102,6 +104,16 @@ void Planariser::sortRound(std::uint32_t first, std::uint32_t last) {
         if (isRight(a) != isRight(b))
             return isRight(a);
         return orient(at, a, b) > 0;
+    });
+}
+
+/// In the order in which one crosses them on the way along their side: clockwise where the inside is on the
+/// left, and all directions lie in half a plane.
+void Planariser::sortAlong(std::uint32_t first, std::uint32_t last, int side) {
+    const LatticePoint at = leaf_.ends[first].at;
+    std::sort(leaf_.ends.begin() + first, leaf_.ends.begin() + last, [&](const End& p, const End& q) {
+        const std::int64_t o = orient(at, next(p), next(q));
+        return isInsideOnLeft(static_cast<std::size_t>(side)) ? o < 0 : o > 0;
     });
 }
 
@@ -245,16 +257,31 @@ void Planariser::label(std::uint32_t edge, const Sides& sides) {
     known = sides;
 }
 
-// ---- certify ----------------------------------------------------------------------------------
-
+/// Along a side to its other corner, and all round the parts of the map that one meets there. One comes to
+/// an edge on its left, as seen from the border, where the inside is on the left.
 void Planariser::along(std::size_t side) {
     const Axis axis{side % 2 == 0};
-    for (const End& end : border_[side])
-        cross(leaf_.set->edges[end.edge], axis.crossingSign(leaf_.set->edges[end.edge]));
+    const bool fromLeft = isInsideOnLeft(side);
+    for (const End& end : border_[side]) {
+        const Edge& e = leaf_.set->edges[end.edge];
+        const bool isNew = !leaf_.sides[end.edge].known;
+        const auto walkOn = [&] {
+            arrive(leaf_.endOf[2 * end.edge + (end.isA ? 1 : 0)]);
+            walk();
+        };
+        if (isNew && fromLeft)
+            walkOn();
+        const PaintId before = regions_->paint();
+        cross(e, axis.crossingSign(e));
+        const PaintId after = regions_->paint();
+        label(end.edge, fromLeft == end.isA ? Sides{before, after, true} : Sides{after, before, true});
+        if (isNew && !fromLeft)
+            walkOn();
+    }
 }
 
 /// Both ways from corner 0 to corner 2 must agree.
-bool Planariser::labelCorners() {
+bool Planariser::labelFromBorder() {
     regions_->toCorner();
     leaf_.corners[0] = regions_->paint();
     along(0);
@@ -268,6 +295,8 @@ bool Planariser::labelCorners() {
     along(2);
     return regions_->windingSum() == sum;
 }
+
+// ---- certify ----------------------------------------------------------------------------------
 
 /// mixed(left) - mixed(right), as seen going to the vertex.
 std::uint64_t Planariser::flow(const End& end) const {

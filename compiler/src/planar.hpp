@@ -7,8 +7,9 @@
 /// - snap: crossings are rounded to even points and both chords pass through them, again and again
 ///   until nothing crosses and nothing is split any more (after Hobby 1999, iterated);
 /// - merge: equal chains become one that carries the sum of each layer's change of winding;
-/// - label: a sweep from the square's border tells where one edge of a connected part stands; from
-///   there one walks along edges and round vertices, crossing one edge after the other;
+/// - label: one walks along the square's border, and from there along edges and round vertices, crossing
+///   one edge after the other; a sweep from the border tells where a part of the map stands that does not
+///   reach it;
 /// - certify: see PlanarLeaf::certified.
 #pragma once
 
@@ -70,6 +71,7 @@ private:
 
     void collectEnds();
     void sortRound(std::uint32_t first, std::uint32_t last);
+    void sortAlong(std::uint32_t first, std::uint32_t last, int side);
     LatticePoint next(const End& end) const;
     int sideOf(LatticePoint p) const;
     void cross(const Edge& e, int times);
@@ -81,7 +83,7 @@ private:
     void walk();
     void label(std::uint32_t edge, const Sides& sides);
     void along(std::size_t side);
-    bool labelCorners();
+    bool labelFromBorder();
     std::uint64_t flow(const End& end) const;
     bool certifyVertices() const;
     bool certifySides() const;
@@ -91,7 +93,7 @@ private:
     Square square_;
     RegionPaints* regions_ = nullptr;
     bool consistent_ = true;
-    std::vector<End> ascending_;         ///< the ends b, by vertex
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> byB_;  ///< edges by the sortKey of b
     std::vector<std::uint8_t> visited_;  ///< by a vertex's first end; border vertices count as visited
     std::vector<Visit> visits_;
     std::array<std::vector<End>, 4> border_;

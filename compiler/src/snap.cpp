@@ -78,8 +78,8 @@ Snapper::Band Snapper::bandOf(const Edge& e) const {
     Band band{static_cast<double>(std::int64_t{e.b.x} - e.a.x),
               static_cast<double>(std::int64_t{e.b.y} - e.a.y), 0, 0, 0};
     band.length2 = band.dx * band.dx + band.dy * band.dy;
-    for (std::uint32_t k = 1; k <= e.innerCount; ++k) {
-        const auto o = static_cast<double>(orient(e.a, e.b, set_.vertex(e, k)));
+    for (const LatticePoint v : set_.inner(e)) {
+        const double o = band.dx * (v.y - e.a.y) - band.dy * (v.x - e.a.x);
         band.low = std::min(band.low, o);
         band.high = std::max(band.high, o);
     }
@@ -88,7 +88,7 @@ Snapper::Band Snapper::bandOf(const Edge& e) const {
 
 /// Whether f lies wholly on one side of e, by more than a step. Its vertices lie in the parallelogram of
 /// its ends moved across by its band: p = q + perp(d_f) o / |d_f|², so orient(e, p) = orient(e, q) + o
-/// (d_e · d_f) / |d_f|². Doubles are off by 2^-50 of 2^60, which is far below a step's |d_e|.
+/// (d_e · d_f) / |d_f|². Doubles are off by 2^-50 of |d_e| 2^30, which is far below a step's |d_e|.
 bool Snapper::isBeside(std::uint32_t e, std::uint32_t f) const {
     const Edge &s = set_.edges[e], &t = set_.edges[f];
     const Band &bs = bands_[e], &bt = bands_[f];
@@ -105,8 +105,6 @@ bool Snapper::isBeside(std::uint32_t e, std::uint32_t f) const {
 /// it within different sectors. Both lie in the half plane right (left) of it.
 bool Snapper::fanOut(const Edge& e, const Edge& f) const {
     const bool fromA = e.a == f.a;
-    if (!fromA && e.b != f.b)
-        return false;
     const LatticePoint at = fromA ? e.a : e.b;
     const std::int64_t turn = orient(at, fromA ? e.b : e.a, fromA ? f.b : f.a);
     if (turn == 0)
@@ -114,8 +112,7 @@ bool Snapper::fanOut(const Edge& e, const Edge& f) const {
     // The sides of their sectors that face each other.
     const auto extreme = [&](const Edge& g, bool leftmost) {
         LatticePoint side = fromA ? g.b : g.a;
-        for (std::uint32_t k = 1; k <= g.innerCount; ++k) {
-            const LatticePoint v = set_.vertex(g, k);
+        for (const LatticePoint v : set_.inner(g)) {
             const std::int64_t o = orient(at, side, v);
             if (leftmost ? o > 0 : o < 0)
                 side = v;
@@ -145,7 +142,8 @@ bool Snapper::findSplits() {
             const Coord left = boxes_[j].left, right = std::min(box.right, boxes_[j].right);
             const bool isPoint = left == right && low == high;  // harmless if it is an end of both
             if (!(isPoint && isEnd(edges[i], {left, low}) && isEnd(edges[j], {left, low})) &&
-                !fanOut(edges[i], edges[j]) && !isBeside(i, j) && !isBeside(j, i))
+                !(shareEnd(edges[i], edges[j]) && fanOut(edges[i], edges[j])) && !isBeside(i, j) &&
+                !isBeside(j, i))
                 meet(i, j);
         }
         if (splits_.size() > 4 * maxLeafEdges)
@@ -323,19 +321,23 @@ int Snapper::compare(const Edge& e, const Edge& f) const {
 void Snapper::mergeEqual() {
     order_.resize(set_.edges.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i)
-        order_[i] = i;
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const int c = compare(set_.edges[i], set_.edges[j]);
-        return c != 0 ? c < 0 : i < j;
+        order_[i] = {sortKey(set_.edges[i].a), i};
+    std::sort(order_.begin(), order_.end(), [&](const Place& p, const Place& q) {
+        if (p.a != q.a)
+            return p.a < q.a;
+        const int c = compare(set_.edges[p.edge], set_.edges[q.edge]);
+        return c != 0 ? c < 0 : p.edge < q.edge;
     });
     nextEdges_.clear();
     nextFresh_.clear();
     for (std::size_t i = 0; i < order_.size();) {
-        Edge e = set_.edges[order_[i]];
+        Edge e = set_.edges[order_[i].edge];
         std::size_t end = i + 1;
-        bool fresh = fresh_[order_[i]];
-        for (; end < order_.size() && compare(set_.edges[order_[end]], e) == 0; ++end)
-            fresh = fresh || fresh_[order_[end]];
+        bool fresh = fresh_[order_[i].edge];
+        for (; end < order_.size() && order_[end].a == order_[i].a &&
+               compare(set_.edges[order_[end].edge], e) == 0;
+             ++end)
+            fresh = fresh || fresh_[order_[end].edge];
         if (end > i + 1)
             addChanges(e, {order_.data() + i, end - i});
         if (e.changeCount > 0) {
@@ -348,10 +350,10 @@ void Snapper::mergeEqual() {
     fresh_.swap(nextFresh_);
 }
 
-void Snapper::addChanges(Edge& into, std::span<const std::uint32_t> equal) {
+void Snapper::addChanges(Edge& into, std::span<const Place> equal) {
     sum_.clear();
-    for (std::uint32_t i : equal) {
-        const auto changes = set_.of(set_.edges[i]);
+    for (const Place& place : equal) {
+        const auto changes = set_.of(set_.edges[place.edge]);
         sum_.insert(sum_.end(), changes.begin(), changes.end());
     }
     std::sort(sum_.begin(), sum_.end(), [](const Change& p, const Change& q) { return p.layer < q.layer; });

@@ -34,6 +34,10 @@ struct EdgeSet {
     std::span<const Change> of(const Edge& e) const {
         return {changes.data() + e.firstChange, e.changeCount};
     }
+    /// Those between a and b, from either end.
+    std::span<const LatticePoint> inner(const Edge& e) const {
+        return points.subspan(e.backward ? e.inner + 1 - e.innerCount : e.inner, e.innerCount);
+    }
     /// Vertex k of 0 (a) .. innerCount + 1 (b).
     LatticePoint vertex(const Edge& e, std::uint32_t k) const {
         return k == 0 ? e.a : k > e.innerCount ? e.b : points[e.backward ? e.inner + 1 - k : e.inner + k - 1];
@@ -77,10 +81,15 @@ private:
         LatticePoint from, to;
     };
     struct Walk;
+    struct Place {
+        std::uint64_t a;  ///< sortKey of the edge's
+        std::uint32_t edge;
+    };
 
     void clip(const Square& square, std::span<const Strand> strands);
     Band bandOf(const Edge& e) const;
     bool isBeside(std::uint32_t e, std::uint32_t f) const;
+    static bool shareEnd(const Edge& e, const Edge& f) { return e.a == f.a || e.b == f.b; }
     bool fanOut(const Edge& e, const Edge& f) const;
     bool findSplits();
     void meet(std::uint32_t e, std::uint32_t f);
@@ -92,7 +101,7 @@ private:
               std::uint32_t innerEnd, bool fresh);
     void mergeEqual();
     int compare(const Edge& e, const Edge& f) const;
-    void addChanges(Edge& into, std::span<const std::uint32_t> equal);
+    void addChanges(Edge& into, std::span<const Place> equal);
 
     EdgeSet set_;
     std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
@@ -102,7 +111,7 @@ private:
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;
     std::vector<std::uint8_t> nextFresh_;
-    std::vector<std::uint32_t> order_;
+    std::vector<Place> order_;
 };
 
 }  // namespace vtm::compiler

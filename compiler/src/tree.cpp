@@ -19,42 +19,65 @@ constexpr std::size_t blockStrands = 64;
 constexpr std::size_t blockShare = 64;
 constexpr unsigned blockLevel = 3;
 
+/// A cell with more strands hands them to its children's cells on all processors.
+constexpr std::size_t strandsForAll = 4096;
+
 /// The tree above the blocks.
 struct Top {
-    std::optional<std::size_t> block;
+    std::optional<Cell> cell;   ///< of a block, culled; taken by numberBlocks
+    std::size_t block = 0;      ///< its number, in walking order
     std::vector<Top> children;  ///< 16 if it is not a block
 };
 
 class TopBuilder {
 public:
-    TopBuilder(const Picture& picture, Painter& painter, std::size_t strands)
+    TopBuilder(const Picture& picture, const Painter& painter, std::size_t strands)
         : points_(picture.outlines.points),
-          culler_(picture, painter),
+          cullers_([&] { return CullerOfThread(picture, painter); }),
           most_(std::max(blockStrands, strands / blockShare)) {}
 
-    /// The cells of blocks are culled.
     Top run(Cell cell) {
-        culler_.run(cell);
-        if (cell.strands.size() <= most_ || cell.level >= blockLevel) {
-            blocks.push_back(std::move(cell));
-            return {blocks.size() - 1, {}};
-        }
         Top top;
-        std::array<Cell, 16> children;
-        splitCell(points_, cell, children);
+        cullers_.local().culler.run(cell);
+        if (cell.strands.size() <= most_ || cell.level >= blockLevel) {
+            top.cell = std::move(cell);
+            return top;
+        }
+        const auto children = std::make_unique<std::array<Cell, 16>>();
+        splitCell(points_, cell, *children);
+        const bool onAll = cell.strands.size() > strandsForAll;
         cell = {};
-        for (Cell& child : children)
-            top.children.push_back(run(std::move(child)));
+        top.children.resize(16);
+        const auto build = [&](std::size_t i) { top.children[i] = run(std::move((*children)[i])); };
+        if (onAll)
+            tbb::parallel_for(std::size_t{0}, std::size_t{16}, build);
+        else
+            for (std::size_t i = 0; i < 16; ++i)
+                build(i);
         return top;
     }
 
-    std::vector<Cell> blocks;
-
 private:
+    struct CullerOfThread {
+        CullerOfThread(const Picture& picture, const Painter& p)
+            : painter(p.clone()), culler(picture, *painter) {}
+        std::unique_ptr<Painter> painter;
+        Culler culler;
+    };
+
     const Points points_;
-    Culler culler_;
+    tbb::enumerable_thread_specific<CullerOfThread> cullers_;
     const std::size_t most_;
 };
+
+void numberBlocks(Top& top, std::vector<Cell>& cells) {
+    if (top.cell) {
+        top.block = cells.size();
+        cells.push_back(std::move(*top.cell));
+    }
+    for (Top& child : top.children)
+        numberBlocks(child, cells);
+}
 
 /// Joins blocks in walking order, so that the result does not depend on where blocks begin.
 class Assembler {
@@ -68,8 +91,8 @@ public:
 
 private:
     Entry join(const Top& top) {
-        if (top.block) {
-            const Tree& block = blocks_[*top.block];
+        if (top.cell) {
+            const Tree& block = blocks_[top.block];
             paints_.assign(block.palette.size(), unknown);
             tree_.fallbackLeaves += block.fallbackLeaves;
             return copy(block, block.root);
@@ -143,16 +166,16 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
                const Painter& painter, const TreeOptions& options, TreeTimes& times) {
     WorkLimit work;
     Cell cell = rootCell(picture, root, layers);
-    const std::unique_ptr<Painter> topPainter = painter.clone();
-    TopBuilder topBuilder(picture, *topPainter, cell.strands.size());
-    const Top top = topBuilder.run(std::move(cell));
+    TopBuilder topBuilder(picture, painter, cell.strands.size());
+    Top top = topBuilder.run(std::move(cell));
+    std::vector<Cell> cells;
+    numberBlocks(top, cells);
 
-    std::vector<Tree> blocks(topBuilder.blocks.size());
+    std::vector<Tree> blocks(cells.size());
     tbb::enumerable_thread_specific<BlockBuilder> builders(
         [&] { return BlockBuilder(picture, painter, options, work); });
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-        blocks[i] = builders.local().run(std::move(topBuilder.blocks[i]));
-    });
+    tbb::parallel_for(std::size_t{0}, blocks.size(),
+                      [&](std::size_t i) { blocks[i] = builders.local().run(std::move(cells[i])); });
     for (const BlockBuilder& b : builders) {
         times.push += b.times().push;
         times.planarise += b.times().planarise;
