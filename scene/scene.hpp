@@ -5,6 +5,7 @@
 /// (from the node's space to the picture). Painter's order: later children lie on top.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -124,6 +125,9 @@ inline constexpr int maxNesting = 1024;
 
 /// Throws InvalidScene unless every rule of docs/scene.md holds.
 void validate(const Scene& scene);
+
+/// The same, but for paths that `isKnown` to be valid.
+void validate(const Scene& scene, const std::function<bool(const Path&)>& isKnown);
 
 /// A readable text form, one node a line, for tests and for `diff`. Scenes need not be valid; what is
 /// nested too deeply is cut.

@@ -21,6 +21,7 @@ struct StrokeStyle {
     /// solid. Each >= 0, the sum > 0.
     std::vector<double> dashes;
     double dashPhase = 0;  ///< where in the pattern each subpath starts
+    friend bool operator==(const StrokeStyle&, const StrokeStyle&) = default;
 };
 
 }  // namespace vtm::scene

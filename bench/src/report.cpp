@@ -12,7 +12,7 @@ namespace vtm::bench {
 namespace {
 
 constexpr const char* usage =
-    "bench_report peers|compression|scaling|sweep [OPTIONS]\n\n"
+    "bench_report peers|compression|editing|scaling|sweep [OPTIONS]\n\n"
     "  --examples        our own drawings only, not the corpus\n"
     "  --only NAME       this file only\n"
     "  --font FILE       the font whose glyphs are compressed (a DejaVu Sans, if there is one)\n"
@@ -67,6 +67,8 @@ Report reportOf(const Arguments& a) {
         return peers(filesOf(a));
     if (a.subcommand == "compression")
         return compression(filesOf(a), a.font);
+    if (a.subcommand == "editing")
+        return editing(filesOf(a));
     if (a.subcommand == "scaling")
         return scaling(a.largest);
     if (a.subcommand == "sweep")

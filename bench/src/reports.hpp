@@ -11,6 +11,8 @@ namespace vtm::bench {
 Report peers(const std::vector<File>& files);
 /// Bytes against a flat grid of equal finest cells, on the files and on a font.
 Report compression(const std::vector<File>& files, const std::string& font);
+/// Recolouring and moving items in a session against encoding anew.
+Report editing(const std::vector<File>& files);
 /// Time, memory and bytes over the number of curves, up to `largest`.
 Report scaling(std::size_t largest);
 /// Bytes against fragment cost for settings of leaf size and depth.

@@ -2,96 +2,22 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
+#include "compiler/src/encode.hpp"
 #include "compiler/src/painters.hpp"
+#include "compiler/src/settings.hpp"
 #include "compiler/src/walk_items.hpp"
 
 namespace vtm::compiler {
 namespace {
 
 using asset::Command;
-using asset::Entry;
-
-/// A lattice step is this many bits finer than the tolerance: snapping moves points by a step or two.
-constexpr int stepBits = 6;
-/// Cells of the last level still have this many steps a side.
-constexpr int lastCellBits = 4;
-
-int latticeBits(double tolerance) {
-    return std::min(maxLatticeBits, static_cast<int>(std::ceil(-std::log2(tolerance))) + stepBits);
-}
-
-/// Of the whole tolerance: what chords may take from the curves, pieces from the chords, and rounding
-/// from the pieces' ends. The eighth that is left is the lattice's: snapping moves a point by a step or
-/// two, which are a sixteenth of the smallest tolerance each.
-constexpr double chordShare = 3.0 / 16, fitShare = 1.0 / 2, quantisationShare = 3.0 / 16;
-
-void checkOptions(const Options& o) {
-    if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
-        throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
-    if (!(o.nanosecondsPerByte >= 1 && o.nanosecondsPerByte <= 1e6))
-        throw std::invalid_argument("nanosecondsPerByte must lie in [1, 1e6]");
-    if (o.piecesPerLeaf && (*o.piecesPerLeaf < 1 || *o.piecesPerLeaf > 4096))
-        throw std::invalid_argument("piecesPerLeaf must lie in [1, 4096]");
-    if (o.maxDepth > asset::maxLevel)
-        throw std::invalid_argument("maxDepth must be at most " + std::to_string(asset::maxLevel));
-}
-
-TreeOptions treeOptions(const Options& o) {
-    const int bits = latticeBits(o.tolerance);
-    TreeOptions t;
-    t.fitTolerance = std::ldexp(o.tolerance * fitShare, bits);
-    t.cost.nanosecondsPerByte = o.nanosecondsPerByte;
-    t.piecesPerLeaf = o.piecesPerLeaf;
-    t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(bits - lastCellBits) / 2);
-    // A leaf's end points are rounded by half of 1/65535 of its side in each axis.
-    const double widest = o.tolerance * quantisationShare * asset::leafExtent * std::sqrt(2.0);
-    t.minDepth =
-        std::min(t.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
-    return t;
-}
 
 std::vector<std::uint32_t> allLayers(const Picture& picture) {
     std::vector<std::uint32_t> layers(picture.layers.size());
     for (std::uint32_t i = 0; i < layers.size(); ++i)
         layers[i] = i;
     return layers;
-}
-
-/// Appends a tree's records to the asset; `paints`: the index of each of its paints.
-asset::Entry encode(const Tree& tree, std::span<const std::uint16_t> paints, asset::Asset& asset) {
-    const auto nodes = static_cast<std::uint32_t>(asset.nodes.size()),
-               leaves = static_cast<std::uint32_t>(asset.leaves.size()),
-               pieces = static_cast<std::uint32_t>(asset.pieces.size());
-    const auto entry = [&](Entry e) {
-        switch (e.kind()) {
-            case Entry::Kind::Solid:
-                return Entry::make(e.kind(), paints[e.payload()]);
-            case Entry::Kind::Leaf:
-                return Entry::make(e.kind(), e.payload() + leaves);
-            case Entry::Kind::Node:
-                break;
-        }
-        return Entry::make(e.kind(), e.payload() + nodes);
-    };
-    for (asset::Node node : tree.nodes) {
-        for (Entry& e : node.children)
-            e = entry(e);
-        asset.nodes.push_back(node);
-    }
-    for (const Tree::Leaf& l : tree.leaves) {
-        asset::Leaf leaf;
-        leaf.firstPiece = l.firstPiece + pieces;
-        leaf.pieceCount = static_cast<std::uint16_t>(l.pieceCount);
-        for (std::size_t k = 0; k < 4; ++k)
-            leaf.corners[k] = paints[l.corners[k]];
-        asset.leaves.push_back(leaf);
-    }
-    for (const Tree::Piece& p : tree.pieces)
-        asset.pieces.push_back({p.a, p.b, p.slopeA, p.slopeB, paints[p.left], paints[p.right]});
-    asset.fallbackLeaves += tree.fallbackLeaves;
-    return entry(tree.root);
 }
 
 /// Maps over the lattice's root square.
@@ -104,7 +30,7 @@ public:
         return buildTree(picture_, lattice_.square(), layers, painter, options_, times_);
     }
     std::uint32_t add(const Tree& tree, std::span<const std::uint16_t> paints) {
-        const Entry root = encode(tree, paints, asset_);
+        const asset::Entry root = encodeTree(tree, paints, asset_);
         asset_.maps.push_back({0, 0, std::max(asset_.width, asset_.height), root});
         return static_cast<std::uint32_t>(asset_.maps.size() - 1);
     }
@@ -250,9 +176,8 @@ Result compile(const scene::Scene& scene, const Options& options) {
         return std::chrono::duration<double, std::milli>(b - a).count();
     };
     const auto start = Clock::now();
-    const int bits = latticeBits(options.tolerance);
-    const Lattice lattice(scene.width, scene.height, bits);
-    Picture picture = lower(scene, lattice, std::ldexp(options.tolerance * chordShare, bits));
+    const Lattice lattice(scene.width, scene.height, latticeBits(options));
+    Picture picture = lower(scene, lattice, chordTolerance(options));
     const auto lowered = Clock::now();
 
     Result result;
@@ -261,7 +186,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     asset.height = scene.height;
     asset.mode = options.mode;
     asset.data = std::move(picture.data);
-    asset.images = std::move(picture.images);
+    asset.images = bitmapsOf(picture);
     asset.materials = std::move(picture.materials);
     MapBuilder maps(picture, lattice, options, asset);
     float error = 0;
@@ -272,17 +197,8 @@ Result compile(const scene::Scene& scene, const Options& options) {
 
     const TreeTimes& t = maps.times();
     const double built = milliseconds(lowered, Clock::now());
-    result.stages = {{"lower", milliseconds(start, lowered)},
-                     {"push", t.push},
-                     {"planarise", t.planarise},
-                     {"fit", t.fit},
-                     {"encode", built - t.push - t.planarise - t.fit}};
-    if (asset.fallbackLeaves > 0)
-        result.warnings.push_back(std::to_string(asset.fallbackLeaves) +
-                                  " leaves could not be certified and are filled with the mean of samples");
-    if (error > 0)
-        result.warnings.push_back("more than 65536 region colours: the nearest were merged, by up to " +
-                                  std::to_string(error) + " in a component");
+    result.stages = stageTimes(milliseconds(start, lowered), built, t);
+    result.warnings = warningsOf(asset, error);
     return result;
 }
 

@@ -191,22 +191,25 @@ private:
 PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
                   const std::vector<std::uint8_t>& inside, Palette& palette) {
     const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };
-    const auto shown = [&](std::uint32_t group) {
-        for (; group != none; group = picture.groups[group].parent)
-            if (!insideClip(picture, picture.groups[group].clip, in))
-                return false;
-        return true;
-    };
     Compositor compositor(picture);
     ItemWalk<Compositor> walk(picture, compositor);
     for (std::uint32_t index : items) {
         const PictureItem& item = picture.items[index];
-        if (in(item.layer) && shown(item.group))
+        if (in(item.layer) && insideClips(picture, item.group, in))
             walk.item(item);
     }
     walk.finish();
     const Frame& frame = compositor.result();
     return palette.add(frame.steps);
+}
+
+PaintProgram compositeItems(const Picture& picture, std::span<const std::uint32_t> items) {
+    Compositor compositor(picture);
+    ItemWalk<Compositor> walk(picture, compositor);
+    for (std::uint32_t index : items)
+        walk.item(picture.items[index]);
+    walk.finish();
+    return compositor.result().steps;
 }
 
 }  // namespace vtm::compiler

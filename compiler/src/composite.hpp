@@ -17,6 +17,9 @@ namespace vtm::compiler {
 PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
                   const std::vector<std::uint8_t>& inside, Palette& palette);
 
+/// The paint of exactly the given items (ascending), clips aside.
+PaintProgram compositeItems(const Picture& picture, std::span<const std::uint32_t> items);
+
 /// Whether a clip lets a point through, given what `inside(layer)` says of it.
 template <class Inside>
 bool insideClip(const Picture& picture, std::uint32_t clip, const Inside& inside) {
@@ -27,6 +30,15 @@ bool insideClip(const Picture& picture, std::uint32_t clip, const Inside& inside
         return bool(inside(term.layer)) != term.inverted && insideClip(picture, term.clip, inside);
     });
     return any && insideClip(picture, e.outer, inside);
+}
+
+/// Whether all clips of a group and round it let a point through.
+template <class Inside>
+bool insideClips(const Picture& picture, std::uint32_t group, const Inside& inside) {
+    for (; group != none; group = picture.groups[group].parent)
+        if (!insideClip(picture, picture.groups[group].clip, inside))
+            return false;
+    return true;
 }
 
 }  // namespace vtm::compiler

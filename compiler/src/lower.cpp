@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "compiler/compile.hpp"
+#include "compiler/src/outline_cache.hpp"
 #include "compiler/src/paints.hpp"
 #include "compiler/src/picture.hpp"
 #include "compiler/stroke.hpp"
@@ -36,11 +37,14 @@ Box mapped(const Box& b, const Affine& m) {
 
 class Lowering {
 public:
-    Lowering(const scene::Scene& scene, const Lattice& lattice, double tolerance)
+    Lowering(const scene::Scene& scene, const Lattice& lattice, double tolerance, OutlineCache* cache)
         : lattice_(lattice),
           tolerance_(tolerance),
           frame_{{0, 0}, {scene.width, scene.height}},
+          cache_(cache),
           paints_(picture_) {
+        if (cache_)
+            picture_.outlines = cache_->take();
         picture_.groups.emplace_back();
         group(scene.root, scene::identity, openGroup(0));
     }
@@ -111,7 +115,7 @@ private:
         ClipExpression expression;
         for (const scene::ClipShape& shape : c.shapes) {
             ClipExpression::Term term;
-            term.layer = layer(*shape.path, compose(outer, shape.transform), shape.rule);
+            term.layer = layer({shape.path, compose(outer, shape.transform)}, shape.rule);
             if (shape.clip)
                 term.clip = clip(*shape.clip, outer);
             expression.terms.push_back(term);
@@ -127,7 +131,7 @@ private:
     }
 
     void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
-        const Affine transform = compose(outer, item.transform);
+        const Affine transform = outer == scene::identity ? item.transform : compose(outer, item.transform);
         if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
             patternItem(item, *pattern, transform, into);
             return;
@@ -160,15 +164,18 @@ private:
         if (!(tiles <= static_cast<double>(maxTiles)))
             throw LimitError("a pattern would take " + std::to_string(tiles) + " tiles; at most " +
                              std::to_string(maxTiles) + " are drawn");
+        const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)
+                                   : std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
         for (double y = first.y; y <= last.y; ++y)
             for (double x = first.x; x <= last.x; ++x)
-                tile(pattern, compose(toPicture, scene::translation(x * period.x, y * period.y)), index);
+                tile(pattern, border, compose(toPicture, scene::translation(x * period.x, y * period.y)),
+                     index);
     }
 
-    void tile(const scene::Pattern& pattern, const Affine& toPicture, std::uint32_t into) {
+    void tile(const scene::Pattern& pattern, const std::shared_ptr<const Path>& border,
+              const Affine& toPicture, std::uint32_t into) {
         const std::uint32_t index = openGroup(into);
-        const Path border = scene::rectangle(pattern.min, pattern.max);
-        const std::uint32_t cut = layer(border, toPicture, scene::FillRule::NonZero);
+        const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
         picture_.groups[index].clip = push({{{cut, none, false}}, none});
         group(*pattern.content, toPicture, openGroup(index));
     }
@@ -177,24 +184,39 @@ private:
     template <class Shaped>
     std::uint32_t geometryLayer(const Shaped& shape, const Affine& transform) {
         if (const auto* rule = std::get_if<scene::FillRule>(&shape.geometry))
-            return layer(*shape.path, transform, *rule);
-        const double stretch = largestStretch(transform) * lattice_.stepsPerUnit();
-        if (!(stretch > 0) || !std::isfinite(stretch))
-            return layer({}, transform, scene::FillRule::NonZero);
-        const Path outline =
-            strokeOutline(*shape.path, std::get<scene::StrokeStyle>(shape.geometry), tolerance_ / stretch);
-        return layer(outline, transform, scene::FillRule::NonZero);
+            return layer({shape.path, transform}, *rule);
+        return layer({shape.path, transform, &std::get<scene::StrokeStyle>(shape.geometry)},
+                     scene::FillRule::NonZero);
     }
 
-    std::uint32_t layer(const Path& path, const Affine& transform, scene::FillRule rule) {
-        const Affine toSteps = compose(lattice_.toSteps(), transform);
-        const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
-        addOutline(picture_.outlines, path, toSteps, tolerance_, lattice_.clampMin(), lattice_.clampMax());
+    std::uint32_t layer(const OutlineOrigin& origin, scene::FillRule rule) {
+        const std::size_t pointsBefore = picture_.outlines.points.size();
+        const std::optional<RunRange> known = cache_ ? cache_->find(origin) : std::nullopt;
+        const RunRange runs = known ? *known : outline(origin);
+        if (cache_ && !known)
+            cache_->add(origin, runs,
+                        static_cast<std::uint32_t>(picture_.outlines.points.size() - pointsBefore));
+        picture_.layers.push_back({rule, runs.first, runs.count});
         checkLimits();
-        picture_.layers.push_back(
-            {rule, firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun});
         picture_.itemOfLayer.push_back(none);
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
+    }
+
+    RunRange outline(const OutlineOrigin& origin) {
+        const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
+        if (!origin.stroke) {
+            outline(*origin.path, origin.transform);
+        } else {
+            const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
+            if (stretch > 0 && std::isfinite(stretch))
+                outline(strokeOutline(*origin.path, *origin.stroke, tolerance_ / stretch), origin.transform);
+        }
+        return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
+    }
+
+    void outline(const Path& path, const Affine& transform) {
+        addOutline(picture_.outlines, path, compose(lattice_.toSteps(), transform), tolerance_,
+                   lattice_.clampMin(), lattice_.clampMax());
     }
 
     void checkLimits() const {
@@ -217,14 +239,15 @@ private:
     const Lattice& lattice_;
     const double tolerance_;
     const Box frame_;
+    OutlineCache* const cache_;
     Picture picture_;
     PaintTable paints_;
 };
 
 }  // namespace
 
-Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance) {
-    return Lowering(scene, lattice, tolerance).take();
+Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance, OutlineCache* cache) {
+    return Lowering(scene, lattice, tolerance, cache).take();
 }
 
 }  // namespace vtm::compiler

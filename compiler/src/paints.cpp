@@ -111,7 +111,7 @@ std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, 
     const auto [found, isNew] =
         images_.try_emplace(image.bitmap.get(), static_cast<std::uint32_t>(picture_.images.size()));
     if (isNew)
-        picture_.images.push_back(*image.bitmap);
+        picture_.images.push_back(image.bitmap);
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
     append(picture_.data,
            asset::ImageFill{floats(*inverse), found->second, image.filter == scene::ImageFilter::Bilinear});

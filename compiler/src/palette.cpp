@@ -10,8 +10,6 @@ namespace {
 
 using asset::Op;
 
-constexpr std::size_t mostPaints = 0x10000;
-
 std::string keyOf(const PaintProgram& program) {
     std::string key;
     for (const PaintStep& step : program) {
@@ -103,6 +101,10 @@ PaintId Palette::add(const PaintProgram& program) {
     return isConstant(program) ? solid(colorOf(program)) : intern(program);
 }
 
+asset::Paint encodePaint(const PaintProgram& program, std::vector<asset::Texel>& data) {
+    return Palette::isConstant(program) ? solidPaint(Palette::colorOf(program)) : programPaint(program, data);
+}
+
 std::vector<std::uint16_t> encodePalette(const Palette& palette, asset::Asset& asset, float& error) {
     const float levels = gridFor(palette);
     error = levels > 0 ? 0.5f / levels : 0;
@@ -117,8 +119,7 @@ std::vector<std::uint16_t> encodePalette(const Palette& palette, asset::Asset& a
                            : levels > 0 ? written.solid(rounded(color, levels))
                                         : written.solid(color);
         if (id == asset.paints.size())
-            asset.paints.push_back(constant ? solidPaint(Palette::colorOf(written[id]))
-                                            : programPaint(p, asset.data));
+            asset.paints.push_back(encodePaint(constant ? written[id] : p, asset.data));
         indices.push_back(static_cast<std::uint16_t>(id));
     }
     return indices;

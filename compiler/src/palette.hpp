@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asset/asset.hpp"
+#include "compiler/src/stacks.hpp"
 
 namespace vtm::compiler {
 
@@ -50,6 +51,8 @@ public:
         return constant.empty() ? Color{} : constant[0].color;
     }
 
+    StackTable stacks;  ///< what an EditablePainter's paints are numbers of, instead of programs
+
 private:
     PaintId intern(const PaintProgram& program);
 
@@ -58,6 +61,13 @@ private:
     static constexpr unsigned recentBits = 7;
     std::array<PaintId, 1u << recentBits> recent_{};  ///< colours asked for lately, by a hash
 };
+
+/// One paint; a program, and the colours it uses, are appended to `data`. Throws LimitError if its groups are
+/// nested deeper than asset::maxStack.
+asset::Paint encodePaint(const PaintProgram& program, std::vector<asset::Texel>& data);
+
+/// More paints than this the format cannot name.
+inline constexpr std::size_t mostPaints = 0x10000;
 
 /// Writes the palette as the asset's paints, programs to its data. Solid colours beyond the 65536
 /// paints that the format can name are merged, each with the nearest of a coarser grid of colours;

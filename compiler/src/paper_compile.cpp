@@ -51,7 +51,7 @@ public:
     /// What the programs refer to first, then a program of one instruction for each.
     void finish() {
         palette_.data = std::move(picture_.data);
-        palette_.images = std::move(picture_.images);
+        palette_.images = bitmapsOf(picture_);
         palette_.materials = std::move(picture_.materials);
         for (const auto& [paint, source] : programs_) {
             palette_.paints[paint] = {std::uint32_t(palette_.data.size()), 1, 0, asset::programTag};

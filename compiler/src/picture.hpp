@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,8 @@
 #include "scene/scene.hpp"
 
 namespace vtm::compiler {
+
+class OutlineCache;
 
 inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 
@@ -74,17 +77,27 @@ struct Picture {
     std::vector<ClipExpression> clips;
     std::vector<Source> sources;
     std::vector<asset::Texel> data;  ///< gradients, image and material fills
-    std::vector<image::Bitmap> images;
+    std::vector<std::shared_ptr<const image::Bitmap>> images;
     std::vector<asset::Material> materials;
     std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
 };
+
+/// Copies, for the asset.
+inline std::vector<image::Bitmap> bitmapsOf(const Picture& picture) {
+    std::vector<image::Bitmap> bitmaps;
+    for (const auto& image : picture.images)
+        bitmaps.push_back(*image);
+    return bitmaps;
+}
 
 /// Limits of lowering; beyond them a LimitError.
 inline constexpr std::size_t maxChords = 50'000'000;
 inline constexpr std::size_t maxLayers = 4'000'000;
 inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
 
-/// `tolerance` in lattice steps: how far chords may lie from their curves.
-Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance);
+/// `tolerance` in lattice steps: how far chords may lie from their curves. With a `cache`, outlines that it
+/// holds are taken from it and others added to it; its store of outlines becomes the picture's.
+Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance,
+              OutlineCache* cache = nullptr);
 
 }  // namespace vtm::compiler

@@ -187,12 +187,12 @@ void Planariser::sweepTo(std::uint32_t index) {
         if (axis.v(end.at) <= m)
             cross(edges[end.edge], border.crossingSign(edges[end.edge]));
     const Place place(axis, chordAt(axis, e, m), m);
-    const auto [low, high] = std::minmax(axis.u(e.a), axis.u(e.b));
+    const auto [low, high] = std::minmax({axis.u(e.a), axis.u(e.b)});
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
         const Edge& f = edges[i];
         if (i == index || !axis.meets(f, m))
             continue;
-        const auto [fLow, fHigh] = std::minmax(axis.u(f.a), axis.u(f.b));
+        const auto [fLow, fHigh] = std::minmax({axis.u(f.a), axis.u(f.b)});
         if (fHigh < low || (fLow <= high && isBefore(Place(axis, chordAt(axis, f, m), m), place)))
             cross(f, axis.crossingSign(f));
     }

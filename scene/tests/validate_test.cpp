@@ -318,6 +318,20 @@ TEST(Validate, SelectionsNameWhereTheyAreWrong) {
     EXPECT_EQ(complaint(s), "root/1/path: is missing");
 }
 
+TEST(Validate, KnownPathsAreNotLookedAtAllElseIs) {
+    Item item = redSquare();
+    const auto broken = std::make_shared<const Path>(Path{LineTo{{1, 1}}});
+    item.path = broken;
+    const auto isKnown = [&](const Path& path) { return &path == broken.get(); };
+    EXPECT_NO_THROW(validate(sceneOf(item), isKnown));
+    EXPECT_THROW(validate(sceneOf(item)), InvalidScene);
+    item.opacity = 2;
+    EXPECT_THROW(validate(sceneOf(item), isKnown), InvalidScene);
+    item = redSquare();
+    item.path = std::make_shared<const Path>(*broken);
+    EXPECT_THROW(validate(sceneOf(item), isKnown), InvalidScene);
+}
+
 TEST(Validate, SharingTakesNoExponentialTime) {
     auto content = std::make_shared<const Group>();
     for (int i = 0; i < 200; ++i) {

@@ -1,0 +1,372 @@
+#include "compiler/session.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "asset/container.hpp"
+#include "asset/evaluate.hpp"
+#include "compiler/tests/random_edits.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using scene::Color;
+using scene::Group;
+using scene::Item;
+using scene::Point;
+using scene::Scene;
+
+// ---- comparing what two assets draw -------------------------------------------------------------
+
+/// Pixels a side of the pictures that are compared.
+constexpr int pixels = 80;
+/// Colours are the same within this; single precision leaves less.
+constexpr float colourStep = 1e-3f;
+
+using Colour = std::array<float, 4>;
+
+double sideOf(const asset::Asset& asset) { return std::max(asset.width, asset.height); }
+
+/// `count` by `count` pixels over the square of `side` round `centre`.
+image::Raster draw(const asset::Asset& asset, Point centre, double side, int count) {
+    const double scale = count / side;
+    const Point origin = centre - Point{side / 2, side / 2};
+    return asset::evaluate(asset, {count, count, {scale, 0, 0, scale, -scale * origin.x, -scale * origin.y}});
+}
+
+Colour colour(const image::Raster& raster, std::size_t pixel) {
+    Colour c;
+    std::copy_n(raster.rgba.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4, c.begin());
+    return c;
+}
+
+bool isSame(const Colour& a, const Colour& b) {
+    return std::equal(a.begin(), a.end(), b.begin(),
+                      [](float x, float y) { return std::abs(x - y) <= colourStep; });
+}
+
+/// Two assets of one scene, made with the same options.
+class Comparison {
+public:
+    Comparison(const asset::Asset& a, const asset::Asset& b, double tolerance)
+        : a_(a), b_(b), distance_(tolerance * sideOf(a)) {}
+
+    /// Every pixel that differs is looked at in 64 points.
+    void run() const {
+        const double side = sideOf(a_), step = side / pixels;
+        const Point middle{side / 2, side / 2};
+        const image::Raster p = draw(a_, middle, side, pixels), q = draw(b_, middle, side, pixels);
+        constexpr int points = 8;
+        for (std::size_t i = 0; i < std::size_t{pixels} * pixels; ++i) {
+            if (isSame(colour(p, i), colour(q, i)))
+                continue;
+            for (int k = 0; k < points * points; ++k) {
+                const Point within{(k % points + 0.5) / points, (k / points + 0.5) / points};
+                expectSame(step * (Point{double(i % pixels), double(i / pixels)} + within));
+            }
+        }
+    }
+
+private:
+    /// At a point the assets agree, unless one of its boundaries is near: each lies within the tolerance of
+    /// the true one, so twice that from the other asset's.
+    void expectSame(Point at) const {
+        constexpr double pointShare = 1.0 / 8;
+        const Colour a = colour(draw(a_, at, distance_ * pointShare, 1), 0);
+        const Colour b = colour(draw(b_, at, distance_ * pointShare, 1), 0);
+        if (!isSame(a, b)) {
+            EXPECT_TRUE(isBoundaryNear(at, b)) << "at " << at.x << ", " << at.y;
+        }
+    }
+
+    bool isBoundaryNear(Point at, const Colour& there) const {
+        constexpr int count = 8;
+        const image::Raster near = draw(b_, at, 2 * 2 * distance_, count);
+        for (std::size_t i = 0; i < std::size_t{count} * count; ++i)
+            if (!isSame(colour(near, i), there))
+                return true;
+        return false;
+    }
+
+    const asset::Asset &a_, &b_;
+    const double distance_;
+};
+
+void expectFresh(const Session& session, const Scene& scene, const Options& options = {}) {
+    ASSERT_NO_THROW(asset::validate(session.result().asset));
+    const asset::Asset fresh = compile(scene, options).asset;
+    Comparison(session.result().asset, fresh, options.tolerance).run();
+    EXPECT_EQ(session.result().asset.fallbackLeaves, fresh.fallbackLeaves);
+}
+
+// ---- random edits -------------------------------------------------------------------------------
+
+/// A seed, and how many items the scene starts with: few in one block, many in several.
+class RandomEdits : public testing::TestWithParam<std::tuple<unsigned, int>> {};
+INSTANTIATE_TEST_SUITE_P(SeedAndItems, RandomEdits,
+                         testing::Combine(testing::Range(0u, 5u), testing::Values(6, 60)));
+
+TEST_P(RandomEdits, drawWhatAFreshCompilationDraws) {
+    const auto [seed, items] = GetParam();
+    test::RandomEditor editor(seed, items);
+    Session session(editor.scene());
+    expectFresh(session, editor.scene());
+    std::string history;
+    int anew = 0;
+    for (int i = 0; i < 50 && !HasFailure(); ++i) {
+        history += editor.edit() + ", ";
+        session.update(editor.scene());
+        anew += session.lastUpdate().anew;
+        expectFresh(session, editor.scene());
+    }
+    EXPECT_LE(anew, 3);  // when the picture has become much larger or smaller
+    EXPECT_FALSE(HasFailure()) << history;
+}
+
+TEST(Session, givesTheSameBytesForTheSameEdits) {
+    const auto bytes = [] {
+        test::RandomEditor editor(99, 60);
+        Session session(editor.scene());
+        for (int i = 0; i < 20; ++i) {
+            editor.edit();
+            session.update(editor.scene());
+        }
+        return asset::write(session.result().asset);
+    };
+    EXPECT_EQ(bytes(), bytes());
+}
+
+// ---- what an edit costs -------------------------------------------------------------------------
+
+constexpr int columns = 24;
+
+Item tile(int i, Color color) {
+    Item item;
+    const Point at{double(i % columns), double(i / columns)};
+    item.path = std::make_shared<scene::Path>(
+        scene::Path{scene::MoveTo{at}, scene::LineTo{at + Point{0.7, 0.1}},
+                    scene::QuadTo{at + Point{1.1, 0.6}, at + Point{0.3, 0.8}}, scene::Close{}});
+    item.paint = color;
+    return item;
+}
+
+/// Small items in rows, over a large one.
+Scene tiles() {
+    Scene scene{columns, columns, {}};
+    Item ground;
+    ground.path = std::make_shared<scene::Path>(scene::rectangle({0, 0}, {columns, columns}));
+    ground.paint = Color{1, 1, 1, 1};
+    scene.root.children.push_back({ground});
+    for (int i = 0; i < columns * columns; ++i)
+        scene.root.children.push_back({tile(i, {0.5f, 0, 0, 1})});
+    return scene;
+}
+
+Item& itemOf(Scene& scene, std::size_t child) { return std::get<Item>(scene.root.children[child].value); }
+
+class EditedTiles : public testing::Test {
+protected:
+    Scene scene_ = tiles();
+    Session session_{scene_};
+
+    const Update& update() {
+        session_.update(scene_);
+        expectFresh(session_, scene_);
+        return session_.lastUpdate();
+    }
+};
+
+TEST_F(EditedTiles, areDividedIntoManyBlocks) {
+    EXPECT_TRUE(session_.lastUpdate().anew);
+    EXPECT_EQ(session_.lastUpdate().outlines, columns * columns + 1u);
+    EXPECT_EQ(session_.lastUpdate().blocks, session_.lastUpdate().blocksInAll);
+    EXPECT_GE(session_.lastUpdate().blocksInAll, 16u);
+}
+
+TEST_F(EditedTiles, recolouringTouchesNoGeometry) {
+    const auto pieces = session_.result().asset.pieces;
+    for (std::size_t child : {0, 1, 300}) {
+        itemOf(scene_, child).paint = Color{0, 0, 1, 1};
+        const Update& update = this->update();
+        EXPECT_FALSE(update.anew);
+        EXPECT_EQ(update.outlines, 0u);
+        EXPECT_EQ(update.blocks, 0u);
+        EXPECT_EQ(update.paints, 1u);
+    }
+    EXPECT_TRUE(std::equal(pieces.begin(), pieces.end(), session_.result().asset.pieces.begin(),
+                           session_.result().asset.pieces.end(), [](const auto& a, const auto& b) {
+                               return a.a == b.a && a.b == b.b && a.left == b.left && a.right == b.right;
+                           }));
+}
+
+TEST_F(EditedTiles, repaintingWithAGradientTouchesNoGeometry) {
+    itemOf(scene_, 40).paint =
+        scene::LinearGradient{{0, 0}, {columns, columns}, {{0, {1, 0, 0, 1}}, {1, {0, 0, 1, 1}}}};
+    EXPECT_EQ(update().blocks, 0u);
+    itemOf(scene_, 40).paint =
+        scene::LinearGradient{{0, 0}, {columns, columns}, {{0, {1, 0, 0, 1}}, {1, {0, 1, 0, 1}}}};
+    EXPECT_EQ(update().blocks, 0u);
+    itemOf(scene_, 40).paint = Color{0, 1, 0, 1};
+    EXPECT_EQ(update().blocks, 0u);
+}
+
+TEST_F(EditedTiles, fadingBuildsBlocksOnlyWhenTheItemCeasesToHideWhatIsBelow) {
+    itemOf(scene_, 100).opacity = 0.9f;
+    EXPECT_GT(update().blocks, 0u);
+    itemOf(scene_, 100).opacity = 0.8f;
+    EXPECT_EQ(update().blocks, 0u);
+}
+
+TEST_F(EditedTiles, movingASmallItemBuildsTheBlocksItLeavesAndEnters) {
+    Item& item = itemOf(scene_, 200);
+    item.transform = scene::translation(0.3, 0.2);
+    const Update& update = this->update();
+    EXPECT_EQ(update.outlines, 1u);
+    EXPECT_GE(update.blocks, 1u);
+    EXPECT_LE(update.blocks, 4u);
+    item.transform = scene::translation(9, 11);
+    EXPECT_LE(this->update().blocks, 8u);
+}
+
+TEST_F(EditedTiles, movingBackMakesNoOutline) {
+    itemOf(scene_, 200).transform = scene::translation(0.3, 0.2);
+    update();
+    itemOf(scene_, 200).transform = scene::identity;
+    EXPECT_EQ(update().outlines, 0u);
+}
+
+TEST_F(EditedTiles, addingAndRemovingAnItemBuildsItsBlocks) {
+    auto& children = scene_.root.children;
+    children.insert(children.begin() + 50, scene::Node{tile(333, {0, 1, 0, 1})});
+    const Update& update = this->update();
+    EXPECT_EQ(update.outlines, 1u);
+    EXPECT_LE(update.blocks, 4u);
+    children.erase(children.begin() + 400);
+    EXPECT_LE(this->update().blocks, 4u);
+    EXPECT_EQ(session_.lastUpdate().outlines, 0u);
+}
+
+TEST_F(EditedTiles, swappingNeighboursMakesNoOutline) {
+    std::swap(scene_.root.children[7], scene_.root.children[8]);
+    const Update& update = this->update();
+    EXPECT_EQ(update.outlines, 0u);
+    EXPECT_LE(update.blocks, 4u);
+}
+
+TEST_F(EditedTiles, theSameSceneAgainDoesNothing) {
+    const Update& update = this->update();
+    EXPECT_EQ(update.outlines + update.blocks + update.paints, 0u);
+}
+
+TEST_F(EditedTiles, anotherSizeIsCompiledAnew) {
+    scene_.width = columns + 1;
+    EXPECT_TRUE(update().anew);
+    EXPECT_EQ(session_.result().asset.width, columns + 1);
+}
+
+// ---- limits -------------------------------------------------------------------------------------
+
+TEST(Session, doesNotKeepOutlinesForEver) {
+    Scene scene = tiles();
+    constexpr int corners = 5000;
+    scene::Path path{scene::MoveTo{{15, 10}}};
+    for (int i = 1; i < corners; ++i) {
+        const double angle = 2 * std::acos(-1.0) * i / corners;
+        path.push_back(
+            scene::LineTo{Point{10, 10} + (5 + 0.02 * (i % 2)) * Point{std::cos(angle), std::sin(angle)}});
+    }
+    itemOf(scene, 1).path = std::make_shared<scene::Path>(std::move(path));
+    Session session(scene);
+    int anew = 0;
+    for (int i = 1; i <= 60; ++i) {
+        itemOf(scene, 1).transform = scene::translation(i * 1e-2, 0);
+        session.update(scene);
+        anew += session.lastUpdate().anew;
+    }
+    EXPECT_GE(anew, 1);
+    EXPECT_LE(anew, 10);
+    expectFresh(session, scene);
+}
+
+/// Translucent strips that cross: each crossing is a stack of its own.
+Scene strips(int count) {
+    Scene scene{2.0 * count, 2.0 * count, {}};
+    for (int i = 0; i < 2 * count; ++i) {
+        const double at = 2 * (i % count) + 0.5, end = 2 * count;
+        Item item;
+        item.path = std::make_shared<scene::Path>(i < count ? scene::rectangle({at, 0}, {at + 1, end})
+                                                            : scene::rectangle({0, at}, {end, at + 1}));
+        item.paint = Color{float(i % 17) / 16, float(i % 29) / 28, float(i) / float(2 * count), 0.5f};
+        scene.root.children.push_back({item});
+    }
+    return scene;
+}
+
+TEST(Session, editsMoreStacksThanTheFormatHasPaints) {
+    constexpr int count = 260;
+    static_assert(count * count > 65536);
+    Options options;
+    options.tolerance = 1.0 / 4096;
+    Scene scene = strips(count);
+    Session session(scene, options);
+    for (const int child : {0, 300, 519}) {
+        itemOf(scene, child).paint = Color{1, 0.5f, 0, 0.25f};
+        session.update(scene);
+        EXPECT_EQ(session.lastUpdate().blocks, 0u);
+        expectFresh(session, scene, options);
+    }
+    itemOf(scene, 300).transform = scene::translation(0, 1.25);
+    session.update(scene);
+    EXPECT_FALSE(session.lastUpdate().anew);
+    expectFresh(session, scene, options);
+}
+
+/// Translucent groups in each other, each with a second item: they cannot be folded.
+Group nested(int depth) {
+    Group group;
+    group.opacity = 0.5f;
+    group.children.push_back({tile(depth, {0, 0, 0, 1})});
+    if (depth > 0)
+        group.children.push_back({nested(depth - 1)});
+    for (scene::Node& node : group.children)
+        if (auto* item = std::get_if<Item>(&node.value))
+            item->path = std::make_shared<scene::Path>(scene::rectangle({0, 0}, {double(columns), 9}));
+    group.blend = scene::BlendMode::Multiply;
+    return group;
+}
+
+TEST_F(EditedTiles, anUpdateThatThrowsLeavesTheResult) {
+    const std::vector<std::uint8_t> before = asset::write(session_.result().asset);
+    const Scene good = scene_;
+    itemOf(scene_, 3).opacity = 2;
+    EXPECT_THROW(session_.update(scene_), scene::InvalidScene);
+    EXPECT_EQ(asset::write(session_.result().asset), before);
+    scene_ = good;
+    scene_.root.children.push_back({nested(12)});
+    EXPECT_THROW(session_.update(scene_), LimitError);
+    EXPECT_EQ(asset::write(session_.result().asset), before);
+    scene_ = good;
+    itemOf(scene_, 0).paint = Color{0, 0, 0, 1};
+    update();
+}
+
+TEST(Session, compatModeIsCompiledAnew) {
+    Options options;
+    options.mode = asset::Mode::Compat;
+    Scene scene = tiles();
+    Session session(scene, options);
+    itemOf(scene, 5).paint = Color{0, 0, 1, 1};
+    session.update(scene);
+    EXPECT_TRUE(session.lastUpdate().anew);
+    EXPECT_EQ(asset::write(session.result().asset), asset::write(compile(scene, options).asset));
+}
+
+TEST(Session, refusesOptionsThatTheCompilerRefuses) {
+    Options options;
+    options.tolerance = 1;
+    EXPECT_THROW(Session(tiles(), options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vtm::compiler
