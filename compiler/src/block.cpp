@@ -93,6 +93,7 @@ PaintId LeafRegions::compute() {
 // ---- build ------------------------------------------------------------------------------------
 
 Tree BlockBuilder::run(Cell cell) {
+    const Stopwatch watch(times_.all);
     tree_ = {};
     firstLevel_ = cell.level;
     tree_.root = build(cell).entry;

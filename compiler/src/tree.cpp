@@ -1,6 +1,7 @@
 #include "compiler/src/tree.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -164,6 +165,11 @@ private:
 
 Tree buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
                const Painter& painter, const TreeOptions& options, TreeTimes& times) {
+    using Clock = std::chrono::steady_clock;
+    const auto milliseconds = [](Clock::time_point from, Clock::time_point to) {
+        return std::chrono::duration<double, std::milli>(to - from).count();
+    };
+    const auto start = Clock::now();
     WorkLimit work;
     Cell cell = rootCell(picture, root, layers);
     TopBuilder topBuilder(picture, painter, cell.strands.size());
@@ -174,13 +180,22 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
     std::vector<Tree> blocks(cells.size());
     tbb::enumerable_thread_specific<BlockBuilder> builders(
         [&] { return BlockBuilder(picture, painter, options, work); });
+    const auto pushed = Clock::now();
     tbb::parallel_for(std::size_t{0}, blocks.size(),
                       [&](std::size_t i) { blocks[i] = builders.local().run(std::move(cells[i])); });
+    const double wall = milliseconds(pushed, Clock::now());
+    TreeTimes sum;
     for (const BlockBuilder& b : builders) {
-        times.push += b.times().push;
-        times.planarise += b.times().planarise;
-        times.fit += b.times().fit;
+        sum.push += b.times().push;
+        sum.planarise += b.times().planarise;
+        sum.fit += b.times().fit;
+        sum.all += b.times().all;
     }
+    const double share = sum.all > 0 ? wall / sum.all : 0;
+    times.push += milliseconds(start, pushed) + sum.push * share;
+    times.planarise += sum.planarise * share;
+    times.fit += sum.fit * share;
+    times.all += wall;
     return Assembler(blocks).run(top);
 }
 

@@ -43,9 +43,10 @@ struct TreeOptions {
     unsigned maxDepth = 8;
 };
 
-/// Milliseconds spent in each part, added up over threads.
+/// Milliseconds of wall time: pushing, also above the blocks, planarising and fitting; and in all for
+/// building blocks, which threads do at once, so that its wall time is shared out.
 struct TreeTimes {
-    double push = 0, planarise = 0, fit = 0;
+    double push = 0, planarise = 0, fit = 0, all = 0;
 };
 
 /// A map's tree, its places in walking order: a node comes before its children's nodes. Entries of
