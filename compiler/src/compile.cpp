@@ -22,11 +22,6 @@ int latticeBits(double tolerance) {
     return std::min(maxLatticeBits, static_cast<int>(std::ceil(-std::log2(tolerance))) + stepBits);
 }
 
-/// Of the whole tolerance: what chords may take from the curves, pieces from the chords, and rounding
-/// from the pieces' ends. The eighth that is left is the lattice's: snapping moves a point by a step or
-/// two, which are a sixteenth of the smallest tolerance each.
-constexpr double chordShare = 3.0 / 16, fitShare = 1.0 / 2, quantisationShare = 3.0 / 16;
-
 void checkOptions(const Options& o) {
     if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
         throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
@@ -40,15 +35,11 @@ void checkOptions(const Options& o) {
 
 TreeOptions treeOptions(const Options& o) {
     const int bits = latticeBits(o.tolerance);
-    TreeOptions t;
-    t.fitTolerance = std::ldexp(o.tolerance * fitShare, bits);
+    TreeOptions t(ErrorBudget(o.tolerance, bits));
     t.cost.nanosecondsPerByte = o.nanosecondsPerByte;
     t.piecesPerLeaf = o.piecesPerLeaf;
     t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(bits - lastCellBits) / 2);
-    // A leaf's end points are rounded by half of 1/65535 of its side in each axis.
-    const double widest = o.tolerance * quantisationShare * asset::leafExtent * std::sqrt(2.0);
-    t.minDepth =
-        std::min(t.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
+    t.minDepth = std::min(t.maxDepth, t.budget.coarsestLevel());
     return t;
 }
 
@@ -90,31 +81,42 @@ asset::Entry encode(const Tree& tree, std::span<const std::uint16_t> paints, ass
     }
     for (const Tree::Piece& p : tree.pieces)
         asset.pieces.push_back({p.a, p.b, p.slopeA, p.slopeB, paints[p.left], paints[p.right]});
-    asset.fallbackLeaves += tree.fallbackLeaves;
+    asset.fallbackLeaves += static_cast<std::uint32_t>(tree.unproven.size());
     return entry(tree.root);
 }
 
 /// Maps over the lattice's root square.
 class MapBuilder {
 public:
-    MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, asset::Asset& asset)
-        : picture_(picture), lattice_(lattice), options_(treeOptions(options)), asset_(asset) {}
+    MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, Result& result)
+        : picture_(picture), lattice_(lattice), options_(treeOptions(options)), result_(result) {}
 
     Tree build(std::span<const std::uint32_t> layers, const Painter& painter) {
         return buildTree(picture_, lattice_.square(), layers, painter, options_, times_);
     }
     std::uint32_t add(const Tree& tree, std::span<const std::uint16_t> paints) {
-        const Entry root = encode(tree, paints, asset_);
-        asset_.maps.push_back({0, 0, std::max(asset_.width, asset_.height), root});
-        return static_cast<std::uint32_t>(asset_.maps.size() - 1);
+        asset::Asset& asset = result_.asset;
+        const Entry root = encode(tree, paints, asset);
+        asset.maps.push_back({0, 0, std::max(asset.width, asset.height), root});
+        certify(tree);
+        return static_cast<std::uint32_t>(asset.maps.size() - 1);
     }
     const TreeTimes& times() const { return times_; }
 
 private:
+    void certify(const Tree& tree) {
+        const ErrorBudget& budget = options_.budget;
+        result_.provenError = std::max(result_.provenError, budget.share(tree.error));
+        const double longer = std::max(result_.asset.width, result_.asset.height);
+        const auto picture = [&](Coord steps) { return longer * budget.share(steps + 1.0); };
+        for (const Square& s : tree.unproven)
+            result_.unproven.push_back({picture(s.x0), picture(s.y0), longer * budget.share(s.side)});
+    }
+
     const Picture& picture_;
     const Lattice& lattice_;
     const TreeOptions options_;
-    asset::Asset& asset_;
+    Result& result_;
     TreeTimes times_;
 };
 
@@ -240,10 +242,11 @@ Result compile(const scene::Scene& scene, const Options& options) {
     const auto start = Clock::now();
     const int bits = latticeBits(options.tolerance);
     const Lattice lattice(scene.width, scene.height, bits);
-    Picture picture = lower(scene, lattice, std::ldexp(options.tolerance * chordShare, bits));
+    Picture picture = lower(scene, lattice, ErrorBudget(options.tolerance, bits));
     const auto lowered = Clock::now();
 
     Result result;
+    result.sampledStrokes = picture.sampledStrokes;
     asset::Asset& asset = result.asset;
     asset.width = scene.width;
     asset.height = scene.height;
@@ -251,7 +254,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     asset.data = std::move(picture.data);
     asset.images = std::move(picture.images);
     asset.materials = std::move(picture.materials);
-    MapBuilder maps(picture, lattice, options, asset);
+    MapBuilder maps(picture, lattice, options, result);
     float error = 0;
     if (options.mode == asset::Mode::Exact)
         error = compileExact(picture, maps, asset);
@@ -268,6 +271,10 @@ Result compile(const scene::Scene& scene, const Options& options) {
     if (asset.fallbackLeaves > 0)
         result.warnings.push_back(std::to_string(asset.fallbackLeaves) +
                                   " leaves could not be certified and are filled with the mean of samples");
+    if (result.provenError > options.tolerance)
+        result.warnings.push_back("boundaries are proven to lie within " +
+                                  std::to_string(result.provenError / options.tolerance) +
+                                  " tolerances only");
     if (error > 0)
         result.warnings.push_back("more than 65536 region colours: the nearest were merged, by up to " +
                                   std::to_string(error) + " in a component");

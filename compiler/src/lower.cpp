@@ -36,11 +36,8 @@ Box mapped(const Box& b, const Affine& m) {
 
 class Lowering {
 public:
-    Lowering(const scene::Scene& scene, const Lattice& lattice, double tolerance)
-        : lattice_(lattice),
-          tolerance_(tolerance),
-          frame_{{0, 0}, {scene.width, scene.height}},
-          paints_(picture_) {
+    Lowering(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget)
+        : lattice_(lattice), budget_(budget), frame_{{0, 0}, {scene.width, scene.height}}, paints_(picture_) {
         picture_.groups.emplace_back();
         group(scene.root, scene::identity, openGroup(0));
     }
@@ -111,7 +108,8 @@ private:
         ClipExpression expression;
         for (const scene::ClipShape& shape : c.shapes) {
             ClipExpression::Term term;
-            term.layer = layer(*shape.path, compose(outer, shape.transform), shape.rule);
+            term.layer =
+                layer(*shape.path, compose(outer, shape.transform), shape.rule, budget_.fillChords());
             if (shape.clip)
                 term.clip = clip(*shape.clip, outer);
             expression.terms.push_back(term);
@@ -168,7 +166,7 @@ private:
     void tile(const scene::Pattern& pattern, const Affine& toPicture, std::uint32_t into) {
         const std::uint32_t index = openGroup(into);
         const Path border = scene::rectangle(pattern.min, pattern.max);
-        const std::uint32_t cut = layer(border, toPicture, scene::FillRule::NonZero);
+        const std::uint32_t cut = layer(border, toPicture, scene::FillRule::NonZero, budget_.fillChords());
         picture_.groups[index].clip = push({{{cut, none, false}}, none});
         group(*pattern.content, toPicture, openGroup(index));
     }
@@ -177,19 +175,21 @@ private:
     template <class Shaped>
     std::uint32_t geometryLayer(const Shaped& shape, const Affine& transform) {
         if (const auto* rule = std::get_if<scene::FillRule>(&shape.geometry))
-            return layer(*shape.path, transform, *rule);
+            return layer(*shape.path, transform, *rule, budget_.fillChords());
         const double stretch = largestStretch(transform) * lattice_.stepsPerUnit();
         if (!(stretch > 0) || !std::isfinite(stretch))
-            return layer({}, transform, scene::FillRule::NonZero);
-        const Path outline =
-            strokeOutline(*shape.path, std::get<scene::StrokeStyle>(shape.geometry), tolerance_ / stretch);
-        return layer(outline, transform, scene::FillRule::NonZero);
+            return layer({}, transform, scene::FillRule::NonZero, budget_.strokeChords());
+        const Path outline = strokeOutline(*shape.path, std::get<scene::StrokeStyle>(shape.geometry),
+                                           budget_.strokeOutline() / stretch);
+        picture_.sampledStrokes += hasSampledOffsets(*shape.path);
+        return layer(outline, transform, scene::FillRule::NonZero, budget_.strokeChords());
     }
 
-    std::uint32_t layer(const Path& path, const Affine& transform, scene::FillRule rule) {
+    /// `tolerance`, in steps, between curves and chords.
+    std::uint32_t layer(const Path& path, const Affine& transform, scene::FillRule rule, double tolerance) {
         const Affine toSteps = compose(lattice_.toSteps(), transform);
         const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
-        addOutline(picture_.outlines, path, toSteps, tolerance_, lattice_.clampMin(), lattice_.clampMax());
+        addOutline(picture_.outlines, path, toSteps, tolerance, lattice_.clampMin(), lattice_.clampMax());
         checkLimits();
         picture_.layers.push_back(
             {rule, firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun});
@@ -215,7 +215,7 @@ private:
     }
 
     const Lattice& lattice_;
-    const double tolerance_;
+    const ErrorBudget& budget_;
     const Box frame_;
     Picture picture_;
     PaintTable paints_;
@@ -223,8 +223,8 @@ private:
 
 }  // namespace
 
-Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance) {
-    return Lowering(scene, lattice, tolerance).take();
+Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget) {
+    return Lowering(scene, lattice, budget).take();
 }
 
 }  // namespace vtm::compiler

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "asset/asset.hpp"
+#include "compiler/src/error_budget.hpp"
 #include "compiler/src/outline.hpp"
 #include "scene/scene.hpp"
 
@@ -77,6 +78,7 @@ struct Picture {
     std::vector<image::Bitmap> images;
     std::vector<asset::Material> materials;
     std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
+    std::size_t sampledStrokes = 0;          ///< Result::sampledStrokes
 };
 
 /// Limits of lowering; beyond them a LimitError.
@@ -84,7 +86,7 @@ inline constexpr std::size_t maxChords = 50'000'000;
 inline constexpr std::size_t maxLayers = 4'000'000;
 inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
 
-/// `tolerance` in lattice steps: how far chords may lie from their curves.
-Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance);
+/// Chords lie as far from their curves as the budget allows.
+Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget);
 
 }  // namespace vtm::compiler

@@ -30,6 +30,9 @@ struct EdgeSet {
     Points points;
     std::vector<Edge> edges;
     std::vector<Change> changes;
+    /// How far snapping has bent an edge at most, in steps: the sum over the rounds of the largest distance
+    /// between a rounded crossing and its chord.
+    double bend = 0;
 
     std::span<const Change> of(const Edge& e) const {
         return {changes.data() + e.firstChange, e.changeCount};
@@ -79,6 +82,7 @@ private:
     static Part whole(const Edge& e) { return {0, e.innerCount + 1, e.a, e.b}; }
     void meet(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
     void meetChords(std::uint32_t e, const Part& p, std::uint32_t f, const Part& q);
+    void bend(LatticePoint a, LatticePoint b, LatticePoint to);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
     void applySplits();
     void reverse(Edge& e);
@@ -89,6 +93,7 @@ private:
     void addChanges(Edge& into, std::span<const std::uint32_t> equal);
 
     EdgeSet set_;
+    double bentSquare_ = 0;            ///< the largest bend of this round, squared
     std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
     std::vector<Band> bands_;          ///< of each edge
     std::vector<Split> splits_;

@@ -71,7 +71,8 @@ private:
         if (top.block) {
             const Tree& block = blocks_[*top.block];
             paints_.assign(block.palette.size(), unknown);
-            tree_.fallbackLeaves += block.fallbackLeaves;
+            tree_.error = std::max(tree_.error, block.error);
+            tree_.unproven.insert(tree_.unproven.end(), block.unproven.begin(), block.unproven.end());
             return copy(block, block.root);
         }
         const std::size_t index = tree_.nodes.size();
