@@ -120,6 +120,67 @@ TEST(Error, fittedPiecesLieWithinTheToleranceBetweenVerticesToo) {
     EXPECT_LT(pieces, 20u * 40u);  // some chords were joined
 }
 
+// ---- strokes ----------------------------------------------------------------------------------
+
+using Bezier = std::array<Point, 4>;
+
+Point at(const Bezier& c, double t) {
+    const double u = 1 - t;
+    return c[0] * (u * u * u) + c[1] * (3 * u * u * t) + c[2] * (3 * u * t * t) + c[3] * (t * t * t);
+}
+
+/// The nearest of many points, made better by ternary search.
+double distance(Point p, const Bezier& c) {
+    constexpr int steps = 400;
+    const auto to = [&](double t) { return std::hypot(at(c, t).x - p.x, at(c, t).y - p.y); };
+    int nearest = 0;
+    for (int i = 1; i <= steps; ++i)
+        nearest = to(double(i) / steps) < to(double(nearest) / steps) ? i : nearest;
+    double low = std::max(0, nearest - 1) / double(steps),
+           high = std::min(steps, nearest + 1) / double(steps);
+    for (int i = 0; i < 60; ++i) {
+        const double a = (2 * low + high) / 3, b = (low + 2 * high) / 3;
+        (to(a) < to(b) ? high : low) = to(a) < to(b) ? b : a;
+    }
+    return to((low + high) / 2);
+}
+
+/// Offsets are tested at fifteen points of a piece when they are made; here at many, with round caps so that
+/// all of the outline should lie at half the width. (Inner loops may lie nearer.)
+TEST(Error, ofOffsetCurvesStaysInItsShareBetweenTheSamples) {
+    double worst = 0;
+    for (const double tolerance : {1e-2, 1e-4, 1e-6})
+        for (unsigned seed = 0; seed < 12; ++seed) {
+            Random random(seed);
+            Bezier c;
+            for (Point& p : c)
+                p = {random.even(0, 100), random.even(0, 100)};
+            scene::StrokeStyle round;
+            round.width = 4, round.cap = scene::Cap::Round, round.join = scene::Join::Round;
+            Point from(0);
+            for (const scene::Command& command :
+                 strokeOutline({scene::MoveTo{c[0]}, scene::CubicTo{c[1], c[2], c[3]}}, round, tolerance)) {
+                if (const auto* cubic = std::get_if<scene::CubicTo>(&command)) {
+                    for (int i = 1; i < 60; ++i)
+                        worst = std::max(
+                            worst,
+                            (distance(at({from, cubic->control1, cubic->control2, cubic->to}, i / 60.0), c) -
+                             round.width / 2) /
+                                tolerance);
+                }
+                std::visit(
+                    [&](const auto& d) {
+                        if constexpr (requires { d.to; })
+                            from = d.to;
+                    },
+                    command);
+            }
+        }
+    EXPECT_LE(worst, 1);
+    EXPECT_GE(worst, 0.3);  // tolerances: the fit makes use of them
+    RecordProperty("worst", std::to_string(worst));
+}
+
 // ---- the whole --------------------------------------------------------------------------------
 
 scene::Scene sceneOf(Path path, std::variant<scene::FillRule, scene::StrokeStyle> geometry,

@@ -12,6 +12,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "asset/evaluate.hpp"
+#include "conformance/cases/path_points.hpp"
 
 namespace vtm::cases {
 namespace {
@@ -28,29 +29,6 @@ constexpr double hairline = 1.0 / 64;
 /// A view with so many more edges of one stroke than pixels, as where a wide dashed one turns tighter than it
 /// is wide, takes the reference minutes: all of it counts as near an outline.
 constexpr std::size_t tangled = 400;
-
-Point interpolate(Point from, const scene::Command& command, double t) {
-    const double u = 1 - t;
-    if (const auto* line = std::get_if<scene::LineTo>(&command))
-        return u * from + t * line->to;
-    if (const auto* quad = std::get_if<scene::QuadTo>(&command))
-        return u * u * from + 2 * u * t * quad->control + t * t * quad->to;
-    if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
-        return u * u * u * from + 3 * u * u * t * cubic->control1 + 3 * u * t * t * cubic->control2 +
-               t * t * t * cubic->to;
-    return from;
-}
-
-Point endOf(const scene::Command& command) {
-    return std::visit(
-        [](const auto& c) {
-            if constexpr (requires { c.to; })
-                return c.to;
-            else
-                return Point(0);
-        },
-        command);
-}
 
 /// The least that the map stretches any direction by: its smaller singular value.
 double smallestScale(const scene::Affine& m) {
@@ -73,19 +51,6 @@ scene::Path closed(const scene::Path& path) {
     return result;
 }
 
-/// dp/dt of `interpolate`.
-Point derivative(Point from, const scene::Command& command, double t) {
-    const double u = 1 - t;
-    if (const auto* line = std::get_if<scene::LineTo>(&command))
-        return line->to - from;
-    if (const auto* quad = std::get_if<scene::QuadTo>(&command))
-        return 2.0 * (u * (quad->control - from) + t * (quad->to - quad->control));
-    if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
-        return 3.0 * (u * u * (cubic->control1 - from) + 2 * u * t * (cubic->control2 - cubic->control1) +
-                      t * t * (cubic->to - cubic->control2));
-    return Point(0);
-}
-
 double largestScale(const scene::Affine& m) {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]));  // an upper bound
 }
@@ -98,8 +63,10 @@ double reachOf(const scene::StrokeStyle& style) { return style.width * std::max(
 scene::Affine toPixels(const Window& window) {
     const double c = std::cos(window.angle) / window.pixel, s = std::sin(window.angle) / window.pixel;
     const Point centre = window.centre;
-    return {c,  s,
-            -s, c,
+    return {c,
+            s,
+            -s,
+            c,
             window.pixels / 2.0 - c * centre.x + s * centre.y,
             window.pixels / 2.0 - s * centre.x - c * centre.y};
 }
@@ -214,7 +181,8 @@ std::vector<bool> Outlines::touched(const Window& window) const {
 }
 
 std::vector<double> Outlines::nearShares(const Window& window, int parts) const {
-    const Window fine{window.centre, window.pixel / parts, window.pixels * parts, window.tolerance, window.angle};
+    const Window fine{window.centre, window.pixel / parts, window.pixels * parts, window.tolerance,
+                      window.angle};
     const std::vector<bool> near = touched(fine);
     const int n = fine.pixels, reach = int(std::ceil(window.tolerance / fine.pixel));
     const auto isNear = [&](int x, int y) {
@@ -227,7 +195,8 @@ std::vector<double> Outlines::nearShares(const Window& window, int parts) const 
     std::vector<double> shares(std::size_t(window.pixels) * window.pixels);
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x)
-            shares[std::size_t(y / parts * window.pixels + x / parts)] += isNear(x, y) ? 1.0 / (parts * parts) : 0;
+            shares[std::size_t(y / parts * window.pixels + x / parts)] +=
+                isNear(x, y) ? 1.0 / (parts * parts) : 0;
     return shares;
 }
 
@@ -249,7 +218,8 @@ double Outlines::distance(Point from, double most) const {
     constexpr int halvings = 7;
     for (int i = 0; i < halvings; ++i) {
         const double middle = (low + high) / 2;
-        const bool any = std::ranges::any_of(shapes, [&](const Shape* shape) { return within(*shape, middle); });
+        const bool any =
+            std::ranges::any_of(shapes, [&](const Shape* shape) { return within(*shape, middle); });
         (any ? high : low) = middle;
     }
     return high;
@@ -312,7 +282,8 @@ std::vector<OutlinePoint> Outlines::pointsOn(std::uint64_t seed, int count) cons
             p += (left ? 0.5 : -0.5) * style->width * glm::normalize(Point(-along.y, along.x));
         const Point tangent = shape.transform[0] * along.x + shape.transform[1] * along.y;
         if (glm::length(tangent) > 0)
-            points.push_back({scene::apply(shape.transform, p), glm::normalize(Point(-tangent.y, tangent.x))});
+            points.push_back(
+                {scene::apply(shape.transform, p), glm::normalize(Point(-tangent.y, tangent.x))});
     }
     return points;
 }

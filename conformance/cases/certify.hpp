@@ -39,15 +39,15 @@ public:
     /// How much of each pixel lies, at most, within the window's tolerance of an outline: as so many parts a
     /// side show it, the pixel itself but for a rim of pixels round the window.
     std::vector<double> nearShares(const Window& window, int parts) const;
-    /// Distance of a point from the nearest outline, up to `most`, beyond which it is infinite. By octagons about
-    /// the point: up to 8 % less than the true one, and by a 64th of `most` more or less.
+    /// Distance of a point from the nearest outline, up to `most`, beyond which it is infinite. By octagons
+    /// about the point: up to 8 % less than the true one, and by a 64th of `most` more or less.
     double distance(scene::Point from, double most) const;
     /// Whether an outline runs through the square with this centre and half its side.
     bool within(scene::Point centre, double reach, double tolerance) const;
     /// Points on or about the outlines: anywhere on a path, for a stroke half its width beside.
     std::vector<scene::Point> somePoints(std::uint64_t seed, int count) const;
-    /// Points exactly on the outlines of fills and on the offset curves of strokes, where neither caps nor joins
-    /// are, which may be hidden. Fewer than `count`, as not every draw hits a line or a curve.
+    /// Points exactly on the outlines of fills and on the offset curves of strokes, where neither caps nor
+    /// joins are, which may be hidden. Fewer than `count`, as not every draw hits a line or a curve.
     std::vector<OutlinePoint> pointsOn(std::uint64_t seed, int count) const;
 
 private:

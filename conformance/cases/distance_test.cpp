@@ -86,9 +86,9 @@ TEST(Distance, OfRandomScenesIsBelowTheTolerance) {
 TEST(Distance, IsMeasured) {
     scene::Scene scene{64, 64, {}};
     scene::Item item;
-    item.path = std::make_shared<scene::Path>(
-        scene::Path{scene::MoveTo{{20, 32}}, scene::CubicTo{{20, 10}, {46, 10}, {46, 32}},
-                    scene::CubicTo{{46, 54}, {20, 54}, {20, 32}}});
+    item.path = std::make_shared<scene::Path>(scene::Path{scene::MoveTo{{20, 32}},
+                                                          scene::CubicTo{{20, 10}, {46, 10}, {46, 32}},
+                                                          scene::CubicTo{{46, 54}, {20, 54}, {20, 32}}});
     item.geometry = scene::FillRule::NonZero;
     item.paint = scene::Color{1, 0, 0, 1};
     scene.root.children.push_back({item});

@@ -50,7 +50,8 @@ DrawnBoundary::DrawnBoundary(const asset::Asset& asset) {
             const asset::Leaf& leaf = asset.leaves[entry.payload()];
             for (std::uint32_t i = 0; i < leaf.pieceCount; ++i) {
                 const asset::Piece& p = asset.pieces[leaf.firstPiece + i];
-                const dvec2 a = corner + step * dvec2(p.a[0], p.a[1]), b = corner + step * dvec2(p.b[0], p.b[1]);
+                const dvec2 a = corner + step * dvec2(p.a[0], p.a[1]),
+                            b = corner + step * dvec2(p.b[0], p.b[1]);
                 curves_.push_back({a, b - a, p.slopeA / scale, p.slopeB / scale});
                 if (asset::sideOf(p.a) >= 0)
                     crossings_.push_back(a);
@@ -67,7 +68,8 @@ double DrawnBoundary::distance(dvec2 from, double most) const {
     double best = std::numeric_limits<double>::infinity();
     for (const Curve& curve : curves_) {
         // Slopes within tan 22.5° keep the curve within an eighth of its length of the chord.
-        const dvec2 b = curve.a + curve.ab, off = glm::max(glm::min(curve.a, b) - from, from - glm::max(curve.a, b));
+        const dvec2 b = curve.a + curve.ab,
+                    off = glm::max(glm::min(curve.a, b) - from, from - glm::max(curve.a, b));
         if (std::max(off.x, off.y) <= most + glm::length(curve.ab) / 8)
             best = std::min(best, curve.distance(from));
     }
