@@ -15,7 +15,7 @@ namespace vtm::compiler {
 struct Options {
     asset::Mode mode = asset::Mode::Exact;
     /// Largest distance between a drawn boundary and the scene's, as a share of the picture's longer
-    /// side. In [2^-26, 2^-6].
+    /// side. In [2^-26, 2^-6]; below 2^-24 it is aimed at but not proven (Result::provenError).
     double tolerance = 1.0 / 65536;
     /// How large an asset may get for being drawn fast: the nanoseconds of drawing at 1024 pixels (of a
     /// software rasteriser, docs/regions.md) that are worth a byte. Cells are split or not, and lists of
@@ -34,8 +34,22 @@ struct StageTime {
     double milliseconds;
 };
 
+/// A square of the picture, picture units.
+struct UnprovenSquare {
+    double x, y, side;
+};
+
 struct Result {
     asset::Asset asset;
+    /// No drawn boundary lies farther from the scene's than this share of the picture's longer side: what
+    /// is farther from every outline that shows has its true colour. docs/regions.md says what is
+    /// proven and how. 0 where nothing is drawn but whole squares.
+    double provenError = 0;
+    /// Where it is not: leaves filled with the mean of samples (Asset::fallbackLeaves).
+    std::vector<UnprovenSquare> unproven;
+    /// Strokes along curves: that their offset curves lie within the tolerance is tested at fifteen points
+    /// of every piece, not proven between them. Everything after that is.
+    std::size_t sampledStrokes = 0;
     std::vector<StageTime> stages;      ///< in order: lower, push, planarise, fit, encode
     std::vector<std::string> warnings;  ///< what a limit took away or an approximation changed
 };

@@ -21,4 +21,8 @@ inline constexpr std::size_t maxDashes = 1'000'000;
 /// Source: SVG 2 section 13.5 and 13.6 (zero-length subpaths, dashes, caps).
 scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance);
 
+/// Whether the outline has offsets of curves other than circles, whose distance from the true ones is tested
+/// at fifteen points of every piece. That of all other parts is proven.
+bool hasSampledOffsets(const scene::Path& path);
+
 }  // namespace vtm::compiler

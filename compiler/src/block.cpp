@@ -117,14 +117,14 @@ BlockBuilder::Built BlockBuilder::build(Cell& cell) {
 BlockBuilder::Built BlockBuilder::buildLast(Cell& cell) {
     if (distinctChords(cell, maxChordsInLastLeaf) > maxChordsInLastLeaf)
         return emitMean(cell);
-    const FittedLeaf* leaf = makeLeaf(cell);
-    return leaf ? emit(*leaf, cell.level) : emitMean(cell);
+    const Made made = makeLeaf(cell);
+    return made ? emit(made, cell.level) : emitMean(cell);
 }
 
 BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
     if (canTry(cell))
-        if (const FittedLeaf* leaf = makeLeaf(cell); leaf && leaf->pieces.size() <= *options_.piecesPerLeaf)
-            return emit(*leaf, cell.level);
+        if (const Made made = makeLeaf(cell); made && made.pieceCount() <= *options_.piecesPerLeaf)
+            return emit(made, cell.level);
     return buildNode(cell, push(cell));
 }
 
@@ -142,14 +142,14 @@ BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
     }
     if (!tried && canTry(cell)) {
         tried = true;
-        if (const FittedLeaf* leaf = makeLeaf(cell)) {
-            const auto pieces = static_cast<double>(leaf->pieces.size());
+        if (const Made made = makeLeaf(cell)) {
+            const auto pieces = static_cast<double>(made.pieceCount());
             if (!mayBeWorthSplitting(pieces, cell.level))
-                return emit(*leaf, cell.level);
+                return emit(made, cell.level);
             if (!children)
                 children = &push(cell);
             if (model.leaf(pieces, cell.level) <= splitCost(*children, std::max(1.0, pieces / strands)))
-                return emit(*leaf, cell.level);
+                return emit(made, cell.level);
         }
     }
     return buildNode(cell, children ? *children : push(cell));
@@ -229,8 +229,9 @@ BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {
     return {Entry::make(Entry::Kind::Solid, paint), options_.cost.leaf(0, level)};
 }
 
-/// Nothing if it cannot be proven, or has too many pieces for the format.
-const FittedLeaf* BlockBuilder::makeLeaf(const Cell& cell) {
+/// Nothing if it cannot be proven, or has too many pieces for the format, or its error is beyond the
+/// tolerance and that of smaller leaves would not be.
+BlockBuilder::Made BlockBuilder::makeLeaf(const Cell& cell) {
     const PlanarLeaf* planar;
     {
         const Stopwatch watch(times_.planarise);
@@ -245,13 +246,20 @@ const FittedLeaf* BlockBuilder::makeLeaf(const Cell& cell) {
         planar = &planariser_.run(cell.square, points_, strands_, regions_);
     }
     if (!planar->certified)
-        return nullptr;
+        return {};
     const Stopwatch watch(times_.fit);
-    const FittedLeaf& fitted = fitter_.run(cell.square, *planar, options_.fitTolerance);
-    return fitted.pieces.size() <= maxLeafPieces ? &fitted : nullptr;
+    const ErrorBudget& budget = options_.budget;
+    const FittedLeaf& fitted = fitter_.run(cell.square, *planar, budget.fit());
+    const double error = budget.leaf(cell.level, planar->set->bend, fitted.slivers);
+    const bool maySplit = cell.level < options_.maxDepth && budget.canHold();
+    if (fitted.pieces.size() > maxLeafPieces || (maySplit && !budget.holds(error)))
+        return {};
+    return {&fitted, error};
 }
 
-BlockBuilder::Built BlockBuilder::emit(const FittedLeaf& fitted, unsigned level) {
+BlockBuilder::Built BlockBuilder::emit(const Made& made, unsigned level) {
+    tree_.error = std::max(tree_.error, made.error);
+    const FittedLeaf& fitted = *made.leaf;
     if (fitted.pieces.empty())
         return solid(fitted.corners[0], level);
     tree_.leaves.push_back({static_cast<std::uint32_t>(tree_.pieces.size()),
@@ -263,7 +271,7 @@ BlockBuilder::Built BlockBuilder::emit(const FittedLeaf& fitted, unsigned level)
 
 /// The fallback: the mean over 4 × 4 points, each classified by winding (after Ganacim et al. 2014).
 BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
-    ++tree_.fallbackLeaves;
+    tree_.unproven.push_back(cell.square);
     work_.spend(16 * cell.strands.size() * visitWork);
     regions_.enter(cell, tree_.palette);
     std::vector<PaintId> paints;

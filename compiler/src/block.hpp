@@ -96,8 +96,15 @@ private:
     Built solid(PaintId paint, unsigned level) const;
     bool canTry(const Cell& cell);
     std::size_t distinctChords(const Cell& cell, std::size_t most) const;
-    const FittedLeaf* makeLeaf(const Cell& cell);
-    Built emit(const FittedLeaf& leaf, unsigned level);
+    /// A leaf and how far its boundaries may be off, lattice steps.
+    struct Made {
+        const FittedLeaf* leaf = nullptr;
+        double error = 0;
+        explicit operator bool() const { return leaf; }
+        std::size_t pieceCount() const { return leaf->pieces.size(); }
+    };
+    Made makeLeaf(const Cell& cell);
+    Built emit(const Made& made, unsigned level);
     Built emitMean(const Cell& cell);
 
     const Picture& picture_;

@@ -23,16 +23,18 @@ std::vector<std::uint32_t> allLayers(const Picture& picture) {
 /// Maps over the lattice's root square.
 class MapBuilder {
 public:
-    MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, asset::Asset& asset)
-        : picture_(picture), lattice_(lattice), options_(treeOptions(options)), asset_(asset) {}
+    MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, Result& result)
+        : picture_(picture), lattice_(lattice), options_(treeOptions(options)), result_(result) {}
 
     Tree build(std::span<const std::uint32_t> layers, const Painter& painter) {
         return buildTree(picture_, lattice_.square(), layers, painter, options_, times_);
     }
     std::uint32_t add(const Tree& tree, std::span<const std::uint16_t> paints) {
-        const asset::Entry root = encodeTree(tree, paints, asset_);
-        asset_.maps.push_back({0, 0, std::max(asset_.width, asset_.height), root});
-        return static_cast<std::uint32_t>(asset_.maps.size() - 1);
+        asset::Asset& asset = result_.asset;
+        const asset::Entry root = encodeTree(tree, paints, asset);
+        asset.maps.push_back({0, 0, std::max(asset.width, asset.height), root});
+        certify(tree, options_.budget, result_);
+        return static_cast<std::uint32_t>(asset.maps.size() - 1);
     }
     const TreeTimes& times() const { return times_; }
 
@@ -40,7 +42,7 @@ private:
     const Picture& picture_;
     const Lattice& lattice_;
     const TreeOptions options_;
-    asset::Asset& asset_;
+    Result& result_;
     TreeTimes times_;
 };
 
@@ -177,10 +179,11 @@ Result compile(const scene::Scene& scene, const Options& options) {
     };
     const auto start = Clock::now();
     const Lattice lattice(scene.width, scene.height, latticeBits(options));
-    Picture picture = lower(scene, lattice, chordTolerance(options));
+    Picture picture = lower(scene, lattice, errorBudget(options));
     const auto lowered = Clock::now();
 
     Result result;
+    result.sampledStrokes = picture.sampledStrokes;
     asset::Asset& asset = result.asset;
     asset.width = scene.width;
     asset.height = scene.height;
@@ -188,7 +191,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     asset.data = std::move(picture.data);
     asset.images = bitmapsOf(picture);
     asset.materials = std::move(picture.materials);
-    MapBuilder maps(picture, lattice, options, asset);
+    MapBuilder maps(picture, lattice, options, result);
     float error = 0;
     if (options.mode == asset::Mode::Exact)
         error = compileExact(picture, maps, asset);
@@ -198,7 +201,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     const TreeTimes& t = maps.times();
     const double built = milliseconds(lowered, Clock::now());
     result.stages = stageTimes(milliseconds(start, lowered), built, t);
-    result.warnings = warningsOf(asset, error);
+    result.warnings = warningsOf(result, options, error);
     return result;
 }
 

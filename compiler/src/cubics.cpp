@@ -41,9 +41,11 @@ CenterArc centerArc(Point from, const scene::ArcTo& arc) {
     return {(from + arc.to) * 0.5 + x * c.x + y * c.y, x, y, begin, sweep};
 }
 
-/// 32nds of a turn as cubics: relative error of the radius 2/27 (sin⁶(θ/4) / cos²(θ/4)) at θ = π/16,
-/// 1.1e-9, below an eighth of the smallest tolerance (2^-26) for radii up to the picture's size.
-constexpr double cubicArcAngle = std::numbers::pi / 16;
+/// 32nds of a turn as cubics, or less: relative error of the radius 2/27 (sin⁶(θ/4) / cos²(θ/4)), which is
+/// 1.1e-9 at θ = π/16 and falls with the sixth power of θ at least.
+constexpr double cubicArcAngle = std::numbers::pi / 16, cubicArcError = 1.1e-9;
+/// Arcs so much finer are near the limit of double precision.
+constexpr double finestArcAngle = cubicArcAngle / 64;
 
 Affine tame(Affine m) {
     for (int c = 0; c < 3; ++c)
@@ -54,7 +56,8 @@ Affine tame(Affine m) {
 /// Walks the commands with the current point in path space.
 class Walker {
 public:
-    Walker(CurveSink& sink, const Affine& m) : sink_(sink), m_(m) {}
+    Walker(CurveSink& sink, const Affine& m, double arcTolerance)
+        : sink_(sink), m_(m), arcTolerance_(arcTolerance) {}
 
     void operator()(const scene::MoveTo& c) {
         close();
@@ -95,13 +98,24 @@ private:
         sink_.start(map(p));
     }
 
+    double partAngle(const CenterArc& circle) const {
+        const double radius = std::sqrt(squared(linear(circle.x)) + squared(linear(circle.y)));
+        const double error = cubicArcError * radius;
+        if (!(error > arcTolerance_))
+            return cubicArcAngle;
+        return std::max(finestArcAngle, cubicArcAngle * std::pow(arcTolerance_ / error, 1.0 / 6));
+    }
+    Point linear(Point v) const { return m_[0] * v.x + m_[1] * v.y; }
+    static double squared(Point v) { return v.x * v.x + v.y * v.y; }
+
     void arc(const scene::ArcTo& c) {
         if (c.radii.x == 0 || c.radii.y == 0)
             return sink_.line(map(c.to));
         if (current_ == c.to)
             return;
         const CenterArc circle = centerArc(current_, c);
-        const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(circle.sweep) / cubicArcAngle)));
+        const int parts =
+            std::max(1, static_cast<int>(std::ceil(std::abs(circle.sweep) / partAngle(circle))));
         const double step = circle.sweep / parts, arm = 4.0 / 3.0 * std::tan(step / 4);
         Point p0 = current_;
         for (int i = 0; i < parts; ++i) {
@@ -115,14 +129,15 @@ private:
 
     CurveSink& sink_;
     const Affine m_;
+    const double arcTolerance_;
     Point start_{}, current_{};
     bool started_ = false;
 };
 
 }  // namespace
 
-void walkCurves(const scene::Path& path, const Affine& map, CurveSink& sink) {
-    Walker walker(sink, tame(map));
+void walkCurves(const scene::Path& path, const Affine& map, CurveSink& sink, double arcTolerance) {
+    Walker walker(sink, tame(map), arcTolerance);
     for (const scene::Command& command : path)
         std::visit(walker, command);
     walker.close();

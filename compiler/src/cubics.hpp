@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "scene/affine.hpp"
 #include "scene/path.hpp"
@@ -26,7 +27,9 @@ public:
 inline constexpr double farAway = 1e100;
 
 /// Walks `path` under `map`; open subpaths are closed by a line. Quadratics are raised to cubics,
-/// exactly; elliptical arcs become cubics of a 32nd of a turn, within 1.1e-9 of their radius.
-void walkCurves(const scene::Path& path, const scene::Affine& map, CurveSink& sink);
+/// exactly; elliptical arcs become cubics of a 32nd of a turn at most, within 1.1e-9 of their radius and
+/// within `arcTolerance` under the map.
+void walkCurves(const scene::Path& path, const scene::Affine& map, CurveSink& sink,
+                double arcTolerance = std::numeric_limits<double>::infinity());
 
 }  // namespace vtm::compiler

@@ -44,14 +44,15 @@ public:
     Update run(const scene::Scene& scene) {
         const auto start = Clock::now();
         kept_.cache.put(std::move(kept_.picture.outlines));
-        picture_ = lower(scene, kept_.lattice, chordTolerance(options_), &kept_.cache);
+        picture_ = lower(scene, kept_.lattice, treeOptions_.budget, &kept_.cache);
         const auto lowered = Clock::now();
         Update update;
         update.anew = !kept_.partition;
         update.outlines = kept_.cache.added();
         compare();
         if (update.anew)
-            kept_.partition.emplace(kept_.lattice.square(), strandsPerBlock(kept_.cache.usedRuns()));
+            kept_.partition.emplace(kept_.lattice.square(), strandsPerBlock(kept_.cache.usedRuns()),
+                                    treeOptions_.maxDepth);
         if (update.anew || geometryChanged_)
             update.blocks = build();
         update.blocksInAll = kept_.partition->blocks().size();
@@ -99,13 +100,14 @@ private:
         std::vector<Tree> trees(dirty.size());
         tbb::enumerable_thread_specific<Worker> workers(
             [&] { return Worker(picture_, painter, treeOptions_, work); });
+        const auto start = Clock::now();
         tbb::parallel_for(std::size_t{0}, dirty.size(),
                           [&](std::size_t i) { trees[i] = workers.local().run(dirty[i]->cell); });
-        for (const Worker& worker : workers) {
-            times_.push += worker.times().push;
-            times_.planarise += worker.times().planarise;
-            times_.fit += worker.times().fit;
-        }
+        const std::chrono::duration<double, std::milli> wall = Clock::now() - start;
+        TreeTimes sum;
+        for (const Worker& worker : workers)
+            sum += worker.times();
+        times_ += sum.sharing(wall.count());
         for (std::size_t i = 0; i < dirty.size(); ++i)
             replace(*dirty[i], std::move(trees[i]));
         return dirty.size();
@@ -169,9 +171,14 @@ private:
         const auto milliseconds = [](Clock::time_point a, Clock::time_point b) {
             return std::chrono::duration<double, std::milli>(b - a).count();
         };
-        std::vector<std::string> warnings = warningsOf(next, colourError_);
-        result_.stages =
-            stageTimes(milliseconds(start, lowered), milliseconds(lowered, Clock::now()), times_);
+        Result report;
+        report.asset.width = kept_.width;
+        report.asset.height = kept_.height;
+        report.sampledStrokes = picture_.sampledStrokes;
+        for (const Partition::Block& block : kept_.partition->blocks())
+            certify(block.tree, treeOptions_.budget, report);
+        report.warnings = warningsOf(report, options_, colourError_);
+        report.stages = stageTimes(milliseconds(start, lowered), milliseconds(lowered, Clock::now()), times_);
 
         if (!newImages)
             next.images.swap(last.images);
@@ -180,8 +187,8 @@ private:
             next.leaves.swap(last.leaves);
             next.pieces.swap(last.pieces);
         }
-        last = std::move(next);
-        result_.warnings.swap(warnings);
+        report.asset = std::move(next);
+        result_ = std::move(report);
     }
 
     Kept& kept_;

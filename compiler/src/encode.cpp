@@ -34,7 +34,7 @@ asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints,
     }
     for (const Tree::Piece& p : tree.pieces)
         asset.pieces.push_back({p.a, p.b, p.slopeA, p.slopeB, paints[p.left], paints[p.right]});
-    asset.fallbackLeaves += tree.fallbackLeaves;
+    asset.fallbackLeaves += static_cast<std::uint32_t>(tree.unproven.size());
     return entry(tree.root);
 }
 

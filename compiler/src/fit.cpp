@@ -153,8 +153,9 @@ std::optional<Side> sideOf(const std::array<std::uint16_t, 2>& p) {
 /// that end on the cell's border. What lies between such a chain and the border is below the
 /// lattice's resolution; the corners that the chain passes take the paint of its inner side.
 void Fitter::cutSlivers() {
-    while (std::erase_if(chains_, [&](const Chain& c) { return isSliver(c); }) > 0) {
-    }
+    leaf_.slivers = false;
+    while (std::erase_if(chains_, [&](const Chain& c) { return isSliver(c); }) > 0)
+        leaf_.slivers = true;
 }
 
 bool Fitter::isSliver(const Chain& chain) {
@@ -231,8 +232,9 @@ std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::u
     return good;
 }
 
-/// Least squares over the points between, in the basis of the rounded chord; then the bound: at
-/// the points the measured distance, between them the sag of cubic and chain, |t''| ds² / 8.
+/// Least squares over the points between, in the basis of the rounded chord; then the bound, which is a
+/// proof: between two points the distance is at most the larger one of theirs and the sag of cubic and
+/// chain, |t''| ds² / 8.
 bool Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
     const dvec2 a = point(rounded(from)), ab = point(rounded(to)) - a;
     const double length2 = glm::dot(ab, ab);
@@ -262,15 +264,16 @@ bool Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
         return false;
     m = {stored(m.a) / double{asset::slopeScale}, stored(m.b) / double{asset::slopeScale}};
     const double sag = maxSecondDerivative(m.a, m.b) / 8, most = tolerance_ / length;
-    double s = 0;
+    double s = 0, error = 0;  // that of rounded ends is counted on its own
     for (const dvec2& p : std::span(local_.data(), count)) {
-        const double step = p.x - s;
-        if (std::abs(p.y - displacement(m.a, m.b, p.x)) + sag * step * step > most)
+        const double step = p.x - s, before = error;
+        error = std::abs(p.y - displacement(m.a, m.b, p.x));
+        if (std::max(before, error) + sag * step * step > most)
             return false;
         s = p.x;
     }
     slopes = m;
-    return sag * (1 - s) * (1 - s) <= most;
+    return error + sag * (1 - s) * (1 - s) <= most;
 }
 
 void Fitter::emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m) {

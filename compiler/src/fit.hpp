@@ -15,6 +15,7 @@ namespace vtm::compiler {
 struct FittedLeaf {
     std::vector<Tree::Piece> pieces;
     std::array<PaintId, 4> corners{};
+    bool slivers = false;  ///< some have been cut
 };
 
 /// Fits pieces; keeps its memory from leaf to leaf.

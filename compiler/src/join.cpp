@@ -87,7 +87,7 @@ private:
         }
         const auto unchanged = range(last_->pieces, from.piece, tree.pieces.size());
         next_.pieces.insert(next_.pieces.end(), unchanged.begin(), unchanged.end());
-        next_.fallbackLeaves += tree.fallbackLeaves;
+        next_.fallbackLeaves += static_cast<std::uint32_t>(tree.unproven.size());
         return shifted(from.root, nodes, leaves);
     }
 

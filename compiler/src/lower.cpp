@@ -37,9 +37,10 @@ Box mapped(const Box& b, const Affine& m) {
 
 class Lowering {
 public:
-    Lowering(const scene::Scene& scene, const Lattice& lattice, double tolerance, OutlineCache* cache)
+    Lowering(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget,
+             OutlineCache* cache)
         : lattice_(lattice),
-          tolerance_(tolerance),
+          budget_(budget),
           frame_{{0, 0}, {scene.width, scene.height}},
           cache_(cache),
           paints_(picture_) {
@@ -185,6 +186,7 @@ private:
     std::uint32_t geometryLayer(const Shaped& shape, const Affine& transform) {
         if (const auto* rule = std::get_if<scene::FillRule>(&shape.geometry))
             return layer({shape.path, transform}, *rule);
+        picture_.sampledStrokes += hasSampledOffsets(*shape.path);
         return layer({shape.path, transform, &std::get<scene::StrokeStyle>(shape.geometry)},
                      scene::FillRule::NonZero);
     }
@@ -205,17 +207,19 @@ private:
     RunRange outline(const OutlineOrigin& origin) {
         const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
         if (!origin.stroke) {
-            outline(*origin.path, origin.transform);
+            outline(*origin.path, origin.transform, budget_.fillChords());
         } else {
             const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
             if (stretch > 0 && std::isfinite(stretch))
-                outline(strokeOutline(*origin.path, *origin.stroke, tolerance_ / stretch), origin.transform);
+                outline(strokeOutline(*origin.path, *origin.stroke, budget_.strokeOutline() / stretch),
+                        origin.transform, budget_.strokeChords());
         }
         return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
     }
 
-    void outline(const Path& path, const Affine& transform) {
-        addOutline(picture_.outlines, path, compose(lattice_.toSteps(), transform), tolerance_,
+    /// `tolerance`, in steps, between curves and chords.
+    void outline(const Path& path, const Affine& transform, double tolerance) {
+        addOutline(picture_.outlines, path, compose(lattice_.toSteps(), transform), tolerance,
                    lattice_.clampMin(), lattice_.clampMax());
     }
 
@@ -237,7 +241,7 @@ private:
     }
 
     const Lattice& lattice_;
-    const double tolerance_;
+    const ErrorBudget& budget_;
     const Box frame_;
     OutlineCache* const cache_;
     Picture picture_;
@@ -246,8 +250,9 @@ private:
 
 }  // namespace
 
-Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance, OutlineCache* cache) {
-    return Lowering(scene, lattice, tolerance, cache).take();
+Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget,
+              OutlineCache* cache) {
+    return Lowering(scene, lattice, budget, cache).take();
 }
 
 }  // namespace vtm::compiler

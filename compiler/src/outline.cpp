@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/src/cubics.hpp"
+#include "compiler/src/error_budget.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -212,7 +213,7 @@ void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSte
                 glm::dvec2 clampMin, glm::dvec2 clampMax) {
     RunSink sink(outlines, clampMin, clampMax);
     Flattener flattener(sink, tolerance);
-    walkCurves(path, toSteps, flattener);
+    walkCurves(path, toSteps, flattener, ErrorBudget::arcSteps);
     sink.finish();
 }
 

@@ -65,8 +65,8 @@ void merge(Entries& into, const Entries& added) {
 
 }  // namespace
 
-Partition::Partition(const Square& root, std::size_t most)
-    : root_(root), most_(most), top_{0, {}}, blocks_(1) {
+Partition::Partition(const Square& root, std::size_t most, unsigned maxDepth)
+    : root_(root), most_(most), deepest_(std::min(lastLevel, maxDepth)), top_{0, {}}, blocks_(1) {
     blocks_[0].cell.square = root;
 }
 
@@ -127,7 +127,7 @@ void Partition::splitLarge(Points points, Culler& culler, Top& top) {
     if (top.block) {
         const std::size_t first = *top.block;
         const Cell& whole = blocks_[first].cell;
-        if (!blocks_[first].dirty || whole.level >= lastLevel || whole.strands.size() <= most_)
+        if (!blocks_[first].dirty || whole.level >= deepest_ || whole.strands.size() <= most_)
             return;
         Cell culled = whole;
         culler.run(culled);

@@ -34,7 +34,8 @@ public:
     };
 
     /// Nothing in one block; blocks will have `most` strands at most where they can be split.
-    Partition(const Square& root, std::size_t most);
+    /// `most`: strands of a block that is not of the last level. No block is deeper than `maxDepth`.
+    Partition(const Square& root, std::size_t most, unsigned maxDepth);
 
     /// Takes layers out and in, and marks the blocks that they or the layers `touched` (indices now) pass
     /// through. Blocks that have grown too large are split. `before`: the layers before, whose outlines are
@@ -56,6 +57,7 @@ private:
 
     Square root_;
     std::size_t most_;
+    unsigned deepest_;
     Top top_;
     std::vector<Block> blocks_;
 };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "asset/asset.hpp"
+#include "compiler/src/error_budget.hpp"
 #include "compiler/src/outline.hpp"
 #include "scene/scene.hpp"
 
@@ -80,6 +81,7 @@ struct Picture {
     std::vector<std::shared_ptr<const image::Bitmap>> images;
     std::vector<asset::Material> materials;
     std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
+    std::size_t sampledStrokes = 0;          ///< Result::sampledStrokes
 };
 
 /// Copies, for the asset.
@@ -95,9 +97,9 @@ inline constexpr std::size_t maxChords = 50'000'000;
 inline constexpr std::size_t maxLayers = 4'000'000;
 inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
 
-/// `tolerance` in lattice steps: how far chords may lie from their curves. With a `cache`, outlines that it
-/// holds are taken from it and others added to it; its store of outlines becomes the picture's.
-Picture lower(const scene::Scene& scene, const Lattice& lattice, double tolerance,
+/// Chords lie as far from their curves as the budget allows. With a `cache`, outlines that it holds are taken
+/// from it and others added to it; its store of outlines becomes the picture's.
+Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget,
               OutlineCache* cache = nullptr);
 
 }  // namespace vtm::compiler

@@ -12,11 +12,6 @@ constexpr int stepBits = 6;
 /// Cells of the last level still have this many steps a side.
 constexpr int lastCellBits = 4;
 
-/// Of the whole tolerance: what chords may take from the curves, pieces from the chords, and rounding
-/// from the pieces' ends. The eighth that is left is the lattice's: snapping moves a point by a step or
-/// two, which are a sixteenth of the smallest tolerance each.
-constexpr double chordShare = 3.0 / 16, fitShare = 1.0 / 2, quantisationShare = 3.0 / 16;
-
 }  // namespace
 
 void checkOptions(const Options& o) {
@@ -34,19 +29,14 @@ int latticeBits(const Options& o) {
     return std::min(maxLatticeBits, static_cast<int>(std::ceil(-std::log2(o.tolerance))) + stepBits);
 }
 
-double chordTolerance(const Options& o) { return std::ldexp(o.tolerance * chordShare, latticeBits(o)); }
+ErrorBudget errorBudget(const Options& o) { return {o.tolerance, latticeBits(o)}; }
 
 TreeOptions treeOptions(const Options& o) {
-    const int bits = latticeBits(o);
-    TreeOptions t;
-    t.fitTolerance = std::ldexp(o.tolerance * fitShare, bits);
+    TreeOptions t(errorBudget(o));
     t.cost.nanosecondsPerByte = o.nanosecondsPerByte;
     t.piecesPerLeaf = o.piecesPerLeaf;
-    t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(bits - lastCellBits) / 2);
-    // A leaf's end points are rounded by half of 1/65535 of its side in each axis.
-    const double widest = o.tolerance * quantisationShare * asset::leafExtent * std::sqrt(2.0);
-    t.minDepth =
-        std::min(t.maxDepth, static_cast<unsigned>(std::max(0.0, std::ceil(-std::log2(widest) / 2))));
+    t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(latticeBits(o) - lastCellBits) / 2);
+    t.minDepth = std::min(t.maxDepth, t.budget.coarsestLevel());
     return t;
 }
 
@@ -58,11 +48,22 @@ std::vector<StageTime> stageTimes(double lowered, double built, const TreeTimes&
             {"encode", built - t.push - t.planarise - t.fit}};
 }
 
-std::vector<std::string> warningsOf(const asset::Asset& asset, float colourError) {
+void certify(const Tree& tree, const ErrorBudget& budget, Result& result) {
+    result.provenError = std::max(result.provenError, budget.share(tree.error));
+    const double longer = std::max(result.asset.width, result.asset.height);
+    const auto picture = [&](Coord steps) { return longer * budget.share(steps + 1.0); };
+    for (const Square& s : tree.unproven)
+        result.unproven.push_back({picture(s.x0), picture(s.y0), longer * budget.share(s.side)});
+}
+
+std::vector<std::string> warningsOf(const Result& result, const Options& options, float colourError) {
     std::vector<std::string> warnings;
-    if (asset.fallbackLeaves > 0)
-        warnings.push_back(std::to_string(asset.fallbackLeaves) +
+    if (!result.unproven.empty())
+        warnings.push_back(std::to_string(result.unproven.size()) +
                            " leaves could not be certified and are filled with the mean of samples");
+    if (result.provenError > options.tolerance)
+        warnings.push_back("boundaries are proven to lie within " +
+                           std::to_string(result.provenError / options.tolerance) + " tolerances only");
     if (colourError > 0)
         warnings.push_back("more than 65536 region colours: the nearest were merged, by up to " +
                            std::to_string(colourError) + " in a component");

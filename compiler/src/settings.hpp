@@ -10,13 +10,14 @@ namespace vtm::compiler {
 /// Throws std::invalid_argument.
 void checkOptions(const Options& options);
 int latticeBits(const Options& options);
-/// How far chords may lie from their curves, lattice steps.
-double chordTolerance(const Options& options);
+ErrorBudget errorBudget(const Options& options);
 TreeOptions treeOptions(const Options& options);
 
 /// Result::stages from milliseconds; `built`: since the scene was lowered.
 std::vector<StageTime> stageTimes(double lowered, double built, const TreeTimes& times);
+/// Adds to Result::provenError and Result::unproven what is known of a tree over the root square.
+void certify(const Tree& tree, const ErrorBudget& budget, Result& result);
 /// Result::warnings; `colourError`: of encodePalette.
-std::vector<std::string> warningsOf(const asset::Asset& asset, float colourError);
+std::vector<std::string> warningsOf(const Result& result, const Options& options, float colourError);
 
 }  // namespace vtm::compiler

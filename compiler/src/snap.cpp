@@ -1,5 +1,8 @@
 #include "compiler/src/snap.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "compiler/src/clip.hpp"
 
 namespace vtm::compiler {
@@ -33,6 +36,7 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
     set_.points = points;
     set_.edges.clear();
     set_.changes.clear();
+    set_.bend = 0;
     clip(square, strands);
     fresh_.assign(set_.edges.size(), true);
     mergeEqual();
@@ -41,6 +45,7 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
             return nullptr;
         if (splits_.empty())
             return &set_;
+        set_.bend += std::sqrt(bentSquare_);
         applySplits();
         mergeEqual();
     }
@@ -125,6 +130,7 @@ bool Snapper::fanOut(const Edge& e, const Edge& f) const {
 
 bool Snapper::findSplits() {
     splits_.clear();
+    bentSquare_ = 0;
     bands_.clear();
     boxes_.clear();
     for (const Edge& e : set_.edges) {
@@ -203,6 +209,8 @@ void Snapper::meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const 
         return;
     if (atA != 0 && atB != 0 && atC != 0 && atD != 0) {
         const LatticePoint x = crossing(a, b, atA, atB);
+        bend(a, b, x);
+        bend(c, d, x);
         split(e, p.chord, x);
         split(f, q.chord, x);
         return;
@@ -219,6 +227,15 @@ void Snapper::meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const 
         touch(c);
     if (atD == 0 && isOnChord(a, b, d))
         touch(d);
+}
+
+/// Notes that the chord a→b will run through a point beside it.
+void Snapper::bend(LatticePoint a, LatticePoint b, LatticePoint to) {
+    const double dx = double(b.x) - a.x, dy = double(b.y) - a.y;
+    const double x = double(to.x) - a.x, y = double(to.y) - a.y;
+    const double t = std::clamp((x * dx + y * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    const double offX = x - t * dx, offY = y - t * dy;
+    bentSquare_ = std::max(bentSquare_, offX * offX + offY * offY);
 }
 
 /// Asks for a cut of the edge at a point of its chord, unless that is an end of the whole edge.

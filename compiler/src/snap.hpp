@@ -30,6 +30,9 @@ struct EdgeSet {
     Points points;
     std::vector<Edge> edges;
     std::vector<Change> changes;
+    /// How far snapping has bent an edge at most, in steps: the sum over the rounds of the largest distance
+    /// between a rounded crossing and its chord.
+    double bend = 0;
 
     std::span<const Change> of(const Edge& e) const {
         return {changes.data() + e.firstChange, e.changeCount};
@@ -94,6 +97,7 @@ private:
     bool findSplits();
     void meet(std::uint32_t e, std::uint32_t f);
     void meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const Step& q);
+    void bend(LatticePoint a, LatticePoint b, LatticePoint to);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
     void applySplits();
     void reverse(Edge& e);
@@ -104,6 +108,7 @@ private:
     void addChanges(Edge& into, std::span<const Place> equal);
 
     EdgeSet set_;
+    double bentSquare_ = 0;            ///< the largest bend of this round, squared
     std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
     std::vector<Box> boxes_;           ///< of each edge
     std::vector<Band> bands_;          ///< of each edge

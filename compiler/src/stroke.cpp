@@ -33,8 +33,8 @@ using scene::Join;
 using scene::StrokeStyle;
 
 // Shares of the tolerance: errors of arcs turned into cubics, of offsets fitted to them, and of joins
-// left out because they are too small.
-constexpr double arcShare = 0.3, fitShare = 0.6, joinShare = gapShare;
+// left out because they are too small; round joins and caps take the place of the first two.
+constexpr double arcShare = 0.3, fitShare = 0.6, joinShare = gapShare, roundShare = 1 - joinShare;
 
 /// Directions closer than this are the same whatever the tolerance: control points do not resolve more.
 constexpr double sameDirection = 1e-9;
@@ -254,10 +254,10 @@ private:
     /// Goes to the arc's start first, if need be.
     void arc(Side& side, Point center, Point from, double angle) const {
         go(side, center + from);
-        const double sagitta = glm::length(from) * (1 - std::cos(angle / 2));
-        if (sagitta <= tolerance_ && std::abs(angle) < std::numbers::pi / 2)
+        const double sagitta = glm::length(from) * (1 - std::cos(angle / 2)), most = tolerance_ * roundShare;
+        if (sagitta <= most && std::abs(angle) < std::numbers::pi / 2)
             return go(side, center + rotate(from, angle));
-        for (const Cubic& c : circleArc(center, from, angle, tolerance_))
+        for (const Cubic& c : circleArc(center, from, angle, most))
             side.cubicTo(c.p1, c.p2, c.p3);
     }
 
@@ -311,6 +311,15 @@ scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& sty
             outliner.add(piece);
     }
     return outline;
+}
+
+bool hasSampledOffsets(const scene::Path& path) {
+    return std::any_of(path.begin(), path.end(), [](const scene::Command& command) {
+        if (const auto* arc = std::get_if<scene::ArcTo>(&command))
+            return std::abs(arc->radii.x) != std::abs(arc->radii.y);
+        return std::holds_alternative<scene::QuadTo>(command) ||
+               std::holds_alternative<scene::CubicTo>(command);
+    });
 }
 
 }  // namespace vtm::compiler

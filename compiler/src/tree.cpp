@@ -32,15 +32,16 @@ struct Top {
 
 class TopBuilder {
 public:
-    TopBuilder(const Picture& picture, const Painter& painter, std::size_t strands)
+    TopBuilder(const Picture& picture, const Painter& painter, unsigned maxDepth, std::size_t strands)
         : points_(picture.outlines.points),
           cullers_([&] { return CullerOfThread(picture, painter); }),
-          most_(std::max(blockStrands, strands / blockShare)) {}
+          most_(std::max(blockStrands, strands / blockShare)),
+          deepest_(std::min(blockLevel, maxDepth)) {}
 
     Top run(Cell cell) {
         Top top;
         cullers_.local().culler.run(cell);
-        if (cell.strands.size() <= most_ || cell.level >= blockLevel) {
+        if (cell.strands.size() <= most_ || cell.level >= deepest_) {
             top.cell = std::move(cell);
             return top;
         }
@@ -69,6 +70,7 @@ private:
     const Points points_;
     tbb::enumerable_thread_specific<CullerOfThread> cullers_;
     const std::size_t most_;
+    const unsigned deepest_;
 };
 
 void numberBlocks(Top& top, std::vector<Cell>& cells) {
@@ -95,7 +97,8 @@ private:
         if (top.cell) {
             const Tree& block = blocks_[top.block];
             paints_.assign(block.palette.size(), unknown);
-            tree_.fallbackLeaves += block.fallbackLeaves;
+            tree_.error = std::max(tree_.error, block.error);
+            tree_.unproven.insert(tree_.unproven.end(), block.unproven.begin(), block.unproven.end());
             return copy(block, block.root);
         }
         const std::size_t index = tree_.nodes.size();
@@ -172,7 +175,7 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
     const auto start = Clock::now();
     WorkLimit work;
     Cell cell = rootCell(picture, root, layers);
-    TopBuilder topBuilder(picture, painter, cell.strands.size());
+    TopBuilder topBuilder(picture, painter, options.maxDepth, cell.strands.size());
     Top top = topBuilder.run(std::move(cell));
     std::vector<Cell> cells;
     numberBlocks(top, cells);
@@ -185,17 +188,10 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
                       [&](std::size_t i) { blocks[i] = builders.local().run(std::move(cells[i])); });
     const double wall = milliseconds(pushed, Clock::now());
     TreeTimes sum;
-    for (const BlockBuilder& b : builders) {
-        sum.push += b.times().push;
-        sum.planarise += b.times().planarise;
-        sum.fit += b.times().fit;
-        sum.all += b.times().all;
-    }
-    const double share = sum.all > 0 ? wall / sum.all : 0;
-    times.push += milliseconds(start, pushed) + sum.push * share;
-    times.planarise += sum.planarise * share;
-    times.fit += sum.fit * share;
-    times.all += wall;
+    for (const BlockBuilder& b : builders)
+        sum += b.times();
+    times.push += milliseconds(start, pushed);
+    times += sum.sharing(wall);
     return Assembler(blocks).run(top);
 }
 

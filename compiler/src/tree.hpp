@@ -9,6 +9,7 @@
 
 #include "asset/asset.hpp"
 #include "compiler/src/cost.hpp"
+#include "compiler/src/error_budget.hpp"
 #include "compiler/src/palette.hpp"
 #include "compiler/src/picture.hpp"
 
@@ -35,7 +36,9 @@ public:
 };
 
 struct TreeOptions {
-    double fitTolerance = 1;  ///< lattice steps
+    explicit TreeOptions(const ErrorBudget& ofPicture) : budget(ofPicture) {}
+
+    ErrorBudget budget;
     CostModel cost;
     /// Instead of the cost model: a leaf with more pieces is split.
     std::optional<unsigned> piecesPerLeaf;
@@ -47,6 +50,16 @@ struct TreeOptions {
 /// building blocks, which threads do at once, so that its wall time is shared out.
 struct TreeTimes {
     double push = 0, planarise = 0, fit = 0, all = 0;
+
+    TreeTimes& operator+=(const TreeTimes& t) {
+        push += t.push, planarise += t.planarise, fit += t.fit, all += t.all;
+        return *this;
+    }
+    /// The same parts of `wall` in place of all.
+    TreeTimes sharing(double wall) const {
+        const double share = all > 0 ? wall / all : 0;
+        return {push * share, planarise * share, fit * share, wall};
+    }
 };
 
 /// A map's tree, its places in walking order: a node comes before its children's nodes. Entries of
@@ -66,7 +79,8 @@ struct Tree {
     std::vector<Leaf> leaves;
     std::vector<Piece> pieces;
     Palette palette;
-    std::uint32_t fallbackLeaves = 0;
+    double error = 0;              ///< the largest ErrorBudget::leaf of the leaves
+    std::vector<Square> unproven;  ///< leaves that are means of samples
 };
 
 /// Builds the tree over `root` for the given layers (ascending), on all processors; the result does not

@@ -1,4 +1,5 @@
 #include "compiler/compile.hpp"
+#include "compiler/session.hpp"
 
 #include <bit>
 
@@ -263,6 +264,19 @@ TEST(Compile, aPlainGroundIsOneSolid) {
     const asset::Summary summary = asset::summarize(result.asset);
     EXPECT_EQ(summary.leaves, 0u);
     EXPECT_EQ(summary.maxDepth, 0u);
+}
+
+TEST(Compile, noLeafIsDeeperThanAsked) {
+    Group many;
+    for (int i = 0; i < 400; ++i) {
+        const Point at{3.1 * (i % 20) + 0.7, 3.1 * (i / 20) + 0.9};
+        many.children.push_back({rect(at, at + 1.3, i % 2 ? red : blue)});
+    }
+    for (const unsigned depth : {0u, 1u, 2u, 3u}) {
+        const Options options{.maxDepth = depth};
+        EXPECT_LE(asset::summarize(compile(picture(many), options).asset).maxDepth, depth);
+        EXPECT_LE(asset::summarize(Session(picture(many), options).result().asset).maxDepth, depth);
+    }
 }
 
 TEST(Compile, aRectangleOnCellBordersLeavesNoPieces) {

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include <fmt/core.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "asset/evaluate.hpp"
+#include "conformance/cases/path_points.hpp"
 
 namespace vtm::cases {
 namespace {
@@ -25,35 +29,6 @@ constexpr double hairline = 1.0 / 64;
 /// A view with so many more edges of one stroke than pixels, as where a wide dashed one turns tighter than it
 /// is wide, takes the reference minutes: all of it counts as near an outline.
 constexpr std::size_t tangled = 400;
-
-scene::Affine toPixels(const Window& window) {
-    const double scale = 1 / window.pixel;
-    const Point origin = Point(window.pixels / 2.0) - scale * window.centre;
-    return {scale, 0, 0, scale, origin.x, origin.y};
-}
-
-Point interpolate(Point from, const scene::Command& command, double t) {
-    const double u = 1 - t;
-    if (const auto* line = std::get_if<scene::LineTo>(&command))
-        return u * from + t * line->to;
-    if (const auto* quad = std::get_if<scene::QuadTo>(&command))
-        return u * u * from + 2 * u * t * quad->control + t * t * quad->to;
-    if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
-        return u * u * u * from + 3 * u * u * t * cubic->control1 + 3 * u * t * t * cubic->control2 +
-               t * t * t * cubic->to;
-    return from;
-}
-
-Point endOf(const scene::Command& command) {
-    return std::visit(
-        [](const auto& c) {
-            if constexpr (requires { c.to; })
-                return c.to;
-            else
-                return Point(0);
-        },
-        command);
-}
 
 /// The least that the map stretches any direction by: its smaller singular value.
 double smallestScale(const scene::Affine& m) {
@@ -76,12 +51,68 @@ scene::Path closed(const scene::Path& path) {
     return result;
 }
 
+double largestScale(const scene::Affine& m) {
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]));  // an upper bound
+}
+
+/// How far a stroke reaches from its path, in the path's space.
+double reachOf(const scene::StrokeStyle& style) { return style.width * std::max(1.0, style.miterLimit); }
+
 }  // namespace
+
+scene::Affine toPixels(const Window& window) {
+    const double c = std::cos(window.angle) / window.pixel, s = std::sin(window.angle) / window.pixel;
+    const Point centre = window.centre;
+    return {c,
+            s,
+            -s,
+            c,
+            window.pixels / 2.0 - c * centre.x + s * centre.y,
+            window.pixels / 2.0 - s * centre.x - c * centre.y};
+}
 
 Outlines::Outlines(const scene::Scene& scene) {
     const auto border = scene::rectangle({0, 0}, {scene.width, scene.height});
-    shapes_.push_back({std::make_shared<scene::Path>(border), scene::identity, scene::FillRule::NonZero});
+    add({std::make_shared<scene::Path>(border), scene::identity, scene::FillRule::NonZero});
     add(scene.root);
+}
+
+void Outlines::add(Shape shape) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    shape.min = Point(infinity), shape.max = Point(-infinity);
+    const auto include = [&](Point p) {
+        const Point q = scene::apply(shape.transform, p);
+        shape.min = glm::min(shape.min, q), shape.max = glm::max(shape.max, q);
+    };
+    Point at(0);
+    for (const scene::Command& command : *shape.path) {
+        if (const auto* quad = std::get_if<scene::QuadTo>(&command))
+            include(quad->control);
+        if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
+            include(cubic->control1), include(cubic->control2);
+        if (const auto* arc = std::get_if<scene::ArcTo>(&command)) {
+            const double reach = 2 * (glm::length(arc->radii) + glm::distance(at, arc->to));
+            include(at - reach), include(at + reach);
+            include(at + Point(reach, -reach)), include(at + Point(-reach, reach));
+        }
+        if (!std::holds_alternative<scene::Close>(command))
+            include(at = endOf(command));
+    }
+    if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
+        const double reach = reachOf(*style) * largestScale(shape.transform);
+        shape.min -= reach, shape.max += reach;
+    }
+    shapes_.push_back(std::move(shape));
+}
+
+std::vector<const Outlines::Shape*> Outlines::shapesIn(const Window& window) const {
+    const double reach = window.pixel * (window.pixels + 2);
+    std::vector<const Shape*> shapes;
+    for (const Shape& shape : shapes_)
+        if (glm::all(glm::lessThan(shape.min, window.centre + reach)) &&
+            glm::all(glm::greaterThan(shape.max, window.centre - reach)))
+            shapes.push_back(&shape);
+    return shapes;
 }
 
 void Outlines::add(const scene::Group& group) {
@@ -95,13 +126,13 @@ void Outlines::add(const scene::Group& group) {
             continue;
         }
         const auto& item = std::get<scene::Item>(node.value);
-        shapes_.push_back({item.path, item.transform, item.geometry});
+        add({item.path, item.transform, item.geometry});
     }
 }
 
 void Outlines::add(const scene::Clip& clip) {
     for (const scene::ClipShape& shape : clip.shapes) {
-        shapes_.push_back({shape.path, shape.transform, shape.rule});
+        add({shape.path, shape.transform, shape.rule});
         if (shape.clip)
             add(*shape.clip);
     }
@@ -110,7 +141,7 @@ void Outlines::add(const scene::Clip& clip) {
 }
 
 std::vector<bool> Outlines::touched(const Shape& shape, const reference::View& view, double tolerance) {
-    const double flatness = flatShare * tolerance * view.toPixels[0].x;
+    const double flatness = flatShare * tolerance * glm::length(view.toPixels[0]);
     std::vector<double> covered;
     std::vector<bool> touched;
     if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
@@ -138,14 +169,65 @@ std::vector<bool> Outlines::touched(const Shape& shape, const reference::View& v
     return touched;
 }
 
-std::vector<bool> Outlines::farPixels(const Window& window) const {
+std::vector<bool> Outlines::touched(const Window& window) const {
     const int n = window.pixels;
     const reference::View view{n, n, toPixels(window)};
     std::vector<bool> near(std::size_t(n) * n);
-    for (const Shape& shape : shapes_) {
-        const std::vector<bool> one = touched(shape, view, window.tolerance);
+    for (const Shape* shape : shapesIn(window)) {
+        const std::vector<bool> one = touched(*shape, view, window.tolerance);
         std::transform(near.begin(), near.end(), one.begin(), near.begin(), std::logical_or());
     }
+    return near;
+}
+
+std::vector<double> Outlines::nearShares(const Window& window, int parts) const {
+    const Window fine{window.centre, window.pixel / parts, window.pixels * parts, window.tolerance,
+                      window.angle};
+    const std::vector<bool> near = touched(fine);
+    const int n = fine.pixels, reach = int(std::ceil(window.tolerance / fine.pixel));
+    const auto isNear = [&](int x, int y) {
+        for (int j = std::max(0, y - reach); j <= std::min(n - 1, y + reach); ++j)
+            for (int i = std::max(0, x - reach); i <= std::min(n - 1, x + reach); ++i)
+                if (near[std::size_t(j * n + i)])
+                    return true;
+        return false;
+    };
+    std::vector<double> shares(std::size_t(window.pixels) * window.pixels);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            shares[std::size_t(y / parts * window.pixels + x / parts)] +=
+                isNear(x, y) ? 1.0 / (parts * parts) : 0;
+    return shares;
+}
+
+double Outlines::distance(Point from, double most) const {
+    // Of strokes, so narrow a rim counts as outline: far below what is bisected.
+    const double tolerance = most / 64;
+    constexpr double eighthTurn = 0.7853981633974483;
+    std::vector<const Shape*> shapes = shapesIn({from, 2 * most, 1, tolerance});
+    const auto within = [&](const Shape& shape, double reach) {
+        for (const double angle : {0.0, eighthTurn})
+            if (!touched(shape, {1, 1, toPixels({from, 2 * reach, 1, tolerance, angle})}, tolerance).at(0))
+                return false;
+        return true;
+    };
+    std::erase_if(shapes, [&](const Shape* shape) { return !within(*shape, most); });
+    if (shapes.empty())
+        return std::numeric_limits<double>::infinity();
+    double low = 0, high = most;
+    constexpr int halvings = 7;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = (low + high) / 2;
+        const bool any =
+            std::ranges::any_of(shapes, [&](const Shape* shape) { return within(*shape, middle); });
+        (any ? high : low) = middle;
+    }
+    return high;
+}
+
+std::vector<bool> Outlines::farPixels(const Window& window) const {
+    const int n = window.pixels;
+    const std::vector<bool> near = touched(window);
     std::vector<bool> far(near.size());
     for (int y = 1; y < n - 1; ++y)
         for (int x = 1; x < n - 1; ++x) {
@@ -159,9 +241,7 @@ std::vector<bool> Outlines::farPixels(const Window& window) const {
 }
 
 bool Outlines::within(Point centre, double reach, double tolerance) const {
-    const reference::View view{1, 1, toPixels({centre, 2 * reach, 1, tolerance})};
-    return std::ranges::any_of(
-        shapes_, [&](const Shape& shape) { return touched(shape, view, tolerance).at(0) == true; });
+    return touched({centre, 2 * reach, 1, tolerance}).at(0);
 }
 
 std::vector<Point> Outlines::somePoints(std::uint64_t seed, int count) const {
@@ -179,6 +259,31 @@ std::vector<Point> Outlines::somePoints(std::uint64_t seed, int count) const {
             p += style->width / 2 * Point(std::cos(angle), std::sin(angle));
         }
         points.push_back(scene::apply(shape.transform, p));
+    }
+    return points;
+}
+
+std::vector<OutlinePoint> Outlines::pointsOn(std::uint64_t seed, int count) const {
+    std::mt19937_64 random(seed);
+    std::vector<OutlinePoint> points;
+    for (int i = 0; i < count; ++i) {
+        const Shape& shape = shapes_[random() % shapes_.size()];
+        const double t = std::ldexp(double(random() >> 11), -53);
+        const bool left = random() % 2 == 0;
+        if (shape.path->size() < 2)
+            continue;
+        const std::size_t k = 1 + random() % (shape.path->size() - 1);
+        const scene::Command& command = (*shape.path)[k];
+        const Point from = endOf((*shape.path)[k - 1]), along = derivative(from, command, t);
+        if (!(glm::length(along) > 0) || std::holds_alternative<scene::Close>((*shape.path)[k - 1]))
+            continue;
+        Point p = interpolate(from, command, t);
+        if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry))
+            p += (left ? 0.5 : -0.5) * style->width * glm::normalize(Point(-along.y, along.x));
+        const Point tangent = shape.transform[0] * along.x + shape.transform[1] * along.y;
+        if (glm::length(tangent) > 0)
+            points.push_back(
+                {scene::apply(shape.transform, p), glm::normalize(Point(-tangent.y, tangent.x))});
     }
     return points;
 }
@@ -213,7 +318,8 @@ std::string difference(const scene::Scene& scene, const Outlines& outlines, cons
             for (int c = 0; far[std::size_t(y * n + x)] && c < 4; ++c) {
                 const float wanted = truth.pixel(x, y)[c], got = drawn.pixel(x, y)[c];
                 if (!(std::abs(wanted - got) <= bound + rangeAround(truth, x, y, c) / 2)) {
-                    const Point at = window.centre + (Point(x, y) + 0.5 - n / 2.0) * window.pixel;
+                    const Point at =
+                        scene::apply(scene::inverse(toPixels(window)).value(), Point(x, y) + 0.5);
                     return fmt::format("channel {} at {}, {} (pixels of {}) is {}, not {}", c, at.x, at.y,
                                        window.pixel, got, wanted);
                 }

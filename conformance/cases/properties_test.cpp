@@ -102,9 +102,12 @@ std::string errorViolation(const Scene& scene, const Outlines& outlines, const a
 /// Empty, or the property that does not hold.
 std::string violation(const Scene& scene, std::uint64_t seed) {
     const compiler::Options options = optionsOf(seed);
-    const asset::Asset asset = compiler::compile(scene, options).asset;
+    const compiler::Result result = compiler::compile(scene, options);
+    const asset::Asset& asset = result.asset;
     if (asset.fallbackLeaves > 0)
         return fmt::format("{} leaves are not certified", asset.fallbackLeaves);
+    if (!(result.provenError <= options.tolerance))
+        return fmt::format("only {} tolerances are proven", result.provenError / options.tolerance);
     if (std::string found = strayPiece(asset, options.tolerance); !found.empty())
         return found;
     if (std::string found = openLoop(asset); !found.empty())
@@ -268,7 +271,10 @@ constexpr int closeUpsOfFile = 24;
 void expectSound(const std::filesystem::path& file) {
     const compiler::Options options;
     const Scene scene = loadScene(file);
-    const asset::Asset asset = compiler::compile(scene, options).asset;
+    const compiler::Result result = compiler::compile(scene, options);
+    const asset::Asset& asset = result.asset;
+    EXPECT_LE(result.provenError, options.tolerance) << file;
+    EXPECT_TRUE(result.unproven.empty()) << file;
     EXPECT_EQ(strayPiece(asset, options.tolerance), "") << file;
     EXPECT_EQ(openLoop(asset), "") << file;
     const Outlines outlines(scene);

@@ -33,6 +33,7 @@ int compile(const CompileOptions& options) {
         });
         Json report = {{"input", options.input}, {"output", options.output}, {"file_bytes", fileBytes}};
         report.update(figures(*source.asset));
+        report.update(source.proof);
         report["stages_ms"] = toJson(source.stages);
         if (options.json)
             fmt::print("{}\n", report.dump(2));

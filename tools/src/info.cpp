@@ -76,6 +76,7 @@ int info(const InfoOptions& options) {
         report["height"] = source.height;
         report["mode"] = modeOf(source);
         report.update(source.paper ? figures(*source.paper) : figures(*source.asset));
+        report.update(source.proof);
         report["stages_ms"] = toJson(source.stages);
         print(report, sections, options.json);
     } catch (...) {

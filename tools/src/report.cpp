@@ -1,5 +1,6 @@
 #include "tools/src/report.hpp"
 
+#include <cmath>
 #include <exception>
 #include <new>
 
@@ -39,6 +40,15 @@ Json figures(const asset::Asset& asset) {
             {"max_depth", summary.maxDepth}};
 }
 
+Json figures(const compiler::Result& result) {
+    Json unproven = Json::array();
+    for (const compiler::UnprovenSquare& s : result.unproven)
+        unproven.push_back({{"x", s.x}, {"y", s.y}, {"side", s.side}});
+    return {{"proven_error", result.provenError},
+            {"unproven_squares", unproven},
+            {"sampled_strokes", result.sampledStrokes}};
+}
+
 Json figures(const compiler::PaperResult& paper) {
     const asset::PaperSummary summary = asset::summarize(paper.asset);
     return {{"bytes", summary.bytes},
@@ -69,7 +79,12 @@ void printText(const Json& object, int indent) {
             fmt::print("{:{}}{}:\n", "", indent, key);
             printText(value, indent + 2);
         } else if (value.is_number_float()) {
-            fmt::print("{:{}}{}: {:.2f}\n", "", indent, key, value.get<double>());
+            const double number = value.get<double>();
+            constexpr double small = 0.01;  // two decimals would not show it
+            if (number != 0 && std::abs(number) < small)
+                fmt::print("{:{}}{}: {:.3g}\n", "", indent, key, number);
+            else
+                fmt::print("{:{}}{}: {:.2f}\n", "", indent, key, number);
         } else {
             fmt::print("{:{}}{}: {}\n", "", indent, key,
                        value.is_string() ? value.get<std::string>() : value.dump());

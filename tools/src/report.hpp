@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "asset/asset.hpp"
+#include "compiler/compile.hpp"
 #include "compiler/paper.hpp"
 
 namespace vtm::tools {
@@ -34,6 +35,8 @@ Json toJson(const Stages& stages);
 
 /// The figures that `compile`, `info` and `render` share.
 Json figures(const asset::Asset& asset);
+/// How far boundaries may be off, and where that could not be proven.
+Json figures(const compiler::Result& result);
 /// Those of paper mode.
 Json figures(const compiler::PaperResult& paper);
 /// What a pixel's lookup touched, on the mean.

@@ -92,6 +92,7 @@ void compileScene(Source& source, const std::string& path, const compiler::Optio
     for (const auto& [stage, milliseconds] : result.stages)
         source.stages.emplace_back(stage, milliseconds);
     printWarnings(path, result.warnings);
+    source.proof = figures(result);
     source.asset = std::move(result.asset);
 }
 

@@ -33,6 +33,7 @@ struct Source {
     std::optional<asset::Asset> asset;
     std::optional<compiler::PaperResult> paper;  ///< in place of `asset` in paper mode
     std::optional<asset::PaperCost> cost;        ///< of drawing `paper` on the CPU
+    Json proof = Json::object();  ///< what the compiler proved; empty where the file is an asset
     Stages stages;
 };
 

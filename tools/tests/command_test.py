@@ -205,9 +205,16 @@ class CompileAndInfo(Command):
         self.assertEqual(report["fallback_leaves"], 0)
         self.assertGreater(report["bytes"], 0)
 
+    def check_proof(self, report):
+        self.assertGreater(report["proven_error"], 0)
+        self.assertLessEqual(report["proven_error"], 1 / 65536)
+        self.assertEqual(report["unproven_squares"], [])
+        self.assertEqual(report["sampled_strokes"], 0)
+
     def test_compiled_file_draws_the_same(self):
         report = json.loads(self.vtm("compile", self.svg, "-o", "square.vtm", "--json").stdout)
         self.check_figures(report)
+        self.check_proof(report)
         for stage in ("parse", "lower", "compile"):
             self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
         self.assertEqual(report["file_bytes"], (self.folder / "square.vtm").stat().st_size)
@@ -218,10 +225,13 @@ class CompileAndInfo(Command):
     def test_info_of_svg(self):
         report = json.loads(self.vtm("info", self.svg, "--json").stdout)
         self.check_figures(report)
+        self.check_proof(report)
         self.assertEqual((report["width"], report["height"], report["mode"]), (40, 20, "exact"))
         for stage in ("parse", "lower", "compile"):
             self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
-        self.assertIn("leaves: ", self.vtm("info", self.svg).stdout)
+        text = self.vtm("info", self.svg).stdout
+        self.assertIn("leaves: ", text)
+        self.assertRegex(text, r"proven_error: [1-9]\.\d+e-0[56]")
 
     def test_prefilter(self):
         """The size of a real drawing's, its bytes beside those of the tree, and the last level's mean."""
