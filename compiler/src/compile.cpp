@@ -51,6 +51,9 @@ float compileExact(const Picture& picture, MapBuilder& maps, asset::Asset& asset
     const Tree tree = maps.build(allLayers(picture), PicturePainter(picture));
     float error = 0;
     const std::vector<std::uint16_t> paints = encodePalette(tree.palette, asset, error);
+    asset.nodes.reserve(tree.nodes.size());
+    asset.leaves.reserve(tree.leaves.size());
+    asset.pieces.reserve(tree.pieces.size());
     Command draw;
     draw.kind = Command::Kind::DrawMap;
     draw.map = maps.add(tree, paints);

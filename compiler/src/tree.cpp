@@ -88,6 +88,12 @@ public:
     explicit Assembler(const std::vector<Tree>& blocks) : blocks_(blocks) {}
 
     Tree run(const Top& top) {
+        std::size_t nodes = 0, leaves = 0, pieces = 0;
+        for (const Tree& block : blocks_)
+            nodes += block.nodes.size(), leaves += block.leaves.size(), pieces += block.pieces.size();
+        tree_.nodes.reserve(nodes + blocks_.size());  // above blocks: fewer nodes
+        tree_.leaves.reserve(leaves);
+        tree_.pieces.reserve(pieces);
         tree_.root = join(top);
         return std::move(tree_);
     }
