@@ -46,8 +46,6 @@ void WorkLimit::spend(std::size_t work) {
 // ---- layers -----------------------------------------------------------------------------------
 
 void Culler::run(Cell& cell) {
-    if (cell.strands.empty())
-        return;  // one colour, which is asked for once
     listLayers(cell, layers_);
     for (const LayerWinding& w : cell.windings)
         covers_[w.layer] = isInside(picture_.layers[w.layer], w.winding) ? Cover::In : Cover::Out;

@@ -187,7 +187,7 @@ protected:
             item.paint = color;
             scene_.root.children.push_back({item});
         };
-        add(scene::rectangle({9, 9}, {50, 51}), {1, 0, 0, 1});
+        add(scene::rectangle({9.3, 9.2}, {50.1, 51.4}), {1, 0, 0, 1});  // corners inside leaves
         add({scene::MoveTo{{20, 32}}, scene::ArcTo{{13, 13}, 0, false, true, {46, 32}},
              scene::ArcTo{{13, 13}, 0, false, true, {20, 32}}, scene::Close{}},
             {0, 0, 1, 1});
