@@ -327,4 +327,13 @@ std::string difference(const scene::Scene& scene, const Outlines& outlines, cons
     return {};
 }
 
+bool looksEqualAbout(const asset::Asset& asset, scene::Point p, double pixel) {
+    const image::Raster drawn =
+        asset::evaluate(asset, {2, 2, {1 / pixel, 0, 0, 1 / pixel, 1 - p.x / pixel, 1 - p.y / pixel}});
+    for (std::size_t i = 4; i < drawn.rgba.size(); ++i)
+        if (std::abs(drawn.rgba[i] - drawn.rgba[i % 4]) > colourBound)
+            return false;
+    return true;
+}
+
 }  // namespace vtm::cases

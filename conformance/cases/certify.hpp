@@ -77,6 +77,10 @@ private:
 std::string difference(const scene::Scene& scene, const Outlines& outlines, const asset::Asset& asset,
                        const Window& window, double bound);
 
+/// Whether the asset shows one colour all about a point, however it is stored: what is hidden on one side of
+/// a border may still be part of a paint's program on the other. `pixel`: half the side of what is looked at.
+bool looksEqualAbout(const asset::Asset& asset, scene::Point p, double pixel);
+
 /// Colours are rounded to single precision. Where the sides of a stroke coincide and so leave no mark in its
 /// coverage, rounding to the lattice (64 steps to the tolerance, vertices on even ones) may open them by two
 /// steps: a share of the pixel that is far below it in pixels much larger than the tolerance.

@@ -43,6 +43,8 @@ Distances measure(const scene::Scene& scene, const asset::Asset& asset, double t
     const DrawnBoundary drawn(asset);
     Distances found;
     for (const Point& p : drawn.somePoints(seed, points)) {
+        if (looksEqualAbout(asset, p, tolerance / 8))
+            continue;
         found.fromDrawn = std::max(found.fromDrawn, outlines.distance(p, most * tolerance) / tolerance);
         ++found.drawn;
     }

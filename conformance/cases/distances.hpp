@@ -15,9 +15,9 @@ struct Distances {
     int drawn = 0, truths = 0;           ///< points measured
 };
 
-/// Looks at up to `points` points of each: of the drawn ones all, of the true ones those where an outline
-/// shows and no other does near by (threads thinner than the tolerance may vanish). `tolerance` in picture
-/// units.
+/// Looks at up to `points` points of each: of the drawn ones those where two colours meet, of the true ones
+/// those where an outline shows and no other does near by (threads thinner than the tolerance may vanish).
+/// `tolerance` in picture units.
 Distances measure(const scene::Scene& scene, const asset::Asset& asset, double tolerance, std::uint64_t seed,
                   int points);
 

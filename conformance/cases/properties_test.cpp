@@ -56,17 +56,6 @@ constexpr double closeUpPixel = 1.0625;
 /// Compiling every scene twice would only take longer.
 constexpr std::uint64_t repeatedEvery = 8;
 
-/// Whether the asset shows one colour all about a point, however it is stored: what is hidden on one side of
-/// a border may still be part of a paint's program on the other.
-bool looksEqualAbout(const asset::Asset& asset, scene::Point p, double pixel) {
-    const image::Raster drawn =
-        asset::evaluate(asset, {2, 2, {1 / pixel, 0, 0, 1 / pixel, 1 - p.x / pixel, 1 - p.y / pixel}});
-    for (std::size_t i = 4; i < drawn.rgba.size(); ++i)
-        if (std::abs(drawn.rgba[i] - drawn.rgba[i % 4]) > colourBound)
-            return false;
-    return true;
-}
-
 std::string borderViolation(const Scene& scene, const Outlines& outlines, const asset::Asset& asset,
                             double tolerance) {
     const double unit = tolerance * std::max(scene.width, scene.height);
