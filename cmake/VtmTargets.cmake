@@ -8,7 +8,7 @@ add_library(vtm_warnings INTERFACE)
 target_compile_options(vtm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 # GCC 12 warns of overlapping copies inside std::string (its bug 105651), and of members of a std::variant's other
 # alternatives as perhaps uninitialised, depending on what it inlines.
-target_compile_options(vtm_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
+target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>")
 option(VTM_WERROR "Treat our warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 if(VTM_WERROR)
     target_compile_options(vtm_warnings INTERFACE -Werror)
