@@ -1,9 +1,10 @@
 #include "compiler/src/block.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "compiler/compile.hpp"
+#include "compiler/src/append_node.hpp"
+#include "compiler/src/clock.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -21,14 +22,12 @@ constexpr std::size_t maxLeafPieces = 0xFFFF;
 
 class Stopwatch {
 public:
-    explicit Stopwatch(double& into) : into_(into), start_(std::chrono::steady_clock::now()) {}
-    ~Stopwatch() {
-        into_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
+    explicit Stopwatch(double& into) : into_(into), start_(Clock::now()) {}
+    ~Stopwatch() { into_ += milliseconds(start_, Clock::now()); }
 
 private:
     double& into_;
-    const std::chrono::steady_clock::time_point start_;
+    const Clock::time_point start_;
 };
 
 bool isInside(const Layer& layer, int winding) {
@@ -204,23 +203,15 @@ BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
 }
 
 BlockBuilder::Built BlockBuilder::buildNode(const Cell& cell, Children& children) {
-    const std::size_t index = tree_.nodes.size();  // before its children's: walks need no cycle check
-    tree_.nodes.emplace_back();
-    asset::Node node;
     double cost = options_.cost.node();
-    for (std::size_t i = 0; i < 16; ++i) {
+    const Entry entry = appendNode(tree_.nodes, [&](std::size_t i) {
         const Built child = build(children[i]);
-        node.children[i] = child.entry;
         cost += child.cost;
-    }
-    const Entry first = node.children[0];
-    if (first.kind() == Entry::Kind::Solid && std::all_of(node.children.begin(), node.children.end(),
-                                                          [&](Entry e) { return e.bits == first.bits; })) {
-        tree_.nodes.pop_back();  // solid children made no nodes
-        return solid(first.payload(), cell.level);
-    }
-    tree_.nodes[index] = node;
-    return {Entry::make(Entry::Kind::Node, static_cast<std::uint32_t>(index)), cost};
+        return child.entry;
+    });
+    if (entry.kind() == Entry::Kind::Solid)
+        return solid(entry.payload(), cell.level);
+    return {entry, cost};
 }
 
 BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {

@@ -1,8 +1,8 @@
 #include "compiler/compile.hpp"
 
 #include <algorithm>
-#include <chrono>
 
+#include "compiler/src/clock.hpp"
 #include "compiler/src/encode.hpp"
 #include "compiler/src/painters.hpp"
 #include "compiler/src/settings.hpp"
@@ -176,10 +176,6 @@ Result compile(const scene::Scene& scene, const Options& options) {
     checkOptions(options);
     scene::validate(scene);
 
-    using Clock = std::chrono::steady_clock;
-    const auto milliseconds = [](Clock::time_point a, Clock::time_point b) {
-        return std::chrono::duration<double, std::milli>(b - a).count();
-    };
     const auto start = Clock::now();
     const Lattice lattice(scene.width, scene.height, latticeBits(options));
     Picture picture = lower(scene, lattice, errorBudget(options));

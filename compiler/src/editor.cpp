@@ -1,11 +1,11 @@
 #include "compiler/src/editor.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "compiler/src/clock.hpp"
 #include "compiler/src/editable.hpp"
 #include "compiler/src/join.hpp"
 #include "compiler/src/settings.hpp"
@@ -63,8 +63,6 @@ public:
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     /// Finds what differs from the last picture.
     void compare() {
         changes_ = matchLayers(kept_.picture, picture_);
@@ -103,11 +101,11 @@ private:
         const auto start = Clock::now();
         tbb::parallel_for(std::size_t{0}, dirty.size(),
                           [&](std::size_t i) { trees[i] = workers.local().run(dirty[i]->cell); });
-        const std::chrono::duration<double, std::milli> wall = Clock::now() - start;
+        const double wall = milliseconds(start, Clock::now());
         TreeTimes sum;
         for (const Worker& worker : workers)
             sum += worker.times();
-        times_ += sum.sharing(wall.count());
+        times_ += sum.sharing(wall);
         for (std::size_t i = 0; i < dirty.size(); ++i)
             replace(*dirty[i], std::move(trees[i]));
         return dirty.size();
@@ -168,9 +166,6 @@ private:
             next.images = bitmapsOf(picture_);
         if (!isJoined)
             next.fallbackLeaves = last.fallbackLeaves;
-        const auto milliseconds = [](Clock::time_point a, Clock::time_point b) {
-            return std::chrono::duration<double, std::milli>(b - a).count();
-        };
         Result report;
         report.asset.width = kept_.width;
         report.asset.height = kept_.height;

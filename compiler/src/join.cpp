@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compiler/src/append_node.hpp"
 #include "compiler/src/encode.hpp"
 
 namespace vtm::compiler {
@@ -39,20 +40,7 @@ private:
     Entry join(const Partition::Top& top) {
         if (top.block)
             return append(partition_.blocks()[*top.block]);
-        const std::size_t index = next_.nodes.size();  // before its children's
-        next_.nodes.emplace_back();
-        asset::Node node;
-        for (std::size_t i = 0; i < 16; ++i)
-            node.children[i] = join(top.children[i]);
-        const Entry first = node.children[0];
-        if (first.kind() == Entry::Kind::Solid &&
-            std::all_of(node.children.begin(), node.children.end(),
-                        [&](Entry e) { return e.bits == first.bits; })) {
-            next_.nodes.pop_back();
-            return first;
-        }
-        next_.nodes[index] = node;
-        return Entry::make(Entry::Kind::Node, static_cast<std::uint32_t>(index));
+        return appendNode(next_.nodes, [&](std::size_t i) { return join(top.children[i]); });
     }
 
     Entry append(Block& block) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <stdexcept>
 
 #include "asset/container.hpp"
+#include "compiler/src/clock.hpp"
 #include "compiler/src/paints.hpp"
 #include "compiler/src/paper_mask.hpp"
 
@@ -181,7 +181,7 @@ std::size_t PaperResult::approximatedCells() const {
 PaperResult compilePaper(const scene::Scene& scene, const PaperOptions& options) {
     checkOptions(options);
     scene::validate(scene);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     PaperResult result;
     result.options = options;
     result.asset.width = scene.width;
@@ -196,8 +196,7 @@ PaperResult compilePaper(const scene::Scene& scene, const PaperOptions& options)
         result.warnings.push_back(std::to_string(cells) +
                                   " cells would need more than two pieces and one operator; the best two "
                                   "were kept");
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    result.stages = {{"masks", took.count()}};
+    result.stages = {{"masks", milliseconds(start, Clock::now())}};
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compiler/src/append_node.hpp"
 #include "compiler/src/outline.hpp"
 #include "compiler/src/paper_cell.hpp"
 #include "compiler/src/paper_mip.hpp"
@@ -57,21 +58,9 @@ private:
     }
 
     Entry split(const CellTask& task, unsigned depth) {
-        auto& nodes = result_.mask.nodes;
-        const std::size_t node = nodes.size();
-        nodes.emplace_back();
-        for (unsigned i = 0; i < 16; ++i) {
-            const Entry entry = build(child(task, i % 4, i / 4), depth + 1);
-            nodes[node].children[i] = entry;
-        }
-        const Entry first = nodes[node].children[0];
-        const bool isUniform =
-            first.kind() == Entry::Kind::Solid &&
-            std::ranges::all_of(nodes[node].children, [&](Entry e) { return e.bits == first.bits; });
-        if (!isUniform)
-            return Entry::make(Entry::Kind::Node, std::uint32_t(node));
-        nodes.pop_back();
-        return first;
+        return appendNode(result_.mask.nodes, [&](std::size_t i) {
+            return build(child(task, unsigned(i % 4), unsigned(i / 4)), depth + 1);
+        });
     }
 
     CellTask child(const CellTask& parent, unsigned x, unsigned y) const {

@@ -190,7 +190,7 @@ void Snapper::meet(std::uint32_t e, std::uint32_t f) {
     for (Walk p(set_, s, left), q(set_, t, left);;) {
         if (std::max(std::min(p.from.y, p.to.y), std::min(q.from.y, q.to.y)) <=
             std::min(std::max(p.from.y, p.to.y), std::max(q.from.y, q.to.y)))
-            meetChords(e, {p.chord, p.from, p.to}, f, {q.chord, q.from, q.to});
+            meetChords(e, p, f, q);
         const bool movesP = q.isLast() || (!p.isLast() && p.to.x <= q.to.x);
         Walk& mover = movesP ? p : q;
         if (mover.isLast() || mover.to.x > right)
@@ -199,7 +199,7 @@ void Snapper::meet(std::uint32_t e, std::uint32_t f) {
     }
 }
 
-void Snapper::meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const Step& q) {
+void Snapper::meetChords(std::uint32_t e, const Walk& p, std::uint32_t f, const Walk& q) {
     const LatticePoint a = p.from, b = p.to, c = q.from, d = q.to;
     const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d);
     if ((atC > 0 && atD > 0) || (atC < 0 && atD < 0))

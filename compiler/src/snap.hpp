@@ -78,11 +78,6 @@ private:
         double dx, dy, length2, low, high;
     };
 
-    /// A chord of an edge: from vertex `chord` to the next.
-    struct Step {
-        std::uint32_t chord;
-        LatticePoint from, to;
-    };
     struct Walk;
     struct Place {
         std::uint64_t a;  ///< sortKey of the edge's
@@ -96,7 +91,7 @@ private:
     bool fanOut(const Edge& e, const Edge& f) const;
     bool findSplits();
     void meet(std::uint32_t e, std::uint32_t f);
-    void meetChords(std::uint32_t e, const Step& p, std::uint32_t f, const Step& q);
+    void meetChords(std::uint32_t e, const Walk& p, std::uint32_t f, const Walk& q);
     void bend(LatticePoint a, LatticePoint b, LatticePoint to);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
     void applySplits();

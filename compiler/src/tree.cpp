@@ -1,13 +1,14 @@
 #include "compiler/src/tree.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "compiler/src/append_node.hpp"
 #include "compiler/src/block.hpp"
+#include "compiler/src/clock.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -107,20 +108,7 @@ private:
             tree_.unproven.insert(tree_.unproven.end(), block.unproven.begin(), block.unproven.end());
             return copy(block, block.root);
         }
-        const std::size_t index = tree_.nodes.size();
-        tree_.nodes.emplace_back();
-        asset::Node node;
-        for (std::size_t i = 0; i < 16; ++i)
-            node.children[i] = join(top.children[i]);
-        const Entry first = node.children[0];
-        if (first.kind() == Entry::Kind::Solid &&
-            std::all_of(node.children.begin(), node.children.end(),
-                        [&](Entry e) { return e.bits == first.bits; })) {
-            tree_.nodes.pop_back();
-            return first;
-        }
-        tree_.nodes[index] = node;
-        return Entry::make(Entry::Kind::Node, static_cast<std::uint32_t>(index));
+        return appendNode(tree_.nodes, [&](std::size_t i) { return join(top.children[i]); });
     }
 
     Entry copy(const Tree& block, Entry entry) {
@@ -132,13 +120,8 @@ private:
             case Entry::Kind::Node:
                 break;
         }
-        const std::size_t index = tree_.nodes.size();
-        tree_.nodes.emplace_back();
-        for (std::size_t i = 0; i < 16; ++i) {
-            const Entry child = copy(block, block.nodes[entry.payload()].children[i]);
-            tree_.nodes[index].children[i] = child;
-        }
-        return Entry::make(Entry::Kind::Node, static_cast<std::uint32_t>(index));
+        const asset::Node& node = block.nodes[entry.payload()];
+        return appendNode(tree_.nodes, [&](std::size_t i) { return copy(block, node.children[i]); });
     }
 
     Entry copy(const Tree& block, Tree::Leaf leaf) {
@@ -174,10 +157,6 @@ private:
 
 Tree buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
                const Painter& painter, const TreeOptions& options, TreeTimes& times) {
-    using Clock = std::chrono::steady_clock;
-    const auto milliseconds = [](Clock::time_point from, Clock::time_point to) {
-        return std::chrono::duration<double, std::milli>(to - from).count();
-    };
     const auto start = Clock::now();
     WorkLimit work;
     Cell cell = rootCell(picture, root, layers);
