@@ -5,6 +5,7 @@
 /// is attached. Commands carry absolute points. Source: SVG 2 section 9.3, OpenVG 1.1 section 8.
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -49,5 +50,10 @@ enum class FillRule { NonZero, EvenOdd };
 
 /// Corner-to-corner rectangle, as a closed subpath.
 Path rectangle(Point min, Point max);
+/// A closed subpath through the points, of which there is at least one.
+Path polygon(const std::vector<Point>& points);
+
+/// Where the command ends; nothing for Close, which does not name its place.
+std::optional<Point> endOf(const Command& command);
 
 }  // namespace vtm::scene

@@ -34,15 +34,11 @@ double sizeOf(const Item& item, const Scene& scene) {
     constexpr double far = std::numeric_limits<double>::max();
     Point low{far, far}, high{-far, -far};
     for (const scene::Command& command : *item.path)
-        std::visit(
-            [&](const auto& c) {
-                if constexpr (requires { c.to; }) {
-                    const Point p = scene::apply(item.transform, c.to);
-                    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-                    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-                }
-            },
-            command);
+        if (const auto end = scene::endOf(command)) {
+            const Point p = scene::apply(item.transform, *end);
+            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        }
     const bool inside = high.x > 0 && high.y > 0 && low.x < scene.width && low.y < scene.height;
     return inside ? std::max(high.x - low.x, high.y - low.y) : 0;
 }

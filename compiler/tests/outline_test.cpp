@@ -30,19 +30,11 @@ int windingAt(const Outlines& outlines, LatticePoint p) {
     return w;
 }
 
-scene::Path polygon(const std::vector<scene::Point>& points) {
-    scene::Path path{scene::MoveTo{points[0]}};
-    for (std::size_t i = 1; i < points.size(); ++i)
-        path.push_back(scene::LineTo{points[i]});
-    path.push_back(scene::Close{});
-    return path;
-}
-
 const scene::Path wave{scene::MoveTo{{10, 400}}, scene::CubicTo{{200, -500}, {400, 1300}, {600, 300}},
                        scene::LineTo{{900, 900}}, scene::QuadTo{{300, 1000}, {20, 700}}, scene::Close{}};
 
 TEST(Winding, isPlusOneInsideAContourThatIsCounterClockwiseInTheNumbers) {
-    const Outlines square = outlineInBox(polygon({{0, 0}, {100, 0}, {100, 100}, {0, 100}}));
+    const Outlines square = outlineInBox(scene::polygon({{0, 0}, {100, 0}, {100, 100}, {0, 100}}));
     EXPECT_EQ(windingAt(square, {51, 51}), 1);
     EXPECT_EQ(windingAt(square, {151, 51}), 0);
     EXPECT_EQ(windingAt(square, {-51, 51}), 0);

@@ -23,14 +23,6 @@ using scene::Point;
 /// User units of every picture here.
 constexpr double side = 100;
 
-Path polygon(const std::vector<Point>& points) {
-    Path path{scene::MoveTo{points.front()}};
-    for (std::size_t i = 1; i < points.size(); ++i)
-        path.push_back(scene::LineTo{points[i]});
-    path.push_back(scene::Close{});
-    return path;
-}
-
 Path disc(Point centre, double radius) {
     const Point left{centre.x - radius, centre.y}, right{centre.x + radius, centre.y};
     return {scene::MoveTo{left}, scene::ArcTo{{radius, radius}, 0, false, true, right},
@@ -122,13 +114,13 @@ int pairs(const PaperMask& mask, PaperOperator combine) {
 }
 
 TEST(PaperRow2, ConvexCornersIntersectAndReflexOnesUnite) {
-    const PaperResult square = compiled(filled(polygon({{21, 23}, {79, 25}, {77, 81}, {19, 76}})));
+    const PaperResult square = compiled(filled(scene::polygon({{21, 23}, {79, 25}, {77, 81}, {19, 76}})));
     EXPECT_EQ(square.approximatedCells(), 0u);
     EXPECT_GE(pairs(maskOf(square), PaperOperator::Intersection), 4);
     EXPECT_EQ(pairs(maskOf(square), PaperOperator::Union), 0);
-    const PaperResult hole = compiled(filled(
-        joined(scene::rectangle({-9, -9}, {109, 109}), polygon({{21, 23}, {79, 25}, {77, 81}, {19, 76}})),
-        scene::Color{}, FillRule::EvenOdd));
+    const PaperResult hole = compiled(filled(joined(scene::rectangle({-9, -9}, {109, 109}),
+                                                    scene::polygon({{21, 23}, {79, 25}, {77, 81}, {19, 76}})),
+                                             scene::Color{}, FillRule::EvenOdd));
     EXPECT_EQ(hole.approximatedCells(), 0u);
     EXPECT_GE(pairs(maskOf(hole), PaperOperator::Union), 4);
 }
@@ -136,7 +128,7 @@ TEST(PaperRow2, ConvexCornersIntersectAndReflexOnesUnite) {
 TEST(PaperRow2, ThinFeaturesAreTwoPieces) {
     const auto band = [](Point p) { return 0.25 - std::abs(p.y - 50.1); };
     const PaperResult result =
-        compiled(filled(polygon({{-50, 49.85}, {150, 49.85}, {150, 50.35}, {-50, 50.35}})));
+        compiled(filled(scene::polygon({{-50, 49.85}, {150, 49.85}, {150, 50.35}, {-50, 50.35}})));
     expectClassified(result, band);
     EXPECT_GT(pairs(maskOf(result), PaperOperator::Intersection), 0);
 }
@@ -178,8 +170,8 @@ TEST(PaperRow3, OverlapsWithinAnItemLeaveNoBoundary) {
 
 TEST(PaperRow2, WhatAStrictCellCannotSayIsCounted) {
     // Even-odd, two crossing bars: at the crossings of edges inside is where exactly one side is.
-    const Path bars = joined(polygon({{10, 40}, {90, 45}, {90, 60}, {10, 55}}),
-                             polygon({{40, 10}, {60, 12}, {55, 90}, {43, 88}}));
+    const Path bars = joined(scene::polygon({{10, 40}, {90, 45}, {90, 60}, {10, 55}}),
+                             scene::polygon({{40, 10}, {60, 12}, {55, 90}, {43, 88}}));
     const PaperResult result = compiled(filled(bars, scene::Color{}, FillRule::EvenOdd));
     EXPECT_GE(result.approximatedCells(), 4u);
     ASSERT_EQ(result.warnings.size(), 1u);
@@ -294,7 +286,7 @@ Path star(Point centre, double radius) {
         const double angle = std::numbers::pi * i / 5, r = i % 2 == 0 ? radius : 0.4 * radius;
         points.push_back(centre + r * Point(std::cos(angle), std::sin(angle)));
     }
-    return polygon(points);
+    return scene::polygon(points);
 }
 
 TEST(PaperRow8, TheTreeIsSmallerThanTheGrid) {
@@ -346,7 +338,8 @@ TEST(PaperRow7, TheMipHoldsAreas) {
 TEST(PaperRow16, AChangedShapeTouchesItsOwnMaskOnly) {
     const scene::Item still = filled(disc({30, 50}, 20)),
                       moving = filled(disc({70, 50}, 20), scene::Color{0, 1, 0, 1});
-    const scene::Item moved = filled(polygon({{60, 40}, {90, 40}, {75, 80}}), scene::Color{0, 1, 0, 1});
+    const scene::Item moved =
+        filled(scene::polygon({{60, 40}, {90, 40}, {75, 80}}), scene::Color{0, 1, 0, 1});
     PaperResult result = compilePaper(sceneOf({{still}, {moving}}));
     const asset::Node* nodes = maskOf(result, 0).nodes.data();
     const std::vector<asset::PaperNode> before = result.asset.nodes;
@@ -384,7 +377,7 @@ TEST(PaperOptions, OutOfRangeIsRefused) {
 TEST(PaperOptions, EmptyAndFlatShapesDrawNothing) {
     const PaperResult result =
         compilePaper(sceneOf({{filled({})},
-                              {filled(polygon({{10, 10}, {90, 10}}))},
+                              {filled(scene::polygon({{10, 10}, {90, 10}}))},
                               {filled(disc({50, 50}, 20), scene::Color{0, 0, 0, 0})}}));
     for (double x = 1; x < side; x += 7)
         expectColor(result, {x, 10}, {0, 0, 0, 0});

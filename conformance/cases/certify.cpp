@@ -96,7 +96,7 @@ void Outlines::add(Shape shape) {
             include(at + Point(reach, -reach)), include(at + Point(-reach, reach));
         }
         if (!std::holds_alternative<scene::Close>(command))
-            include(at = endOf(command));
+            include(at = *scene::endOf(command));
     }
     if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
         const double reach = reachOf(*style) * largestScale(shape.transform);
@@ -253,7 +253,8 @@ std::vector<Point> Outlines::somePoints(std::uint64_t seed, int count) const {
         if (shape.path->empty())
             continue;
         const std::size_t k = random() % shape.path->size();
-        Point p = interpolate(k == 0 ? Point(0) : endOf((*shape.path)[k - 1]), (*shape.path)[k], share());
+        Point p = interpolate(k == 0 ? Point(0) : scene::endOf((*shape.path)[k - 1]).value_or(Point(0)),
+                              (*shape.path)[k], share());
         if (const auto* style = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
             const double angle = 6.283185307179586 * share();
             p += style->width / 2 * Point(std::cos(angle), std::sin(angle));
@@ -274,7 +275,8 @@ std::vector<OutlinePoint> Outlines::pointsOn(std::uint64_t seed, int count) cons
             continue;
         const std::size_t k = 1 + random() % (shape.path->size() - 1);
         const scene::Command& command = (*shape.path)[k];
-        const Point from = endOf((*shape.path)[k - 1]), along = derivative(from, command, t);
+        const Point from = scene::endOf((*shape.path)[k - 1]).value_or(Point(0)),
+                    along = derivative(from, command, t);
         if (!(glm::length(along) > 0) || std::holds_alternative<scene::Close>((*shape.path)[k - 1]))
             continue;
         Point p = interpolate(from, command, t);

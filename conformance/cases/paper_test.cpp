@@ -53,14 +53,6 @@ Errors errorsOf(const Path& path, Point focus, double zoom) {
     return errors;
 }
 
-Path polygon(const std::vector<Point>& points) {
-    Path path{scene::MoveTo{points.front()}};
-    for (std::size_t i = 1; i < points.size(); ++i)
-        path.push_back(scene::LineTo{points[i]});
-    path.push_back(scene::Close{});
-    return path;
-}
-
 Path circle(double radius) {
     const Point left{128 - radius, 128}, right{128 + radius, 128};
     return {scene::MoveTo{left}, scene::ArcTo{{radius, radius}, 0, false, true, right},
@@ -74,8 +66,8 @@ Path annulus(double outer, double inner) {
     return path;
 }
 
-const Path halfPlane = polygon({{-900, 100}, {900, 180}, {900, 1500}, {-900, 1500}});
-const Path corner = polygon({{128, 128}, {900, 250}, {900, 1500}, {200, 900}});
+const Path halfPlane = scene::polygon({{-900, 100}, {900, 180}, {900, 1500}, {-900, 1500}});
+const Path corner = scene::polygon({{128, 128}, {900, 250}, {900, 1500}, {200, 900}});
 
 constexpr Point onDisc{128 + 100 * 0.5403, 128 + 100 * 0.8415};
 

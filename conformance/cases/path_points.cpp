@@ -66,17 +66,6 @@ Point interpolate(Point from, const scene::Command& command, double t) {
     return from;
 }
 
-Point endOf(const scene::Command& command) {
-    return std::visit(
-        [](const auto& c) {
-            if constexpr (requires { c.to; })
-                return c.to;
-            else
-                return Point(0);
-        },
-        command);
-}
-
 Point derivative(Point from, const scene::Command& command, double t) {
     const double u = 1 - t;
     if (const auto* line = std::get_if<scene::LineTo>(&command))

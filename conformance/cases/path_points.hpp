@@ -11,7 +11,5 @@ namespace vtm::cases {
 scene::Point interpolate(scene::Point from, const scene::Command& command, double t);
 /// Its derivative by t.
 scene::Point derivative(scene::Point from, const scene::Command& command, double t);
-/// Where a command ends; zero for Close.
-scene::Point endOf(const scene::Command& command);
 
 }  // namespace vtm::cases

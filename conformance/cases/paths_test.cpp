@@ -73,20 +73,12 @@ INSTANTIATE_TEST_SUITE_P(Rule, SinglePath, testing::Values(FillRule::NonZero, Fi
 
 Point polar(double radius, double angle) { return centre + radius * Point(std::cos(angle), std::sin(angle)); }
 
-Path polygon(const std::vector<Point>& points) {
-    Path path{scene::MoveTo{points.front()}};
-    for (std::size_t i = 1; i < points.size(); ++i)
-        path.push_back(scene::LineTo{points[i]});
-    path.push_back(scene::Close{});
-    return path;
-}
-
 /// Every `step`-th of `corners` points on a circle, turned by `turn`.
 Path star(int corners, int step, double radius, double turn) {
     std::vector<Point> points;
     for (int i = 0; i < corners; ++i)
         points.push_back(polar(radius, turn + 2 * pi * (i * step % corners) / corners));
-    return polygon(points);
+    return scene::polygon(points);
 }
 
 TEST_P(SinglePath, Polygons) {
@@ -105,7 +97,7 @@ TEST_P(SinglePath, StarOfHundredRays) {
     std::vector<Point> points;
     for (int i = 0; i < 200; ++i)
         points.push_back(polar(i % 2 == 0 ? 480 : 30, pi * i / 100 + 0.01));
-    expectCoverage(polygon(points), polar(300, 1), polygonBound, "hundred rays");
+    expectCoverage(scene::polygon(points), polar(300, 1), polygonBound, "hundred rays");
 }
 
 TEST_P(SinglePath, StripsThinnerThanAPixel) {
@@ -113,8 +105,8 @@ TEST_P(SinglePath, StripsThinnerThanAPixel) {
         for (const double angle : {0.0, 0.4, 1.1}) {
             const Point along{std::cos(angle), std::sin(angle)},
                 across{-along.y * width / 2, along.x * width / 2};
-            expectCoverage(polygon({centre - 400.0 * along - across, centre + 400.0 * along - across,
-                                    centre + 400.0 * along + across, centre - 400.0 * along + across}),
+            expectCoverage(scene::polygon({centre - 400.0 * along - across, centre + 400.0 * along - across,
+                                           centre + 400.0 * along + across, centre - 400.0 * along + across}),
                            centre, polygonBound, "strip of " + std::to_string(width));
         }
 }

@@ -43,5 +43,20 @@ TEST(Path, RectangleIsClosed) {
     EXPECT_TRUE(std::holds_alternative<Close>(path[4]));
 }
 
+TEST(Path, PolygonsAreClosedThroughTheirPoints) {
+    const Path path = polygon({{1, 2}, {3, 4}, {5, 6}});
+    ASSERT_EQ(path.size(), 4u);
+    EXPECT_TRUE(std::holds_alternative<MoveTo>(path[0]));
+    EXPECT_EQ(endOf(path[0]), Point(1, 2));
+    EXPECT_EQ(endOf(path[2]), Point(5, 6));
+    EXPECT_TRUE(std::holds_alternative<Close>(path[3]));
+}
+
+TEST(Path, CommandsEndWhereTheySay) {
+    EXPECT_EQ(endOf(CubicTo{{1, 1}, {2, 2}, {3, 4}}), Point(3, 4));
+    EXPECT_EQ(endOf(ArcTo{{1, 1}, 0, false, true, {7, 8}}), Point(7, 8));
+    EXPECT_EQ(endOf(Close{}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace vtm::scene

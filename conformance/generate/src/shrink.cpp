@@ -9,17 +9,6 @@ namespace {
 
 using namespace scene;
 
-Point endOf(const Command& command) {
-    return std::visit(
-        [](const auto& c) {
-            if constexpr (requires { c.to; })
-                return c.to;
-            else
-                return Point(0);
-        },
-        command);
-}
-
 /// Every coordinate and radius of a path.
 std::vector<double*> numbersOf(Path& path) {
     std::vector<double*> numbers;
@@ -218,7 +207,7 @@ private:
                     if (std::holds_alternative<MoveTo>(command) || std::holds_alternative<LineTo>(command) ||
                         std::holds_alternative<Close>(command))
                         return false;
-                    command = LineTo{endOf(command)};
+                    command = LineTo{*endOf(command)};
                     return true;
                 });
         return any;

@@ -26,14 +26,6 @@ double filledArea(const Path& path, FillRule rule = FillRule::NonZero, const Aff
     return sum(fillCoverage(path, transform, rule, view));
 }
 
-Path polygon(const std::vector<Point>& points) {
-    Path path{MoveTo{points.front()}};
-    for (std::size_t i = 1; i < points.size(); ++i)
-        path.push_back(LineTo{points[i]});
-    path.push_back(Close{});
-    return path;
-}
-
 Affine rotationAbout(Point center, double angle) {
     const Affine turn{std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle), 0, 0};
     return compose(translation(center.x, center.y), compose(turn, translation(-center.x, -center.y)));
