@@ -75,7 +75,7 @@ struct Taps {
 /// A box of length L has the second moment L²/12. Taps d apart have d² (n² - 1)/12; texels of width h add
 /// h²/12 and the linear interpolation between them h²/6. Evenly spaced, d = L/n, the filter is wider than
 /// the footprint and blurs; with d² (n² - 1) = L² - 3 h² it has the footprint's moment, but tails for it.
-/// , L² - 2 h²,/prefilter.md).
+/// Halfway, L² - 2 h², is the best of the three (docs/prefilter.md).
 Taps tapsOver(float length, int count, float texel) {
     const float left = length * length - 2 * texel * texel;
     return {count, left > 0 && count > 1 ? std::sqrt(left / float(count * count - 1)) / length : 0};

@@ -19,7 +19,7 @@ double lengthInside(std::uint32_t first, double side, double picture) {
 SquareFigures squareFigures(const asset::Asset& asset) {
     SquareFigures figures;
     const asset::Map& map = asset.maps.at(0);
-    const double zoom = nominalPixels / std::max(asset.width, asset.height);
+    const double zoom = compiler::CostModel::nominalPixels / std::max(asset.width, asset.height);
     const double width = asset.width * zoom, height = asset.height * zoom;
     double nanoseconds = 0;
     asset::walk(asset, map.root, [&](asset::Cell cell, asset::Entry entry) {

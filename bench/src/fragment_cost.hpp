@@ -5,14 +5,15 @@
 #include <array>
 
 #include "asset/asset.hpp"
+#include "compiler/cost.hpp"
 
 namespace vtm::bench {
 
-/// Nanoseconds, measured with Mesa's llvmpipe on one core: a pixel of one colour; what every pixel of a leaf
-/// pays; what each of the leaf's pieces adds. Only their ratios matter.
-inline constexpr double solidCost = 5, leafCost = 50, pieceCost = 43;
-/// Of the picture's longer side, where a square's share of the pixels is counted.
-inline constexpr double nominalPixels = 1024;
+/// The compiler's own weights, of which only the ratios matter: nanoseconds for a pixel of one colour; what
+/// every pixel of a leaf pays; what each of the leaf's pieces adds.
+inline constexpr double solidCost = compiler::CostModel::perSolidFragment,
+                        leafCost = compiler::CostModel::perLeafFragment,
+                        pieceCost = compiler::CostModel::perPiece;
 
 struct SquareFigures {
     /// Nanoseconds a pixel, averaged over the picture. A square of w × h pixels is drawn as a quad half a

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "asset/asset.hpp"
-#include "compiler/src/cost.hpp"
+#include "compiler/cost.hpp"
 #include "compiler/src/error_budget.hpp"
 #include "compiler/src/palette.hpp"
 #include "compiler/src/picture.hpp"
