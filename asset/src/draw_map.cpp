@@ -50,11 +50,15 @@ PlacedLeaf place(const View& view, dvec2 corner, double side) {
 struct Overlap {
     vec2 min, max;
     bool empty() const { return min.x >= max.x || min.y >= max.y; }
-    vec2 centre() const { return (min + max) * 0.5f; }
 };
 
+/// The pixel's centre in leaf coordinates.
+vec2 centreIn(const PlacedLeaf& leaf, const LeafFrame& frame) {
+    return leaf.inverse * (vec2(0.5f) - frame.origin);
+}
+
 Overlap overlapOf(const PlacedLeaf& leaf, const LeafFrame& frame) {
-    const vec2 centre = leaf.inverse * (vec2(0.5f) - frame.origin);
+    const vec2 centre = centreIn(leaf, frame);
     const vec2 half = (glm::abs(leaf.inverse[0]) + glm::abs(leaf.inverse[1])) * 0.5f;
     return {glm::max(centre - half, vec2(0)), glm::min(centre + half, vec2(leafExtent))};
 }
@@ -124,10 +128,9 @@ void addLeaf(const AssetView& asset, PaintMeaning meaning, const MaterialFunctio
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
             const LeafFrame frame{glm::mat2(placed.linear), vec2(placed.origin - dvec2(x, y))};
-            const Overlap overlap = overlapOf(placed, frame);
-            if (overlap.empty())
+            if (overlapOf(placed, frame).empty())
                 continue;
-            const vec2 samplePoint(placed.corner + placed.step * dvec2(overlap.centre()));
+            const vec2 samplePoint(placed.corner + placed.step * dvec2(centreIn(placed, frame)));
             const vec4 color =
                 leafIntegral(asset, entry, placed, frame, {asset, meaning, materials, samplePoint});
             float* pixel = target.pixel(x, y);

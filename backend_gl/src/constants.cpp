@@ -1,5 +1,6 @@
 #include "backend_gl/src/constants.hpp"
 
+#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "asset/asset.hpp"
 #include "asset/coverage.hpp"
 #include "asset/paper.hpp"
+#include "backend_gl/src/patch.hpp"
 
 namespace vtm::gl {
 
@@ -31,6 +33,14 @@ std::string layout() {
 
            fmt::format("const int chordCount = {};\nconst float smallestSpan = {:.17g};\n", asset::chordCount,
                        asset::smallestSpan);
+}
+
+std::string patches() {
+    return constant("leftOfChordBit", leftOfChordBit) + constant("leftOfCurveBit", leftOfCurveBit) +
+           constant("moreBit", moreBit) + constant("wideBit", wideBit) +
+           constant("patchCellsLog2", patchCellsLog2) +
+           fmt::format("const float patchStep = {:.17g};\nconst float patchSlopeScale = {:.1f};\n",
+                       std::ldexp(1.0, -int(patchStepLog2)), patchSlopeScale);
 }
 
 std::string paperMode() {
@@ -72,6 +82,8 @@ std::string actions() {
 
 }  // namespace
 
-std::string glslConstants() { return layout() + paperMode() + operations() + blendModes() + actions(); }
+std::string glslConstants() {
+    return layout() + patches() + paperMode() + operations() + blendModes() + actions();
+}
 
 }  // namespace vtm::gl

@@ -13,6 +13,7 @@ void bindUnits(const Program& program) {
     glUniform1i(program.uniform("texels"), int(Unit::Texels));
     glUniform1i(program.uniform("images"), int(Unit::Images));
     glUniform1i(program.uniform("placements"), int(Unit::Placements));
+    glUniform1i(program.uniform("patches"), int(Unit::Patches));
     glUniform1i(program.uniform("layer"), int(Unit::Layer));
     glUniform1i(program.uniform("backdrop"), int(Unit::Backdrop));
     checkErrors("program");
@@ -40,6 +41,10 @@ const Program& Programs::leaf(CostClass cost, Features features, unsigned materi
     }
 }
 
+const Program& Programs::flat() { return get(Kind::Flat, {}); }
+const Program& Programs::patch(Features features, unsigned materialSet) {
+    return get(Kind::Patch, features, materialSet);
+}
 const Program& Programs::fill(Features features, unsigned materialSet) {
     return get(Kind::Fill, features, materialSet);
 }
@@ -75,6 +80,15 @@ Program Programs::make(Kind kind, Features features, unsigned materialSet) const
                     {fetch, leaf_vertex},
                     {defines, fetch, coverage, leaf_placement, shaders::blend, gradient, image, paint,
                      general_fragment, materials}};
+        case Kind::Flat:
+            return {"flat", {flat_vertex}, {flat_fragment}};
+        case Kind::Patch:
+            if (features.flags() == 0)
+                return {"patch", {patch_vertex}, {fetch, shadow, cell, patch_fragment}};
+            return {"patch with programs",
+                    {patch_vertex},
+                    {defines, fetch, shadow, cell, shaders::blend, gradient, image, paint,
+                     patch_programs_fragment, materials}};
         case Kind::Fill:
             return {"fill",
                     {box_vertex},

@@ -22,7 +22,7 @@ enum class CostClass : unsigned {
 inline constexpr unsigned costClassCount = 3;
 
 /// Texture units, the same in every program.
-enum class Unit : int { Texels, Images, Placements, Layer, Backdrop };
+enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Patches };
 
 /// Each throws GlError with the driver's log where a program does not compile.
 class Programs {
@@ -32,12 +32,15 @@ public:
 
     /// Only General looks at the features and materials.
     const Program& leaf(CostClass cost, Features features, unsigned materialSet = 0);
+    /// Of a picture: patches of one colour, and others.
+    const Program& flat();
+    const Program& patch(Features features, unsigned materialSet = 0);
     const Program& fill(Features features, unsigned materialSet = 0);
     const Program& layer();
     const Program& blend();
 
 private:
-    enum class Kind : unsigned { Solid, Pieces, General, Fill, Layer, Blend };
+    enum class Kind : unsigned { Solid, Pieces, General, Flat, Patch, Fill, Layer, Blend };
     const Program& get(Kind kind, Features features, unsigned materialSet = 0);
     Program make(Kind kind, Features features, unsigned materialSet) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "backend_gl/src/painter.hpp"
+#include "backend_gl/src/picture.hpp"
 
 namespace vtm::gl {
 
@@ -41,6 +42,21 @@ void readBack(const Target& target, const asset::View& tile, glm::ivec2 corner, 
 
 struct Renderer::Impl {
     Workshop workshop;
+    PictureBuffers picture;
+
+    Target paint(UploadedAsset& asset, const asset::View& view) {
+        if (asset.atlases.empty())
+            return Painter(workshop, asset, view).paint();
+        Target target = workshop.pool.take();
+        target.bind();
+        target.touched = {{0, 0}, {view.width, view.height}};
+        glViewport(0, 0, view.width, view.height);
+        for (const GLenum state :
+             {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DITHER, GL_BLEND})
+            glDisable(state);
+        drawPicture(workshop.programs, picture, asset, view);
+        return target;
+    }
 
     /// Calls use(target, tile, corner) for each painted tile.
     template <class Use>
@@ -50,7 +66,7 @@ struct Renderer::Impl {
             return;
         forEachTile(view, tileSide(), [&](const asset::View& tile, glm::ivec2 corner) {
             workshop.pool.resize({tile.width, tile.height});
-            Target target = Painter(workshop, asset, tile).paint();
+            Target target = paint(asset, tile);
             use(target, tile, corner);
             workshop.pool.giveBack(std::move(target));
             checkErrors("drawing");
@@ -66,9 +82,8 @@ Texture Renderer::upload(const asset::AssetView& asset) {
     auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
     // Users' errors come at once, not with the first picture.
     if (texture->features.has(Features::Material))
-        asset.mode == asset::Mode::Exact
-            ? programs.leaf(CostClass::General, texture->features, texture->materialSet)
-            : programs.fill(texture->features, texture->materialSet);
+        asset.mode == asset::Mode::Exact ? programs.patch(texture->features, texture->materialSet)
+                                         : programs.fill(texture->features, texture->materialSet);
     return Texture(std::move(texture));
 }
 

@@ -85,9 +85,13 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
     : maps(asset.maps.begin(), asset.maps.end()),
       commands(asset.commands.begin(), asset.commands.end()),
-      list(makeInstances(asset)),
+      list(asset.mode == asset::Mode::Exact ? InstanceList{} : makeInstances(asset)),
       features(featuresOf(asset)),
-      materialSet(materials) {
+      materialSet(materials),
+      paints(asset.paints.begin(), asset.paints.end()) {
+    if (asset.mode == asset::Mode::Exact)
+        for (const asset::Command& command : asset.commands)
+            atlases.emplace_back(asset, asset.maps[command.map]);
     for (const asset::Paint& paint : asset.paints)
         isProgram.push_back(paint[3] == asset::programTag);
     std::vector<Texel> joined = joinedTexels(asset, sections);

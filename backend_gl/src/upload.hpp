@@ -8,6 +8,7 @@
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/instances.hpp"
+#include "backend_gl/src/patch_atlas.hpp"
 #include "backend_gl/src/placement.hpp"
 
 namespace vtm::gl {
@@ -24,9 +25,11 @@ struct UploadedAsset {
     std::vector<asset::Map> maps;
     std::vector<asset::Command> commands;
     InstanceList list;
-    Features features;            ///< of the paint programs
-    unsigned materialSet;         ///< of Programs
-    std::vector<bool> isProgram;  ///< by paint
+    Features features;     ///< of the paint programs
+    unsigned materialSet;  ///< of Programs
+    std::vector<asset::Paint> paints;
+    std::vector<PatchAtlas> atlases;  ///< exact: of each map drawn
+    std::vector<bool> isProgram;      ///< by paint
     Sections sections;
     TextureHandle texels, images;
     BufferHandle instances;

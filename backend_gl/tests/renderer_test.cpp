@@ -33,9 +33,10 @@ Worst worst(const image::Raster& a, const image::Raster& b) {
     return w;
 }
 
-/// Both run the same steps in single precision; only the roundings differ (docs/coverage.md). The
-/// issue allows 2/255.
+/// Straight edges are exact in both, which differ by roundings (docs/coverage.md).
 constexpr double twinTolerance = 0.25 / 255;
+/// Curves: the evaluator sums four chords, the shader a chord and what lies between it and the curve.
+constexpr double curveTolerance = 1.0 / 255;
 
 void expectTwins(Renderer& renderer, const Asset& asset, int views = 25, double tolerance = twinTolerance) {
     ASSERT_NO_THROW(asset::validate(asset));
@@ -52,7 +53,7 @@ TEST_F(Gl, HalfPlane) { expectTwins(*renderer, halfPlane()); }
 TEST_F(Gl, Wedge) { expectTwins(*renderer, wedge()); }
 TEST_F(Gl, Strip) { expectTwins(*renderer, strip()); }
 TEST_F(Gl, ThreeRegions) { expectTwins(*renderer, threeRegions()); }
-TEST_F(Gl, Arcs) { expectTwins(*renderer, disc()); }
+TEST_F(Gl, Arcs) { expectTwins(*renderer, disc(), 25, curveTolerance); }
 TEST_F(Gl, TwoLevelTree) { expectTwins(*renderer, twoLevels()); }
 TEST_F(Gl, EveryPaint) { expectTwins(*renderer, everyPaint()); }
 TEST_F(Gl, CompatCommands) { expectTwins(*renderer, layers()); }

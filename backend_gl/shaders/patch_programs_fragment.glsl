@@ -1,0 +1,52 @@
+// A patch with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl.
+
+out vec4 color;
+
+// The last two paints evaluated: the two sides of a chain of pieces.
+uint recentPaint = 0xFFFFFFFFu, olderPaint = 0xFFFFFFFFu;
+vec4 recentColor = vec4(0.0), olderColor = vec4(0.0);
+
+vec4 regionColor(uint paint, vec2 point) {
+    if (paint == recentPaint)
+        return recentColor;
+    uint swappedPaint = recentPaint;
+    vec4 swappedColor = recentColor;
+    recentColor = paint == olderPaint ? olderColor : paintColor(paint, point);
+    recentPaint = paint;
+    olderPaint = swappedPaint;
+    olderColor = swappedColor;
+    return recentColor;
+}
+
+// Each piece is looked at twice, once a side, after the reference's own paint, so that the paint interpreter, which
+// compilers inline, stands in the program once.
+void main() {
+    Cell cell = cellAt(gl_FragCoord.xy);
+    vec2 point = patchPicture.xy + patchPicture.z * cell.o;
+    uvec4 texel = patchTexels.z == 0u ? cell.texel : uvec4(patchTexels.z - 1u, 0u, 0u, 0u);
+    vec4 sum = vec4(0.0);
+    float weight = 1.0;
+    uint paint = low(texel.x), other = 0u, side = 1u, i = 0u;
+    for (;;) {
+        if (weight != 0.0)
+            sum += weight * regionColor(paint, point);
+        side ^= 1u;
+        if (side == 1u) {
+            paint = other;
+            weight = -weight;
+            continue;
+        }
+        if (i == referenceCount(texel)) {
+            if ((texel.x & moreBit) == 0u)
+                break;
+            texel = patchTexel(texel.w);
+            i = 0u;
+        }
+        uint reference = referenceAt(texel, i++);
+        uvec4 piece = patchTexel(reference >> 2 << 1);
+        weight = pieceWeight(patchPiece(piece.xyz, cell.o), cell.way, reference);
+        paint = low(piece.w);
+        other = high(piece.w);
+    }
+    color = sum;
+}

@@ -1,0 +1,73 @@
+/// \file
+/// A square of the plane prepared for drawing: a grid of cells, each with the pieces that can matter to a
+/// pixel in it. An index only: the curves are the asset's own, and it serves every view of about its scale.
+///
+/// A pixel whose centre O lies in a cell has the mean colour
+///     c(R) + Σ (c_left - c_right) · (crossings of R -> O + area of the piece's shadow in the pixel's box),
+/// R being the cell's reference point, and the shadow of a piece what of the box lies behind it as seen from
+/// O (docs/coverage.md). The box is convex and holds O, so only pieces in the box have a shadow: what is far
+/// away needs no thought, and every pixel is drawn once, by one cell.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "asset/asset.hpp"
+#include "backend_gl/src/planar_map.hpp"
+
+namespace vtm::gl {
+
+/// Which square: squares have the map's side / 2^level, level below 0 being larger than the map; (0, 0) is
+/// the one at the map's least corner. There are squares outside the map, too: its border belongs to pixels
+/// there as well.
+struct PatchPlace {
+    int level = 0;
+    std::int64_t x = 0, y = 0;
+
+    auto operator<=>(const PatchPlace&) const = default;
+};
+/// Smaller squares would be finer than the lattice can number.
+inline constexpr int maxPatchLevel = 2 * int(asset::maxLevel);
+
+/// Cells a side.
+inline constexpr unsigned patchCellsLog2 = 4;
+/// Reference points stand on a grid of 2^referenceLog2 a side in their cell.
+inline constexpr unsigned referenceLog2 = 2;
+/// Coordinates of end points: steps of 2^-patchStepLog2 of a patch from -1, in 18 bits.
+inline constexpr unsigned patchStepLog2 = 16, patchCoordinateBits = 18;
+/// Slopes have 12 bits; this stands for 1.
+inline constexpr float patchSlopeScale = 2047;
+/// Sides of the reference point that go with each piece.
+inline constexpr std::uint32_t leftOfChordBit = 1, leftOfCurveBit = 2;
+/// Bits of a list's first word: more texels follow; references are whole words.
+inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24;
+
+/// `texels` holds the pieces, the rest of the longer lists and, from `firstCell`, the cells row by row;
+/// nothing if the patch has one paint.
+///
+/// Piece, two texels. First: a.x, a.y, b.x, b.y (18 bits each), slopes at a and b (12 bits each, signed),
+/// packed from the lowest bit on; left | right << 16. Second: the colours on the left and on the right,
+/// premultiplied 16-bit unorm red, green, blue, alpha, of solid paints. Cell, one texel: paint at the
+/// reference point | place of the reference point << 16 | n << 20 | moreBit | wideBit; then n references to
+/// pieces in half words, six at most. With moreBit there are four at most, and the last word is the texel
+/// with the next ones, which has no paint and place. With wideBit they are words: three, or two with moreBit.
+/// Reference: number of the piece << 2 | leftOfCurveBit | leftOfChordBit, as the cell's reference point lies.
+struct Patch {
+    std::uint32_t paint = 0;  ///< of a patch without texels
+    std::vector<asset::Texel> texels;
+    std::uint32_t firstCell = 0;
+};
+
+/// What patches are cut from.
+struct PatchSource {
+    asset::AssetView asset;
+    asset::Map map;
+};
+
+/// `margin`: the largest distance from a pixel's centre to its corners, in patch sides, at most 1/4. `near`:
+/// at least all pieces that come nearer than that to the patch.
+Patch buildPatch(const PatchSource& source, const PatchPlace& place, double margin,
+                 std::span<const PlanarPiece* const> near);
+
+}  // namespace vtm::gl

@@ -1,0 +1,130 @@
+#include "backend_gl/src/patch_atlas.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include "backend_gl/src/constants.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::Texel;
+using glm::dvec2;
+
+constexpr double cellsPerRadius = 2.83;
+/// What is kept before everything is thrown away: 64 MiB.
+constexpr std::size_t mostTexels = std::size_t(1) << 22;
+
+/// From a pixel's centre to the furthest of its corners, in sides of the map.
+double footprintRadius(const asset::Map& map, const asset::View& view) {
+    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    return 0.5 * std::max(glm::length(inverse * dvec2(1, 1)), glm::length(inverse * dvec2(1, -1))) / map.side;
+}
+
+}  // namespace
+
+int patchLevelFor(const asset::Map& map, const asset::View& view) {
+    const double cells = std::floor(-std::log2(cellsPerRadius * footprintRadius(map, view)));
+    return std::min(int(cells) - int(patchCellsLog2), maxPatchLevel);
+}
+
+double patchMargin() { return std::ldexp(1 / cellsPerRadius, -int(patchCellsLog2)); }
+
+PatchAtlas::PatchAtlas(const asset::AssetView& asset, const asset::Map& map)
+    : map_(map), pieces_(planarPieces(asset, map)) {
+    asset::Asset kept;
+    kept.nodes.assign(asset.nodes.begin(), asset.nodes.end());
+    kept.leaves.assign(asset.leaves.begin(), asset.leaves.end());
+    kept.pieces.assign(asset.pieces.begin(), asset.pieces.end());
+    kept.paints.assign(asset.paints.begin(), asset.paints.end());
+    asset_ = std::make_shared<const asset::Asset>(std::move(kept));
+    for (const asset::Paint& paint : asset.paints)
+        isProgram_.push_back(paint[3] == asset::programTag);
+}
+
+/// By square, row by row.
+std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, glm::i64vec2 min,
+                                                                    glm::i64vec2 max) const {
+    const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
+    std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
+    const double side = std::ldexp(double(latticeExtent), -level);
+    for (const PlanarPiece& piece : pieces_) {
+        const double reach = patchMargin() + piece.bulge() / side;
+        const dvec2 least = glm::floor(glm::min(piece.a, piece.b) / side - reach),
+                    most = glm::floor(glm::max(piece.a, piece.b) / side + reach);
+        if (!(most.x >= double(min.x) && most.y >= double(min.y) && least.x < double(max.x) &&
+              least.y < double(max.y)))
+            continue;
+        const glm::i64vec2 from(glm::max(least, dvec2(min))), to(glm::min(most, dvec2(max) - 1.0));
+        for (std::int64_t y = from.y; y <= to.y; ++y)
+            for (std::int64_t x = from.x; x <= to.x; ++x)
+                near[std::size_t(y - min.y) * columns + std::size_t(x - min.x)].push_back(&piece);
+    }
+    return near;
+}
+
+PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const PlanarPiece* const> near) {
+    const Patch patch = buildPatch({*asset_, map_}, place, patchMargin(), near);
+    if (patch.texels.empty())
+        return {true, isProgram_[patch.paint], patch.paint, 0, 0};
+    const bool programs = std::ranges::any_of(
+        near, [&](const PlanarPiece* piece) { return isProgram_[piece->left] || isProgram_[piece->right]; });
+    const Placed placed{false, programs, 0, std::uint32_t(texels_.size()), patch.firstCell};
+    texels_.insert(texels_.end(), patch.texels.begin(), patch.texels.end());
+    return placed;
+}
+
+std::vector<const PatchAtlas::Placed*> PatchAtlas::prepare(int level, glm::i64vec2 min, glm::i64vec2 max) {
+    if (texels_.size() > mostTexels) {
+        placed_.clear();
+        texels_.clear();
+        uploaded_ = 0;
+    }
+    std::vector<std::vector<const PlanarPiece*>> near;
+    std::vector<const Placed*> patches;
+    for (std::int64_t y = min.y; y < max.y; ++y)
+        for (std::int64_t x = min.x; x < max.x; ++x) {
+            const PatchPlace at{level, x, y};
+            auto found = placed_.find(at);
+            if (found == placed_.end()) {
+                if (near.empty())
+                    near = piecesNear(level, min, max);
+                found = placed_.emplace(at, place(at, near[patches.size()])).first;
+            }
+            patches.push_back(&found->second);
+        }
+    upload();
+    return patches;
+}
+
+/// Whole rows from the first that has new texels.
+void PatchAtlas::upload() {
+    if (uploaded_ == texels_.size() && texture_.get() != 0)
+        return;
+    constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
+    const auto rowsOf = [](std::size_t texels) { return (texels + columns - 1) / columns; };
+    if (texture_.get() == 0 || texels_.size() > capacity_) {
+        const std::size_t rows = std::max<std::size_t>(rowsOf(texels_.size() + texels_.size() / 2), 1);
+        texture_ = makeTexture(GL_RGBA32UI, int(columns), int(rows));
+        capacity_ = rows * columns;
+        uploaded_ = 0;
+    }
+    const std::size_t first = uploaded_ / columns, end = rowsOf(texels_.size());
+    if (first < end) {
+        std::vector<Texel> rows(texels_.begin() + std::ptrdiff_t(first * columns), texels_.end());
+        rows.resize((end - first) * columns);
+        glBindTexture(GL_TEXTURE_2D, texture_.get());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, GLint(first), GLsizei(columns), GLsizei(end - first),
+                        GL_RGBA_INTEGER, GL_UNSIGNED_INT, rows.data());
+    }
+    uploaded_ = texels_.size();
+    checkErrors("patches");
+}
+
+}  // namespace vtm::gl

@@ -1,0 +1,57 @@
+/// \file
+/// The patches of one map on the GPU, made when a view first needs them and kept for the views that follow.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "asset/asset.hpp"
+#include "asset/view.hpp"
+#include "backend_gl/src/gl.hpp"
+#include "backend_gl/src/patch.hpp"
+
+namespace vtm::gl {
+
+/// The level of the patches for a view: their cells are at least `cellsPerRadius` footprints' radii wide and
+/// less than twice that, so that what is made for one scale serves a whole octave.
+int patchLevelFor(const asset::Map& map, const asset::View& view);
+/// The largest of those radii, patch sides.
+double patchMargin();
+
+class PatchAtlas {
+public:
+    /// Copies what it needs of the asset.
+    PatchAtlas(const asset::AssetView& asset, const asset::Map& map);
+
+    /// What is kept of a Patch.
+    struct Placed {
+        bool flat = false;      ///< one paint, no texels
+        bool programs = false;  ///< of its paints one is a program
+        std::uint32_t paint = 0;
+        std::uint32_t firstTexel = 0, firstCell = 0;
+    };
+    /// All squares of a level that meet [min, max], in patches, row by row. May move the texture.
+    std::vector<const Placed*> prepare(int level, glm::i64vec2 min, glm::i64vec2 max);
+
+    const asset::Map& map() const { return map_; }
+    const TextureHandle& texture() const { return texture_; }
+
+private:
+    Placed place(const PatchPlace& place, std::span<const PlanarPiece* const> near);
+    std::vector<std::vector<const PlanarPiece*>> piecesNear(int level, glm::i64vec2 min,
+                                                            glm::i64vec2 max) const;
+    void upload();
+
+    asset::Map map_;
+    std::shared_ptr<const asset::Asset> asset_;  ///< without commands, pictures and the like
+    std::vector<bool> isProgram_;
+    std::vector<PlanarPiece> pieces_;
+
+    std::map<PatchPlace, Placed> placed_;
+    std::vector<asset::Texel> texels_;
+    std::size_t uploaded_ = 0, capacity_ = 0;
+    TextureHandle texture_;
+};
+
+}  // namespace vtm::gl

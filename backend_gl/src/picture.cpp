@@ -1,0 +1,223 @@
+#include "backend_gl/src/picture.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/common.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+namespace vtm::gl {
+
+namespace {
+
+using glm::dvec2;
+using glm::i64vec2;
+using Placed = PatchAtlas::Placed;
+
+/// Of flat_vertex.glsl.
+struct FlatVertex {
+    float position[2];
+    float color[4];
+};
+
+/// Of patch_vertex.glsl.
+struct PatchVertex {
+    float position[2];
+    float origin[2];
+    std::uint32_t texels[3];
+    float picture[4];
+};
+
+VertexArrayHandle makeVertexArray() {
+    GLuint id = 0;
+    glGenVertexArrays(1, &id);
+    return VertexArrayHandle(id);
+}
+
+void pointFloats(GLuint index, GLint count, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, GLsizei(stride),
+                          reinterpret_cast<const void*>(offset));
+}
+
+/// Squares of one cut under one view.
+class Squares {
+public:
+    Squares(const asset::Map& map, const asset::View& view, int level)
+        : side_(std::ldexp(map.side, -level)), corner_(map.x, map.y), view_(view) {
+        const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        for (const dvec2 pixel :
+             {dvec2(0, 0), dvec2(view.width, 0), dvec2(0, view.height), dvec2(view.width, view.height)}) {
+            const dvec2 p = (inverse * (pixel - view.toPixels[2]) - corner_) / side_;
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        // The map's border belongs to pixels with centres up to a margin outside.
+        const double end = std::ceil(std::ldexp(1.0, level)) + 1;
+        min = i64vec2(glm::clamp(glm::floor(least), -1.0, end));
+        max = i64vec2(glm::clamp(glm::floor(most) + 1.0, -1.0, end));
+    }
+
+    dvec2 picture(std::int64_t x, std::int64_t y) const { return corner_ + dvec2(x, y) * side_; }
+    dvec2 pixel(std::int64_t x, std::int64_t y) const {
+        return view_.toPixels * glm::dvec3(picture(x, y), 1);
+    }
+    double side() const { return side_; }
+
+    /// Whether the rectangle of squares [from, to) can show.
+    bool visible(i64vec2 from, i64vec2 to) const {
+        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        for (const i64vec2 p : {from, i64vec2(to.x, from.y), i64vec2(from.x, to.y), to}) {
+            least = glm::min(least, pixel(p.x, p.y));
+            most = glm::max(most, pixel(p.x, p.y));
+        }
+        return most.x > 0 && most.y > 0 && least.x < view_.width && least.y < view_.height;
+    }
+
+    i64vec2 min, max;
+
+private:
+    double side_;
+    dvec2 corner_;
+    const asset::View& view_;
+};
+
+/// Two triangles for the rectangle of squares [from, to).
+template <class Vertex>
+void addRectangle(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 from, i64vec2 to,
+                  Vertex vertex) {
+    for (const i64vec2 p : {from, i64vec2(to.x, from.y), i64vec2(from.x, to.y), i64vec2(from.x, to.y),
+                            i64vec2(to.x, from.y), to}) {
+        const dvec2 pixel = squares.pixel(p.x, p.y);
+        vertex.position[0] = float(pixel.x);
+        vertex.position[1] = float(pixel.y);
+        vertices.push_back(vertex);
+    }
+}
+
+struct Geometry {
+    std::vector<FlatVertex> flat;
+    std::vector<PatchVertex> solid, programs;
+};
+
+FlatVertex flatVertex(const asset::Paint& paint) {
+    FlatVertex vertex{};
+    for (unsigned c = 0; c < 4; ++c)
+        vertex.color[c] = std::bit_cast<float>(paint[c]);
+    return vertex;
+}
+
+PatchVertex patchVertex(const Squares& squares, const Placed& patch, std::int64_t x, std::int64_t y) {
+    const dvec2 origin = squares.pixel(x, y), picture = squares.picture(x, y);
+    return {{0, 0},
+            {float(origin.x), float(origin.y)},
+            {patch.firstTexel, patch.firstCell, patch.flat ? 1 + patch.paint : 0},
+            {float(picture.x), float(picture.y), float(squares.side()), 0}};
+}
+
+/// Neighbours in a row with one paint make one rectangle.
+Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
+                    const std::vector<const Placed*>& patches) {
+    Geometry geometry;
+    const std::int64_t columns = squares.max.x - squares.min.x;
+    for (std::int64_t y = squares.min.y; y < squares.max.y; ++y)
+        for (std::int64_t x = squares.min.x; x < squares.max.x;) {
+            const auto at = [&](std::int64_t column) -> const Placed& {
+                return *patches[std::size_t((y - squares.min.y) * columns + column - squares.min.x)];
+            };
+            const Placed& patch = at(x);
+            std::int64_t end = x + 1;
+            if (patch.flat)
+                while (end < squares.max.x && at(end).flat && at(end).paint == patch.paint)
+                    ++end;
+            const i64vec2 from(x, y), to(end, y + 1);
+            if (squares.visible(from, to)) {
+                if (patch.flat && !patch.programs) {
+                    if (patch.paint != 0)
+                        addRectangle(geometry.flat, squares, from, to, flatVertex(asset.paints[patch.paint]));
+                } else {
+                    addRectangle(patch.programs ? geometry.programs : geometry.solid, squares, from, to,
+                                 patchVertex(squares, patch, x, y));
+                }
+            }
+            x = end;
+        }
+    return geometry;
+}
+
+template <class Vertex>
+void draw(const VertexArrayHandle& array, const BufferHandle& buffer, const std::vector<Vertex>& vertices) {
+    glBindVertexArray(array.get());
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(),
+                 GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, GLsizei(vertices.size()));
+}
+
+void setMatrix(GLint uniform, const glm::dmat2& m) {
+    glUniform4f(uniform, float(m[0].x), float(m[0].y), float(m[1].x), float(m[1].y));
+}
+
+void use(const Program& program, const UploadedAsset& asset, const asset::View& view, double side) {
+    const Sections& s = asset.sections;
+    const glm::dmat2 toPixels(view.toPixels[0] * side, view.toPixels[1] * side);
+    program.use();
+    glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
+    glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
+    glUniform1ui(program.uniform("imageSection"), s.images);
+    setMatrix(program.uniform("patchToPixel"), toPixels);
+    setMatrix(program.uniform("pixelToPatch"), glm::inverse(toPixels));
+}
+
+void bindTexture(Unit unit, const TextureHandle& texture) {
+    glActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+}
+
+}  // namespace
+
+PictureBuffers::PictureBuffers()
+    : flatArray(makeVertexArray()), patchArray(makeVertexArray()), flat(makeBuffer()), patch(makeBuffer()) {
+    glBindVertexArray(flatArray.get());
+    glBindBuffer(GL_ARRAY_BUFFER, flat.get());
+    pointFloats(0, 2, sizeof(FlatVertex), offsetof(FlatVertex, position));
+    pointFloats(1, 4, sizeof(FlatVertex), offsetof(FlatVertex, color));
+    glBindVertexArray(patchArray.get());
+    glBindBuffer(GL_ARRAY_BUFFER, patch.get());
+    pointFloats(0, 2, sizeof(PatchVertex), offsetof(PatchVertex, position));
+    pointFloats(1, 2, sizeof(PatchVertex), offsetof(PatchVertex, origin));
+    glEnableVertexAttribArray(2);
+    glVertexAttribIPointer(2, 3, GL_UNSIGNED_INT, sizeof(PatchVertex),
+                           reinterpret_cast<const void*>(offsetof(PatchVertex, texels)));
+    pointFloats(3, 4, sizeof(PatchVertex), offsetof(PatchVertex, picture));
+    glBindVertexArray(0);
+}
+
+void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view) {
+    for (PatchAtlas& atlas : asset.atlases) {
+        const int level = patchLevelFor(atlas.map(), view);
+        const Squares squares(atlas.map(), view, level);
+        const std::vector<const Placed*> patches = atlas.prepare(level, squares.min, squares.max);
+        const Geometry geometry = geometryOf(asset, squares, patches);
+        bindTexture(Unit::Texels, asset.texels);
+        bindTexture(Unit::Images, asset.images);
+        bindTexture(Unit::Patches, atlas.texture());
+        if (!geometry.flat.empty()) {
+            use(programs.flat(), asset, view, squares.side());
+            draw(buffers.flatArray, buffers.flat, geometry.flat);
+        }
+        if (!geometry.solid.empty()) {
+            use(programs.patch({}), asset, view, squares.side());
+            draw(buffers.patchArray, buffers.patch, geometry.solid);
+        }
+        if (!geometry.programs.empty()) {
+            use(programs.patch(asset.features, asset.materialSet), asset, view, squares.side());
+            draw(buffers.patchArray, buffers.patch, geometry.programs);
+        }
+    }
+}
+
+}  // namespace vtm::gl

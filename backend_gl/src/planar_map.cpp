@@ -1,0 +1,287 @@
+#include "backend_gl/src/planar_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <glm/geometric.hpp>
+
+#include "asset/walk.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::AssetView;
+using asset::Cell;
+using asset::Entry;
+using asset::Leaf;
+using asset::Piece;
+using glm::dvec2;
+
+double stepOf(Cell cell) { return std::ldexp(1.0, 2 * int(asset::maxLevel - cell.level)); }
+
+/// Of a leaf's point, or with the numbers 0 and leafExtent of a square's corner.
+dvec2 onLattice(Cell cell, std::uint32_t x, std::uint32_t y) {
+    return stepOf(cell) *
+           dvec2(double(cell.x) * asset::leafExtent + x, double(cell.y) * asset::leafExtent + y);
+}
+
+PlanarPiece planar(Cell cell, const Piece& piece) {
+    return {onLattice(cell, piece.a[0], piece.a[1]),
+            onLattice(cell, piece.b[0], piece.b[1]),
+            float(piece.slopeA) / asset::slopeScale,
+            float(piece.slopeB) / asset::slopeScale,
+            piece.left,
+            piece.right};
+}
+
+// ---- Borders --------------------------------------------------------------------------------------
+
+std::uint32_t along(int side, const std::array<std::uint16_t, 2>& p) {
+    const std::uint32_t x = p[0], y = p[1];
+    switch (side) {
+        case 0:
+            return x;
+        case 1:
+            return y;
+        case 2:
+            return asset::leafExtent - x;
+        default:
+            return asset::leafExtent - y;
+    }
+}
+
+using ChangesBySide = std::array<std::vector<Change>, 4>;
+
+/// B on a side: the region on the piece's right lies before it, the one on its left behind. A: the reverse.
+void changesOf(std::span<const Piece> pieces, ChangesBySide& sides) {
+    for (std::vector<Change>& side : sides)
+        side.clear();
+    for (const Piece& p : pieces) {
+        if (const int side = asset::sideOf(p.a); side >= 0)
+            sides[unsigned(side)].push_back({along(side, p.a), p.left, p.right});
+        if (const int side = asset::sideOf(p.b); side >= 0)
+            sides[unsigned(side)].push_back({along(side, p.b), p.right, p.left});
+    }
+    for (std::vector<Change>& side : sides)
+        std::ranges::sort(side, {}, &Change::at);
+}
+
+/// Calls visit(from, to, paint) for the stretches of a side, in leaf steps from its first corner.
+template <class Visit>
+void forEachStretch(std::uint32_t corner, std::span<const Change> changes, Visit&& visit) {
+    std::uint32_t from = 0, paint = corner;
+    for (std::size_t i = 0; i < changes.size();) {
+        std::size_t end = i + 1;
+        while (end < changes.size() && changes[end].at == changes[i].at)
+            ++end;
+        if (changes[i].at > from)
+            visit(from, changes[i].at, paint);
+        from = changes[i].at;
+        paint = paintBehind(paint, changes.subspan(i, end - i));
+        i = end;
+    }
+    if (from < asset::leafExtent)
+        visit(from, asset::leafExtent, paint);
+}
+
+/// What a square shows along a part of one of its borders.
+struct Stretch {
+    double line;      ///< the coordinate that the border keeps
+    double from, to;  ///< of the other
+    std::uint32_t paint;
+};
+
+bool operator<(const Stretch& a, const Stretch& b) {
+    return a.line != b.line ? a.line < b.line : a.from < b.from;
+}
+
+/// All borders of one direction, each seen from both of its sides.
+struct Borders {
+    std::vector<Stretch> below, above;  ///< from the squares with lower, with higher coordinates
+};
+
+void addStretches(Cell cell, std::uint32_t corner, std::span<const Change> changes, unsigned side,
+                  std::array<Borders, 2>& borders) {
+    const dvec2 min = onLattice(cell, 0, 0), max = onLattice(cell, asset::leafExtent, asset::leafExtent);
+    const bool horizontal = side % 2 == 0, forward = side < 2;
+    const double line = horizontal ? (side == 0 ? min.y : max.y) : (side == 1 ? max.x : min.x);
+    Borders& borderLines = borders[horizontal ? 0 : 1];
+    // The square lies above its own least border.
+    std::vector<Stretch>& stretches = side == 0 || side == 3 ? borderLines.above : borderLines.below;
+    const double first = horizontal ? min.x : min.y, last = horizontal ? max.x : max.y;
+    forEachStretch(corner, changes, [&](std::uint32_t from, std::uint32_t to, std::uint32_t paint) {
+        const double u = from * stepOf(cell), v = to * stepOf(cell);
+        if (forward)
+            stretches.push_back({line, first + u, first + v, paint});
+        else
+            stretches.push_back({line, last - v, last - u, paint});
+    });
+}
+
+/// A piece wherever the two sides of a border show different paints.
+void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& pieces) {
+    std::ranges::sort(borders.below, std::less());
+    std::ranges::sort(borders.above, std::less());
+    const auto add = [&](double line, double from, double to, std::uint32_t below, std::uint32_t above) {
+        if (below == above || !(from < to))
+            return;
+        if (horizontal)  // towards +x, higher y is on the left
+            pieces.push_back({{from, line}, {to, line}, 0, 0, above, below});
+        else
+            pieces.push_back({{line, from}, {line, to}, 0, 0, below, above});
+    };
+    std::size_t i = 0, j = 0;
+    const auto &low = borders.below, &high = borders.above;
+    // Both lists tile their lines; where one has nothing, paint 0 is.
+    double line = -1, done = 0;
+    while (i < low.size() || j < high.size()) {
+        const double next =
+            std::min(i < low.size() ? low[i].line : HUGE_VAL, j < high.size() ? high[j].line : HUGE_VAL);
+        if (next != line) {
+            line = next;
+            done = 0;
+        }
+        const Stretch* a = i < low.size() && low[i].line == line ? &low[i] : nullptr;
+        const Stretch* b = j < high.size() && high[j].line == line ? &high[j] : nullptr;
+        const double startA = a ? std::max(a->from, done) : HUGE_VAL,
+                     startB = b ? std::max(b->from, done) : HUGE_VAL;
+        const double from = std::min(startA, startB);
+        double to = HUGE_VAL;
+        if (a)
+            to = std::min(to, startA > from ? startA : a->to);
+        if (b)
+            to = std::min(to, startB > from ? startB : b->to);
+        add(line, from, to, a && startA <= from ? a->paint : 0, b && startB <= from ? b->paint : 0);
+        done = to;
+        if (a && a->to <= done)
+            ++i;
+        if (b && b->to <= done)
+            ++j;
+    }
+}
+
+// ---- Points ---------------------------------------------------------------------------------------
+
+double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+struct Found {
+    Cell cell;
+    Entry entry;
+};
+
+Found find(const AssetView& asset, Entry entry, dvec2 point) {
+    Cell cell;
+    while (entry.kind() == Entry::Kind::Node) {
+        ++cell.level;
+        const double side = stepOf(cell) * asset::leafExtent;
+        const auto child = [&](double p, std::uint32_t parent) {
+            return std::uint32_t(std::clamp(std::floor(p / side), parent * 4.0, parent * 4.0 + 3));
+        };
+        cell.x = child(point.x, cell.x);
+        cell.y = child(point.y, cell.y);
+        entry = asset.nodes[entry.payload()].children[(cell.y % 4) * 4 + cell.x % 4];
+    }
+    return {cell, entry};
+}
+
+/// On the leaf's border of least x.
+std::uint32_t paintOnLeft(Cell cell, const Leaf& leaf, std::span<const Piece> own, double y) {
+    ChangesBySide sides;
+    changesOf(own, sides);
+    const double fromTop = (onLattice(cell, 0, asset::leafExtent).y - y) / stepOf(cell);
+    std::uint32_t paint = leaf.corners[3];
+    forEachStretch(leaf.corners[3], sides[3], [&](std::uint32_t from, std::uint32_t to, std::uint32_t here) {
+        if (from < fromTop && fromTop < to)
+            paint = here;
+    });
+    return paint;
+}
+
+/// Whether the way to the point along its y crosses the chord.
+bool isChordOnLeft(const PlanarPiece& p, dvec2 point) {
+    if ((p.a.y < point.y) == (p.b.y < point.y))
+        return false;
+    return p.a.x + (p.b.x - p.a.x) * (point.y - p.a.y) / (p.b.y - p.a.y) < point.x;
+}
+
+}  // namespace
+
+std::uint32_t paintBehind(std::uint32_t paint, std::span<const Change> changes) {
+    if (changes.size() == 1)
+        return changes[0].after;
+    for (const Change& candidate : changes) {
+        int net = 0;
+        for (const Change& change : changes)
+            net += int(change.after == candidate.after) - int(change.before == candidate.after);
+        if (net > 0)
+            return candidate.after;
+    }
+    return paint;
+}
+
+Sides PlanarPiece::sidesOf(dvec2 point) const {
+    const dvec2 d = b - a, q = point - a;
+    const double length2 = glm::dot(d, d), s = glm::dot(q, d) / length2, t = cross(d, q) / length2;
+    const bool above = t > 0;
+    return {above, s > 0 && s < 1 ? t > height(s) : above};
+}
+
+double PlanarPiece::bulge() const {
+    // max of s (1 - s)² over [0, 1] is 4/27.
+    return 4.0 / 27 * (std::abs(double(slopeA)) + std::abs(double(slopeB))) * glm::length(b - a);
+}
+
+std::vector<PlanarPiece> planarPieces(const AssetView& asset, const asset::Map& map) {
+    std::vector<PlanarPiece> pieces;
+    std::array<Borders, 2> borders;
+    ChangesBySide sides;
+    asset::walk(asset, map.root, [&](Cell cell, Entry entry) {
+        std::array<std::uint32_t, 4> corners;
+        std::span<const Piece> own;
+        corners.fill(entry.payload());
+        if (entry.kind() == Entry::Kind::Leaf) {
+            const Leaf& leaf = asset.leaves[entry.payload()];
+            std::ranges::copy(leaf.corners, corners.begin());
+            own = asset.pieces.subspan(leaf.firstPiece, leaf.pieceCount);
+        }
+        changesOf(own, sides);
+        for (unsigned side = 0; side < 4; ++side)
+            addStretches(cell, corners[side], sides[side], side, borders);
+        for (const Piece& piece : own)
+            if (piece.a != piece.b && piece.left != piece.right)
+                pieces.push_back(planar(cell, piece));
+    });
+    addSeams(borders[0], true, pieces);
+    addSeams(borders[1], false, pieces);
+    return pieces;
+}
+
+/// The paint on the leaf's border at the left of the point, and the changes on the way from there: the leaf's
+/// chords between, and the curves, some of which bulge over from other leaves, that lie on the point's other
+/// side than their chords.
+std::uint32_t paintAt(const AssetView& asset, const asset::Map& map, dvec2 point,
+                      std::span<const PlanarPiece* const> near) {
+    const double extent = double(latticeExtent);
+    if (!(point.x >= 0 && point.y >= 0 && point.x <= extent && point.y <= extent))
+        return 0;
+    const auto [cell, entry] = find(asset, map.root, point);
+    std::uint32_t paint = entry.payload();
+    std::vector<Change> changes;
+    if (entry.kind() == Entry::Kind::Leaf) {
+        const Leaf& leaf = asset.leaves[entry.payload()];
+        const auto own = asset.pieces.subspan(leaf.firstPiece, leaf.pieceCount);
+        paint = paintOnLeft(cell, leaf, own, point.y);
+        for (const Piece& piece : own)
+            if (const PlanarPiece p = planar(cell, piece); isChordOnLeft(p, point))
+                changes.push_back(p.a.y < p.b.y ? Change{0, p.left, p.right} : Change{0, p.right, p.left});
+    }
+    for (const PlanarPiece* p : near)
+        if (const Sides at = p->sidesOf(point); at.leftOfCurve != at.leftOfChord)
+            changes.push_back({0, at.leftOfChord ? p->left : p->right, at.leftOfCurve ? p->left : p->right});
+    return paintBehind(paint, changes);
+}
+
+}  // namespace vtm::gl

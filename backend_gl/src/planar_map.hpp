@@ -1,0 +1,63 @@
+/// \file
+/// A map's pieces without its leaves: one planar map over the whole plane, in exact coordinates.
+///
+/// Leaves are a way to store a picture, and their borders mean nothing to it. What is drawn needs the
+/// boundaries alone, and needs them to close: going round any point, the changes of paint must cancel. Inside
+/// a leaf the compiler certifies that. Across a border two leaves may disagree by a step of the coarser one,
+/// or a leaf may end where the picture does; there the *seams* stand, straight pieces along the border.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "asset/asset.hpp"
+
+namespace vtm::gl {
+
+/// Lattice coordinates: steps of a leaf of the deepest level, 0 to latticeExtent from one border of the
+/// map to the other. End points of every level lie on it exactly, and so in a double.
+inline constexpr std::int64_t latticeExtent = std::int64_t(asset::leafExtent) << (2 * asset::maxLevel);
+
+/// Where a point lies. Beyond the ends of a piece both are the chord's.
+struct Sides {
+    bool leftOfChord, leftOfCurve;
+};
+
+/// asset::Piece in lattice coordinates, or in others.
+struct PlanarPiece {
+    glm::dvec2 a, b;
+    float slopeA = 0, slopeB = 0;
+    std::uint32_t left = 0, right = 0;
+
+    /// t(s) of asset::Piece, in chord lengths.
+    double height(double s) const {
+        const double r = 1 - s;
+        return s * r * (double(slopeA) * r - double(slopeB) * s);
+    }
+    Sides sidesOf(glm::dvec2 point) const;
+    /// No point of the curve is further from the chord, in its units.
+    double bulge() const;
+};
+
+/// A change of paint on the way from one point to another.
+struct Change {
+    std::uint32_t at;  ///< along a leaf's side: leaf steps from its first corner
+    std::uint32_t before, after;
+};
+
+/// The paint behind changes that follow each other in some order, `paint` being before the first: the one
+/// that is entered once more often than left.
+std::uint32_t paintBehind(std::uint32_t paint, std::span<const Change> changes);
+
+/// All of a map's boundaries, those with paint 0 around it included; outside the map lies paint 0.
+std::vector<PlanarPiece> planarPieces(const asset::AssetView& asset, const asset::Map& map);
+
+/// The paint at a point, lattice coordinates. Its y must not be that of any end point or corner: take one
+/// that is no whole number. `near`: at least the pieces with the point between curve and chord.
+std::uint32_t paintAt(const asset::AssetView& asset, const asset::Map& map, glm::dvec2 point,
+                      std::span<const PlanarPiece* const> near);
+
+}  // namespace vtm::gl
