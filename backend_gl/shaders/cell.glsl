@@ -1,16 +1,20 @@
 // The cell that a pixel's centre lies in, and its pieces. The only branches are loops: some drivers run both sides of
 // every other, fetches and all.
 // Requires: fetch.glsl, shadow.glsl; patch_vertex.glsl's outputs; constants of src/patch.hpp.
-// Exports: patchOrigin, patchTexels, patchPicture, Cell, cellAt, referencePaint, References, referencesOf,
-// referenceAt, patchTexel.
+// Exports: patchOrigin, patchTexels, patchPicture, Cell, cellAt, firstReferences, referenceCount, referenceAt,
+// patchTexel, unpackColor.
 
 uniform usampler2D patches;
+uniform vec4 pixelToPatch;  // distances, by columns
 
 flat in vec2 patchOrigin;
 flat in uvec3 patchTexels;
 flat in vec4 patchPicture;
 
 uvec4 patchTexel(uint index) { return texelFetch(patches, texelPlace(patchTexels.x + index), 0); }
+
+// Times 65535.
+vec4 unpackColor(uvec2 words) { return vec4(words.xxyy >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu); }
 
 struct Cell {
     uvec4 texel;
@@ -28,12 +32,14 @@ Cell cellAt(vec2 pixel) {
     return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) / side);
 }
 
-uint referencePaint(Cell cell) { return cell.texel.x & 0xFFFFu; }
-uint referenceCount(uvec4 texel) { return texel.x >> 20 & 7u; }
+// References, as a texel of them.
+uvec4 firstReferences(Cell cell) { return uvec4(cell.texel.x, cell.texel.w, 0u, cell.texel.w); }
+uint referenceCount(uvec4 references) { return references.x >> 20 & 7u; }
 
-// Number of the i-th piece of the texel << 2 | bits.
-uint referenceAt(uvec4 texel, uint i) {
-    uint word = (texel.x & wideBit) != 0u ? i * 2u : i;
-    uint pair = word < 2u ? texel.y : word < 4u ? texel.z : texel.w;
-    return (texel.x & wideBit) != 0u ? pair : pair >> (word << 4 & 16u) & 0xFFFFu;
+// Number of the i-th piece << 2 | bits.
+uint referenceAt(uvec4 references, uint i) {
+    bool wide = (references.x & wideBit) != 0u;
+    uint halves = wide ? i * 2u : i;
+    uint word = halves < 2u ? references.y : halves < 4u ? references.z : references.w;
+    return wide ? word : word >> (halves << 4 & 16u) & 0xFFFFu;
 }

@@ -4,21 +4,19 @@ out vec4 color;
 
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
-    uvec4 texel = cell.texel;
-    vec4 sum = solidColor(referencePaint(cell));
+    uvec4 references = firstReferences(cell);
+    vec4 sum = unpackColor(cell.texel.yz);
     for (;;) {
-        uint count = referenceCount(texel);
+        uint count = referenceCount(references);
         for (uint i = 0u; i < count; ++i) {
-            uint reference = referenceAt(texel, i), first = reference >> 2 << 1;
+            uint reference = referenceAt(references, i), first = reference >> 2 << 1;
             float weight = pieceWeight(patchPiece(patchTexel(first).xyz, cell.o), cell.way, reference);
             uvec4 colors = patchTexel(first + 1u);
-            vec4 left = vec4(colors.xxyy >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu);
-            vec4 right = vec4(colors.zzww >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu);
-            sum += weight / 65535.0 * (left - right);
+            sum += weight * (unpackColor(colors.xy) - unpackColor(colors.zw));
         }
-        if ((texel.x & moreBit) == 0u)
+        if ((references.x & moreBit) == 0u)
             break;
-        texel = patchTexel(texel.w);
+        references = patchTexel(references.w);
     }
-    color = sum;
+    color = sum / 65535.0;
 }

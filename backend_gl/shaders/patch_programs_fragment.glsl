@@ -23,10 +23,11 @@ vec4 regionColor(uint paint, vec2 point) {
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     vec2 point = patchPicture.xy + patchPicture.z * cell.o;
-    uvec4 texel = patchTexels.z == 0u ? cell.texel : uvec4(patchTexels.z - 1u, 0u, 0u, 0u);
+    bool flatPatch = patchTexels.z != 0u;
+    uvec4 references = flatPatch ? uvec4(0u) : firstReferences(cell);
     vec4 sum = vec4(0.0);
     float weight = 1.0;
-    uint paint = low(texel.x), other = 0u, side = 1u, i = 0u;
+    uint paint = flatPatch ? patchTexels.z - 1u : low(cell.texel.x), other = 0u, side = 1u, i = 0u;
     for (;;) {
         if (weight != 0.0)
             sum += weight * regionColor(paint, point);
@@ -36,13 +37,13 @@ void main() {
             weight = -weight;
             continue;
         }
-        if (i == referenceCount(texel)) {
-            if ((texel.x & moreBit) == 0u)
+        if (i == referenceCount(references)) {
+            if ((references.x & moreBit) == 0u)
                 break;
-            texel = patchTexel(texel.w);
+            references = patchTexel(references.w);
             i = 0u;
         }
-        uint reference = referenceAt(texel, i++);
+        uint reference = referenceAt(references, i++);
         uvec4 piece = patchTexel(reference >> 2 << 1);
         weight = pieceWeight(patchPiece(piece.xyz, cell.o), cell.way, reference);
         paint = low(piece.w);

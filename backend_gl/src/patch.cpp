@@ -146,14 +146,19 @@ Texel geometryTexel(const PlanarPiece& piece) {
     return packer.words();
 }
 
+/// Two words of a texel: 16-bit channels, nothing for programs.
+void addColor(Packer& packer, const asset::Paint& paint) {
+    for (const std::uint32_t channel : paint)
+        packer.add(paint[3] == asset::programTag
+                       ? 0
+                       : std::uint32_t(std::lround(std::bit_cast<float>(channel) * 65535)),
+                   16);
+}
+
 Texel colorTexel(const asset::Paint& left, const asset::Paint& right) {
     Packer packer;
-    for (const asset::Paint& paint : {left, right})
-        for (const std::uint32_t channel : paint)
-            packer.add(paint[3] == asset::programTag
-                           ? 0
-                           : std::uint32_t(std::lround(std::bit_cast<float>(channel) * 65535)),
-                       16);
+    addColor(packer, left);
+    addColor(packer, right);
     return packer.words();
 }
 
@@ -307,40 +312,60 @@ private:
 
 // ---- Cells ----------------------------------------------------------------------------------------
 
-/// Reads a cell's pieces into texels of references, the first of which is the cell's own.
-class ListWriter {
+/// Writes cells, and the references for which they have no room.
+class CellWriter {
 public:
-    ListWriter(const std::vector<PlanarPiece>& pieces, std::vector<Texel>& texels)
-        : pieces_(pieces), texels_(texels) {}
+    CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
+               std::vector<Texel>& texels)
+        : paints_(paints), pieces_(pieces), texels_(texels) {}
 
     Texel write(const Reference& reference, std::span<const std::uint32_t> list) {
         const bool wide = !list.empty() && list.back() >= narrowNumbers;
-        Texel first = part(reference, list, wide);
-        first[0] |= reference.paint | reference.place << 16;
-        return first;
+        const std::size_t room = wide ? 1 : 2;
+        Packer packer;
+        packer.add(reference.paint, 16);
+        packer.add(reference.place, 16);
+        addColor(packer, paints_[reference.paint]);
+        Texel cell = packer.words();
+        if (list.size() > room) {
+            cell[0] |= moreBit;
+            cell[3] = append(reference.point, list, wide);
+            return cell;
+        }
+        cell[0] |= countBits(list.size(), wide);
+        for (std::size_t i = 0; i < list.size(); ++i)
+            cell[3] |= referenceWord(list[i], reference.point) << (i * 16);
+        return cell;
     }
 
 private:
     static constexpr std::uint32_t narrowNumbers = 1u << 14;
 
-    Texel part(const Reference& reference, std::span<const std::uint32_t> list, bool wide) {
+    static std::uint32_t countBits(std::size_t count, bool wide) {
+        return std::uint32_t(count) << 20 | (wide ? wideBit : 0);
+    }
+
+    /// Returns the first texel.
+    std::uint32_t append(dvec2 point, std::span<const std::uint32_t> list, bool wide) {
         const std::size_t all = wide ? 3 : 6, some = wide ? 2 : 4;
-        const bool more = list.size() > all;
-        const std::size_t count = more ? some : list.size();
-        Texel texel{std::uint32_t(count) << 20 | (more ? moreBit : 0) | (wide ? wideBit : 0), 0, 0, 0};
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t word = referenceWord(list[i], reference.point);
-            if (wide)
-                texel[1 + i] = word;
-            else
-                texel[1 + i / 2] |= word << (i % 2 * 16);
+        const auto first = std::uint32_t(texels_.size());
+        while (!list.empty()) {
+            const bool more = list.size() > all;
+            const std::size_t count = more ? some : list.size();
+            Texel texel{countBits(count, wide) | (more ? moreBit : 0), 0, 0, 0};
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t word = referenceWord(list[i], point);
+                if (wide)
+                    texel[1 + i] = word;
+                else
+                    texel[1 + i / 2] |= word << (i % 2 * 16);
+            }
+            if (more)
+                texel[3] = std::uint32_t(texels_.size() + 1);
+            texels_.push_back(texel);
+            list = list.subspan(count);
         }
-        if (more) {
-            const Texel next = part(reference, list.subspan(count), wide);
-            texel[3] = std::uint32_t(texels_.size());
-            texels_.push_back(next);
-        }
-        return texel;
+        return first;
     }
 
     std::uint32_t referenceWord(std::uint32_t number, dvec2 point) const {
@@ -348,6 +373,7 @@ private:
         return number << 2 | (at.leftOfCurve ? leftOfCurveBit : 0) | (at.leftOfChord ? leftOfChordBit : 0);
     }
 
+    std::span<const asset::Paint> paints_;
     const std::vector<PlanarPiece>& pieces_;
     std::vector<Texel>& texels_;
 };
@@ -376,7 +402,7 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
     }
     std::vector<Texel> cells;
     cells.reserve(cellCount * cellCount);
-    ListWriter writer(pieces, patch.texels);
+    CellWriter writer(source.asset.paints, pieces, patch.texels);
     Walk walk(pieces);
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)

@@ -40,19 +40,23 @@ inline constexpr unsigned patchStepLog2 = 16, patchCoordinateBits = 18;
 inline constexpr float patchSlopeScale = 2047;
 /// Sides of the reference point that go with each piece.
 inline constexpr std::uint32_t leftOfChordBit = 1, leftOfCurveBit = 2;
-/// Bits of a list's first word: more texels follow; references are whole words.
+/// Bits of the first word of a texel of references: more texels follow; references are whole words.
 inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24;
 
 /// `texels` holds the pieces, the rest of the longer lists and, from `firstCell`, the cells row by row;
-/// nothing if the patch has one paint.
+/// nothing if the patch has one paint. Fields are packed from the lowest bit of the first word on.
 ///
-/// Piece, two texels. First: a.x, a.y, b.x, b.y (18 bits each), slopes at a and b (12 bits each, signed),
-/// packed from the lowest bit on; left | right << 16. Second: the colours on the left and on the right,
-/// premultiplied 16-bit unorm red, green, blue, alpha, of solid paints. Cell, one texel: paint at the
-/// reference point | place of the reference point << 16 | n << 20 | moreBit | wideBit; then n references to
-/// pieces in half words, six at most. With moreBit there are four at most, and the last word is the texel
-/// with the next ones, which has no paint and place. With wideBit they are words: three, or two with moreBit.
-/// Reference: number of the piece << 2 | leftOfCurveBit | leftOfChordBit, as the cell's reference point lies.
+/// - Piece, two texels. First: a.x, a.y, b.x, b.y (18 bits each), slopes at a and b (12 bits each, signed);
+///   left | right << 16. Second: the colours on the left and on the right, premultiplied 16-bit unorm red,
+///   green, blue, alpha, of solid paints.
+/// - Reference, to a piece: its number << 2 | leftOfCurveBit | leftOfChordBit, as the reference point lies.
+/// - References, one texel: n << 20 | moreBit | wideBit; then n of them in half words, six at most; with
+///   moreBit four at most, the last word being the texel with the next ones. With wideBit they are words:
+///   three, or two with moreBit.
+/// - Cell, one texel: paint at the reference point | place of that point << 16 | as above; the paint's colour
+/// as
+///   in a piece; then two references in half words at most, or one word with wideBit, or with moreBit, n
+///   being 0, the texel with the first ones.
 struct Patch {
     std::uint32_t paint = 0;  ///< of a patch without texels
     std::vector<asset::Texel> texels;

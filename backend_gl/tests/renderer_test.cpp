@@ -36,7 +36,7 @@ Worst worst(const image::Raster& a, const image::Raster& b) {
 /// Straight edges are exact in both, which differ by roundings (docs/coverage.md).
 constexpr double twinTolerance = 0.25 / 255;
 /// Curves: the evaluator sums four chords, the shader a chord and what lies between it and the curve.
-constexpr double curveTolerance = 1.0 / 255;
+constexpr double curveTolerance = 2.0 / 255;
 
 void expectTwins(Renderer& renderer, const Asset& asset, int views = 25, double tolerance = twinTolerance) {
     ASSERT_NO_THROW(asset::validate(asset));
