@@ -13,6 +13,9 @@ namespace vtm::gl {
 
 namespace {
 
+using asset::Change;
+using asset::latticeExtent;
+using asset::Sides;
 using asset::Texel;
 using glm::dvec2;
 

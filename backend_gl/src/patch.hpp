@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "asset/asset.hpp"
-#include "backend_gl/src/planar_map.hpp"
+#include "asset/planar_map.hpp"
 
 namespace vtm::gl {
+
+using asset::PlanarPiece;
 
 /// Which square: squares have the map's side / 2^level, level below 0 being larger than the map; (0, 0) is
 /// the one at the map's least corner. There are squares outside the map, too: its border belongs to pixels

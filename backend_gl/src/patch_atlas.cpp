@@ -14,6 +14,7 @@ namespace vtm::gl {
 
 namespace {
 
+using asset::latticeExtent;
 using asset::Texel;
 using glm::dvec2;
 

@@ -1,4 +1,4 @@
-#include "backend_gl/src/planar_map.hpp"
+#include "asset/planar_map.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,30 +9,24 @@
 
 #include "asset/walk.hpp"
 
-namespace vtm::gl {
+namespace vtm::asset {
 
 namespace {
 
-using asset::AssetView;
-using asset::Cell;
-using asset::Entry;
-using asset::Leaf;
-using asset::Piece;
 using glm::dvec2;
 
-double stepOf(Cell cell) { return std::ldexp(1.0, 2 * int(asset::maxLevel - cell.level)); }
+double stepOf(Cell cell) { return std::ldexp(1.0, 2 * int(maxLevel - cell.level)); }
 
 /// Of a leaf's point, or with the numbers 0 and leafExtent of a square's corner.
 dvec2 onLattice(Cell cell, std::uint32_t x, std::uint32_t y) {
-    return stepOf(cell) *
-           dvec2(double(cell.x) * asset::leafExtent + x, double(cell.y) * asset::leafExtent + y);
+    return stepOf(cell) * dvec2(double(cell.x) * leafExtent + x, double(cell.y) * leafExtent + y);
 }
 
 PlanarPiece planar(Cell cell, const Piece& piece) {
     return {onLattice(cell, piece.a[0], piece.a[1]),
             onLattice(cell, piece.b[0], piece.b[1]),
-            float(piece.slopeA) / asset::slopeScale,
-            float(piece.slopeB) / asset::slopeScale,
+            float(piece.slopeA) / slopeScale,
+            float(piece.slopeB) / slopeScale,
             piece.left,
             piece.right};
 }
@@ -47,9 +41,9 @@ std::uint32_t along(int side, const std::array<std::uint16_t, 2>& p) {
         case 1:
             return y;
         case 2:
-            return asset::leafExtent - x;
+            return leafExtent - x;
         default:
-            return asset::leafExtent - y;
+            return leafExtent - y;
     }
 }
 
@@ -60,9 +54,9 @@ void changesOf(std::span<const Piece> pieces, ChangesBySide& sides) {
     for (std::vector<Change>& side : sides)
         side.clear();
     for (const Piece& p : pieces) {
-        if (const int side = asset::sideOf(p.a); side >= 0)
+        if (const int side = sideOf(p.a); side >= 0)
             sides[unsigned(side)].push_back({along(side, p.a), p.left, p.right});
-        if (const int side = asset::sideOf(p.b); side >= 0)
+        if (const int side = sideOf(p.b); side >= 0)
             sides[unsigned(side)].push_back({along(side, p.b), p.right, p.left});
     }
     for (std::vector<Change>& side : sides)
@@ -83,8 +77,8 @@ void forEachStretch(std::uint32_t corner, std::span<const Change> changes, Visit
         paint = paintBehind(paint, changes.subspan(i, end - i));
         i = end;
     }
-    if (from < asset::leafExtent)
-        visit(from, asset::leafExtent, paint);
+    if (from < leafExtent)
+        visit(from, leafExtent, paint);
 }
 
 /// What a square shows along a part of one of its borders.
@@ -105,7 +99,7 @@ struct Borders {
 
 void addStretches(Cell cell, std::uint32_t corner, std::span<const Change> changes, unsigned side,
                   std::array<Borders, 2>& borders) {
-    const dvec2 min = onLattice(cell, 0, 0), max = onLattice(cell, asset::leafExtent, asset::leafExtent);
+    const dvec2 min = onLattice(cell, 0, 0), max = onLattice(cell, leafExtent, leafExtent);
     const bool horizontal = side % 2 == 0, forward = side < 2;
     const double line = horizontal ? (side == 0 ? min.y : max.y) : (side == 1 ? max.x : min.x);
     Borders& borderLines = borders[horizontal ? 0 : 1];
@@ -176,7 +170,7 @@ Found find(const AssetView& asset, Entry entry, dvec2 point) {
     Cell cell;
     while (entry.kind() == Entry::Kind::Node) {
         ++cell.level;
-        const double side = stepOf(cell) * asset::leafExtent;
+        const double side = stepOf(cell) * leafExtent;
         const auto child = [&](double p, std::uint32_t parent) {
             return std::uint32_t(std::clamp(std::floor(p / side), parent * 4.0, parent * 4.0 + 3));
         };
@@ -191,7 +185,7 @@ Found find(const AssetView& asset, Entry entry, dvec2 point) {
 std::uint32_t paintOnLeft(Cell cell, const Leaf& leaf, std::span<const Piece> own, double y) {
     ChangesBySide sides;
     changesOf(own, sides);
-    const double fromTop = (onLattice(cell, 0, asset::leafExtent).y - y) / stepOf(cell);
+    const double fromTop = (onLattice(cell, 0, leafExtent).y - y) / stepOf(cell);
     std::uint32_t paint = leaf.corners[3];
     forEachStretch(leaf.corners[3], sides[3], [&](std::uint32_t from, std::uint32_t to, std::uint32_t here) {
         if (from < fromTop && fromTop < to)
@@ -234,11 +228,11 @@ double PlanarPiece::bulge() const {
     return 4.0 / 27 * (std::abs(double(slopeA)) + std::abs(double(slopeB))) * glm::length(b - a);
 }
 
-std::vector<PlanarPiece> planarPieces(const AssetView& asset, const asset::Map& map) {
+std::vector<PlanarPiece> planarPieces(const AssetView& asset, const Map& map) {
     std::vector<PlanarPiece> pieces;
     std::array<Borders, 2> borders;
     ChangesBySide sides;
-    asset::walk(asset, map.root, [&](Cell cell, Entry entry) {
+    walk(asset, map.root, [&](Cell cell, Entry entry) {
         std::array<std::uint32_t, 4> corners;
         std::span<const Piece> own;
         corners.fill(entry.payload());
@@ -262,7 +256,7 @@ std::vector<PlanarPiece> planarPieces(const AssetView& asset, const asset::Map& 
 /// The paint on the leaf's border at the left of the point, and the changes on the way from there: the leaf's
 /// chords between, and the curves, some of which bulge over from other leaves, that lie on the point's other
 /// side than their chords.
-std::uint32_t paintAt(const AssetView& asset, const asset::Map& map, dvec2 point,
+std::uint32_t paintAt(const AssetView& asset, const Map& map, dvec2 point,
                       std::span<const PlanarPiece* const> near) {
     const double extent = double(latticeExtent);
     if (!(point.x >= 0 && point.y >= 0 && point.x <= extent && point.y <= extent))
@@ -284,4 +278,4 @@ std::uint32_t paintAt(const AssetView& asset, const asset::Map& map, dvec2 point
     return paintBehind(paint, changes);
 }
 
-}  // namespace vtm::gl
+}  // namespace vtm::asset

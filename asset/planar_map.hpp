@@ -15,24 +15,24 @@
 
 #include "asset/asset.hpp"
 
-namespace vtm::gl {
+namespace vtm::asset {
 
 /// Lattice coordinates: steps of a leaf of the deepest level, 0 to latticeExtent from one border of the
 /// map to the other. End points of every level lie on it exactly, and so in a double.
-inline constexpr std::int64_t latticeExtent = std::int64_t(asset::leafExtent) << (2 * asset::maxLevel);
+inline constexpr std::int64_t latticeExtent = std::int64_t(leafExtent) << (2 * maxLevel);
 
 /// Where a point lies. Beyond the ends of a piece both are the chord's.
 struct Sides {
     bool leftOfChord, leftOfCurve;
 };
 
-/// asset::Piece in lattice coordinates, or in others.
+/// Piece in lattice coordinates, or in others.
 struct PlanarPiece {
     glm::dvec2 a, b;
     float slopeA = 0, slopeB = 0;
     std::uint32_t left = 0, right = 0;
 
-    /// t(s) of asset::Piece, in chord lengths.
+    /// t(s) of Piece, in chord lengths.
     double height(double s) const {
         const double r = 1 - s;
         return s * r * (double(slopeA) * r - double(slopeB) * s);
@@ -53,11 +53,11 @@ struct Change {
 std::uint32_t paintBehind(std::uint32_t paint, std::span<const Change> changes);
 
 /// All of a map's boundaries, those with paint 0 around it included; outside the map lies paint 0.
-std::vector<PlanarPiece> planarPieces(const asset::AssetView& asset, const asset::Map& map);
+std::vector<PlanarPiece> planarPieces(const AssetView& asset, const Map& map);
 
 /// The paint at a point, lattice coordinates. Its y must not be that of any end point or corner: take one
 /// that is no whole number. `near`: at least the pieces with the point between curve and chord.
-std::uint32_t paintAt(const asset::AssetView& asset, const asset::Map& map, glm::dvec2 point,
+std::uint32_t paintAt(const AssetView& asset, const Map& map, glm::dvec2 point,
                       std::span<const PlanarPiece* const> near);
 
-}  // namespace vtm::gl
+}  // namespace vtm::asset

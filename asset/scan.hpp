@@ -1,0 +1,44 @@
+/// \file
+/// Drawing exact pictures on the CPU, fast: every piece of boundary adds the change of colour that it means
+/// for the pixels on its right, and running sums along the rows make pixels of the changes. The work is that
+/// of the boundaries' pixels; all others are filled. Any affine view, no index, nothing prepared for a scale.
+/// docs/coverage.md has the sum; the idea of summing along rows is old (accumulation buffers of glyph
+/// rasterizers), colours instead of coverage are what disjoint regions allow.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "asset/asset.hpp"
+#include "asset/evaluate.hpp"
+#include "asset/view.hpp"
+
+namespace vtm::asset {
+
+/// Premultiplied sRGB-encoded bytes red, green, blue, alpha; rows from the top.
+struct ByteTarget {
+    std::uint8_t* pixels = nullptr;
+    std::size_t rowBytes = 0;  ///< from one row to the next, at least 4 · view.width
+};
+
+/// Of one asset; keeps what it needs of it. Safe to use from several threads at once.
+class Scanner {
+public:
+    /// `asset` must be valid and in exact mode: std::invalid_argument else.
+    explicit Scanner(const AssetView& asset);
+    ~Scanner();
+    Scanner(Scanner&&) noexcept;
+    Scanner& operator=(Scanner&&) noexcept;
+
+    /// Replaces every pixel, rounded to nearest. Throws std::length_error if the view is beyond its limits.
+    void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
+    /// As evaluate() draws.
+    image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vtm::asset

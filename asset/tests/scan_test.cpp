@@ -1,0 +1,114 @@
+// The scanner against the evaluator, which sums leaf by leaf.
+
+#include "asset/scan.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "asset/container.hpp"
+#include "asset/evaluate.hpp"
+#include "asset/testing.hpp"
+#include "asset/testing_views.hpp"
+
+namespace vtm::asset::test {
+namespace {
+
+double worst(const image::Raster& a, const image::Raster& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        worst = std::max(worst, std::abs(double(a.rgba[i]) - double(b.rgba[i])));
+    return worst;
+}
+
+/// Both are exact but for the roundings of single precision.
+constexpr double straight = 0.25 / 255;
+/// The evaluator's four chords are off by 1.1/255 at most (docs/coverage.md), the scanner's by a third.
+constexpr double curved = 1.5 / 255;
+
+void expectSame(const Asset& asset, double tolerance, int views = 40) {
+    ASSERT_NO_THROW(validate(asset));
+    const Scanner scanner(asset);
+    std::mt19937 random(3);
+    for (int i = 0; i < views; ++i) {
+        const View view = randomView(random);
+        ASSERT_LE(worst(scanner.draw(view), evaluate(asset, view)), tolerance) << "view " << i;
+    }
+}
+
+TEST(Scan, HalfPlane) { expectSame(halfPlane(), straight); }
+TEST(Scan, Wedge) { expectSame(wedge(), straight); }
+TEST(Scan, Strip) { expectSame(strip(), straight); }
+TEST(Scan, ThreeRegions) { expectSame(threeRegions(), straight); }
+TEST(Scan, TwoLevelTree) { expectSame(twoLevels(), straight); }
+TEST(Scan, Arcs) { expectSame(disc(), curved); }
+TEST(Scan, EveryPaint) { expectSame(everyPaint(), straight); }
+
+TEST(Scan, EveryBlendMode) {
+    for (unsigned mode = 0; mode <= unsigned(Blend::PlusLighter); ++mode)
+        expectSame(blendAsset(Blend(mode)), straight, 4);
+}
+
+TEST(Scan, BytesAreTheRasterRounded) {
+    const Scanner scanner(disc());
+    std::mt19937 random(7);
+    for (int i = 0; i < 10; ++i) {
+        const View view = randomView(random);
+        const image::Raster raster = scanner.draw(view);
+        const std::size_t rowBytes = std::size_t(view.width) * 4 + 12;
+        std::vector<std::uint8_t> bytes(rowBytes * std::size_t(view.height), 77);
+        scanner.draw(view, {bytes.data(), rowBytes});
+        for (int y = 0; y < view.height; ++y) {
+            const std::uint8_t* row = &bytes[std::size_t(y) * rowBytes];
+            for (int x = 0; x < view.width * 4; ++x)
+                ASSERT_EQ(int(row[x]), int(raster.pixel(0, y)[x] * 255.0f + 0.5f)) << x << ' ' << y;
+            for (std::size_t x = std::size_t(view.width) * 4; x < rowBytes; ++x)
+                ASSERT_EQ(row[x], 77);
+        }
+    }
+}
+
+/// What one picture leaves behind is nothing to the next, whatever its size.
+TEST(Scan, PicturesOfManySizesOneAfterTheOther) {
+    const Scanner scanner(everyPaint());
+    std::mt19937 random(9);
+    for (int i = 0; i < 20; ++i) {
+        View view = randomView(random);
+        view.width = 1 + int(random() % 200);
+        view.height = 1 + int(random() % 70);
+        ASSERT_EQ(scanner.draw(view).rgba, Scanner(everyPaint()).draw(view).rgba);
+    }
+}
+
+TEST(Scan, SeveralThreadsAtOnce) {
+    const Scanner scanner(everyPaint());
+    const View view = turnedView(120, 90, {32, 32}, 1.5, 0.4);
+    const image::Raster expected = scanner.draw(view);
+    std::vector<image::Raster> drawn(6);
+    std::vector<std::thread> threads;
+    for (image::Raster& raster : drawn)
+        threads.emplace_back([&] { raster = scanner.draw(view); });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (const image::Raster& raster : drawn)
+        EXPECT_EQ(raster.rgba, expected.rgba);
+}
+
+TEST(Scan, NothingToDraw) {
+    Asset empty = emptyAsset();
+    empty.commands.clear();
+    EXPECT_EQ(Scanner(empty).draw({3, 2, {}}).rgba, std::vector<float>(24));
+    const Scanner scanner(halfPlane());
+    EXPECT_EQ(scanner.draw({4, 4, glm::dmat3x2(1, 1, 2, 2, 0, 0)}).rgba, std::vector<float>(64));
+    EXPECT_TRUE(scanner.draw({0, 5, {}}).rgba.empty());
+}
+
+TEST(Scan, RefusesWhatItCannotDraw) {
+    EXPECT_THROW(Scanner{layers()}, std::invalid_argument);
+    EXPECT_THROW(Scanner(halfPlane()).draw({maxViewSide + 1, 1, {}}), std::length_error);
+}
+
+}  // namespace
+}  // namespace vtm::asset::test
