@@ -24,8 +24,9 @@ struct Cell {
 
 Cell cellAt(vec2 pixel) {
     const float side = float(1u << patchCellsLog2);
-    // Between the steps on which end points lie, so that none of them is O, which has no direction to itself.
-    vec2 o = (floor(times(pixelToPatch, pixel - patchOrigin) / patchStep) + 0.5) * patchStep;
+    // Off the steps on which end points lie, and off the diagonals and axes through them, so that O is no end point,
+    // which has no direction to itself, and lies on few chords of upright views.
+    vec2 o = (floor(times(pixelToPatch, pixel - patchOrigin) / patchStep) + vec2(0.25, 0.625)) * patchStep;
     vec2 place = clamp(floor(o * side), 0.0, side - 1.0);
     uvec4 texel = patchTexel(patchTexels.y + (uint(place.y) << patchCellsLog2) + uint(place.x));
     uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <glm/common.hpp>
@@ -29,6 +30,10 @@ constexpr double longestPiece = 0.75, longestPart = 0.5;
 /// Into at least so many: the part of a cubic over its own chord is a cubic no more, but within L (1/8)^4 · 4
 /// / 384 = 2.5e-6 of the length L.
 constexpr double fewestParts = 8;
+
+/// What a curve may leave its tangent by within a pixel, in pixels: the shader looks for the ends of the part
+/// in the box on the tangent, and what it misses there is about the square of that.
+constexpr double flatEnough = 0.006;
 
 double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -94,11 +99,23 @@ private:
         local.a = (piece.a - corner_) / side_;
         local.b = (piece.b - corner_) / side_;
         const double length = glm::length(local.b - local.a);
-        if (length <= longestPiece)
+        const double parts =
+            std::max(length <= longestPiece ? 1.0 : std::max(fewestParts, std::ceil(length / longestPart)),
+                     std::ceil(length / longestBend(local, length)));
+        if (parts == 1)
             return addRounded(local);
-        const double parts = std::max(fewestParts, std::ceil(length / longestPart));
         for (double i = 0; i < parts; ++i)
             addRounded(partOf(local, i / parts, (i + 1) / parts));
+    }
+
+    /// A length over which the piece bends away from its tangents by no more than the shader may ignore.
+    double longestBend(const PlanarPiece& piece, double length) const {
+        const double turn = std::abs(double(piece.slopeA) - double(piece.slopeB)) +
+                            std::abs(double(piece.slopeA) + double(piece.slopeB));
+        const double pixel = margin_ * std::numbers::sqrt2, curvature = turn / length;
+        const double most = flatEnough * pixel * 8 / curvature;
+        // Within a box of one pixel nothing longer matters.
+        return most >= pixel * pixel ? HUGE_VAL : std::sqrt(most);
     }
 
     void addRounded(PlanarPiece piece) {

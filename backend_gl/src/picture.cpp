@@ -67,12 +67,13 @@ public:
     }
     double side() const { return side_; }
 
-    /// Whether the rectangle of squares [from, to) can show.
-    bool visible(i64vec2 from, i64vec2 to) const {
+    /// Whether a square can show.
+    bool visible(i64vec2 at) const {
         dvec2 least(HUGE_VAL), most(-HUGE_VAL);
-        for (const i64vec2 p : {from, i64vec2(to.x, from.y), i64vec2(from.x, to.y), to}) {
-            least = glm::min(least, pixel(p.x, p.y));
-            most = glm::max(most, pixel(p.x, p.y));
+        for (const i64vec2 corner : {i64vec2(0, 0), i64vec2(1, 0), i64vec2(0, 1), i64vec2(1, 1)}) {
+            const dvec2 p = pixel(at.x + corner.x, at.y + corner.y);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
         }
         return most.x > 0 && most.y > 0 && least.x < view_.width && least.y < view_.height;
     }
@@ -85,13 +86,12 @@ private:
     const asset::View& view_;
 };
 
-/// Two triangles for the rectangle of squares [from, to).
+/// Two triangles.
 template <class Vertex>
-void addRectangle(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 from, i64vec2 to,
-                  Vertex vertex) {
-    for (const i64vec2 p : {from, i64vec2(to.x, from.y), i64vec2(from.x, to.y), i64vec2(from.x, to.y),
-                            i64vec2(to.x, from.y), to}) {
-        const dvec2 pixel = squares.pixel(p.x, p.y);
+void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at, Vertex vertex) {
+    for (const i64vec2 corner :
+         {i64vec2(0, 0), i64vec2(1, 0), i64vec2(0, 1), i64vec2(0, 1), i64vec2(1, 0), i64vec2(1, 1)}) {
+        const dvec2 pixel = squares.pixel(at.x + corner.x, at.y + corner.y);
         vertex.position[0] = float(pixel.x);
         vertex.position[1] = float(pixel.y);
         vertices.push_back(vertex);
@@ -118,32 +118,22 @@ PatchVertex patchVertex(const Squares& squares, const Placed& patch, std::int64_
             {float(picture.x), float(picture.y), float(squares.side()), 0}};
 }
 
-/// Neighbours in a row with one paint make one rectangle.
+/// Each patch by itself: a longer rectangle would have corners of its neighbours on its edges, where rounding
+/// leaves gaps.
 Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
                     const std::vector<const Placed*>& patches) {
     Geometry geometry;
-    const std::int64_t columns = squares.max.x - squares.min.x;
+    auto next = patches.begin();
     for (std::int64_t y = squares.min.y; y < squares.max.y; ++y)
-        for (std::int64_t x = squares.min.x; x < squares.max.x;) {
-            const auto at = [&](std::int64_t column) -> const Placed& {
-                return *patches[std::size_t((y - squares.min.y) * columns + column - squares.min.x)];
-            };
-            const Placed& patch = at(x);
-            std::int64_t end = x + 1;
-            if (patch.flat)
-                while (end < squares.max.x && at(end).flat && at(end).paint == patch.paint)
-                    ++end;
-            const i64vec2 from(x, y), to(end, y + 1);
-            if (squares.visible(from, to)) {
-                if (patch.flat && !patch.programs) {
-                    if (patch.paint != 0)
-                        addRectangle(geometry.flat, squares, from, to, flatVertex(asset.paints[patch.paint]));
-                } else {
-                    addRectangle(patch.programs ? geometry.programs : geometry.solid, squares, from, to,
-                                 patchVertex(squares, patch, x, y));
-                }
-            }
-            x = end;
+        for (std::int64_t x = squares.min.x; x < squares.max.x; ++x) {
+            const Placed& patch = **next++;
+            if (!squares.visible({x, y}))
+                continue;
+            if (!patch.flat || patch.programs)
+                addSquare(patch.programs ? geometry.programs : geometry.solid, squares, {x, y},
+                          patchVertex(squares, patch, x, y));
+            else if (patch.paint != 0)
+                addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[patch.paint]));
         }
     return geometry;
 }

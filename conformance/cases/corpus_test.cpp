@@ -59,6 +59,15 @@ TEST_P(Corpus, CpuEvaluatorAgrees) {
     }
 }
 
+TEST_P(Corpus, ScannerAgrees) {
+    Gl gl;
+    const Measurement measured(GetParam().name);
+    for (const int size : {1024, 64}) {
+        const compare::Difference d = measured.scanToGl(gl, size);
+        EXPECT_LE(d.max, assetMax) << size << " px, at " << d.worstX << ", " << d.worstY;
+    }
+}
+
 TEST_P(Corpus, ReferenceAgrees) {
     Gl gl;
     const Measurement measured(GetParam().name);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "asset/evaluate.hpp"
+#include "asset/scan.hpp"
 #include "compiler/compile.hpp"
 #include "conformance/cases/measure.hpp"
 #include "conformance/reference/reference.hpp"
@@ -38,6 +39,7 @@ TEST_P(Example, ExactEnginesAgree) {
     const asset::Asset asset = compiled(asset::Mode::Exact);
     const image::Raster drawn = gl.render(asset, view_);
     EXPECT_LE(compare::compare(drawn, asset::evaluate(asset, view_)).max, assetMax);
+    EXPECT_LE(compare::compare(drawn, asset::Scanner(asset).draw(view_)).max, assetMax);
     const compare::Difference d = compare::compare(drawn, reference(reference::Mode::Exact));
     EXPECT_LE(d.max, referenceMax) << "at " << d.worstX << ", " << d.worstY;
     EXPECT_LE(d.rms, referenceRms);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "asset/evaluate.hpp"
+#include "asset/scan.hpp"
 #include "conformance/reference/reference.hpp"
 
 namespace vtm::cases {
@@ -27,6 +28,11 @@ compare::Difference Measurement::glToReference(Gl& gl, int size) const {
     const asset::View view = wholePicture(scene_, size);
     const reference::View same{view.width, view.height, view.toPixels};
     return compare::compare(gl.render(asset_, view), reference::render(scene_, same));
+}
+
+compare::Difference Measurement::scanToGl(Gl& gl, int size) const {
+    const asset::View view = wholePicture(scene_, size);
+    return compare::compare(asset::Scanner(asset_).draw(view), gl.render(asset_, view));
 }
 
 }  // namespace vtm::cases

@@ -18,6 +18,8 @@ public:
     compare::Difference glToTruth(Gl& gl, int size) const;
     compare::Difference glToAsset(Gl& gl, int size) const;
     compare::Difference glToReference(Gl& gl, int size) const;
+    /// The scanner's picture against the shaders'.
+    compare::Difference scanToGl(Gl& gl, int size) const;
 
     const scene::Scene& scene() const { return scene_; }
     const asset::Asset& asset() const { return asset_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "asset/scan.hpp"
 #include "compiler/compile.hpp"
 #include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
@@ -52,12 +53,14 @@ protected:
     void expectCoverage(const Path& path, Point focus, double bound, const std::string& what) {
         const asset::Asset asset = compiler::compile(sceneOf(path, GetParam(), side)).asset;
         const gl::Texture texture = gl_.renderer.upload(asset);
+        const asset::Scanner scanner(asset);
         for (int i = 0; i < views; ++i) {
             const asset::View view = randomView(random_, focus);
             const auto coverage = reference::fillCoverage(path, scene::identity, GetParam(),
                                                           {view.width, view.height, view.toPixels});
             EXPECT_LE(worstError(gl_.renderer.render(texture, view), coverage), bound)
                 << what << ", view " << i;
+            EXPECT_LE(worstError(scanner.draw(view), coverage), bound) << what << " scanned, view " << i;
         }
     }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "asset/evaluate.hpp"
+#include "asset/scan.hpp"
 #include "backend_gl/paper.hpp"
 #include "backend_gl/renderer.hpp"
 #include "conformance/reference/reference.hpp"
@@ -51,6 +52,20 @@ public:
     }
 };
 
+/// The fastest without a GPU, for exact pictures.
+class CpuEngine : public Engine {
+public:
+    image::Raster render(Source& source, const asset::View& view) override {
+        if (source.paper || source.asset->mode != asset::Mode::Exact)
+            throw std::runtime_error("the cpu engine draws exact pictures only");
+        if (!source.asset->materials.empty())
+            printWarning("warning: no GLSL runs on the CPU; materials have their fallback colours");
+        const asset::Scanner scanner =
+            timed(source.stages, "upload", [&] { return asset::Scanner(*source.asset); });
+        return timed(source.stages, "render", [&] { return scanner.draw(view); });
+    }
+};
+
 class ReferenceEngine : public Engine {
 public:
     explicit ReferenceEngine(asset::Mode mode) {
@@ -74,11 +89,13 @@ private:
 std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode) {
     if (name == "gl")
         return std::make_unique<GlEngine>();
+    if (name == "cpu")
+        return std::make_unique<CpuEngine>();
     if (name == "asset")
         return std::make_unique<AssetEngine>();
     if (name == "reference")
         return std::make_unique<ReferenceEngine>(mode);
-    throw UsageError("--engine: '" + name + "' is none of gl, asset, reference");
+    throw UsageError("--engine: '" + name + "' is none of gl, cpu, asset, reference");
 }
 
 }  // namespace vtm::tools

@@ -20,7 +20,8 @@ public:
     virtual image::Raster render(Source& source, const asset::View& view) = 0;
 };
 
-/// "gl", "asset" or "reference". Contexts and programs are made at the first picture and kept.
+/// "gl", "cpu" (the scanner), "asset" (the shaders' twin) or "reference". Contexts and programs are made at
+/// the first picture and kept.
 std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode);
 
 }  // namespace vtm::tools

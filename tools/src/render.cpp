@@ -145,7 +145,10 @@ void addRender(CLI::App& app, int& exitCode) {
         ->excludes(output);
     addFramingOptions(*command, options->framing);
     command->add_option("--background", options->background, "The ground's colour")->capture_default_str();
-    command->add_option("--engine", options->engine, "gl, asset (CPU) or reference (slow)")
+    command
+        ->add_option("--engine", options->engine,
+                     "gl, cpu (fast without a GPU, exact mode), asset (the shaders' twin, slow) or reference "
+                     "(exact, slower)")
         ->capture_default_str();
     command->add_flag("--json", options->json, "Print figures and times, a line of JSON a picture");
     addSourceOptions(*command, options->source);
