@@ -2,11 +2,13 @@
 /// Draws assets with OpenGL ES 3.0: upload once, draw under any affine view.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "asset/asset.hpp"
 #include "asset/view.hpp"
 #include "backend_gl/context.hpp"
+#include "backend_gl/output.hpp"
 #include "image/bitmap.hpp"
 
 namespace vtm::gl {
@@ -25,11 +27,28 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+struct RendererOptions {
+    /// Whether every call leaves GL's state as it found it (docs/backend.md). Without, what a call may touch
+    /// is anything afterwards.
+    bool restoreState = true;
+    /// Returns GL's graphics reset status, 0 for none; empty: the driver's own, where it has one.
+    std::function<unsigned()> resetStatus;
+};
+
 /// The programs, each compiled once, when first needed; GlError with the driver's log where one does
-/// not compile. Needs a current context for its whole life.
+/// not compile.
+///
+/// Works in the context that is current when it is made, ours or the user's, which must be current in every
+/// call: GlError otherwise. GL's state may be anything. Destroyed with its context current it frees its
+/// objects; without, they are left to the context's end. Destroy renderers of a context that is gone before
+/// making the next: EGL may use its name again.
+///
+/// Every call may throw OutOfMemory, after which the renderer goes on working, and ContextLost, after which
+/// every other does, too.
 class Renderer {
 public:
-    Renderer();
+    /// Throws GlError if no context is current or what it can do is not enough.
+    explicit Renderer(const RendererOptions& options = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -42,8 +61,21 @@ public:
     /// Draws on transparent black into a texture of the renderer's own and reads it back.
     image::Raster render(const Texture& texture, const asset::View& view);
 
+    /// The same in 8 bits, which is faster: within 1/255 of image::toBitmap(render()) where alpha is not 0.
+    image::Bitmap renderBitmap(const Texture& texture, const asset::View& view);
+
+    /// Draws into a framebuffer of the user's. Does not wait for the GPU. Throws std::invalid_argument for an
+    /// Output that contradicts itself.
+    void draw(const Texture& texture, const asset::View& view, const Output& output);
+
     /// Draws and waits for the GPU without reading back (for measuring).
     void draw(const Texture& texture, const asset::View& view);
+
+    /// Whether the context was reset, as far as the driver tells.
+    bool lost() const;
+
+    /// Programs made so far.
+    unsigned programCount() const;
 
 private:
     struct Impl;

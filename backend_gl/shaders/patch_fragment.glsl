@@ -1,22 +1,22 @@
-// A patch whose regions all have solid colours. Requires: cell.glsl, fetch.glsl.
+// A patch whose regions all have solid colours. Requires: cell.glsl, fetch.glsl, output.glsl.
 
 out vec4 color;
 
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     uvec4 references = firstReferences(cell);
-    vec4 sum = unpackColor(cell.texel.yz);
+    vec4 sum = regionValue(unpackColor(cell.texel.yz));
     for (;;) {
         uint count = referenceCount(references);
         for (uint i = 0u; i < count; ++i) {
             uint reference = referenceAt(references, i), first = reference >> 2 << 1;
             float weight = pieceWeight(patchPiece(patchTexel(first).xyz, cell.o), cell.way, reference);
             uvec4 colors = patchTexel(first + 1u);
-            sum += weight * (unpackColor(colors.xy) - unpackColor(colors.zw));
+            sum += weight * (regionValue(unpackColor(colors.xy)) - regionValue(unpackColor(colors.zw)));
         }
         if ((references.x & moreBit) == 0u)
             break;
         references = patchTexel(references.w);
     }
-    color = sum / 65535.0;
+    color = outputColor(sum);
 }

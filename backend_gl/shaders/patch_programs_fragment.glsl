@@ -1,4 +1,4 @@
-// A patch with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl.
+// A patch with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl, output.glsl.
 
 out vec4 color;
 
@@ -11,7 +11,7 @@ vec4 regionColor(uint paint, vec2 point) {
         return recentColor;
     uint swappedPaint = recentPaint;
     vec4 swappedColor = recentColor;
-    recentColor = paint == olderPaint ? olderColor : paintColor(paint, point);
+    recentColor = paint == olderPaint ? olderColor : regionValue(paintColor(paint, point));
     recentPaint = paint;
     olderPaint = swappedPaint;
     olderColor = swappedColor;
@@ -49,5 +49,5 @@ void main() {
         paint = low(piece.w);
         other = high(piece.w);
     }
-    color = sum;
+    color = outputColor(sum);
 }

@@ -80,7 +80,8 @@ struct Context::Impl {
         if (display == EGL_NO_DISPLAY)
             return;
         // The display stays initialised: EGL shares it with every other context of the process.
-        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (eglGetCurrentContext() == context)
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context != EGL_NO_CONTEXT)
             eglDestroyContext(display, context);
     }
@@ -90,8 +91,23 @@ namespace {
 
 std::string refusal(const char* what) { return fmt::format("{} failed (0x{:04x})", what, eglGetError()); }
 
+/// With notice of resets if it is wanted and can be had.
+EGLContext createContext(EGLDisplay display, EGLConfig config, EGLContext share, bool robust) {
+    std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0};
+    if (robust && listed(eglQueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness")) {
+        std::vector<EGLint> withNotice = attributes;
+        withNotice.insert(withNotice.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
+                                             EGL_LOSE_CONTEXT_ON_RESET_EXT, EGL_NONE});
+        const EGLContext context = eglCreateContext(display, config, share, withNotice.data());
+        if (context != EGL_NO_CONTEXT)
+            return context;
+    }
+    attributes.push_back(EGL_NONE);
+    return eglCreateContext(display, config, share, attributes.data());
+}
+
 /// Makes a current context on a display, or says why not.
-std::optional<std::string> openOn(EGLDisplay display, EGLContext& context) {
+std::optional<std::string> openOn(EGLDisplay display, EGLContext share, bool robust, EGLContext& context) {
     if (display == EGL_NO_DISPLAY)
         return "no display";
     if (!eglInitialize(display, nullptr, nullptr))
@@ -105,8 +121,7 @@ std::optional<std::string> openOn(EGLDisplay display, EGLContext& context) {
     EGLint count = 0;
     if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0)
         return refusal("eglChooseConfig for OpenGL ES 3");
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+    context = createContext(display, config, share, robust);
     if (context == EGL_NO_CONTEXT)
         return refusal("eglCreateContext");
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
@@ -124,10 +139,13 @@ std::string glString(GLenum name) {
 
 }  // namespace
 
-Context::Context() : impl_(std::make_unique<Impl>()) {
+Context::Context(const ContextOptions& options) : impl_(std::make_unique<Impl>()) {
+    const Impl* shared = options.share == nullptr ? nullptr : options.share->impl_.get();
     std::string reasons;
-    for (const EGLDisplay display : candidateDisplays()) {
-        const std::optional<std::string> reason = openOn(display, impl_->context);
+    for (const EGLDisplay display :
+         shared == nullptr ? candidateDisplays() : std::vector<EGLDisplay>{shared->display}) {
+        const std::optional<std::string> reason = openOn(
+            display, shared == nullptr ? EGL_NO_CONTEXT : shared->context, options.robust, impl_->context);
         if (!reason) {
             impl_->display = display;
             impl_->renderer = glString(GL_RENDERER);
@@ -140,6 +158,11 @@ Context::Context() : impl_(std::make_unique<Impl>()) {
 }
 
 Context::~Context() = default;
+
+void Context::makeCurrent() const {
+    if (!eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context))
+        throw GlError(refusal("eglMakeCurrent"));
+}
 
 const std::string& Context::renderer() const { return impl_->renderer; }
 const std::string& Context::version() const { return impl_->version; }

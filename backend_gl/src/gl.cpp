@@ -2,11 +2,15 @@
 
 #include <cstring>
 
+#include <EGL/egl.h>
 #include <fmt/format.h>
 
 namespace vtm::gl {
 
 namespace {
+
+/// GL_CONTEXT_LOST of GL_KHR_robustness.
+constexpr GLenum contextLost = 0x0507;
 
 const char* errorName(GLenum error) {
     switch (error) {
@@ -20,6 +24,8 @@ const char* errorName(GLenum error) {
             return "invalid framebuffer operation";
         case GL_OUT_OF_MEMORY:
             return "out of memory";
+        case contextLost:
+            return "context lost";
         default:
             return "unknown error";
     }
@@ -31,8 +37,21 @@ void checkErrors(const char* what) {
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR)
         return;
-    throw GlError(fmt::format("{}: GL says {} (0x{:04x})", what, errorName(error), error));
+    const std::string message = fmt::format("{}: GL says {} (0x{:04x})", what, errorName(error), error);
+    if (error == GL_OUT_OF_MEMORY)
+        throw OutOfMemory(message);
+    if (error == contextLost)
+        throw ContextLost(message);
+    throw GlError(message);
 }
+
+void dropErrors() {
+    // A flag for each of GL's errors may be set; a lost context says so for ever.
+    for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i)
+        continue;
+}
+
+const void* currentContext() { return eglGetCurrentContext(); }
 
 int limit(GLenum name) {
     GLint value = 0;

@@ -1,7 +1,6 @@
 #include "backend_gl/src/painter.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <optional>
 
 #include <glm/mat2x2.hpp>
@@ -35,13 +34,6 @@ VertexArrayHandle makeVertexArray() {
     return VertexArrayHandle(id);
 }
 
-/// An attribute of four integers an instance.
-void pointAttribute(GLuint index, GLenum type, std::size_t stride, std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribDivisor(index, 1);
-    glVertexAttribIPointer(index, 4, type, GLsizei(stride), reinterpret_cast<const void*>(offset));
-}
-
 /// Runs of instances, neighbours joined.
 std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint32_t>& drawn, unsigned cost) {
     std::vector<Range> runs;
@@ -71,8 +63,6 @@ Painter::Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& vi
 Target Painter::paint() {
     glBindVertexArray(workshop_.vertexArray.get());
     glViewport(0, 0, view_.width, view_.height);
-    for (const GLenum state : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DITHER})
-        glDisable(state);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     bindAsset();
@@ -172,7 +162,7 @@ void Painter::flushFills() {
     }
     useFill();
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    drawBoxes(boxes);
+    drawBoxes(workshop_.boxes, boxes);
     pending_.clear();
     shelves_.clear();
 }
@@ -213,7 +203,7 @@ void Painter::clip(std::uint32_t drawn) {
     const Program& program = useLayer(Action::Clip, coverage_);
     glUniform4i(program.uniform("maskBox"), box.min.x, box.min.y, box.max.x, box.max.y);
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
-    drawBoxes({boxOf(stack_.back().touched, place - box.min)});
+    drawBoxes(workshop_.boxes, {boxOf(stack_.back().touched, place - box.min)});
 }
 
 // ---- Groups ---------------------------------------------------------------------------------------
@@ -234,14 +224,14 @@ void Painter::popMask(const Command& command, const Target& popped) {
     const Program& program = useLayer(Action::Mask, popped);
     glUniform1ui(program.uniform("maskOp"), maskOp(command.kind));
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
-    drawBoxes({boxOf(stack_.back().touched)});
+    drawBoxes(workshop_.boxes, {boxOf(stack_.back().touched)});
 }
 
 void Painter::popOver(const Command& command, const Target& popped) {
     const Program& program = useLayer(Action::Over, popped);
     glUniform1f(program.uniform("opacity"), command.opacity);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    drawBoxes({boxOf(popped.touched)});
+    drawBoxes(workshop_.boxes, {boxOf(popped.touched)});
     stack_.back().touch(popped.touched);
 }
 
@@ -264,7 +254,7 @@ void Painter::popBlend(const Command& command, const Target& popped) {
     glUniform1f(program.uniform("opacity"), command.opacity);
     glUniform1ui(program.uniform("blendMode"), GLuint(command.blend));
     glDisable(GL_BLEND);
-    drawBoxes({boxOf(box)});
+    drawBoxes(workshop_.boxes, {boxOf(box)});
     glEnable(GL_BLEND);
     stack_.back().touch(box);
     workshop_.pool.giveBack(std::move(backdrop));
@@ -305,22 +295,6 @@ const Program& Painter::useLayer(Action action, const Target& layer) {
     bindTexture(Unit::Layer, layer.texture);
     stack_.back().bind();
     return program;
-}
-
-Painter::Box Painter::boxOf(const PixelBox& pixels, glm::ivec2 maskOffset, std::uint32_t paint) {
-    return {{pixels.min.x, pixels.min.y},
-            {pixels.max.x, pixels.max.y},
-            {maskOffset.x, maskOffset.y},
-            GLint(paint),
-            0};
-}
-
-void Painter::drawBoxes(const std::vector<Box>& boxes) {
-    glBindBuffer(GL_ARRAY_BUFFER, workshop_.boxes.get());
-    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(boxes.size() * sizeof(Box)), boxes.data(), GL_STREAM_DRAW);
-    pointAttribute(0, GL_INT, sizeof(Box), 0);
-    pointAttribute(1, GL_INT, sizeof(Box), offsetof(Box, maskOffset));
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(boxes.size()));
 }
 
 }  // namespace vtm::gl

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "backend_gl/src/boxes.hpp"
 #include "backend_gl/src/constants.hpp"
 #include "backend_gl/src/programs.hpp"
 #include "backend_gl/src/shelves.hpp"
@@ -24,7 +25,7 @@ struct Workshop {
 
 class Painter {
 public:
-    /// The pool's targets have the view's size; the view is invertible.
+    /// The pool's targets have the view's size; the view is invertible. GL is in the state of StateGuard.
     Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& view);
 
     /// The picture; the caller gives it back to the pool.
@@ -39,13 +40,6 @@ private:
         glm::ivec2 place;  ///< of the box's min corner, in the coverage target
         std::uint32_t paint;
     };
-    /// Instance data of box_vertex.glsl.
-    struct Box {
-        GLint min[2], max[2];
-        GLint maskOffset[2];
-        GLint paint, unused;
-    };
-
     void bindAsset();
     void execute(const asset::Command& command);
     void drawMap(std::uint32_t drawn);
@@ -62,8 +56,6 @@ private:
     void use(const Program& program) const;
     void useFill();
     const Program& useLayer(Action action, const Target& layer);
-    void drawBoxes(const std::vector<Box>& boxes);
-    static Box boxOf(const PixelBox& pixels, glm::ivec2 maskOffset = {0, 0}, std::uint32_t paint = 0);
 
     Workshop& workshop_;
     UploadedAsset& asset_;

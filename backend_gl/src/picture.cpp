@@ -42,15 +42,15 @@ void pointFloats(GLuint index, GLint count, std::size_t stride, std::size_t offs
                           reinterpret_cast<const void*>(offset));
 }
 
-/// Squares of one cut under one view.
+/// Squares of one cut under one view, those that a box of pixels can meet.
 class Squares {
 public:
-    Squares(const asset::Map& map, const asset::View& view, int level)
-        : side_(std::ldexp(map.side, -level)), corner_(map.x, map.y), view_(view) {
+    Squares(const asset::Map& map, const asset::View& view, const PixelBox& box, int level)
+        : side_(std::ldexp(map.side, -level)), corner_(map.x, map.y), view_(view), box_(box) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
         dvec2 least(HUGE_VAL), most(-HUGE_VAL);
         for (const dvec2 pixel :
-             {dvec2(0, 0), dvec2(view.width, 0), dvec2(0, view.height), dvec2(view.width, view.height)}) {
+             {dvec2(box.min), dvec2(box.max.x, box.min.y), dvec2(box.min.x, box.max.y), dvec2(box.max)}) {
             const dvec2 p = (inverse * (pixel - view.toPixels[2]) - corner_) / side_;
             least = glm::min(least, p);
             most = glm::max(most, p);
@@ -75,7 +75,7 @@ public:
             least = glm::min(least, p);
             most = glm::max(most, p);
         }
-        return most.x > 0 && most.y > 0 && least.x < view_.width && least.y < view_.height;
+        return most.x > box_.min.x && most.y > box_.min.y && least.x < box_.max.x && least.y < box_.max.y;
     }
 
     i64vec2 min, max;
@@ -84,6 +84,7 @@ private:
     double side_;
     dvec2 corner_;
     const asset::View& view_;
+    PixelBox box_;
 };
 
 /// Two triangles.
@@ -187,25 +188,26 @@ PictureBuffers::PictureBuffers()
     glBindVertexArray(0);
 }
 
-void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view) {
+void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
+                 const PixelBox& box, Finish finish) {
     for (PatchAtlas& atlas : asset.atlases) {
         const int level = patchLevelFor(atlas.map(), view);
-        const Squares squares(atlas.map(), view, level);
+        const Squares squares(atlas.map(), view, box, level);
         const std::vector<const Placed*> patches = atlas.prepare(level, squares.min, squares.max);
         const Geometry geometry = geometryOf(asset, squares, patches);
         bindTexture(Unit::Texels, asset.texels);
         bindTexture(Unit::Images, asset.images);
         bindTexture(Unit::Patches, atlas.texture());
         if (!geometry.flat.empty()) {
-            use(programs.flat(), asset, view, squares.side());
+            use(programs.flat(finish), asset, view, squares.side());
             draw(buffers.flatArray, buffers.flat, geometry.flat);
         }
         if (!geometry.solid.empty()) {
-            use(programs.patch({}), asset, view, squares.side());
+            use(programs.patch({}, 0, finish), asset, view, squares.side());
             draw(buffers.patchArray, buffers.patch, geometry.solid);
         }
         if (!geometry.programs.empty()) {
-            use(programs.patch(asset.features, asset.materialSet), asset, view, squares.side());
+            use(programs.patch(asset.features, asset.materialSet, finish), asset, view, squares.side());
             draw(buffers.patchArray, buffers.patch, geometry.programs);
         }
     }

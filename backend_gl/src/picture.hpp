@@ -16,8 +16,10 @@ struct PictureBuffers {
     BufferHandle flat, patch;
 };
 
-/// Draws into the bound framebuffer, `view` fitting it, on what stands there if blending is on. The view is
-/// invertible.
-void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view);
+/// Draws into the bound framebuffer, `view` fitting the viewport, on what stands there if blending is on: all
+/// pixels of `box` that are not transparent, and others, too, unless the scissor keeps them. The view is
+/// invertible; GL is in the state of StateGuard.
+void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
+                 const PixelBox& box, Finish finish);
 
 }  // namespace vtm::gl

@@ -41,9 +41,9 @@ const Program& Programs::leaf(CostClass cost, Features features, unsigned materi
     }
 }
 
-const Program& Programs::flat() { return get(Kind::Flat, {}); }
-const Program& Programs::patch(Features features, unsigned materialSet) {
-    return get(Kind::Patch, features, materialSet);
+const Program& Programs::flat(Finish finish) { return get(Kind::Flat, {}, 0, finish); }
+const Program& Programs::patch(Features features, unsigned materialSet, Finish finish) {
+    return get(Kind::Patch, features, materialSet, finish);
 }
 const Program& Programs::fill(Features features, unsigned materialSet) {
     return get(Kind::Fill, features, materialSet);
@@ -51,12 +51,15 @@ const Program& Programs::fill(Features features, unsigned materialSet) {
 const Program& Programs::layer() { return get(Kind::Layer, {}); }
 const Program& Programs::blend() { return get(Kind::Blend, {}); }
 
-const Program& Programs::get(Kind kind, Features features, unsigned materialSet) {
-    const std::tuple key(kind, features.flags(), features.has(Features::Material) ? materialSet : 0);
+const Program& Programs::compose(Finish finish) { return get(Kind::Compose, {}, 0, finish); }
+
+const Program& Programs::get(Kind kind, Features features, unsigned materialSet, Finish finish) {
+    const std::tuple key(kind, features.flags(), features.has(Features::Material) ? materialSet : 0,
+                         finish.flags());
     auto found = programs_.find(key);
     if (found == programs_.end()) {
         try {
-            found = programs_.emplace(key, make(kind, features, materialSet)).first;
+            found = programs_.emplace(key, make(kind, features, materialSet, finish)).first;
         } catch (const GlError& error) {
             throw GlError(blamedOnMaterial(materialSets_[materialSet].materials, error.what()));
         }
@@ -65,8 +68,10 @@ const Program& Programs::get(Kind kind, Features features, unsigned materialSet)
     return found->second;
 }
 
-Program Programs::make(Kind kind, Features features, unsigned materialSet) const {
+Program Programs::make(Kind kind, Features features, unsigned materialSet, Finish finish) const {
     using namespace shaders;
+    const std::string finishes = finish.defines();
+    const std::string_view finishBlend = finish.flags() == 0 ? std::string_view("") : shaders::blend;
     const std::string defines = features.defines();
     const MaterialSet& set = materialSets_[materialSet];
     const std::string_view materials = features.has(Features::Material) ? std::string_view(set.source) : "";
@@ -81,13 +86,15 @@ Program Programs::make(Kind kind, Features features, unsigned materialSet) const
                     {defines, fetch, coverage, leaf_placement, shaders::blend, gradient, image, paint,
                      general_fragment, materials}};
         case Kind::Flat:
-            return {"flat", {flat_vertex}, {flat_fragment}};
+            return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
         case Kind::Patch:
             if (features.flags() == 0)
-                return {"patch", {patch_vertex}, {fetch, shadow, cell, patch_fragment}};
+                return {"patch",
+                        {patch_vertex},
+                        {finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
             return {"patch with programs",
                     {patch_vertex},
-                    {defines, fetch, shadow, cell, shaders::blend, gradient, image, paint,
+                    {defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint, output,
                      patch_programs_fragment, materials}};
         case Kind::Fill:
             return {"fill",
@@ -95,6 +102,8 @@ Program Programs::make(Kind kind, Features features, unsigned materialSet) const
                     {defines, fetch, shaders::blend, gradient, image, paint, fill_fragment, materials}};
         case Kind::Layer:
             return {"layer", {box_vertex}, {shaders::blend, layer_fragment}};
+        case Kind::Compose:
+            return {"compose", {box_vertex}, {finishes, finishBlend, output, compose_fragment}};
         default:
             return {"blend", {box_vertex}, {shaders::blend, blend_fragment}};
     }

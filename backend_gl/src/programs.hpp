@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "backend_gl/src/features.hpp"
+#include "backend_gl/src/finish.hpp"
 #include "backend_gl/src/materials.hpp"
 #include "backend_gl/src/program.hpp"
 
@@ -23,6 +24,7 @@ inline constexpr unsigned costClassCount = 3;
 
 /// Texture units, the same in every program.
 enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Patches };
+inline constexpr std::size_t unitCount = 6;
 
 /// Each throws GlError with the driver's log where a program does not compile.
 class Programs {
@@ -33,23 +35,27 @@ public:
     /// Only General looks at the features and materials.
     const Program& leaf(CostClass cost, Features features, unsigned materialSet = 0);
     /// Of a picture: patches of one colour, and others.
-    const Program& flat();
-    const Program& patch(Features features, unsigned materialSet = 0);
+    const Program& flat(Finish finish);
+    const Program& patch(Features features, unsigned materialSet, Finish finish);
     const Program& fill(Features features, unsigned materialSet = 0);
     const Program& layer();
     const Program& blend();
+    /// A finished picture into a user's framebuffer.
+    const Program& compose(Finish finish);
+
+    unsigned count() const { return unsigned(programs_.size()); }
 
 private:
-    enum class Kind : unsigned { Solid, Pieces, General, Flat, Patch, Fill, Layer, Blend };
-    const Program& get(Kind kind, Features features, unsigned materialSet = 0);
-    Program make(Kind kind, Features features, unsigned materialSet) const;
+    enum class Kind : unsigned { Solid, Pieces, General, Flat, Patch, Fill, Layer, Blend, Compose };
+    const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
+    Program make(Kind kind, Features features, unsigned materialSet, Finish finish) const;
 
     struct MaterialSet {
         std::vector<asset::Material> materials;
         std::string source;
     };
     std::vector<MaterialSet> materialSets_{{{}, materialsSource({})}};
-    std::map<std::tuple<Kind, unsigned, unsigned>, Program> programs_;
+    std::map<std::tuple<Kind, unsigned, unsigned, unsigned>, Program> programs_;
 };
 
 }  // namespace vtm::gl

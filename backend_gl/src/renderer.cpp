@@ -1,9 +1,15 @@
 #include "backend_gl/renderer.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
+#include <glm/common.hpp>
+
+#include "backend_gl/src/destination.hpp"
 #include "backend_gl/src/painter.hpp"
 #include "backend_gl/src/picture.hpp"
+#include "backend_gl/src/requirements.hpp"
+#include "backend_gl/src/state_guard.hpp"
 
 namespace vtm::gl {
 
@@ -18,91 +24,263 @@ int tileSide() {
     return std::min({largestTile, limit(GL_MAX_TEXTURE_SIZE), viewport[0], viewport[1]});
 }
 
-/// Calls visit(view of the tile, its min corner).
+/// Calls visit(part) for parts of a box of at most `side` by `side` pixels.
 template <class Visit>
-void forEachTile(const asset::View& view, int side, Visit&& visit) {
-    for (int y = 0; y < view.height; y += side)
-        for (int x = 0; x < view.width; x += side) {
-            asset::View tile = view;
-            tile.width = std::min(side, view.width - x);
-            tile.height = std::min(side, view.height - y);
-            tile.toPixels[2] -= glm::dvec2(x, y);
-            visit(tile, glm::ivec2(x, y));
+void forEachTile(const PixelBox& box, int side, Visit&& visit) {
+    for (int y = box.min.y; y < box.max.y; y += side)
+        for (int x = box.min.x; x < box.max.x; x += side) {
+            const glm::ivec2 corner(x, y);
+            visit(PixelBox{corner, glm::min(corner + side, box.max)});
         }
 }
 
-void readBack(const Target& target, const asset::View& tile, glm::ivec2 corner, image::Raster& raster) {
+/// With the box's corner as its own.
+asset::View viewOf(const asset::View& view, const PixelBox& box) {
+    return {box.size().x,
+            box.size().y,
+            {view.toPixels[0], view.toPixels[1], view.toPixels[2] - glm::dvec2(box.min)}};
+}
+
+/// Into rows of `rowLength` pixels.
+void readBack(const Target& target, const asset::View& tile, GLenum type, int rowLength, void* pixels) {
     target.bind();
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glPixelStorei(GL_PACK_ROW_LENGTH, raster.width);
-    glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_FLOAT, raster.pixel(corner.x, corner.y));
+    glPixelStorei(GL_PACK_ROW_LENGTH, rowLength);
+    glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, type, pixels);
+}
+
+PixelBox wholeOf(const asset::View& view) { return {{0, 0}, {view.width, view.height}}; }
+
+void limitTo(const PixelBox& box) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(box.min.x, box.min.y, box.size().x, box.size().y);
+}
+
+void makeTransparent() {
+    const GLfloat transparent[4] = {0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, transparent);
+}
+
+void blendOver(bool over) {
+    if (!over)
+        return glDisable(GL_BLEND);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 }  // namespace
 
 struct Renderer::Impl {
+    Impl(const RendererOptions& o, StateContract c)
+        : options(o), contract(std::move(c)), reset(o.resetStatus ? o.resetStatus : driversResetStatus()) {}
+
+    RendererOptions options;
+    StateContract contract;
+    std::function<unsigned()> reset;
+    const void* context = currentContext();
+    bool lost = false;
+
     Workshop workshop;
+    TargetPool bytes{GL_RGBA8};  ///< for reading back 8 bits
     PictureBuffers picture;
 
-    Target paint(UploadedAsset& asset, const asset::View& view) {
+    void checkLost() {
+        if (!lost && reset && reset() != GL_NO_ERROR)
+            lost = true;
+        if (lost)
+            throw ContextLost("the GL context was reset");
+    }
+
+    /// What was drawn is good only if the context still is.
+    void check(const char* what) {
+        checkErrors(what);
+        checkLost();
+    }
+
+    /// What every call does: work() in the state that drawing relies on.
+    template <class Work>
+    auto call(Work&& work) {
+        if (currentContext() != context)
+            throw GlError("the renderer's context is not current");
+        checkLost();
+        dropErrors();
+        try {
+            const StateGuard guard(contract, options.restoreState);
+            return work(guard);
+        } catch (const OutOfMemory&) {
+            workshop.pool.resize({0, 0});
+            bytes.resize({0, 0});
+            throw;
+        } catch (const ContextLost&) {
+            lost = true;
+            throw;
+        }
+    }
+
+    /// The picture in a target of the pool, which gets it back.
+    Target paint(UploadedAsset& asset, const asset::View& view, Finish finish = {}) {
+        workshop.pool.resize({view.width, view.height});
         if (asset.atlases.empty())
             return Painter(workshop, asset, view).paint();
         Target target = workshop.pool.take();
         target.bind();
-        target.touched = {{0, 0}, {view.width, view.height}};
+        target.touched = wholeOf(view);
         glViewport(0, 0, view.width, view.height);
-        for (const GLenum state :
-             {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DITHER, GL_BLEND})
-            glDisable(state);
-        drawPicture(workshop.programs, picture, asset, view);
+        drawPicture(workshop.programs, picture, asset, view, wholeOf(view), finish);
         return target;
+    }
+
+    void draw(UploadedAsset& asset, const Destination& d) {
+        if (asset.atlases.empty() && d.finish.has(Finish::LinearLight))
+            throw std::invalid_argument(
+                "linear light is for exact mode; compat mode does as other renderers do");
+        const OneDrawBuffer one;
+        for (const PixelBox& box : d.boxes)
+            forEachTile(box, tileSide(), [&](const PixelBox& part) {
+                // Samples of one pixel may lie in several patches; each pixel's colour is made in one.
+                if (asset.atlases.size() == 1 && !d.multisampled)
+                    drawDirectly(asset, d, part);
+                else
+                    drawThroughTarget(asset, d, part);
+                check("drawing");
+            });
+    }
+
+    void begin(const Destination& d, const PixelBox& box) {
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, d.framebuffer);
+        glViewport(0, 0, d.view.width, d.view.height);
+        limitTo(box);
+        if (!d.over)
+            makeTransparent();
+        blendOver(d.over);
+    }
+
+    void drawDirectly(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
+        begin(d, box);
+        if (isInvertible(d.view))
+            drawPicture(workshop.programs, picture, asset, d.view, box, d.finish);
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_BLEND);
+    }
+
+    void drawThroughTarget(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
+        const asset::View tile = viewOf(d.view, box);
+        const bool shows = isInvertible(tile);
+        const bool linearLight = d.finish.has(Finish::LinearLight);
+        const Finish within(linearLight ? Finish::LinearLight | Finish::LinearOut : 0u);
+        Target target = shows ? paint(asset, tile, within) : Target();
+        begin(d, box);
+        if (shows) {
+            const Program& program = workshop.programs.compose(d.finish);
+            program.use();
+            glUniform2f(program.uniform("targetSize"), float(d.view.width), float(d.view.height));
+            glActiveTexture(GL_TEXTURE0 + GLenum(Unit::Layer));
+            glBindTexture(GL_TEXTURE_2D, target.texture.get());
+            glBindVertexArray(workshop.vertexArray.get());
+            drawBoxes(workshop.boxes, {boxOf(box, -box.min)});
+        }
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_BLEND);
+        if (shows)
+            workshop.pool.giveBack(std::move(target));
     }
 
     /// Calls use(target, tile, corner) for each painted tile.
     template <class Use>
     void paintTiles(UploadedAsset& asset, const asset::View& view, Use&& use) {
-        asset::validate(view);
         if (!isInvertible(view))
             return;
-        forEachTile(view, tileSide(), [&](const asset::View& tile, glm::ivec2 corner) {
-            workshop.pool.resize({tile.width, tile.height});
+        forEachTile(wholeOf(view), tileSide(), [&](const PixelBox& box) {
+            const asset::View tile = viewOf(view, box);
             Target target = paint(asset, tile);
-            use(target, tile, corner);
+            use(target, tile, box.min);
             workshop.pool.giveBack(std::move(target));
-            checkErrors("drawing");
+            check("drawing");
         });
+    }
+
+    image::Bitmap bitmap(UploadedAsset& asset, const asset::View& view) {
+        image::Bitmap bitmap{view.width, view.height, {}};
+        bitmap.rgba.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
+        forEachTile(wholeOf(view), tileSide(), [&](const PixelBox& box) {
+            bytes.resize(box.size());
+            Target target = bytes.take();
+            Output output;
+            output.framebuffer = target.framebuffer.get();
+            output.alpha = Output::Alpha::Straight;
+            const asset::View tile = viewOf(view, box);
+            draw(asset, destinationOf(tile, output, 0));
+            const std::size_t first =
+                (std::size_t(box.min.y) * std::size_t(view.width) + std::size_t(box.min.x)) * 4;
+            readBack(target, tile, GL_UNSIGNED_BYTE, view.width, &bitmap.rgba[first]);
+            bytes.giveBack(std::move(target));
+            check("reading back");
+        });
+        return bitmap;
     }
 };
 
-Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::Renderer(const RendererOptions& options) {
+    requireContext();
+    StateContract contract;
+    const StateGuard guard(contract, options.restoreState);
+    impl_ = std::make_unique<Impl>(options, contract);
+}
+
 Renderer::~Renderer() = default;
 
 Texture Renderer::upload(const asset::AssetView& asset) {
-    Programs& programs = impl_->workshop.programs;
-    auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
-    // Users' errors come at once, not with the first picture.
-    if (texture->features.has(Features::Material))
-        asset.mode == asset::Mode::Exact ? programs.patch(texture->features, texture->materialSet)
-                                         : programs.fill(texture->features, texture->materialSet);
-    return Texture(std::move(texture));
+    return impl_->call([&](const StateGuard&) {
+        Programs& programs = impl_->workshop.programs;
+        auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
+        // Users' errors come at once, not with the first picture.
+        if (texture->features.has(Features::Material))
+            asset.mode == asset::Mode::Exact ? programs.patch(texture->features, texture->materialSet, {})
+                                             : programs.fill(texture->features, texture->materialSet);
+        return Texture(std::move(texture));
+    });
 }
 
 image::Raster Renderer::render(const Texture& texture, const asset::View& view) {
     asset::validate(view);
     image::Raster raster(view.width, view.height);
-    impl_->paintTiles(*texture.impl_, view,
-                      [&](const Target& target, const asset::View& tile, glm::ivec2 corner) {
-                          readBack(target, tile, corner, raster);
-                      });
+    impl_->call([&](const StateGuard&) {
+        impl_->paintTiles(
+            *texture.impl_, view, [&](const Target& target, const asset::View& tile, glm::ivec2 corner) {
+                readBack(target, tile, GL_FLOAT, raster.width, raster.pixel(corner.x, corner.y));
+            });
+    });
     // Rounding leaves sums some 1e-7 outside.
     std::ranges::transform(raster.rgba, raster.rgba.begin(),
                            [](float v) { return std::clamp(v, 0.0f, 1.0f); });
     return raster;
 }
 
+image::Bitmap Renderer::renderBitmap(const Texture& texture, const asset::View& view) {
+    asset::validate(view);
+    return impl_->call([&](const StateGuard&) { return impl_->bitmap(*texture.impl_, view); });
+}
+
+void Renderer::draw(const Texture& texture, const asset::View& view, const Output& output) {
+    asset::validate(view);
+    impl_->call([&](const StateGuard& guard) {
+        impl_->draw(*texture.impl_, destinationOf(view, output, guard.drawFramebuffer()));
+    });
+}
+
 void Renderer::draw(const Texture& texture, const asset::View& view) {
-    impl_->paintTiles(*texture.impl_, view, [](const Target&, const asset::View&, glm::ivec2) {});
+    asset::validate(view);
+    impl_->call([&](const StateGuard&) {
+        impl_->paintTiles(*texture.impl_, view, [](const Target&, const asset::View&, glm::ivec2) {});
+    });
     glFinish();
 }
+
+bool Renderer::lost() const {
+    if (!impl_->lost && currentContext() == impl_->context && impl_->reset && impl_->reset() != GL_NO_ERROR)
+        impl_->lost = true;
+    return impl_->lost;
+}
+
+unsigned Renderer::programCount() const { return impl_->workshop.programs.count(); }
 
 }  // namespace vtm::gl

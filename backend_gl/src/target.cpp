@@ -6,9 +6,9 @@ namespace vtm::gl {
 
 namespace {
 
-Target makeTarget(glm::ivec2 size) {
+Target makeTarget(GLenum format, glm::ivec2 size) {
     Target target;
-    target.texture = makeTexture(targetFormat(), size.x, size.y);
+    target.texture = makeTexture(format, size.x, size.y);
     GLuint id = 0;
     glGenFramebuffers(1, &id);
     target.framebuffer = FramebufferHandle(id);
@@ -43,7 +43,7 @@ void TargetPool::resize(glm::ivec2 size) {
 
 Target TargetPool::take() {
     if (free_.empty())
-        return makeTarget(size_);
+        return makeTarget(format_ == 0 ? targetFormat() : format_, size_);
     Target target = std::move(free_.back());
     free_.pop_back();
     return target;

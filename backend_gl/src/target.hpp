@@ -25,6 +25,9 @@ GLenum targetFormat();
 /// Transparent targets of one size, kept for reuse.
 class TargetPool {
 public:
+    /// 0: targetFormat().
+    explicit TargetPool(GLenum format = 0) : format_(format) {}
+
     /// Drops targets of another size.
     void resize(glm::ivec2 size);
     glm::ivec2 size() const { return size_; }
@@ -33,6 +36,7 @@ public:
     void giveBack(Target&& target);
 
 private:
+    GLenum format_;
     glm::ivec2 size_{0};
     std::vector<Target> free_;
 };
