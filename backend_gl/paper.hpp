@@ -26,7 +26,7 @@ private:
 };
 
 /// Programs are compiled when first needed; GlError with the driver's log where one does not
-/// compile. Needs a current context for its whole life.
+/// compile. Needs a current context for its whole life, in any state, and leaves that as it was.
 class PaperRenderer {
 public:
     PaperRenderer();

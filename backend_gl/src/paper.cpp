@@ -9,7 +9,9 @@
 #include "backend_gl/src/paper_texels.hpp"
 #include "backend_gl/src/program.hpp"
 #include "backend_gl/src/programs.hpp"
+#include "backend_gl/src/requirements.hpp"
 #include "backend_gl/src/shader_text.hpp"
+#include "backend_gl/src/state_guard.hpp"
 #include "backend_gl/src/target.hpp"
 #include "backend_gl/src/upload.hpp"
 
@@ -89,12 +91,20 @@ struct PaperTexture::Impl {
     std::uint32_t root;
 };
 
-PaperTexture::PaperTexture(const asset::PaperAsset& asset) : impl_(std::make_unique<Impl>(asset)) {}
+PaperTexture::PaperTexture(const asset::PaperAsset& asset) {
+    requireContext();
+    const StateContract contract;
+    const StateGuard guard(contract, true);
+    impl_ = std::make_unique<Impl>(asset);
+}
 PaperTexture::~PaperTexture() = default;
 PaperTexture::PaperTexture(PaperTexture&&) noexcept = default;
 PaperTexture& PaperTexture::operator=(PaperTexture&&) noexcept = default;
 
 struct PaperRenderer::Impl {
+    explicit Impl(StateContract c) : contract(std::move(c)) {}
+
+    StateContract contract;
     /// By the features of the paints and the materials' text.
     std::map<std::pair<unsigned, std::string>, Program> programs;
     TargetPool pool;
@@ -134,8 +144,6 @@ struct PaperRenderer::Impl {
     void drawTile(const PaperTexture::Impl& texture, const asset::View& tile, float* pixels, int rowLength) {
         glBindVertexArray(vertexArray.get());
         glViewport(0, 0, tile.width, tile.height);
-        for (const GLenum state : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_BLEND})
-            glDisable(state);
         pool.resize({tile.width, tile.height});
         Target target = pool.take();
         bind(texture);
@@ -143,7 +151,6 @@ struct PaperRenderer::Impl {
         target.bind();
         target.touch({{0, 0}, {tile.width, tile.height}});
         glDrawArrays(GL_TRIANGLES, 0, 3);
-        glPixelStorei(GL_PACK_ALIGNMENT, 4);
         glPixelStorei(GL_PACK_ROW_LENGTH, rowLength);
         glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_FLOAT, pixels);
         pool.giveBack(std::move(target));
@@ -151,7 +158,12 @@ struct PaperRenderer::Impl {
     }
 };
 
-PaperRenderer::PaperRenderer() : impl_(std::make_unique<Impl>()) {}
+PaperRenderer::PaperRenderer() {
+    requireContext();
+    StateContract contract;
+    const StateGuard guard(contract, true);
+    impl_ = std::make_unique<Impl>(contract);
+}
 PaperRenderer::~PaperRenderer() = default;
 
 image::Raster PaperRenderer::render(const PaperTexture& texture, const asset::View& view) {
@@ -159,6 +171,8 @@ image::Raster PaperRenderer::render(const PaperTexture& texture, const asset::Vi
     image::Raster raster(view.width, view.height);
     if (texture.impl_->root == asset::noPaperIndex || !isInvertible(view))
         return raster;
+    dropErrors();
+    const StateGuard guard(impl_->contract, true);
     const int side = tileSide();
     for (int y = 0; y < view.height; y += side)
         for (int x = 0; x < view.width; x += side) {

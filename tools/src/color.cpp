@@ -62,4 +62,12 @@ void layOver(image::Raster& picture, const scene::Color& ground) {
     }
 }
 
+void layOver(image::Bitmap& picture, const scene::Color& ground) {
+    if (ground.a == 0)
+        return;
+    image::Raster raster = image::toRaster(picture);
+    layOver(raster, ground);
+    picture = image::toBitmap(raster);
+}
+
 }  // namespace vtm::tools

@@ -14,5 +14,6 @@ scene::Color parseColor(const std::string& text);
 
 /// Lays the picture over `ground`.
 void layOver(image::Raster& picture, const scene::Color& ground);
+void layOver(image::Bitmap& picture, const scene::Color& ground);
 
 }  // namespace vtm::tools

@@ -8,6 +8,7 @@
 #include "backend_gl/paper.hpp"
 #include "backend_gl/renderer.hpp"
 #include "conformance/reference/reference.hpp"
+#include "tools/src/color.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/report.hpp"
 
@@ -17,17 +18,25 @@ namespace {
 
 class GlEngine : public Engine {
 public:
-    image::Raster render(Source& source, const asset::View& view) override {
+    image::Bitmap draw(Source& source, const asset::View& view, const scene::Color& ground) override {
         if (!gl_)
             gl_ = timed(source.stages, "start", [] { return std::make_unique<Gl>(); });
-        if (source.paper) {
-            const gl::PaperTexture texture =
-                timed(source.stages, "upload", [&] { return gl::PaperTexture(source.paper->asset); });
-            return timed(source.stages, "render", [&] { return gl_->paper.render(texture, view); });
-        }
+        if (source.paper)
+            return Engine::draw(source, view, ground);
         const gl::Texture texture =
             timed(source.stages, "upload", [&] { return gl_->renderer.upload(*source.asset); });
-        return timed(source.stages, "render", [&] { return gl_->renderer.render(texture, view); });
+        image::Bitmap bitmap =
+            timed(source.stages, "render", [&] { return gl_->renderer.renderBitmap(texture, view); });
+        layOver(bitmap, ground);
+        return bitmap;
+    }
+
+protected:
+    /// Paper mode.
+    image::Raster render(Source& source, const asset::View& view) override {
+        const gl::PaperTexture texture =
+            timed(source.stages, "upload", [&] { return gl::PaperTexture(source.paper->asset); });
+        return timed(source.stages, "render", [&] { return gl_->paper.render(texture, view); });
     }
 
 private:
@@ -41,7 +50,7 @@ private:
 };
 
 class AssetEngine : public Engine {
-public:
+protected:
     image::Raster render(Source& source, const asset::View& view) override {
         if (!source.paper && !source.asset->materials.empty())
             printWarning("warning: no GLSL runs on the CPU; materials have their fallback colours");
@@ -72,6 +81,8 @@ public:
         options_.mode = mode == asset::Mode::Exact ? reference::Mode::Exact : reference::Mode::Compat;
     }
     bool needsAsset() const override { return false; }
+
+protected:
     image::Raster render(Source& source, const asset::View& view) override {
         if (!source.scene)
             throw std::runtime_error("the reference engine draws SVG files only, no compiled ones");
@@ -85,6 +96,12 @@ private:
 };
 
 }  // namespace
+
+image::Bitmap Engine::draw(Source& source, const asset::View& view, const scene::Color& ground) {
+    image::Raster raster = render(source, view);
+    layOver(raster, ground);
+    return image::toBitmap(raster);
+}
 
 std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode) {
     if (name == "gl")

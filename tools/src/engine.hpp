@@ -16,7 +16,10 @@ public:
     virtual ~Engine() = default;
     /// Whether it draws the compiled asset rather than the scene.
     virtual bool needsAsset() const { return true; }
-    /// Adds its stages to the source's. Throws its module's exceptions.
+    /// Draws on `ground`. Adds its stages to the source's. Throws its module's exceptions.
+    virtual image::Bitmap draw(Source& source, const asset::View& view, const scene::Color& ground);
+
+protected:
     virtual image::Raster render(Source& source, const asset::View& view) = 0;
 };
 

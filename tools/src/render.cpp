@@ -76,11 +76,11 @@ void refuseClashes(const std::vector<Job>& jobs) {
     }
 }
 
-bool writePng(const image::Raster& raster, const std::string& path) {
+bool writePng(const image::Bitmap& bitmap, const std::string& path) {
     const fs::path directory = fs::path(path).parent_path();
     if (!directory.empty())
         fs::create_directories(directory);
-    image::writeFile(path, image::encodePng(image::toBitmap(raster)));
+    image::writeFile(path, image::encodePng(bitmap));
     return true;
 }
 
@@ -100,9 +100,8 @@ void printReport(const Job& job, const Source& source, const asset::View& view) 
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
     Source source = loadSource(job.input, options.source, engine.needsAsset());
     const asset::View view = frame(options.framing, source.width, source.height);
-    image::Raster raster = engine.render(source, view);
-    layOver(raster, ground);
-    timed(source.stages, "write", [&] { return writePng(raster, job.output); });
+    const image::Bitmap bitmap = engine.draw(source, view, ground);
+    timed(source.stages, "write", [&] { return writePng(bitmap, job.output); });
     if (options.json)
         printReport(job, source, view);
 }
