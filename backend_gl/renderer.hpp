@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "asset/asset.hpp"
 #include "asset/view.hpp"
@@ -31,8 +32,17 @@ struct RendererOptions {
     /// Whether every call leaves GL's state as it found it (docs/backend.md). Without, what a call may touch
     /// is anything afterwards.
     bool restoreState = true;
+    /// Keeps the driver's binaries of programs in this directory, if it has formats for them, and loads them
+    /// from there; made if missing. Empty: no files. Only the user may be able to write there.
+    std::string programCache;
     /// Returns GL's graphics reset status, 0 for none; empty: the driver's own, where it has one.
     std::function<unsigned()> resetStatus;
+};
+
+/// Programs so far.
+struct ProgramFigures {
+    unsigned made = 0;
+    unsigned compiled = 0;  ///< of these; the others came from the cache
 };
 
 /// The programs, each compiled once, when first needed; GlError with the driver's log where one does
@@ -74,8 +84,7 @@ public:
     /// Whether the context was reset, as far as the driver tells.
     bool lost() const;
 
-    /// Programs made so far.
-    unsigned programCount() const;
+    ProgramFigures programs() const;
 
 private:
     struct Impl;

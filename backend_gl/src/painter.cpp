@@ -51,7 +51,8 @@ std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint3
 
 }  // namespace
 
-Workshop::Workshop() : vertexArray(makeVertexArray()), boxes(makeBuffer()) {}
+Workshop::Workshop(const std::string& cacheDirectory)
+    : programs(cacheDirectory), vertexArray(makeVertexArray()), boxes(makeBuffer()) {}
 
 Painter::Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& view)
     : workshop_(workshop),

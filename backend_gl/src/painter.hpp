@@ -2,6 +2,7 @@
 /// Running an asset's commands under one view that fits a target.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "backend_gl/src/boxes.hpp"
@@ -15,7 +16,7 @@ namespace vtm::gl {
 
 /// What a renderer keeps from picture to picture.
 struct Workshop {
-    Workshop();
+    explicit Workshop(const std::string& cacheDirectory);
 
     Programs programs;
     TargetPool pool;

@@ -38,7 +38,7 @@ asset::Asset packed(const asset::PaperAsset& asset, PaperSections& sections) {
 }
 
 /// `materials`: their text (materialsSource), if the features name them.
-Program makeProgram(Features features, const std::string& materials) {
+ProgramSource programSource(Features features, const std::string& materials) {
     using namespace shaders;
     const std::string defines = features.defines();
     return {"paper",
@@ -118,7 +118,7 @@ struct PaperRenderer::Impl {
         auto found = programs.find(key);
         if (found == programs.end()) {
             try {
-                found = programs.emplace(key, makeProgram(features, materials)).first;
+                found = programs.emplace(key, Program(programSource(features, materials))).first;
             } catch (const GlError& error) {
                 throw GlError(blamedOnMaterial(texture.materials, error.what()));
             }

@@ -59,7 +59,9 @@ const Program& Programs::get(Kind kind, Features features, unsigned materialSet,
     auto found = programs_.find(key);
     if (found == programs_.end()) {
         try {
-            found = programs_.emplace(key, make(kind, features, materialSet, finish)).first;
+            const std::string_view materials =
+                features.has(Features::Material) ? std::string_view(materialSets_[materialSet].source) : "";
+            found = programs_.emplace(key, Program(source(kind, features, finish, materials), cache_)).first;
         } catch (const GlError& error) {
             throw GlError(blamedOnMaterial(materialSets_[materialSet].materials, error.what()));
         }
@@ -68,13 +70,10 @@ const Program& Programs::get(Kind kind, Features features, unsigned materialSet,
     return found->second;
 }
 
-Program Programs::make(Kind kind, Features features, unsigned materialSet, Finish finish) const {
+ProgramSource Programs::source(Kind kind, Features features, Finish finish, std::string_view materials) {
     using namespace shaders;
-    const std::string finishes = finish.defines();
+    const std::string defines = features.defines(), finishes = finish.defines();
     const std::string_view finishBlend = finish.flags() == 0 ? std::string_view("") : shaders::blend;
-    const std::string defines = features.defines();
-    const MaterialSet& set = materialSets_[materialSet];
-    const std::string_view materials = features.has(Features::Material) ? std::string_view(set.source) : "";
     switch (kind) {
         case Kind::Solid:
             return {"solid", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, solid_fragment}};
@@ -107,6 +106,40 @@ Program Programs::make(Kind kind, Features features, unsigned materialSet, Finis
         default:
             return {"blend", {box_vertex}, {shaders::blend, blend_fragment}};
     }
+}
+
+std::vector<ProgramSource> Programs::everySource() {
+    std::vector<ProgramSource> sources;
+    const std::string materials = materialsSource({});
+    const auto add = [&](Kind kind, unsigned features, unsigned finish) {
+        const bool uses = Features(features).has(Features::Material);
+        sources.push_back(source(kind, Features(features), Finish(finish), uses ? materials : ""));
+    };
+    constexpr unsigned allFeatures = Features::combinations - 1, allFinishes = Finish::combinations - 1;
+    for (const Kind kind : {Kind::Solid, Kind::Pieces, Kind::Layer, Kind::Blend})
+        add(kind, 0, 0);
+    for (unsigned features = 0; features <= allFeatures; ++features) {
+        add(Kind::General, features, 0);
+        add(Kind::Fill, features, 0);
+        add(Kind::Patch, features, 0);
+        add(Kind::Patch, features, allFinishes);
+    }
+    for (unsigned finish = 0; finish <= allFinishes; ++finish) {
+        add(Kind::Flat, 0, finish);
+        add(Kind::Compose, 0, finish);
+        add(Kind::Patch, 0, finish);
+        add(Kind::Patch, allFeatures, finish);
+    }
+    return sources;
+}
+
+ProgramFigures Programs::figures() const {
+    ProgramFigures figures;
+    for (const auto& [key, program] : programs_) {
+        ++figures.made;
+        figures.compiled += program.compiled() ? 1 : 0;
+    }
+    return figures;
 }
 
 }  // namespace vtm::gl

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "backend_gl/renderer.hpp"
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/finish.hpp"
 #include "backend_gl/src/materials.hpp"
@@ -29,6 +30,8 @@ inline constexpr std::size_t unitCount = 6;
 /// Each throws GlError with the driver's log where a program does not compile.
 class Programs {
 public:
+    explicit Programs(const std::string& cacheDirectory = {}) : cache_(cacheDirectory) {}
+
     /// Materials that programs are compiled with, each list once. Number 0 is none.
     unsigned materialSet(std::span<const asset::Material> materials);
 
@@ -43,17 +46,22 @@ public:
     /// A finished picture into a user's framebuffer.
     const Program& compose(Finish finish);
 
-    unsigned count() const { return unsigned(programs_.size()); }
+    ProgramFigures figures() const;
+
+    /// The text of every program that there can be, with no materials. Features and finishes, which have no
+    /// names in common, are combined with none and all of the others.
+    static std::vector<ProgramSource> everySource();
 
 private:
     enum class Kind : unsigned { Solid, Pieces, General, Flat, Patch, Fill, Layer, Blend, Compose };
     const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
-    Program make(Kind kind, Features features, unsigned materialSet, Finish finish) const;
+    static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
 
     struct MaterialSet {
         std::vector<asset::Material> materials;
         std::string source;
     };
+    ProgramCache cache_;
     std::vector<MaterialSet> materialSets_{{{}, materialsSource({})}};
     std::map<std::tuple<Kind, unsigned, unsigned, unsigned>, Program> programs_;
 };

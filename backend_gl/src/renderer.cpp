@@ -71,7 +71,10 @@ void blendOver(bool over) {
 
 struct Renderer::Impl {
     Impl(const RendererOptions& o, StateContract c)
-        : options(o), contract(std::move(c)), reset(o.resetStatus ? o.resetStatus : driversResetStatus()) {}
+        : options(o),
+          contract(std::move(c)),
+          reset(o.resetStatus ? o.resetStatus : driversResetStatus()),
+          workshop(o.programCache) {}
 
     RendererOptions options;
     StateContract contract;
@@ -281,6 +284,6 @@ bool Renderer::lost() const {
     return impl_->lost;
 }
 
-unsigned Renderer::programCount() const { return impl_->workshop.programs.count(); }
+ProgramFigures Renderer::programs() const { return impl_->workshop.programs.figures(); }
 
 }  // namespace vtm::gl

@@ -1,6 +1,11 @@
 #include "backend_gl/src/programs.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
 
 #include <glm/common.hpp>
 
@@ -13,23 +18,89 @@ namespace {
 
 using namespace asset::test;
 
-TEST_F(Gl, EveryPermutationCompiles) {
-    Programs programs;
-    for (unsigned flags = 0; flags < Features::combinations; ++flags) {
-        SCOPED_TRACE(Features(flags).defines());
-        EXPECT_NO_THROW(programs.leaf(CostClass::General, Features(flags)));
-        EXPECT_NO_THROW(programs.fill(Features(flags)));
+// ---- Every permutation ----------------------------------------------------------------------------
+
+/// WebGL 2's least limits (GLSL ES 3.00's, OpenGL ES 3.0 table 6.32).
+constexpr int leastUniformVectors = 224, leastVaryingVectors = 15, leastTextureUnits = 16;
+
+struct UniformCost {
+    int vectors = 0, textures = 0;
+};
+
+UniformCost costOf(const Program& program) {
+    UniformCost cost;
+    GLint count = 0;
+    glGetProgramiv(program.name(), GL_ACTIVE_UNIFORMS, &count);
+    for (GLuint i = 0; i < GLuint(count); ++i) {
+        char name[256];
+        GLint size = 0;
+        GLenum type = 0;
+        glGetActiveUniform(program.name(), i, sizeof(name), nullptr, &size, &type, name);
+        if (type == GL_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D)
+            cost.textures += size;
+        else
+            cost.vectors += size * (type == GL_FLOAT_MAT2 ? 2 : 1);
     }
-    EXPECT_NO_THROW(programs.leaf(CostClass::Solid, {}));
-    EXPECT_NO_THROW(programs.leaf(CostClass::Pieces, {}));
-    EXPECT_NO_THROW(programs.layer());
-    EXPECT_NO_THROW(programs.blend());
+    return cost;
+}
+
+/// Declarations of inputs that the vertex stage writes, a vector each: none is a matrix or an array.
+int varyingsOf(const ProgramSource& source) {
+    static const std::regex declaration(R"((^|\n)\s*(flat\s+)?in\s+u?i?(vec\d|float|int|uint|bool)\s+\w+;)");
+    const std::string text = joined(source.fragment);
+    return int(std::distance(std::sregex_iterator(text.begin(), text.end(), declaration), {}));
+}
+
+TEST_F(Gl, EveryPermutationCompilesWithinTheLeastLimits) {
+    const std::vector<ProgramSource> sources = Programs::everySource();
+    ASSERT_GT(sources.size(), 300u);
+    int varyings = 0;
+    for (const ProgramSource& source : sources) {
+        SCOPED_TRACE(joined(source.fragment).substr(0, 400) + source.name);
+        const Program program(source);
+        const UniformCost cost = costOf(program);
+        EXPECT_LE(cost.vectors, leastUniformVectors);
+        EXPECT_LE(cost.textures, leastTextureUnits);
+        EXPECT_LE(varyingsOf(source), leastVaryingVectors);
+        varyings = std::max(varyings, varyingsOf(source));
+    }
+    EXPECT_GE(varyings, 6);  // leaves have that many: they are counted
+}
+
+/// A strict reader that is nobody's driver.
+TEST_F(Gl, EveryPermutationIsGlslEs300ByTheReferenceCompiler) {
+    if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
+        GTEST_SKIP() << "glslangValidator is not installed";
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(testing::TempDir()) / "vtm_every_permutation";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    std::set<std::string> written;
+    const auto write = [&](const std::vector<std::string>& parts, const char* stage) {
+        const std::string text = joined(parts);
+        if (written.insert(text).second)
+            std::ofstream(folder / (std::to_string(written.size()) + stage)) << text;
+    };
+    for (const ProgramSource& source : Programs::everySource()) {
+        write(source.vertex, ".vert");
+        write(source.fragment, ".frag");
+    }
+    const std::string log = (folder / "log").string();
+    const std::string command = "glslangValidator " + (folder / "*.vert").string() + " " +
+                                (folder / "*.frag").string() + " > " + log + " 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << std::ifstream(log).rdbuf();
+    // It must be able to say no.
+    std::ofstream(folder / "wrong.frag") << joined(Programs::everySource()[0].fragment) + "\nfloat f = 1;\n";
+    EXPECT_NE(
+        std::system(("glslangValidator " + (folder / "wrong.frag").string() + " > /dev/null 2>&1").c_str()),
+        0);
+    fs::remove_all(folder);
 }
 
 TEST_F(Gl, CompileErrorsCarryTheDriversLog) {
     try {
-        Program("broken", {"void main() { gl_Position = vec4(0.0); }"},
-                {"out vec4 c;\nvoid main() { c = nonsense; }"});
+        Program(ProgramSource("broken", {"void main() { gl_Position = vec4(0.0); }"},
+                              {"out vec4 c;\nvoid main() { c = nonsense; }"}));
         ADD_FAILURE();
     } catch (const GlError& error) {
         EXPECT_NE(std::string(error.what()).find("fragment shader of program broken"), std::string::npos);

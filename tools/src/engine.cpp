@@ -18,9 +18,10 @@ namespace {
 
 class GlEngine : public Engine {
 public:
+    explicit GlEngine(const std::string& programCache) { options_.programCache = programCache; }
     image::Bitmap draw(Source& source, const asset::View& view, const scene::Color& ground) override {
         if (!gl_)
-            gl_ = timed(source.stages, "start", [] { return std::make_unique<Gl>(); });
+            gl_ = timed(source.stages, "start", [&] { return std::make_unique<Gl>(options_); });
         if (source.paper)
             return Engine::draw(source, view, ground);
         const gl::Texture texture =
@@ -42,10 +43,13 @@ protected:
 private:
     /// The context comes first: the programs need it for their whole life.
     struct Gl {
+        explicit Gl(const gl::RendererOptions& options) : renderer(options) {}
+
         gl::Context context;
         gl::Renderer renderer;
         gl::PaperRenderer paper;
     };
+    gl::RendererOptions options_;
     std::unique_ptr<Gl> gl_;
 };
 
@@ -103,9 +107,10 @@ image::Bitmap Engine::draw(Source& source, const asset::View& view, const scene:
     return image::toBitmap(raster);
 }
 
-std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode) {
+std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode,
+                                   const std::string& programCache) {
     if (name == "gl")
-        return std::make_unique<GlEngine>();
+        return std::make_unique<GlEngine>(programCache);
     if (name == "cpu")
         return std::make_unique<CpuEngine>();
     if (name == "asset")

@@ -24,7 +24,8 @@ protected:
 };
 
 /// "gl", "cpu" (the scanner), "asset" (the shaders' twin) or "reference". Contexts and programs are made at
-/// the first picture and kept.
-std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode);
+/// the first picture and kept; `programCache`: gl::RendererOptions.
+std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode,
+                                   const std::string& programCache = {});
 
 }  // namespace vtm::tools

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct RenderOptions {
     std::vector<std::string> inputs;
     std::string output, batch;
-    std::string engine = "gl", background = "transparent";
+    std::string engine = "gl", background = "transparent", programCache;
     SourceOptions source;
     Framing framing;
     bool json = false;
@@ -117,7 +117,7 @@ bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& 
 }
 
 int render(const RenderOptions& options) {
-    const auto engine = makeEngine(options.engine, options.source.compiler.mode);
+    const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
     const scene::Color ground = parseColor(options.background);
     const std::vector<Job> jobs = jobsOf(options);
     refuseClashes(jobs);
@@ -149,6 +149,8 @@ void addRender(CLI::App& app, int& exitCode) {
                      "gl, cpu (fast without a GPU, exact mode), asset (the shaders' twin, slow) or reference "
                      "(exact, slower)")
         ->capture_default_str();
+    command->add_option("--program-cache", options->programCache,
+                        "A directory that keeps the GL driver's programs from run to run");
     command->add_flag("--json", options->json, "Print figures and times, a line of JSON a picture");
     addSourceOptions(*command, options->source);
     command->callback([options, &exitCode] { exitCode = render(*options); });
