@@ -8,6 +8,7 @@
 #include "image/codec.hpp"
 #include "tools/src/color.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/debug_view.hpp"
 #include "tools/src/engine.hpp"
 #include "tools/src/framing.hpp"
 #include "tools/src/progress.hpp"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 struct RenderOptions {
     std::vector<std::string> inputs;
     std::string output, batch;
-    std::string engine = "gl", background = "transparent", programCache;
+    std::string engine = "gl", background = "transparent", programCache, debugView;
     SourceOptions source;
     Framing framing;
     bool json = false;
@@ -100,7 +101,10 @@ void printReport(const Job& job, const Source& source, const asset::View& view) 
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
     Source source = loadSource(job.input, options.source, engine.needsAsset());
     const asset::View view = frame(options.framing, source.width, source.height);
-    const image::Bitmap bitmap = engine.draw(source, view, ground);
+    const DebugView debug = parseDebugView(options.debugView);
+    prepare(source, debug);
+    image::Bitmap bitmap = engine.draw(source, view, ground);
+    layLines(bitmap, debug, source, view);
     timed(source.stages, "write", [&] { return writePng(bitmap, job.output); });
     if (options.json)
         printReport(job, source, view);
@@ -117,6 +121,7 @@ bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& 
 }
 
 int render(const RenderOptions& options) {
+    parseDebugView(options.debugView);
     const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
     const scene::Color ground = parseColor(options.background);
     const std::vector<Job> jobs = jobsOf(options);
@@ -151,6 +156,9 @@ void addRender(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     command->add_option("--program-cache", options->programCache,
                         "A directory that keeps the GL driver's programs from run to run");
+    command->add_option(
+        "--debug-view", options->debugView,
+        "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, patches");
     command->add_flag("--json", options->json, "Print figures and times, a line of JSON a picture");
     addSourceOptions(*command, options->source);
     command->callback([options, &exitCode] { exitCode = render(*options); });

@@ -93,6 +93,7 @@ void compileScene(Source& source, const std::string& path, const compiler::Optio
         source.stages.emplace_back(stage, milliseconds);
     printWarnings(path, result.warnings);
     source.proof = figures(result);
+    source.unproven = std::move(result.unproven);
     source.asset = std::move(result.asset);
 }
 

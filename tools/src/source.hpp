@@ -31,8 +31,9 @@ struct Source {
     double width = 0, height = 0;       ///< user units
     std::optional<scene::Scene> scene;  ///< not where the file is an asset
     std::optional<asset::Asset> asset;
-    std::optional<compiler::PaperResult> paper;  ///< in place of `asset` in paper mode
-    std::optional<asset::PaperCost> cost;        ///< of drawing `paper` on the CPU
+    std::optional<compiler::PaperResult> paper;                     ///< in place of `asset` in paper mode
+    std::optional<std::vector<compiler::UnprovenSquare>> unproven;  ///< not where the file is an asset
+    std::optional<asset::PaperCost> cost;                           ///< of drawing `paper` on the CPU
     Json proof = Json::object();  ///< what the compiler proved; empty where the file is an asset
     Stages stages;
 };

@@ -86,6 +86,41 @@ class Render(Command):
     def test_straight_alpha(self):
         self.assertEqual(self.draw().getpixel((25, 10)), PALE_BLUE)
 
+    def test_program_cache(self):
+        first = self.draw("--program-cache", "programs", engine="gl")
+        self.assertEqual(list(self.draw("--program-cache", "programs", engine="gl").getdata()), list(first.getdata()))
+
+    def test_debug_views(self):
+        plain = list(self.draw("--width", "80").getdata())
+        for name in ("cells", "depth", "pieces", "cost", "regions", "fallback", "patches"):
+            with self.subTest(name=name):
+                pictures = [list(self.draw("--debug-view", name, "--width", "80", engine=e).getdata())
+                            for e in ("gl", "asset")]
+                self.assertNotEqual(pictures[0], plain)
+                worst = max(abs(a - b) for p, q in zip(*pictures) for a, b in zip(p, q))
+                self.assertLessEqual(worst, 1)
+
+    def test_debug_views_have_the_legends_colours(self):
+        # A whole picture of one paint: level 0, no pieces, 5 ns a pixel.
+        whole = self.write("whole.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='16' height='16'>"
+                           "<rect width='16' height='16' fill='red'/></svg>")
+        for name, expected in (("depth", (0x1a, 0x26, 0x5c, 255)), ("pieces", (235, 235, 235, 255)),
+                               ("cost", (0x1a, 0x26, 0x5c, 255))):
+            with self.subTest(name=name):
+                self.vtm("render", whole, "-o", "out.png", "--debug-view", name, "--width", "64")
+                self.assertEqual(self.picture("out.png").getpixel((32, 32)), expected)
+
+    def test_debug_views_that_there_are_not(self):
+        out = ("render", self.svg, "-o", "out.png", "--debug-view")
+        self.assertIn("none of cells", self.vtm(*out, "lines", expect=2).stderr)
+        for arguments in (("depth", "--mode", "compat"), ("depth", "--mode", "paper"),
+                          ("depth", "--engine", "reference")):
+            self.assertIn("exact pictures", self.vtm(*out, *arguments, expect=1).stderr)
+        self.vtm("compile", self.svg, "-o", "square.vtm")
+        self.assertIn("SVG file", self.vtm("render", "square.vtm", "-o", "out.png", "--debug-view", "fallback",
+                                           expect=1).stderr)
+        self.vtm("render", "square.vtm", "-o", "out.png", "--debug-view", "depth")
+
     def test_many_inputs_into_a_directory(self):
         second = self.write("second.svg", SQUARE)
         done = self.vtm("render", self.svg, second, "-o", "pictures")

@@ -1,0 +1,19 @@
+/// \file
+/// What the backend's index of a picture looks like, for debug views.
+#pragma once
+
+#include "asset/asset.hpp"
+#include "asset/view.hpp"
+
+namespace vtm::gl {
+
+/// Squares of `side` picture units, one with its corner at the map's, each of `cells` × `cells` cells.
+struct PatchGrid {
+    double side = 0;
+    unsigned cells = 0;
+};
+
+/// What an exact picture is drawn by under an invertible view.
+PatchGrid patchGrid(const asset::Map& map, const asset::View& view);
+
+}  // namespace vtm::gl
