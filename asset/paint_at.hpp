@@ -1,0 +1,19 @@
+/// \file
+/// Which region holds a point: by the curves themselves, not by pixels.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+#include "asset/asset.hpp"
+
+namespace vtm::asset {
+
+/// The paint index at a point of the plane of an exact asset, picture units; 0 outside its maps. `asset` must
+/// be valid. In double precision: right unless the point is nearer to a boundary than rounding (some 2^-50 of
+/// the map's side, 2^-36 of a leaf's); there either side may be told. Throws std::invalid_argument in compat
+/// mode.
+std::uint32_t paintAt(const AssetView& asset, glm::dvec2 point);
+
+}  // namespace vtm::asset
