@@ -10,7 +10,6 @@
 #include "backend_gl/src/program.hpp"
 #include "backend_gl/src/programs.hpp"
 #include "backend_gl/src/requirements.hpp"
-#include "backend_gl/src/shader_text.hpp"
 #include "backend_gl/src/state_guard.hpp"
 #include "backend_gl/src/target.hpp"
 #include "backend_gl/src/upload.hpp"
@@ -35,15 +34,6 @@ asset::Asset packed(const asset::PaperAsset& asset, PaperSections& sections) {
     asset::Asset result = asset.palette;
     sections = appendPaper(asset, result.data);
     return result;
-}
-
-/// `materials`: their text (materialsSource), if the features name them.
-ProgramSource programSource(Features features, const std::string& materials) {
-    using namespace shaders;
-    const std::string defines = features.defines();
-    return {"paper",
-            {paper_vertex},
-            {defines, fetch, blend, gradient, image, paint, paper_mask, paper_fragment, materials}};
 }
 
 void setUniforms(const Program& program, const asset::View& view) {
@@ -118,7 +108,7 @@ struct PaperRenderer::Impl {
         auto found = programs.find(key);
         if (found == programs.end()) {
             try {
-                found = programs.emplace(key, Program(programSource(features, materials))).first;
+                found = programs.emplace(key, Program(paperSource(features, materials))).first;
             } catch (const GlError& error) {
                 throw GlError(blamedOnMaterial(texture.materials, error.what()));
             }

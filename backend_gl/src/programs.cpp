@@ -108,6 +108,19 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
     }
 }
 
+ProgramSource paperSource(Features features, const std::string& materials) {
+    using namespace shaders;
+    const std::string defines = features.defines();
+    return {"paper",
+            {paper_vertex},
+            {defines, fetch, blend, gradient, image, paint, paper_mask, paper_fragment, materials}};
+}
+
+ProgramSource idsSource() {
+    using namespace shaders;
+    return {"ids", {paper_vertex}, {fetch, id_fragment}};
+}
+
 std::vector<ProgramSource> Programs::everySource() {
     std::vector<ProgramSource> sources;
     const std::string materials = materialsSource({});
@@ -123,7 +136,10 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Fill, features, 0);
         add(Kind::Patch, features, 0);
         add(Kind::Patch, features, allFinishes);
+        sources.push_back(
+            paperSource(Features(features), Features(features).has(Features::Material) ? materials : ""));
     }
+    sources.push_back(idsSource());
     for (unsigned finish = 0; finish <= allFinishes; ++finish) {
         add(Kind::Flat, 0, finish);
         add(Kind::Compose, 0, finish);

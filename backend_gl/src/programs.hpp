@@ -27,6 +27,10 @@ inline constexpr unsigned costClassCount = 3;
 enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Patches };
 inline constexpr std::size_t unitCount = 6;
 
+/// Of those who have one program only. `materials`: their text (materialsSource), if the features name them.
+ProgramSource paperSource(Features features, const std::string& materials);
+ProgramSource idsSource();
+
 /// Each throws GlError with the driver's log where a program does not compile.
 class Programs {
 public:
@@ -48,8 +52,8 @@ public:
 
     ProgramFigures figures() const;
 
-    /// The text of every program that there can be, with no materials. Features and finishes, which have no
-    /// names in common, are combined with none and all of the others.
+    /// The text of every program that there can be, paper mode's and numbers' too, with no materials.
+    /// Features and finishes, which have no names in common, are combined with none and all of the others.
     static std::vector<ProgramSource> everySource();
 
 private:

@@ -13,6 +13,6 @@ extern const std::string_view flat_vertex, flat_fragment;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment, general_fragment;
 extern const std::string_view paper_vertex, paper_mask, paper_fragment;
 extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_fragment;
-extern const std::string_view output, compose_fragment;
+extern const std::string_view output, compose_fragment, id_fragment;
 
 }  // namespace vtm::gl::shaders

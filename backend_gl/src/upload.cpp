@@ -1,9 +1,7 @@
 #include "backend_gl/src/upload.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
-#include <span>
 
 #include "backend_gl/src/constants.hpp"
 
@@ -15,17 +13,6 @@ using asset::AssetView;
 using asset::Texel;
 
 constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
-
-template <class Record>
-GLuint append(std::vector<Texel>& texels, std::span<const Record> records) {
-    static_assert(sizeof(Record) % sizeof(Texel) == 0);
-    const std::size_t first = texels.size();
-    texels.resize(first + records.size() * (sizeof(Record) / sizeof(Texel)));
-    if (!records.empty())
-        std::memcpy(static_cast<void*>(texels.data() + first), records.data(),
-                    records.size() * sizeof(Record));
-    return GLuint(first);
-}
 
 std::vector<Texel> imageList(const AssetView& asset) {
     std::vector<Texel> list;
@@ -82,6 +69,10 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 
 }  // namespace
 
+TextureHandle uploadTexels(std::vector<Texel>& texels) {
+    return layOut(texels, 1, texelColumnsLog2, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+}
+
 UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
     : maps(asset.maps.begin(), asset.maps.end()),
       commands(asset.commands.begin(), asset.commands.end()),
@@ -95,7 +86,7 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
     for (const asset::Paint& paint : asset.paints)
         isProgram.push_back(paint[3] == asset::programTag);
     std::vector<Texel> joined = joinedTexels(asset, sections);
-    texels = layOut(joined, 1, texelColumnsLog2, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+    texels = uploadTexels(joined);
     images = uploadImages(asset);
     instances = uploadInstances(list.instances);
     list.instances = {};

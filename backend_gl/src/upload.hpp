@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstring>
+#include <span>
 
 #include "backend_gl/renderer.hpp"
 #include "backend_gl/src/features.hpp"
@@ -18,6 +20,21 @@ struct Sections {
     GLuint leaves = 0, pieces = 0, paints = 0, data = 0;
     GLuint images = 0;  ///< a texel a picture: first pixel, width, height
 };
+
+/// Appends records as texels; returns the first's place.
+template <class Record>
+GLuint append(std::vector<asset::Texel>& texels, std::span<const Record> records) {
+    static_assert(sizeof(Record) % sizeof(asset::Texel) == 0);
+    const std::size_t first = texels.size();
+    texels.resize(first + records.size() * (sizeof(Record) / sizeof(asset::Texel)));
+    if (!records.empty())
+        std::memcpy(static_cast<void*>(texels.data() + first), records.data(),
+                    records.size() * sizeof(Record));
+    return GLuint(first);
+}
+
+/// As fetch.glsl reads them; `texels` grows to whole rows.
+TextureHandle uploadTexels(std::vector<asset::Texel>& texels);
 
 struct UploadedAsset {
     UploadedAsset(const asset::AssetView& asset, unsigned materialSet);
