@@ -5,6 +5,9 @@
 #include <random>
 #include <stdexcept>
 
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/src/destination.hpp"
@@ -174,6 +177,44 @@ TEST_F(Gl, OverBlends) {
                             return sum;
                         }),
                   0x1p-10);
+    }
+}
+
+/// What blending relies on: no pixel between squares is left out, none is drawn by two of them.
+TEST_F(Gl, EveryPixelIsDrawnOnce) {
+    std::mt19937 random(29);
+    std::uniform_real_distribution<double> unit(0, 1);
+    Output output;
+    output.write = Output::Write::Over;
+    const Asset shapes[] = {disc(), wedge(), threeRegions()};
+    for (int i = 0; i < 60; ++i) {
+        // All of one alpha, squares of one colour and others.
+        Asset asset = shapes[i % 3];
+        for (std::size_t p = 0; p < asset.paints.size(); ++p)
+            asset.paints[p] = solid({0.5f * float(p % 2), 0.25f * float(p % 3), 0, 0.5f});
+        asset.paints[0] = asset::Paint{};
+        for (asset::Leaf& leaf : asset.leaves)
+            for (std::uint16_t& corner : leaf.corners)
+                corner = corner == 0 ? 4 : corner;
+        for (asset::Piece& piece : asset.pieces) {
+            piece.left = piece.left == 0 ? 4 : piece.left;
+            piece.right = piece.right == 0 ? 4 : piece.right;
+        }
+        const double zoom = std::exp2(3 + 5 * unit(random)), angle = i % 4 == 0 ? 0 : 7 * unit(random);
+        const View view = turnedView(256, 200, {20 + 24 * unit(random), 20 + 24 * unit(random)}, zoom, angle,
+                                     unit(random) - 0.5, i % 2 == 1);
+        const Texture texture = renderer->upload(asset);
+        const UserFramebuffer target(GL_RGBA32F, 256, 200);
+        renderer->draw(texture, view, output);
+        const image::Raster drawn = target.floats();
+        const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+        for (int y = 0; y < 200; ++y)
+            for (int x = 0; x < 256; ++x) {
+                const glm::dvec2 p = inverse * (glm::dvec2(x + 0.5, y + 0.5) - view.toPixels[2]);
+                if (p.x > 1 && p.y > 1 && p.x < mapSide - 1 && p.y < mapSide - 1) {
+                    ASSERT_NEAR(drawn.pixel(x, y)[3], 0.5, 1e-3) << i << ": " << x << ' ' << y;
+                }
+            }
     }
 }
 
