@@ -13,8 +13,8 @@ flat in vec4 patchPicture;
 
 uvec4 patchTexel(uint index) { return texelFetch(patches, texelPlace(patchTexels.x + index), 0); }
 
-// Premultiplied.
-vec4 unpackColor(uvec2 words) { return vec4(words.xxyy >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu) / 65535.0; }
+// Times 65535.
+vec4 unpackColor(uvec2 words) { return vec4(words.xxyy >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu); }
 
 struct Cell {
     uvec4 texel;

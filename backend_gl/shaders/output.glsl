@@ -1,7 +1,7 @@
 // From the colours of regions, premultiplied sRGB, to the numbers that a framebuffer wants.
 // Requires: LINEAR_LIGHT, LINEAR_OUT, STRAIGHT_OUT, ENCODED_STORE, DITHER defined as 1 or 0 (src/finish.hpp);
 // blend.glsl if one is 1.
-// Exports: regionValue, what is added up for a region; outputColor, what is made of the sum.
+// Exports: regionValue and regionValueIn, what is added up for a region; outputColor, what is made of the sum.
 
 #if LINEAR_LIGHT || LINEAR_OUT || ENCODED_STORE
 vec4 decoded(vec4 c) { return vec4(linearLight(straight(c)) * c.a, c.a); }
@@ -15,6 +15,15 @@ vec3 encodedLight(vec3 c) {
 vec4 regionValue(vec4 c) {
 #if LINEAR_LIGHT
     return decoded(c);
+#else
+    return c;
+#endif
+}
+
+// The same where `whole` stands for 1.
+vec4 regionValueIn(float whole, vec4 c) {
+#if LINEAR_LIGHT
+    return decoded(c / whole) * whole;
 #else
     return c;
 #endif

@@ -5,18 +5,19 @@ out vec4 color;
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     uvec4 references = firstReferences(cell);
-    vec4 sum = regionValue(unpackColor(cell.texel.yz));
+    vec4 sum = regionValueIn(65535.0, unpackColor(cell.texel.yz));
     for (;;) {
         uint count = referenceCount(references);
         for (uint i = 0u; i < count; ++i) {
             uint reference = referenceAt(references, i), first = reference >> 2 << 1;
             float weight = pieceWeight(patchPiece(patchTexel(first).xyz, cell.o), cell.way, reference);
             uvec4 colors = patchTexel(first + 1u);
-            sum += weight * (regionValue(unpackColor(colors.xy)) - regionValue(unpackColor(colors.zw)));
+            sum += weight * (regionValueIn(65535.0, unpackColor(colors.xy)) -
+                             regionValueIn(65535.0, unpackColor(colors.zw)));
         }
         if ((references.x & moreBit) == 0u)
             break;
         references = patchTexel(references.w);
     }
-    color = outputColor(sum);
+    color = outputColor(sum / 65535.0);
 }

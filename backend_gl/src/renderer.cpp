@@ -137,15 +137,17 @@ struct Renderer::Impl {
             throw std::invalid_argument(
                 "linear light is for exact mode; compat mode does as other renderers do");
         const OneDrawBuffer one;
-        for (const PixelBox& box : d.boxes)
-            forEachTile(box, tileSide(), [&](const PixelBox& part) {
-                // Samples of one pixel may lie in several patches; each pixel's colour is made in one.
-                if (asset.atlases.size() == 1 && !d.multisampled)
-                    drawDirectly(asset, d, part);
-                else
-                    drawThroughTarget(asset, d, part);
-                check("drawing");
-            });
+        // Samples of one pixel may lie in several patches; each pixel's colour is made in one.
+        if (asset.atlases.size() == 1 && !d.multisampled) {
+            for (const PixelBox& box : d.boxes)
+                forEachTile(box, tileSide(), [&](const PixelBox& part) { drawDirectly(asset, d, part); });
+        } else {
+            PixelBox all;
+            for (const PixelBox& box : d.boxes)
+                all = all.joined(box);
+            forEachTile(all, tileSide(), [&](const PixelBox& part) { drawThroughTarget(asset, d, part); });
+        }
+        check("drawing");
     }
 
     void begin(const Destination& d, const PixelBox& box) {
@@ -165,26 +167,35 @@ struct Renderer::Impl {
         glDisable(GL_BLEND);
     }
 
-    void drawThroughTarget(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
-        const asset::View tile = viewOf(d.view, box);
-        const bool shows = isInvertible(tile);
+    /// All boxes' parts in the tile, from one target.
+    void drawThroughTarget(UploadedAsset& asset, const Destination& d, const PixelBox& tile) {
+        const asset::View view = viewOf(d.view, tile);
+        const bool shows = isInvertible(view);
         const bool linearLight = d.finish.has(Finish::LinearLight);
         const Finish within(linearLight ? Finish::LinearLight | Finish::LinearOut : 0u);
-        Target target = shows ? paint(asset, tile, within) : Target();
-        begin(d, box);
-        if (shows) {
-            const Program& program = workshop.programs.compose(d.finish);
-            program.use();
-            glUniform2f(program.uniform("targetSize"), float(d.view.width), float(d.view.height));
-            glActiveTexture(GL_TEXTURE0 + GLenum(Unit::Layer));
-            glBindTexture(GL_TEXTURE_2D, target.texture.get());
-            glBindVertexArray(workshop.vertexArray.get());
-            drawBoxes(workshop.boxes, {boxOf(box, -box.min)});
+        Target target = shows ? paint(asset, view, within) : Target();
+        for (const PixelBox& box : d.boxes) {
+            const PixelBox part{glm::max(box.min, tile.min), glm::min(box.max, tile.max)};
+            if (part.empty())
+                continue;
+            begin(d, part);
+            if (shows)
+                compose(d, target, part, -tile.min);
         }
         glDisable(GL_SCISSOR_TEST);
         glDisable(GL_BLEND);
         if (shows)
             workshop.pool.giveBack(std::move(target));
+    }
+
+    void compose(const Destination& d, const Target& target, const PixelBox& box, glm::ivec2 toTarget) {
+        const Program& program = workshop.programs.compose(d.finish);
+        program.use();
+        glUniform2f(program.uniform("targetSize"), float(d.view.width), float(d.view.height));
+        glActiveTexture(GL_TEXTURE0 + GLenum(Unit::Layer));
+        glBindTexture(GL_TEXTURE_2D, target.texture.get());
+        glBindVertexArray(workshop.vertexArray.get());
+        drawBoxes(workshop.boxes, {boxOf(box, toTarget)});
     }
 
     /// Calls use(target, tile, corner) for each painted tile.
