@@ -9,6 +9,7 @@ namespace vtm::gl::shaders {
 extern const std::string_view prelude;
 extern const std::string_view fetch, coverage, blend, gradient, image, paint;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment, general_fragment;
+extern const std::string_view sample_asset, sample_prefilter, sample;
 extern const std::string_view paper_vertex, paper_mask, paper_fragment;
 extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_fragment;
 
