@@ -6,7 +6,9 @@
 #include <string>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 
+#include "asset/view.hpp"
 #include "backend_gl/sampled_texture.hpp"
 #include "image/bitmap.hpp"
 
@@ -35,11 +37,19 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// One texture on a plane: `toPicture` maps (pixel, 1) to homogeneous (s, t).
-image::Raster drawTexture(SampledTexture& texture, const std::string& include, const glm::dmat3& toPicture,
-                          int width, int height, Wrapping wrapping = {});
+/// One texture on a plane.
+class TextureCanvas {
+public:
+    explicit TextureCanvas(const asset::AssetView& asset);
 
-/// The whole picture on a raster.
-glm::dmat3 wholePicture(int width, int height);
+    image::Raster draw(const asset::View& view, Wrapping wrapping = {});
+    /// `toPicture` maps (pixel, 1) to homogeneous (s, t).
+    image::Raster draw(const glm::dmat3& toPicture, int width, int height, Wrapping wrapping = {});
+
+private:
+    glm::dvec2 size_;
+    SampledTexture texture_;
+    ShaderCanvas canvas_;
+};
 
 }  // namespace vtm::gl::test

@@ -12,11 +12,13 @@ struct Tile {
     mat2 toBox;            // the footprint is the pixel's box [0, 1]², its centre at 0.5
 };
 
+const uint noPaint = 0xFFFFFFFFu;
+
 struct Sum {
     vec4 color;
     float cost;     // squares and pieces met so far
     float allowed;  // ... at most
-    // The last two paints evaluated: the two sides of a chain of pieces.
+    // The last two paints evaluated in this square: the two sides of a chain of pieces.
     uint recentPaint, olderPaint;
     vec4 recentColor, olderColor;
 };
@@ -53,6 +55,7 @@ void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout Sum
     vec2 least = tile.centre - tile.halfBox, most = tile.centre + tile.halfBox;
     vec2 point = 0.5 * (max(least, corner) + min(most, corner + side));
     point = vtm.square.xy + point * vtm.square.z;
+    sum.recentPaint = sum.olderPaint = noPaint;
     uint payload = entry >> 2;
     uvec4 leaf = uvec4(0u, 0u, uvec2(payload | payload << 16)), piece = uvec4(0u);
     if ((entry & 3u) == kindSolid) {
@@ -192,7 +195,7 @@ vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
     vec4 color = vec4(0.0);
     if (share < 1.0) {
         float freedom = max(1.0, fadeTo / footprint.longer);
-        Sum sum = Sum(vec4(0.0), 0.0, walkBudget * freedom * freedom, 0xFFFFFFFFu, 0xFFFFFFFFu, vec4(0.0), vec4(0.0));
+        Sum sum = Sum(vec4(0.0), 0.0, walkBudget * freedom * freedom, noPaint, noPaint, vec4(0.0), vec4(0.0));
         addFootprint(vtm, footprint, sum);
         color = clamp(sum.color, 0.0, 1.0);
         share = max(share, clamp(2.0 * sum.cost / sum.allowed - 1.0, 0.0, 1.0));

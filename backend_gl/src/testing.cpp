@@ -1,5 +1,7 @@
 #include "backend_gl/testing.hpp"
 
+#include <glm/matrix.hpp>
+
 #include "backend_gl/src/gl.hpp"
 
 namespace vtm::gl::test {
@@ -121,20 +123,26 @@ image::Raster ShaderCanvas::draw(int width, int height) {
     return raster;
 }
 
-image::Raster drawTexture(SampledTexture& texture, const std::string& include, const glm::dmat3& toPicture,
-                          int width, int height, Wrapping wrapping) {
-    ShaderCanvas canvas(include, R"(
+TextureCanvas::TextureCanvas(const asset::AssetView& asset)
+    : size_(asset.width, asset.height), texture_(asset), canvas_(sampleInclude({asset}), R"(
 uniform Vtm picture;
 uniform mat3 toPicture;
 vec4 shade(vec2 pixel) {
     vec3 p = toPicture * vec3(pixel, 1.0);
     return vtm_sample(picture, p.xy / p.z);
-})");
-    texture.bind(canvas.program(), "picture", 0, wrapping);
-    canvas.set("toPicture", toPicture);
-    return canvas.draw(width, height);
+})") {}
+
+image::Raster TextureCanvas::draw(const glm::dmat3& toPicture, int width, int height, Wrapping wrapping) {
+    texture_.bind(canvas_.program(), "picture", 0, wrapping);
+    canvas_.set("toPicture", toPicture);
+    return canvas_.draw(width, height);
 }
 
-glm::dmat3 wholePicture(int width, int height) { return {1.0 / width, 0, 0, 0, 1.0 / height, 0, 0, 0, 1}; }
+image::Raster TextureCanvas::draw(const asset::View& view, Wrapping wrapping) {
+    const glm::dmat3 toPixels(glm::dvec3(view.toPixels[0], 0), glm::dvec3(view.toPixels[1], 0),
+                              glm::dvec3(view.toPixels[2], 1));
+    const glm::dmat3 toUnit(1 / size_.x, 0, 0, 0, 1 / size_.y, 0, 0, 0, 1);
+    return draw(toUnit * glm::inverse(toPixels), view.width, view.height, wrapping);
+}
 
 }  // namespace vtm::gl::test

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/mat2x2.hpp>
-#include <glm/matrix.hpp>
-
 #include "asset/container.hpp"
 #include "asset/evaluate.hpp"
 #include "asset/testing.hpp"
@@ -28,17 +25,8 @@ using namespace asset::test;
 /// Placing by single precision (s, t) and what the evaluator differs from the GPU by: docs/texture.md.
 constexpr double tolerance = 2.0 / 255;
 
-/// Pixels to (s, t) of an asset under a view.
-glm::dmat3 toPicture(const Asset& asset, const View& view) {
-    const glm::dmat3 toPixels(glm::dvec3(view.toPixels[0], 0), glm::dvec3(view.toPixels[1], 0),
-                              glm::dvec3(view.toPixels[2], 1));
-    return glm::dmat3(1 / asset.width, 0, 0, 0, 1 / asset.height, 0, 0, 0, 1) * glm::inverse(toPixels);
-}
-
 Raster drawn(const Asset& asset, const View& view, Wrapping wrapping = {}) {
-    SampledTexture texture(asset);
-    return test::drawTexture(texture, sampleInclude({asset}), toPicture(asset, view), view.width, view.height,
-                             wrapping);
+    return test::TextureCanvas(asset).draw(view, wrapping);
 }
 
 double worst(const Raster& a, const Raster& b) {
@@ -61,9 +49,9 @@ TEST_F(Gl, TexturesShowWhatTheEvaluatorDoes) {
     std::mt19937 random(1);
     for (const Asset& asset : {halfPlane(), wedge(), strip(), threeRegions(), disc(), twoLevels(),
                                blendAsset(asset::Blend::Normal), blendAsset(asset::Blend::Hue)})
-        for (int i = 0; i < 10; ++i) {
+        for (test::TextureCanvas canvas(asset); const int i : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}) {
             const View view = largeView(random);
-            EXPECT_LE(worst(drawn(asset, view), asset::evaluate(asset, view)), tolerance) << i;
+            EXPECT_LE(worst(canvas.draw(view), asset::evaluate(asset, view)), tolerance) << i;
         }
 }
 
@@ -212,8 +200,7 @@ vec4 shade(vec2 pixel) {
     const View view{64, 64};
     for (int i = 0; i < 3; ++i) {
         const Asset& asset = i == 0 ? second : i == 1 ? third : first;
-        SampledTexture alone(asset);
-        const Raster one = test::drawTexture(alone, sampleInclude({asset}), toPicture(asset, view), 64, 64);
+        const Raster one = drawn(asset, view);
         for (int y = 0; y < 64; ++y)
             for (int x = 1; x < 63; ++x)
                 for (int channel = 0; channel < 4; ++channel)
@@ -285,8 +272,10 @@ TEST_F(Gl, WhatCannotBeSampledIsAnError) {
 TEST_F(Gl, AnIncludeForOtherAssetsIsSeenAtOnce) {
     const Asset plain = disc(), gradients = blendAsset(asset::Blend::Normal);
     SampledTexture texture(gradients);
-    const Raster raster = test::drawTexture(texture, sampleInclude({plain}), test::wholePicture(8, 8), 8, 8,
-                                            {Wrap::Repeat, Wrap::Repeat});
+    test::ShaderCanvas canvas(sampleInclude({plain}),
+                              "uniform Vtm sign;\nvec4 shade(vec2 p) { return vtm_sample(sign, p / 8.0); }");
+    texture.bind(canvas.program(), "sign", 0);
+    const Raster raster = canvas.draw(8, 8);
     for (std::size_t i = 0; i < raster.rgba.size(); ++i)
         ASSERT_EQ(raster.rgba[i], i % 4 == 1 ? 0 : 1);  // magenta
 }
