@@ -9,6 +9,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "asset/asset.hpp"
@@ -23,6 +24,7 @@ namespace vtm::gl {
 /// Sets the default precision of everything to highp. Lines are counted from 1 again behind it; material
 /// i is source string 30000 + i in a driver's log.
 /// Throws GlError if two different materials have one name.
+std::string sampleInclude(std::span<const asset::AssetView> assets);
 std::string sampleInclude(std::initializer_list<asset::AssetView> assets);
 
 /// What lies beyond [0, 1], along each axis.

@@ -9,94 +9,109 @@
 struct Tile {
     vec2 centre, halfBox;  // of the footprint and its bounding box
     vec2 least, most;      // of that box, cut to the picture
-    mat2 toBox;            // the footprint is the pixel's box [0, 1]², its centre at 0.5
+    mat2 toBox;            // the footprint becomes the pixel's box [0, 1]², its centre 0.5
+    float turn;            // -1 if that mirrors
 };
-
-const uint noPaint = 0xFFFFFFFFu;
 
 struct Sum {
     vec4 color;
     float cost;     // squares and pieces met so far
     float allowed;  // ... at most
-    // The last two paints evaluated in this square: the two sides of a chain of pieces.
-    uint recentPaint, olderPaint;
-    vec4 recentColor, olderColor;
 };
 
-void addRegion(Vtm vtm, inout Sum sum, float weight, uint paint, vec2 point) {
-    if (weight == 0.0)
-        return;
-    if (paint != sum.recentPaint) {
-        vec4 color = sum.olderColor;
-        if (paint != sum.olderPaint)
+#if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
+
+const uint noPaint = 0xFFFFFFFFu;
+
+// The last two paints evaluated: the two sides of a chain of pieces.
+struct Recent {
+    uint paint, older;
+    vec4 color, olderColor;
+};
+
+vec4 regionColor(Vtm vtm, inout Recent recent, uint paint, vec2 point) {
+    if (paint != recent.paint) {
+        vec4 color = recent.olderColor;
+        if (paint != recent.older)
             color = paintColor(vtm, paint, point);
-        sum.olderPaint = sum.recentPaint;
-        sum.olderColor = sum.recentColor;
-        sum.recentPaint = paint;
-        sum.recentColor = color;
+        recent = Recent(paint, recent.paint, color, recent.color);
     }
-    sum.color += weight * sum.recentColor;
-}
-
-// 4^-level, exactly.
-float sideAt(int level) { return uintBitsToFloat(uint(127 - 2 * level) << 23); }
-
-// Whether a square meets the footprint, by its box in the pixel's coordinates.
-bool meets(Tile tile, ivec2 cell, float side) {
-    vec2 fromCentre = tile.toBox * ((vec2(cell) + 0.5) * side - tile.centre);
-    vec2 reach = (abs(tile.toBox[0]) + abs(tile.toBox[1])) * (0.5 * side) + 0.5;
-    return all(lessThan(abs(fromCentre), reach));
+    return recent.color;
 }
 
 // One loop over the four corners and both sides of every piece, so that the paint interpreter, which
 // compilers inline, stands in the program once. Twin of general_fragment.glsl.
-void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout Sum sum) {
-    vec2 corner = vec2(cell) * side;
-    vec2 least = tile.centre - tile.halfBox, most = tile.centre + tile.halfBox;
-    vec2 point = 0.5 * (max(least, corner) + min(most, corner + side));
-    point = vtm.square.xy + point * vtm.square.z;
-    sum.recentPaint = sum.olderPaint = noPaint;
-    uint payload = entry >> 2;
-    uvec4 leaf = uvec4(0u, 0u, uvec2(payload | payload << 16)), piece = uvec4(0u);
-    if ((entry & 3u) == kindSolid) {
-        if (all(lessThanEqual(corner, least)) && all(lessThanEqual(most, corner + side))) {
-            addRegion(vtm, sum, 1.0, payload, point);
-            return;
-        }
-    } else {
-        leaf = texelAt(vtm, vtm.sections.x + payload);
-        sum.cost += float(low(leaf.y));
-        if (sum.cost > sum.allowed)
-            return;
-    }
-    Frame frame = Frame(tile.toBox * (side / float(leafExtent)), tile.toBox * (corner - tile.centre) + 0.5);
-    float turn = tile.toBox[0].x * tile.toBox[1].y < tile.toBox[1].x * tile.toBox[0].y ? -1.0 : 1.0;
+vec4 leafIntegral(Vtm vtm, Frame frame, uvec4 leaf, vec2 point) {
+    Recent recent = Recent(noPaint, noPaint, vec4(0.0), vec4(0.0));
+    uvec4 piece = uvec4(0u);
+    vec4 sum = vec4(0.0);
     float weight = 0.0;
     uint terms = 4u + 2u * low(leaf.y);
     for (uint i = 0u; i < terms; ++i) {
         uint paint = high(piece.w);
         if (i < 4u) {
-            weight = turn * seg(cornerOf(frame, int(i)), cornerOf(frame, int((i + 1u) & 3u)));
+            weight = seg(cornerOf(frame, int(i)), cornerOf(frame, int((i + 1u) & 3u)));
             uint word = i < 2u ? leaf.z : leaf.w;
             paint = (i & 1u) == 0u ? low(word) : high(word);
         } else if ((i & 1u) == 0u) {
             piece = texelAt(vtm, vtm.sections.y + leaf.x + (i - 4u) / 2u);
-            weight = turn * pieceSum(frame, piece);
+            weight = pieceSum(frame, piece);
             paint = low(piece.w);
         } else {
             weight = -weight;
         }
-        addRegion(vtm, sum, weight, paint, point);
+        if (weight != 0.0)
+            sum += weight * regionColor(vtm, recent, paint, point);
     }
+    return sum;
+}
+
+#else
+
+// Twin of pieces_fragment.glsl.
+vec4 leafIntegral(Vtm vtm, Frame frame, uvec4 leaf, vec2 point) {
+    vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
+    vec4 sum = seg(a, b) * solidColor(vtm, low(leaf.z)) + seg(b, c) * solidColor(vtm, high(leaf.z)) +
+               seg(c, d) * solidColor(vtm, low(leaf.w)) + seg(d, a) * solidColor(vtm, high(leaf.w));
+    uint end = leaf.x + low(leaf.y);
+    for (uint i = leaf.x; i < end; ++i) {
+        uvec4 piece = texelAt(vtm, vtm.sections.y + i);
+        float weight = pieceSum(frame, piece);
+        if (weight != 0.0)
+            sum += weight * (solidColor(vtm, low(piece.w)) - solidColor(vtm, high(piece.w)));
+    }
+    return sum;
+}
+
+#endif
+
+vec2 picturePoint(Vtm vtm, vec2 p) { return vtm.square.xy + p * vtm.square.z; }
+
+// Paints are evaluated in the middle of what the footprint's box has of the square.
+void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout Sum sum) {
+    vec2 corner = vec2(cell) * side;
+    vec2 least = max(tile.centre - tile.halfBox, corner), most = min(tile.centre + tile.halfBox, corner + side);
+    uint payload = entry >> 2;
+    uvec4 leaf = uvec4(0u, 0u, uvec2(payload | payload << 16));
+    if ((entry & 3u) != kindSolid)
+        leaf = texelAt(vtm, vtm.sections.x + payload);
+    sum.cost += 1.0 + float(low(leaf.y));
+    if (sum.cost > sum.allowed)
+        return;
+    Frame frame = Frame(tile.toBox * (side / float(leafExtent)), tile.toBox * (corner - tile.centre) + 0.5);
+    sum.color += tile.turn * leafIntegral(vtm, frame, leaf, picturePoint(vtm, 0.5 * (least + most)));
 }
 
 // ---- The tree -----------------------------------------------------------------------------------------
+
+// 4^-level, exactly.
+float sideAt(int level) { return uintBitsToFloat(uint(127 - 2 * level) << 23); }
 
 uint childAt(Vtm vtm, uint node, ivec2 cell) {
     return texelAt(vtm, vtm.nodes + 4u * node + uint(cell.y & 3))[cell.x & 3];
 }
 
-// The node whose children are the squares of a level round `cell`, from the root.
+// The node that holds `cell`, from the root.
 uint nodeAround(Vtm vtm, ivec2 cell, int level) {
     uint node = vtm.root >> 2;
     for (int l = 1; l < level; ++l)
@@ -107,48 +122,69 @@ uint nodeAround(Vtm vtm, ivec2 cell, int level) {
 ivec2 firstCell(Tile tile, float side) { return ivec2(floor(tile.least / side)); }
 ivec2 lastCell(Tile tile, float side) { return max(ivec2(ceil(tile.most / side)) - 1, firstCell(tile, side)); }
 
-// Squares in the order of the tree, with neither recursion nor a stack: a place in the tree is a cell and its level.
+// Whether a square meets the footprint, by its box in the pixel's coordinates.
+bool meets(Tile tile, ivec2 cell, float side) {
+    vec2 fromCentre = tile.toBox * ((vec2(cell) + 0.5) * side - tile.centre);
+    vec2 reach = (abs(tile.toBox[0]) + abs(tile.toBox[1])) * (0.5 * side) + 0.5;
+    return all(lessThan(abs(fromCentre), reach));
+}
+
+// Squares in the order of the tree, with neither recursion nor a stack: a place in the tree is a cell, its level and
+// the node that holds it. First down to the smallest square that holds the whole box, which most often is a leaf.
 void addTile(Vtm vtm, Tile tile, inout Sum sum) {
     int level = 0;
     ivec2 cell = ivec2(0);
     uint entry = vtm.root, parent = 0u;
-    while (sum.cost <= sum.allowed) {
-        float side = sideAt(level);
-        bool met = meets(tile, cell, side);
-        if (met && (entry & 3u) == kindNode && level < int(maxLevel)) {
-            parent = entry >> 2;
-            ++level;
-            cell = max(cell * 4, firstCell(tile, side * 0.25));
-            entry = childAt(vtm, parent, cell);
+    while ((entry & 3u) == kindNode) {
+        float side = sideAt(level + 1);
+        ivec2 child = firstCell(tile, side);
+        if (child != lastCell(tile, side))
+            break;
+        parent = entry >> 2;
+        entry = childAt(vtm, parent, child);
+        cell = child;
+        ++level;
+    }
+    int top = level;
+    bool rising = false;
+    // Two loops, the inner one only to find the next square: lanes of a processor that find theirs at different
+    // times add them together.
+    while (level >= top && sum.cost <= sum.allowed) {
+        ivec2 found = ivec2(-1);
+        float foundSide = 0.0;
+        uint foundEntry = 0u;
+        while (level >= top && found.x < 0) {
+            float side = sideAt(level);
+            if (!rising && meets(tile, cell, side)) {
+                if ((entry & 3u) == kindNode) {
+                    parent = entry >> 2;
+                    ++level;
+                    cell = max(cell * 4, firstCell(tile, side * 0.25));
+                    entry = childAt(vtm, parent, cell);
+                    sum.cost += 0.25;
+                    continue;
+                }
+                found = cell;
+                foundSide = side;
+                foundEntry = entry;
+            }
+            // On to the next cell of this node that the box meets, or up where there is none.
+            ivec2 most = min(lastCell(tile, side), cell | 3);
+            bool along = cell.x < most.x, onward = level > top && (along || cell.y < most.y);
+            if (onward) {
+                cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(tile, side).x, cell.x & ~3), cell.y + 1);
+                if (rising)
+                    parent = nodeAround(vtm, cell, level);
+                entry = childAt(vtm, parent, cell);
+            } else {
+                --level;
+                cell >>= 2;
+            }
+            rising = !onward;
             sum.cost += 0.25;
-            continue;
         }
-        sum.cost += 0.25;
-        if (met) {
-            sum.cost += 1.0;
-            addSquare(vtm, tile, cell, side, entry, sum);
-        }
-        // On to the next cell of this node that the box meets, or up while there is none.
-        bool rose = false;
-        for (;;) {
-            if (level == 0)
-                return;
-            ivec2 most = min(lastCell(tile, sideAt(level)), cell | 3);
-            if (cell.x < most.x) {
-                ++cell.x;
-                break;
-            }
-            if (cell.y < most.y) {
-                cell = ivec2(max(firstCell(tile, sideAt(level)).x, cell.x & ~3), cell.y + 1);
-                break;
-            }
-            --level;
-            cell >>= 2;
-            rose = true;
-        }
-        if (rose)
-            parent = nodeAround(vtm, cell, level);
-        entry = childAt(vtm, parent, cell);
+        if (found.x >= 0)
+            addSquare(vtm, tile, found, foundSide, foundEntry, sum);
     }
 }
 
@@ -182,8 +218,10 @@ void addFootprint(Vtm vtm, Footprint footprint, inout Sum sum) {
             vec2 least = max(st - halfBox, 0.0), most = min(st + halfBox, 1.0);
             if (any(greaterThan(least, most)))
                 continue;
-            addTile(vtm, Tile(st * scale + offset, halfBox * scale, least * scale + offset, most * scale + offset,
-                              mat2(toBox[0] * turned.x, toBox[1] * turned.y)), sum);
+            Tile tile = Tile(st * scale + offset, halfBox * scale, least * scale + offset, most * scale + offset,
+                             mat2(toBox[0] * turned.x, toBox[1] * turned.y), 1.0);
+            tile.turn = cross2(tile.toBox[0], tile.toBox[1]) < 0.0 ? -1.0 : 1.0;
+            addTile(vtm, tile, sum);
         }
 }
 
@@ -195,7 +233,7 @@ vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
     vec4 color = vec4(0.0);
     if (share < 1.0) {
         float freedom = max(1.0, fadeTo / footprint.longer);
-        Sum sum = Sum(vec4(0.0), 0.0, walkBudget * freedom * freedom, noPaint, noPaint, vec4(0.0), vec4(0.0));
+        Sum sum = Sum(vec4(0.0), 0.0, walkBudget * freedom * freedom);
         addFootprint(vtm, footprint, sum);
         color = clamp(sum.color, 0.0, 1.0);
         share = max(share, clamp(2.0 * sum.cost / sum.allowed - 1.0, 0.0, 1.0));

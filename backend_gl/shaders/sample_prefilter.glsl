@@ -1,6 +1,6 @@
 // A pixel's footprint in the picture, and its mean from the pyramid of means. docs/texture.md, docs/prefilter.md.
 // Requires: sample_asset.glsl, coverage.glsl; constants wrap*, fadeFrom, fadeTo, largestAnisotropy,
-// largestFootprint, smallestFootprint. Twin of: asset/src/prefilter_sample.cpp.
+// largestFootprint, smallestFootprint, largestPlace. Twin of: asset/src/prefilter_sample.cpp.
 // Exports: Footprint, footprintOf, prefilterShare, prefiltered.
 
 // Where a pixel's box lies: a parallelogram.
@@ -11,21 +11,23 @@ struct Footprint {
     bool wide;              // wider than a picture whose border's colours go on beyond it
 };
 
-// The angle by which to turn a pixel's box so that its sides, mapped by m, are orthogonal: at most 45°.
-float turnToAxes(mat2 m) {
+// (cos, sin) of the angle, at most 45°, by which to turn a pixel's box so that its sides, mapped by m, are orthogonal:
+// tan 2α = 2b / (a - c).
+vec2 turnToAxes(mat2 m) {
     float a = dot(m[0], m[0]), b = dot(m[0], m[1]), c = dot(m[1], m[1]);
-    return 0.5 * atan(a < c ? -2.0 * b : 2.0 * b, abs(a - c));
+    vec2 twice = vec2(abs(a - c), a < c ? -2.0 * b : 2.0 * b);
+    float size = length(twice);
+    float cosine = size > 0.0 ? sqrt(0.5 + 0.5 * twice.x / size) : 1.0;
+    return vec2(cosine, size > 0.0 ? 0.5 * twice.y / (size * cosine) : 0.0);
 }
 
-mat2 turned(mat2 m, float angle) {
-    float c = cos(angle), s = sin(angle);
-    return m * mat2(c, s, -s, c);
-}
+mat2 turned(mat2 m, vec2 turn) { return m * mat2(turn.x, turn.y, -turn.y, turn.x); }
 
+// Singular values, the larger first.
 vec2 axesOf(mat2 m) {
     float a = dot(m[0], m[0]), b = dot(m[0], m[1]), c = dot(m[1], m[1]);
     float longer = sqrt(0.5 * (a + c) + length(vec2(0.5 * (a - c), b)));
-    return vec2(longer, abs(cross2(m[0], m[1])) / max(longer, 1e-30));
+    return vec2(longer, abs(cross2(m[0], m[1])) / longer);
 }
 
 // Footprints narrower than a 16th of their length are widened to that, as GPUs do. What is no number, or no
@@ -33,6 +35,8 @@ vec2 axesOf(mat2 m) {
 Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
     mat2 sides = mat2(dx * vtm.size, dy * vtm.size);
     float unit = max(vtm.size.x, vtm.size.y);
+    if (!all(lessThan(abs(st), vec2(largestPlace))))
+        st = vec2(0.0);
     vec2 axes = axesOf(sides);
     if (!(axes.x <= unit * largestFootprint)) {
         sides = mat2(unit * largestFootprint);
@@ -80,7 +84,8 @@ float tapSpacing(float length, float count, float texel) {
 vec4 prefiltered(Vtm vtm, Footprint footprint) {
     // A box turned by 45° is no better a pixel than the pixel's own: only slender ones are turned.
     float slender = clamp(footprint.longer / footprint.shorter - 1.0, 0.0, 1.0);
-    mat2 sides = turned(footprint.sides, slender * turnToAxes(footprint.sides));
+    vec2 turn = normalize(mix(vec2(1.0, 0.0), turnToAxes(footprint.sides), slender));
+    mat2 sides = turned(footprint.sides, turn);
     sides = mat2(sides[0] / vtm.size, sides[1] / vtm.size);
     vec2 lengths = vec2(length(sides[0] * vtm.prefilterTexels), length(sides[1] * vtm.prefilterTexels));
     if (lengths.x < lengths.y) {

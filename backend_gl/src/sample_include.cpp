@@ -25,6 +25,8 @@ constexpr float walkBudget = 256;
 constexpr float largestAnisotropy = 16;
 /// In pictures: smaller ones lose their digits, of larger ones the mean is all that is left.
 constexpr float smallestFootprint = 0x1p-26f, largestFootprint = 1024;
+/// Largest magnitude of s and t: beyond, single precision has no fractions.
+constexpr float largestPlace = 0x1p23f;
 
 std::string constants() {
     std::string text;
@@ -38,6 +40,7 @@ std::string constants() {
     add("largestAnisotropy", largestAnisotropy);
     add("smallestFootprint", smallestFootprint);
     add("largestFootprint", largestFootprint);
+    add("largestPlace", largestPlace);
     add("fadeFrom", asset::fadeFrom);
     add("fadeTo", asset::fadeTo);
     addWrap("wrapBorder", asset::Wrap::Border);
@@ -86,6 +89,10 @@ std::string sampleText(Features features, std::span<const Material> materials) {
 }
 
 std::string sampleInclude(std::initializer_list<asset::AssetView> assets) {
+    return sampleInclude(std::span(assets.begin(), assets.size()));
+}
+
+std::string sampleInclude(std::span<const asset::AssetView> assets) {
     unsigned flags = 0;
     std::vector<Material> materials;
     for (const asset::AssetView& asset : assets) {
