@@ -133,9 +133,7 @@ constexpr unsigned wrapCount = 4;
 
 const asset::Map& onlyMap(const AssetView& asset) {
     if (asset.mode != asset::Mode::Exact)
-        throw GlError(
-            "an asset of compat mode is drawn layer by layer and cannot be sampled; compile it in exact "
-            "mode");
+        throw GlError("an asset of compat mode is drawn layer by layer and cannot be sampled");
     if (asset.commands.size() != 1 || asset.commands[0].kind != asset::Command::Kind::DrawMap)
         throw GlError("only an asset that draws one map can be sampled");
     return asset.maps[asset.commands[0].map];
@@ -193,26 +191,18 @@ struct SampledTexture::Impl {
     }
 };
 
-namespace {
-
-template <class Make>
-auto uploaded(const AssetView& asset, const asset::PrefilterOptions& options, Make make) {
+SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOptions& options) {
     onlyMap(asset);
     asset::Prefilter made;
-    if (asset.prefilter.size.empty())
+    asset::PrefilterView pyramid = asset.prefilter;
+    if (pyramid.size.empty()) {
         made = asset::buildPrefilter(asset, options);
-    const bool own = asset.prefilter.size.empty();
+        pyramid = {made.size, made.texels};
+    }
     checkErrors("something before this texture was made");
     const SavedUploadState saved;
-    return make(own ? asset::PrefilterView{made.size, made.texels} : asset.prefilter);
+    impl_ = std::make_unique<Impl>(asset, pyramid);
 }
-
-}  // namespace
-
-SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOptions& options)
-    : impl_(uploaded(asset, options, [&](const asset::PrefilterView& pyramid) {
-          return std::make_unique<Impl>(asset, pyramid);
-      })) {}
 SampledTexture::~SampledTexture() = default;
 SampledTexture::SampledTexture(SampledTexture&&) noexcept = default;
 SampledTexture& SampledTexture::operator=(SampledTexture&&) noexcept = default;

@@ -87,18 +87,23 @@ void printRow(const CorpusFile& file, Gl& gl) {
 double rounded(double v) { return std::round(v * 1e4) / 1e4; }
 
 void writeZoom(const std::string& path, const std::vector<CorpusFile>& files, Gl& gl) {
-    nlohmann::json rows = nlohmann::json::array();
+    std::ofstream out(path);
+    out << "{\"rows\": [";
+    const char* separator = "\n";
     for (const CorpusFile& file : files) {
         Case picture(file.name, gl);
         for (const ZoomFrame& frame : zoomed(
                  picture.size(), [&](const asset::View& view) { return picture.texture.draw(view); },
-                 [&](const asset::View& view) { return picture.exact(view); }))
-            rows.push_back({{"file", file.name},
-                            {"px", rounded(frame.pixels)},
-                            {"error", rounded(frame.error)},
-                            {"change", rounded(frame.change)}});
+                 [&](const asset::View& view) { return picture.exact(view); })) {
+            out << separator
+                << nlohmann::json{{"file", file.name},
+                                  {"px", rounded(frame.pixels)},
+                                  {"error", rounded(frame.error)},
+                                  {"change", rounded(frame.change)}};
+            separator = ",\n";
+        }
     }
-    std::ofstream(path) << nlohmann::json{{"rows", rows}}.dump(1) << '\n';
+    out << "\n]}\n";
 }
 
 }  // namespace
