@@ -138,6 +138,30 @@ TEST_F(Gl, MinifiedTexturesAreTheirMean) {
     EXPECT_NEAR(drawn(asset, edge).pixel(0, 0)[0], mean / 2, tolerance);
 }
 
+/// Where the prefilter draws alone, the shader takes the taps that asset::samplePrefilter takes.
+TEST_F(Gl, ThePrefilterIsSampledAsTheCpuDoes) {
+    Asset asset = threeRegions();
+    asset.prefilter = asset::buildPrefilter(asset, asset::PyramidSize{32, 32});
+    SampledTexture texture(asset);
+    test::ShaderCanvas canvas(sampleInclude({asset}), R"(
+uniform Vtm sign;
+const mat2 footprint = mat2(0.126, 0.063, -0.063, 0.126);  // 4.5 texels a side
+vec4 shade(vec2 pixel) { return vtm_sample_grad(sign, 3.0 * pixel / 48.0 - 1.0, footprint[0], footprint[1]); })");
+    const glm::mat2 footprint(0.126f, 0.063f, -0.063f, 0.126f);
+    ASSERT_EQ(asset::prefilterShare(asset, footprint), 1);
+    for (const Wrap wrap : {Wrap::Border, Wrap::Repeat, Wrap::Mirror}) {
+        texture.bind(canvas.program(), "sign", 0, {wrap, wrap});
+        const Raster raster = canvas.draw(48, 48);
+        for (int i = 0; i < 48 * 48; ++i) {
+            const glm::vec2 st = 3.0f * (glm::vec2(i % 48, i / 48) + 0.5f) / 48.0f - 1.0f;
+            const glm::vec4 color =
+                asset::samplePrefilter(asset, st, footprint, asset::Minification::Taps4, wrap);
+            for (int c = 0; c < 4; ++c)
+                ASSERT_NEAR(raster.pixel(i % 48, i / 48)[c], color[c], tolerance) << int(wrap) << ' ' << i;
+        }
+    }
+}
+
 TEST_F(Gl, DerivativesCanBeGiven) {
     const Asset asset = threeRegions();
     SampledTexture texture(asset);
