@@ -18,6 +18,16 @@ namespace {
 
 using asset::Material;
 
+constexpr const char* head =
+    R"(// Vector Texture Maps: uniform Vtm NAME; premultiplied colours, t running down.
+//     vec4 vtm_sample(Vtm vtm, vec2 st)
+//     vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy)
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp usampler2D;
+)";
+
 /// Squares and pieces of one footprint that are drawn before the prefilter takes over; it begins to at half
 /// of them. docs/texture.md has the measurements.
 constexpr float walkBudget = 256;
@@ -79,10 +89,7 @@ std::string sampleText(Features features, std::span<const Material> materials) {
     for (const std::string_view part :
          {sample_asset, fetch, coverage, blend, gradient, images, paint, sample_prefilter, sample})
         text += part;
-    text =
-        "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision highp "
-        "usampler2D;\n" +
-        prefixed(text);
+    text = head + prefixed(text);
     if (features.has(Features::Material))
         text += keyedMaterials(materials);
     return text + "#line 1 0\n";
