@@ -8,6 +8,8 @@
 #include <glm/mat2x2.hpp>
 #include <glm/vec3.hpp>
 
+#include "asset/evaluate.hpp"
+
 namespace vtm::cases {
 
 namespace {
@@ -111,6 +113,19 @@ asset::View stretched(dvec2 picture, int raster, double pixels, double ratio, do
 glm::dmat3 Floor::toPicture(int samples) const {
     const double b = 0.9 / width * (horizon + height), a = b * ratio * horizon, k = samples;
     return {{b / k, 0, 0}, {0.5 / k, 0, 1 / k}, {0.5 * horizon - b * width / 2, a, horizon}};
+}
+
+bool hasPrograms(const asset::Asset& asset) {
+    return std::ranges::any_of(asset.paints, [](const asset::Paint& p) { return p[3] == asset::programTag; });
+}
+
+Raster exactMeans(const asset::Asset& asset, const asset::View& view) {
+    constexpr int finer = 4;
+    if (!hasPrograms(asset))
+        return asset::evaluate(asset, view);
+    return averaged(
+        asset::evaluate(asset, {view.width * finer, view.height * finer, view.toPixels * double(finer)}),
+        finer);
 }
 
 Raster averaged(const Raster& raster, int k) {

@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
+#include "asset/asset.hpp"
 #include "asset/view.hpp"
 #include "image/bitmap.hpp"
 
@@ -30,6 +31,11 @@ struct Floor {
     glm::dmat3 toPicture(int samples) const;
 };
 inline constexpr Floor mildFloor{192, 96, 4, 32}, steepFloor{192, 96, 16, 12};
+
+/// The mean of a picture over each pixel, by the CPU evaluator: exact for solid paints. Where the asset has
+/// paint programs, which the evaluator looks at once a pixel, on a grid four times finer.
+image::Raster exactMeans(const asset::Asset& asset, const asset::View& view);
+bool hasPrograms(const asset::Asset& asset);
 
 /// Means of k × k pixels.
 image::Raster averaged(const image::Raster& raster, int k);
