@@ -56,7 +56,8 @@ enum class Minification {
 enum class Wrap {
     Border,  ///< transparent beyond the picture, as the evaluator has it
     Clamp,   ///< its border's texels go on
-    Repeat   ///< the picture repeats
+    Repeat,  ///< the picture repeats
+    Mirror   ///< and every other copy is mirrored
 };
 
 /// Base texels that a footprint is wide where the tree alone draws, and where the prefilter alone does.

@@ -3,6 +3,7 @@
 
 scaling.json: CPU time and bytes over the number of curves, both axes logarithmic, with n log n through the first point.
 sweep.json: bytes over fragment cost in all files, for the cost model at all its settings and for fixed sizes of leaves.
+zoom.json (of conformance/cases/texture_table): what a texture's frames change beyond the exact picture's.
 """
 import json
 import math
@@ -118,9 +119,26 @@ def plot_sweep(rows, folder):
     plot.write(folder / "sweep.svg")
 
 
+def plot_zoom(rows, folder):
+    """What a texture's frames change beyond the exact picture's, from 16 to 65536 pixels."""
+    least, visible = 1e-3, 2.0
+    files = list(dict.fromkeys(row["file"] for row in rows))
+    lines = {name: [(row["px"], max(row["change"], least)) for row in rows if row["file"] == name][1:] for name in files}
+    sizes = [row["px"] for row in rows]
+    bound = [(min(sizes), visible), (max(sizes), visible)]
+    plot = Plot("Zooming by 1/8 octave a frame: what changes beyond the exact picture", "pixels of the picture's longer side",
+                "rms of 255", bound + [point for line in lines.values() for point in line] + [(min(sizes), 5 * visible)])
+    plot.line(bound, "#888", "4 4")
+    plot.note(0, "#888", "the bound")
+    for row, (name, colour) in enumerate(zip(lines, ("#c00", "#06c", "#080", "#c60", "#808")), 1):
+        plot.line(lines[name], colour)
+        plot.note(row, colour, name)
+    plot.write(folder / "zoom.svg")
+
+
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "results"
-    for name, plot in (("scaling", plot_scaling), ("sweep", plot_sweep)):
+    for name, plot in (("scaling", plot_scaling), ("sweep", plot_sweep), ("zoom", plot_zoom)):
         path = folder / f"{name}.json"
         if path.exists():
             plot(json.loads(path.read_text())["rows"], folder)

@@ -48,7 +48,7 @@ LIBRARIES = {
     r"pugixml\.hpp": {"svg"},
     r"zlib\.h": {"svg", "asset", "image"},
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
-    r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl"},
+    r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples"},
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
     r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},

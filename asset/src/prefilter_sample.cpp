@@ -16,7 +16,10 @@ using glm::vec4;
 int wrapped(int i, int size, Wrap wrap) {
     if (wrap == Wrap::Clamp)
         return std::clamp(i, 0, size - 1);
-    return wrap == Wrap::Repeat ? (i % size + size) % size : i;
+    if (wrap == Wrap::Border)
+        return i;
+    const int period = wrap == Wrap::Mirror ? 2 * size : size, within = (i % period + period) % period;
+    return within < size ? within : period - 1 - within;
 }
 
 class Pyramid {
@@ -41,6 +44,8 @@ private:
         const vec2 extent(size.width, size.height);
         if (wrap_ == Wrap::Repeat)
             st -= glm::floor(st);
+        if (wrap_ == Wrap::Mirror)
+            st = 1.0f - glm::abs(1.0f - (st - 2.0f * glm::floor(0.5f * st)));
         // Keeps the conversion to int defined, for what is not a number too.
         const vec2 p(std::fmax(-2.0f, std::fmin(st.x * extent.x - 0.5f, extent.x + 1)),
                      std::fmax(-2.0f, std::fmin(st.y * extent.y - 0.5f, extent.y + 1)));

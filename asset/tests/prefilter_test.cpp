@@ -215,7 +215,7 @@ TEST(SamplePrefilter, AFlatPictureIsFlatUnderEveryFootprint) {
         paint = solid({0.2f, 0.4f, 0, 0.8f});
     asset = withPrefilter(asset, {64, 64});
     for (const Minification filter : filters)
-        for (const Wrap wrap : {Wrap::Clamp, Wrap::Repeat})
+        for (const Wrap wrap : {Wrap::Clamp, Wrap::Repeat, Wrap::Mirror})
             for (const float size : {0.0f, 0.001f, 0.03f, 0.2f, 1.0f, 30.0f}) {
                 const vec4 color = samplePrefilter(asset, {0.3f, -0.8f},
                                                    mat2(size, 0.1f * size, -size, 2 * size), filter, wrap);
@@ -233,6 +233,8 @@ TEST(SamplePrefilter, WrapsAsAsked) {
     EXPECT_EQ(samplePrefilter(asset, {1.9f, 0.5f}, texel), vec4(0));
     EXPECT_EQ(samplePrefilter(asset, {1.9f, 0.5f}, texel, Minification::Taps4, Wrap::Clamp), inside);
     EXPECT_EQ(samplePrefilter(asset, {-0.1f, 3.5f}, texel, Minification::Taps4, Wrap::Repeat), inside);
+    for (const vec2 st : {vec2(1.1f, 0.5f), vec2(-0.9f, -0.5f), vec2(2.9f, 1.5f)})
+        EXPECT_EQ(samplePrefilter(asset, st, texel, Minification::Taps4, Wrap::Mirror), inside) << st.x;
     const vec4 border = samplePrefilter(asset, {1, 0.5f}, texel);
     EXPECT_NEAR(border.g, 0.5, 1e-6);
     EXPECT_NEAR(border.a, 0.5, 1e-6);
@@ -284,7 +286,7 @@ TEST(SamplePrefilter, TakesAnyNumbers) {
     const Asset asset = withPrefilter(disc(), {64, 64});
     const float wild[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-45f};
     for (const float a : wild)
-        for (const Wrap wrap : {Wrap::Border, Wrap::Clamp, Wrap::Repeat}) {
+        for (const Wrap wrap : {Wrap::Border, Wrap::Clamp, Wrap::Repeat, Wrap::Mirror}) {
             samplePrefilter(asset, {a, 0.5f}, mat2(0.1f), Minification::Taps4, wrap);
             samplePrefilter(asset, {0.5f, 0.5f}, mat2(a, 0, 0, 0.1f), Minification::Taps4, wrap);
             samplePrefilter(asset, {0.5f, 0.5f}, mat2(a), Minification::Taps2, wrap);

@@ -17,11 +17,11 @@ float spreadOffset(uint spread, float u) {
 }
 
 // How many stops have an offset <= u; of several at one offset the last counts from there on.
-uint stopsUpTo(uint firstStop, uint count, float u) {
+uint stopsUpTo(ASSET_IN uint firstStop, uint count, float u) {
     uint from = 0u, to = count;
     while (from < to) {
         uint middle = (from + to) / 2u;
-        if (uintBitsToFloat(texelAt(firstStop + middle).x) <= u)
+        if (uintBitsToFloat(texelAt(ASSET firstStop + middle).x) <= u)
             from = middle + 1u;
         else
             to = middle;
@@ -32,10 +32,10 @@ uint stopsUpTo(uint firstStop, uint count, float u) {
 vec4 stopColor(uvec4 stop) { return vec4(low(stop.y), high(stop.y), low(stop.z), high(stop.z)) / 65535.0; }
 
 // Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
-vec4 colorAt(uint firstStop, uint count, float u) {
-    uint upTo = stopsUpTo(firstStop, count, u);
-    uvec4 before = texelAt(firstStop + (upTo == 0u ? 0u : upTo - 1u));
-    uvec4 after = texelAt(firstStop + min(upTo, count - 1u));
+vec4 colorAt(ASSET_IN uint firstStop, uint count, float u) {
+    uint upTo = stopsUpTo(ASSET firstStop, count, u);
+    uvec4 before = texelAt(ASSET firstStop + (upTo == 0u ? 0u : upTo - 1u));
+    uvec4 after = texelAt(ASSET firstStop + min(upTo, count - 1u));
     float start = uintBitsToFloat(before.x), gap = uintBitsToFloat(after.x) - start;
     vec4 c = mix(stopColor(before), stopColor(after), gap > 0.0 ? (u - start) / gap : 0.0);
     return vec4(c.rgb * c.a, c.a);
@@ -61,14 +61,14 @@ bool radialOffset(vec2 p, vec2 f, float fr, out float u) {
     return fr + u * grow >= 0.0;
 }
 
-vec4 gradientColor(bool radial, uint gradient, vec2 point) {
-    uvec4 a = texelAt(gradient), b = texelAt(gradient + 1u);
+vec4 gradientColor(ASSET_IN bool radial, uint gradient, vec2 point) {
+    uvec4 a = texelAt(ASSET gradient), b = texelAt(ASSET gradient + 1u);
     vec2 p = applyMatrix(a, b, point);
     float u = p.x;
     if (radial) {
-        vec4 focus = uintBitsToFloat(texelAt(gradient + 2u));
+        vec4 focus = uintBitsToFloat(texelAt(ASSET gradient + 2u));
         if (!radialOffset(p, focus.xy, focus.z, u))
             return vec4(0.0);
     }
-    return colorAt(gradient + 3u, b.w, spreadOffset(b.z, u));
+    return colorAt(ASSET gradient + 3u, b.w, spreadOffset(b.z, u));
 }

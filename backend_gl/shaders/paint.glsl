@@ -11,22 +11,22 @@
 vec4 materialColor(uint material, vec2 p);
 #endif
 
-vec4 layerColor(uint op, uint argument, vec2 point) {
+vec4 layerColor(ASSET_IN uint op, uint argument, vec2 point) {
 #if LINEAR || RADIAL
     if (LINEAR == 1 && op == opLinear || RADIAL == 1 && op == opRadial)
-        return gradientColor(RADIAL == 1 && op == opRadial, argument, point);
+        return gradientColor(ASSET RADIAL == 1 && op == opRadial, argument, point);
 #endif
 #if IMAGE
     if (op == opImage)
-        return imageColor(argument, point);
+        return imageColor(ASSET argument, point);
 #endif
 #if MATERIAL
     if (op == opMaterial) {
-        uvec4 a = texelAt(argument), b = texelAt(argument + 1u);
+        uvec4 a = texelAt(ASSET argument), b = texelAt(ASSET argument + 1u);
         return clamp(materialColor(b.z, applyMatrix(a, b, point)), 0.0, 1.0);
     }
 #endif
-    return uintBitsToFloat(texelAt(argument));
+    return uintBitsToFloat(texelAt(ASSET argument));
 }
 
 #if GROUPS
@@ -41,19 +41,19 @@ vec4 popped(uvec4 instruction, vec4 source, vec4 backdrop) {
 #endif
 }
 
-vec4 runProgram(uint first, uint count, vec2 point) {
+vec4 runProgram(ASSET_IN uint first, uint count, vec2 point) {
     vec4 stack[maxStack];
     int top = 0;
     stack[0] = vec4(0.0);
     for (uint i = first; i < first + count; ++i) {
-        uvec4 instruction = texelAt(sections.w + i);
+        uvec4 instruction = texelAt(ASSET ASSET_PART(sections).w + i);
         if (instruction.x == opPush) {
             stack[++top] = vec4(0.0);
         } else if (instruction.x < opSolid) {
             --top;
             stack[top] = popped(instruction, stack[top + 1], stack[top]);
         } else {
-            vec4 source = layerColor(instruction.x, sections.w + instruction.w, point);
+            vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point);
             stack[top] = over(source * uintBitsToFloat(instruction.z), stack[top]);
         }
     }
@@ -62,11 +62,11 @@ vec4 runProgram(uint first, uint count, vec2 point) {
 
 #else
 
-vec4 runProgram(uint first, uint count, vec2 point) {
+vec4 runProgram(ASSET_IN uint first, uint count, vec2 point) {
     vec4 sum = vec4(0.0);
     for (uint i = first; i < first + count; ++i) {
-        uvec4 instruction = texelAt(sections.w + i);
-        vec4 source = layerColor(instruction.x, sections.w + instruction.w, point);
+        uvec4 instruction = texelAt(ASSET ASSET_PART(sections).w + i);
+        vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point);
         sum = over(source * uintBitsToFloat(instruction.z), sum);
     }
     return sum;
@@ -75,10 +75,10 @@ vec4 runProgram(uint first, uint count, vec2 point) {
 #endif
 
 // Premultiplied colour of a paint at a picture point.
-vec4 paintColor(uint paint, vec2 point) {
-    uvec4 texel = paintAt(paint);
+vec4 paintColor(ASSET_IN uint paint, vec2 point) {
+    uvec4 texel = paintAt(ASSET paint);
 #if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
-    return isProgram(texel) ? runProgram(texel.x, texel.y, point) : uintBitsToFloat(texel);
+    return isProgram(texel) ? runProgram(ASSET texel.x, texel.y, point) : uintBitsToFloat(texel);
 #else
     return uintBitsToFloat(texel);
 #endif

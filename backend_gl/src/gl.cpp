@@ -73,6 +73,7 @@ void deleteFramebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
 void deleteVertexArray(GLuint id) { glDeleteVertexArrays(1, &id); }
 void deleteShader(GLuint id) { glDeleteShader(id); }
 void deleteProgram(GLuint id) { glDeleteProgram(id); }
+void deleteSampler(GLuint id) { glDeleteSamplers(1, &id); }
 
 TextureHandle makeTexture(GLenum format, int width, int height) {
     const int largest = limit(GL_MAX_TEXTURE_SIZE);

@@ -52,6 +52,7 @@ void deleteFramebuffer(GLuint id);
 void deleteVertexArray(GLuint id);
 void deleteShader(GLuint id);
 void deleteProgram(GLuint id);
+void deleteSampler(GLuint id);
 
 using TextureHandle = Handle<deleteTexture>;
 using BufferHandle = Handle<deleteBuffer>;
@@ -59,6 +60,7 @@ using FramebufferHandle = Handle<deleteFramebuffer>;
 using VertexArrayHandle = Handle<deleteVertexArray>;
 using ShaderHandle = Handle<deleteShader>;
 using ProgramHandle = Handle<deleteProgram>;
+using SamplerHandle = Handle<deleteSampler>;
 
 /// A texture for texelFetch: no filter, one level.
 TextureHandle makeTexture(GLenum format, int width, int height);

@@ -14,9 +14,7 @@ Measurement::Measurement(const std::string& name)
       asset_(compiler::compile(scene_).asset) {}
 
 compare::Difference Measurement::glToTruth(Gl& gl, int size) const {
-    const auto truth =
-        compare::readPng((sharedDirectory() / fmt::format("corpus/truth/{}.{}.png", name_, size)).string());
-    return compare::compare(asWritten(gl.render(asset_, wholePicture(scene_, size))), truth);
+    return compare::compare(asWritten(gl.render(asset_, wholePicture(scene_, size))), truthOf(name_, size));
 }
 
 compare::Difference Measurement::glToAsset(Gl& gl, int size) const {
@@ -33,6 +31,10 @@ compare::Difference Measurement::glToReference(Gl& gl, int size) const {
 compare::Difference Measurement::scanToGl(Gl& gl, int size) const {
     const asset::View view = wholePicture(scene_, size);
     return compare::compare(asset::Scanner(asset_).draw(view), gl.render(asset_, view));
+}
+
+image::Raster truthOf(const std::string& name, int size) {
+    return compare::readPng((sharedDirectory() / fmt::format("corpus/truth/{}.{}.png", name, size)).string());
 }
 
 }  // namespace vtm::cases

@@ -30,6 +30,9 @@ private:
     asset::Asset asset_;
 };
 
+/// The ground truth of a file of the corpus.
+image::Raster truthOf(const std::string& name, int size);
+
 /// Bounds that hold for every file, in 1/255.
 inline constexpr double truthP999 = 6, assetMax = 2, referenceMax = 8, referenceRms = 0.5;
 

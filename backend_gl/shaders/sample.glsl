@@ -1,0 +1,246 @@
+// An asset as a texture: the mean colour over a parallelogram of the picture. docs/texture.md.
+// Requires: sample_asset.glsl, coverage.glsl, paint.glsl, sample_prefilter.glsl; constants kind*, wrap*, maxLevel,
+// walkBudget, FEATURES.
+// Exports: vtm_sample, vtm_sample_grad.
+
+// ---- One square of the tree -------------------------------------------------------------------------
+
+// A footprint over one copy of the picture. Lengths in sides of the tree's square, which is [0, 1]².
+struct Tile {
+    vec2 centre, halfBox;  // of the footprint and its bounding box
+    vec2 least, most;      // of that box, cut to the picture
+    mat2 toBox;            // the footprint becomes the pixel's box [0, 1]², its centre 0.5
+    float turn;            // -1 if that mirrors
+};
+
+struct Sum {
+    vec4 color;
+    float cost;     // squares and pieces met so far
+    float allowed;  // ... at most
+};
+
+#if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
+
+const uint noPaint = 0xFFFFFFFFu;
+
+// The last two paints evaluated: the two sides of a chain of pieces.
+struct Recent {
+    uint paint, older;
+    vec4 color, olderColor;
+};
+
+vec4 regionColor(Vtm vtm, inout Recent recent, uint paint, vec2 point) {
+    if (paint != recent.paint) {
+        vec4 color = recent.olderColor;
+        if (paint != recent.older)
+            color = paintColor(vtm, paint, point);
+        recent = Recent(paint, recent.paint, color, recent.color);
+    }
+    return recent.color;
+}
+
+// One loop over the four corners and both sides of every piece, so that the paint interpreter, which
+// compilers inline, stands in the program once. Twin of general_fragment.glsl.
+vec4 leafIntegral(Vtm vtm, Frame frame, uvec4 leaf, vec2 point) {
+    Recent recent = Recent(noPaint, noPaint, vec4(0.0), vec4(0.0));
+    uvec4 piece = uvec4(0u);
+    vec4 sum = vec4(0.0);
+    float weight = 0.0;
+    uint terms = 4u + 2u * low(leaf.y);
+    for (uint i = 0u; i < terms; ++i) {
+        uint paint = high(piece.w);
+        if (i < 4u) {
+            weight = seg(cornerOf(frame, int(i)), cornerOf(frame, int((i + 1u) & 3u)));
+            uint word = i < 2u ? leaf.z : leaf.w;
+            paint = (i & 1u) == 0u ? low(word) : high(word);
+        } else if ((i & 1u) == 0u) {
+            piece = texelAt(vtm, vtm.sections.y + leaf.x + (i - 4u) / 2u);
+            weight = pieceSum(frame, piece);
+            paint = low(piece.w);
+        } else {
+            weight = -weight;
+        }
+        if (weight != 0.0)
+            sum += weight * regionColor(vtm, recent, paint, point);
+    }
+    return sum;
+}
+
+#else
+
+// Twin of pieces_fragment.glsl.
+vec4 leafIntegral(Vtm vtm, Frame frame, uvec4 leaf, vec2 point) {
+    vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
+    vec4 sum = seg(a, b) * solidColor(vtm, low(leaf.z)) + seg(b, c) * solidColor(vtm, high(leaf.z)) +
+               seg(c, d) * solidColor(vtm, low(leaf.w)) + seg(d, a) * solidColor(vtm, high(leaf.w));
+    uint end = leaf.x + low(leaf.y);
+    for (uint i = leaf.x; i < end; ++i) {
+        uvec4 piece = texelAt(vtm, vtm.sections.y + i);
+        float weight = pieceSum(frame, piece);
+        if (weight != 0.0)
+            sum += weight * (solidColor(vtm, low(piece.w)) - solidColor(vtm, high(piece.w)));
+    }
+    return sum;
+}
+
+#endif
+
+vec2 picturePoint(Vtm vtm, vec2 p) { return vtm.square.xy + p * vtm.square.z; }
+
+// Paints are evaluated in the middle of what the footprint's box has of the square.
+void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout Sum sum) {
+    vec2 corner = vec2(cell) * side;
+    vec2 least = max(tile.centre - tile.halfBox, corner), most = min(tile.centre + tile.halfBox, corner + side);
+    uint payload = entry >> 2;
+    uvec4 leaf = uvec4(0u, 0u, uvec2(payload | payload << 16));
+    if ((entry & 3u) != kindSolid)
+        leaf = texelAt(vtm, vtm.sections.x + payload);
+    sum.cost += 1.0 + float(low(leaf.y));
+    if (sum.cost > sum.allowed)
+        return;
+    Frame frame = Frame(tile.toBox * (side / float(leafExtent)), tile.toBox * (corner - tile.centre) + 0.5);
+    sum.color += tile.turn * leafIntegral(vtm, frame, leaf, picturePoint(vtm, 0.5 * (least + most)));
+}
+
+// ---- The tree -----------------------------------------------------------------------------------------
+
+// 4^-level, exactly.
+float sideAt(int level) { return uintBitsToFloat(uint(127 - 2 * level) << 23); }
+
+uint childAt(Vtm vtm, uint node, ivec2 cell) {
+    return texelAt(vtm, vtm.nodes + 4u * node + uint(cell.y & 3))[cell.x & 3];
+}
+
+// The node that holds `cell`, from the root.
+uint nodeAround(Vtm vtm, ivec2 cell, int level) {
+    uint node = vtm.root >> 2;
+    for (int l = 1; l < level; ++l)
+        node = childAt(vtm, node, cell >> (2 * (level - l))) >> 2;
+    return node;
+}
+
+ivec2 firstCell(Tile tile, float side) { return ivec2(floor(tile.least / side)); }
+ivec2 lastCell(Tile tile, float side) { return max(ivec2(ceil(tile.most / side)) - 1, firstCell(tile, side)); }
+
+// Whether a square meets the footprint, by its box in the pixel's coordinates.
+bool meets(Tile tile, ivec2 cell, float side) {
+    vec2 fromCentre = tile.toBox * ((vec2(cell) + 0.5) * side - tile.centre);
+    vec2 reach = (abs(tile.toBox[0]) + abs(tile.toBox[1])) * (0.5 * side) + 0.5;
+    return all(lessThan(abs(fromCentre), reach));
+}
+
+// Squares in the order of the tree, with neither recursion nor a stack: a place in the tree is a cell, its level and
+// the node that holds it. First down to the smallest square that holds the whole box, which most often is a leaf.
+void addTile(Vtm vtm, Tile tile, inout Sum sum) {
+    int level = 0;
+    ivec2 cell = ivec2(0);
+    uint entry = vtm.root, parent = 0u;
+    while ((entry & 3u) == kindNode) {
+        float side = sideAt(level + 1);
+        ivec2 child = firstCell(tile, side);
+        if (child != lastCell(tile, side))
+            break;
+        parent = entry >> 2;
+        entry = childAt(vtm, parent, child);
+        cell = child;
+        ++level;
+    }
+    int top = level;
+    bool rising = false;
+    // Two loops, the inner one only to find the next square: lanes of a processor that find theirs at different
+    // times add them together.
+    while (level >= top && sum.cost <= sum.allowed) {
+        ivec2 found = ivec2(-1);
+        float foundSide = 0.0;
+        uint foundEntry = 0u;
+        while (level >= top && found.x < 0) {
+            float side = sideAt(level);
+            if (!rising && meets(tile, cell, side)) {
+                if ((entry & 3u) == kindNode) {
+                    parent = entry >> 2;
+                    ++level;
+                    cell = max(cell * 4, firstCell(tile, side * 0.25));
+                    entry = childAt(vtm, parent, cell);
+                    sum.cost += 0.25;
+                    continue;
+                }
+                found = cell;
+                foundSide = side;
+                foundEntry = entry;
+            }
+            // On to the next cell of this node that the box meets, or up where there is none.
+            ivec2 most = min(lastCell(tile, side), cell | 3);
+            bool along = cell.x < most.x, onward = level > top && (along || cell.y < most.y);
+            if (onward) {
+                cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(tile, side).x, cell.x & ~3), cell.y + 1);
+                if (rising)
+                    parent = nodeAround(vtm, cell, level);
+                entry = childAt(vtm, parent, cell);
+            } else {
+                --level;
+                cell >>= 2;
+            }
+            rising = !onward;
+            sum.cost += 0.25;
+        }
+        if (found.x >= 0)
+            addSquare(vtm, tile, found, foundSide, foundEntry, sum);
+    }
+}
+
+// ---- The footprint ------------------------------------------------------------------------------------
+
+bool repeats(int wrapping) { return wrapping == wrapRepeat || wrapping == wrapMirror; }
+
+// Copies of the picture that a footprint of this half width meets, as (first, last).
+vec2 copies(int wrapping, float at, float halfWidth) {
+    return repeats(wrapping) ? vec2(floor(at - halfWidth), max(ceil(at + halfWidth) - 1.0, floor(at - halfWidth)))
+                             : vec2(0.0);
+}
+
+bool isMirrored(int wrapping, float copy) {
+    return wrapping == wrapMirror && abs(copy - 2.0 * floor(copy * 0.5)) > 0.5;
+}
+
+// Adds what the tree has of the footprint; over `allowed`, gives up.
+void addFootprint(Vtm vtm, Footprint footprint, inout Sum sum) {
+    vec2 scale = vtm.size / vtm.square.z, offset = -vtm.square.xy / vtm.square.z;
+    mat2 toBox = inverse(footprint.sides) * vtm.square.z;
+    vec2 halfBox = 0.5 * (abs(footprint.sides[0]) + abs(footprint.sides[1])) / vtm.size;
+    vec2 s = copies(vtm.wrapping.x, footprint.st.x, halfBox.x);
+    vec2 t = copies(vtm.wrapping.y, footprint.st.y, halfBox.y);
+    for (float y = t.x; y <= t.y && sum.cost <= sum.allowed; ++y)
+        for (float x = s.x; x <= s.y && sum.cost <= sum.allowed; ++x) {
+            bvec2 mirrored = bvec2(isMirrored(vtm.wrapping.x, x), isMirrored(vtm.wrapping.y, y));
+            vec2 st = footprint.st - vec2(x, y);
+            st = mix(st, 1.0 - st, mirrored);
+            vec2 turned = mix(vec2(1.0), vec2(-1.0), mirrored);
+            vec2 least = max(st - halfBox, 0.0), most = min(st + halfBox, 1.0);
+            if (any(greaterThan(least, most)))
+                continue;
+            Tile tile = Tile(st * scale + offset, halfBox * scale, least * scale + offset, most * scale + offset,
+                             mat2(toBox[0] * turned.x, toBox[1] * turned.y), 1.0);
+            tile.turn = cross2(tile.toBox[0], tile.toBox[1]) < 0.0 ? -1.0 : 1.0;
+            addTile(vtm, tile, sum);
+        }
+}
+
+vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
+    if ((vtm.features & ~FEATURES) != 0u)
+        return vec4(1.0, 0.0, 1.0, 1.0);  // the include was made for other assets
+    Footprint footprint = footprintOf(vtm, st, dx, dy);
+    float share = prefilterShare(footprint);
+    vec4 color = vec4(0.0);
+    if (share < 1.0) {
+        float freedom = max(1.0, fadeTo / footprint.longer);
+        Sum sum = Sum(vec4(0.0), 0.0, walkBudget * freedom * freedom);
+        addFootprint(vtm, footprint, sum);
+        color = clamp(sum.color, 0.0, 1.0);
+        share = max(share, clamp(2.0 * sum.cost / sum.allowed - 1.0, 0.0, 1.0));
+    }
+    if (share > 0.0)
+        color = mix(color, prefiltered(vtm, footprint), share);
+    return color;
+}
+
+vec4 vtm_sample(Vtm vtm, vec2 st) { return vtm_sample_grad(vtm, st, dFdx(st), dFdy(st)); }

@@ -1,0 +1,23 @@
+// An asset as a uniform: `uniform Vtm sign;`. src/sampled_texture.cpp binds it.
+// Requires: IMAGE. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART for fetch.glsl.
+
+struct Vtm {
+    usampler2D texels;     // all records
+    sampler2D prefilter;   // the pyramid of means
+#if IMAGE
+    sampler2D images;
+#endif
+    uvec4 sections;        // first texels of the leaves, pieces, paints and data
+    uint imageSection;     // first texel of the list of pictures
+    uint nodes;            // first texel of the nodes
+    uint root;             // entry of the tree
+    uint features;         // of the paint programs, one bit each
+    vec2 size;             // of the picture, its units
+    vec3 square;           // the tree's: least x and y, side
+    vec2 prefilterTexels;  // of the finest level
+    ivec2 wrapping;        // beyond [0, 1] of s and of t
+};
+
+#define ASSET_IN Vtm vtm,
+#define ASSET vtm,
+#define ASSET_PART(name) vtm.name

@@ -1,0 +1,311 @@
+// Assets as textures in a user's shader, against the CPU evaluator: everywhere in the plane, alone and
+// together.
+#include "backend_gl/sampled_texture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "asset/container.hpp"
+#include "asset/evaluate.hpp"
+#include "asset/testing.hpp"
+#include "asset/testing_views.hpp"
+#include "backend_gl/src/gl.hpp"
+#include "backend_gl/testing.hpp"
+#include "backend_gl/tests/gl_fixture.hpp"
+
+namespace vtm::gl {
+namespace {
+
+using asset::Asset;
+using asset::View;
+using asset::Wrap;
+using image::Raster;
+using namespace asset::test;
+
+/// Placing by single precision (s, t) and what the evaluator differs from the GPU by: docs/texture.md.
+constexpr double tolerance = 2.0 / 255;
+
+Raster drawn(const Asset& asset, const View& view, Wrapping wrapping = {}) {
+    return test::TextureCanvas(asset).draw(view, wrapping);
+}
+
+double worst(const Raster& a, const Raster& b) {
+    EXPECT_EQ(a.rgba.size(), b.rgba.size());
+    double difference = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        difference = std::max(difference, double(std::abs(a.rgba[i] - b.rgba[i])));
+    return difference;
+}
+
+/// Turned, mirrored and sheared, at least a pixel a unit, so that nothing is minified.
+View largeView(std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    const glm::dvec2 centre(64 * unit(random), 64 * unit(random));
+    return turnedView(40, 30, centre, std::exp2(6 * unit(random)), 6.28 * unit(random), unit(random) - 0.5,
+                      unit(random) < 0.5);
+}
+
+TEST_F(Gl, TexturesShowWhatTheEvaluatorDoes) {
+    std::mt19937 random(1);
+    for (const Asset& asset : {halfPlane(), wedge(), strip(), threeRegions(), disc(), twoLevels(),
+                               blendAsset(asset::Blend::Normal), blendAsset(asset::Blend::Hue)})
+        for (test::TextureCanvas canvas(asset); const int i : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}) {
+            const View view = largeView(random);
+            EXPECT_LE(worst(canvas.draw(view), asset::evaluate(asset, view)), tolerance) << i;
+        }
+}
+
+TEST_F(Gl, TexturesHaveEveryPaint) {
+    const Asset asset = everyPaint();
+    test::TextureCanvas canvas(asset);
+    for (int i = 0; i < 16; ++i) {  // large, so that it does not matter where in a pixel a paint is looked at
+        const View view = turnedView(96, 96, {8 + 16 * (i % 4), 8 + 16 * (i / 4)}, 40, 0.5);
+        const Raster picture = asset::evaluate(asset, view);
+        EXPECT_LE(worst(canvas.draw(view), picture), tolerance) << i;
+        EXPECT_GT(worst(picture, Raster(96, 96)), 0.1) << i;
+    }
+}
+
+/// What copies of the picture show, each transparent outside itself, is their sum.
+Raster sumOfCopies(const Asset& asset, const View& view, bool mirrored, int from, int to) {
+    Raster sum(view.width, view.height);
+    for (int y = from; y <= to; ++y)
+        for (int x = from; x <= to; ++x) {
+            const glm::dvec2 size(asset.width, asset.height);
+            const glm::bvec2 flipped(mirrored && x % 2 != 0, mirrored && y % 2 != 0);
+            const glm::dvec2 sign(flipped.x ? -1 : 1, flipped.y ? -1 : 1);
+            const glm::dvec2 origin = glm::dvec2(x + (flipped.x ? 1 : 0), y + (flipped.y ? 1 : 0)) * size;
+            View copy = view;
+            copy.toPixels = glm::dmat3x2(view.toPixels[0] * sign.x, view.toPixels[1] * sign.y,
+                                         view.toPixels * glm::dvec3(origin, 1));
+            const Raster part = asset::evaluate(asset, copy);
+            std::ranges::transform(sum.rgba, part.rgba, sum.rgba.begin(), std::plus());
+        }
+    return sum;
+}
+
+TEST_F(Gl, RepeatedAndMirroredTexturesHaveNoSeam) {
+    Asset slanting = halfPlane();
+    slanting.height = 48;  // the square goes on below the picture: cut it off
+    slanting.maps[0].root =
+        addLeaf(slanting, {1, 2, 0, 0},
+                {line({20001, 0}, {30002, 49151}, 1, 2), line({30002, 49151}, {0, 49151}, 1, 0),
+                 line({65535, 49151}, {30002, 49151}, 2, 0)});
+    ASSERT_NO_THROW(asset::validate(slanting));
+    for (const Asset& asset : {slanting, disc()})
+        for (const bool mirrored : {false, true}) {
+            const Wrap wrap = mirrored ? Wrap::Mirror : Wrap::Repeat;
+            for (const double zoom : {0.9, 3.0, 20.0}) {
+                const View view = turnedView(50, 40, {0.3, 0.2}, zoom, 0.3, 0.2);
+                EXPECT_LE(worst(drawn(asset, view, {wrap, wrap}), sumOfCopies(asset, view, mirrored, -2, 1)),
+                          tolerance)
+                    << mirrored << ' ' << zoom;
+            }
+        }
+}
+
+TEST_F(Gl, OneColourIsItselfAtAnySizeUnderAnyWrap) {
+    Asset asset = emptyAsset();
+    asset.maps[0].root = asset::Entry::make(asset::Entry::Kind::Solid, 2);
+    for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
+        for (double zoom = 0.001; zoom < 5000; zoom *= 3.7) {
+            const Raster raster = drawn(asset, turnedView(24, 24, {1, 63}, zoom, 0.7, 0.3), {wrap, wrap});
+            for (std::size_t i = 0; i < raster.rgba.size(); ++i)
+                ASSERT_NEAR(raster.rgba[i], i % 2 == 1 ? 1 : 0, 1.0 / 255) << int(wrap) << ' ' << zoom;
+        }
+}
+
+TEST_F(Gl, BeyondABorderThereIsNothingAndBeyondAClampedEdgeItsColour) {
+    const Asset asset = halfPlane(20001, 20001);                     // red, then green
+    const View view{64, 8, glm::dmat3x2(0.25, 0, 0, 0.25, 24, -4)};  // the picture on columns 24 to 40
+    const Raster border = drawn(asset, view), clamped = drawn(asset, view, {Wrap::Clamp, Wrap::Clamp});
+    for (int x = 0; x < 64; ++x) {
+        const bool isInside = x >= 24 && x < 40;
+        EXPECT_NEAR(border.pixel(x, 3)[3], isInside ? 1 : 0, tolerance) << x;
+        EXPECT_NEAR(clamped.pixel(x, 3)[3], 1, tolerance) << x;
+        if (!isInside) {
+            EXPECT_NEAR(clamped.pixel(x, 3)[0], x < 24 ? 1 : 0, tolerance) << x;
+        }
+    }
+    const Raster oneAxis = drawn(asset, view, {Wrap::Clamp, Wrap::Border});
+    EXPECT_NEAR(oneAxis.pixel(2, 3)[0], 1, tolerance);
+}
+
+TEST_F(Gl, MinifiedTexturesAreTheirMean) {
+    const Asset asset = disc();
+    const float mean = float(discRadius * discRadius * 3.14159265 / (65535.0 * 65535.0));
+    const View far = turnedView(4, 4, {32, 32}, 0.002, 0.3);
+    EXPECT_NEAR(drawn(asset, far, {Wrap::Repeat, Wrap::Repeat}).pixel(1, 1)[0], mean, tolerance);
+    // Half the picture is outside: so is half the colour.
+    const View edge{1, 1, glm::dmat3x2(1.0 / 64, 0, 0, 1.0 / 64, -0.5, 0)};
+    EXPECT_NEAR(drawn(asset, edge).pixel(0, 0)[0], mean / 2, tolerance);
+}
+
+/// Where the prefilter draws alone, the shader takes the taps that asset::samplePrefilter takes.
+TEST_F(Gl, ThePrefilterIsSampledAsTheCpuDoes) {
+    Asset asset = threeRegions();
+    asset.prefilter = asset::buildPrefilter(asset, asset::PyramidSize{32, 32});
+    SampledTexture texture(asset);
+    test::ShaderCanvas canvas(sampleInclude({asset}), R"(
+uniform Vtm sign;
+const mat2 footprint = mat2(0.126, 0.063, -0.063, 0.126);  // 4.5 texels a side
+vec4 shade(vec2 pixel) { return vtm_sample_grad(sign, 3.0 * pixel / 48.0 - 1.0, footprint[0], footprint[1]); })");
+    const glm::mat2 footprint(0.126f, 0.063f, -0.063f, 0.126f);
+    ASSERT_EQ(asset::prefilterShare(asset, footprint), 1);
+    for (const Wrap wrap : {Wrap::Border, Wrap::Repeat, Wrap::Mirror}) {
+        texture.bind(canvas.program(), "sign", 0, {wrap, wrap});
+        const Raster raster = canvas.draw(48, 48);
+        for (int i = 0; i < 48 * 48; ++i) {
+            const glm::vec2 st = 3.0f * (glm::vec2(i % 48, i / 48) + 0.5f) / 48.0f - 1.0f;
+            const glm::vec4 color =
+                asset::samplePrefilter(asset, st, footprint, asset::Minification::Taps4, wrap);
+            for (int c = 0; c < 4; ++c)
+                ASSERT_NEAR(raster.pixel(i % 48, i / 48)[c], color[c], tolerance) << int(wrap) << ' ' << i;
+        }
+    }
+}
+
+TEST_F(Gl, DerivativesCanBeGiven) {
+    const Asset asset = threeRegions();
+    SampledTexture texture(asset);
+    test::ShaderCanvas canvas(sampleInclude({asset}), R"(
+uniform Vtm sign;
+vec4 shade(vec2 pixel) {  // 32 pixels a side, seen as on 8
+    vec2 corner = (floor(pixel / 4.0) + 0.5) / 8.0;
+    return vtm_sample_grad(sign, corner, vec2(0.125, 0.0), vec2(0.0, 0.125));
+})");
+    texture.bind(canvas.program(), "sign", 0);
+    const Raster blocks = canvas.draw(32, 32),
+                 small = asset::evaluate(asset, {8, 8, glm::dmat3x2(0.125, 0, 0, 0.125, 0, 0)});
+    for (int i = 0; i < 32 * 32; ++i)
+        for (int c = 0; c < 4; ++c)
+            ASSERT_NEAR(blocks.pixel(i % 32, i / 32)[c], small.pixel(i % 32 / 4, i / 128)[c], tolerance) << i;
+}
+
+TEST_F(Gl, FootprintsThatAreNoneAreDrawnToo) {
+    const Asset asset = threeRegions();
+    SampledTexture texture(asset);
+    test::ShaderCanvas canvas(sampleInclude({asset}), R"(
+uniform Vtm sign;
+vec4 shade(vec2 pixel) {
+    float huge = 1e30 * pixel.x, zero = 0.0 * pixel.x, none = zero / zero;
+    vec2 st = vec2(0.4, 0.2);
+    if (pixel.y < 1.0) return vtm_sample_grad(sign, st, vec2(0.0), vec2(0.0));
+    if (pixel.y < 2.0) return vtm_sample_grad(sign, st, vec2(0.1, 0.1), vec2(0.2, 0.2));
+    if (pixel.y < 3.0) return vtm_sample_grad(sign, st, vec2(huge), vec2(zero));
+    if (pixel.y < 4.0) return vtm_sample_grad(sign, st, vec2(huge * huge), vec2(none));
+    if (pixel.y < 5.0) return vtm_sample_grad(sign, st, vec2(1e-20), vec2(-1e-20, 1e-20));
+    return vtm_sample_grad(sign, vec2(none), vec2(0.1), vec2(0.0));
+})");
+    for (const Wrap wrap : {Wrap::Border, Wrap::Clamp, Wrap::Repeat, Wrap::Mirror}) {
+        texture.bind(canvas.program(), "sign", 0, {wrap, wrap});
+        const Raster raster = canvas.draw(4, 6);
+        for (const int y : {0, 4})
+            EXPECT_NEAR(raster.pixel(1, y)[0], 1, tolerance) << y;  // the point's colour
+        for (const float value : raster.rgba)
+            EXPECT_TRUE(value >= 0 && value <= 1) << value;
+    }
+}
+
+TEST_F(Gl, SeveralTexturesShareAProgram) {
+    const Asset first = everyPaint(), second = disc(), third = blendAsset(asset::Blend::Multiply);
+    SampledTexture a(first), b(second), c(third);
+    EXPECT_EQ(a.units(), 3u);
+    EXPECT_EQ(b.units(), 2u);
+    test::ShaderCanvas canvas(sampleInclude({first, second, third}), R"(
+uniform Vtm wall, signs[2];
+vec4 shade(vec2 pixel) {
+    vec2 st = pixel / 64.0;
+    vec4 first = vtm_sample(signs[0], st), second = vtm_sample(signs[1], st - vec2(1.0, 0.0));
+    vec4 third = vtm_sample(wall, st - vec2(2.0, 0.0));
+    return first + second + third;
+})");
+    a.bind(canvas.program(), "wall", 0);
+    b.bind(canvas.program(), "signs[0]", 3);
+    c.bind(canvas.program(), "signs[1]", 5);
+    const Raster all = canvas.draw(192, 64);
+    const View view{64, 64};
+    for (int i = 0; i < 3; ++i) {
+        const Asset& asset = i == 0 ? second : i == 1 ? third : first;
+        const Raster one = drawn(asset, view);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 1; x < 63; ++x)
+                for (int channel = 0; channel < 4; ++channel)
+                    ASSERT_NEAR(all.pixel(x + 64 * i, y)[channel], one.pixel(x, y)[channel], tolerance) << i;
+    }
+}
+
+// ---- Contract -----------------------------------------------------------------------------------------
+
+TEST_F(Gl, MakingAndBindingLeavesTheUsersState) {
+    const Asset asset = everyPaint();
+    test::ShaderCanvas canvas(sampleInclude({asset}),
+                              "uniform Vtm sign;\nvec4 shade(vec2 p) { return vtm_sample(sign, p); }"),
+        other("precision highp float;", "vec4 shade(vec2 p) { return vec4(p, 0.0, 1.0); }");
+    const TextureHandle mine = makeTexture(GL_RGBA8, 4, 4);
+    const BufferHandle buffer = makeBuffer();
+    glUseProgram(other.program());
+    glActiveTexture(GL_TEXTURE7);
+    glBindTexture(GL_TEXTURE_2D, mine.get());
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer.get());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 17);
+    glPixelStorei(GL_UNPACK_SKIP_ROWS, 3);
+    glPixelStorei(GL_UNPACK_SKIP_PIXELS, 5);
+    const auto state = [] {
+        std::vector<int> values;
+        for (const GLenum name : {GL_CURRENT_PROGRAM, GL_ACTIVE_TEXTURE, GL_TEXTURE_BINDING_2D,
+                                  GL_SAMPLER_BINDING, GL_PIXEL_UNPACK_BUFFER_BINDING, GL_UNPACK_ALIGNMENT,
+                                  GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
+                                  GL_VERTEX_ARRAY_BINDING, GL_FRAMEBUFFER_BINDING, GL_ARRAY_BUFFER_BINDING})
+            values.push_back(limit(name));
+        return values;
+    };
+    const std::vector<int> before = state();
+    SampledTexture texture(asset);
+    EXPECT_EQ(state(), before);
+    texture.bind(canvas.program(), "sign", 1, {Wrap::Repeat, Wrap::Mirror});
+    EXPECT_EQ(state(), before);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    for (const GLenum name : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS})
+        glPixelStorei(name, 0);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+TEST_F(Gl, WhatCannotBeSampledIsAnError) {
+    EXPECT_THROW(SampledTexture{layers()}, GlError);  // compat mode
+    const Asset asset = disc();
+    SampledTexture texture(asset);
+    test::ShaderCanvas canvas(sampleInclude({asset}),
+                              "uniform Vtm sign;\nvec4 shade(vec2 p) { return vtm_sample(sign, p); }");
+    const auto complaint = [&](const char* name, unsigned unit) -> std::string {
+        try {
+            texture.bind(canvas.program(), name, unit);
+        } catch (const GlError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(complaint("sign", 0), "");
+    EXPECT_NE(complaint("sing", 0).find("no 'uniform Vtm sing'"), std::string::npos);
+    const unsigned units = unsigned(limit(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
+    EXPECT_EQ(complaint("sign", units - 2), "");
+    EXPECT_NE(complaint("sign", units - 1).find("the driver has"), std::string::npos);
+    EXPECT_NE(complaint("sign", ~0u), "");
+    glEnable(0x1234);
+    EXPECT_NE(complaint("sign", 0).find("before"), std::string::npos);
+}
+
+TEST_F(Gl, AnIncludeForOtherAssetsIsSeenAtOnce) {
+    const Asset plain = disc(), gradients = blendAsset(asset::Blend::Normal);
+    SampledTexture texture(gradients);
+    test::ShaderCanvas canvas(sampleInclude({plain}),
+                              "uniform Vtm sign;\nvec4 shade(vec2 p) { return vtm_sample(sign, p / 8.0); }");
+    texture.bind(canvas.program(), "sign", 0);
+    const Raster raster = canvas.draw(8, 8);
+    for (std::size_t i = 0; i < raster.rgba.size(); ++i)
+        ASSERT_EQ(raster.rgba[i], i % 4 == 1 ? 0 : 1);  // magenta
+}
+
+}  // namespace
+}  // namespace vtm::gl
