@@ -28,7 +28,17 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// Who makes the pixels of exact pictures that are drawn into 8-bit framebuffers without conversions.
+enum class Pixels {
+    Automatic,  ///< Scanned where the driver runs shaders on the CPU (llvmpipe and the like), else Shaders
+    Shaders,
+    Scanned  ///< asset/scan.hpp, on the CPU, several times faster there; pictures with materials take Shaders
+};
+
 struct RendererOptions {
+    /// Of draw(). render() and renderBitmap() show what the shaders make.
+    Pixels pixels = Pixels::Automatic;
+
     /// Whether every call leaves GL's state as it found it (docs/backend.md). Without, what a call may touch
     /// is anything afterwards.
     bool restoreState = true;

@@ -133,6 +133,7 @@ Destination destinationOf(const asset::View& view, const Output& output, GLuint 
     const Attachment attachment(destination.framebuffer);
     refuseContradictions(output, attachment);
     destination.multisampled = limit(GL_SAMPLE_BUFFERS) > 0;
+    destination.bits = attachment.isFloat() ? 0 : attachment.redBits();
     destination.over = output.write == Output::Write::Over;
     destination.finish = finishOf(output, attachment);
 

@@ -16,6 +16,7 @@ namespace vtm::gl {
 struct Destination {
     GLuint framebuffer = 0;
     bool multisampled = false;
+    int bits = 0;  ///< a channel; 0: floats
     bool over = false;
     Finish finish;
     /// To the framebuffer's pixels; its raster is [0, width) × [0, height) of them.

@@ -83,8 +83,12 @@ struct Renderer::Impl {
     bool lost = false;
 
     Workshop workshop;
-    TargetPool bytes{GL_RGBA8};  ///< for reading back 8 bits
+    TargetPool bytes{GL_RGBA8};    ///< for reading back 8 bits
+    TargetPool scanned{GL_RGBA8};  ///< for sending them
+    bool scans = options.pixels == Pixels::Scanned ||
+                 (options.pixels == Pixels::Automatic && isSoftwareDriver());
     PictureBuffers picture;
+    std::vector<std::uint8_t> pixels;
 
     void checkLost() {
         if (!lost && reset && reset() != GL_NO_ERROR)
@@ -112,6 +116,7 @@ struct Renderer::Impl {
         } catch (const OutOfMemory&) {
             workshop.pool.resize({0, 0});
             bytes.resize({0, 0});
+            scanned.resize({0, 0});
             throw;
         } catch (const ContextLost&) {
             lost = true;
@@ -136,6 +141,16 @@ struct Renderer::Impl {
         if (asset.atlases.empty() && d.finish.has(Finish::LinearLight))
             throw std::invalid_argument(
                 "linear light is for exact mode; compat mode does as other renderers do");
+        if (asset.scanner && d.finish.flags() == 0 && d.bits == 8) {
+            const OneDrawBuffer one;
+            for (const PixelBox& box : d.boxes)
+                forEachTile(box, tileSide(), [&](const PixelBox& part) { drawScanned(asset, d, part); });
+            return check("drawing");
+        }
+        drawByShaders(asset, d);
+    }
+
+    void drawByShaders(UploadedAsset& asset, const Destination& d) {
         const OneDrawBuffer one;
         // Samples of one pixel may lie in several patches; each pixel's colour is made in one.
         if (asset.atlases.size() == 1 && !d.multisampled) {
@@ -165,6 +180,29 @@ struct Renderer::Impl {
             drawPicture(workshop.programs, picture, asset, d.view, box, d.finish);
         glDisable(GL_SCISSOR_TEST);
         glDisable(GL_BLEND);
+    }
+
+    void drawScanned(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
+        const asset::View view = viewOf(d.view, box);
+        pixels.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
+        asset.scanner->draw(view, {pixels.data(), std::size_t(view.width) * 4});
+        scanned.resize(box.size());
+        Target target = scanned.take();
+        glBindTexture(GL_TEXTURE_2D, target.texture.get());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, view.width, view.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        pixels.data());
+        if (d.over || d.multisampled) {
+            begin(d, box);
+            compose(d, target, box, -box.min);
+        } else {
+            glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer.get());
+            glBindFramebuffer(GL_DRAW_FRAMEBUFFER, d.framebuffer);
+            glBlitFramebuffer(0, 0, view.width, view.height, box.min.x, box.min.y, box.max.x, box.max.y,
+                              GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        }
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_BLEND);
+        scanned.giveBack(std::move(target));
     }
 
     /// All boxes' parts in the tile, from one target.
@@ -222,7 +260,7 @@ struct Renderer::Impl {
             output.framebuffer = target.framebuffer.get();
             output.alpha = Output::Alpha::Straight;
             const asset::View tile = viewOf(view, box);
-            draw(asset, destinationOf(tile, output, 0));
+            drawByShaders(asset, destinationOf(tile, output, 0));
             const std::size_t first =
                 (std::size_t(box.min.y) * std::size_t(view.width) + std::size_t(box.min.x)) * 4;
             readBack(target, tile, GL_UNSIGNED_BYTE, view.width, &bitmap.rgba[first]);
@@ -246,6 +284,8 @@ Texture Renderer::upload(const asset::AssetView& asset) {
     return impl_->call([&](const StateGuard&) {
         Programs& programs = impl_->workshop.programs;
         auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
+        if (impl_->scans && asset.mode == asset::Mode::Exact && asset.materials.empty())
+            texture->scanner.emplace(asset);
         // Users' errors come at once, not with the first picture.
         if (texture->features.has(Features::Material))
             asset.mode == asset::Mode::Exact ? programs.patch(texture->features, texture->materialSet, {})

@@ -1,6 +1,8 @@
 #include "backend_gl/src/requirements.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include <EGL/egl.h>
 #include <fmt/format.h>
@@ -26,6 +28,9 @@ constexpr Limit limits[] = {
     {GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS, "GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS", int(unitCount)},
 };
 
+/// As GL_RENDERER begins or tells: Mesa's, ANGLE's, Apple's.
+constexpr std::string_view softwareDrivers[] = {"llvmpipe", "softpipe", "SwiftShader", "Software"};
+
 }  // namespace
 
 void requireContext() {
@@ -39,6 +44,15 @@ void requireContext() {
     for (const Limit& l : limits)
         if (limit(l.name) < l.least)
             throw GlError(fmt::format("the driver's {} is {}: {} is needed", l.text, limit(l.name), l.least));
+}
+
+bool isSoftwareDriver() {
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    if (name == nullptr)
+        return false;
+    return std::ranges::any_of(softwareDrivers, [&](std::string_view driver) {
+        return std::string_view(name).find(driver) != std::string_view::npos;
+    });
 }
 
 std::function<unsigned()> driversResetStatus() {

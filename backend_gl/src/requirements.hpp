@@ -15,4 +15,7 @@ void requireContext();
 /// nothing.
 std::function<unsigned()> driversResetStatus();
 
+/// Whether the driver's "GPU" is this machine's CPU.
+bool isSoftwareDriver();
+
 }  // namespace vtm::gl

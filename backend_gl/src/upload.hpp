@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <cstring>
 #include <span>
 
+#include "asset/scan.hpp"
 #include "backend_gl/renderer.hpp"
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/gl.hpp"
@@ -45,6 +47,7 @@ struct UploadedAsset {
     Features features;     ///< of the paint programs
     unsigned materialSet;  ///< of Programs
     std::vector<asset::Paint> paints;
+    std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
     std::vector<PatchAtlas> atlases;  ///< exact: of each map drawn
     std::vector<bool> isProgram;      ///< by paint
     Sections sections;
