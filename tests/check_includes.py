@@ -52,6 +52,7 @@ LIBRARIES = {
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
     r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},
+    r"Q[A-Z]\w+": {"bench"},
     r"potracelib\.h": {"trace"},
     r"unistd\.h|fcntl\.h|sys/.*\.h": ANYWHERE,
 }

@@ -1,0 +1,183 @@
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "bench/src/engine.hpp"
+#include "image/codec.hpp"
+#include "svg/write.hpp"
+
+namespace vtm::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A process that answers a line with a line, and a folder for what is too long for one.
+class Child {
+public:
+    explicit Child(std::string command) : command_(std::move(command)) {
+        std::signal(SIGPIPE, SIG_IGN);  // a process that died shows in its reply
+        start();
+        scratch_ = fs::temp_directory_path() / fmt::format("vtm_bench_{}", process_);
+        fs::create_directories(scratch_);
+    }
+    ~Child() {
+        stop();
+        std::error_code ignored;
+        fs::remove_all(scratch_, ignored);
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    /// Without its line break; nothing at the end.
+    std::optional<std::string> line() {
+        std::string text;
+        for (int c; (c = std::fgetc(out_)) != EOF;) {
+            if (c == '\n')
+                return text;
+            text += char(c);
+        }
+        return std::nullopt;
+    }
+
+    /// What stands after "ok "; std::runtime_error with what stands after "error ". A process that ends says
+    /// so once and is started anew.
+    std::string ask(const std::string& request) {
+        std::fputs((request + "\n").c_str(), in_);
+        std::fflush(in_);
+        while (const std::optional<std::string> reply = line()) {
+            if (reply->starts_with("ok"))
+                return reply->substr(std::min<std::size_t>(3, reply->size()));
+            if (reply->starts_with("error "))
+                throw std::runtime_error(reply->substr(6));
+        }
+        stop();
+        start();
+        for (std::optional<std::string> greeting; (greeting = line()) && *greeting != "ready";) {
+        }
+        throw std::runtime_error("its process ended");
+    }
+
+    const fs::path& scratch() const { return scratch_; }
+
+private:
+    void start() {
+        int requests[2], replies[2];
+        if (pipe2(requests, O_CLOEXEC) != 0 || pipe2(replies, O_CLOEXEC) != 0)
+            throw std::runtime_error("no pipe to a child process");
+        process_ = fork();
+        if (process_ == 0) {
+            dup2(requests[0], STDIN_FILENO);
+            dup2(replies[1], STDOUT_FILENO);
+            execl("/bin/sh", "sh", "-c", command_.c_str(), static_cast<char*>(nullptr));
+            _exit(127);
+        }
+        close(requests[0]);
+        close(replies[1]);
+        in_ = fdopen(requests[1], "w");
+        out_ = fdopen(replies[0], "r");
+    }
+
+    /// The end of its input is the end of it.
+    void stop() {
+        std::fclose(in_);
+        std::fclose(out_);
+        waitpid(process_, nullptr, 0);
+    }
+
+    std::string command_;
+    pid_t process_ = -1;
+    std::FILE* in_ = nullptr;
+    std::FILE* out_ = nullptr;
+    fs::path scratch_;
+};
+
+std::string textOf(const asset::View& view) {
+    const glm::dmat3x2& m = view.toPixels;
+    return fmt::format("{} {} {} {} {} {} {} {}", view.width, view.height, m[0][0], m[0][1], m[1][0], m[1][1],
+                       m[2][0], m[2][1]);
+}
+
+class ChildEngine : public Engine {
+public:
+    /// `takes`: "file", "paths" (ours, plain), or "either" (paths where our scene has no more than that).
+    ChildEngine(std::shared_ptr<Child> child, std::string name, std::string description, std::string takes)
+        : Engine(std::move(name), std::move(description)),
+          child_(std::move(child)),
+          takes_(std::move(takes)) {}
+
+    void load(const Picture& picture) override { child_->ask("load " + subject(picture, pathOf(picture))); }
+
+    double draw(const asset::View& view) override {
+        return std::stod(child_->ask("draw " + name() + " " + textOf(view)));
+    }
+
+    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+        if (takes_ == "paths")
+            return std::nullopt;
+        return std::stod(
+            child_->ask("cold " + subject(picture, textOf(view) + " " + picture.file.path.string())));
+    }
+
+    image::Bitmap pixels(const asset::View& view) override {
+        const fs::path png = child_->scratch() / "drawn.png";
+        child_->ask("picture " + name() + " " + textOf(view) + " " + png.string());
+        return image::decode(image::readFile(png.string()));
+    }
+
+private:
+    std::string subject(const Picture& picture, const std::string& rest) const {
+        return fmt::format("{} {} {} {}", name(), picture.scene.width, picture.scene.height, rest);
+    }
+
+    std::string pathOf(const Picture& picture) const {
+        if (takes_ == "file")
+            return picture.file.path.string();
+        try {
+            const std::string text = svg::write(picture.scene);
+            const std::string path = (child_->scratch() / "paths.svg").string();
+            image::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+            return path;
+        } catch (const svg::WriteError&) {
+            if (takes_ == "paths")
+                throw;
+            return picture.file.path.string();
+        }
+    }
+
+    std::shared_ptr<Child> child_;
+    std::string takes_;
+};
+
+/// "engine NAME TAKES DESCRIPTION"
+std::unique_ptr<Engine> engineOf(const std::string& line, const std::shared_ptr<Child>& child) {
+    std::istringstream in(line);
+    std::string word, name, takes, description;
+    in >> word >> name >> takes;
+    std::getline(in >> std::ws, description);
+    return std::make_unique<ChildEngine>(child, name, description, takes);
+}
+
+}  // namespace
+
+Engines childEngines(const std::string& command, std::vector<std::string>& notes) {
+    Engines engines;
+    const auto child = std::make_shared<Child>(command);
+    while (const std::optional<std::string> line = child->line()) {
+        if (line->starts_with("engine "))
+            engines.push_back(engineOf(*line, child));
+        else if (line->starts_with("missing "))
+            notes.push_back(line->substr(8));
+        else if (*line == "ready")
+            return engines;
+    }
+    notes.push_back(fmt::format("missing: `{}` did not start.", command));
+    return {};
+}
+
+}  // namespace vtm::bench
