@@ -54,7 +54,7 @@ LIBRARIES = {
     r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},
     r"Q[A-Z]\w+": {"bench"},
     r"potracelib\.h": {"trace"},
-    r"unistd\.h|fcntl\.h|sys/.*\.h": ANYWHERE,
+    r"unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]*)[>"]')

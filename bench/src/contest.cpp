@@ -13,6 +13,7 @@ namespace {
 
 constexpr double budget = 4000;  ///< CPU milliseconds of a file and a kind of views, all engines
 constexpr int fewestRounds = 5, mostRounds = 41;
+constexpr double patience = 5000;  ///< CPU milliseconds: who takes longer draws once, and is noted
 
 /// Turned and enlarged about the picture's middle, more with each step; its longer side fills `side` pixels
 /// at zoom 1.
@@ -37,16 +38,15 @@ double rmsDifference(const image::Bitmap& a, const image::Bitmap& b) {
     return 255 * std::sqrt(sum / double(first.rgba.size()));
 }
 
-/// Whether an engine of those still in did it.
+/// Whether an engine of those still in did it. `where`: the picture and the views, for the note.
 template <class Work>
-bool did(Contender& one, const Picture& picture, std::vector<std::string>& notes, Work&& work) {
+bool did(Contender& one, const std::string& where, std::vector<std::string>& notes, Work&& work) {
     try {
         if (one.able)
             work();
     } catch (const std::exception& error) {
         one.able = false;
-        notes.push_back(
-            fmt::format("{}: not by {}: {}.", picture.file.name, one.engine->name(), error.what()));
+        notes.push_back(fmt::format("{}: not by {}: {}.", where, one.engine->name(), error.what()));
     }
     return one.able;
 }
@@ -101,7 +101,7 @@ void prepare(Contenders& all, const Picture& picture, std::span<const Kind> kind
     std::vector<image::Bitmap> drawn(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         all[i].able = true;
-        did(all[i], picture, notes, [&] {
+        did(all[i], picture.file.name, notes, [&] {
             all[i].engine->load(picture);
             drawn[i] = all[i].engine->pixels(view);
         });
@@ -116,16 +116,18 @@ void prepare(Contenders& all, const Picture& picture, std::span<const Kind> kind
     for (Contender& one : all)
         for (const Kind& kind : kinds)
             if (kind.moving)
-                did(one, picture, notes, [&] { writePicture(*one.engine, picture, kind, options); });
+                did(one, picture.file.name, notes,
+                    [&] { writePicture(*one.engine, picture, kind, options); });
 }
 
 void takeTurns(Contenders& all, const Picture& picture, const Kind& kind, int side,
                std::vector<std::string>& notes) {
+    const std::string where = picture.file.name + ", " + kind.name;
     for (Contender& one : all) {
         one.times.clear();
         if (one.loads && !one.able) {  // it failed with other views
             one.able = true;
-            did(one, picture, notes, [&] { one.engine->load(picture); });
+            did(one, where, notes, [&] { one.engine->load(picture); });
         }
     }
     double spent = 0;
@@ -136,7 +138,13 @@ void takeTurns(Contenders& all, const Picture& picture, const Kind& kind, int si
             const auto draw = [&] {
                 time = kind.cold ? one.engine->drawCold(picture, view) : one.engine->draw(view);
             };
-            if (did(one, picture, notes, draw) && time && round >= 0) {
+            if (!did(one, where, notes, draw) || !time)
+                continue;
+            if (*time > patience) {
+                one.able = false;
+                notes.push_back(
+                    fmt::format("{}: {} takes {:.1f} s.", where, one.engine->name(), *time / 1000));
+            } else if (round >= 0) {
                 one.times.push_back(*time);
                 spent += *time;
             }

@@ -1,8 +1,8 @@
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -16,6 +16,8 @@ namespace vtm::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int patience = 60'000;  ///< milliseconds for an answer
 
 /// A process that answers a line with a line, and a folder for what is too long for one.
 class Child {
@@ -34,33 +36,39 @@ public:
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// Without its line break; nothing at the end.
+    /// Without its line break; nothing at the end, or where none comes in a minute.
     std::optional<std::string> line() {
-        std::string text;
-        for (int c; (c = std::fgetc(out_)) != EOF;) {
-            if (c == '\n')
-                return text;
-            text += char(c);
+        for (std::size_t end; (end = unread_.find('\n')) == std::string::npos;) {
+            char text[4096];
+            pollfd input{out_, POLLIN, 0};
+            const ssize_t count = poll(&input, 1, patience) == 1 ? read(out_, text, sizeof text) : 0;
+            if (count <= 0)
+                return std::nullopt;
+            unread_.append(text, std::size_t(count));
         }
-        return std::nullopt;
+        const std::size_t end = unread_.find('\n');
+        const std::string text = unread_.substr(0, end);
+        unread_.erase(0, end + 1);
+        return text;
     }
 
     /// What stands after "ok "; std::runtime_error with what stands after "error ". A process that ends says
     /// so once and is started anew.
     std::string ask(const std::string& request) {
-        std::fputs((request + "\n").c_str(), in_);
-        std::fflush(in_);
-        while (const std::optional<std::string> reply = line()) {
+        const std::string text = request + "\n";
+        const bool sent = write(in_, text.data(), text.size()) == ssize_t(text.size());
+        while (const std::optional<std::string> reply = sent ? line() : std::nullopt) {
             if (reply->starts_with("ok"))
                 return reply->substr(std::min<std::size_t>(3, reply->size()));
             if (reply->starts_with("error "))
                 throw std::runtime_error(reply->substr(6));
         }
+        kill(-process_, SIGKILL);
         stop();
         start();
         for (std::optional<std::string> greeting; (greeting = line()) && *greeting != "ready";) {
         }
-        throw std::runtime_error("its process ended");
+        throw std::runtime_error("its process ended, or did not answer");
     }
 
     const fs::path& scratch() const { return scratch_; }
@@ -72,6 +80,7 @@ private:
             throw std::runtime_error("no pipe to a child process");
         process_ = fork();
         if (process_ == 0) {
+            setpgid(0, 0);  // what it starts ends with it
             dup2(requests[0], STDIN_FILENO);
             dup2(replies[1], STDOUT_FILENO);
             execl("/bin/sh", "sh", "-c", command_.c_str(), static_cast<char*>(nullptr));
@@ -79,21 +88,22 @@ private:
         }
         close(requests[0]);
         close(replies[1]);
-        in_ = fdopen(requests[1], "w");
-        out_ = fdopen(replies[0], "r");
+        in_ = requests[1];
+        out_ = replies[0];
+        unread_.clear();
     }
 
     /// The end of its input is the end of it.
     void stop() {
-        std::fclose(in_);
-        std::fclose(out_);
+        close(in_);
+        close(out_);
         waitpid(process_, nullptr, 0);
     }
 
     std::string command_;
     pid_t process_ = -1;
-    std::FILE* in_ = nullptr;
-    std::FILE* out_ = nullptr;
+    int in_ = -1, out_ = -1;
+    std::string unread_;
     fs::path scratch_;
 };
 
