@@ -15,6 +15,8 @@ constexpr double budget = 4000;  ///< CPU milliseconds of a file and a kind of v
 constexpr int fewestRounds = 5, mostRounds = 41;
 constexpr double patience = 5000;  ///< CPU milliseconds: who takes longer draws once, and is noted
 
+constexpr int squares = 64;  ///< along a picture's longer side, for comparing pictures
+
 /// Turned and enlarged about the picture's middle, more with each step; its longer side fills `side` pixels
 /// at zoom 1.
 asset::View viewOf(const scene::Scene& scene, int side, double zoom, int step) {
@@ -29,13 +31,21 @@ asset::View viewOf(const scene::Scene& scene, int side, double zoom, int step) {
     return view;
 }
 
-/// Of premultiplied channels, of 255.
+/// Of the means of premultiplied channels over squares, of 255: rough edges even out, what is missing
+/// remains.
 double rmsDifference(const image::Bitmap& a, const image::Bitmap& b) {
     const image::Raster first = image::toRaster(a), second = image::toRaster(b);
+    const int side = std::max(1, std::max(a.width, a.height) / squares);
+    image::Raster means((a.width + side - 1) / side, (a.height + side - 1) / side);
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x)
+            for (int channel = 0; channel < 4; ++channel)
+                means.pixel(x / side, y / side)[channel] +=
+                    (first.pixel(x, y)[channel] - second.pixel(x, y)[channel]) / float(side * side);
     double sum = 0;
-    for (std::size_t i = 0; i < first.rgba.size(); ++i)
-        sum += std::pow(double(first.rgba[i] - second.rgba[i]), 2);
-    return 255 * std::sqrt(sum / double(first.rgba.size()));
+    for (const float mean : means.rgba)
+        sum += double(mean) * double(mean);
+    return 255 * std::sqrt(sum / double(means.rgba.size()));
 }
 
 /// Whether an engine of those still in did it. `where`: the picture and the views, for the note.

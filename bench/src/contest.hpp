@@ -15,7 +15,7 @@ struct Contender {
     bool ours = false;
     bool loads = false;              ///< it reads the picture
     bool able = false;               ///< and has not failed with the present kind of views
-    double difference = 0;           ///< rms from ours, premultiplied channels, of 255
+    double difference = 0;           ///< rms from ours, means over 64ths of the side, of 255
     std::vector<double> times = {};  ///< of the present kind of views, a round each; empty if it draws none
 };
 using Contenders = std::vector<Contender>;
