@@ -67,10 +67,18 @@ void writePicture(Engine& engine, const Picture& picture, const Kind& kind, cons
     image::writeFile((std::filesystem::path(options.pictures) / name).string(), encodePng(drawn));
 }
 
-std::string qtCommand(const std::string& qt) {
-    return "if [ -n \"$DISPLAY\" ]; then exec '" + qt +
-           "'; elif command -v xvfb-run >/dev/null; then exec xvfb-run -a '" + qt +
-           "'; else QT_QPA_PLATFORM=offscreen exec '" + qt + "'; fi";
+Engines qtEngines(std::vector<std::string>& notes) {
+#ifdef VTM_BENCH_QT
+    return childEngines("if [ -n \"$DISPLAY\" ]; then exec '" VTM_BENCH_QT
+                        "'; "
+                        "elif command -v xvfb-run >/dev/null; then exec xvfb-run -a '" VTM_BENCH_QT
+                        "'; "
+                        "else QT_QPA_PLATFORM=offscreen exec '" VTM_BENCH_QT "'; fi",
+                        notes);
+#else
+    notes.push_back("qt-raster, qt-gl, qt-gl-4: missing, built without Qt (qtbase5-dev, libqt5svg5-dev).");
+    return {};
+#endif
 }
 
 }  // namespace
@@ -83,11 +91,7 @@ Contenders contenders(const DrawingOptions& options, std::vector<std::string>& n
     };
     add(ourEngines(), true);
     add(rsvgEngines(notes), false);
-#ifdef VTM_BENCH_QT
-    add(childEngines(qtCommand(VTM_BENCH_QT), notes), false);
-#else
-    notes.push_back("qt-raster, qt-gl, qt-gl-4: missing, built without Qt (qtbase5-dev, libqt5svg5-dev).");
-#endif
+    add(qtEngines(notes), false);
     if (options.nodeModules.empty())
         notes.push_back("skia, resvg: missing, no folder with node_modules is named.");
     else

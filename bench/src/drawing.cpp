@@ -92,11 +92,10 @@ Report drawing(const std::vector<File>& files, const DrawingOptions& options) {
     Contenders all = contenders(options, report.notes);
     report.text = fmt::format(
         "CPU milliseconds (user and system, all threads) of one drawing, medians, all taking turns in one "
-        "run; "
-        "in brackets how many times as long as `{}`, round by round: median and quartiles. ≠ marks a picture "
-        "that differs from ours by more than {} of 255 (rms of means over 64ths of the side). Turning: "
-        "rotation "
-        "and zoom change with every drawing, everything prepared before. Cold: from the file to pixels.\n",
+        "run; in brackets how many times as long as `{}`, round by round: median and quartiles. ≠ marks a "
+        "picture that differs from ours by more than {} of 255 (rms of means over 64ths of the side). "
+        "Turning: rotation and zoom change with every drawing, everything prepared before. Cold: from the "
+        "file to pixels.\n",
         reference(all).engine->name(), otherPicture);
     for (const Contender& one : all)
         report.text += fmt::format("\n- `{}`: {}", one.engine->name(), one.engine->description());
