@@ -52,9 +52,10 @@ LIBRARIES = {
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
     r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},
+    r"Q[A-Z]\w+": {"bench"},
     r"potracelib\.h": {"trace"},
     r"emmintrin\.h": {"asset"},
-    r"unistd\.h|fcntl\.h|sys/.*\.h": ANYWHERE,
+    r"unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]*)[>"]')

@@ -15,11 +15,6 @@ double milliseconds(clockid_t clock) {
     return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
 }
 
-double quantile(std::vector<double> values, double share) {
-    std::ranges::sort(values);
-    return values.empty() ? 0 : values[std::size_t(share * double(values.size() - 1) + 0.5)];
-}
-
 double peakBytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -30,6 +25,11 @@ double peakBytes() {
 
 double cpuMilliseconds() { return milliseconds(CLOCK_PROCESS_CPUTIME_ID); }
 double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }
+
+double quantile(std::vector<double> values, double share) {
+    std::ranges::sort(values);
+    return values.empty() ? 0 : values[std::size_t(share * double(values.size() - 1) + 0.5)];
+}
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 

@@ -21,6 +21,8 @@ double cpuTime(Work&& work) {
     return cpuMilliseconds() - start;
 }
 
+/// The value that `share` of the others are not above; 0 of none.
+double quantile(std::vector<double> values, double share);
 double median(std::vector<double> values);
 
 /// Two things that took turns, so that both met the same machine.

@@ -1,6 +1,7 @@
-// bench_report SUBCOMMAND [--examples] [--only NAME] [--font FILE] [--largest N] [--output FOLDER]
+// bench_report SUBCOMMAND [--examples] [--only NAME] [--font FILE] [--largest N] [--output FOLDER] ...
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -12,17 +13,22 @@ namespace vtm::bench {
 namespace {
 
 constexpr const char* usage =
-    "bench_report peers|compression|editing|scaling|sweep [OPTIONS]\n\n"
+    "bench_report peers|drawing|compression|editing|scaling|sweep [OPTIONS]\n\n"
     "  --examples        our own drawings only, not the corpus\n"
     "  --only NAME       this file only\n"
     "  --font FILE       the font whose glyphs are compressed (a DejaVu Sans, if there is one)\n"
     "  --largest N       curves of the largest scene of `scaling` (1000000)\n"
+    "  --side N          pixels of the longer side in `drawing` (1024)\n"
+    "  --pictures FOLDER where `drawing` writes what each engine draws (nowhere)\n"
+    "  --node FOLDER     holds node_modules with peers of `drawing` ($VTM_BENCH_NODE)\n"
+    "  --peer COMMAND    one more peer process of `drawing`; may be repeated\n"
     "  --output FOLDER   where the results go (bench/results)\n";
 
 struct Arguments {
     std::string subcommand, only, font, output = VTM_SOURCE_DIR "/bench/results";
     bool examples = false;
     std::size_t largest = 1'000'000;
+    DrawingOptions drawing;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -30,6 +36,8 @@ Arguments parse(int argc, char** argv) {
     if (argc < 2)
         throw std::invalid_argument("a subcommand is missing");
     a.subcommand = argv[1];
+    if (const char* folder = std::getenv("VTM_BENCH_NODE"))
+        a.drawing.nodeModules = folder;
     for (int i = 2; i < argc; ++i) {
         const std::string option = argv[i];
         if (option == "--examples") {
@@ -46,6 +54,14 @@ Arguments parse(int argc, char** argv) {
             a.output = argv[i];
         else if (option == "--largest")
             a.largest = std::stoul(argv[i]);
+        else if (option == "--side")
+            a.drawing.side = std::stoi(argv[i]);
+        else if (option == "--pictures")
+            a.drawing.pictures = argv[i];
+        else if (option == "--node")
+            a.drawing.nodeModules = argv[i];
+        else if (option == "--peer")
+            a.drawing.peers.emplace_back(argv[i]);
         else
             throw std::invalid_argument(option + " is no option");
     }
@@ -65,6 +81,8 @@ std::vector<File> filesOf(const Arguments& a) {
 Report reportOf(const Arguments& a) {
     if (a.subcommand == "peers")
         return peers(filesOf(a));
+    if (a.subcommand == "drawing")
+        return drawing(filesOf(a), a.drawing);
     if (a.subcommand == "compression")
         return compression(filesOf(a), a.font);
     if (a.subcommand == "editing")

@@ -18,4 +18,14 @@ Report scaling(std::size_t largest);
 /// Bytes against fragment cost for settings of leaf size and depth.
 Report sweep(const std::vector<File>& files);
 
+/// What `drawing` compares.
+struct DrawingOptions {
+    int side = 1024;                 ///< pixels of the longer side
+    std::string pictures;            ///< a folder for what each engine draws; empty: none are written
+    std::string nodeModules;         ///< a folder that has node_modules with peers; empty: they are missing
+    std::vector<std::string> peers;  ///< commands of more peer processes
+};
+/// Drawing under changing views against the peers, and from the file to pixels.
+Report drawing(const std::vector<File>& files, const DrawingOptions& options);
+
 }  // namespace vtm::bench

@@ -1,0 +1,171 @@
+// Skia on the CPU (@napi-rs/canvas) and resvg (@resvg/resvg-js) as a peer process: docs/benchmarks.md has the protocol.
+// node peers.mjs FOLDER skia|resvg: the folder holds node_modules with the package.
+
+import fs from 'node:fs';
+import path from 'node:path';
+import readline from 'node:readline';
+import {createRequire} from 'node:module';
+
+const require = createRequire(path.resolve(process.argv[2] ?? '.', 'peers.mjs'));
+
+/** CPU milliseconds of one call: user and system, all threads. */
+function cpuTime(work) {
+    const start = process.cpuUsage();
+    work();
+    const {user, system} = process.cpuUsage(start);
+    return (user + system) / 1000;
+}
+
+/** Skia draws the paths of our scene, made once, on one canvas. */
+class Skia {
+    constructor(package_) {
+        this.package = package_;
+    }
+
+    load({file}) {
+        const text = fs.readFileSync(file, 'utf8');
+        this.items = [...text.matchAll(/<(path|g|\/g)\b([^>]*)>/g)].map(([, tag, attributes]) => {
+            const of = Object.fromEntries([...attributes.matchAll(/([\w-]+)="([^"]*)"/g)].map(m => [m[1], m[2]]));
+            if (tag === 'g' && of.opacity !== undefined)
+                throw new Error('a canvas has no groups with an opacity');
+            return tag === 'path' ? this.itemOf(of) : null;
+        }).filter(Boolean);
+    }
+
+    itemOf(of) {
+        const stroked = of.fill === 'none';
+        const numbers = (of.transform ?? 'matrix(1 0 0 1 0 0)').match(/[-+.\de]+(?=[ )])/g).map(Number);
+        return {
+            outline: new this.package.Path2D(of.d),
+            transform: numbers,
+            rule: of['fill-rule'] ?? 'nonzero',
+            paint: stroked ? of.stroke : of.fill,
+            alpha: Number(of[stroked ? 'stroke-opacity' : 'fill-opacity'] ?? 1),
+            stroke: stroked && {
+                lineWidth: Number(of['stroke-width']),
+                lineCap: of['stroke-linecap'],
+                lineJoin: of['stroke-linejoin'] === 'miter-clip' ? 'miter' : of['stroke-linejoin'],
+                miterLimit: Number(of['stroke-miterlimit']),
+                lineDashOffset: Number(of['stroke-dashoffset'] ?? 0),
+                dashes: (of['stroke-dasharray'] ?? '').split(' ').filter(Boolean).map(Number),
+            },
+        };
+    }
+
+    draw({width, height, matrix}) {
+        if (this.canvas?.width !== width || this.canvas?.height !== height) {
+            this.canvas = this.package.createCanvas(width, height);
+            this.context = this.canvas.getContext('2d');
+        }
+        const context = this.context;
+        return cpuTime(() => {
+            context.setTransform(1, 0, 0, 1, 0, 0);
+            context.clearRect(0, 0, width, height);
+            for (const item of this.items) {
+                context.setTransform(...matrix);
+                context.transform(...item.transform);
+                context.globalAlpha = item.alpha;
+                if (item.stroke) {
+                    const {dashes, ...style} = item.stroke;
+                    context.strokeStyle = item.paint;
+                    Object.assign(context, style);
+                    context.setLineDash(dashes);
+                    context.stroke(item.outline);
+                } else {
+                    context.fillStyle = item.paint;
+                    context.fill(item.outline, item.rule);
+                }
+            }
+            context.getImageData(0, 0, 1, 1);  // drawing is put off until pixels are wanted
+        });
+    }
+
+    png(view) {
+        this.draw(view);
+        return this.canvas.toBuffer('image/png');
+    }
+}
+
+/** resvg has no view of its own: the file is parsed inside an svg element that turns it, outside the clock. */
+class Resvg {
+    constructor(package_) {
+        this.package = package_;
+    }
+
+    load({file, width, height}) {
+        this.text = fs.readFileSync(file, 'utf8');
+        this.size = [width, height];
+    }
+
+    parse(text, [pictureWidth, pictureHeight], {width, height, matrix}) {
+        const root = text.match(/<svg\b[^>]*>/);
+        const tag = root[0].replace(/\s(width|height|x|y)\s*=\s*("[^"]*"|'[^']*')/g, '')
+            .replace('<svg', `<svg width="${pictureWidth}" height="${pictureHeight}"`);
+        const turned = text.slice(0, root.index) +
+            `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}">` +
+            `<g transform="matrix(${matrix.join(' ')})">` + tag + text.slice(root.index + root[0].length) + '</g></svg>';
+        return new this.package.Resvg(turned, {font: {loadSystemFonts: false}});
+    }
+
+    draw(view) {
+        const tree = this.parse(this.text, this.size, view);
+        return cpuTime(() => tree.render());
+    }
+
+    cold({file, width, height}, view) {
+        return cpuTime(() => this.parse(fs.readFileSync(file, 'utf8'), [width, height], view).render());
+    }
+
+    png(view) {
+        return this.parse(this.text, this.size, view).render().asPng();
+    }
+}
+
+const engines = {};
+
+function offer(name, takes, packageName, Type) {
+    try {
+        engines[name] = new Type(require(packageName));
+        const {version} = JSON.parse(fs.readFileSync(path.join(packageFolder(packageName), 'package.json')));
+        console.log(`engine ${name} ${takes} ${packageName} ${version} on the CPU`);
+    } catch (error) {
+        console.log(`missing ${name}: missing, no ${packageName} in node_modules of the folder given.`);
+    }
+}
+
+function packageFolder(name) {
+    return require.resolve.paths(name).map(folder => path.join(folder, name)).find(fs.existsSync);
+}
+
+function viewOf(words) {
+    const [width, height, ...matrix] = words.splice(0, 8).map(Number);
+    return {width, height, matrix};
+}
+
+function answer(line) {
+    const [verb, name, ...words] = line.split(' ');
+    const engine = engines[name];
+    const [width, height] = verb === 'load' || verb === 'cold' ? words.splice(0, 2).map(Number) : [];
+    const view = verb === 'load' ? null : viewOf(words);
+    const file = words.join(' ');
+    switch (verb) {
+        case 'load': engine.load({width, height, file}); return '';
+        case 'cold': return engine.cold({width, height, file}, view);
+        case 'draw': return engine.draw(view);
+        case 'picture': fs.writeFileSync(file, engine.png(view)); return '';
+    }
+    throw new Error(`${verb} is no request`);
+}
+
+if (process.argv[3] === 'skia')
+    offer('skia', 'paths', '@napi-rs/canvas', Skia);
+else
+    offer('resvg', 'file', '@resvg/resvg-js', Resvg);
+console.log('ready');
+for await (const line of readline.createInterface({input: process.stdin})) {
+    try {
+        console.log(`ok ${answer(line)}`);
+    } catch (error) {
+        console.log(`error ${String(error.message).split('\n')[0]}`);
+    }
+}
