@@ -65,17 +65,25 @@ void Culler::run(Cell& cell) {
 void LeafRegions::enter(const Cell& cell, Palette& palette) {
     palette_ = &palette;
     listLayers(cell, layers);
-    rules_.clear();
-    corner_.assign(layers.size(), 0);
-    for (std::uint32_t layer : layers)
-        rules_.push_back(picture_.layers[layer].rule);
-    std::size_t i = 0;
-    for (const LayerWinding& w : cell.windings) {
-        while (layers[i] != w.layer)
-            ++i;
-        corner_[i] = w.winding;
+    entered_.clear();
+    auto known = cell.windings.begin();
+    for (std::uint32_t layer : layers) {
+        const bool isKnown = known != cell.windings.end() && known->layer == layer;
+        entered_.push_back({picture_.layers[layer].rule, isKnown ? (known++)->winding : 0, mixed(layer)});
     }
-    RegionPaints::enter(rules_, corner_);
+    RegionPaints::enter(entered_);
+}
+
+PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
+    std::uint64_t key = 0;
+    for (const LayerWinding& w : cell.windings)
+        if (compiler::isInside(picture_.layers[w.layer], w.winding))
+            key ^= mixed(w.layer);
+    if (const PaintId paint = known(key); paint != KnownPaints::unknown)
+        return paint;
+    culler.run(cell);
+    enter(cell, palette);
+    return known(key) = paint();
 }
 
 PaintId LeafRegions::compute() {
@@ -93,17 +101,16 @@ Tree BlockBuilder::run(Cell cell) {
     const Stopwatch watch(times_.all);
     tree_ = {};
     firstLevel_ = cell.level;
+    regions_.forget();
     tree_.root = build(cell).entry;
     return std::move(tree_);
 }
 
-/// `cell` is culled already.
+/// `cell` is culled already if it has strands.
 BlockBuilder::Built BlockBuilder::build(Cell& cell) {
     work_.spend(cell.strands.size() * visitWork);
-    if (cell.strands.empty()) {
-        regions_.enter(cell, tree_.palette);
-        return solid(regions_.paint(), cell.level);
-    }
+    if (cell.strands.empty())
+        return solid(regions_.solid(cell, culler_, tree_.palette), cell.level);
     if (cell.level >= options_.maxDepth)
         return buildLast(cell);
     if (cell.level < options_.minDepth)
@@ -189,7 +196,7 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) con
     return ends.size();
 }
 
-/// What of the cell is in its children, without what cannot show there.
+/// What of the cell is in its children; in those with strands, without what cannot show there.
 BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
     const Stopwatch watch(times_.push);
     const std::size_t depth = cell.level - firstLevel_;
@@ -198,7 +205,8 @@ BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
     Children& children = children_[depth];
     splitCell(points_, cell, children);
     for (Cell& child : children)
-        culler_.run(child);
+        if (!child.strands.empty())
+            culler_.run(child);
     return children;
 }
 

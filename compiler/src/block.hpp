@@ -42,12 +42,14 @@ private:
     std::vector<std::uint8_t> keep_;
 };
 
-/// The regions of a cell.
+/// The regions of a block's cells. The paint of each set of layers is asked for once.
 class LeafRegions : public RegionPaints {
 public:
     LeafRegions(const Picture& picture, Painter& painter)
         : picture_(picture), painter_(painter), inside_(picture.layers.size()) {}
     void enter(const Cell& cell, Palette& palette);
+    /// The paint of a cell without strands, which need not be culled yet.
+    PaintId solid(Cell& cell, Culler& culler, Palette& palette);
 
     std::vector<std::uint32_t> layers;  ///< of the cell, ascending: the others are numbered by them
 
@@ -58,8 +60,7 @@ private:
     Painter& painter_;
     Palette* palette_ = nullptr;
     std::vector<std::uint8_t> inside_;  ///< by layer
-    std::vector<scene::FillRule> rules_;
-    std::vector<int> corner_;
+    std::vector<Layer> entered_;
 };
 
 /// Builds blocks, one after the other, keeping its memory.

@@ -92,7 +92,7 @@ void Planariser::collectEnds() {
 /// The vertex after the end's own on its edge.
 LatticePoint Planariser::next(const End& end) const {
     const Edge& e = leaf_.set->edges[end.edge];
-    return leaf_.set->vertex(e, end.isA ? 1 : e.innerCount);
+    return leaf_.set->vertex(e, end.isA ? 1 : e.chordCount() - 1);
 }
 
 /// Counter-clockwise by direction, from -y.
@@ -137,7 +137,7 @@ void Planariser::cross(const Edge& e, int times) {
 Chord Planariser::chordAt(const Axis& axis, const Edge& e, Coord m) const {
     const bool low = axis.v(e.a) <= m;
     const std::uint32_t k = firstWhere(
-        0, e.innerCount, [&](std::uint32_t i) { return (axis.v(leaf_.set->vertex(e, i + 1)) <= m) != low; });
+        0, e.chordCount() - 1, [&](std::uint32_t i) { return (axis.v(leaf_.set->vertex(e, i + 1)) <= m) != low; });
     return {leaf_.set->vertex(e, k), leaf_.set->vertex(e, k + 1)};
 }
 
