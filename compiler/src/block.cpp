@@ -1,6 +1,7 @@
 #include "compiler/src/block.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "compiler/compile.hpp"
 #include "compiler/src/append_node.hpp"
@@ -15,6 +16,9 @@ using asset::Entry;
 constexpr std::size_t maxChordsToTry = 400;
 /// A cell of the last level with more is filled with the mean of samples.
 constexpr std::size_t maxChordsInLastLeaf = 2000;
+/// A cell is not pushed down to find out what its children cost if it costs less than this share of the least that they
+/// can: where outlines hide each other they may cost less.
+constexpr double sureShare = 0.75;
 /// A minute or so.
 constexpr std::size_t maxWork = 20'000'000'000;
 /// asset::Leaf::pieceCount is 16 bits.
@@ -79,7 +83,7 @@ PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
     for (const LayerWinding& w : cell.windings)
         if (compiler::isInside(picture_.layers[w.layer], w.winding))
             key ^= mixed(w.layer);
-    if (const PaintId paint = known(key); paint != KnownPaints::unknown)
+    if (const PaintId paint = known(key); paint != NumberMap::unknown)
         return paint;
     culler.run(cell);
     enter(cell, palette);
@@ -136,26 +140,19 @@ BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
 /// many as pieces), then known. Where outlines hide each other the guess can be too high by far, so
 /// children that turn out cheap to join are tried as one leaf after all.
 BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
-    const CostModel& model = options_.cost;
     const auto strands = static_cast<double>(cell.strands.size());
     Children* children = nullptr;
-    bool tried = false;
-    if (mayBeWorthSplitting(strands, cell.level)) {
-        children = &push(cell);
-        tried = model.leaf(strands, cell.level) > splitCost(*children, 1);
-    }
-    if (!tried && canTry(cell)) {
-        tried = true;
-        if (const Made made = makeLeaf(cell)) {
-            const auto pieces = static_cast<double>(made.pieceCount());
-            if (!mayBeWorthSplitting(pieces, cell.level))
-                return emit(made, cell.level);
-            if (!children)
-                children = &push(cell);
-            if (model.leaf(pieces, cell.level) <= splitCost(*children, std::max(1.0, pieces / strands)))
-                return emit(made, cell.level);
-        }
-    }
+    const auto paysToSplit = [&](double pieces) {
+        const double cost = options_.cost.leaf(pieces, cell.level), perStrand = std::max(1.0, pieces / strands);
+        if (!mayBeWorthSplitting(pieces, cell.level) || cost <= sureShare * leastSplitCost(cell, perStrand))
+            return false;
+        if (!children)
+            children = &push(cell);
+        return cost > splitCost(*children, perStrand);
+    };
+    if (!paysToSplit(strands) && canTry(cell))
+        if (const Made made = makeLeaf(cell); made && !paysToSplit(static_cast<double>(made.pieceCount())))
+            return emit(made, cell.level);
     return buildNode(cell, children ? *children : push(cell));
 }
 
@@ -169,6 +166,29 @@ double BlockBuilder::splitCost(const Children& children, double piecesPerStrand)
     for (const Cell& child : children)
         cost += options_.cost.leaf(static_cast<double>(child.strands.size()) * piecesPerStrand, child.level);
     return cost;
+}
+
+/// What children would cost if nothing were hidden in them, and they were no more than those where strands end and those
+/// that strands cannot but pass on the way.
+double BlockBuilder::leastSplitCost(const Cell& cell, double piecesPerStrand) const {
+    const Coord side = cell.square.side / 4;
+    const int shift = std::countr_zero(static_cast<std::uint32_t>(side));
+    const auto place = [shift](Coord offset) { return std::clamp(offset >> shift, 0, 3); };
+    unsigned reached = 0;
+    int visits = 0;
+    for (const Strand& s : cell.strands) {
+        const LatticePoint from = points_[s.first], to = points_[s.last];
+        const int i = place(from.x - cell.square.x0), j = place(from.y - cell.square.y0),
+                  iEnd = place(to.x - cell.square.x0), jEnd = place(to.y - cell.square.y0);
+        reached |= 1u << (4 * j + i) | 1u << (4 * jEnd + iEnd);
+        visits += 1 + std::abs(iEnd - i) + std::abs(jEnd - j);
+    }
+    const CostModel& model = options_.cost;
+    const unsigned level = cell.level + 1;
+    const double piece = model.leaf(2, level) - model.leaf(1, level);
+    const int leaves = std::popcount(reached);
+    return model.node() + (16 - leaves) * model.leaf(0, level) + leaves * (model.leaf(1, level) - piece) +
+           visits * piecesPerStrand * piece;
 }
 
 /// Whether the cell is within the limits of a leaf that may still be split.
@@ -186,14 +206,18 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) con
     const std::size_t all = cell.chordCount();
     if (all <= most)
         return all;
-    std::set<std::pair<LatticePoint, LatticePoint>> ends;
+    NumberMap seen;
+    std::size_t count = 0;
     for (const Strand& s : cell.strands)
         for (std::uint32_t i = s.first; i < s.last; ++i) {
-            ends.insert(std::minmax(points_[i], points_[i + 1]));
-            if (ends.size() > most)
-                return ends.size();
+            const auto [a, b] = std::minmax(points_[i], points_[i + 1]);
+            std::uint32_t& chord = seen[mixed(sortKey(a)) + 3 * mixed(sortKey(b))];
+            count += chord == NumberMap::unknown;
+            chord = 0;
+            if (count > most)
+                return count;
         }
-    return ends.size();
+    return count;
 }
 
 /// What of the cell is in its children; in those with strands, without what cannot show there.

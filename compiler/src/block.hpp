@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <deque>
-#include <set>
 
 #include "compiler/src/cell.hpp"
 #include "compiler/src/fit.hpp"
@@ -93,6 +92,7 @@ private:
     Built buildNode(const Cell& cell, Children& children);
     Children& push(const Cell& cell);
     bool mayBeWorthSplitting(double pieces, unsigned level) const;
+    double leastSplitCost(const Cell& cell, double piecesPerStrand) const;
     double splitCost(const Children& children, double piecesPerStrand) const;
     Built solid(PaintId paint, unsigned level) const;
     bool canTry(const Cell& cell);

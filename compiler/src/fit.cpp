@@ -264,7 +264,7 @@ std::uint32_t Fitter::reach(std::uint32_t from, std::uint32_t last) const {
 bool Fitter::isFlat(std::uint32_t from, std::uint32_t to) const {
     const dvec2 whole = exact_[to] - exact_[from], first = exact_[from + 1] - exact_[from],
                 last = exact_[to] - exact_[to - 1];
-    const double n = to - from, most = maxSlope * (n - 1);
+    const double n = to - from, most = maxSlope * (n - 0.5);
     const auto isLow = [&](dvec2 chord) {
         return n * std::abs(whole.x * chord.y - whole.y * chord.x) <= most * glm::dot(whole, chord);
     };

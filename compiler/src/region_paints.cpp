@@ -27,7 +27,7 @@ void RegionPaints::toCorner() {
 void RegionPaints::find() {
     lastKey_ = key_;
     last_ = known_[key_];
-    if (last_ == KnownPaints::unknown)
+    if (last_ == NumberMap::unknown)
         known_[key_] = last_ = compute();
 }
 

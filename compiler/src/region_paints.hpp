@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "compiler/src/known_paints.hpp"
+#include "compiler/src/number_map.hpp"
+#include "compiler/src/palette.hpp"
 #include "scene/path.hpp"
 
 namespace vtm::compiler {
@@ -73,7 +74,7 @@ private:
     std::uint64_t key_ = 0, cornerKey_ = 0;  ///< of the set of layers that are inside
     std::uint64_t lastKey_ = 0;              ///< asked for last
     PaintId last_ = 0;
-    KnownPaints known_;
+    NumberMap known_;
 };
 
 }  // namespace vtm::compiler
