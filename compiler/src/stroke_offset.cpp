@@ -59,6 +59,9 @@ class Stretch {
 public:
     Stretch(const Cubic& c, const Span& span)
         : c_(c),
+          cubed_(c.p3 - c.p0 + 3.0 * (c.p1 - c.p2)),
+          squared_(3.0 * (c.p0 - 2.0 * c.p1 + c.p2)),
+          linear_(3.0 * (c.p1 - c.p0)),
           span_(span),
           start_(tangentAt(c, span.t0)),
           turn_(angleBetween(start_, tangentAt(c, span.t1))) {}
@@ -79,8 +82,11 @@ public:
     Point tangent(double u) const { return tangentAt(c_, parameter(u)); }
     Sample offset(double u, double distance) const {
         const double t = parameter(u);
-        const Point along = tangentAt(c_, t);
-        return {pointAt(c_, t) + perp(along) * distance, along};
+        const Point velocity = (3.0 * cubed_ * t + 2.0 * squared_) * t + linear_;
+        const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
+        const Point along = isInside ? unit(velocity) : tangentAt(c_, t);
+        const Point at = isInside ? ((cubed_ * t + squared_) * t + linear_) * t + c_.p0 : pointAt(c_, t);
+        return {at + perp(along) * distance, along};
     }
 
 private:
@@ -98,6 +104,7 @@ private:
     }
 
     const Cubic& c_;
+    const Point cubed_, squared_, linear_;  ///< coefficients of the curve's powers
     Span span_;
     Point start_;
     double turn_;
