@@ -200,7 +200,7 @@ bool BlockBuilder::canTry(const Cell& cell) {
     return true;
 }
 
-/// Equal chords of many layers (a shape repeated) count once: snapping merges them at once. Stops
+/// Equal strands of many layers (a shape repeated) count once: snapping merges them at once. Stops
 /// counting beyond `most`.
 std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) const {
     const std::size_t all = cell.chordCount();
@@ -208,15 +208,15 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) con
         return all;
     NumberMap seen;
     std::size_t count = 0;
-    for (const Strand& s : cell.strands)
-        for (std::uint32_t i = s.first; i < s.last; ++i) {
-            const auto [a, b] = std::minmax(points_[i], points_[i + 1]);
-            std::uint32_t& chord = seen[mixed(sortKey(a)) + 3 * mixed(sortKey(b))];
-            count += chord == NumberMap::unknown;
-            chord = 0;
-            if (count > most)
-                return count;
-        }
+    for (const Strand& s : cell.strands) {
+        const auto [a, b] = std::minmax(points_[s.first], points_[s.last]);
+        const std::uint32_t chords = s.last - s.first;
+        std::uint32_t& known = seen[mixed(sortKey(a)) + mixed(mixed(sortKey(b)) + chords)];
+        if (known == NumberMap::unknown)
+            count += known = chords;
+        if (count > most)
+            break;
+    }
     return count;
 }
 

@@ -281,22 +281,29 @@ double Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
     if (length2 == 0)
         return beyond;
     const dvec2 along = ab / length2;
-    const auto local = [&](std::uint32_t i) {
-        const dvec2 d = exact_[i] - a;
-        return dvec2{glm::dot(d, along), along.x * d.y - along.y * d.x};
-    };
+    const std::uint32_t count = to - from - 1;
+    if (local_.size() < count)
+        local_.resize(count);
+    // Without branches on single points: which of them decides is random.
+    double previous = 0;
+    bool rises = true;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const dvec2 d = exact_[from + 1 + i] - a;
+        const double s = glm::dot(d, along);
+        local_[i] = {s, along.x * d.y - along.y * d.x};
+        rises &= s > previous;
+        previous = s;
+    }
+    if (!(rises && previous < 1))
+        return beyond;
     // Normal equations of t(s_i) = mA p_i + mB q_i; a whisper of regularisation keeps the case of one inner
     // point solvable and prefers small slopes.
     constexpr double whisper = 1e-9;
     constexpr std::uint32_t mostSamples = 8;
-    const std::uint32_t stride = (to - from + mostSamples - 1) / mostSamples;
+    const std::uint32_t stride = (count + mostSamples) / mostSamples;
     double pp = whisper, pq = 0, qq = whisper, pt = 0, qt = 0;
-    for (std::uint32_t i = from + 1 + (stride - 1) / 2; i < to; i += stride) {
-        const dvec2 at = local(i);
-        const double s = at.x, t = at.y;
-        if (!(s > 0 && s < 1))
-            return beyond;
-        const double h = s * (1 - s), p = h * (1 - s), q = -h * s;
+    for (std::uint32_t i = (stride - 1) / 2; i < count; i += stride) {
+        const double s = local_[i].x, t = local_[i].y, h = s * (1 - s), p = h * (1 - s), q = -h * s;
         pp += p * p, pq += p * q, qq += q * q, pt += p * t, qt += q * t;
     }
     const double whole = pp * qq - pq * pq;
@@ -306,16 +313,15 @@ double Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
         return std::max(steepest / maxSlope, 1.01);
     m = {stored(m.a) / double{asset::slopeScale}, stored(m.b) / double{asset::slopeScale}};
     const double sag = maxSecondDerivative(m.a, m.b) / 8, most = tolerance_ / std::sqrt(length2);
-    double previous = 0, error = 0, worst = 0;  // that of rounded ends is counted on its own
-    for (std::uint32_t i = from + 1; i <= to; ++i) {
-        const dvec2 at = i < to ? local(i) : dvec2{1, 0};
-        const double step = at.x - previous, before = error;
-        if (!(step > 0))
-            return beyond;
-        error = i < to ? std::abs(at.y - displacement(m.a, m.b, at.x)) : 0;
+    double error = 0, worst = 0;  // that of rounded ends is counted on its own
+    previous = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double s = local_[i].x, step = s - previous, before = error;
+        error = std::abs(local_[i].y - displacement(m.a, m.b, s));
         worst = std::max(worst, std::max(before, error) + sag * step * step);
-        previous = at.x;
+        previous = s;
     }
+    worst = std::max(worst, error + sag * (1 - previous) * (1 - previous));
     if (!(worst <= most))
         return std::clamp(std::sqrt(std::sqrt(worst / most)), 1.01, beyond);
     slopes = m;

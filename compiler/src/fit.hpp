@@ -68,6 +68,7 @@ private:
     std::vector<Chain> chains_;
     std::vector<glm::dvec2> exact_;  ///< the chain at hand in leaf coordinates
     std::array<Steps, 2> ends_{};    ///< of that chain
+    std::vector<glm::dvec2> local_;
     FittedLeaf leaf_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "compiler/src/small_sort.hpp"
+
 namespace vtm::compiler {
 namespace {
 
@@ -51,41 +53,38 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
 
 void Planariser::collectEnds() {
     const std::vector<Edge>& edges = leaf_.set->edges;
-    byB_.clear();
-    for (std::uint32_t e = 0; e < edges.size(); ++e)
-        byB_.emplace_back(sortKey(edges[e].b), e);
-    std::sort(byB_.begin(), byB_.end());
-    leaf_.ends.clear();
-    auto b = byB_.begin();
-    const auto pushB = [&] { leaf_.ends.push_back({edges[b->second].b, b->second, false}), ++b; };
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {  // which are sorted by a
-        for (const auto a = std::pair(sortKey(edges[e].a), e); b != byB_.end() && *b < a;)
-            pushB();
-        leaf_.ends.push_back({edges[e].a, e, true});
+    std::vector<End>& ends = leaf_.ends;
+    ends.clear();
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        ends.push_back({edges[e].a, e, true});
+        ends.push_back({edges[e].b, e, false});
     }
-    while (b != byB_.end())
-        pushB();
-    leaf_.endOf.resize(leaf_.ends.size());
-    leaf_.firstOf.resize(leaf_.ends.size());
-    visited_.assign(leaf_.ends.size(), false);
+    sortByKey(ends, spareEnds_, [](const End& end) { return sortKey(end.at); });
+    leaf_.endOf.resize(ends.size());
+    leaf_.firstOf.resize(ends.size());
+    visited_.assign(ends.size(), false);
     for (auto& side : border_)
         side.clear();
-    for (std::uint32_t first = 0; first < leaf_.ends.size();) {
+    for (std::uint32_t first = 0; first < ends.size();) {
+        const LatticePoint at = ends[first].at;
         std::uint32_t last = first + 1;
-        while (last < leaf_.ends.size() && leaf_.ends[last].at == leaf_.ends[first].at)
+        while (last < ends.size() && ends[last].at == at)
             ++last;
-        const int side = sideOf(leaf_.ends[first].at);
-        visited_[first] = side >= 0;
-        if (side >= 0 ? last - first > 1 : last - first > 2)
-            side >= 0 ? sortAlong(first, last, side) : sortRound(first, last);
-        for (; first < last; ++first) {
-            leaf_.endOf[2 * leaf_.ends[first].edge + (leaf_.ends[first].isA ? 0 : 1)] = first;
-            leaf_.firstOf[first] = first > 0 && leaf_.ends[first - 1].at == leaf_.ends[first].at
-                                       ? leaf_.firstOf[first - 1]
-                                       : first;
-            if (side >= 0)
-                border_[static_cast<std::size_t>(side)].push_back(leaf_.ends[first]);
+        if (((at.x | at.y) & 1) != 0) {  // on the border
+            const int side = sideOf(at);
+            visited_[first] = true;
+            if (last > first + 1)
+                sortAlong(first, last, side);
+            auto& border = border_[static_cast<std::size_t>(side)];
+            border.insert(border.end(), ends.begin() + first, ends.begin() + last);
+        } else if (last > first + 2) {
+            sortRound(first, last);
         }
+        for (std::uint32_t i = first; i < last; ++i) {
+            leaf_.endOf[2 * ends[i].edge + !ends[i].isA] = i;
+            leaf_.firstOf[i] = first;
+        }
+        first = last;
     }
 }
 
@@ -311,7 +310,7 @@ bool Planariser::certifyVertices() const {
         const LatticePoint at = leaf_.ends[i].at;
         for (; i < leaf_.ends.size() && leaf_.ends[i].at == at; ++i)
             sum += flow(leaf_.ends[i]);
-        if (sum != 0 && sideOf(at) < 0)
+        if (sum != 0 && ((at.x | at.y) & 1) == 0)
             return false;
     }
     return true;

@@ -93,7 +93,7 @@ private:
     Square square_;
     RegionPaints* regions_ = nullptr;
     bool consistent_ = true;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> byB_;  ///< edges by the sortKey of b
+    std::vector<End> spareEnds_;
     std::vector<std::uint8_t> visited_;  ///< by a vertex's first end; border vertices count as visited
     std::vector<Visit> visits_;
     std::array<std::vector<End>, 4> border_;
