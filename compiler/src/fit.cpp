@@ -164,7 +164,16 @@ void Fitter::cutSlivers() {
         leaf_.slivers = true;
 }
 
+/// Within twice the reach of a sliver from the border.
+bool Fitter::isNearBorder(LatticePoint p) const {
+    const auto margin = static_cast<Coord>(2 * sliverReach() / scale_) + 2;
+    return (p.x - square_.x0 <= margin) | (square_.x1() - p.x <= margin) | (p.y - square_.y0 <= margin) |
+           (square_.y1() - p.y <= margin);
+}
+
 bool Fitter::isSliver(const Chain& chain) {
+    if (!isNearBorder(points_[chain.first + chain.count / 2]))
+        return false;
     const auto from = sideOf(square_, points_[chain.first]);
     if (!from)
         return false;
@@ -192,7 +201,7 @@ bool Fitter::cutAlong(const Chain& chain, Side from, Side to, PaintId outer, Pai
 /// Whether an edge runs within reach of one of the sides from `from` on. The first and the last
 /// side are met only near their corners, unless there is but one.
 bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
-    const int reach = 1 + static_cast<int>(scale_);  // leaf coordinates
+    const int reach = sliverReach();
     const auto near = [&](Side side) { return distance(p, side) <= reach && distance(q, side) <= reach; };
     for (Side k = 0; k <= sides; ++k) {
         const Side side = (from + k) % 4;

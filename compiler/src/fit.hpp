@@ -49,6 +49,9 @@ private:
     Steps rounded(std::uint32_t i) const;
 
     void cutSlivers();
+    /// Leaf coordinates: one, and a lattice step.
+    int sliverReach() const { return 1 + static_cast<int>(scale_); }
+    bool isNearBorder(LatticePoint p) const;
     bool isSliver(const Chain& chain);
     bool cutAlong(const Chain& chain, std::size_t from, std::size_t to, PaintId outer, PaintId inner);
     bool hugs(Steps p, Steps q, std::size_t from, std::size_t sides) const;

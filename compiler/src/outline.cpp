@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "compiler/src/cubics.hpp"
 #include "compiler/src/error_budget.hpp"
@@ -41,10 +42,11 @@ public:
         inside_ = inside;
     }
 
-    /// Where the line so far and its next point are known to be inside the box.
-    void lineInside(Point to) {
-        emit(nearestEven(to));
-        current_ = to;
+    /// Where the line so far and its next points are known to be inside the box.
+    void linesInside(std::span<const Point> to) {
+        for (const Point p : to)
+            emit(nearestEven(p));
+        current_ = to.back();
     }
     /// Whether the line so far ends inside the box and all of the curve lies there.
     bool keepsInside(const Cubic& c) const {
@@ -172,7 +174,8 @@ constexpr int maxHalvings = 400;
 
 void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) {
     const double needed = chordsNeeded(c, tolerance);
-    if (beyondOneSide(c, sink.min(), sink.max()) || !(needed > 1) || halvings >= maxHalvings) {
+    if (!(needed > 1) || halvings >= maxHalvings ||
+        (!sink.keepsInside(c) && beyondOneSide(c, sink.min(), sink.max()))) {
         sink.line(c[3]);
         return;
     }
@@ -181,9 +184,11 @@ void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) 
         const Polynomial curve(c);
         const double step = 1.0 / n;
         if (sink.keepsInside(c)) {
+            std::array<Point, static_cast<std::size_t>(chordsAtOnce)> points;
             for (int i = 1; i < n; ++i)
-                sink.lineInside(curve.at(i * step));
-            sink.lineInside(c[3]);
+                points[static_cast<std::size_t>(i - 1)] = curve.at(i * step);
+            points[static_cast<std::size_t>(n - 1)] = c[3];
+            sink.linesInside(std::span(points).first(static_cast<std::size_t>(n)));
             return;
         }
         for (int i = 1; i < n; ++i)

@@ -45,6 +45,7 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
             sweepTo(e);
             walkFrom(e);
         }
+    findFlows();
     leaf_.certified = cornersAgree && consistent_ && certifyVertices() && certifySides();
     return leaf_;
 }
@@ -297,23 +298,28 @@ bool Planariser::labelFromBorder() {
 
 // ---- certify ----------------------------------------------------------------------------------
 
-/// mixed(left) - mixed(right), as seen going to the vertex.
+/// Of each edge: mixed(left) - mixed(right), as seen going from a to b.
+void Planariser::findFlows() {
+    flows_.clear();
+    for (const Sides& sides : leaf_.sides)
+        flows_.push_back(mixed(sides.left) - mixed(sides.right));
+}
+
+/// As seen going to the vertex.
 std::uint64_t Planariser::flow(const End& end) const {
-    const Sides& l = leaf_.sides[end.edge];
-    const std::uint64_t d = mixed(l.left) - mixed(l.right);
-    return end.isA ? 0 - d : d;
+    const std::uint64_t back = -std::uint64_t{end.isA};
+    return (flows_[end.edge] ^ back) - back;
 }
 
 bool Planariser::certifyVertices() const {
-    for (std::size_t i = 0; i < leaf_.ends.size();) {
-        std::uint64_t sum = 0;
-        const LatticePoint at = leaf_.ends[i].at;
-        for (; i < leaf_.ends.size() && leaf_.ends[i].at == at; ++i)
-            sum += flow(leaf_.ends[i]);
-        if (sum != 0 && ((at.x | at.y) & 1) == 0)
-            return false;
+    std::uint64_t sum = 0, open = 0;
+    for (std::uint32_t i = 0; i < leaf_.ends.size(); ++i) {
+        const End& end = leaf_.ends[i];
+        const bool begins = leaf_.firstOf[i] == i, isInner = ((end.at.x | end.at.y) & 1) == 0;
+        open |= begins ? sum : 0;  // of the vertex before
+        sum = (begins ? 0 : sum) + (isInner ? flow(end) : 0);
     }
-    return true;
+    return (open | sum) == 0;
 }
 
 bool Planariser::certifySides() const {

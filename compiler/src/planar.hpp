@@ -84,6 +84,7 @@ private:
     void label(std::uint32_t edge, const Sides& sides);
     void along(std::size_t side);
     bool labelFromBorder();
+    void findFlows();
     std::uint64_t flow(const End& end) const;
     bool certifyVertices() const;
     bool certifySides() const;
@@ -96,6 +97,7 @@ private:
     std::vector<End> spareEnds_;
     std::vector<std::uint8_t> visited_;  ///< by a vertex's first end; border vertices count as visited
     std::vector<Visit> visits_;
+    std::vector<std::uint64_t> flows_;  ///< by edge
     std::array<std::vector<End>, 4> border_;
 };
 

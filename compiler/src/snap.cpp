@@ -95,9 +95,9 @@ void Snapper::clip(const Square& square, Points points, std::span<const Strand> 
             continue;
         Edge e;
         e.first = static_cast<std::uint32_t>(set_.vertices.size());
-        set_.vertices.push_back(a);
-        set_.vertices.insert(set_.vertices.end(), points.begin() + s.first + 1, points.begin() + s.last);
-        set_.vertices.push_back(b);
+        set_.vertices.insert(set_.vertices.end(), points.begin() + s.first, points.begin() + s.last + 1);
+        set_.vertices[e.first] = a;
+        set_.vertices.back() = b;
         e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
         e.changeCount = 1;
         const bool reversed = b < a;
