@@ -12,7 +12,7 @@ namespace vtm::compiler {
 /// Sorts by `key`, a 64-bit number that `keyOf` gives; what is equal keeps its order. `spare` is workspace.
 template <class T, class KeyOf>
 void sortByKey(std::vector<T>& items, std::vector<T>& spare, const KeyOf& keyOf) {
-    constexpr std::size_t few = 24;  // beyond, the number of pairs costs more than wrong guesses
+    constexpr std::size_t few = 64;  // beyond, the number of pairs costs more than wrong guesses
     const std::size_t count = items.size();
     if (count < 2)
         return;
