@@ -24,14 +24,17 @@ constexpr std::size_t maxWork = 20'000'000'000;
 /// asset::Leaf::pieceCount is 16 bits.
 constexpr std::size_t maxLeafPieces = 0xFFFF;
 
-class Stopwatch {
+/// Tells the time between one thing and the next.
+class Laps {
 public:
-    explicit Stopwatch(double& into) : into_(into), start_(Clock::now()) {}
-    ~Stopwatch() { into_ += milliseconds(start_, Clock::now()); }
+    void to(double& into) {
+        const Clock::time_point now = Clock::now();
+        into += milliseconds(last_, now);
+        last_ = now;
+    }
 
 private:
-    double& into_;
-    const Clock::time_point start_;
+    Clock::time_point last_ = Clock::now();
 };
 
 bool isInside(const Layer& layer, int winding) {
@@ -102,11 +105,12 @@ PaintId LeafRegions::compute() {
 // ---- build ------------------------------------------------------------------------------------
 
 Tree BlockBuilder::run(Cell cell) {
-    const Stopwatch watch(times_.all);
+    Laps laps;
     tree_ = {};
     firstLevel_ = cell.level;
     regions_.forget();
     tree_.root = build(cell).entry;
+    laps.to(times_.all);
     return std::move(tree_);
 }
 
@@ -142,9 +146,14 @@ BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
 BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
     const auto strands = static_cast<double>(cell.strands.size());
     Children* children = nullptr;
+    std::optional<Spread> spread;
     const auto paysToSplit = [&](double pieces) {
         const double cost = options_.cost.leaf(pieces, cell.level), perStrand = std::max(1.0, pieces / strands);
-        if (!mayBeWorthSplitting(pieces, cell.level) || cost <= sureShare * leastSplitCost(cell, perStrand))
+        if (!mayBeWorthSplitting(pieces, cell.level))
+            return false;
+        if (!spread)
+            spread = spreadOf(cell);
+        if (cost <= sureShare * leastSplitCost(*spread, cell.level, perStrand))
             return false;
         if (!children)
             children = &push(cell);
@@ -168,27 +177,29 @@ double BlockBuilder::splitCost(const Children& children, double piecesPerStrand)
     return cost;
 }
 
-/// What children would cost if nothing were hidden in them, and they were no more than those where strands end and those
-/// that strands cannot but pass on the way.
-double BlockBuilder::leastSplitCost(const Cell& cell, double piecesPerStrand) const {
-    const Coord side = cell.square.side / 4;
-    const int shift = std::countr_zero(static_cast<std::uint32_t>(side));
+BlockBuilder::Spread BlockBuilder::spreadOf(const Cell& cell) const {
+    const int shift = std::countr_zero(static_cast<std::uint32_t>(cell.square.side / 4));
     const auto place = [shift](Coord offset) { return std::clamp(offset >> shift, 0, 3); };
     unsigned reached = 0;
-    int visits = 0;
+    Spread spread;
     for (const Strand& s : cell.strands) {
         const LatticePoint from = points_[s.first], to = points_[s.last];
         const int i = place(from.x - cell.square.x0), j = place(from.y - cell.square.y0),
                   iEnd = place(to.x - cell.square.x0), jEnd = place(to.y - cell.square.y0);
         reached |= 1u << (4 * j + i) | 1u << (4 * jEnd + iEnd);
-        visits += 1 + std::abs(iEnd - i) + std::abs(jEnd - j);
+        spread.visits += 1 + std::abs(iEnd - i) + std::abs(jEnd - j);
     }
+    spread.leaves = std::popcount(reached);
+    return spread;
+}
+
+/// What the children of a cell of the given level would cost if nothing were hidden in them, and no more of them had strands
+/// than those where some end.
+double BlockBuilder::leastSplitCost(const Spread& spread, unsigned level, double piecesPerStrand) const {
     const CostModel& model = options_.cost;
-    const unsigned level = cell.level + 1;
-    const double piece = model.leaf(2, level) - model.leaf(1, level);
-    const int leaves = std::popcount(reached);
-    return model.node() + (16 - leaves) * model.leaf(0, level) + leaves * (model.leaf(1, level) - piece) +
-           visits * piecesPerStrand * piece;
+    const double piece = model.leaf(2, level + 1) - model.leaf(1, level + 1);
+    return model.node() + (16 - spread.leaves) * model.leaf(0, level + 1) +
+           spread.leaves * (model.leaf(1, level + 1) - piece) + spread.visits * piecesPerStrand * piece;
 }
 
 /// Whether the cell is within the limits of a leaf that may still be split.
@@ -222,7 +233,7 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) con
 
 /// What of the cell is in its children; in those with strands, without what cannot show there.
 BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
-    const Stopwatch watch(times_.push);
+    Laps laps;
     const std::size_t depth = cell.level - firstLevel_;
     while (children_.size() <= depth)
         children_.emplace_back();
@@ -231,6 +242,7 @@ BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
     for (Cell& child : children)
         if (!child.strands.empty())
             culler_.run(child);
+    laps.to(times_.push);
     return children;
 }
 
@@ -253,25 +265,23 @@ BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {
 /// Nothing if it cannot be proven, or has too many pieces for the format, or its error is beyond the
 /// tolerance and that of smaller leaves would not be.
 BlockBuilder::Made BlockBuilder::makeLeaf(const Cell& cell) {
-    const PlanarLeaf* planar;
-    {
-        const Stopwatch watch(times_.planarise);
-        regions_.enter(cell, tree_.palette);
-        strands_ = cell.strands;
-        std::uint32_t local = 0;
-        for (Strand& s : strands_) {
-            while (regions_.layers[local] != s.layer)
-                ++local;
-            s.layer = local;
-        }
-        planar = &planariser_.run(cell.square, points_, strands_, regions_);
+    Laps laps;
+    regions_.enter(cell, tree_.palette);
+    strands_ = cell.strands;
+    std::uint32_t local = 0;
+    for (Strand& s : strands_) {
+        while (regions_.layers[local] != s.layer)
+            ++local;
+        s.layer = local;
     }
-    if (!planar->certified)
+    const PlanarLeaf& planar = planariser_.run(cell.square, points_, strands_, regions_);
+    laps.to(times_.planarise);
+    if (!planar.certified)
         return {};
-    const Stopwatch watch(times_.fit);
     const ErrorBudget& budget = options_.budget;
-    const FittedLeaf& fitted = fitter_.run(cell.square, *planar, budget.fit());
-    const double error = budget.leaf(cell.level, planar->set->bend, fitted.slivers);
+    const FittedLeaf& fitted = fitter_.run(cell.square, planar, budget.fit());
+    laps.to(times_.fit);
+    const double error = budget.leaf(cell.level, planar.set->bend, fitted.slivers);
     const bool maySplit = cell.level < options_.maxDepth && budget.canHold();
     if (fitted.pieces.size() > maxLeafPieces || (maySplit && !budget.holds(error)))
         return {};

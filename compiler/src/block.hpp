@@ -84,6 +84,10 @@ private:
         double cost = 0;
     };
     using Children = std::array<Cell, 16>;
+    /// How a cell's strands spread over its children: how many of these they end in, and how many visits they pay them.
+    struct Spread {
+        int leaves = 0, visits = 0;
+    };
 
     Built build(Cell& cell);
     Built buildFixed(Cell& cell);
@@ -92,7 +96,8 @@ private:
     Built buildNode(const Cell& cell, Children& children);
     Children& push(const Cell& cell);
     bool mayBeWorthSplitting(double pieces, unsigned level) const;
-    double leastSplitCost(const Cell& cell, double piecesPerStrand) const;
+    Spread spreadOf(const Cell& cell) const;
+    double leastSplitCost(const Spread& spread, unsigned level, double piecesPerStrand) const;
     double splitCost(const Children& children, double piecesPerStrand) const;
     Built solid(PaintId paint, unsigned level) const;
     bool canTry(const Cell& cell);
