@@ -16,8 +16,8 @@ using asset::Entry;
 constexpr std::size_t maxChordsToTry = 400;
 /// A cell of the last level with more is filled with the mean of samples.
 constexpr std::size_t maxChordsInLastLeaf = 2000;
-/// A cell is not pushed down to find out what its children cost if it costs less than this share of the least that they
-/// can: where outlines hide each other they may cost less.
+/// A cell is not pushed down to find out what its children cost if it costs less than this share of the least
+/// that they can: where outlines hide each other they may cost less.
 constexpr double sureShare = 0.75;
 /// A minute or so.
 constexpr std::size_t maxWork = 20'000'000'000;
@@ -148,7 +148,8 @@ BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
     Children* children = nullptr;
     std::optional<Spread> spread;
     const auto paysToSplit = [&](double pieces) {
-        const double cost = options_.cost.leaf(pieces, cell.level), perStrand = std::max(1.0, pieces / strands);
+        const double cost = options_.cost.leaf(pieces, cell.level),
+                     perStrand = std::max(1.0, pieces / strands);
         if (!mayBeWorthSplitting(pieces, cell.level))
             return false;
         if (!spread)
@@ -193,8 +194,8 @@ BlockBuilder::Spread BlockBuilder::spreadOf(const Cell& cell) const {
     return spread;
 }
 
-/// What the children of a cell of the given level would cost if nothing were hidden in them, and no more of them had strands
-/// than those where some end.
+/// What the children of a cell of the given level would cost if nothing were hidden in them, and no more of
+/// them had strands than those where some end.
 double BlockBuilder::leastSplitCost(const Spread& spread, unsigned level, double piecesPerStrand) const {
     const CostModel& model = options_.cost;
     const double piece = model.leaf(2, level + 1) - model.leaf(1, level + 1);

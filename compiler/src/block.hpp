@@ -84,7 +84,8 @@ private:
         double cost = 0;
     };
     using Children = std::array<Cell, 16>;
-    /// How a cell's strands spread over its children: how many of these they end in, and how many visits they pay them.
+    /// How a cell's strands spread over its children: how many of these they end in, and how many visits they
+    /// pay them.
     struct Spread {
         int leaves = 0, visits = 0;
     };

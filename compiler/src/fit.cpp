@@ -233,8 +233,8 @@ Fitter::Steps Fitter::rounded(std::uint32_t i) const {
     return i + 1 == exact_.size() ? ends_[1] : roundInside(exact_[i]);
 }
 
-/// Emits a piece about as long as the fit allows; returns its last point. The turn of the chain tells how far it
-/// can reach; how far a try was beyond the tolerance, what to try next.
+/// Emits a piece about as long as the fit allows; returns its last point. The turn of the chain tells how far
+/// it can reach; how far a try was beyond the tolerance, what to try next.
 std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last) {
     std::uint32_t good = from + 1, bad = last + 1;
     Slopes best;
@@ -268,8 +268,8 @@ std::uint32_t Fitter::reach(std::uint32_t from, std::uint32_t last) const {
     return to - 1;
 }
 
-/// Whether the slopes of the first and the last chord over the chord of all are low enough. The curve's own slopes at its ends
-/// are larger than those of n chords by n / (n - 1), if it bends evenly.
+/// Whether the slopes of the first and the last chord over the chord of all are low enough. The curve's own
+/// slopes at its ends are larger than those of n chords by n / (n - 1), if it bends evenly.
 bool Fitter::isFlat(std::uint32_t from, std::uint32_t to) const {
     const dvec2 whole = exact_[to] - exact_[from], first = exact_[from + 1] - exact_[from],
                 last = exact_[to] - exact_[to - 1];
@@ -280,9 +280,9 @@ bool Fitter::isFlat(std::uint32_t from, std::uint32_t to) const {
     return isLow(first) && isLow(last);
 }
 
-/// By what factor the reach is too long, roughly; at most 1 if the fit is good. Least squares over some of the points
-/// between, in the basis of the rounded chord; then the bound, which is a proof: between two points the
-/// distance is at most the larger one of theirs and the sag of cubic and chain, |t''| ds² / 8.
+/// By what factor the reach is too long, roughly; at most 1 if the fit is good. Least squares over some of
+/// the points between, in the basis of the rounded chord; then the bound, which is a proof: between two
+/// points the distance is at most the larger one of theirs and the sag of cubic and chain, |t''| ds² / 8.
 double Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
     constexpr double beyond = 2;
     const dvec2 a = point(rounded(from)), ab = point(rounded(to)) - a;

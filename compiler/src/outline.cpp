@@ -157,9 +157,10 @@ std::array<Cubic, 2> halve(const Cubic& c) {
     return {Cubic{c[0], a, ab, m}, Cubic{m, bd, d, c[3]}};
 }
 
-/// The fourth power of the number of chords, times tolerance², needed so that none is further than the tolerance from the
-/// curve: the chord of a step h deviates by at most h² max|P''| / 8, and |P''| <= 6 max|second difference of
-/// the controls| (Wang, Shen 1988). Domain: any cubic. Not rounded up, and infinite for infinite curves.
+/// The fourth power of the number of chords, times tolerance², needed so that none is further than the
+/// tolerance from the curve: the chord of a step h deviates by at most h² max|P''| / 8, and |P''| <= 6
+/// max|second difference of the controls| (Wang, Shen 1988). Domain: any cubic. Not rounded up, and infinite
+/// for infinite curves.
 double chordsNeeded(const Cubic& c) {
     const Point d0 = c[0] - c[1] * 2.0 + c[2], d1 = c[1] - c[2] * 2.0 + c[3];
     return 0.75 * 0.75 * std::max(d0.x * d0.x + d0.y * d0.y, d1.x * d1.x + d1.y * d1.y);

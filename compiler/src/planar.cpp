@@ -136,8 +136,9 @@ void Planariser::cross(const Edge& e, int times) {
 /// The edge's chord that meets the line v = m + ½.
 Chord Planariser::chordAt(const Axis& axis, const Edge& e, Coord m) const {
     const bool low = axis.v(e.a) <= m;
-    const std::uint32_t k = firstWhere(
-        0, e.chordCount() - 1, [&](std::uint32_t i) { return (axis.v(leaf_.set->vertex(e, i + 1)) <= m) != low; });
+    const std::uint32_t k = firstWhere(0, e.chordCount() - 1, [&](std::uint32_t i) {
+        return (axis.v(leaf_.set->vertex(e, i + 1)) <= m) != low;
+    });
     return {leaf_.set->vertex(e, k), leaf_.set->vertex(e, k + 1)};
 }
 

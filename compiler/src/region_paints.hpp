@@ -24,8 +24,8 @@ class RegionPaints {
 public:
     struct Layer {
         scene::FillRule rule;
-        int corner;           ///< winding at the first corner
-        std::uint64_t name;   ///< well mixed: stands for the layer in the sets whose paints are known
+        int corner;          ///< winding at the first corner
+        std::uint64_t name;  ///< well mixed: stands for the layer in the sets whose paints are known
     };
 
     virtual ~RegionPaints() = default;

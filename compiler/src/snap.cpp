@@ -32,7 +32,8 @@ LatticePoint crossing(LatticePoint a, LatticePoint b, std::int64_t atA, std::int
     return {evenBetween(a.x, b.x, share), evenBetween(a.y, b.y, share)};
 }
 
-/// The first of first .. last - 1, whose x rise, that is not below x; else last. Its steps depend on the count alone.
+/// The first of first .. last - 1, whose x rise, that is not below x; else last. Its steps depend on the
+/// count alone.
 const LatticePoint* firstNotBelow(const LatticePoint* first, const LatticePoint* last, Coord x) {
     auto count = last - first;
     for (; count > 1; count -= count / 2)
@@ -154,9 +155,10 @@ Snapper::Band Snapper::bandOf(const Edge& e) const {
     return band;
 }
 
-/// Whether one edge lies wholly beside the other's line, and still will when both have been bent by √2 steps. The vertices of f lie in the parallelogram of
-/// its ends moved across by its band: p = q + perp(d_f) o / |d_f|², so orient(e, p) = orient(e, q) + o
-/// (d_e · d_f) / |d_f|². Doubles are off by 2^-50 of |d_e| 2^30, which is far below a step's |d_e|.
+/// Whether one edge lies wholly beside the other's line, and still will when both have been bent by √2 steps.
+/// The vertices of f lie in the parallelogram of its ends moved across by its band: p = q + perp(d_f) o /
+/// |d_f|², so orient(e, p) = orient(e, q) + o (d_e · d_f) / |d_f|². Doubles are off by 2^-50 of |d_e| 2^30,
+/// which is far below a step's |d_e|.
 bool Snapper::areApart(std::uint32_t e, std::uint32_t f) const {
     const Edge &s = set_.edges[e], &t = set_.edges[f];
     const Band &bs = bands_[e], &bt = bands_[f];
@@ -203,7 +205,7 @@ bool Snapper::meetInOneColumn(const Edge& e, const Edge& f) const {
 bool Snapper::meetAll() {
     splits_.clear();
     close_.clear();
-    isClear_ = true;
+    isDoubtful_.assign(set_.edges.size(), false);
     bentSquare_ = 0;
     findBoxes();
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
@@ -220,9 +222,8 @@ bool Snapper::meetAll() {
             const bool share = (e.a == f.a) | (e.b == f.b);
             if (!share && areApart(i, j))
                 continue;
-            // Where edges keep to sectors or columns of their own, chords are not compared.
-            isNear_ = share ? fanOut(e, f) : e.b == f.a && meetInOneColumn(e, f);
-            if (!isNear_)
+            isNear_ = share && fanOut(e, f);  // chords are not compared
+            if (!isNear_ && !(e.b == f.a && meetInOneColumn(e, f)))
                 meet(i, j);
             close_.push_back({i, j, isNear_});
         }
@@ -242,10 +243,9 @@ void Snapper::meet(std::uint32_t e, std::uint32_t f) {
     const LatticePoint *p = firstNotBelow(vertices + s.first + 1, pEnd, left),
                        *q = firstNotBelow(vertices + t.first + 1, qEnd, left);
     for (;;) {  // p and q end the chords at hand
-        if (overlap(p[-1].y, p->y, q[-1].y, q->y)) {
+        if (overlap(p[-1].y, p->y, q[-1].y, q->y) & (p[-1].x <= q->x) & (q[-1].x <= p->x))
             meetChords(e, static_cast<std::uint32_t>(p - vertices) - 1 - s.first, f,
                        static_cast<std::uint32_t>(q - vertices) - 1 - t.first);
-        }
         const bool moves = (q == qEnd) | ((p != pEnd) & (p->x <= q->x));
         if (moves ? (p == pEnd) | (p->x > right) : q->x > right)
             return;
@@ -257,7 +257,8 @@ void Snapper::meet(std::uint32_t e, std::uint32_t f) {
 void Snapper::meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j) {
     const LatticePoint a = set_.vertex(set_.edges[e], i), b = set_.vertex(set_.edges[e], i + 1),
                        c = set_.vertex(set_.edges[f], j), d = set_.vertex(set_.edges[f], j + 1);
-    const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d), atA = orient(c, d, a), atB = orient(c, d, b);
+    const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d), atA = orient(c, d, a),
+                       atB = orient(c, d, b);
     const std::int64_t nearAB = near(a, b), nearCD = near(c, d);
     if (areBeyond(atC, atD, nearAB) | areBeyond(atA, atB, nearCD))
         return;
@@ -303,6 +304,8 @@ void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, co
     const Edge& e = set_.edges[edge];
     if (at == e.a || at == e.b)
         return;
+    if (e.a.x != e.b.x && (at.x == e.a.x || at.x == e.b.x))
+        isDoubtful_[edge] = true;  // it may meet one that ends in that column
     const LatticePoint to = set_.vertex(e, chord + 1);
     if (at == to) {
         splits_.push_back({edge, chord + 1, at, 0, by});
@@ -337,7 +340,8 @@ void Snapper::applySplits() {
         }
         const Split* from = nullptr;
         for (; s != end && s->edge == i; from = s++) {
-            isClear_ &= !from || from->chord != s->chord || from->at == s->at || areClear(*from, *s);
+            if (from && from->chord == s->chord && from->at != s->at && !areClear(*from, *s))
+                isDoubtful_[i] = true;
             part(nextEdges_[i], from, s);
         }
         part(nextEdges_[i], from, nullptr);
@@ -345,8 +349,8 @@ void Snapper::applySplits() {
     beginParts();
 }
 
-/// Whether neither of two neighbouring cuts of a chord is near the chord that makes the other one. The farther from its crossing,
-/// the farther are chords from each other.
+/// Whether neither of two neighbouring cuts of a chord is near the chord that makes the other one: else a
+/// third may be bent over one. The farther from its crossing, the farther are chords from each other.
 bool Snapper::areClear(const Split& p, const Split& q) {
     const auto isClear = [](const Chord& c, LatticePoint at) {
         return std::abs(orient(c.a, c.b, at)) > 2 * near(c.a, c.b);
@@ -355,12 +359,12 @@ bool Snapper::areClear(const Split& p, const Split& q) {
 }
 
 void Snapper::beginParts() {
-    parts_.push_back({static_cast<std::uint32_t>(set_.edges.size()),
-                      static_cast<std::uint32_t>(newChords_.size())});
+    parts_.push_back(
+        {static_cast<std::uint32_t>(set_.edges.size()), static_cast<std::uint32_t>(newChords_.size())});
 }
 
-/// The part between two cuts, or an end where there is none. It may run against the whole: a vertical part of a falling
-/// chain, or one chord, where rounding can step back past a steep edge's end.
+/// The part between two cuts, or an end where there is none. It may run against the whole: a vertical part of
+/// a falling chain, or one chord, where rounding can step back past a steep edge's end.
 void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
     const auto isVertex = [&](const Split& cut) { return cut.at == set_.vertex(whole, cut.chord); };
     const bool newFrom = from && !isVertex(*from), newTo = to && !isVertex(*to);
@@ -395,23 +399,26 @@ void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
 
 // ---- check ------------------------------------------------------------------------------------
 
-/// Whether parts meet anywhere but at their ends. A bent chord stays in the box of the chord that it was, so only edges that
-/// were close can; most of these have been seen to stay clear of each other but where they cross.
+/// Whether parts meet anywhere but at their ends. A bent chord stays in the box of the chord that it was, so
+/// only edges that were close can; most of these have been seen to stay clear of each other but where they
+/// cross.
 bool Snapper::partsMeet() const {
     return std::any_of(close_.begin(), close_.end(), [&](const Pair& pair) {
-        return (pair.isNear || !isClear_) && (newMeet(pair.e, pair.f) || newMeet(pair.f, pair.e));
+        return (pair.isNear | isDoubtful_[pair.e] | isDoubtful_[pair.f]) &&
+               (newMeet(pair.e, pair.f) || newMeet(pair.f, pair.e));
     });
 }
 
-/// Whether a new chord of a part of edge e, as it was, meets a part of edge f. The parts of both lie one after the other
-/// in x, but for what rounding moved them.
+/// Whether a new chord of a part of edge e, as it was, meets a part of edge f. The parts of both lie one
+/// after the other in x, but for what rounding moved them.
 bool Snapper::newMeet(std::uint32_t e, std::uint32_t f) const {
     constexpr Coord rounded = 4;
     std::uint32_t first = parts_[f].edge;
     const std::uint32_t end = parts_[f + 1].edge;
     for (std::uint32_t k = parts_[e].newChord; k < parts_[e + 1].newChord; ++k) {
         const NewChord& chord = newChords_[k];
-        const Coord left = set_.vertices[chord.first].x - rounded, right = set_.vertices[chord.first + 1].x + rounded;
+        const Coord left = set_.vertices[chord.first].x - rounded,
+                    right = set_.vertices[chord.first + 1].x + rounded;
         while (first + 1 < end && set_.edges[first].b.x < left)
             ++first;
         for (std::uint32_t j = first; j < end && set_.edges[j].a.x <= right; ++j)
@@ -428,7 +435,8 @@ bool Snapper::meetsPart(const Edge& e, std::uint32_t v, const Edge& f) const {
     if ((f.a.x > b.x) | (f.b.x < a.x) | !overlap(a.y, b.y, f.a.y, f.b.y))
         return false;
     const auto isEnd = [](const Edge& g, LatticePoint p) { return (p == g.a) | (p == g.b); };
-    for (const LatticePoint* r = firstNotBelow(vertices + f.first + 1, end, a.x); r <= end && r[-1].x <= b.x; ++r) {
+    for (const LatticePoint* r = firstNotBelow(vertices + f.first + 1, end, a.x); r <= end && r[-1].x <= b.x;
+         ++r) {
         const LatticePoint c = r[-1], d = *r;
         if (!overlap(a.y, b.y, c.y, d.y))
             continue;
@@ -441,8 +449,10 @@ bool Snapper::meetsPart(const Edge& e, std::uint32_t v, const Edge& f) const {
                 return true;
             continue;
         }
-        const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d), atA = orient(c, d, a), atB = orient(c, d, b);
-        if (!(areBeyond(atC, atD, 0) | areBeyond(atA, atB, 0)) && (atA != 0 || atB != 0 || isOnChord(a, b, c) || isOnChord(c, d, a)))
+        const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d), atA = orient(c, d, a),
+                           atB = orient(c, d, b);
+        if (!(areBeyond(atC, atD, 0) | areBeyond(atA, atB, 0)) &&
+            (atA != 0 || atB != 0 || isOnChord(a, b, c) || isOnChord(c, d, a)))
             return true;
     }
     return false;

@@ -52,8 +52,8 @@ inline constexpr int maxSnapRounds = 60;
 /// Turns strands into edges; keeps its memory from leaf to leaf.
 class Snapper {
 public:
-    /// The edges of the strands, which all pass through the square's inside; their layers are places in the leaf's
-    /// own list. Nothing if the leaf is beyond its limits. Valid until the next call.
+    /// The edges of the strands, which all pass through the square's inside; their layers are places in the
+    /// leaf's own list. Nothing if the leaf is beyond its limits. Valid until the next call.
     const EdgeSet* run(const Square& square, Points points, std::span<const Strand> strands);
 
 private:
@@ -114,16 +114,17 @@ private:
     void addChanges(Edge& into, std::span<const Place> equal);
 
     EdgeSet set_;
-    double bentSquare_ = 0;  ///< the largest bend of this round, squared
+    double bentSquare_ = 0;                         ///< the largest bend of this round, squared
     std::vector<Coord> left_, right_, low_, high_;  ///< of each edge's box
     std::vector<Band> bands_;                       ///< of each edge
     std::vector<std::uint32_t> found_;
     std::vector<Pair> close_;  ///< edges that meet, or nearly so
     bool isNear_ = false;      ///< Pair::isNear of the pair at hand
-    bool isClear_ = true;      ///< no cut of a chord is near a chord that makes another
+    std::vector<std::uint8_t>
+        isDoubtful_;  ///< by edge: its parts may meet others though its chords were not near theirs
     std::vector<Split> splits_;
-    std::vector<Parts> parts_;          ///< by edge as it was, and the end of all
-    std::vector<NewChord> newChords_;   ///< parts of bent chords
+    std::vector<Parts> parts_;         ///< by edge as it was, and the end of all
+    std::vector<NewChord> newChords_;  ///< parts of bent chords
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;
     std::vector<Place> order_, spareOrder_;

@@ -32,8 +32,8 @@ inline bool meets(LatticePoint a, LatticePoint b, const Square& s) {
            cornerOnLeft(a, b, s.corner(3)) != left;
 }
 
-/// The first of first .. last - 1 for which `holds` is true, given that it stays true from there on; else last. Its steps
-/// depend on the count alone: which way each goes is as good as random.
+/// The first of first .. last - 1 for which `holds` is true, given that it stays true from there on; else
+/// last. Its steps depend on the count alone: which way each goes is as good as random.
 template <class Holds>
 std::uint32_t firstWhere(std::uint32_t first, std::uint32_t last, const Holds& holds) {
     std::uint32_t count = last - first;

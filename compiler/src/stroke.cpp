@@ -293,12 +293,12 @@ private:
 };
 
 /// `chords`: of OffsetOptions.
-scene::Path outlineOf(const scene::Path& path, const scene::StrokeStyle& style, double tolerance, double chords) {
+scene::Path outlineOf(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                      double chords) {
     const double size = largestCoordinate(path) + style.width;
     if (!(size <= largestSize))
         throw LimitError("stroke: coordinates or width beyond 1e48");
-    tolerance =
-        std::max(std::min(tolerance, hairlineShare * style.width), finestShare * size);
+    tolerance = std::max(std::min(tolerance, hairlineShare * style.width), finestShare * size);
     if (chords > 0)
         chords = std::max(chords, finestShare * size);
     scene::Path outline;

@@ -45,8 +45,8 @@ private:
         return {t, powers_.at(t) + perp(along) * distance_, along};
     }
 
-    /// Chords for an equal part of [t, t + dt], divided by dt: a chord strays by a quarter of its length times half its
-    /// turn, both of which grow with dt.
+    /// Chords for an equal part of [t, t + dt], divided by dt: a chord strays by a quarter of its length
+    /// times half its turn, both of which grow with dt.
     double density(double t) const {
         constexpr double sure = 0.9;  // of the tolerance: the tangent strays a little farther than the curve
         const Point velocity = powers_.velocity(t);
@@ -57,7 +57,8 @@ private:
         return chords < mostChords ? chords : 0;
     }
 
-    /// Chords from a vertex to where t is `to`, between which the curve has no inflection, of equal shares by density.
+    /// Chords from a vertex to where t is `to`, between which the curve has no inflection, of equal shares by
+    /// density.
     Vertex convex(Vertex at, double to) {
         constexpr int steps = 8;
         const double from = at.t, step = (to - from) / steps;

@@ -314,9 +314,11 @@ private:
         }
     }
 
-    /// Where the curve is a little tighter than the radius, the offset turns back by tightShare of the tolerance.
+    /// Where the curve is a little tighter than the radius, or turns by too little to matter, the offset
+    /// turns back by these shares of the tolerance.
     void chords(const Span& span, double distance, Side& side) const {
-        appendChords(curve_, span.t0, span.t1, distance, o_.chords + (1 - tightShare) * o_.tolerance, side);
+        appendChords(curve_, span.t0, span.t1, distance,
+                     o_.chords + (1 - tightShare - gapShare) * o_.tolerance, side);
     }
 
     void tight(const Stretch& stretch, Bend bend) {

@@ -194,9 +194,9 @@ TEST(Error, ofOffsetsAsChordsStaysInItsShare) {
             scene::StrokeStyle butt;
             butt.width = 0.5;
             Point from(0);
-            for (const scene::Command& command : strokeOutlineOfChords(
-                     {scene::MoveTo{c[0]}, scene::CubicTo{c[1], c[2], c[3]}}, butt, tolerance * share,
-                     tolerance * (1 - share))) {
+            for (const scene::Command& command :
+                 strokeOutlineOfChords({scene::MoveTo{c[0]}, scene::CubicTo{c[1], c[2], c[3]}}, butt,
+                                       tolerance * share, tolerance * (1 - share))) {
                 EXPECT_FALSE(std::holds_alternative<scene::CubicTo>(command));
                 const auto* line = std::get_if<scene::LineTo>(&command);
                 if (const auto* start = std::get_if<scene::MoveTo>(&command))
