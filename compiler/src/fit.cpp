@@ -233,7 +233,7 @@ Fitter::Steps Fitter::rounded(std::uint32_t i) const {
     return i + 1 == exact_.size() ? ends_[1] : roundInside(exact_[i]);
 }
 
-/// Emits a piece about as long as the fit allows; returns its last point. The turn of the chain tells how far
+/// Emits the longest piece that the fit allows; returns its last point. The turn of the chain tells how far
 /// it can reach; how far a try was beyond the tolerance, what to try next.
 std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last) {
     std::uint32_t good = from + 1, bad = last + 1;
@@ -244,7 +244,7 @@ std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::u
         if (excess <= 1) {
             good = to;
             best = slopes;
-            if (bad > last || bad - good <= 1 + (good - from) / 8)
+            if (bad > last)
                 break;
             to = good + (bad - good) / 2;
         } else {

@@ -306,8 +306,8 @@ private:
 
     void gentle(const Stretch& stretch, const Span& span) {
         if (o_.chords > 0) {
-            chords(span, o_.radius, ribbon_.left);
-            chords(span, -o_.radius, ribbon_.right);
+            chords(stretch, span, o_.radius, ribbon_.left);
+            chords(stretch, span, -o_.radius, ribbon_.right);
         } else {
             fit(stretch, o_.radius, false, ribbon_.left);
             fit(stretch, -o_.radius, false, ribbon_.right);
@@ -316,7 +316,8 @@ private:
 
     /// Where the curve is a little tighter than the radius, or turns by too little to matter, the offset
     /// turns back by these shares of the tolerance.
-    void chords(const Span& span, double distance, Side& side) const {
+    void chords(const Stretch& stretch, const Span& span, double distance, Side& side) const {
+        side.lineTo(stretch.offset(0, distance).at, gapShare * o_.tolerance);
         appendChords(curve_, span.t0, span.t1, distance,
                      o_.chords + (1 - tightShare - gapShare) * o_.tolerance, side);
     }
