@@ -48,7 +48,7 @@ private:
     /// Chords for an equal part of [t, t + dt], divided by dt: a chord strays by a quarter of its length
     /// times half its turn, both of which grow with dt.
     double density(double t) const {
-        constexpr double sure = 0.9;  // of the tolerance: the tangent strays a little farther than the curve
+        constexpr double sure = 0.95;  // of the tolerance: the tangent strays a little farther than the curve
         const Point velocity = powers_.velocity(t);
         const double square = glm::dot(velocity, velocity);
         const double turn = cross(velocity, powers_.acceleration(t)) / square;
