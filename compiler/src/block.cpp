@@ -1,6 +1,7 @@
 #include "compiler/src/block.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "compiler/compile.hpp"
 #include "compiler/src/append_node.hpp"
@@ -15,19 +16,25 @@ using asset::Entry;
 constexpr std::size_t maxChordsToTry = 400;
 /// A cell of the last level with more is filled with the mean of samples.
 constexpr std::size_t maxChordsInLastLeaf = 2000;
+/// A cell is not pushed down to find out what its children cost if it costs less than this share of the least
+/// that they can: where outlines hide each other they may cost less.
+constexpr double sureShare = 0.75;
 /// A minute or so.
 constexpr std::size_t maxWork = 20'000'000'000;
 /// asset::Leaf::pieceCount is 16 bits.
 constexpr std::size_t maxLeafPieces = 0xFFFF;
 
-class Stopwatch {
+/// Tells the time between one thing and the next.
+class Laps {
 public:
-    explicit Stopwatch(double& into) : into_(into), start_(Clock::now()) {}
-    ~Stopwatch() { into_ += milliseconds(start_, Clock::now()); }
+    void to(double& into) {
+        const Clock::time_point now = Clock::now();
+        into += milliseconds(last_, now);
+        last_ = now;
+    }
 
 private:
-    double& into_;
-    const Clock::time_point start_;
+    Clock::time_point last_ = Clock::now();
 };
 
 bool isInside(const Layer& layer, int winding) {
@@ -65,17 +72,25 @@ void Culler::run(Cell& cell) {
 void LeafRegions::enter(const Cell& cell, Palette& palette) {
     palette_ = &palette;
     listLayers(cell, layers);
-    rules_.clear();
-    corner_.assign(layers.size(), 0);
-    for (std::uint32_t layer : layers)
-        rules_.push_back(picture_.layers[layer].rule);
-    std::size_t i = 0;
-    for (const LayerWinding& w : cell.windings) {
-        while (layers[i] != w.layer)
-            ++i;
-        corner_[i] = w.winding;
+    entered_.clear();
+    auto known = cell.windings.begin();
+    for (std::uint32_t layer : layers) {
+        const bool isKnown = known != cell.windings.end() && known->layer == layer;
+        entered_.push_back({picture_.layers[layer].rule, isKnown ? (known++)->winding : 0, mixed(layer)});
     }
-    RegionPaints::enter(rules_, corner_);
+    RegionPaints::enter(entered_);
+}
+
+PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
+    std::uint64_t key = 0;
+    for (const LayerWinding& w : cell.windings)
+        if (compiler::isInside(picture_.layers[w.layer], w.winding))
+            key ^= mixed(w.layer);
+    if (const PaintId paint = known(key); paint != NumberMap::unknown)
+        return paint;
+    culler.run(cell);
+    enter(cell, palette);
+    return known(key) = paint();
 }
 
 PaintId LeafRegions::compute() {
@@ -90,20 +105,20 @@ PaintId LeafRegions::compute() {
 // ---- build ------------------------------------------------------------------------------------
 
 Tree BlockBuilder::run(Cell cell) {
-    const Stopwatch watch(times_.all);
+    Laps laps;
     tree_ = {};
     firstLevel_ = cell.level;
+    regions_.forget();
     tree_.root = build(cell).entry;
+    laps.to(times_.all);
     return std::move(tree_);
 }
 
-/// `cell` is culled already.
+/// `cell` is culled already if it has strands.
 BlockBuilder::Built BlockBuilder::build(Cell& cell) {
     work_.spend(cell.strands.size() * visitWork);
-    if (cell.strands.empty()) {
-        regions_.enter(cell, tree_.palette);
-        return solid(regions_.paint(), cell.level);
-    }
+    if (cell.strands.empty())
+        return solid(regions_.solid(cell, culler_, tree_.palette), cell.level);
     if (cell.level >= options_.maxDepth)
         return buildLast(cell);
     if (cell.level < options_.minDepth)
@@ -129,26 +144,25 @@ BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
 /// many as pieces), then known. Where outlines hide each other the guess can be too high by far, so
 /// children that turn out cheap to join are tried as one leaf after all.
 BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
-    const CostModel& model = options_.cost;
     const auto strands = static_cast<double>(cell.strands.size());
     Children* children = nullptr;
-    bool tried = false;
-    if (mayBeWorthSplitting(strands, cell.level)) {
-        children = &push(cell);
-        tried = model.leaf(strands, cell.level) > splitCost(*children, 1);
-    }
-    if (!tried && canTry(cell)) {
-        tried = true;
-        if (const Made made = makeLeaf(cell)) {
-            const auto pieces = static_cast<double>(made.pieceCount());
-            if (!mayBeWorthSplitting(pieces, cell.level))
-                return emit(made, cell.level);
-            if (!children)
-                children = &push(cell);
-            if (model.leaf(pieces, cell.level) <= splitCost(*children, std::max(1.0, pieces / strands)))
-                return emit(made, cell.level);
-        }
-    }
+    std::optional<Spread> spread;
+    const auto paysToSplit = [&](double pieces) {
+        const double cost = options_.cost.leaf(pieces, cell.level),
+                     perStrand = std::max(1.0, pieces / strands);
+        if (!mayBeWorthSplitting(pieces, cell.level))
+            return false;
+        if (!spread)
+            spread = spreadOf(cell);
+        if (cost <= sureShare * leastSplitCost(*spread, cell.level, perStrand))
+            return false;
+        if (!children)
+            children = &push(cell);
+        return cost > splitCost(*children, perStrand);
+    };
+    if (!paysToSplit(strands) && canTry(cell))
+        if (const Made made = makeLeaf(cell); made && !paysToSplit(static_cast<double>(made.pieceCount())))
+            return emit(made, cell.level);
     return buildNode(cell, children ? *children : push(cell));
 }
 
@@ -164,6 +178,31 @@ double BlockBuilder::splitCost(const Children& children, double piecesPerStrand)
     return cost;
 }
 
+BlockBuilder::Spread BlockBuilder::spreadOf(const Cell& cell) const {
+    const int shift = std::countr_zero(static_cast<std::uint32_t>(cell.square.side / 4));
+    const auto place = [shift](Coord offset) { return std::clamp(offset >> shift, 0, 3); };
+    unsigned reached = 0;
+    Spread spread;
+    for (const Strand& s : cell.strands) {
+        const LatticePoint from = points_[s.first], to = points_[s.last];
+        const int i = place(from.x - cell.square.x0), j = place(from.y - cell.square.y0),
+                  iEnd = place(to.x - cell.square.x0), jEnd = place(to.y - cell.square.y0);
+        reached |= 1u << (4 * j + i) | 1u << (4 * jEnd + iEnd);
+        spread.visits += 1 + std::abs(iEnd - i) + std::abs(jEnd - j);
+    }
+    spread.leaves = std::popcount(reached);
+    return spread;
+}
+
+/// What the children of a cell of the given level would cost if nothing were hidden in them, and no more of
+/// them had strands than those where some end.
+double BlockBuilder::leastSplitCost(const Spread& spread, unsigned level, double piecesPerStrand) const {
+    const CostModel& model = options_.cost;
+    const double piece = model.leaf(2, level + 1) - model.leaf(1, level + 1);
+    return model.node() + (16 - spread.leaves) * model.leaf(0, level + 1) +
+           spread.leaves * (model.leaf(1, level + 1) - piece) + spread.visits * piecesPerStrand * piece;
+}
+
 /// Whether the cell is within the limits of a leaf that may still be split.
 bool BlockBuilder::canTry(const Cell& cell) {
     const std::size_t distinct = distinctChords(cell, maxChordsToTry);
@@ -173,32 +212,38 @@ bool BlockBuilder::canTry(const Cell& cell) {
     return true;
 }
 
-/// Equal chords of many layers (a shape repeated) count once: snapping merges them at once. Stops
+/// Equal strands of many layers (a shape repeated) count once: snapping merges them at once. Stops
 /// counting beyond `most`.
 std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) const {
     const std::size_t all = cell.chordCount();
     if (all <= most)
         return all;
-    std::set<std::pair<LatticePoint, LatticePoint>> ends;
-    for (const Strand& s : cell.strands)
-        for (std::uint32_t i = s.first; i < s.last; ++i) {
-            ends.insert(std::minmax(points_[i], points_[i + 1]));
-            if (ends.size() > most)
-                return ends.size();
-        }
-    return ends.size();
+    NumberMap seen;
+    std::size_t count = 0;
+    for (const Strand& s : cell.strands) {
+        const auto [a, b] = std::minmax(points_[s.first], points_[s.last]);
+        const std::uint32_t chords = s.last - s.first;
+        std::uint32_t& known = seen[mixed(sortKey(a)) + mixed(mixed(sortKey(b)) + chords)];
+        if (known == NumberMap::unknown)
+            count += known = chords;
+        if (count > most)
+            break;
+    }
+    return count;
 }
 
-/// What of the cell is in its children, without what cannot show there.
+/// What of the cell is in its children; in those with strands, without what cannot show there.
 BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
-    const Stopwatch watch(times_.push);
+    Laps laps;
     const std::size_t depth = cell.level - firstLevel_;
     while (children_.size() <= depth)
         children_.emplace_back();
     Children& children = children_[depth];
     splitCell(points_, cell, children);
     for (Cell& child : children)
-        culler_.run(child);
+        if (!child.strands.empty())
+            culler_.run(child);
+    laps.to(times_.push);
     return children;
 }
 
@@ -221,25 +266,23 @@ BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {
 /// Nothing if it cannot be proven, or has too many pieces for the format, or its error is beyond the
 /// tolerance and that of smaller leaves would not be.
 BlockBuilder::Made BlockBuilder::makeLeaf(const Cell& cell) {
-    const PlanarLeaf* planar;
-    {
-        const Stopwatch watch(times_.planarise);
-        regions_.enter(cell, tree_.palette);
-        strands_ = cell.strands;
-        std::uint32_t local = 0;
-        for (Strand& s : strands_) {
-            while (regions_.layers[local] != s.layer)
-                ++local;
-            s.layer = local;
-        }
-        planar = &planariser_.run(cell.square, points_, strands_, regions_);
+    Laps laps;
+    regions_.enter(cell, tree_.palette);
+    strands_ = cell.strands;
+    std::uint32_t local = 0;
+    for (Strand& s : strands_) {
+        while (regions_.layers[local] != s.layer)
+            ++local;
+        s.layer = local;
     }
-    if (!planar->certified)
+    const PlanarLeaf& planar = planariser_.run(cell.square, points_, strands_, regions_);
+    laps.to(times_.planarise);
+    if (!planar.certified)
         return {};
-    const Stopwatch watch(times_.fit);
     const ErrorBudget& budget = options_.budget;
-    const FittedLeaf& fitted = fitter_.run(cell.square, *planar, budget.fit());
-    const double error = budget.leaf(cell.level, planar->set->bend, fitted.slivers);
+    const FittedLeaf& fitted = fitter_.run(cell.square, planar, budget.fit());
+    laps.to(times_.fit);
+    const double error = budget.leaf(cell.level, planar.set->bend, fitted.slivers);
     const bool maySplit = cell.level < options_.maxDepth && budget.canHold();
     if (fitted.pieces.size() > maxLeafPieces || (maySplit && !budget.holds(error)))
         return {};

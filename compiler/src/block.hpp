@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <deque>
-#include <set>
 
 #include "compiler/src/cell.hpp"
 #include "compiler/src/fit.hpp"
@@ -42,12 +41,14 @@ private:
     std::vector<std::uint8_t> keep_;
 };
 
-/// The regions of a cell.
+/// The regions of a block's cells. The paint of each set of layers is asked for once.
 class LeafRegions : public RegionPaints {
 public:
     LeafRegions(const Picture& picture, Painter& painter)
         : picture_(picture), painter_(painter), inside_(picture.layers.size()) {}
     void enter(const Cell& cell, Palette& palette);
+    /// The paint of a cell without strands, which need not be culled yet.
+    PaintId solid(Cell& cell, Culler& culler, Palette& palette);
 
     std::vector<std::uint32_t> layers;  ///< of the cell, ascending: the others are numbered by them
 
@@ -58,8 +59,7 @@ private:
     Painter& painter_;
     Palette* palette_ = nullptr;
     std::vector<std::uint8_t> inside_;  ///< by layer
-    std::vector<scene::FillRule> rules_;
-    std::vector<int> corner_;
+    std::vector<Layer> entered_;
 };
 
 /// Builds blocks, one after the other, keeping its memory.
@@ -84,6 +84,11 @@ private:
         double cost = 0;
     };
     using Children = std::array<Cell, 16>;
+    /// How a cell's strands spread over its children: how many of these they end in, and how many visits they
+    /// pay them.
+    struct Spread {
+        int leaves = 0, visits = 0;
+    };
 
     Built build(Cell& cell);
     Built buildFixed(Cell& cell);
@@ -92,6 +97,8 @@ private:
     Built buildNode(const Cell& cell, Children& children);
     Children& push(const Cell& cell);
     bool mayBeWorthSplitting(double pieces, unsigned level) const;
+    Spread spreadOf(const Cell& cell) const;
+    double leastSplitCost(const Spread& spread, unsigned level, double piecesPerStrand) const;
     double splitCost(const Children& children, double piecesPerStrand) const;
     Built solid(PaintId paint, unsigned level) const;
     bool canTry(const Cell& cell);

@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    Point map(Point p) const { return scene::apply(m_, p); }
+    Point map(Point p) const { return m_[0] * p.x + m_[1] * p.y + m_[2]; }
 
     void begin(Point p) {
         start_ = current_ = p;

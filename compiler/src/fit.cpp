@@ -103,10 +103,12 @@ void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
         used_[edge] = true;
         const Edge& e = edges[edge];
         const bool forward = e.a == at;
-        for (std::uint32_t k = 1; k <= e.innerCount; ++k)
-            points_.push_back(leaf.set->vertex(e, forward ? k : e.innerCount + 1 - k));
-        at = forward ? e.b : e.a;
-        points_.push_back(at);
+        const auto vertices = leaf.set->chain(e);
+        if (forward)
+            points_.insert(points_.end(), vertices.begin() + 1, vertices.end());
+        else
+            points_.insert(points_.end(), vertices.rbegin() + 1, vertices.rend());
+        at = points_.back();
         edge = next(leaf, edge, forward);
     }
     chain.count = static_cast<std::uint32_t>(points_.size()) - chain.first;
@@ -118,17 +120,21 @@ void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
 /// Leaf coordinates, unrounded.
 dvec2 Fitter::exact(LatticePoint p) const { return dvec2{p.x - square_.x0, p.y - square_.y0} * scale_; }
 
+Fitter::Steps Fitter::roundInside(dvec2 u) {
+    const auto one = [](double v) {
+        return static_cast<std::uint16_t>(static_cast<int>(std::clamp(v + 0.5, 1.0, extent - 1)));
+    };
+    return {one(u.x), one(u.y)};
+}
+
 /// The border's coordinates are kept for points on the border.
 Fitter::Steps Fitter::round(LatticePoint p) const {
-    const auto one = [](double u, Coord at, Coord low, Coord high) -> std::uint16_t {
-        if (at == low)
-            return 0;
-        if (at == high)
-            return asset::leafExtent;
-        return static_cast<std::uint16_t>(std::clamp(u + 0.5, 1.0, extent - 1));
-    };
-    const dvec2 u = exact(p);
-    return {one(u.x, p.x, square_.x0, square_.x1()), one(u.y, p.y, square_.y0, square_.y1())};
+    Steps r = roundInside(exact(p));
+    if (p.x == square_.x0 || p.x == square_.x1())
+        r[0] = p.x == square_.x0 ? std::uint16_t{0} : asset::leafExtent;
+    if (p.y == square_.y0 || p.y == square_.y1())
+        r[1] = p.y == square_.y0 ? std::uint16_t{0} : asset::leafExtent;
+    return r;
 }
 
 // ---- slivers ----------------------------------------------------------------------------------
@@ -140,9 +146,9 @@ int distance(const std::array<std::uint16_t, 2>& p, Side side) {
     return side == 0 || side == 3 ? across : static_cast<int>(asset::leafExtent) - across;
 }
 
-std::optional<Side> sideOf(const std::array<std::uint16_t, 2>& p) {
+std::optional<Side> sideOf(const Square& square, LatticePoint p) {
     for (Side side = 0; side < 4; ++side)
-        if (distance(p, side) == 0)
+        if ((side % 2 == 0 ? p.y : p.x) == square.line(side))
             return side;
     return std::nullopt;
 }
@@ -158,11 +164,20 @@ void Fitter::cutSlivers() {
         leaf_.slivers = true;
 }
 
+/// Within twice the reach of a sliver from the border.
+bool Fitter::isNearBorder(LatticePoint p) const {
+    const auto margin = static_cast<Coord>(2 * sliverReach() / scale_) + 2;
+    return (p.x - square_.x0 <= margin) | (square_.x1() - p.x <= margin) | (p.y - square_.y0 <= margin) |
+           (square_.y1() - p.y <= margin);
+}
+
 bool Fitter::isSliver(const Chain& chain) {
-    const auto from = sideOf(round(points_[chain.first]));
+    if (!isNearBorder(points_[chain.first + chain.count / 2]))
+        return false;
+    const auto from = sideOf(square_, points_[chain.first]);
     if (!from)
         return false;
-    const auto to = sideOf(round(points_[chain.first + chain.count - 1]));
+    const auto to = sideOf(square_, points_[chain.first + chain.count - 1]);
     if (!to)
         return false;
     return cutAlong(chain, *from, *to, chain.right, chain.left) ||
@@ -186,7 +201,7 @@ bool Fitter::cutAlong(const Chain& chain, Side from, Side to, PaintId outer, Pai
 /// Whether an edge runs within reach of one of the sides from `from` on. The first and the last
 /// side are met only near their corners, unless there is but one.
 bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
-    const int reach = 1 + static_cast<int>(scale_);  // leaf coordinates
+    const int reach = sliverReach();
     const auto near = [&](Side side) { return distance(p, side) <= reach && distance(q, side) <= reach; };
     for (Side k = 0; k <= sides; ++k) {
         const Side side = (from + k) % 4;
@@ -201,79 +216,125 @@ bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
 // ---- fit --------------------------------------------------------------------------------------
 
 void Fitter::fit(const Chain& chain) {
-    first_ = chain.first;
+    const std::span<const LatticePoint> points(points_.data() + chain.first, chain.count);
     exact_.resize(chain.count);
-    for (std::uint32_t i = 0; i < chain.count; ++i)
-        exact_[i] = exact(points_[first_ + i]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        exact_[i] = exact(points[i]);
     const std::uint32_t last = chain.count - 1;
+    ends_ = {round(points.front()), round(points.back())};
     for (std::uint32_t from = 0; from < last;)
         from = emitLongest(chain, from, last);
 }
 
-/// Emits the longest piece found by doubling and halving its reach, which begins with what is usual; returns
-/// its last point.
+/// Of point i of the chain at hand; only its ends can lie on the border.
+Fitter::Steps Fitter::rounded(std::uint32_t i) const {
+    if (i == 0)
+        return ends_[0];
+    return i + 1 == exact_.size() ? ends_[1] : roundInside(exact_[i]);
+}
+
+/// Emits the longest piece that the fit allows; returns its last point. The turn of the chain tells how far
+/// it can reach; how far a try was beyond the tolerance, what to try next.
 std::uint32_t Fitter::emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last) {
     std::uint32_t good = from + 1, bad = last + 1;
     Slopes best;
-    for (std::uint32_t reach = 6; good + 1 < bad;) {
-        const std::uint32_t to = bad > last ? std::min(from + reach, last) : good + (bad - good) / 2;
+    for (std::uint32_t to = reach(from, last); good + 1 < bad;) {
         Slopes slopes;
-        if (tryFit(from, to, slopes)) {
+        const double excess = to == from + 1 ? 0 : tryFit(from, to, slopes);
+        if (excess <= 1) {
             good = to;
             best = slopes;
-            if (to == last)
+            if (bad > last)
                 break;
-            reach *= 2;
+            to = good + (bad - good) / 2;
         } else {
             bad = to;
+            to = std::clamp(from + static_cast<std::uint32_t>((to - from) / excess), good, bad - 1);
         }
     }
     emit(chain, from, good, best);
     return good;
 }
 
-/// Least squares over the points between, in the basis of the rounded chord; then the bound, which is a
-/// proof: between two points the distance is at most the larger one of theirs and the sag of cubic and
-/// chain, |t''| ds² / 8.
-bool Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
+/// The first point beyond which the chain turns more than slopes allow, or the last.
+std::uint32_t Fitter::reach(std::uint32_t from, std::uint32_t last) const {
+    constexpr std::uint32_t most = 48;
+    last = std::min(last, from + most);
+    if (isFlat(from, last))
+        return last;
+    std::uint32_t to = from + 2;
+    while (to < last && isFlat(from, to))
+        ++to;
+    return to - 1;
+}
+
+/// Whether the slopes of the first and the last chord over the chord of all are low enough. The curve's own
+/// slopes at its ends are larger than those of n chords by n / (n - 1), if it bends evenly.
+bool Fitter::isFlat(std::uint32_t from, std::uint32_t to) const {
+    const dvec2 whole = exact_[to] - exact_[from], first = exact_[from + 1] - exact_[from],
+                last = exact_[to] - exact_[to - 1];
+    const double n = to - from, most = maxSlope * (n - 0.5);
+    const auto isLow = [&](dvec2 chord) {
+        return n * std::abs(whole.x * chord.y - whole.y * chord.x) <= most * glm::dot(whole, chord);
+    };
+    return isLow(first) && isLow(last);
+}
+
+/// By what factor the reach is too long, roughly; at most 1 if the fit is good. Least squares over some of
+/// the points between, in the basis of the rounded chord; then the bound, which is a proof: between two
+/// points the distance is at most the larger one of theirs and the sag of cubic and chain, |t''| ds² / 8.
+double Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
+    constexpr double beyond = 2;
     const dvec2 a = point(rounded(from)), ab = point(rounded(to)) - a;
     const double length2 = glm::dot(ab, ab);
     if (length2 == 0)
-        return false;
-    const double length = std::sqrt(length2), scale = 1 / length2;
+        return beyond;
+    const dvec2 along = ab / length2;
     const std::uint32_t count = to - from - 1;
     if (local_.size() < count)
         local_.resize(count);
+    // Without branches on single points: which of them decides is random.
+    double previous = 0;
+    bool rises = true;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const dvec2 d = exact_[from + 1 + i] - a;
+        const double s = glm::dot(d, along);
+        local_[i] = {s, along.x * d.y - along.y * d.x};
+        rises &= s > previous;
+        previous = s;
+    }
+    if (!(rises && previous < 1))
+        return beyond;
     // Normal equations of t(s_i) = mA p_i + mB q_i; a whisper of regularisation keeps the case of one inner
     // point solvable and prefers small slopes.
     constexpr double whisper = 1e-9;
-    double pp = whisper, pq = 0, qq = whisper, pt = 0, qt = 0, previous = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const dvec2 d = exact_[from + 1 + i] - a;
-        const double s = glm::dot(d, ab) * scale, t = (ab.x * d.y - ab.y * d.x) * scale;
-        if (!(s > previous && s < 1))
-            return false;
-        local_[i] = {s, t};
-        const double h = s * (1 - s), p = h * (1 - s), q = -h * s;
+    constexpr std::uint32_t mostSamples = 8;
+    const std::uint32_t stride = (count + mostSamples) / mostSamples;
+    double pp = whisper, pq = 0, qq = whisper, pt = 0, qt = 0;
+    for (std::uint32_t i = (stride - 1) / 2; i < count; i += stride) {
+        const double s = local_[i].x, t = local_[i].y, h = s * (1 - s), p = h * (1 - s), q = -h * s;
         pp += p * p, pq += p * q, qq += q * q, pt += p * t, qt += q * t;
-        previous = s;
     }
     const double whole = pp * qq - pq * pq;
     Slopes m{(pt * qq - qt * pq) / whole, (qt * pp - pt * pq) / whole};
-    if (!(std::abs(m.a) <= maxSlope && std::abs(m.b) <= maxSlope))
-        return false;
+    const double steepest = std::max(std::abs(m.a), std::abs(m.b));
+    if (!(steepest <= maxSlope))
+        return std::max(steepest / maxSlope, 1.01);
     m = {stored(m.a) / double{asset::slopeScale}, stored(m.b) / double{asset::slopeScale}};
-    const double sag = maxSecondDerivative(m.a, m.b) / 8, most = tolerance_ / length;
-    double s = 0, error = 0;  // that of rounded ends is counted on its own
-    for (const dvec2& p : std::span(local_.data(), count)) {
-        const double step = p.x - s, before = error;
-        error = std::abs(p.y - displacement(m.a, m.b, p.x));
-        if (std::max(before, error) + sag * step * step > most)
-            return false;
-        s = p.x;
+    const double sag = maxSecondDerivative(m.a, m.b) / 8, most = tolerance_ / std::sqrt(length2);
+    double error = 0, worst = 0;  // that of rounded ends is counted on its own
+    previous = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double s = local_[i].x, step = s - previous, before = error;
+        error = std::abs(local_[i].y - displacement(m.a, m.b, s));
+        worst = std::max(worst, std::max(before, error) + sag * step * step);
+        previous = s;
     }
+    worst = std::max(worst, error + sag * (1 - previous) * (1 - previous));
+    if (!(worst <= most))
+        return std::clamp(std::sqrt(std::sqrt(worst / most)), 1.01, beyond);
     slopes = m;
-    return error + sag * (1 - s) * (1 - s) <= most;
+    return 1;
 }
 
 void Fitter::emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m) {

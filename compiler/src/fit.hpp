@@ -44,18 +44,23 @@ private:
     void follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA);
 
     glm::dvec2 exact(LatticePoint p) const;
+    static Steps roundInside(glm::dvec2 u);
     Steps round(LatticePoint p) const;
-    /// Of point i of the chain at hand.
-    Steps rounded(std::uint32_t i) const { return round(points_[first_ + i]); }
+    Steps rounded(std::uint32_t i) const;
 
     void cutSlivers();
+    /// Leaf coordinates: one, and a lattice step.
+    int sliverReach() const { return 1 + static_cast<int>(scale_); }
+    bool isNearBorder(LatticePoint p) const;
     bool isSliver(const Chain& chain);
     bool cutAlong(const Chain& chain, std::size_t from, std::size_t to, PaintId outer, PaintId inner);
     bool hugs(Steps p, Steps q, std::size_t from, std::size_t sides) const;
 
     void fit(const Chain& chain);
     std::uint32_t emitLongest(const Chain& chain, std::uint32_t from, std::uint32_t last);
-    bool tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes);
+    std::uint32_t reach(std::uint32_t from, std::uint32_t last) const;
+    bool isFlat(std::uint32_t from, std::uint32_t to) const;
+    double tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes);
     void emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m);
 
     Square square_;
@@ -65,7 +70,7 @@ private:
     std::vector<LatticePoint> points_;
     std::vector<Chain> chains_;
     std::vector<glm::dvec2> exact_;  ///< the chain at hand in leaf coordinates
-    std::uint32_t first_ = 0;        ///< of its points
+    std::array<Steps, 2> ends_{};    ///< of that chain
     std::vector<glm::dvec2> local_;
     FittedLeaf leaf_;
 };

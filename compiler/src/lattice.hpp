@@ -48,13 +48,12 @@ __extension__ typedef __int128 Int128;
 
 /// Nearest even integer to numerator / denominator (denominator > 0), ties towards +infinity. It
 /// never passes an odd integer on the way, so a point keeps its side of every border.
-inline Coord roundToEven(Int128 numerator, Int128 denominator) {
-    const Int128 twice = 2 * denominator;
-    const Int128 shifted = numerator + denominator;
-    Int128 quotient = shifted / twice;
-    if (shifted % twice < 0)
-        --quotient;
-    return static_cast<Coord>(2 * quotient);
+template <class Integer>
+Coord roundToEven(Integer numerator, Integer denominator) {
+    const Integer twice = 2 * denominator;
+    const Integer shifted = numerator + denominator;
+    const Integer quotient = shifted / twice;
+    return static_cast<Coord>(2 * (quotient - (shifted % twice < 0)));
 }
 
 /// A square cell: borders at odd coordinates.
@@ -66,6 +65,8 @@ struct Square {
     Coord y1() const { return y0 + side; }
     /// Corners counter-clockwise in the numbers, from (min, min).
     LatticePoint corner(int k) const { return {k == 1 || k == 2 ? x1() : x0, k >= 2 ? y1() : y0}; }
+    /// Where side k lies, from corner k to the next: its y if k is even, its x if odd.
+    Coord line(std::size_t k) const { return k == 0 ? y0 : k == 1 ? x1() : k == 2 ? y1() : x0; }
     Square child(int i, int j) const { return {x0 + i * (side / 4), y0 + j * (side / 4), side / 4}; }
 };
 

@@ -10,6 +10,7 @@
 #include "compiler/src/outline_cache.hpp"
 #include "compiler/src/paints.hpp"
 #include "compiler/src/picture.hpp"
+#include "compiler/src/stroke_chords.hpp"
 #include "compiler/stroke.hpp"
 
 namespace vtm::compiler {
@@ -211,7 +212,8 @@ private:
         } else {
             const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
             if (stretch > 0 && std::isfinite(stretch))
-                outline(strokeOutline(*origin.path, *origin.stroke, budget_.strokeOutline() / stretch),
+                outline(strokeOutlineOfChords(*origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
+                                              budget_.strokeChords() / stretch),
                         origin.transform, budget_.strokeChords());
         }
         return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};

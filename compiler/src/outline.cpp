@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "compiler/src/cubics.hpp"
 #include "compiler/src/error_budget.hpp"
@@ -41,10 +42,11 @@ public:
         inside_ = inside;
     }
 
-    /// Where the line so far and its next point are known to be inside the box.
-    void lineInside(Point to) {
-        emit(nearestEven(to));
-        current_ = to;
+    /// Where the line so far and its next points are known to be inside the box.
+    void linesInside(std::span<const Point> to) {
+        for (const Point p : to)
+            emit(nearestEven(p));
+        current_ = to.back();
     }
     /// Whether the line so far ends inside the box and all of the curve lies there.
     bool keepsInside(const Cubic& c) const {
@@ -155,13 +157,13 @@ std::array<Cubic, 2> halve(const Cubic& c) {
     return {Cubic{c[0], a, ab, m}, Cubic{m, bd, d, c[3]}};
 }
 
-/// Chords needed so that none is further than `tolerance` from the curve: the chord of a step h
-/// deviates by at most h² max|P''| / 8, and |P''| <= 6 max|second difference of the controls|
-/// (Wang, Shen 1988). Domain: any cubic. Not rounded up, and infinite for infinite curves.
-double chordsNeeded(const Cubic& c, double tolerance) {
+/// The fourth power of the number of chords, times tolerance², needed so that none is further than the
+/// tolerance from the curve: the chord of a step h deviates by at most h² max|P''| / 8, and |P''| <= 6
+/// max|second difference of the controls| (Wang, Shen 1988). Domain: any cubic. Not rounded up, and infinite
+/// for infinite curves.
+double chordsNeeded(const Cubic& c) {
     const Point d0 = c[0] - c[1] * 2.0 + c[2], d1 = c[1] - c[2] * 2.0 + c[3];
-    const double second = std::sqrt(std::max(d0.x * d0.x + d0.y * d0.y, d1.x * d1.x + d1.y * d1.y));
-    return std::sqrt(0.75 * second / tolerance);
+    return 0.75 * 0.75 * std::max(d0.x * d0.x + d0.y * d0.y, d1.x * d1.x + d1.y * d1.y);
 }
 
 /// Cubics that would need more chords than this are halved first, so that parts outside the box can
@@ -171,19 +173,23 @@ constexpr double chordsAtOnce = 8;
 constexpr int maxHalvings = 400;
 
 void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) {
-    const double needed = chordsNeeded(c, tolerance);
-    if (beyondOneSide(c, sink.min(), sink.max()) || !(needed > 1) || halvings >= maxHalvings) {
+    const double needed = chordsNeeded(c) / (tolerance * tolerance);  // to the fourth
+    if (!(needed > 1) || halvings >= maxHalvings ||
+        (!sink.keepsInside(c) && beyondOneSide(c, sink.min(), sink.max()))) {
         sink.line(c[3]);
         return;
     }
-    if (needed <= chordsAtOnce) {
-        const int whole = static_cast<int>(needed), n = whole + (needed > whole);
+    if (needed <= chordsAtOnce * chordsAtOnce * chordsAtOnce * chordsAtOnce) {
+        const double chords = std::sqrt(std::sqrt(needed));
+        const int whole = static_cast<int>(chords), n = whole + (chords > whole);
         const Polynomial curve(c);
         const double step = 1.0 / n;
         if (sink.keepsInside(c)) {
+            std::array<Point, static_cast<std::size_t>(chordsAtOnce)> points;
             for (int i = 1; i < n; ++i)
-                sink.lineInside(curve.at(i * step));
-            sink.lineInside(c[3]);
+                points[static_cast<std::size_t>(i - 1)] = curve.at(i * step);
+            points[static_cast<std::size_t>(n - 1)] = c[3];
+            sink.linesInside(std::span(points).first(static_cast<std::size_t>(n)));
             return;
         }
         for (int i = 1; i < n; ++i)

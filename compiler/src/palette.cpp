@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compiler/compile.hpp"
+#include "compiler/src/hash.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -89,12 +90,17 @@ PaintId Palette::intern(const PaintProgram& program) {
 }
 
 PaintId Palette::solid(const Color& c) {
-    const auto bits = std::bit_cast<std::array<std::uint32_t, 4>>(c);
-    const std::uint32_t hash = (bits[0] ^ bits[1] * 3 ^ bits[2] * 5 ^ bits[3] * 7) * 0x9E3779B1u;
-    PaintId& recent = recent_[hash >> (32 - recentBits)];
-    if (recent < paints_.size() && isConstant(paints_[recent]) && colorOf(paints_[recent]) == c)
-        return recent;
-    return recent = intern({{asset::Instruction{Op::Solid}, c}});
+    const auto bits = std::bit_cast<std::array<std::uint64_t, 2>>(c);
+    for (std::uint64_t key = mixed(bits[0], bits[1]);; key = mixed(key, 1)) {
+        PaintId& id = solids_[key];
+        if (id == NumberMap::unknown) {
+            id = static_cast<PaintId>(paints_.size());
+            paints_.push_back({{asset::Instruction{Op::Solid}, c}});
+        } else if (std::bit_cast<std::array<std::uint64_t, 2>>(colorOf(paints_[id])) != bits) {
+            continue;  // another of the same hash
+        }
+        return id;
+    }
 }
 
 PaintId Palette::add(const PaintProgram& program) {

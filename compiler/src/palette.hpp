@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asset/asset.hpp"
+#include "compiler/src/number_map.hpp"
 #include "compiler/src/stacks.hpp"
 
 namespace vtm::compiler {
@@ -57,9 +58,8 @@ private:
     PaintId intern(const PaintProgram& program);
 
     std::vector<PaintProgram> paints_;
-    std::unordered_map<std::string, PaintId> index_;
-    static constexpr unsigned recentBits = 7;
-    std::array<PaintId, 1u << recentBits> recent_{};  ///< colours asked for lately, by a hash
+    std::unordered_map<std::string, PaintId> index_;  ///< of programs that are not constant
+    NumberMap solids_;                                ///< by a hash of the colour
 };
 
 /// One paint; a program, and the colours it uses, are appended to `data`. Throws LimitError if its groups are

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "compiler/src/small_sort.hpp"
+
 namespace vtm::compiler {
 namespace {
 
@@ -43,6 +45,7 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
             sweepTo(e);
             walkFrom(e);
         }
+    findFlows();
     leaf_.certified = cornersAgree && consistent_ && certifyVertices() && certifySides();
     return leaf_;
 }
@@ -51,48 +54,45 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
 
 void Planariser::collectEnds() {
     const std::vector<Edge>& edges = leaf_.set->edges;
-    byB_.clear();
-    for (std::uint32_t e = 0; e < edges.size(); ++e)
-        byB_.emplace_back(sortKey(edges[e].b), e);
-    std::sort(byB_.begin(), byB_.end());
-    leaf_.ends.clear();
-    auto b = byB_.begin();
-    const auto pushB = [&] { leaf_.ends.push_back({edges[b->second].b, b->second, false}), ++b; };
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {  // which are sorted by a
-        for (const auto a = std::pair(sortKey(edges[e].a), e); b != byB_.end() && *b < a;)
-            pushB();
-        leaf_.ends.push_back({edges[e].a, e, true});
+    std::vector<End>& ends = leaf_.ends;
+    ends.clear();
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        ends.push_back({edges[e].a, e, true});
+        ends.push_back({edges[e].b, e, false});
     }
-    while (b != byB_.end())
-        pushB();
-    leaf_.endOf.resize(leaf_.ends.size());
-    leaf_.firstOf.resize(leaf_.ends.size());
-    visited_.assign(leaf_.ends.size(), false);
+    sortByKey(ends, spareEnds_, [](const End& end) { return sortKey(end.at); });
+    leaf_.endOf.resize(ends.size());
+    leaf_.firstOf.resize(ends.size());
+    visited_.assign(ends.size(), false);
     for (auto& side : border_)
         side.clear();
-    for (std::uint32_t first = 0; first < leaf_.ends.size();) {
+    for (std::uint32_t first = 0; first < ends.size();) {
+        const LatticePoint at = ends[first].at;
         std::uint32_t last = first + 1;
-        while (last < leaf_.ends.size() && leaf_.ends[last].at == leaf_.ends[first].at)
+        while (last < ends.size() && ends[last].at == at)
             ++last;
-        const int side = sideOf(leaf_.ends[first].at);
-        visited_[first] = side >= 0;
-        if (side >= 0 ? last - first > 1 : last - first > 2)
-            side >= 0 ? sortAlong(first, last, side) : sortRound(first, last);
-        for (; first < last; ++first) {
-            leaf_.endOf[2 * leaf_.ends[first].edge + (leaf_.ends[first].isA ? 0 : 1)] = first;
-            leaf_.firstOf[first] = first > 0 && leaf_.ends[first - 1].at == leaf_.ends[first].at
-                                       ? leaf_.firstOf[first - 1]
-                                       : first;
-            if (side >= 0)
-                border_[static_cast<std::size_t>(side)].push_back(leaf_.ends[first]);
+        if (((at.x | at.y) & 1) != 0) {  // on the border
+            const int side = sideOf(at);
+            visited_[first] = true;
+            if (last > first + 1)
+                sortAlong(first, last, side);
+            auto& border = border_[static_cast<std::size_t>(side)];
+            border.insert(border.end(), ends.begin() + first, ends.begin() + last);
+        } else if (last > first + 2) {
+            sortRound(first, last);
         }
+        for (std::uint32_t i = first; i < last; ++i) {
+            leaf_.endOf[2 * ends[i].edge + !ends[i].isA] = i;
+            leaf_.firstOf[i] = first;
+        }
+        first = last;
     }
 }
 
 /// The vertex after the end's own on its edge.
 LatticePoint Planariser::next(const End& end) const {
     const Edge& e = leaf_.set->edges[end.edge];
-    return leaf_.set->vertex(e, end.isA ? 1 : e.innerCount);
+    return leaf_.set->vertex(e, end.isA ? 1 : e.chordCount() - 1);
 }
 
 /// Counter-clockwise by direction, from -y.
@@ -136,8 +136,9 @@ void Planariser::cross(const Edge& e, int times) {
 /// The edge's chord that meets the line v = m + ½.
 Chord Planariser::chordAt(const Axis& axis, const Edge& e, Coord m) const {
     const bool low = axis.v(e.a) <= m;
-    const std::uint32_t k = firstWhere(
-        0, e.innerCount, [&](std::uint32_t i) { return (axis.v(leaf_.set->vertex(e, i + 1)) <= m) != low; });
+    const std::uint32_t k = firstWhere(0, e.chordCount() - 1, [&](std::uint32_t i) {
+        return (axis.v(leaf_.set->vertex(e, i + 1)) <= m) != low;
+    });
     return {leaf_.set->vertex(e, k), leaf_.set->vertex(e, k + 1)};
 }
 
@@ -298,23 +299,28 @@ bool Planariser::labelFromBorder() {
 
 // ---- certify ----------------------------------------------------------------------------------
 
-/// mixed(left) - mixed(right), as seen going to the vertex.
+/// Of each edge: mixed(left) - mixed(right), as seen going from a to b.
+void Planariser::findFlows() {
+    flows_.clear();
+    for (const Sides& sides : leaf_.sides)
+        flows_.push_back(mixed(sides.left) - mixed(sides.right));
+}
+
+/// As seen going to the vertex.
 std::uint64_t Planariser::flow(const End& end) const {
-    const Sides& l = leaf_.sides[end.edge];
-    const std::uint64_t d = mixed(l.left) - mixed(l.right);
-    return end.isA ? 0 - d : d;
+    const std::uint64_t back = -std::uint64_t{end.isA};
+    return (flows_[end.edge] ^ back) - back;
 }
 
 bool Planariser::certifyVertices() const {
-    for (std::size_t i = 0; i < leaf_.ends.size();) {
-        std::uint64_t sum = 0;
-        const LatticePoint at = leaf_.ends[i].at;
-        for (; i < leaf_.ends.size() && leaf_.ends[i].at == at; ++i)
-            sum += flow(leaf_.ends[i]);
-        if (sum != 0 && sideOf(at) < 0)
-            return false;
+    std::uint64_t sum = 0, open = 0;
+    for (std::uint32_t i = 0; i < leaf_.ends.size(); ++i) {
+        const End& end = leaf_.ends[i];
+        const bool begins = leaf_.firstOf[i] == i, isInner = ((end.at.x | end.at.y) & 1) == 0;
+        open |= begins ? sum : 0;  // of the vertex before
+        sum = (begins ? 0 : sum) + (isInner ? flow(end) : 0);
     }
-    return true;
+    return (open | sum) == 0;
 }
 
 bool Planariser::certifySides() const {

@@ -84,6 +84,7 @@ private:
     void label(std::uint32_t edge, const Sides& sides);
     void along(std::size_t side);
     bool labelFromBorder();
+    void findFlows();
     std::uint64_t flow(const End& end) const;
     bool certifyVertices() const;
     bool certifySides() const;
@@ -93,9 +94,10 @@ private:
     Square square_;
     RegionPaints* regions_ = nullptr;
     bool consistent_ = true;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> byB_;  ///< edges by the sortKey of b
+    std::vector<End> spareEnds_;
     std::vector<std::uint8_t> visited_;  ///< by a vertex's first end; border vertices count as visited
     std::vector<Visit> visits_;
+    std::vector<std::uint64_t> flows_;  ///< by edge
     std::array<std::vector<End>, 4> border_;
 };
 

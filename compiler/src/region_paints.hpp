@@ -3,9 +3,9 @@
 #pragma once
 
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "compiler/src/number_map.hpp"
 #include "compiler/src/palette.hpp"
 #include "scene/path.hpp"
 
@@ -19,46 +19,62 @@ inline std::uint64_t mixed(std::uint64_t value) {
     return z ^ (z >> 31);
 }
 
-/// Walks from region to region. The paint of each set of layers is asked for once.
+/// Walks from region to region. The paint of each set of layers is asked for once, until `forget`.
 class RegionPaints {
 public:
+    struct Layer {
+        scene::FillRule rule;
+        int corner;          ///< winding at the first corner
+        std::uint64_t name;  ///< well mixed: stands for the layer in the sets whose paints are known
+    };
+
     virtual ~RegionPaints() = default;
 
-    /// Enters a leaf: its layers' rules, and their windings at its first corner.
-    void enter(std::span<const scene::FillRule> rules, std::span<const int> corner);
+    /// Enters a leaf, at its first corner.
+    void enter(std::span<const Layer> layers);
+    void forget() { known_.clear(); }
     /// Goes to the first corner.
     void toCorner();
     /// Crosses an edge of a layer.
     void change(std::uint32_t layer, int winding) {
-        const bool before = isInside(layer);
-        windings_[layer] += winding;
-        sum_ += static_cast<std::uint64_t>(std::int64_t{winding}) * mixed(layer);
-        if (isInside(layer) != before)
-            key_ ^= mixed(layer);
+        State& s = states_[layer];
+        const bool before = s.isInside();
+        s.winding += winding;
+        sum_ += static_cast<std::uint64_t>(std::int64_t{winding}) * s.name;
+        key_ ^= s.name & -std::uint64_t{before != s.isInside()};
     }
     /// The paint of the region.
-    PaintId paint();
+    PaintId paint() {
+        if (lastKey_ != key_)
+            find();
+        return last_;
+    }
     /// Equal places have equal sums of their windings.
     std::uint64_t windingSum() const { return sum_; }
-    bool isInside(std::uint32_t layer) const {
-        return rules_[layer] == scene::FillRule::NonZero ? windings_[layer] != 0 : windings_[layer] % 2 != 0;
-    }
+    bool isInside(std::uint32_t layer) const { return states_[layer].isInside(); }
+
+protected:
+    /// Of a set, by the names of its layers combined by exclusive or; unknown until the caller sets it.
+    PaintId& known(std::uint64_t key) { return known_[key]; }
 
 private:
+    struct State {
+        int winding, corner;
+        int mask;  ///< of the winding's bits that matter: those of no even number, or all
+        std::uint64_t name;
+        bool isInside() const { return (winding & mask) != 0; }
+    };
+
     /// The paint where exactly the layers are inside for which isInside() says so.
     virtual PaintId compute() = 0;
-    PaintId find();
+    void find();
 
-    std::vector<scene::FillRule> rules_;
-    std::vector<int> corner_, windings_;
-    std::uint64_t sum_ = 0;      ///< Σ winding · mixed(layer)
-    std::uint64_t key_ = 0;      ///< of the set of layers that are inside
-    std::uint64_t lastKey_ = 0;  ///< asked for last, if any was
+    std::vector<State> states_;
+    std::uint64_t sum_ = 0, cornerSum_ = 0;  ///< Σ winding · name
+    std::uint64_t key_ = 0, cornerKey_ = 0;  ///< of the set of layers that are inside
+    std::uint64_t lastKey_ = 0;              ///< asked for last
     PaintId last_ = 0;
-    bool known_ = false;
-    /// Paints by key: a few in a list, more in a map.
-    std::vector<std::pair<std::uint64_t, PaintId>> few_;
-    std::unordered_map<std::uint64_t, PaintId> many_;
+    NumberMap known_;
 };
 
 }  // namespace vtm::compiler

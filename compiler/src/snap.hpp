@@ -15,19 +15,19 @@ struct Change {
     friend bool operator==(const Change&, const Change&) = default;
 };
 
-/// A chain of chords from a to b, a < b, monotone in x and in y, with the changes of winding across
-/// it. Between a and b it runs through `innerCount` vertices of the outlines, the first of them `inner`,
-/// then upwards or (`backward`) downwards.
+/// A chain of chords from a to b, a < b, monotone in x and in y, with the changes of winding across it. It
+/// runs through EdgeSet::vertices[first] (a) to [last] (b).
 struct Edge {
     LatticePoint a, b;
-    std::uint32_t inner = 0, innerCount = 0;
-    bool backward = false;
+    std::uint32_t first = 0, last = 0;
     std::uint32_t firstChange = 0, changeCount = 0;
+
+    std::uint32_t chordCount() const { return last - first; }
 };
 
 /// Workspace of a leaf: edges by (a, b), and what they refer to.
 struct EdgeSet {
-    Points points;
+    std::vector<LatticePoint> vertices;
     std::vector<Edge> edges;
     std::vector<Change> changes;
     /// How far snapping has bent an edge at most, in steps: the sum over the rounds of the largest distance
@@ -37,14 +37,12 @@ struct EdgeSet {
     std::span<const Change> of(const Edge& e) const {
         return {changes.data() + e.firstChange, e.changeCount};
     }
-    /// Those between a and b, from either end.
-    std::span<const LatticePoint> inner(const Edge& e) const {
-        return points.subspan(e.backward ? e.inner + 1 - e.innerCount : e.inner, e.innerCount);
+    /// From a to b, both included.
+    std::span<const LatticePoint> chain(const Edge& e) const {
+        return {vertices.data() + e.first, e.chordCount() + 1};
     }
-    /// Vertex k of 0 (a) .. innerCount + 1 (b).
-    LatticePoint vertex(const Edge& e, std::uint32_t k) const {
-        return k == 0 ? e.a : k > e.innerCount ? e.b : points[e.backward ? e.inner + 1 - k : e.inner + k - 1];
-    }
+    /// Vertex k of 0 (a) .. chordCount (b).
+    LatticePoint vertex(const Edge& e, std::uint32_t k) const { return vertices[e.first + k]; }
 };
 
 /// Beyond these a leaf is given up, and its caller splits it.
@@ -54,8 +52,8 @@ inline constexpr int maxSnapRounds = 60;
 /// Turns strands into edges; keeps its memory from leaf to leaf.
 class Snapper {
 public:
-    /// The edges of the strands inside the square; their layers are places in the leaf's own list.
-    /// Nothing if the leaf is beyond its limits. Valid until the next call.
+    /// The edges of the strands, which all pass through the square's inside; their layers are places in the
+    /// leaf's own list. Nothing if the leaf is beyond its limits. Valid until the next call.
     const EdgeSet* run(const Square& square, Points points, std::span<const Strand> strands);
 
 private:
@@ -66,52 +64,70 @@ private:
         std::uint32_t chord;
         LatticePoint at;
         std::int64_t progress;  ///< along the chord
+        Chord by;               ///< the other one that meets it there
     };
 
-    /// Of an edge; (left, y of a) and (right, y of b) are its ends.
-    struct Box {
-        Coord left, right, low, high;
-    };
-
-    /// How far the chain strays from the line a→b, as orient(a, b, ·) of its vertices, and that line.
+    /// The line a→b of an edge, and how far the chain strays from it, as orient(a, b, ·) of its vertices.
     struct Band {
-        double dx, dy, length2, low, high;
+        double dx, dy, perLength2, low, high;
     };
 
-    struct Walk;
+    struct Pair {
+        std::uint32_t e, f;
+        bool isNear;  ///< chords have not been compared, or come near each other elsewhere than at a crossing
+    };
+    /// The first of the parts of an edge, and of their new chords.
+    struct Parts {
+        std::uint32_t edge, newChord;
+    };
+    struct NewChord {
+        std::uint32_t edge, first;  ///< from vertex `first`
+    };
+
     struct Place {
         std::uint64_t a;  ///< sortKey of the edge's
         std::uint32_t edge;
     };
 
-    void clip(const Square& square, std::span<const Strand> strands);
+    void clip(const Square& square, Points points, std::span<const Strand> strands);
+    void add(const Edge& edge, bool reversed);
+    void findBoxes();
     Band bandOf(const Edge& e) const;
-    bool isBeside(std::uint32_t e, std::uint32_t f) const;
-    static bool shareEnd(const Edge& e, const Edge& f) { return e.a == f.a || e.b == f.b; }
+    bool areApart(std::uint32_t e, std::uint32_t f) const;
     bool fanOut(const Edge& e, const Edge& f) const;
-    bool findSplits();
+    bool meetInOneColumn(const Edge& e, const Edge& f) const;
+    std::size_t gather(std::size_t first, std::size_t last, Coord low, Coord high);
+    bool meetAll();
     void meet(std::uint32_t e, std::uint32_t f);
-    void meetChords(std::uint32_t e, const Walk& p, std::uint32_t f, const Walk& q);
+    void meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
     void bend(LatticePoint a, LatticePoint b, LatticePoint to);
-    void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at);
+    void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by);
     void applySplits();
-    void reverse(Edge& e);
-    void part(const Edge& whole, LatticePoint from, LatticePoint to, std::uint32_t firstInner,
-              std::uint32_t innerEnd, bool fresh);
+    static bool areClear(const Split& p, const Split& q);
+    void beginParts();
+    void part(const Edge& whole, const Split* from, const Split* to);
+    bool partsMeet() const;
+    bool newMeet(std::uint32_t e, std::uint32_t f) const;
+    bool meetsPart(const Edge& e, std::uint32_t v, const Edge& f) const;
     void mergeEqual();
     int compare(const Edge& e, const Edge& f) const;
     void addChanges(Edge& into, std::span<const Place> equal);
 
     EdgeSet set_;
-    double bentSquare_ = 0;            ///< the largest bend of this round, squared
-    std::vector<std::uint8_t> fresh_;  ///< made in the last round: only such edges can meet others anew
-    std::vector<Box> boxes_;           ///< of each edge
-    std::vector<Band> bands_;          ///< of each edge
+    double bentSquare_ = 0;                         ///< the largest bend of this round, squared
+    std::vector<Coord> left_, right_, low_, high_;  ///< of each edge's box
+    std::vector<Band> bands_;                       ///< of each edge
+    std::vector<std::uint32_t> found_;
+    std::vector<Pair> close_;  ///< edges that meet, or nearly so
+    bool isNear_ = false;      ///< Pair::isNear of the pair at hand
+    std::vector<std::uint8_t>
+        isDoubtful_;  ///< by edge: its parts may meet others though its chords were not near theirs
     std::vector<Split> splits_;
+    std::vector<Parts> parts_;         ///< by edge as it was, and the end of all
+    std::vector<NewChord> newChords_;  ///< parts of bent chords
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;
-    std::vector<std::uint8_t> nextFresh_;
-    std::vector<Place> order_;
+    std::vector<Place> order_, spareOrder_;
 };
 
 }  // namespace vtm::compiler

@@ -32,17 +32,14 @@ inline bool meets(LatticePoint a, LatticePoint b, const Square& s) {
            cornerOnLeft(a, b, s.corner(3)) != left;
 }
 
-/// The first of first .. last - 1 for which `holds` is true, given that it stays true from there on.
+/// The first of first .. last - 1 for which `holds` is true, given that it stays true from there on; else
+/// last. Its steps depend on the count alone: which way each goes is as good as random.
 template <class Holds>
 std::uint32_t firstWhere(std::uint32_t first, std::uint32_t last, const Holds& holds) {
-    while (first < last) {
-        const std::uint32_t middle = first + (last - first) / 2;
-        if (holds(middle))
-            last = middle;
-        else
-            first = middle + 1;
-    }
-    return first;
+    std::uint32_t count = last - first;
+    for (; count > 1; count -= count / 2)
+        first += holds(first + count / 2 - 1) ? 0 : count / 2;
+    return first + (count == 1 && !holds(first));
 }
 
 /// The part of the strand whose chords pass through the square's inside; empty (first == last) if

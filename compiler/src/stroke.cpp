@@ -20,6 +20,7 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/compile.hpp"
+#include "compiler/src/stroke_chords.hpp"
 #include "compiler/src/stroke_offset.hpp"
 #include "compiler/src/stroke_subpath.hpp"
 
@@ -56,9 +57,10 @@ Point endPoint(const Segment& s) { return s.curve.p3; }
 
 class Outliner {
 public:
-    Outliner(const StrokeStyle& style, double tolerance, scene::Path& out)
+    Outliner(const StrokeStyle& style, double tolerance, double chords, scene::Path& out)
         : style_(style),
           tolerance_(tolerance),
+          chords_(chords),
           radius_(style.width / 2),
           miterLimit_(std::min(style.miterLimit, longestMitre)),
           out_(out) {}
@@ -107,7 +109,7 @@ private:
         } else if (segment.circle) {
             circularSides(segment.curve, *segment.circle);
         } else {
-            appendOffsets(segment.curve, {radius_, tolerance_ * fitShare, showsBeyond()}, ribbon_);
+            appendOffsets(segment.curve, {radius_, tolerance_ * fitShare, showsBeyond(), chords_}, ribbon_);
         }
     }
 
@@ -285,32 +287,44 @@ private:
     }
 
     const StrokeStyle& style_;
-    double tolerance_, radius_, miterLimit_;
+    double tolerance_, chords_, radius_, miterLimit_;
     scene::Path& out_;
     Ribbon ribbon_;
 };
+
+/// `chords`: of OffsetOptions.
+scene::Path outlineOf(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                      double chords) {
+    const double size = largestCoordinate(path) + style.width;
+    if (!(size <= largestSize))
+        throw LimitError("stroke: coordinates or width beyond 1e48");
+    tolerance = std::max(std::min(tolerance, hairlineShare * style.width), finestShare * size);
+    if (chords > 0)
+        chords = std::max(chords, finestShare * size);
+    scene::Path outline;
+    Outliner outliner(style, tolerance, chords, outline);
+    std::size_t dashes = 0;
+    for (const Subpath& subpath : subpaths(path, tolerance * arcShare)) {
+        if (style.dashes.empty()) {
+            outliner.add(subpath);
+            continue;
+        }
+        for (const Subpath& piece : dash(subpath, style, dashes))
+            outliner.add(piece);
+    }
+    return outline;
+}
 
 }  // namespace
 }  // namespace stroke
 
 scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance) {
-    const double size = stroke::largestCoordinate(path) + style.width;
-    if (!(size <= stroke::largestSize))
-        throw LimitError("stroke: coordinates or width beyond 1e48");
-    tolerance =
-        std::max(std::min(tolerance, stroke::hairlineShare * style.width), stroke::finestShare * size);
-    scene::Path outline;
-    stroke::Outliner outliner(style, tolerance, outline);
-    std::size_t dashes = 0;
-    for (const stroke::Subpath& subpath : stroke::subpaths(path, tolerance * stroke::arcShare)) {
-        if (style.dashes.empty()) {
-            outliner.add(subpath);
-            continue;
-        }
-        for (const stroke::Subpath& piece : stroke::dash(subpath, style, dashes))
-            outliner.add(piece);
-    }
-    return outline;
+    return stroke::outlineOf(path, style, tolerance, 0);
+}
+
+scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                                  double chordTolerance) {
+    return stroke::outlineOf(path, style, tolerance, chordTolerance);
 }
 
 bool hasSampledOffsets(const scene::Path& path) {

@@ -43,6 +43,20 @@ inline Point derivativeAt(const Cubic& c, double t) {
     const double s = 1 - t;
     return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
 }
+/// A cubic by powers of its parameter.
+struct PowerForm {
+    Point cubed, squared, linear, start;
+
+    explicit PowerForm(const Cubic& c)
+        : cubed(c.p3 - c.p0 + 3.0 * (c.p1 - c.p2)),
+          squared(3.0 * (c.p0 - 2.0 * c.p1 + c.p2)),
+          linear(3.0 * (c.p1 - c.p0)),
+          start(c.p0) {}
+    Point at(double t) const { return ((cubed * t + squared) * t + linear) * t + start; }
+    Point velocity(double t) const { return (3.0 * cubed * t + 2.0 * squared) * t + linear; }
+    Point acceleration(double t) const { return 6.0 * cubed * t + 2.0 * squared; }
+};
+
 /// The piece over [t0, t1], parametrised over [0, 1] again.
 Cubic part(const Cubic& c, double t0, double t1);
 /// Largest distance of a control point from the start.

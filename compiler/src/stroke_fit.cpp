@@ -119,10 +119,14 @@ Fit fitCubic(const Samples& s, double tolerance) {
     Fit best{cubic, infinity};
     Arms arms{glm::distance(cubic.p0, cubic.p1), glm::distance(cubic.p3, cubic.p2)}, bestArms = arms;
     const double longest = 4 * glm::distance(cubic.p0, cubic.p3);
-    constexpr int maxSteps = 7;     // three to four converge; the rest is for steps taken back
-    constexpr double stays = 0.97;  // a step that lessens the error by no more is the last
+    constexpr int maxSteps = 7;      // three to four converge; the rest is for steps taken back
+    constexpr double stays = 0.97;   // a step that lessens the error by no more is the last
+    constexpr int trialSteps = 3;    // by then a fit that will do is near
+    constexpr double hopeless = 16;  // tolerances
     for (int step = 0; step < maxSteps && best.error > tolerance; ++step) {
         const Residuals now = project(rows, cubic, u);
+        if (step >= trialSteps && std::min(now.error, best.error) > hopeless * tolerance)
+            return now.error < best.error ? Fit{cubic, now.error} : best;
         if (now.error < best.error) {
             if (now.error > stays * best.error)
                 return {cubic, now.error};

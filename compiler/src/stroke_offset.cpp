@@ -24,6 +24,7 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/src/stroke_bend.hpp"
+#include "compiler/src/stroke_chords.hpp"
 #include "compiler/src/stroke_fit.hpp"
 
 namespace vtm::compiler::stroke {
@@ -59,6 +60,7 @@ class Stretch {
 public:
     Stretch(const Cubic& c, const Span& span)
         : c_(c),
+          powers_(c),
           span_(span),
           start_(tangentAt(c, span.t0)),
           turn_(angleBetween(start_, tangentAt(c, span.t1))) {}
@@ -79,8 +81,11 @@ public:
     Point tangent(double u) const { return tangentAt(c_, parameter(u)); }
     Sample offset(double u, double distance) const {
         const double t = parameter(u);
-        const Point along = tangentAt(c_, t);
-        return {pointAt(c_, t) + perp(along) * distance, along};
+        const Point velocity = powers_.velocity(t);
+        const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
+        const Point along = isInside ? unit(velocity) : tangentAt(c_, t);
+        const Point at = isInside ? powers_.at(t) : pointAt(c_, t);
+        return {at + perp(along) * distance, along};
     }
 
 private:
@@ -98,6 +103,7 @@ private:
     }
 
     const Cubic& c_;
+    const PowerForm powers_;
     Span span_;
     Point start_;
     double turn_;
@@ -287,7 +293,7 @@ public:
             if (span.bend != beyond_.bend)
                 beyond_.close(ribbon_.beyond);
             const Stretch stretch(curve_, span);
-            span.bend == Bend::Gentle ? gentle(stretch) : tight(stretch, span.bend);
+            span.bend == Bend::Gentle ? gentle(stretch, span) : tight(stretch, span.bend);
         }
         beyond_.close(ribbon_.beyond);
     }
@@ -298,9 +304,22 @@ private:
         appendFit({stretch, distance, backward}, 0, 1, o_.tolerance, maxFitDepth, side);
     }
 
-    void gentle(const Stretch& stretch) {
-        fit(stretch, o_.radius, false, ribbon_.left);
-        fit(stretch, -o_.radius, false, ribbon_.right);
+    void gentle(const Stretch& stretch, const Span& span) {
+        if (o_.chords > 0) {
+            chords(stretch, span, o_.radius, ribbon_.left);
+            chords(stretch, span, -o_.radius, ribbon_.right);
+        } else {
+            fit(stretch, o_.radius, false, ribbon_.left);
+            fit(stretch, -o_.radius, false, ribbon_.right);
+        }
+    }
+
+    /// Where the curve is a little tighter than the radius, or turns by too little to matter, the offset
+    /// turns back by these shares of the tolerance.
+    void chords(const Stretch& stretch, const Span& span, double distance, Side& side) const {
+        side.lineTo(stretch.offset(0, distance).at, gapShare * o_.tolerance);
+        appendChords(curve_, span.t0, span.t1, distance,
+                     o_.chords + (1 - tightShare - gapShare) * o_.tolerance, side);
     }
 
     void tight(const Stretch& stretch, Bend bend) {

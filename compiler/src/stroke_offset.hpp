@@ -38,7 +38,8 @@ inline constexpr double gapShare = 0.1;
 struct OffsetOptions {
     double radius;
     double tolerance;
-    bool beyond;  ///< wanted only if caps or joins are not round
+    bool beyond;    ///< wanted only if caps or joins are not round
+    double chords;  ///< if above 0, gentle offsets become chords within this and the tolerance together
 };
 
 /// Goes on with both sides along a curve without cusps. Both sides must have come to the offsets of

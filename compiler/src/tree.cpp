@@ -26,7 +26,7 @@ constexpr std::size_t strandsForAll = 4096;
 
 /// The tree above the blocks.
 struct Top {
-    std::optional<Cell> cell;   ///< of a block, culled; taken by numberBlocks
+    std::optional<Cell> cell;   ///< of a block, culled if it has strands; taken by numberBlocks
     std::size_t block = 0;      ///< its number, in walking order
     std::vector<Top> children;  ///< 16 if it is not a block
 };
@@ -41,7 +41,8 @@ public:
 
     Top run(Cell cell) {
         Top top;
-        cullers_.local().culler.run(cell);
+        if (!cell.strands.empty())
+            cullers_.local().culler.run(cell);
         if (cell.strands.size() <= most_ || cell.level >= deepest_) {
             top.cell = std::move(cell);
             return top;

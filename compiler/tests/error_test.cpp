@@ -4,6 +4,7 @@
 
 #include "asset/coverage.hpp"
 #include "compiler/compile.hpp"
+#include "compiler/src/stroke_chords.hpp"
 #include "compiler/stroke.hpp"
 #include "compiler/tests/leaf_support.hpp"
 
@@ -178,6 +179,42 @@ TEST(Error, ofOffsetCurvesStaysInItsShareBetweenTheSamples) {
         }
     EXPECT_LE(worst, 1);
     EXPECT_GE(worst, 0.3);  // tolerances: the fit makes use of them
+    RecordProperty("worst", std::to_string(worst));
+}
+
+/// Curves that are nowhere tighter than the stroke: all of both sides should lie at half the width.
+TEST(Error, ofOffsetsAsChordsStaysInItsShare) {
+    constexpr double share = 1.0 / 3;  // of the whole, the rest is for the chords
+    double worst = 0;
+    for (const double tolerance : {1e-1, 1e-3})
+        for (unsigned seed = 0; seed < 12; ++seed) {
+            Random random(seed);
+            const Bezier c{Point(0, 0), Point(random.even(10, 40), random.even(0, 40)),
+                           Point(random.even(60, 90), random.even(60, 100)), Point(100, 100)};
+            scene::StrokeStyle butt;
+            butt.width = 0.5;
+            Point from(0);
+            for (const scene::Command& command :
+                 strokeOutlineOfChords({scene::MoveTo{c[0]}, scene::CubicTo{c[1], c[2], c[3]}}, butt,
+                                       tolerance * share, tolerance * (1 - share))) {
+                EXPECT_FALSE(std::holds_alternative<scene::CubicTo>(command));
+                const auto* line = std::get_if<scene::LineTo>(&command);
+                if (const auto* start = std::get_if<scene::MoveTo>(&command))
+                    from = start->to;
+                if (!line)
+                    continue;
+                const bool isEnd = std::hypot(line->to.x - from.x, line->to.y - from.y) > 0.49 &&
+                                   std::min(distance(line->to, {c[0], c[0], c[0], c[0]}),
+                                            distance(line->to, {c[3], c[3], c[3], c[3]})) < 0.26;
+                for (int i = 0; i <= 8 && !isEnd; ++i) {
+                    const Point p = from + (line->to - from) * (i / 8.0);
+                    worst = std::max(worst, std::abs(distance(p, c) - butt.width / 2) / tolerance);
+                }
+                from = line->to;
+            }
+        }
+    EXPECT_LE(worst, 1);
+    EXPECT_GE(worst, 0.5);  // the chords make use of it
     RecordProperty("worst", std::to_string(worst));
 }
 

@@ -85,7 +85,10 @@ inline TestLeaf leafOf(const Square& square, const std::vector<Polygon>& polygon
 class BitPaints : public RegionPaints {
 public:
     explicit BitPaints(std::span<const int> corner) : layers_(static_cast<std::uint32_t>(corner.size())) {
-        enter(std::vector<scene::FillRule>(layers_), corner);
+        std::vector<Layer> layers;
+        for (int winding : corner)
+            layers.push_back({scene::FillRule::NonZero, winding, mixed(layers.size())});
+        enter(layers);
     }
 
 private:

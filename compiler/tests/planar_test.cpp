@@ -29,7 +29,7 @@ std::optional<PaintId> walkTo(const PlanarLeaf& leaf, LatticePoint p) {
         const Edge& e = leaf.set->edges[i];
         if (leaf.sides[i].left == leaf.sides[i].right)
             continue;
-        for (std::uint32_t k = 0; k <= e.innerCount; ++k) {
+        for (std::uint32_t k = 0; k < e.chordCount(); ++k) {
             const LatticePoint a = leaf.set->vertex(e, k), b = leaf.set->vertex(e, k + 1);
             if ((a.y < p.y) == (b.y < p.y))
                 continue;
@@ -172,7 +172,7 @@ TEST_P(RandomPolygons, afterSnappingEdgesMeetOnlyInVertices) {
     ASSERT_TRUE(set);
     std::vector<Chord> chords;
     for (const Edge& e : set->edges)
-        for (std::uint32_t k = 0; k <= e.innerCount; ++k)
+        for (std::uint32_t k = 0; k < e.chordCount(); ++k)
             chords.push_back({set->vertex(e, k), set->vertex(e, k + 1)});
     for (std::size_t i = 0; i < chords.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
@@ -203,7 +203,9 @@ TEST(Planar, boundariesBetweenEqualPaintsAreNotVisible) {
     } one;
     const TestLeaf test =
         leafOf(square, {{{500, 500}, {2000, 900}, {1900, 3000}}, {{700, 400}, {2100, 1900}, {400, 3100}}});
-    one.enter(std::vector<scene::FillRule>(2), test.corner);
+    const RegionPaints::Layer layers[] = {{scene::FillRule::NonZero, test.corner[0], mixed(0)},
+                                          {scene::FillRule::NonZero, test.corner[1], mixed(1)}};
+    one.enter(layers);
     Planariser planariser;
     const PlanarLeaf& leaf = planariser.run(square, test.points(), test.cell.strands, one);
     EXPECT_TRUE(leaf.certified);

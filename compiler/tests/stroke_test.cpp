@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/compile.hpp"
+#include "compiler/src/stroke_chords.hpp"
 #include "compiler/tests/stroke_support.hpp"
 
 namespace vtm::compiler {
@@ -374,6 +375,28 @@ TEST(StrokeEdges, ErrorFallsWithTheSixthPower) {
                fine = edges(strokeOutline(path, style(10), 1e-5));
     EXPECT_LE(coarse, 8u);
     EXPECT_LE(fine, 3 * coarse) << "a thousandth of the error for √10 = 3.2 times the pieces";
+}
+
+TEST(StrokeEdges, ChordsLieWhereTheOffsetsDo) {
+    constexpr double tolerance = 1e-4, reach = 1.1 * tolerance;
+    const stroke::Cubic curves[] = {{{0, 0}, {20, 60}, {70, 80}, {100, 30}},
+                                    {{0, 0}, {0, 0}, {-5.4, -9.1}, {-1.9, -7.2}},  // tight where it begins
+                                    {{0, 0}, {60, 40}, {20, -40}, {90, 20}},       // with an inflection
+                                    {{0, 0}, {40, 10}, {60, -10}, {100, 0}}};
+    for (const stroke::Cubic& c : curves) {
+        const Path path{MoveTo{c.p0}, CubicTo{c.p1, c.p2, c.p3}};
+        const Path outline = strokeOutlineOfChords(path, style(0.4), tolerance / 4, tolerance * 3 / 4);
+        for (int i = 2; i < 1000; ++i) {
+            const double t = i / 1000.0 * i / 1000.0;
+            const Point on = stroke::pointAt(c, t), side = stroke::perp(stroke::tangentAt(c, t));
+            if (std::min(glm::distance(on, c.p0), glm::distance(on, c.p3)) < 2 * reach)
+                continue;  // by the caps
+            for (const double sign : {-1.0, 1.0}) {
+                EXPECT_TRUE(inside(outline, on + side * (sign * (0.2 - reach)))) << t;
+                EXPECT_FALSE(inside(outline, on + side * (sign * (0.2 + reach)))) << t;
+            }
+        }
+    }
 }
 
 TEST(StrokeEdges, EllipticalArcs) {

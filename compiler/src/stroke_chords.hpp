@@ -1,0 +1,27 @@
+/// \file
+/// Offsets of curves as chords, for outlines that become chords anyway.
+#pragma once
+
+#include "compiler/src/stroke_offset.hpp"
+#include "scene/path.hpp"
+#include "scene/stroke.hpp"
+
+namespace vtm::compiler {
+
+/// As strokeOutline (compiler/stroke.hpp), but with chords within `tolerance` + `chordTolerance` of the
+/// offsets in place of most curves that are within `tolerance`. The curves that are left become chords within
+/// `chordTolerance` later.
+scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                                  double chordTolerance);
+
+namespace stroke {
+
+/// Goes on with chords within `tolerance` of the offset that lies at `distance` to the left of a curve
+/// without cusps, over [t0, t1], where the curve is not tighter than that.
+///
+/// Between inflections the offset is convex: it lies between its chord and its tangent in any point between.
+/// So it strays from the chord by no more than the tangent does over the chord's ends.
+void appendChords(const Cubic& curve, double t0, double t1, double distance, double tolerance, Side& side);
+
+}  // namespace stroke
+}  // namespace vtm::compiler
