@@ -88,7 +88,7 @@ public:
     /// Output that contradicts itself.
     void draw(const Texture& texture, const asset::View& view, const Output& output);
 
-    /// Draws and waits for the GPU without reading back (for measuring).
+    /// Draws into 8 bits of the renderer's own and waits for the GPU, without reading back (for measuring).
     void draw(const Texture& texture, const asset::View& view);
 
     /// Whether the context was reset, as far as the driver tells.

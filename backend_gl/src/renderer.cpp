@@ -324,7 +324,14 @@ void Renderer::draw(const Texture& texture, const asset::View& view, const Outpu
 void Renderer::draw(const Texture& texture, const asset::View& view) {
     asset::validate(view);
     impl_->call([&](const StateGuard&) {
-        impl_->paintTiles(*texture.impl_, view, [](const Target&, const asset::View&, glm::ivec2) {});
+        forEachTile(wholeOf(view), tileSide(), [&](const PixelBox& box) {
+            impl_->bytes.resize(box.size());
+            Target target = impl_->bytes.take();
+            Output output;
+            output.framebuffer = target.framebuffer.get();
+            impl_->draw(*texture.impl_, destinationOf(viewOf(view, box), output, 0));
+            impl_->bytes.giveBack(std::move(target));
+        });
     });
     glFinish();
 }

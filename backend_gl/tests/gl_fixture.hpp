@@ -20,7 +20,9 @@ protected:
             refusal = error.what();
             return;
         }
-        renderer = std::make_unique<Renderer>();
+        RendererOptions shaders;
+        shaders.pixels = Pixels::Shaders;
+        renderer = std::make_unique<Renderer>(shaders);
     }
     static void TearDownTestSuite() {
         renderer.reset();

@@ -107,6 +107,36 @@ TEST_F(Gl, EveryFormatTakesThePicture) {
     }
 }
 
+/// Scanned pixels stand where the shaders' would, and where they cannot serve the shaders do.
+TEST_F(Gl, ScannedPicturesAreTheShaders) {
+    RendererOptions options;
+    options.pixels = Pixels::Scanned;
+    Renderer scanning(options);
+    constexpr double twins = 2 * byteStep;  // curves: the shaders' range in the box, docs/coverage.md
+    for (const Asset& asset : assets()) {
+        const Texture texture = scanning.upload(asset), twin = renderer->upload(asset);
+        const image::Raster picture = renderer->render(twin, turned());
+        for (const GLenum format : {GL_RGBA8, GL_RGB8, GL_RGBA16F}) {
+            for (const auto firstRow : {Output::FirstRow::Bottom, Output::FirstRow::Top})
+                for (const auto write : {Output::Write::Replace, Output::Write::Over}) {
+                    Output output;
+                    output.firstRow = firstRow;
+                    output.write = write;
+                    output.x = 3;
+                    output.y = -5;
+                    output.damage = {{{2, 3, 30, 20}, {20, 20, 28, 28}}};
+                    const UserFramebuffer a(format, 64, 64, {0.5f, 0, 0.25f, 1});
+                    scanning.draw(texture, turned(), output);
+                    const image::Raster scanned = a.floats();
+                    const UserFramebuffer b(format, 64, 64, {0.5f, 0, 0.25f, 1});
+                    renderer->draw(twin, turned(), output);
+                    EXPECT_LE(worst(scanned, b.floats(), identity), twins) << format;
+                }
+        }
+        scanning.draw(texture, turned());
+    }
+}
+
 TEST_F(Gl, StraightAndLinearColours) {
     for (const Asset& asset : assets()) {
         const Texture texture = renderer->upload(asset);

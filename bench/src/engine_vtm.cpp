@@ -9,12 +9,20 @@ namespace {
 
 asset::Asset assetOf(const File& file) { return compiler::compile(load(file)).asset; }
 
-/// The shaders, the asset on the GPU.
+gl::RendererOptions optionsOf(gl::Pixels pixels) {
+    gl::RendererOptions options;
+    options.pixels = pixels;
+    return options;
+}
+
+/// The asset on the GPU, into 8 bits of a framebuffer.
 class GlEngine : public Engine {
 public:
-    explicit GlEngine(std::shared_ptr<gl::Context> context)
-        : Engine("gl", "gl::Renderer on " + context->renderer() + ", " + context->version()),
-          context_(std::move(context)) {}
+    GlEngine(const std::string& name, const std::string& text, std::shared_ptr<gl::Context> context,
+             gl::Pixels pixels)
+        : Engine(name, text + " on " + context->renderer() + ", " + context->version()),
+          context_(std::move(context)),
+          renderer_(optionsOf(pixels)) {}
 
     void load(const Picture& picture) override { texture_ = renderer_.upload(picture.asset); }
 
@@ -76,7 +84,11 @@ private:
 
 Engines ourEngines() {
     Engines engines;
-    engines.push_back(std::make_unique<GlEngine>(std::make_shared<gl::Context>()));
+    const auto context = std::make_shared<gl::Context>();
+    engines.push_back(
+        std::make_unique<GlEngine>("shaders", "gl::Renderer, the shaders", context, gl::Pixels::Shaders));
+    engines.push_back(
+        std::make_unique<GlEngine>("gl", "gl::Renderer as it is", context, gl::Pixels::Automatic));
     engines.push_back(std::make_unique<ScanEngine>());
     return engines;
 }
