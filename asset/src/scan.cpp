@@ -448,8 +448,14 @@ void Scanner::Impl::addPrograms(const View& view, const MaterialFunction& materi
     }
 }
 
+bool isSumOfMaps(const AssetView& asset) {
+    return asset.mode == Mode::Exact && std::ranges::all_of(asset.commands, [](const Command& command) {
+               return command.kind == Command::Kind::DrawMap;
+           });
+}
+
 Scanner::Scanner(const AssetView& asset) : impl_(std::make_unique<Impl>()) {
-    if (asset.mode != Mode::Exact)
+    if (!isSumOfMaps(asset))
         throw std::invalid_argument("only pictures of disjoint regions can be summed along rows");
     for (const Command& command : asset.commands) {
         const std::vector<PlanarPiece> pieces = planarPieces(asset, asset.maps[command.map]);

@@ -37,8 +37,7 @@ int patchLevelFor(const asset::Map& map, const asset::View& view) {
 
 double patchMargin() { return std::ldexp(1 / cellsPerRadius, -int(patchCellsLog2)); }
 
-PatchAtlas::PatchAtlas(const asset::AssetView& asset, const asset::Map& map)
-    : map_(map), pieces_(planarPieces(asset, map)) {
+PatchAtlas::PatchAtlas(const asset::AssetView& asset, const asset::Map& map) : map_(map) {
     asset::Asset kept;
     kept.nodes.assign(asset.nodes.begin(), asset.nodes.end());
     kept.leaves.assign(asset.leaves.begin(), asset.leaves.end());
@@ -55,7 +54,7 @@ std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, g
     const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
     std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
     const double side = std::ldexp(double(latticeExtent), -level);
-    for (const PlanarPiece& piece : pieces_) {
+    for (const PlanarPiece& piece : *pieces_) {
         const double reach = patchMargin() + piece.bulge() / side;
         const dvec2 least = glm::floor(glm::min(piece.a, piece.b) / side - reach),
                     most = glm::floor(glm::max(piece.a, piece.b) / side + reach);
@@ -87,6 +86,8 @@ std::vector<const PatchAtlas::Placed*> PatchAtlas::prepare(int level, glm::i64ve
         texels_.clear();
         uploaded_ = 0;
     }
+    if (!pieces_)
+        pieces_ = planarPieces(*asset_, map_);
     std::vector<std::vector<const PlanarPiece*>> near;
     std::vector<const Placed*> patches;
     for (std::int64_t y = min.y; y < max.y; ++y)
@@ -124,8 +125,8 @@ void PatchAtlas::upload() {
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, GLint(first), GLsizei(columns), GLsizei(end - first),
                         GL_RGBA_INTEGER, GL_UNSIGNED_INT, rows.data());
     }
-    uploaded_ = texels_.size();
     checkErrors("patches");
+    uploaded_ = texels_.size();
 }
 
 }  // namespace vtm::gl

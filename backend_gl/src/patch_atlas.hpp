@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "asset/asset.hpp"
@@ -46,7 +47,7 @@ private:
     asset::Map map_;
     std::shared_ptr<const asset::Asset> asset_;  ///< without commands, pictures and the like
     std::vector<bool> isProgram_;
-    std::vector<PlanarPiece> pieces_;
+    std::optional<std::vector<PlanarPiece>> pieces_;  ///< once a view has asked
 
     std::map<PatchPlace, Placed> placed_;
     std::vector<asset::Texel> texels_;

@@ -190,7 +190,12 @@ PictureBuffers::PictureBuffers()
 
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
                  const PixelBox& box, Finish finish) {
+    // The first map stands on what is there, the others add to it.
     for (PatchAtlas& atlas : asset.atlases) {
+        if (&atlas != &asset.atlases.front()) {
+            glEnable(GL_BLEND);
+            glBlendFunc(GL_ONE, GL_ONE);
+        }
         const int level = patchLevelFor(atlas.map(), view);
         const Squares squares(atlas.map(), view, box, level);
         const std::vector<const Placed*> patches = atlas.prepare(level, squares.min, squares.max);
@@ -211,6 +216,8 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
             draw(buffers.patchArray, buffers.patch, geometry.programs);
         }
     }
+    if (asset.atlases.size() > 1)
+        glDisable(GL_BLEND);
 }
 
 }  // namespace vtm::gl

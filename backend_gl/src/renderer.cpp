@@ -85,8 +85,8 @@ struct Renderer::Impl {
     Workshop workshop;
     TargetPool bytes{GL_RGBA8};    ///< for reading back 8 bits
     TargetPool scanned{GL_RGBA8};  ///< for sending them
-    bool scans = options.pixels == Pixels::Scanned ||
-                 (options.pixels == Pixels::Automatic && isSoftwareDriver());
+    bool scans =
+        options.pixels == Pixels::Scanned || (options.pixels == Pixels::Automatic && isSoftwareDriver());
     PictureBuffers picture;
     std::vector<std::uint8_t> pixels;
 
@@ -284,7 +284,7 @@ Texture Renderer::upload(const asset::AssetView& asset) {
     return impl_->call([&](const StateGuard&) {
         Programs& programs = impl_->workshop.programs;
         auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
-        if (impl_->scans && asset.mode == asset::Mode::Exact && asset.materials.empty())
+        if (impl_->scans && asset::isSumOfMaps(asset) && asset.materials.empty())
             texture->scanner.emplace(asset);
         // Users' errors come at once, not with the first picture.
         if (texture->features.has(Features::Material))

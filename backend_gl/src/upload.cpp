@@ -76,11 +76,11 @@ TextureHandle uploadTexels(std::vector<Texel>& texels) {
 UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
     : maps(asset.maps.begin(), asset.maps.end()),
       commands(asset.commands.begin(), asset.commands.end()),
-      list(asset.mode == asset::Mode::Exact ? InstanceList{} : makeInstances(asset)),
+      list(isSumOfMaps(asset) ? InstanceList{} : makeInstances(asset)),
       features(featuresOf(asset)),
       materialSet(materials),
       paints(asset.paints.begin(), asset.paints.end()) {
-    if (asset.mode == asset::Mode::Exact)
+    if (isSumOfMaps(asset))
         for (const asset::Command& command : asset.commands)
             atlases.emplace_back(asset, asset.maps[command.map]);
     for (const asset::Paint& paint : asset.paints)

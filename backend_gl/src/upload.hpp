@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include "asset/scan.hpp"
@@ -48,8 +48,8 @@ struct UploadedAsset {
     unsigned materialSet;  ///< of Programs
     std::vector<asset::Paint> paints;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
-    std::vector<PatchAtlas> atlases;  ///< exact: of each map drawn
-    std::vector<bool> isProgram;      ///< by paint
+    std::vector<PatchAtlas> atlases;        ///< exact: of each map drawn
+    std::vector<bool> isProgram;            ///< by paint
     Sections sections;
     TextureHandle texels, images;
     BufferHandle instances;

@@ -34,6 +34,7 @@ protected:
     /// Every kind of program, in a new renderer.
     Drawn draw() {
         RendererOptions options;
+        options.pixels = Pixels::Shaders;
         options.programCache = folder.string();
         Renderer fresh(options);
         Drawn drawn;

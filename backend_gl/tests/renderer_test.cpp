@@ -7,6 +7,7 @@
 
 #include "asset/container.hpp"
 #include "asset/evaluate.hpp"
+#include "asset/scan.hpp"
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
@@ -147,6 +148,32 @@ TEST_F(Gl, RandomLayers) {
         SCOPED_TRACE(i);
         expectTwins(*renderer, randomLayers(random), 4);
     }
+}
+
+/// Of pictures that no compiler of ours makes, and validation lets pass.
+TEST_F(Gl, MapsThatAddUp) {
+    Asset asset = strip();
+    asset.maps.push_back(asset.maps[0]);
+    asset.maps[1].x += 17;
+    asset.maps[1].side *= 0.5;
+    asset.commands.push_back({asset::Command::Kind::DrawMap, {}, 1, 1, 0});
+    asset.paints[1] = asset.paints[2] = solid({0.25f, 0.125f, 0, 0.375f});  // sums stay below 1
+    asset.paints[3] = solid({0, 0, 0.25f, 0.25f});
+    expectTwins(*renderer, asset);
+    const asset::Scanner scanner(asset);
+    std::mt19937 random(4);
+    for (int i = 0; i < 10; ++i) {
+        const View view = randomView(random);
+        EXPECT_LE(worst(scanner.draw(view), asset::evaluate(asset, view)).difference, twinTolerance);
+    }
+}
+
+TEST_F(Gl, LayersInExactModeAreDrawnAsLayers) {
+    Asset asset = layers();
+    asset.mode = asset::Mode::Exact;
+    expectTwins(*renderer, asset, 5);
+    EXPECT_FALSE(asset::isSumOfMaps(asset));
+    EXPECT_THROW(asset::Scanner{asset}, std::invalid_argument);
 }
 
 TEST_F(Gl, PicturesLeaveNothingBehind) {

@@ -69,7 +69,7 @@ protected:
 class CpuEngine : public Engine {
 public:
     image::Raster render(Source& source, const asset::View& view) override {
-        if (source.paper || source.asset->mode != asset::Mode::Exact)
+        if (source.paper || !asset::isSumOfMaps(*source.asset))
             throw std::runtime_error("the cpu engine draws exact pictures only");
         if (!source.asset->materials.empty())
             printWarning("warning: no GLSL runs on the CPU; materials have their fallback colours");
