@@ -9,6 +9,8 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include "asset/scan.hpp"
+#include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/destination.hpp"
 #include "backend_gl/src/placement.hpp"
 #include "backend_gl/src/programs.hpp"
@@ -107,7 +109,7 @@ IdRenderer::IdRenderer() {
 IdRenderer::~IdRenderer() = default;
 
 IdTexture IdRenderer::upload(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint) {
-    if (asset.mode != asset::Mode::Exact || idOfPaint.size() != asset.paints.size())
+    if (!asset::isSumOfMaps(asset) || idOfPaint.size() != asset.paints.size())
         throw std::invalid_argument("numbers are for exact assets, one for each paint");
     dropErrors();
     const StateGuard guard(impl_->contract, true);
@@ -121,11 +123,11 @@ IdTexture IdRenderer::upload(const asset::AssetView& asset, std::span<const std:
         numbers.push_back({id, 0, 0, 0});
     Sections& s = texture->sections;
     std::vector<Texel> texels;
-    s.leaves = append(texels, asset.leaves);
-    s.pieces = append(texels, asset.pieces);
-    s.paints = append<Texel>(texels, numbers);
-    s.data = append(texels, asset.nodes);
-    texture->texels = uploadTexels(texels);
+    s.leaves = appendTexels(texels, asset.leaves);
+    s.pieces = appendTexels(texels, asset.pieces);
+    s.paints = appendTexels<Texel>(texels, numbers);
+    s.data = appendTexels(texels, asset.nodes);
+    texture->texels = texelTexture(std::move(texels));
     return IdTexture(std::move(texture));
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/constants.hpp"
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/gl.hpp"
@@ -27,16 +28,6 @@ struct Parts {
     GLuint nodes = 0, leaves = 0, pieces = 0, paints = 0, data = 0, images = 0;
 };
 
-template <class Record>
-GLuint append(std::vector<Texel>& texels, std::span<const Record> records) {
-    static_assert(sizeof(Record) % sizeof(Texel) == 0);
-    const std::size_t first = texels.size();
-    texels.resize(first + records.size_bytes() / sizeof(Texel));
-    if (!records.empty())
-        std::memcpy(static_cast<void*>(texels.data() + first), records.data(), records.size_bytes());
-    return GLuint(first);
-}
-
 /// Fills of materials name them by their key, since a program may know those of several assets.
 std::vector<Texel> dataOf(const AssetView& asset) {
     std::vector<Texel> data(asset.data.begin(), asset.data.end());
@@ -50,46 +41,15 @@ std::vector<Texel> dataOf(const AssetView& asset) {
 }
 
 std::vector<Texel> joined(const AssetView& asset, Parts& parts) {
-    std::vector<Texel> texels, images;
-    std::uint32_t pixels = 0;
-    for (const image::Bitmap& bitmap : asset.images) {
-        images.push_back({pixels, std::uint32_t(bitmap.width), std::uint32_t(bitmap.height), 0});
-        pixels += std::uint32_t(bitmap.rgba.size() / 4);
-    }
+    std::vector<Texel> texels;
     const std::vector<Texel> data = dataOf(asset);
-    parts.nodes = append(texels, asset.nodes);
-    parts.leaves = append(texels, asset.leaves);
-    parts.pieces = append(texels, asset.pieces);
-    parts.paints = append(texels, asset.paints);
-    parts.data = append(texels, std::span<const Texel>(data));
-    parts.images = append(texels, std::span<const Texel>(images));
+    parts.nodes = appendTexels(texels, asset.nodes);
+    parts.leaves = appendTexels(texels, asset.leaves);
+    parts.pieces = appendTexels(texels, asset.pieces);
+    parts.paints = appendTexels(texels, asset.paints);
+    parts.data = appendTexels<Texel>(texels, data);
+    parts.images = appendTexels<Texel>(texels, imageList(asset));
     return texels;
-}
-
-/// Rows of `1 << columnsLog2` texels; `bytes` grows to whole rows.
-TextureHandle layOut(std::vector<std::uint8_t> bytes, std::size_t bytesPerTexel, unsigned columnsLog2,
-                     GLenum format, GLenum layout, GLenum type) {
-    const std::size_t row = bytesPerTexel << columnsLog2,
-                      rows = std::max<std::size_t>(1, (bytes.size() + row - 1) / row);
-    TextureHandle texture = makeTexture(format, 1 << columnsLog2, int(std::min<std::size_t>(rows, 1u << 30)));
-    bytes.resize(rows * row);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 1 << columnsLog2, GLsizei(rows), layout, type, bytes.data());
-    checkErrors("upload of a texture");
-    return texture;
-}
-
-TextureHandle uploadTexels(const AssetView& asset, Parts& parts) {
-    const std::vector<Texel> texels = joined(asset, parts);
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(texels.data());
-    return layOut({bytes, bytes + texels.size() * sizeof(Texel)}, sizeof(Texel), texelColumnsLog2,
-                  GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-}
-
-TextureHandle uploadImages(const AssetView& asset) {
-    std::vector<std::uint8_t> pixels;
-    for (const image::Bitmap& bitmap : asset.images)
-        pixels.insert(pixels.end(), bitmap.rgba.begin(), bitmap.rgba.end());
-    return layOut(std::move(pixels), 4, imageColumnsLog2, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
 }
 
 TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter) {
@@ -148,9 +108,9 @@ struct SampledTexture::Impl {
           map(onlyMap(asset)),
           features(featuresOf(asset)),
           prefilterSize(pyramid.size),
-          texels(uploadTexels(asset, parts)),
+          texels(texelTexture(joined(asset, parts))),
           prefilter(uploadPrefilter(pyramid)),
-          images(features.has(Features::Image) ? uploadImages(asset) : TextureHandle()) {}
+          images(features.has(Features::Image) ? imageTexture(asset) : TextureHandle()) {}
 
     double width, height;
     asset::Map map;

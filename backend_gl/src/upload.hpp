@@ -3,9 +3,7 @@
 #pragma once
 
 #include <array>
-#include <cstring>
 #include <optional>
-#include <span>
 
 #include "asset/scan.hpp"
 #include "backend_gl/renderer.hpp"
@@ -22,21 +20,6 @@ struct Sections {
     GLuint leaves = 0, pieces = 0, paints = 0, data = 0;
     GLuint images = 0;  ///< a texel a picture: first pixel, width, height
 };
-
-/// Appends records as texels; returns the first's place.
-template <class Record>
-GLuint append(std::vector<asset::Texel>& texels, std::span<const Record> records) {
-    static_assert(sizeof(Record) % sizeof(asset::Texel) == 0);
-    const std::size_t first = texels.size();
-    texels.resize(first + records.size() * (sizeof(Record) / sizeof(asset::Texel)));
-    if (!records.empty())
-        std::memcpy(static_cast<void*>(texels.data() + first), records.data(),
-                    records.size() * sizeof(Record));
-    return GLuint(first);
-}
-
-/// As fetch.glsl reads them; `texels` grows to whole rows.
-TextureHandle uploadTexels(std::vector<asset::Texel>& texels);
 
 struct UploadedAsset {
     UploadedAsset(const asset::AssetView& asset, unsigned materialSet);

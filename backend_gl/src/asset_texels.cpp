@@ -1,0 +1,51 @@
+#include "backend_gl/src/asset_texels.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "backend_gl/src/constants.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+/// `items` grows to whole rows.
+template <class Items>
+TextureHandle layOut(Items items, std::size_t itemsPerTexel, unsigned columnsLog2, GLenum format,
+                     GLenum layout, GLenum type) {
+    const std::size_t columns = std::size_t(1) << columnsLog2;
+    const std::size_t texels = std::max<std::size_t>(items.size() / itemsPerTexel, 1);
+    const std::size_t rows = (texels + columns - 1) / columns;
+    if (rows > std::size_t(std::numeric_limits<GLsizei>::max()))
+        throw GlError("asset too large for a texture");
+    TextureHandle texture = makeTexture(format, int(columns), int(rows));
+    items.resize(rows * columns * itemsPerTexel);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLsizei(columns), GLsizei(rows), layout, type, items.data());
+    checkErrors("upload");
+    return texture;
+}
+
+}  // namespace
+
+std::vector<asset::Texel> imageList(const asset::AssetView& asset) {
+    std::vector<asset::Texel> list;
+    std::uint32_t pixels = 0;
+    for (const image::Bitmap& bitmap : asset.images) {
+        list.push_back({pixels, std::uint32_t(bitmap.width), std::uint32_t(bitmap.height), 0});
+        pixels += std::uint32_t(bitmap.rgba.size() / 4);
+    }
+    return list;
+}
+
+TextureHandle texelTexture(std::vector<asset::Texel> texels) {
+    return layOut(std::move(texels), 1, texelColumnsLog2, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+}
+
+TextureHandle imageTexture(const asset::AssetView& asset) {
+    std::vector<std::uint8_t> pixels;
+    for (const image::Bitmap& bitmap : asset.images)
+        pixels.insert(pixels.end(), bitmap.rgba.begin(), bitmap.rgba.end());
+    return layOut(std::move(pixels), 4, imageColumnsLog2, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+}
+
+}  // namespace vtm::gl
