@@ -2,6 +2,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include <unistd.h>
+
+#include <fmt/format.h>
+
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/src/gl.hpp"
@@ -25,7 +29,7 @@ protected:
             GTEST_SKIP() << "the driver has no program binaries";
         fs::remove_all(folder);
     }
-    void TearDown() override { fs::remove_all(folder); }
+    void TearDown() override { fs::remove_all(folder.parent_path()); }
 
     struct Drawn {
         std::vector<float> picture;
@@ -52,7 +56,9 @@ protected:
         return list;
     }
 
-    const fs::path folder = fs::path(testing::TempDir()) / "vtm_program_cache" / "made";
+    /// A process' own: tests run side by side.
+    const fs::path folder =
+        fs::path(testing::TempDir()) / fmt::format("vtm_program_cache_{}", getpid()) / "made";
 };
 
 TEST_F(ProgramCacheTest, WhatIsKeptIsNotCompiled) {
