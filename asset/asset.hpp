@@ -106,6 +106,7 @@ inline constexpr std::uint32_t programTag = 0xFFFFFFFFu;
 /// One texel. Solid: premultiplied sRGB floats as bits. Program: {first texel, number of
 /// instructions, 0, programTag} in Asset::data. Paint 0 is transparent.
 using Paint = Texel;
+inline bool isProgram(const Paint& paint) { return paint[3] == programTag; }
 
 /// A paint program runs on a stack of premultiplied colours that starts with one transparent entry;
 /// its result is the one entry left at its end. It is the stack of layers over one region, groups and all.

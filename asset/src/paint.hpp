@@ -9,8 +9,6 @@
 
 namespace vtm::asset {
 
-inline bool isProgram(const Paint& paint) { return paint[3] == programTag; }
-
 /// Premultiplied colour of a paint at a picture point.
 glm::vec4 paintColor(const AssetView& asset, std::uint32_t paint, glm::vec2 point,
                      const MaterialFunction& materials = {});

@@ -467,8 +467,8 @@ Scanner::Scanner(const AssetView& asset) : impl_(std::make_unique<Impl>()) {
     kept.images.assign(asset.images.begin(), asset.images.end());
     kept.materials.assign(asset.materials.begin(), asset.materials.end());
     for (const Paint& paint : kept.paints) {
-        impl_->isProgram.push_back(paint[3] == programTag);
-        impl_->solid.push_back(paint[3] == programTag ? vec4(0) : std::bit_cast<vec4>(paint));
+        impl_->isProgram.push_back(asset::isProgram(paint));
+        impl_->solid.push_back(asset::isProgram(paint) ? vec4(0) : std::bit_cast<vec4>(paint));
     }
 }
 

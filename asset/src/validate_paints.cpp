@@ -160,7 +160,7 @@ void validatePaints(const AssetView& asset) {
     require(asset.paints.size() <= 65536, "paints", 65536, "cannot be named by 16 bits");
     const Data data(asset);
     for (std::size_t i = 0; i < asset.paints.size(); ++i)
-        if (asset.paints[i][3] == programTag)
+        if (isProgram(asset.paints[i]))
             validateProgram(data, i);
         else
             require(isColor(asset.paints[i]), "paints", i, "colour is out of range");

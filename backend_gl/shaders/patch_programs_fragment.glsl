@@ -1,22 +1,6 @@
-// A patch with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl, output.glsl.
+// A patch with paint programs. Requires: cell.glsl, fetch.glsl, region_color.glsl, output.glsl.
 
 out vec4 color;
-
-// The last two paints evaluated: the two sides of a chain of pieces.
-uint recentPaint = 0xFFFFFFFFu, olderPaint = 0xFFFFFFFFu;
-vec4 recentColor = vec4(0.0), olderColor = vec4(0.0);
-
-vec4 regionColor(uint paint, vec2 point) {
-    if (paint == recentPaint)
-        return recentColor;
-    uint swappedPaint = recentPaint;
-    vec4 swappedColor = recentColor;
-    recentColor = paint == olderPaint ? olderColor : regionValue(paintColor(paint, point));
-    recentPaint = paint;
-    olderPaint = swappedPaint;
-    olderColor = swappedColor;
-    return recentColor;
-}
 
 // Each piece is looked at twice, once a side, after the reference's own paint, so that the paint interpreter, which
 // compilers inline, stands in the program once.
@@ -25,12 +9,13 @@ void main() {
     vec2 point = patchPicture.xy + patchPicture.z * cell.o;
     bool flatPatch = patchTexels.z != 0u;
     uvec4 references = flatPatch ? uvec4(0u) : firstReferences(cell);
+    Recent recent = nothingRecent();
     vec4 sum = vec4(0.0);
     float weight = 1.0;
     uint paint = flatPatch ? patchTexels.z - 1u : low(cell.texel.x), other = 0u, side = 1u, i = 0u;
     for (;;) {
         if (weight != 0.0)
-            sum += weight * regionColor(paint, point);
+            sum += weight * regionValue(regionColor(recent, paint, point));
         side ^= 1u;
         if (side == 1u) {
             paint = other;

@@ -1,5 +1,5 @@
 // An asset as a texture: the mean colour over a parallelogram of the picture. docs/texture.md.
-// Requires: sample_asset.glsl, coverage.glsl, paint.glsl, sample_prefilter.glsl; constants kind*, wrap*, maxLevel,
+// Requires: sample_asset.glsl, leaf_integral.glsl, sample_prefilter.glsl; constants kind*, wrap*, maxLevel,
 // walkBudget, FEATURES.
 // Exports: vtm_sample, vtm_sample_grad.
 
@@ -18,72 +18,6 @@ struct Sum {
     float cost;     // squares and pieces met so far
     float allowed;  // ... at most
 };
-
-#if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
-
-const uint noPaint = 0xFFFFFFFFu;
-
-// The last two paints evaluated: the two sides of a chain of pieces.
-struct Recent {
-    uint paint, older;
-    vec4 color, olderColor;
-};
-
-vec4 regionColor(Vtm vtm, inout Recent recent, uint paint, vec2 point) {
-    if (paint != recent.paint) {
-        vec4 color = recent.olderColor;
-        if (paint != recent.older)
-            color = paintColor(vtm, paint, point);
-        recent = Recent(paint, recent.paint, color, recent.color);
-    }
-    return recent.color;
-}
-
-// One loop over the four corners and both sides of every piece, so that the paint interpreter, which
-// compilers inline, stands in the program once. Twin of general_fragment.glsl.
-vec4 leafIntegral(Vtm vtm, Frame frame, uvec4 leaf, vec2 point) {
-    Recent recent = Recent(noPaint, noPaint, vec4(0.0), vec4(0.0));
-    uvec4 piece = uvec4(0u);
-    vec4 sum = vec4(0.0);
-    float weight = 0.0;
-    uint terms = 4u + 2u * low(leaf.y);
-    for (uint i = 0u; i < terms; ++i) {
-        uint paint = high(piece.w);
-        if (i < 4u) {
-            weight = seg(cornerOf(frame, int(i)), cornerOf(frame, int((i + 1u) & 3u)));
-            uint word = i < 2u ? leaf.z : leaf.w;
-            paint = (i & 1u) == 0u ? low(word) : high(word);
-        } else if ((i & 1u) == 0u) {
-            piece = texelAt(vtm, vtm.sections.y + leaf.x + (i - 4u) / 2u);
-            weight = pieceSum(frame, piece);
-            paint = low(piece.w);
-        } else {
-            weight = -weight;
-        }
-        if (weight != 0.0)
-            sum += weight * regionColor(vtm, recent, paint, point);
-    }
-    return sum;
-}
-
-#else
-
-// Twin of pieces_fragment.glsl.
-vec4 leafIntegral(Vtm vtm, Frame frame, uvec4 leaf, vec2 point) {
-    vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
-    vec4 sum = seg(a, b) * solidColor(vtm, low(leaf.z)) + seg(b, c) * solidColor(vtm, high(leaf.z)) +
-               seg(c, d) * solidColor(vtm, low(leaf.w)) + seg(d, a) * solidColor(vtm, high(leaf.w));
-    uint end = leaf.x + low(leaf.y);
-    for (uint i = leaf.x; i < end; ++i) {
-        uvec4 piece = texelAt(vtm, vtm.sections.y + i);
-        float weight = pieceSum(frame, piece);
-        if (weight != 0.0)
-            sum += weight * (solidColor(vtm, low(piece.w)) - solidColor(vtm, high(piece.w)));
-    }
-    return sum;
-}
-
-#endif
 
 vec2 picturePoint(Vtm vtm, vec2 p) { return vtm.square.xy + p * vtm.square.z; }
 

@@ -48,7 +48,7 @@ std::string Features::defines() const {
 Features featuresOf(const asset::AssetView& asset) {
     unsigned flags = 0;
     for (const asset::Paint& paint : asset.paints) {
-        if (paint[3] != asset::programTag)
+        if (!asset::isProgram(paint))
             continue;
         for (std::uint32_t i = 0; i < paint[1]; ++i)
             flags |= flagsOf(std::bit_cast<asset::Instruction>(asset.data[paint[0] + i]));

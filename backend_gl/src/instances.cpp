@@ -15,7 +15,7 @@ using asset::Entry;
 using Command = asset::Command;
 
 bool isProgram(const asset::AssetView& asset, std::uint32_t paint) {
-    return asset.paints[paint][3] == asset::programTag;
+    return asset::isProgram(asset.paints[paint]);
 }
 
 bool usesPrograms(const asset::AssetView& asset, const asset::Leaf& leaf) {

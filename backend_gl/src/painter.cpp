@@ -273,8 +273,8 @@ void Painter::use(const Program& program) const {
 }
 
 void Painter::useFill() {
-    const bool programs =
-        std::ranges::any_of(pending_, [&](const PendingFill& fill) { return asset_.isProgram[fill.paint]; });
+    const bool programs = std::ranges::any_of(
+        pending_, [&](const PendingFill& fill) { return asset::isProgram(asset_.paints[fill.paint]); });
     const Program& program =
         workshop_.programs.fill(programs ? asset_.features : Features(), asset_.materialSet);
     use(program);

@@ -169,10 +169,9 @@ Texel geometryTexel(const PlanarPiece& piece) {
 /// Two words of a texel: 16-bit channels, nothing for programs.
 void addColor(Packer& packer, const asset::Paint& paint) {
     for (const std::uint32_t channel : paint)
-        packer.add(paint[3] == asset::programTag
-                       ? 0
-                       : std::uint32_t(std::lround(std::bit_cast<float>(channel) * 65535)),
-                   16);
+        packer.add(
+            asset::isProgram(paint) ? 0 : std::uint32_t(std::lround(std::bit_cast<float>(channel) * 65535)),
+            16);
 }
 
 Texel colorTexel(const asset::Paint& left, const asset::Paint& right) {

@@ -44,8 +44,6 @@ PatchAtlas::PatchAtlas(const asset::AssetView& asset, const asset::Map& map) : m
     kept.pieces.assign(asset.pieces.begin(), asset.pieces.end());
     kept.paints.assign(asset.paints.begin(), asset.paints.end());
     asset_ = std::make_shared<const asset::Asset>(std::move(kept));
-    for (const asset::Paint& paint : asset.paints)
-        isProgram_.push_back(paint[3] == asset::programTag);
 }
 
 /// By square, row by row.
@@ -70,11 +68,12 @@ std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, g
 }
 
 PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const PlanarPiece* const> near) {
+    const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset_->paints[paint]); };
     const Patch patch = buildPatch({*asset_, map_}, place, patchMargin(), near);
     if (patch.texels.empty())
-        return {true, isProgram_[patch.paint], patch.paint, 0, 0};
+        return {true, isProgram(patch.paint), patch.paint, 0, 0};
     const bool programs = std::ranges::any_of(
-        near, [&](const PlanarPiece* piece) { return isProgram_[piece->left] || isProgram_[piece->right]; });
+        near, [&](const PlanarPiece* piece) { return isProgram(piece->left) || isProgram(piece->right); });
     const Placed placed{false, programs, 0, std::uint32_t(texels_.size()), patch.firstCell};
     texels_.insert(texels_.end(), patch.texels.begin(), patch.texels.end());
     return placed;

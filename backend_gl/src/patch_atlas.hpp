@@ -45,8 +45,7 @@ private:
     void upload();
 
     asset::Map map_;
-    std::shared_ptr<const asset::Asset> asset_;  ///< without commands, pictures and the like
-    std::vector<bool> isProgram_;
+    std::shared_ptr<const asset::Asset> asset_;       ///< without commands, pictures and the like
     std::optional<std::vector<PlanarPiece>> pieces_;  ///< once a view has asked
 
     std::map<PatchPlace, Placed> placed_;

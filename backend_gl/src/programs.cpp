@@ -83,7 +83,7 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
             return {"general",
                     {fetch, leaf_vertex},
                     {defines, fetch, coverage, leaf_placement, shaders::blend, gradient, image, paint,
-                     general_fragment, materials}};
+                     region_color, leaf_integral, general_fragment, materials}};
         case Kind::Flat:
             return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
         case Kind::Patch:
@@ -93,8 +93,8 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
                         {finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
             return {"patch with programs",
                     {patch_vertex},
-                    {defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint, output,
-                     patch_programs_fragment, materials}};
+                    {defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint,
+                     region_color, output, patch_programs_fragment, materials}};
         case Kind::Fill:
             return {"fill",
                     {box_vertex},

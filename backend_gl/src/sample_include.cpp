@@ -86,8 +86,8 @@ std::string sampleText(Features features, std::span<const Material> materials) {
     std::string text = features.defines() + fmt::format("#define FEATURES {}u\n", features.flags());
     text += glslConstants() + constants();
     const std::string_view images = features.has(Features::Image) ? image : std::string_view();
-    for (const std::string_view part :
-         {sample_asset, fetch, coverage, blend, gradient, images, paint, sample_prefilter, sample})
+    for (const std::string_view part : {sample_asset, fetch, coverage, blend, gradient, images, paint,
+                                        region_color, leaf_integral, sample_prefilter, sample})
         text += part;
     text = head + prefixed(text);
     if (features.has(Features::Material))

@@ -13,7 +13,7 @@
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/sample_include.hpp"
-#include "backend_gl/src/saved_state.hpp"
+#include "backend_gl/src/state_guard.hpp"
 
 namespace vtm::gl {
 
@@ -32,7 +32,7 @@ struct Parts {
 std::vector<Texel> dataOf(const AssetView& asset) {
     std::vector<Texel> data(asset.data.begin(), asset.data.end());
     for (const asset::Paint& paint : asset.paints)
-        for (std::uint32_t i = 0; paint[3] == asset::programTag && i < paint[1]; ++i) {
+        for (std::uint32_t i = 0; asset::isProgram(paint) && i < paint[1]; ++i) {
             const auto in = std::bit_cast<asset::Instruction>(asset.data[paint[0] + i]);
             if (in.op == asset::Op::Material)
                 data[in.argument + 1][2] = materialKey(asset.materials[asset.data[in.argument + 1][2]]);
@@ -76,6 +76,22 @@ TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter) {
 GLint wrapMode(Wrap wrap) {
     return wrap == Wrap::Repeat ? GL_REPEAT : wrap == Wrap::Mirror ? GL_MIRRORED_REPEAT : GL_CLAMP_TO_EDGE;
 }
+
+/// What binding to a program changes on the way, as it was: the current program and the active unit.
+class SavedBindState {
+public:
+    SavedBindState() : program_(limit(GL_CURRENT_PROGRAM)), unit_(limit(GL_ACTIVE_TEXTURE)) {}
+    ~SavedBindState() {
+        // One that was deleted while it was current is gone once another is.
+        glUseProgram(glIsProgram(GLuint(program_)) ? GLuint(program_) : 0);
+        glActiveTexture(GLenum(unit_));
+    }
+    SavedBindState(const SavedBindState&) = delete;
+    SavedBindState& operator=(const SavedBindState&) = delete;
+
+private:
+    GLint program_, unit_;
+};
 
 /// Trilinear. Beyond a border the shader itself makes it transparent.
 SamplerHandle makeSampler(Wrapping wrapping) {
@@ -160,7 +176,8 @@ SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOpt
         pyramid = {made.size, made.texels};
     }
     checkErrors("something before this texture was made");
-    const SavedUploadState saved;
+    const StateContract contract;
+    const StateGuard guard(contract, true);
     impl_ = std::make_unique<Impl>(asset, pyramid);
 }
 SampledTexture::~SampledTexture() = default;
@@ -171,10 +188,10 @@ unsigned SampledTexture::units() const { return impl_->images.get() != 0 ? 3 : 2
 
 void SampledTexture::bind(unsigned program, const std::string& name, unsigned firstUnit, Wrapping wrapping) {
     checkErrors("something before a texture was bound");
-    const unsigned unitCount = unsigned(limit(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
-    if (firstUnit + units() > unitCount || firstUnit > unitCount)
+    const unsigned most = unsigned(limit(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
+    if (firstUnit + units() > most || firstUnit > most)
         throw GlError(fmt::format("'{}' needs texture units {} to {}: the driver has {}", name, firstUnit,
-                                  firstUnit + units() - 1, unitCount));
+                                  firstUnit + units() - 1, most));
     if (glGetUniformLocation(program, (name + ".texels").c_str()) < 0)
         throw GlError(fmt::format("program {} samples no 'uniform Vtm {}'", program, name));
     const SavedBindState saved;

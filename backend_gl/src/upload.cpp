@@ -12,11 +12,13 @@ using asset::Texel;
 
 constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
 
-/// The trees themselves stay behind: instances stand for them.
+/// The trees themselves stay behind: instances stand for them, and patches for the leaves of sums of maps.
 std::vector<Texel> joinedTexels(const AssetView& asset, Sections& sections) {
     std::vector<Texel> texels;
-    sections.leaves = appendTexels(texels, asset.leaves);
-    sections.pieces = appendTexels(texels, asset.pieces);
+    if (!isSumOfMaps(asset)) {
+        sections.leaves = appendTexels(texels, asset.leaves);
+        sections.pieces = appendTexels(texels, asset.pieces);
+    }
     sections.paints = appendTexels(texels, asset.paints);
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList(asset));
@@ -44,8 +46,6 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
     if (isSumOfMaps(asset))
         for (const asset::Command& command : asset.commands)
             atlases.emplace_back(asset, asset.maps[command.map]);
-    for (const asset::Paint& paint : asset.paints)
-        isProgram.push_back(paint[3] == asset::programTag);
     texels = texelTexture(joinedTexels(asset, sections));
     images = imageTexture(asset);
     instances = uploadInstances(list.instances);

@@ -32,7 +32,6 @@ struct UploadedAsset {
     std::vector<asset::Paint> paints;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
     std::vector<PatchAtlas> atlases;        ///< exact: of each map drawn
-    std::vector<bool> isProgram;            ///< by paint
     Sections sections;
     TextureHandle texels, images;
     BufferHandle instances;

@@ -131,8 +131,7 @@ PickMap compilePickMap(const scene::Scene& scene, const Options& options) {
     map.asset = compile(rewritten, options).asset;
     map.items = rewriting.takeItems();
     for (const asset::Paint& paint : map.asset.paints) {
-        const std::optional<std::uint32_t> number =
-            paint[3] == asset::programTag ? std::nullopt : numberOf(paint);
+        const std::optional<std::uint32_t> number = asset::isProgram(paint) ? std::nullopt : numberOf(paint);
         const bool known = number && *number > 0 && *number <= map.items.size();
         map.itemOfPaint.push_back(known ? std::optional(*number - 1) : std::nullopt);
     }

@@ -115,9 +115,7 @@ glm::dmat3 Floor::toPicture(int samples) const {
     return {{b / k, 0, 0}, {0.5 / k, 0, 1 / k}, {0.5 * horizon - b * width / 2, a, horizon}};
 }
 
-bool hasPrograms(const asset::Asset& asset) {
-    return std::ranges::any_of(asset.paints, [](const asset::Paint& p) { return p[3] == asset::programTag; });
-}
+bool hasPrograms(const asset::Asset& asset) { return std::ranges::any_of(asset.paints, asset::isProgram); }
 
 Raster exactMeans(const asset::Asset& asset, const asset::View& view) {
     constexpr int finer = 4;
