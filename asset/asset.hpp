@@ -294,6 +294,9 @@ struct AssetView {
           prefilter{a.prefilter.size, a.prefilter.texels} {}
 };
 
+/// Whether an asset is nothing but maps that are added up: what the compiler makes in exact mode, one map.
+bool isSumOfMaps(const AssetView& asset);
+
 /// A copy that owns its records.
 Asset toAsset(const AssetView& view);
 

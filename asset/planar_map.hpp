@@ -29,18 +29,24 @@ struct Sides {
 /// Piece in lattice coordinates, or in others.
 struct PlanarPiece {
     glm::dvec2 a, b;
-    float slopeA = 0, slopeB = 0;
+    double slopeA = 0, slopeB = 0;
     std::uint32_t left = 0, right = 0;
 
-    /// t(s) of Piece, in chord lengths.
-    double height(double s) const {
-        const double r = 1 - s;
-        return s * r * (double(slopeA) * r - double(slopeB) * s);
-    }
+    /// t(s) of Piece, in chord lengths, and its derivative.
+    double height(double s) const { return s * (1 - s) * (slopeA * (1 - s) - slopeB * s); }
+    double slope(double s) const { return slopeA * (1 - s) * (1 - 3 * s) - slopeB * s * (2 - 3 * s); }
+    /// The ends exactly.
+    glm::dvec2 at(double s) const;
+    glm::dvec2 derivative(double s) const;
     Sides sidesOf(glm::dvec2 point) const;
     /// No point of the curve is further from the chord, in its units.
     double bulge() const;
 };
+
+/// In leaf coordinates.
+PlanarPiece planarPiece(const Piece& piece);
+
+inline double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// A change of paint on the way from one point to another.
 struct Change {

@@ -22,9 +22,6 @@ struct ByteTarget {
     std::size_t rowBytes = 0;  ///< from one row to the next, at least 4 · view.width
 };
 
-/// Whether an asset is nothing but maps that are added up: what the compiler makes in exact mode, one map.
-bool isSumOfMaps(const AssetView& asset);
-
 /// Of one asset; keeps what it needs of it. Safe to use from several threads at once.
 class Scanner {
 public:

@@ -1,5 +1,7 @@
 #include "asset/asset.hpp"
 
+#include <algorithm>
+
 namespace vtm::asset {
 
 namespace {
@@ -10,6 +12,12 @@ std::vector<Record> copied(std::span<const Record> records) {
 }
 
 }  // namespace
+
+bool isSumOfMaps(const AssetView& asset) {
+    return asset.mode == Mode::Exact && std::ranges::all_of(asset.commands, [](const Command& command) {
+               return command.kind == Command::Kind::DrawMap;
+           });
+}
 
 Asset toAsset(const AssetView& view) {
     return {.width = view.width,

@@ -6,38 +6,16 @@
 #include <span>
 #include <stdexcept>
 
+#include <glm/geometric.hpp>
+
+#include "asset/planar_map.hpp"
+#include "asset/walk.hpp"
+
 namespace vtm::asset {
 
 namespace {
 
 using glm::dvec2;
-
-double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
-double dot(dvec2 a, dvec2 b) { return a.x * b.x + a.y * b.y; }
-
-/// asset::Piece in leaf coordinates.
-struct Curve {
-    explicit Curve(const Piece& piece)
-        : a(piece.a[0], piece.a[1]),
-          b(piece.b[0], piece.b[1]),
-          chord(b - a),
-          slopeA(piece.slopeA / double(slopeScale)),
-          slopeB(piece.slopeB / double(slopeScale)) {}
-
-    dvec2 at(double s) const {
-        if (s == 1)
-            return b;
-        const double r = 1 - s, t = s * r * (slopeA * r - slopeB * s);
-        return a + s * chord + t * dvec2(-chord.y, chord.x);
-    }
-    dvec2 derivative(double s) const {
-        const double r = 1 - s, t = slopeA * r * (1 - 3 * s) - slopeB * s * (2 - 3 * s);
-        return chord + t * dvec2(-chord.y, chord.x);
-    }
-
-    dvec2 a, b, chord;
-    double slopeA, slopeB;
-};
 
 /// The way from a point to a corner of its leaf.
 struct Way {
@@ -46,15 +24,16 @@ struct Way {
     /// Of a point of a curve: on which side of the way it lies.
     double side(dvec2 p) const { return cross(along, p - from); }
     /// 0 at `from`, 1 at the corner.
-    double place(dvec2 p) const { return dot(p - from, along) / dot(along, along); }
+    double place(dvec2 p) const { return glm::dot(p - from, along) / glm::dot(along, along); }
 };
 
 /// Parameters that split [0, 1] into parts on which side(curve.at(s)) is monotone: the roots of its
 /// derivative, a quadratic.
-std::array<double, 4> monotoneParts(const Curve& curve, const Way& way) {
+std::array<double, 4> monotoneParts(const PlanarPiece& curve, const Way& way) {
     // side' = cross(along, chord) + cross(along, normal) (mA (1 - 4s + 3s²) - mB (2s - 3s²))
-    const double n = cross(way.along, dvec2(-curve.chord.y, curve.chord.x));
-    const double c = cross(way.along, curve.chord) + n * curve.slopeA;
+    const dvec2 chord = curve.b - curve.a;
+    const double n = cross(way.along, dvec2(-chord.y, chord.x));
+    const double c = cross(way.along, chord) + n * curve.slopeA;
     const double halfB = -n * (2 * curve.slopeA + curve.slopeB), a = 3 * n * (curve.slopeA + curve.slopeB);
     std::array<double, 4> parts{0, 0, 1, 1};
     const double discriminant = halfB * halfB - a * c;
@@ -70,7 +49,7 @@ std::array<double, 4> monotoneParts(const Curve& curve, const Way& way) {
 }
 
 /// Where the way is crossed between s0 and s1, whose sides differ.
-double crossing(const Curve& curve, const Way& way, double s0, double s1) {
+double crossing(const PlanarPiece& curve, const Way& way, double s0, double s1) {
     const bool first = way.side(curve.at(s0)) >= 0;
     // Doubles have no more than some 60 steps between them.
     for (int i = 0; i < 60; ++i) {
@@ -91,7 +70,7 @@ Found paintOnWay(std::span<const Piece> pieces, const Way& way, std::uint32_t co
     Found found{corner, 1};
     double nearest = 1;
     for (const Piece& piece : pieces) {
-        const Curve curve(piece);
+        const PlanarPiece curve = planarPiece(piece);
         const std::array<double, 4> parts = monotoneParts(curve, way);
         for (std::size_t i = 0; i < 3; ++i) {
             if (parts[i] == parts[i + 1] ||
@@ -103,7 +82,7 @@ Found paintOnWay(std::span<const Piece> pieces, const Way& way, std::uint32_t co
             nearest = place;
             const dvec2 direction = curve.derivative(s);
             const double sine = cross(direction, -way.along) /
-                                std::sqrt(dot(direction, direction) * dot(way.along, way.along));
+                                std::sqrt(glm::dot(direction, direction) * glm::dot(way.along, way.along));
             found.paint = sine > 0 ? piece.left : piece.right;
             // Ends, where several pieces meet, and grazed curves are the places to avoid.
             found.sureness = std::min(std::abs(sine), 4 * std::min(s, 1 - s));
@@ -128,29 +107,20 @@ std::uint32_t paintInLeaf(const AssetView& asset, const Leaf& leaf, dvec2 point)
     return best.paint;
 }
 
-/// `p`: in the square, from 0 to 1.
-std::uint32_t paintBelow(const AssetView& asset, Entry entry, dvec2 p) {
-    while (entry.kind() == Entry::Kind::Node) {
-        p *= 4.0;
-        const dvec2 child(std::min(std::floor(p.x), 3.0), std::min(std::floor(p.y), 3.0));
-        p -= child;
-        entry = asset.nodes[entry.payload()].children[std::size_t(child.y * 4 + child.x)];
-    }
-    return entry.kind() == Entry::Kind::Solid
-               ? entry.payload()
-               : paintInLeaf(asset, asset.leaves[entry.payload()], p * double(leafExtent));
-}
-
 }  // namespace
 
 std::uint32_t paintAt(const AssetView& asset, dvec2 point) {
-    if (asset.mode != Mode::Exact)
+    if (!isSumOfMaps(asset))
         throw std::invalid_argument("a compat asset has layers, not regions");
     for (const Command& command : asset.commands) {
         const Map& map = asset.maps[command.map];
         const dvec2 p = (point - dvec2(map.x, map.y)) / map.side;
-        if (p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1)
-            return paintBelow(asset, map.root, p);
+        if (!(p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1))
+            continue;
+        const auto [cell, entry, within] = squareAt(asset, map.root, p);
+        return entry.kind() == Entry::Kind::Solid
+                   ? entry.payload()
+                   : paintInLeaf(asset, asset.leaves[entry.payload()], within * double(leafExtent));
     }
     return 0;
 }

@@ -23,12 +23,10 @@ dvec2 onLattice(Cell cell, std::uint32_t x, std::uint32_t y) {
 }
 
 PlanarPiece planar(Cell cell, const Piece& piece) {
-    return {onLattice(cell, piece.a[0], piece.a[1]),
-            onLattice(cell, piece.b[0], piece.b[1]),
-            float(piece.slopeA) / slopeScale,
-            float(piece.slopeB) / slopeScale,
-            piece.left,
-            piece.right};
+    PlanarPiece planar = planarPiece(piece);
+    planar.a = onLattice(cell, piece.a[0], piece.a[1]);
+    planar.b = onLattice(cell, piece.b[0], piece.b[1]);
+    return planar;
 }
 
 // ---- Borders --------------------------------------------------------------------------------------
@@ -159,28 +157,6 @@ void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& piece
 
 // ---- Points ---------------------------------------------------------------------------------------
 
-double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
-
-struct Found {
-    Cell cell;
-    Entry entry;
-};
-
-Found find(const AssetView& asset, Entry entry, dvec2 point) {
-    Cell cell;
-    while (entry.kind() == Entry::Kind::Node) {
-        ++cell.level;
-        const double side = stepOf(cell) * leafExtent;
-        const auto child = [&](double p, std::uint32_t parent) {
-            return std::uint32_t(std::clamp(std::floor(p / side), parent * 4.0, parent * 4.0 + 3));
-        };
-        cell.x = child(point.x, cell.x);
-        cell.y = child(point.y, cell.y);
-        entry = asset.nodes[entry.payload()].children[(cell.y % 4) * 4 + cell.x % 4];
-    }
-    return {cell, entry};
-}
-
 /// On the leaf's border of least x.
 std::uint32_t paintOnLeft(Cell cell, const Leaf& leaf, std::span<const Piece> own, double y) {
     ChangesBySide sides;
@@ -216,6 +192,25 @@ std::uint32_t paintBehind(std::uint32_t paint, std::span<const Change> changes) 
     return paint;
 }
 
+PlanarPiece planarPiece(const Piece& piece) {
+    return {dvec2(piece.a[0], piece.a[1]),
+            dvec2(piece.b[0], piece.b[1]),
+            piece.slopeA / double(slopeScale),
+            piece.slopeB / double(slopeScale),
+            piece.left,
+            piece.right};
+}
+
+dvec2 PlanarPiece::at(double s) const {
+    const dvec2 d = b - a;
+    return s == 1 ? b : a + s * d + height(s) * dvec2(-d.y, d.x);
+}
+
+dvec2 PlanarPiece::derivative(double s) const {
+    const dvec2 d = b - a;
+    return d + slope(s) * dvec2(-d.y, d.x);
+}
+
 Sides PlanarPiece::sidesOf(dvec2 point) const {
     const dvec2 d = b - a, q = point - a;
     const double length2 = glm::dot(d, d), s = glm::dot(q, d) / length2, t = cross(d, q) / length2;
@@ -225,7 +220,7 @@ Sides PlanarPiece::sidesOf(dvec2 point) const {
 
 double PlanarPiece::bulge() const {
     // max of s (1 - s)² over [0, 1] is 4/27.
-    return 4.0 / 27 * (std::abs(double(slopeA)) + std::abs(double(slopeB))) * glm::length(b - a);
+    return 4.0 / 27 * (std::abs(slopeA) + std::abs(slopeB)) * glm::length(b - a);
 }
 
 std::vector<PlanarPiece> planarPieces(const AssetView& asset, const Map& map) {
@@ -261,7 +256,7 @@ std::uint32_t paintAt(const AssetView& asset, const Map& map, dvec2 point,
     const double extent = double(latticeExtent);
     if (!(point.x >= 0 && point.y >= 0 && point.x <= extent && point.y <= extent))
         return 0;
-    const auto [cell, entry] = find(asset, map.root, point);
+    const auto [cell, entry, within] = squareAt(asset, map.root, point / extent);
     std::uint32_t paint = entry.payload();
     std::vector<Change> changes;
     if (entry.kind() == Entry::Kind::Leaf) {

@@ -45,7 +45,7 @@ struct Boundary {
 
     explicit Boundary(const PlanarPiece& p) : piece(p), bulge(p.bulge()) {
         // |t''| is at most 4 |mA| + 2 |mB| at one end, the reverse at the other.
-        const double a = std::abs(double(p.slopeA)), b = std::abs(double(p.slopeB));
+        const double a = std::abs(p.slopeA), b = std::abs(p.slopeB);
         bend = (4 * std::max(a, b) + 2 * std::min(a, b)) * glm::length(p.b - p.a);
     }
 };
@@ -446,12 +446,6 @@ void Scanner::Impl::addPrograms(const View& view, const MaterialFunction& materi
                 }
             });
     }
-}
-
-bool isSumOfMaps(const AssetView& asset) {
-    return asset.mode == Mode::Exact && std::ranges::all_of(asset.commands, [](const Command& command) {
-               return command.kind == Command::Kind::DrawMap;
-           });
 }
 
 Scanner::Scanner(const AssetView& asset) : impl_(std::make_unique<Impl>()) {

@@ -9,7 +9,6 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
-#include "asset/scan.hpp"
 #include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/destination.hpp"
 #include "backend_gl/src/placement.hpp"

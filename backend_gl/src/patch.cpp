@@ -15,6 +15,7 @@ namespace vtm::gl {
 namespace {
 
 using asset::Change;
+using asset::cross;
 using asset::latticeExtent;
 using asset::Sides;
 using asset::Texel;
@@ -35,8 +36,6 @@ constexpr double fewestParts = 8;
 /// in the box on the tangent, and what it misses there is about the square of that.
 constexpr double flatEnough = 0.006;
 
-double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
-
 /// Squared distance from a point to a chord.
 double distance2(dvec2 a, dvec2 d, double inverseLength2, dvec2 point) {
     const dvec2 q = point - a;
@@ -44,25 +43,15 @@ double distance2(dvec2 a, dvec2 d, double inverseLength2, dvec2 point) {
     return glm::dot(gap, gap);
 }
 
-dvec2 curvePoint(const PlanarPiece& p, double s) {
-    const dvec2 d = p.b - p.a;
-    return p.a + s * d + p.height(s) * dvec2(-d.y, d.x);
-}
-
-/// t'(s).
-double slopeAt(const PlanarPiece& p, double s) {
-    return double(p.slopeA) * (1 - s) * (1 - 3 * s) - double(p.slopeB) * s * (2 - 3 * s);
-}
-
 /// The part [s0, s1], by its ends and tangents.
 PlanarPiece partOf(const PlanarPiece& p, double s0, double s1) {
     PlanarPiece part = p;
-    part.a = s0 == 0 ? p.a : curvePoint(p, s0);
-    part.b = s1 == 1 ? p.b : curvePoint(p, s1);
-    const dvec2 d = p.b - p.a, chord = part.b - part.a;
+    part.a = p.at(s0);
+    part.b = p.at(s1);
+    const dvec2 chord = part.b - part.a;
     const auto slope = [&](double s) {
-        const dvec2 tangent = d + slopeAt(p, s) * dvec2(-d.y, d.x);
-        return float(cross(chord, tangent) / glm::dot(chord, tangent));
+        const dvec2 tangent = p.derivative(s);
+        return cross(chord, tangent) / glm::dot(chord, tangent);
     };
     part.slopeA = slope(s0);
     part.slopeB = slope(s1);
@@ -77,7 +66,7 @@ std::uint32_t steps(double coordinate) {
 double rounded(double coordinate) {
     return std::ldexp(std::nearbyint(std::ldexp(coordinate, patchStepLog2)), -int(patchStepLog2));
 }
-int slopeSteps(float slope) { return int(std::lround(glm::clamp(slope, -1.0f, 1.0f) * patchSlopeScale)); }
+int slopeSteps(double slope) { return int(std::lround(glm::clamp(slope, -1.0, 1.0) * patchSlopeScale)); }
 
 /// Pieces as the shader will know them: in patch coordinates, rounded.
 class LocalPieces {
@@ -110,8 +99,7 @@ private:
 
     /// A length over which the piece bends away from its tangents by no more than the shader may ignore.
     double longestBend(const PlanarPiece& piece, double length) const {
-        const double turn = std::abs(double(piece.slopeA) - double(piece.slopeB)) +
-                            std::abs(double(piece.slopeA) + double(piece.slopeB));
+        const double turn = std::abs(piece.slopeA - piece.slopeB) + std::abs(piece.slopeA + piece.slopeB);
         const double pixel = margin_ * std::numbers::sqrt2, curvature = turn / length;
         const double most = flatEnough * pixel * 8 / curvature;
         // Within a box of one pixel nothing longer matters.
@@ -126,8 +114,8 @@ private:
         // Both pieces at a point round it alike, so that the map stays closed.
         piece.a = {rounded(piece.a.x), rounded(piece.a.y)};
         piece.b = {rounded(piece.b.x), rounded(piece.b.y)};
-        piece.slopeA = float(slopeSteps(piece.slopeA)) / patchSlopeScale;
-        piece.slopeB = float(slopeSteps(piece.slopeB)) / patchSlopeScale;
+        piece.slopeA = slopeSteps(piece.slopeA) / patchSlopeScale;
+        piece.slopeB = slopeSteps(piece.slopeB) / patchSlopeScale;
         if (piece.a != piece.b)
             pieces_.push_back(piece);
     }
@@ -159,7 +147,7 @@ Texel geometryTexel(const PlanarPiece& piece) {
     Packer packer;
     for (const double v : {piece.a.x, piece.a.y, piece.b.x, piece.b.y})
         packer.add(steps(v), patchCoordinateBits);
-    for (const float slope : {piece.slopeA, piece.slopeB})
+    for (const double slope : {piece.slopeA, piece.slopeB})
         packer.add(std::uint32_t(slopeSteps(slope)), 12);
     packer.add(piece.left, 16);
     packer.add(piece.right, 16);

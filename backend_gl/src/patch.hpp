@@ -39,7 +39,7 @@ inline constexpr unsigned referenceLog2 = 2;
 /// Coordinates of end points: steps of 2^-patchStepLog2 of a patch from -1, in 18 bits.
 inline constexpr unsigned patchStepLog2 = 16, patchCoordinateBits = 18;
 /// Slopes have 12 bits; this stands for 1.
-inline constexpr float patchSlopeScale = 2047;
+inline constexpr double patchSlopeScale = 2047;
 /// Sides of the reference point that go with each piece.
 inline constexpr std::uint32_t leftOfChordBit = 1, leftOfCurveBit = 2;
 /// Bits of the first word of a texel of references: more texels follow; references are whole words.
