@@ -1,0 +1,45 @@
+/// \file
+/// Colours as OpenVG counts them (specification section 3.4).
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace vtm::openvg {
+
+/// How the first three numbers of a colour are meant. A luminance colour carries its one number in all three.
+struct ColorSpace {
+    bool linear = false;         ///< linear light, not sRGB-encoded
+    bool premultiplied = false;  ///< multiplied by alpha
+    bool luminance = false;
+
+    friend bool operator==(const ColorSpace&, const ColorSpace&) = default;
+};
+
+inline constexpr ColorSpace sRGBA{false, false, false}, sRGBA_PRE{false, true, false};
+
+/// Red, green, blue, alpha in [0, 1] unless said otherwise.
+using Color = glm::vec4;
+
+/// γ and its inverse of section 3.4.2, on [0, 1].
+float encodeGamma(float linear);
+float decodeGamma(float encoded);
+
+/// Divides alpha out: colours are clamped to [0, alpha] first, and 0 where alpha is.
+inline Color unpremultiplied(Color c) {
+    if (!(c.a > 0))
+        return Color(0, 0, 0, 0);
+    return Color(glm::clamp(glm::vec3(c), 0.0f, c.a) / c.a, c.a);
+}
+
+inline Color premultiplied(Color c) { return Color(glm::vec3(c) * c.a, c.a); }
+
+/// A colour without premultiplied alpha, from one space to another (table 2); only `linear` and `luminance`
+/// count.
+Color converted(Color color, ColorSpace from, ColorSpace to);
+
+/// The same with alpha taken out before and put back after, as both spaces want it (section 3.4.4).
+Color fullyConverted(Color color, ColorSpace from, ColorSpace to);
+
+}  // namespace vtm::openvg

@@ -1,0 +1,65 @@
+/// \file
+/// The drawing context, and how every function of the API gets to it (specification section 4).
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <utility>
+
+#include <vtm/vg.h>
+
+#include "api/openvg/src/error.hpp"
+#include "api/openvg/src/handles.hpp"
+#include "api/openvg/src/state.hpp"
+#include "api/openvg/src/surface.hpp"
+
+struct VtmContext {
+    vtm::openvg::State state;
+    std::shared_ptr<vtm::openvg::Handles> objects;  ///< shared by contexts that share
+    VtmSurface* surface = nullptr;                  ///< not null while current
+    VGErrorCode error = VG_NO_ERROR;                ///< the oldest not asked for
+    bool isDestroyed = false;                       ///< goes when it is no longer current
+};
+
+namespace vtm::openvg {
+
+using Context = ::VtmContext;
+
+/// Of this thread; null if there is none.
+Context* currentContext();
+
+inline void setError(Context& context, VGErrorCode code) {
+    if (context.error == VG_NO_ERROR)
+        context.error = code;
+}
+
+/// Runs a function of the API: gives its result, or `otherwise` if there is no context or an error, which is
+/// kept.
+template <class Result, class Body>
+Result callOr(Result otherwise, Body&& body) noexcept {
+    Context* const context = currentContext();
+    if (!context)
+        return otherwise;
+    try {
+        const std::lock_guard lock(context->objects->mutex);
+        return std::forward<Body>(body)(*context);
+    } catch (const Error& error) {
+        setError(*context, error.code);
+    } catch (const std::exception&) {
+        // What is left are allocations, and limits of ours that a call went beyond.
+        setError(*context, VG_OUT_OF_MEMORY_ERROR);
+    }
+    return otherwise;
+}
+
+template <class Body>
+void call(Body&& body) noexcept {
+    callOr(0, [&](Context& context) {
+        std::forward<Body>(body)(context);
+        return 0;
+    });
+}
+
+}  // namespace vtm::openvg

@@ -1,0 +1,97 @@
+#include "asset/coverage_scan.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "asset/src/row_sums.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+/// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
+constexpr float leastShare = 1e-5f;
+
+/// What one mask needs and the next uses again.
+struct Scratch {
+    std::vector<Chord> chords;
+    Bands bands;
+    Accumulator<float> coverage;
+    std::vector<CoverageRun> runs;
+    bool isWhole = true;  ///< false while sums may be half done
+};
+
+Scratch& scratchOfThread() {
+    thread_local Scratch scratch;
+    if (!scratch.isWhole)
+        scratch = {};
+    return scratch;
+}
+
+}  // namespace
+
+struct CoverageScanner::Drawn {
+    Map map;
+    std::vector<Boundary> boundaries;  ///< with paint 1 on one side and 0 on the other
+};
+
+CoverageScanner::CoverageScanner(const AssetView& mask) {
+    if (!isSumOfMaps(mask))
+        throw std::invalid_argument("only pictures of disjoint regions can be summed along rows");
+    for (const Command& command : mask.commands) {
+        Drawn drawn{mask.maps[command.map], {}};
+        for (PlanarPiece& piece : planarPieces(mask, drawn.map)) {
+            if ((piece.left == 0) == (piece.right == 0))
+                continue;
+            piece.left = piece.left != 0;
+            piece.right = piece.right != 0;
+            drawn.boundaries.emplace_back(piece);
+        }
+        drawn_.push_back(std::move(drawn));
+    }
+}
+
+CoverageScanner::~CoverageScanner() = default;
+CoverageScanner::CoverageScanner(CoverageScanner&&) noexcept = default;
+CoverageScanner& CoverageScanner::operator=(CoverageScanner&&) noexcept = default;
+
+void CoverageScanner::scan(const View& view,
+                           const std::function<void(int, std::span<const CoverageRun>)>& row) const {
+    validate(view);
+    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    if (!(std::abs(determinant) > std::numeric_limits<double>::min()))
+        return;
+    Scratch& scratch = scratchOfThread();
+    scratch.isWhole = false;
+    scratch.chords.clear();
+    for (const Drawn& drawn : drawn_) {
+        Chords chords(drawn.map, view, scratch.chords);
+        for (const Boundary& boundary : drawn.boundaries)
+            chords.add(boundary);
+    }
+    scratch.bands.sort(scratch.chords, view.height);
+    scratch.coverage.resize(view.width);
+    for (int band = 0; band * bandRows < view.height; ++band) {
+        const std::span<const std::uint32_t> chords = scratch.bands.of(band);
+        if (chords.empty())
+            continue;
+        const int top = band * bandRows, rows = std::min(bandRows, view.height - top);
+        for (const std::uint32_t i : chords) {
+            const Chord& c = scratch.chords[i];
+            scratch.coverage.add(c, float(top), rows, float(c.left) - float(c.right));
+        }
+        for (int y = 0; y < rows; ++y) {
+            scratch.runs.clear();
+            scratch.coverage.resolve(std::size_t(y), [&](int first, int end, float share) {
+                if (share > leastShare)
+                    scratch.runs.push_back({first, end, std::min(share, 1.0f)});
+            });
+            if (!scratch.runs.empty())
+                row(top + y, scratch.runs);
+        }
+    }
+    scratch.isWhole = true;
+}
+
+}  // namespace vtm::asset
