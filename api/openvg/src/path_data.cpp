@@ -115,6 +115,12 @@ void PathData::append(const PathData& other) {
         commands_.push_back(other.commands_[i]);
 }
 
+void PathData::append(const std::vector<VGubyte>& commands, const std::vector<double>& coordinates) {
+    commands_.insert(commands_.end(), commands.begin(), commands.end());
+    for (const double coordinate : coordinates)
+        put(coordinate);
+}
+
 void PathData::append(const std::vector<Segment>& segments) {
     for (const Segment& s : segments) {
         commands_.push_back(VGubyte(s.type | VG_ABSOLUTE));

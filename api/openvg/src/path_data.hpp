@@ -56,6 +56,8 @@ public:
     void modify(int first, int count, const void* data);
     /// Appends `other` as it is, its numbers put into this path's format.
     void append(const PathData& other);
+    /// Appends commands with scaled coordinates, as many as they take.
+    void append(const std::vector<VGubyte>& commands, const std::vector<double>& coordinates);
     /// Appends segments; relative commands and smooth ones are no longer so.
     void append(const std::vector<Segment>& segments);
     /// vgTransformPath: relative commands stay relative, lines along an axis become lines, arcs stay arcs.

@@ -1,0 +1,32 @@
+/// \file
+/// Colours along a gradient (specification section 9.3.3).
+#pragma once
+
+#include <vector>
+
+#include <VG/openvg.h>
+
+#include "api/openvg/src/color.hpp"
+#include "api/openvg/src/objects.hpp"
+
+namespace vtm::openvg {
+
+class ColorRamp {
+public:
+    explicit ColorRamp(const Paint& paint);
+
+    /// At a gradient's value, any number: premultiplied sRGBA.
+    Color at(double offset) const;
+
+private:
+    struct Stop {
+        float offset;
+        Color color;
+    };
+
+    std::vector<Stop> stops_;  ///< from offset 0 to 1, at least two
+    VGColorRampSpreadMode spread_;
+    bool premultiplied_;  ///< colours of stops are, and so is what lies between
+};
+
+}  // namespace vtm::openvg

@@ -1,0 +1,84 @@
+/// \file
+/// Coverage and colours to pixels: stages 5 and 8 of the pipeline (specification sections 2.5, 2.8 and 13).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "api/openvg/src/blend.hpp"
+#include "api/openvg/src/context.hpp"
+#include "api/openvg/src/path_mask.hpp"
+#include "api/openvg/src/pixel_source.hpp"
+
+namespace vtm::openvg {
+
+/// The part of a surface that drawing may change: its bounds, cut by the scissoring rectangles (section 7.1).
+class Clip {
+public:
+    explicit Clip(const Context& context);
+
+    /// A box around it.
+    const Rectangle& bounds() const { return bounds_; }
+    /// Calls part(first, end) for the columns from `first` to `end` of a row that are in it, each once.
+    template <class Part>
+    void parts(int y, int first, int end, Part&& part) const;
+
+private:
+    const std::vector<std::pair<int, int>>& columns(int y) const;
+
+    Rectangle bounds_;
+    bool isBox_ = true;
+    std::vector<Rectangle> rectangles_;
+    mutable int row_ = -1;
+    mutable std::vector<std::pair<int, int>> columns_;  ///< of row_, disjoint
+};
+
+/// For one drawing call with the context's current state; takes covered rows.
+class Compositor {
+public:
+    Compositor(Context& context, const PixelSource& source);
+    /// VG_DRAW_IMAGE_STENCIL: the paint through the image (section 10.8).
+    Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil);
+
+    const Clip& clip() const { return clip_; }
+    void operator()(int y, std::span<const CoverageRun> runs);
+
+private:
+    void drawPart(int y, int first, int end, float share);
+    /// The fast path: one colour over eight-bit pixels that need no division by alpha. False if it cannot.
+    bool drawConstant(int y, int first, int end, float share);
+    /// Colours of the source as they are blended: transformed, in the surface's space, premultiplied.
+    void prepare(std::span<Color> colors) const;
+    Color prepared(Color color) const;
+
+    Surface& surface_;
+    Clip clip_;
+    const PixelSource& source_;
+    const PixelSource* stencil_ = nullptr;
+    Blend blend_;
+    bool isOver_;
+    const MaskValues* mask_ = nullptr;  ///< null: no masking
+    bool transforms_;
+    Color scale_, bias_;
+    ColorSpace space_;  ///< the surface's
+    bool isAlphaOnly_;
+    bool hasBytes_;                  ///< red, green, blue, alpha bytes, or padding for alpha
+    std::optional<Color> constant_;  ///< prepared
+};
+
+template <class Part>
+void Clip::parts(int y, int first, int end, Part&& part) const {
+    if (y < bounds_.y0 || y >= bounds_.y1)
+        return;
+    first = std::max(first, bounds_.x0);
+    end = std::min(end, bounds_.x1);
+    if (first >= end)
+        return;
+    if (isBox_)
+        return part(first, end);
+    for (const auto& [a, b] : columns(y))
+        if (std::max(first, a) < std::min(end, b))
+            part(std::max(first, a), std::min(end, b));
+}
+
+}  // namespace vtm::openvg

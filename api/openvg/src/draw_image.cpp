@@ -1,0 +1,111 @@
+// Section 10.8: drawing images.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "api/openvg/src/compositor.hpp"
+#include "api/openvg/src/images.hpp"
+
+namespace vtm::openvg {
+
+namespace {
+
+bool isProjective(const glm::mat3& m) { return m[0].z != 0 || m[1].z != 0 || m[2].z != 1; }
+
+/// The rows of a rectangle along the axes: shares of columns times shares of rows.
+void coverRectangle(glm::dvec2 min, glm::dvec2 max, const Rectangle& clip, const RowSink& row) {
+    const auto share = [](double low, double high, int i) {
+        return std::min(high, i + 1.0) - std::max(low, double(i));
+    };
+    const auto from = [](double v, int least) { return int(std::max(std::floor(v), double(least))); };
+    const auto to = [](double v, int most) { return int(std::min(std::ceil(v), double(most))); };
+    const int x0 = from(min.x, clip.x0), x1 = to(max.x, clip.x1), y0 = from(min.y, clip.y0),
+              y1 = to(max.y, clip.y1);
+    std::vector<CoverageRun> runs;
+    for (int y = y0; y < y1; ++y) {
+        const double high = share(min.y, max.y, y);
+        runs.clear();
+        const auto add = [&](int first, int end, double width) {
+            if (first < end && width * high > 0)
+                runs.push_back({first, end, float(width * high)});
+        };
+        // Only the first and the last column may be covered in part.
+        if (x1 - x0 < 3) {
+            for (int x = x0; x < x1; ++x)
+                add(x, x + 1, share(min.x, max.x, x));
+        } else {
+            add(x0, x0 + 1, share(min.x, max.x, x0));
+            add(x0 + 1, x1 - 1, 1);
+            add(x1 - 1, x1, share(min.x, max.x, x1 - 1));
+        }
+        if (!runs.empty())
+            row(y, runs);
+    }
+}
+
+void coverQuad(const std::array<glm::dvec2, 4>& corners, bool antialiased, const Rectangle& clip,
+               const RowSink& row) {
+    const bool isUpright = (corners[0].x == corners[3].x && corners[1].x == corners[2].x &&
+                            corners[0].y == corners[1].y && corners[2].y == corners[3].y) ||
+                           (corners[0].y == corners[3].y && corners[1].y == corners[2].y &&
+                            corners[0].x == corners[1].x && corners[2].x == corners[3].x);
+    if (antialiased && isUpright)
+        return coverRectangle(glm::min(corners[0], corners[2]), glm::max(corners[0], corners[2]), clip, row);
+    PathMask mask(scene::polygon({corners.begin(), corners.end()}), scene::FillRule::NonZero);
+    if (antialiased)
+        mask.scan(glm::mat3(1), clip, row);
+    else
+        mask.scanCenters(glm::mat3(1), clip, row);
+}
+
+}  // namespace
+
+void drawImage(Context& context, const Image& image, const glm::mat3& toSurface,
+               const glm::mat3& userToSurface) {
+    const State& state = context.state;
+    const double w = image.width(), h = image.height();
+    std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(w, 0), glm::dvec2(w, h), glm::dvec2(0, h)};
+    for (glm::dvec2& corner : corners) {
+        const glm::dvec3 p = glm::dmat3(toSurface) * glm::dvec3(corner, 1);
+        if (!(p.z > 0))
+            return;
+        corner = glm::dvec2(p) / p.z;
+        if (!(std::isfinite(corner.x) && std::isfinite(corner.y)))
+            return;
+    }
+    std::unique_ptr<PixelSource> pixels = imageSource(image, toSurface, state);
+    if (!pixels)
+        return;
+    const bool antialiased = state.renderingQuality != VG_RENDERING_QUALITY_NONANTIALIASED;
+    const auto draw = [&](Compositor& compositor) {
+        coverQuad(corners, antialiased, compositor.clip().bounds(), std::ref(compositor));
+    };
+    const VGint mode = isProjective(toSurface) ? VGint(VG_DRAW_IMAGE_NORMAL) : state.imageMode;
+    if (mode == VG_DRAW_IMAGE_NORMAL) {
+        Compositor compositor(context, *pixels);
+        return draw(compositor);
+    }
+    std::unique_ptr<PixelSource> paint = paintSource(
+        currentPaint(state, VG_FILL_PATH), userToSurface * state.matrix(VG_MATRIX_FILL_PAINT_TO_USER), state);
+    if (!paint)
+        return;
+    if (mode == VG_DRAW_IMAGE_MULTIPLY) {
+        const std::unique_ptr<PixelSource> product = productSource(std::move(pixels), std::move(paint));
+        Compositor compositor(context, *product);
+        return draw(compositor);
+    }
+    Compositor compositor(context, *paint, *pixels);
+    draw(compositor);
+}
+
+}  // namespace vtm::openvg
+
+using namespace vtm::openvg;
+
+void vgDrawImage(VGImage handle) {
+    call([&](Context& context) {
+        const glm::mat3& toSurface = context.state.matrix(VG_MATRIX_IMAGE_USER_TO_SURFACE);
+        drawImage(context, *freeImage(context, handle), toSurface, toSurface);
+    });
+}

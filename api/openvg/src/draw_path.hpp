@@ -1,0 +1,23 @@
+/// \file
+/// Filling and stroking (specification section 8.8).
+#pragma once
+
+#include "api/openvg/src/context.hpp"
+#include "api/openvg/src/path_mask.hpp"
+
+namespace vtm::openvg {
+
+/// Throws for what is no bitwise OR of VGPaintMode values.
+void requirePaintModes(VGbitfield modes);
+
+/// Gives the pixels of `clip` that a path covers, filled or stroked as the context's state says: exactly, or
+/// by centres where antialiasing is off. Nothing for a stroke without width.
+void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::mat3& toSurface,
+               const Rectangle& clip, const RowSink& row);
+
+/// Draws it with the current paints, whose user space is mapped by `userToSurface`: a glyph's path is moved
+/// in that.
+void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface,
+              const glm::mat3& userToSurface);
+
+}  // namespace vtm::openvg

@@ -1,0 +1,24 @@
+/// \file
+/// Images as arguments (specification section 10).
+#pragma once
+
+#include <memory>
+
+#include "api/openvg/src/context.hpp"
+
+namespace vtm::openvg {
+
+/// Throws VG_BAD_HANDLE_ERROR, or VG_IMAGE_IN_USE_ERROR for an image that is drawn into.
+std::shared_ptr<Image> freeImage(const Context& context, VGImage handle);
+
+/// Converts a word from one format to another (section 3.4.4).
+std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const PixelFormat& to);
+
+/// A premultiplied clear colour and the like as a word of a format.
+std::uint32_t wordOf(const std::array<VGfloat, 4>& sRGBAColor, const PixelFormat& format);
+
+/// An image drawn by the context's state (section 10.8); `userToSurface` as for drawPath().
+void drawImage(Context& context, const Image& image, const glm::mat3& toSurface,
+               const glm::mat3& userToSurface);
+
+}  // namespace vtm::openvg

@@ -1,0 +1,34 @@
+// Sections 14 and 15.3: hardware queries and strings.
+
+#include "api/openvg/src/context.hpp"
+
+using namespace vtm::openvg;
+
+VGHardwareQueryResult vgHardwareQuery(VGHardwareQueryType key, VGint setting) {
+    return callOr(VG_HARDWARE_UNACCELERATED, [&](Context&) {
+        require(key == VG_IMAGE_FORMAT_QUERY || key == VG_PATH_DATATYPE_QUERY);
+        if (key == VG_IMAGE_FORMAT_QUERY)
+            require(imageFormat(setting).has_value());
+        else
+            require(setting >= VG_PATH_DATATYPE_S_8 && setting <= VG_PATH_DATATYPE_F);
+        return VG_HARDWARE_UNACCELERATED;
+    });
+}
+
+const VGubyte* vgGetString(VGStringID name) {
+    return callOr(static_cast<const VGubyte*>(nullptr), [&](Context&) {
+        const auto text = [](const char* s) { return reinterpret_cast<const VGubyte*>(s); };
+        switch (name) {
+            case VG_VENDOR:
+                return text("VTM");
+            case VG_RENDERER:
+                return text("VTM vector texture maps");
+            case VG_VERSION:
+                return text("1.1");
+            case VG_EXTENSIONS:
+                return text("");
+            default:
+                return static_cast<const VGubyte*>(nullptr);
+        }
+    });
+}
