@@ -15,7 +15,9 @@ std::shared_ptr<Image> freeImage(const Context& context, VGImage handle) {
 }
 
 std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const PixelFormat& to) {
-    return from == to ? word : to.encode(fullyConverted(from.decode(word), from.space, to.space));
+    // Premultiplied colours above their alpha are clamped, even on the way into the same format.
+    const bool isSame = from == to && !from.space.premultiplied;
+    return isSame ? word : to.encode(fullyConverted(from.decode(word), from.space, to.space));
 }
 
 std::uint32_t wordOf(const std::array<VGfloat, 4>& c, const PixelFormat& format) {
@@ -42,7 +44,8 @@ VGImage vgCreateImage(VGImageFormat format, VGint width, VGint height, VGbitfiel
         const std::int64_t pixels = std::int64_t(width) * height;
         require(pixels <= maxImagePixels &&
                 (std::int64_t(width) * pixelFormat->bits + 7) / 8 * height <= maxImageBytes);
-        require((allowedQuality & ~VGbitfield(VG_IMAGE_QUALITY_NONANTIALIASED | VG_IMAGE_QUALITY_FASTER |
+        require(allowedQuality != 0 &&
+                (allowedQuality & ~VGbitfield(VG_IMAGE_QUALITY_NONANTIALIASED | VG_IMAGE_QUALITY_FASTER |
                                               VG_IMAGE_QUALITY_BETTER)) == 0);
         auto image =
             std::make_shared<Image>(std::make_shared<ImageStorage>(Pixels(width, height, *pixelFormat)),

@@ -154,10 +154,12 @@ PointOnPath pointAlong(std::span<const Segment> segments, std::size_t first, std
                 return *tangent;
         return Point(1, 0);
     };
-    // A move at the start is where the path starts.
-    const Point start = part.front().type == VG_MOVE_TO ? part.front().to : part.front().from;
+    // Where the path starts to draw; moves alone have no point.
+    const auto start = std::ranges::find_if(part, [](const Segment& s) { return s.type != VG_MOVE_TO; });
+    if (start == part.end())
+        return {};
     if (!(distance > 0))
-        return {start, tangentAt(0)};
+        return {start->from, tangentAt(0)};
     double done = 0;
     std::size_t lastDrawn = part.size();
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -176,7 +178,7 @@ PointOnPath pointAlong(std::span<const Segment> segments, std::size_t first, std
     }
     // The end of what is seen: moves after the last line draw nothing.
     if (lastDrawn == part.size())
-        return {part.back().to, tangentAt(part.size())};
+        return {start->to, tangentAt(part.size())};
     return {part[lastDrawn].to, tangentAt(lastDrawn + 1)};
 }
 
