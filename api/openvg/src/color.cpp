@@ -26,7 +26,7 @@ Color converted(Color color, ColorSpace from, ColorSpace to) {
         linear = true;
     }
     if (toGrey)
-        color = Color(glm::vec3(0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b), color.a);
+        color = Color(glm::vec3(luminance(glm::vec3(color))), color.a);
     return linear && !to.linear ? encoded(color) : color;
 }
 

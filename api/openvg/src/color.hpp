@@ -26,6 +26,9 @@ using Color = glm::vec4;
 float encodeGamma(float linear);
 float decodeGamma(float encoded);
 
+/// Formula (3): that of linear light, of red, green and blue.
+inline float luminance(glm::vec3 c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
 /// Divides alpha out: colours are clamped to [0, alpha] first, and 0 where alpha is.
 inline Color unpremultiplied(Color c) {
     if (!(c.a > 0))

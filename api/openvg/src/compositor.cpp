@@ -83,13 +83,15 @@ Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSo
 }
 
 Color Compositor::prepared(Color color) const {
-    const ColorSpace from = source_.space();
+    ColorSpace from = source_.space();
     const bool isSame = from.linear == space_.linear && from.luminance == space_.luminance;
     if (isSame && !transforms_)
         return color;
     color = unpremultiplied(color);
-    if (transforms_)
+    if (transforms_) {
         color = glm::clamp(color * scale_ + bias_, 0.0f, 1.0f);
+        from.luminance = false;  // what was grey may no longer be
+    }
     // Alpha-only surfaces keep no colour to convert.
     if (!isAlphaOnly_)
         color = converted(color, from, space_);
@@ -166,9 +168,10 @@ void Compositor::drawPart(int y, int first, int end, float share) {
             Color result;
             if (stencil_) {
                 Color s = stencils[i];
-                if (space_.luminance && !stencil_->space().luminance)
-                    s = premultiplied(converted(unpremultiplied(s), stencil_->space(),
-                                                {stencil_->space().linear, false, true}));
+                // A grey surface has one channel to let through: formula (3), of the stencil's numbers as
+                // they are.
+                if (space_.luminance)
+                    s = Color(glm::vec3(luminance(glm::vec3(s))), s.a);
                 // The stencil is premultiplied: each channel is image colour times image alpha.
                 const Color paint = unpremultiplied(part[i]);
                 const Color alphas = s * part[i].a;
