@@ -59,6 +59,7 @@ Compositor::Compositor(Context& context, const PixelSource& source)
       source_(source),
       blend_(blendOf(context.state.blendMode)),
       isOver_(context.state.blendMode == VG_BLEND_SRC_OVER),
+      mixesLight_(!surface_.pixels().format().space.linear),
       transforms_(context.state.colorTransform),
       space_(surface_.pixels().format().space) {
     const State& state = context.state;
@@ -70,6 +71,7 @@ Compositor::Compositor(Context& context, const PixelSource& source)
     }
     const PixelFormat& format = surface_.pixels().format();
     isAlphaOnly_ = format.red.bits == 0 && format.grey.bits == 0;
+    mixesLight_ = mixesLight_ && !isAlphaOnly_;
     hasBytes_ = std::endian::native == std::endian::little && format.bits == 32 &&
                 format.red == Channel{8, 0} && format.green == Channel{8, 8} &&
                 format.blue == Channel{8, 16} && (format.alpha.bits == 0 || format.alpha == Channel{8, 24});
@@ -112,9 +114,20 @@ void Compositor::operator()(int y, std::span<const CoverageRun> runs) {
         clip_.parts(y, run.first, run.end, [&](int first, int end) { drawPart(y, first, end, run.share); });
 }
 
+Color Compositor::mixed(Color before, Color after, float coverage) const {
+    if (coverage == 1)
+        return after;
+    if (mixesLight_) {
+        const auto linear = [](Color c) { return premultiplied(fastDecoded(unpremultiplied(c))); };
+        const Color a = linear(before), b = linear(after);
+        return premultiplied(fastEncoded(unpremultiplied(a + coverage * (b - a))));
+    }
+    return before + coverage * (after - before);
+}
+
 bool Compositor::drawConstant(int y, int first, int end, float share) {
     const PixelFormat& format = surface_.pixels().format();
-    if (!constant_ || !isOver_ || mask_ || stencil_ || !hasBytes_)
+    if (!constant_ || !isOver_ || mask_ || stencil_ || !hasBytes_ || (mixesLight_ && share != 1))
         return false;
     const Color added = *constant_ * share;
     const float kept = 1 - added.a;
@@ -180,7 +193,7 @@ void Compositor::drawPart(int y, int first, int end, float share) {
             } else {
                 result = blend_(part[i], d);
             }
-            result = d + coverage * (result - d);
+            result = mixed(d, result, coverage);
             pixels.setWord(x, y, format.encode(space_.premultiplied ? result : unpremultiplied(result)));
         }
     }

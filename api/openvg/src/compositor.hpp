@@ -45,6 +45,9 @@ public:
 
 private:
     void drawPart(int y, int first, int end, float share);
+    /// What was there, and what would be if the drawing covered all of the pixel, mixed by coverage
+    /// (section 2.8).
+    Color mixed(Color before, Color after, float coverage) const;
     /// The fast path: one colour over eight-bit pixels that need no division by alpha. False if it cannot.
     bool drawConstant(int y, int first, int end, float share);
     /// Colours of the source as they are blended: transformed, in the surface's space, premultiplied.
@@ -57,6 +60,7 @@ private:
     const PixelSource* stencil_ = nullptr;
     Blend blend_;
     bool isOver_;
+    bool mixesLight_;                   ///< edges are mixed in linear light, though the surface is not linear
     const MaskValues* mask_ = nullptr;  ///< null: no masking
     bool transforms_;
     Color scale_, bias_;
