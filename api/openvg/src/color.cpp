@@ -47,6 +47,20 @@ Color fastDecoded(Color c) {
     return {table(c.r), table(c.g), table(c.b), c.a};
 }
 
+ByteGamma::ByteGamma() {
+    for (std::size_t i = 0; i < decodedBytes.size(); ++i)
+        decodedBytes[i] = decodeGamma(float(i) / 255);
+    for (std::size_t i = 0; i < decoded.size(); ++i)
+        decoded[i] = decodeGamma(float(i) / 4096);
+    for (std::size_t i = 0; i < encoded.size(); ++i)
+        encoded[i] = std::uint8_t(std::min(encodeGamma(float(i) / 16384), 1.0f) * 255 + 0.5f);
+}
+
+const ByteGamma& byteGamma() {
+    static const ByteGamma tables;
+    return tables;
+}
+
 Color converted(Color color, ColorSpace from, ColorSpace to) {
     if (from.linear == to.linear && from.luminance == to.luminance)
         return color;

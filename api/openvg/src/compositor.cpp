@@ -77,11 +77,18 @@ Compositor::Compositor(Context& context, const PixelSource& source)
                 format.blue == Channel{8, 16} && (format.alpha.bits == 0 || format.alpha == Channel{8, 24});
     if (const std::optional<Color> color = source.constant())
         constant_ = prepared(*color);
+    drawsBytes_ = constant_ && isOver_ && !mask_ && hasBytes_;
+    if (drawsBytes_) {
+        word_ = format.encode(*constant_);
+        for (int c = 0; c < 3; ++c)
+            light_[c] = gamma_.decode((*constant_)[c]);
+    }
 }
 
 Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
     : Compositor(context, paint) {
     stencil_ = &stencil;
+    drawsBytes_ = false;
 }
 
 Color Compositor::prepared(Color color) const {
@@ -125,40 +132,76 @@ Color Compositor::mixed(Color before, Color after, float coverage) const {
     return before + coverage * (after - before);
 }
 
-bool Compositor::drawConstant(int y, int first, int end, float share) {
-    const PixelFormat& format = surface_.pixels().format();
-    if (!constant_ || !isOver_ || mask_ || stencil_ || !hasBytes_ || (mixesLight_ && share != 1))
-        return false;
-    const Color added = *constant_ * share;
+void Compositor::drawBytes(int y, int first, int end) {
+    const Color added = *constant_;
+    if (added.a == 1)
+        return surface_.pixels().fill(first, end, y, word_);
     const float kept = 1 - added.a;
-    std::uint8_t* p = surface_.pixels().at(first, y);
-    if (added.a == 1) {
-        const std::uint32_t word = format.encode(added);
-        for (int x = first; x < end; ++x, p += 4)
-            std::memcpy(p, &word, 4);
-        return true;
-    }
-    const bool dividesAlpha = format.alpha.bits != 0 && !space_.premultiplied;
+    const bool hasAlpha = surface_.pixels().format().alpha.bits != 0;
     const Color sum = added * 255.0f + 0.5f;
+    std::uint8_t* p = surface_.pixels().at(first, y);
     for (int x = first; x < end; ++x, p += 4) {
-        if (dividesAlpha && p[3] != 255) {
-            Color d = premultiplied(format.decode(surface_.pixels().word(x, y)));
-            surface_.pixels().setWord(x, y, format.encode(unpremultiplied(added + d * kept)));
+        if (hasAlpha && !space_.premultiplied && p[3] != 255) {
+            drawPixel(x, y, added, 1, nullptr);
             continue;
         }
         for (int c = 0; c < 3; ++c)
             p[c] = std::uint8_t(std::min(sum[c] + float(p[c]) * kept, 255.0f));
-        if (format.alpha.bits != 0 && space_.premultiplied)
+        if (hasAlpha && space_.premultiplied)
             p[3] = std::uint8_t(std::min(sum.a + float(p[3]) * kept, 255.0f));
     }
-    return true;
+}
+
+void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
+    const Color source = *constant_;
+    const bool isOpaque = source.a == 1, hasAlpha = surface_.pixels().format().alpha.bits != 0;
+    const float kept = (1 - source.a) / 255;
+    std::uint8_t* p = surface_.pixels().at(first, y);
+    for (int x = first; x < end; ++x, p += 4) {
+        // What is translucent must be divided by its alpha to be mixed.
+        if (hasAlpha && p[3] != 255) {
+            drawPixel(x, y, source, share, nullptr);
+            continue;
+        }
+        if (space_.linear) {
+            for (int c = 0; c < 3; ++c)
+                p[c] = std::uint8_t(float(p[c]) + share * (source[c] * 255 - source.a * float(p[c])) + 0.5f);
+            continue;
+        }
+        for (int c = 0; c < 3; ++c) {
+            const float before = gamma_.decodedBytes[p[c]];
+            const float after =
+                isOpaque ? light_[c] : gamma_.decode(std::min(source[c] + float(p[c]) * kept, 1.0f));
+            p[c] = gamma_.encode(before + share * (after - before));
+        }
+    }
+}
+
+void Compositor::drawPixel(int x, int y, Color source, float coverage, const Color* stencil) {
+    Pixels& pixels = surface_.pixels();
+    const PixelFormat& format = pixels.format();
+    Color before = format.decode(pixels.word(x, y));
+    if (!space_.premultiplied)
+        before = premultiplied(before);
+    Color after;
+    if (stencil) {
+        // Premultiplied: each channel is image colour times image alpha. A grey surface has one channel to
+        // let through: formula (3), of the stencil's numbers as they are.
+        const Color s =
+            space_.luminance ? Color(glm::vec3(luminance(glm::vec3(*stencil))), stencil->a) : *stencil;
+        const Color alphas = s * source.a;
+        after = blendChannels(blend_, Color(glm::vec3(unpremultiplied(source)) * glm::vec3(alphas), alphas.a),
+                              alphas, before);
+    } else {
+        after = blend_(source, before);
+    }
+    const Color result = mixed(before, after, coverage);
+    pixels.setWord(x, y, format.encode(space_.premultiplied ? result : unpremultiplied(result)));
 }
 
 void Compositor::drawPart(int y, int first, int end, float share) {
-    if (drawConstant(y, first, end, share))
-        return;
-    Pixels& pixels = surface_.pixels();
-    const PixelFormat& format = pixels.format();
+    if (drawsBytes_)
+        return share == 1 ? drawBytes(y, first, end) : drawEdgeBytes(y, first, end, share);
     const std::uint8_t* mask = mask_ ? mask_->row(y) : nullptr;
     constexpr int chunk = 64;
     std::array<Color, chunk> colors, stencils;
@@ -173,28 +216,8 @@ void Compositor::drawPart(int y, int first, int end, float share) {
         for (std::size_t i = 0; i < count; ++i) {
             const int x = start + int(i);
             const float coverage = mask ? share * (float(mask[x]) / 255) : share;
-            if (!(coverage > 0))
-                continue;
-            Color d = format.decode(pixels.word(x, y));
-            if (!space_.premultiplied)
-                d = premultiplied(d);
-            Color result;
-            if (stencil_) {
-                Color s = stencils[i];
-                // A grey surface has one channel to let through: formula (3), of the stencil's numbers as
-                // they are.
-                if (space_.luminance)
-                    s = Color(glm::vec3(luminance(glm::vec3(s))), s.a);
-                // The stencil is premultiplied: each channel is image colour times image alpha.
-                const Color paint = unpremultiplied(part[i]);
-                const Color alphas = s * part[i].a;
-                result =
-                    blendChannels(blend_, Color(glm::vec3(paint) * glm::vec3(alphas), alphas.a), alphas, d);
-            } else {
-                result = blend_(part[i], d);
-            }
-            result = mixed(d, result, coverage);
-            pixels.setWord(x, y, format.encode(space_.premultiplied ? result : unpremultiplied(result)));
+            if (coverage > 0)
+                drawPixel(x, y, part[i], coverage, stencil_ ? &stencils[i] : nullptr);
         }
     }
 }

@@ -48,8 +48,11 @@ private:
     /// What was there, and what would be if the drawing covered all of the pixel, mixed by coverage
     /// (section 2.8).
     Color mixed(Color before, Color after, float coverage) const;
-    /// The fast path: one colour over eight-bit pixels that need no division by alpha. False if it cannot.
-    bool drawConstant(int y, int first, int end, float share);
+    /// One colour over bytes: all of a pixel, or part of it.
+    void drawBytes(int y, int first, int end);
+    void drawEdgeBytes(int y, int first, int end, float share);
+    /// Any pixel, of any format.
+    void drawPixel(int x, int y, Color source, float coverage, const Color* stencil);
     /// Colours of the source as they are blended: transformed, in the surface's space, premultiplied.
     void prepare(std::span<Color> colors) const;
     Color prepared(Color color) const;
@@ -68,6 +71,10 @@ private:
     bool isAlphaOnly_;
     bool hasBytes_;                  ///< red, green, blue, alpha bytes, or padding for alpha
     std::optional<Color> constant_;  ///< prepared
+    bool drawsBytes_ = false;        ///< `constant_` over bytes by a rule that drawBytes() knows
+    std::uint32_t word_ = 0;         ///< `constant_` as a pixel
+    glm::vec3 light_{0};             ///< `constant_` in linear light
+    const ByteGamma& gamma_ = byteGamma();
 };
 
 template <class Part>

@@ -1,6 +1,7 @@
 #include "api/openvg/src/path_mask.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -22,9 +23,10 @@ using glm::dvec2;
 /// The picture that a mask is compiled as: as many units along its longer side, the outline a margin inside.
 constexpr double pictureSide = 1024, pictureMargin = 1;
 
-/// Shares of the longer side. Coarse is enough for most drawing; fine is the least that the compiler proves.
-constexpr double coarseTolerance = 1.0 / (1 << 18), fineTolerance = 1.0 / (1 << 24),
-                 viewTolerance = 1.0 / (1 << 20);
+/// Shares of the longer side: the first is enough for most drawing, the last is the least that the compiler
+/// proves.
+constexpr std::array tolerances{1.0 / (1 << 18), 1.0 / (1 << 21), 1.0 / (1 << 24)};
+constexpr double viewTolerance = 1.0 / (1 << 20);
 
 /// A border may be off by this much of a pixel: 1/64 of it is 4/255 of the coverage along an edge at the very
 /// worst, and the compiler's typical error is a tenth of its bound.
@@ -92,13 +94,15 @@ PathMask::PathMask(scene::Path outline, scene::FillRule rule) : outline_(std::mo
     max_ = box.max;
 }
 
-const asset::CoverageScanner& PathMask::scannerFor(double pixels) {
-    const bool isFine = pixels * coarseTolerance > pixelTolerance;
-    std::optional<asset::CoverageScanner>& scanner = isFine ? fine_ : coarse_;
+const asset::CoverageScanner& PathMask::scannerFor(double tolerance) {
+    std::size_t i = 0;
+    while (i + 1 < tolerances.size() && tolerances[i] > tolerance)
+        ++i;
+    std::optional<asset::CoverageScanner>& scanner = scanners_[i];
     if (!scanner) {
         const Fit fit = fitted(min_, max_);
         scanner = compiled(outline_, rule_, {fit.scale, 0, 0, fit.scale, fit.shift.x, fit.shift.y},
-                           fit.picture, isFine ? fineTolerance : coarseTolerance);
+                           fit.picture, tolerances[i]);
     }
     return *scanner;
 }
@@ -125,8 +129,8 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
     const dvec2 origin = dvec2(m[2]) - dvec2(seen.x0, seen.y0);
     const dvec2 extent = max_ - min_;
     const double stretch = std::max(glm::length(dvec2(m[0])), glm::length(dvec2(m[1])));
-    const double pixels = stretch * std::max(extent.x, extent.y);
-    if (pixels * fineTolerance > pixelTolerance) {
+    const double tolerance = pixelTolerance / (stretch * std::max(extent.x, extent.y));
+    if (tolerance < tolerances.back()) {
         // The view is the picture; what lies outside is cut off before anything is rounded.
         const scene::Affine toView{dvec2(m[0]), dvec2(m[1]), origin};
         view.toPixels = scene::identity;
@@ -137,7 +141,7 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
     const Fit fit = fitted(min_, max_);
     const dvec2 x = dvec2(m[0]) / fit.scale, y = dvec2(m[1]) / fit.scale;
     view.toPixels = {x, y, origin - x * fit.shift.x - y * fit.shift.y};
-    scannerFor(pixels).scan(view, onSurface);
+    scannerFor(tolerance).scan(view, onSurface);
 }
 
 void PathMask::scanCenters(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) const {

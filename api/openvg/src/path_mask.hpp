@@ -6,6 +6,7 @@
 /// what can be proven one for the view alone.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -35,12 +36,12 @@ public:
     void scanCenters(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) const;
 
 private:
-    const asset::CoverageScanner& scannerFor(double pixels);
+    const asset::CoverageScanner& scannerFor(double tolerance);
 
     scene::Path outline_;
     scene::FillRule rule_;
-    glm::dvec2 min_{0}, max_{0};  ///< a box around the outline
-    std::optional<asset::CoverageScanner> coarse_, fine_;
+    glm::dvec2 min_{0}, max_{0};                                     ///< a box around the outline
+    std::array<std::optional<asset::CoverageScanner>, 3> scanners_;  ///< from coarse to fine
 };
 
 /// The pixels that the image of a box may meet, within `clip`. Empty for what is no number.

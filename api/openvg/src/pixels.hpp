@@ -66,6 +66,22 @@ public:
         }
     }
 
+    /// Columns first to end - 1 of a row.
+    void fill(int first, int end, int y, std::uint32_t word) {
+        if (pixelBytes_ == 1) {
+            std::memset(at(first, y), int(word & 255), std::size_t(end - first));
+            return;
+        }
+        if (pixelBytes_ == 4) {
+            std::uint8_t* p = at(first, y);
+            for (int x = first; x < end; ++x, p += 4)
+                std::memcpy(p, &word, 4);
+            return;
+        }
+        for (int x = first; x < end; ++x)
+            setWord(x, y, word);
+    }
+
 private:
     int width_, height_;
     PixelFormat format_;

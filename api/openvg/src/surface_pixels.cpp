@@ -27,11 +27,14 @@ void write(Context& context, const CopyArea& area, const PixelFormat& format, Wo
 void vgClear(VGint x, VGint y, VGint width, VGint height) {
     call([&](Context& context) {
         require(width > 0 && height > 0);
-        Surface& surface = *context.surface;
-        const std::uint32_t word = wordOf(context.state.clearColor, surface.pixels().format());
+        Pixels& pixels = context.surface->pixels();
+        const std::uint32_t word = wordOf(context.state.clearColor, pixels.format());
         const CopyArea area =
-            clipped({x, y, 0, 0, width, height}, surface.width(), surface.height(), width, height);
-        write(context, area, surface.pixels().format(), [&](int, int) { return word; });
+            clipped({x, y, 0, 0, width, height}, pixels.width(), pixels.height(), width, height);
+        const Clip clip(context);
+        for (int j = 0; j < area.height; ++j)
+            clip.parts(area.dy + j, area.dx, area.dx + area.width,
+                       [&](int first, int end) { pixels.fill(first, end, area.dy + j, word); });
     });
 }
 
