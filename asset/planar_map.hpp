@@ -32,9 +32,10 @@ struct PlanarPiece {
     double slopeA = 0, slopeB = 0;
     std::uint32_t left = 0, right = 0;
 
-    /// t(s) of Piece, in chord lengths, and its derivative.
+    /// t(s) of Piece, in chord lengths, and its derivatives.
     double height(double s) const { return s * (1 - s) * (slopeA * (1 - s) - slopeB * s); }
     double slope(double s) const { return slopeA * (1 - s) * (1 - 3 * s) - slopeB * s * (2 - 3 * s); }
+    double bend(double s) const { return slopeA * (6 * s - 4) + slopeB * (6 * s - 2); }
     /// The ends exactly.
     glm::dvec2 at(double s) const;
     glm::dvec2 derivative(double s) const;

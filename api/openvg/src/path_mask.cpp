@@ -23,9 +23,10 @@ using glm::dvec2;
 /// The picture that a mask is compiled as: as many units along its longer side, the outline a margin inside.
 constexpr double pictureSide = 1024, pictureMargin = 1;
 
-/// Shares of the longer side: the first is enough for most drawing, the last is the least that the compiler
-/// proves.
-constexpr std::array tolerances{1.0 / (1 << 18), 1.0 / (1 << 21), 1.0 / (1 << 24)};
+/// Shares of the longer side, good for 16, 256, 2048, 16384 and 262144 pixels. The last is the least that the
+/// compiler proves.
+constexpr std::array tolerances{1.0 / (1 << 10), 1.0 / (1 << 14), 1.0 / (1 << 17), 1.0 / (1 << 20),
+                                1.0 / (1 << 24)};
 constexpr double viewTolerance = 1.0 / (1 << 20);
 
 /// A border may be off by this much of a pixel: 1/64 of it is 4/255 of the coverage along an edge at the very

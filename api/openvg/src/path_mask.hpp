@@ -41,7 +41,7 @@ private:
     scene::Path outline_;
     scene::FillRule rule_;
     glm::dvec2 min_{0}, max_{0};                                     ///< a box around the outline
-    std::array<std::optional<asset::CoverageScanner>, 3> scanners_;  ///< from coarse to fine
+    std::array<std::optional<asset::CoverageScanner>, 5> scanners_;  ///< from coarse to fine
 };
 
 /// The pixels that the image of a box may meet, within `clip`. Empty for what is no number.
