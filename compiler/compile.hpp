@@ -47,8 +47,9 @@ struct Result {
     double provenError = 0;
     /// Where it is not: leaves filled with the mean of samples (Asset::fallbackLeaves).
     std::vector<UnprovenSquare> unproven;
-    /// Strokes along curves: that their offset curves lie within the tolerance is tested at fifteen points
-    /// of every piece, not proven between them. Everything after that is.
+    /// Strokes along curves other than circles. Where such a curve is tighter than half the stroke's width,
+    /// that its offset curves lie within the tolerance is tested at fifteen points of every piece, not proven
+    /// between them. Where it is gentler that is proven, too, as is everything after.
     std::size_t sampledStrokes = 0;
     std::vector<StageTime> stages;      ///< in order: lower, push, planarise, fit, encode
     std::vector<std::string> warnings;  ///< what a limit took away or an approximation changed

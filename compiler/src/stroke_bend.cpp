@@ -34,6 +34,18 @@ struct Piece {
     Curvature k;
 };
 
+void append(std::vector<Span>& spans, const Span& next) {
+    if (!spans.empty() && spans.back().bend == next.bend)
+        spans.back().t1 = next.t1;
+    else
+        spans.push_back(next);
+}
+
+/// Up to half a turn.
+double turnBetween(const Cubic& c, double t0, double t1) {
+    return std::abs(angleBetween(tangentAt(c, t0), tangentAt(c, t1)));
+}
+
 /// Finds the tight stretches by halving until the bounds of κ decide. |κ|r > 1 is tested as
 /// |c|r > q^(3/2), with c = γ' × γ'' and q = |γ'|².
 ///
@@ -88,7 +100,7 @@ private:
         if (small && (atAnEnd || !tightInTheMiddle(k)))
             return add({t0, t1, Bend::Gentle});
         if (small || depth == maxSearchDepth || tight(k))
-            return add({t0, t1, k.cross[1] > 0 ? Bend::Left : Bend::Right});
+            return add({t0, t1, bernstein(k.cross, 0.5) > 0 ? Bend::Left : Bend::Right});
         const auto [velocityLeft, velocityRight] = halves(piece.velocity);
         const auto [crossLeft, crossRight] = halves(k.cross);
         const auto [speedLeft, speedRight] = halves(k.speedSquared);
@@ -97,22 +109,17 @@ private:
         visit({velocityRight, {crossRight, speedRight}}, middle, t1, depth + 1);
     }
 
-    void add(Span next) {
-        if (!spans_.empty() && spans_.back().bend == next.bend)
-            spans_.back().t1 = next.t1;
-        else
-            spans_.push_back(next);
-    }
+    void add(const Span& next) { append(spans_, next); }
 
     const BendOptions& o_;
     std::vector<Span> spans_;
 };
 
-/// At most five extremes of the curvature and two places for each of four directions, rising.
-using Stops = Roots<13>;
+/// At most five extremes of the curvature in each half, or two places for each of four directions; rising.
+using Stops = Roots<10>;
 
 /// κ = c / q^(3/2), so κ' vanishes with 2c'q - 3cq'.
-void addCurvatureExtremes(const Cubic& curve, Stops& stops) {
+Roots<5> curvatureExtremes(const Cubic& curve) {
     const Curvature k = curvature(curve);
     const Polynomial<3> c = powers(k.cross);
     const Polynomial<5> q = powers(k.speedSquared);
@@ -120,34 +127,38 @@ void addCurvatureExtremes(const Cubic& curve, Stops& stops) {
     const Polynomial<6> other = product(c, derivative(q));
     for (std::size_t i = 0; i < slope.size(); ++i)
         slope[i] = 2 * slope[i] - 3 * other[i];
-    for (const double t : rootsInside(slope))
-        stops.add(t);
+    return rootsInside(slope);
 }
 
-/// Tight stretches between places where the tangent points along a multiple of 45° turn by no more.
+/// Each half of the curve seen from its own end: where a control point coincides with that, all terms vanish
+/// there, and rounding would make extremes of what is left at the other.
+void addCurvatureExtremes(const Cubic& c, Stops& stops) {
+    for (const double t : curvatureExtremes(c))
+        if (t <= 0.5)
+            stops.add(t);
+    const Roots<5> back = curvatureExtremes({c.p3, c.p2, c.p1, c.p0});
+    for (std::size_t i = back.count; i-- > 0;)
+        if (back.at[i] < 0.5)
+            stops.add(1 - back.at[i]);
+}
+
+/// Between places where the tangent points along a multiple of 45° a tight stretch turns by no more.
 void addOctants(const Cubic& c, Stops& stops) {
     for (const Point d : {Point{1, 0}, Point{1, 1}, Point{0, 1}, Point{-1, 1}}) {
         const double a = cross(c.p1 - c.p0, d), b = cross(c.p2 - c.p1, d), e = cross(c.p3 - c.p2, d);
         for (const double t : rootsInside(Polynomial<3>{a, 2 * (b - a), a - 2 * b + e}))
             stops.add(t);
     }
+    std::sort(stops.at.begin(), stops.at.begin() + std::ptrdiff_t(stops.count));
 }
 
-}  // namespace
-
-std::vector<Span> bends(const Cubic& c, const BendOptions& options) { return BendSearch(options).run(c); }
-
-std::vector<Span> cutTight(const Cubic& c, const std::vector<Span>& spans, double smallTurn) {
-    Stops stops;
-    addCurvatureExtremes(c, stops);
-    addOctants(c, stops);
-    std::sort(stops.at.begin(), stops.at.begin() + std::ptrdiff_t(stops.count));
-    const auto turns = [&](double t0, double t1) {
-        return std::abs(angleBetween(tangentAt(c, t0), tangentAt(c, t1))) > smallTurn;
-    };
+/// Unless a piece would turn by less than `smallTurn`.
+std::vector<Span> cutAt(const Cubic& c, const std::vector<Span>& spans, const Stops& stops,
+                        double smallTurn) {
+    const auto turns = [&](double t0, double t1) { return turnBetween(c, t0, t1) > smallTurn; };
     std::vector<Span> result;
     for (Span span : spans) {
-        if (span.bend != Bend::Gentle)
+        if (span.bend != Bend::Gentle && !span.isFold)
             for (const double t : stops)
                 if (t > span.t0 && t < span.t1 && turns(span.t0, t) && turns(t, span.t1)) {
                     result.push_back({span.t0, t, span.bend});
@@ -156,6 +167,33 @@ std::vector<Span> cutTight(const Cubic& c, const std::vector<Span>& spans, doubl
         result.push_back(span);
     }
     return result;
+}
+
+}  // namespace
+
+std::vector<Span> bends(const Cubic& c, const BendOptions& options) { return BendSearch(options).run(c); }
+
+double turnOf(const Cubic& c, const Span& span) {
+    const double middle = (span.t0 + span.t1) / 2;
+    return turnBetween(c, span.t0, middle) + turnBetween(c, middle, span.t1);
+}
+
+std::vector<Span> withoutSmallTurns(const Cubic& c, const std::vector<Span>& spans, double smallTurn) {
+    std::vector<Span> result;
+    for (Span span : spans) {
+        if (span.bend != Bend::Gentle && turnOf(c, span) <= smallTurn)
+            span.bend = Bend::Gentle;
+        append(result, span);
+    }
+    return result;
+}
+
+std::vector<Span> cutTight(const Cubic& c, const std::vector<Span>& spans, double smallTurn) {
+    constexpr double halfOctant = std::numbers::pi / 8;
+    Stops extremes, octants;
+    addCurvatureExtremes(c, extremes);
+    addOctants(c, octants);
+    return cutAt(c, cutAt(c, spans, extremes, smallTurn), octants, halfOctant);
 }
 
 }  // namespace vtm::compiler::stroke

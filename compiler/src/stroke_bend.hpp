@@ -14,6 +14,7 @@ enum class Bend { Gentle, Left, Right };
 struct Span {
     double t0, t1;
     Bend bend;
+    bool isFold = false;  ///< tight, but its evolute is all but a line, there and back
 };
 
 struct BendOptions {
@@ -30,8 +31,14 @@ inline bool isGentle(const std::vector<Span>& spans) {
     return spans.size() == 1 && spans.front().bend == Bend::Gentle;
 }
 
-/// The same spans, the tight ones cut where the curvature has extremes and where the tangent passes a
-/// multiple of 45°, unless the piece would turn by less than `smallTurn`.
+/// The same spans, the tight ones gentle if they turn by no more than `smallTurn`.
+std::vector<Span> withoutSmallTurns(const Cubic& c, const std::vector<Span>& spans, double smallTurn);
+
+/// By how much a stretch turns, if less than a whole turn.
+double turnOf(const Cubic& c, const Span& span);
+
+/// The same spans, the tight ones but folds cut where the curvature has extremes, unless the piece would turn
+/// by less than `smallTurn`, and then at multiples of 45° so that none turns by more than 67.5°.
 std::vector<Span> cutTight(const Cubic& c, const std::vector<Span>& spans, double smallTurn);
 
 }  // namespace vtm::compiler::stroke

@@ -12,6 +12,19 @@
 //
 // The evolute is a chain of parabolas: between two normals that differ by at most 45°, both end tangents
 // of the evolute are the normals themselves, and they meet between curve and offset, in the control point.
+//
+// Where the curve is tightest, the evolute has a cusp, in which one more normal covers the ribbon. Its two
+// branches part so slowly that rounding them later, each by itself, may swap them over a long way, and what
+// should be covered once more is covered once less: a thread of nothing, deep inside the stroke. So its sides
+// are straight as far as may be. A chord of the evolute in place of an arc only adds covers, between the two.
+// - With R0 > R1 the radii of curvature at γ(t0) and γ(t1), and E0, E1 their centres, which are no farther
+//   apart than R0 - R1: what lies between chord and arc is within R0 <= r of γ(t1), and not nearer to γ(t0).
+//   So it is covered if everything within r of the curve is, or if the end beyond γ(t1) is farther than 2r
+//   from there, since the nearest point of the curve is then an inner one.
+// - Elsewhere it may stick out of the stroke, by no more than the arc's tangents do.
+// - A *fold* is a tight stretch of so little turn that this holds from one offset to the other: the inner
+//   side goes straight to the cusp and back, as it does at a join. Both ways are equally long, and as their
+//   ends differ across them, which rounding in each axis does not reverse, neither does it swap the sides.
 
 #include "compiler/src/stroke_offset.hpp"
 
@@ -142,16 +155,6 @@ bool hidesBackwardOffsets(const Cubic& c, const OffsetOptions& o, const std::vec
            isGentle(bends(c, {o.radius, hardly, 0}));
 }
 
-/// The curve in stretches that are gentle, or tight with monotone curvature and at most 45° of turn.
-std::vector<Span> classify(const Cubic& c, const OffsetOptions& o) {
-    const double slack = 1 + tightShare * o.tolerance / o.radius;
-    const double smallTurn = gapShare * o.tolerance / o.radius;
-    const std::vector<Span> spans = bends(c, {o.radius, slack, smallTurn});
-    if (isGentle(spans) || hidesBackwardOffsets(c, o, spans))
-        return {{0, 1, Bend::Gentle}};
-    return cutTight(c, spans, smallTurn);
-}
-
 constexpr int maxPieces = 8;
 
 /// How many pieces bring the error of a fit below the tolerance, by its sixth order.
@@ -202,20 +205,30 @@ void appendFit(const OffsetCurve& curve, double u0, double u1, double tolerance,
 /// The evolute of a tight stretch.
 class Evolute {
 public:
-    Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, double tolerance)
-        : curvature_(curvature(c)), stretch_(stretch), radius_(signedRadius), tolerance_(tolerance) {}
+    Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, const OffsetOptions& options)
+        : curvature_(curvature(c)),
+          stretch_(stretch),
+          radius_(signedRadius),
+          tolerance_(options.tolerance),
+          straight_(options.straight()) {}
 
     Point at(double u) const { return stretch_.point(u) + normal(u) * centreDistance(u); }
 
+    bool isTighterAtEnd() const { return centreDistance(1) < centreDistance(0); }
+
+    Point tip() const { return at(tightest()); }
+    /// How far it comes from the offset.
+    double depth() const { return std::abs(radius_) - centreDistance(tightest()); }
+
     void append(double u0, double u1, int depth, Side& side) const {
         const Parabola arc{at(u0), meeting(u0, u1), at(u1)};
-        if (depth > 0 && error(arc, u0, u1) > tolerance_) {
+        if (depth == 0 || arc.height() <= straight_)
+            return side.lineTo(arc.to, gapShare * tolerance_);
+        if (error(arc, u0, u1) > tolerance_) {
             append(u0, (u0 + u1) / 2, depth - 1, side);
             append((u0 + u1) / 2, u1, depth - 1, side);
             return;
         }
-        if (glm::distance(arc.from, arc.control) + glm::distance(arc.control, arc.to) <= tolerance_)
-            return side.lineTo(arc.to, gapShare * tolerance_);
         const Cubic c = elevate(arc.from, arc.control, arc.to);
         side.cubicTo(c.p1, c.p2, c.p3);
     }
@@ -223,7 +236,24 @@ public:
 private:
     struct Parabola {
         Point from, control, to;
+
+        /// Of the triangle, in which the evolute lies, over the chord; if that is short, a side.
+        double height() const {
+            const Point chord = to - from, side = control - from;
+            const double length = glm::length(chord), shorter = glm::length(side);
+            return length > 0 ? std::min(shorter, std::abs(cross(chord, side)) / length) : shorter;
+        }
     };
+
+    /// Of the ends and some places between.
+    double tightest() const {
+        constexpr int places = 4;
+        double best = 0;
+        for (int i = 1; i <= places; ++i)
+            if (const double u = double(i) / places; centreDistance(u) < centreDistance(best))
+                best = u;
+        return best;
+    }
 
     /// Distance of parallel tangents: where the parabola runs along the normal, the evolute touches it.
     double error(const Parabola& arc, double u0, double u1) const {
@@ -263,8 +293,33 @@ private:
 
     Curvature curvature_;
     const Stretch& stretch_;
-    double radius_, tolerance_;
+    double radius_, tolerance_, straight_;
 };
+
+/// Whether a tight stretch turns by so little, or is tighter than the radius by so little, that each branch
+/// of the evolute is a straight edge: it strays from its chord by no more than a quarter of its length times
+/// its turn.
+bool isFold(const Cubic& c, const Span& span, const OffsetOptions& o) {
+    constexpr double mostTurn = std::numbers::pi / 4;
+    const double turn = turnOf(c, span);
+    if (turn > mostTurn)
+        return false;
+    const Stretch stretch(c, span);
+    return turn * Evolute(c, stretch, span.bend == Bend::Left ? o.radius : -o.radius, o).depth() <=
+           4 * o.straight();
+}
+
+/// The curve in stretches that are gentle, folds, or tight with monotone curvature and little turn.
+std::vector<Span> classify(const Cubic& c, const OffsetOptions& o) {
+    const double slack = 1 + tightShare * o.tolerance / o.radius;
+    const double smallTurn = gapShare * o.tolerance / o.radius;
+    std::vector<Span> spans = withoutSmallTurns(c, bends(c, {o.radius, slack, smallTurn}), smallTurn);
+    if (isGentle(spans) || hidesBackwardOffsets(c, o, spans))
+        return {{0, 1, Bend::Gentle}};
+    for (Span& span : spans)
+        span.isFold = span.bend != Bend::Gentle && isFold(c, span, o);
+    return cutTight(c, spans, 4 * o.straight() / o.radius);
+}
 
 /// What the normals sweep beyond the evolute over consecutive tight stretches.
 struct Beyond {
@@ -293,7 +348,7 @@ public:
             if (span.bend != beyond_.bend)
                 beyond_.close(ribbon_.beyond);
             const Stretch stretch(curve_, span);
-            span.bend == Bend::Gentle ? gentle(stretch, span) : tight(stretch, span.bend);
+            span.bend == Bend::Gentle ? gentle(stretch, span) : tight(stretch, span);
         }
         beyond_.close(ribbon_.beyond);
     }
@@ -322,16 +377,25 @@ private:
                      o_.chords + (1 - tightShare - gapShare) * o_.tolerance, side);
     }
 
-    void tight(const Stretch& stretch, Bend bend) {
-        const bool left = bend == Bend::Left;
+    void tight(const Stretch& stretch, const Span& span) {
+        const bool left = span.bend == Bend::Left;
         const double inner = left ? o_.radius : -o_.radius;
         Side& innerSide = left ? ribbon_.left : ribbon_.right;
         fit(stretch, -inner, false, left ? ribbon_.right : ribbon_.left);
-        const Evolute evolute(curve_, stretch, inner, o_.tolerance);
-        innerSide.lineTo(evolute.at(0), gapShare * o_.tolerance);
-        evolute.append(0, 1, maxFitDepth, innerSide);
+        const Evolute evolute(curve_, stretch, inner, o_);
+        const double gap = gapShare * o_.tolerance;
+        if (span.isFold) {
+            innerSide.lineTo(evolute.tip(), gap);
+            innerSide.lineTo(stretch.offset(1, inner).at, gap);
+        } else {
+            innerSide.lineTo(evolute.at(0), gap);
+            if (hidesChord(stretch, evolute))
+                innerSide.lineTo(evolute.at(1), gap);
+            else
+                evolute.append(0, 1, maxFitDepth, innerSide);
+        }
         if (o_.beyond && !hidesBeyond(stretch))
-            sweepBeyond(stretch, evolute, bend, inner);
+            sweepBeyond(stretch, evolute, span.bend, inner);
     }
 
     /// An end lies farther than 2r from all of the stretch, which is no longer than its controls' polygon.
@@ -339,6 +403,14 @@ private:
         const Point at = stretch.point(0);
         const double away = std::max(glm::distance(at, curve_.p0), glm::distance(at, curve_.p3));
         return away > 2 * o_.radius + stretch.lengthBound();
+    }
+
+    /// The end towards which the curve gets tighter lies farther than 2r from that end of the stretch; or all
+    /// that is nearer than r is covered.
+    bool hidesChord(const Stretch& stretch, const Evolute& evolute) const {
+        const bool forward = evolute.isTighterAtEnd();
+        return !o_.beyond ||
+               glm::distance(stretch.point(forward ? 1 : 0), forward ? curve_.p3 : curve_.p0) > 2 * o_.radius;
     }
 
     void sweepBeyond(const Stretch& stretch, const Evolute& evolute, Bend bend, double inner) {

@@ -40,6 +40,9 @@ struct OffsetOptions {
     double tolerance;
     bool beyond;    ///< wanted only if caps or joins are not round
     double chords;  ///< if above 0, gentle offsets become chords within this and the tolerance together
+
+    /// How far a straight edge may stray.
+    double straight() const { return tolerance + chords; }
 };
 
 /// Goes on with both sides along a curve without cusps. Both sides must have come to the offsets of

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "asset/coverage.hpp"
+#include "asset/walk.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/src/stroke_chords.hpp"
 #include "compiler/stroke.hpp"
@@ -252,6 +253,53 @@ TEST(Error, isWithinTheToleranceAtAllThatCanBeProven) {
                 EXPECT_TRUE(result.unproven.empty());
                 EXPECT_TRUE(result.warnings.empty());
             }
+}
+
+/// How far a stroke's drawn pieces begin from half its width beside the curve, at most, in units of what is
+/// proven. With round ends all that shows lies there.
+double strayOf(const Bezier& curve, double width, double tolerance, int& pieces) {
+    scene::StrokeStyle round;
+    round.width = width, round.cap = scene::Cap::Round, round.join = scene::Join::Round;
+    const Result result =
+        compile(sceneOf({scene::MoveTo{curve[0]}, scene::CubicTo{curve[1], curve[2], curve[3]}}, round),
+                {.tolerance = tolerance});
+    const asset::Asset& asset = result.asset;
+    const asset::Map& map = asset.maps[0];
+    double worst = 0;
+    asset::walk(asset, map.root, [&](asset::Cell cell, asset::Entry entry) {
+        if (entry.kind() != asset::Entry::Kind::Leaf)
+            return;
+        const double side = std::ldexp(map.side, -2 * int(cell.level));
+        const asset::Leaf& leaf = asset.leaves[entry.payload()];
+        for (std::uint32_t i = 0; i < leaf.pieceCount; ++i, ++pieces) {
+            const asset::Piece& piece = asset.pieces[leaf.firstPiece + i];
+            const Point p = Point(map.x, map.y) +
+                            side * (Point(cell.x, cell.y) + Point(piece.a[0], piece.a[1]) / 65535.0);
+            worst = std::max(worst, std::abs(distance(p, curve) - width / 2) / (64 * result.provenError));
+        }
+    });
+    return worst;
+}
+
+/// Where a curve is tighter than the stroke, its inner side turns in a cusp, between whose two branches
+/// rounding may open threads, deep inside the stroke. A control point in the end of a curve makes it
+/// infinitely tight there, for so little of a turn that the branches lie side by side all the way.
+TEST(Error, ofStrokesOfTightCurvesIsWithinTheTolerance) {
+    double worst = 0;
+    int pieces = 0;
+    for (unsigned seed = 0; seed < 25; ++seed) {
+        Random random(seed);
+        const auto place = [&] {
+            return Point(random.even(12000, 52000), random.even(12000, 52000)) / 1000.0;
+        };
+        const Point a = place(), b = place(), c = place(), d = place();
+        for (const Bezier& curve : {Bezier{a, a, c, d}, Bezier{a, b, d, d}, Bezier{a, b, c, d}})
+            for (const double width : {3.0, 20.0})
+                for (const double tolerance : {0x1p-12, 0x1p-16})
+                    worst = std::max(worst, strayOf(curve, width, tolerance, pieces));
+    }
+    EXPECT_LE(worst, 1);
+    EXPECT_GE(pieces, 25 * 12 * 30);
 }
 
 TEST(Error, isSaidToBeLargerWhereTheLatticeIsTooCoarse) {

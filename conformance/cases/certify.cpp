@@ -200,26 +200,39 @@ std::vector<double> Outlines::nearShares(const Window& window, int parts) const 
     return shares;
 }
 
-double Outlines::distance(Point from, double most) const {
-    // Of strokes, so narrow a rim counts as outline: far below what is bisected.
-    const double tolerance = most / 64;
+namespace {
+
+/// Of strokes, so narrow a rim counts as outline, as a share of the reach: far below what is bisected.
+constexpr double rimShare = 1.0 / 64;
+
+}  // namespace
+
+bool Outlines::isNear(const Shape& shape, Point point, double reach, double tolerance) {
     constexpr double eighthTurn = 0.7853981633974483;
-    std::vector<const Shape*> shapes = shapesIn({from, 2 * most, 1, tolerance});
-    const auto within = [&](const Shape& shape, double reach) {
-        for (const double angle : {0.0, eighthTurn})
-            if (!touched(shape, {1, 1, toPixels({from, 2 * reach, 1, tolerance, angle})}, tolerance).at(0))
-                return false;
-        return true;
-    };
-    std::erase_if(shapes, [&](const Shape* shape) { return !within(*shape, most); });
+    for (const double angle : {0.0, eighthTurn})
+        if (!touched(shape, {1, 1, toPixels({point, 2 * reach, 1, tolerance, angle})}, tolerance).at(0))
+            return false;
+    return true;
+}
+
+bool Outlines::isNear(Point point, double reach) const {
+    const double rim = rimShare * reach;
+    return std::ranges::any_of(shapesIn({point, 2 * reach, 1, rim}),
+                               [&](const Shape* shape) { return isNear(*shape, point, reach, rim); });
+}
+
+double Outlines::distance(Point from, double most) const {
+    const double rim = rimShare * most;
+    std::vector<const Shape*> shapes = shapesIn({from, 2 * most, 1, rim});
+    std::erase_if(shapes, [&](const Shape* shape) { return !isNear(*shape, from, most, rim); });
     if (shapes.empty())
         return std::numeric_limits<double>::infinity();
     double low = 0, high = most;
     constexpr int halvings = 7;
     for (int i = 0; i < halvings; ++i) {
         const double middle = (low + high) / 2;
-        const bool any =
-            std::ranges::any_of(shapes, [&](const Shape* shape) { return within(*shape, middle); });
+        const bool any = std::ranges::any_of(
+            shapes, [&](const Shape* shape) { return isNear(*shape, from, middle, rim); });
         (any ? high : low) = middle;
     }
     return high;

@@ -21,13 +21,13 @@ void expectWithinProof(const Distances& found, double proven) {
 }
 
 /// Compiled as `vtm compile` does.
-Distances expectNearTruth(const std::filesystem::path& file, int points) {
+Distances expectNearTruth(const std::filesystem::path& file, int drawn, int truths) {
     const compiler::Options options;
     const scene::Scene scene = loadScene(file);
     const compiler::Result result = compiler::compile(scene, options);
     EXPECT_TRUE(result.unproven.empty());
     const double unit = options.tolerance * std::max(scene.width, scene.height);
-    const Distances found = measure(scene, result.asset, unit, 1, points);
+    const Distances found = measure(scene, result.asset, unit, 1, drawn, truths);
     expectWithinProof(found, result.provenError / options.tolerance);
     testing::Test::RecordProperty(file.stem().string() + "_from_drawn", std::to_string(found.fromDrawn));
     testing::Test::RecordProperty(file.stem().string() + "_from_true", std::to_string(found.fromTrue));
@@ -40,7 +40,7 @@ TEST(Distance, OfTheExamplesIsBelowTheTolerance) {
     for (const auto& entry : std::filesystem::directory_iterator(examplesDirectory()))
         if (entry.path().extension() == ".svg") {
             SCOPED_TRACE(entry.path());
-            const Distances found = expectNearTruth(entry.path(), points);
+            const Distances found = expectNearTruth(entry.path(), points, points);
             drawn += found.drawn, truths += found.truths;
         }
     EXPECT_GE(drawn, 2 * points);
@@ -51,12 +51,12 @@ TEST(Distance, OfTheCorpusIsBelowTheTolerance) {
     const auto corpus = sharedDirectory() / "corpus";
     if (!std::filesystem::exists(corpus))
         GTEST_SKIP() << corpus << " is absent";
-    constexpr int points = 150;
+    constexpr int drawn = 2000, truths = 150;
     for (const char* name : {"tiger", "caesar", "flag_mx", "world"}) {
         SCOPED_TRACE(name);
-        const Distances found = expectNearTruth(corpus / (std::string(name) + ".svg"), points);
-        EXPECT_GE(found.drawn, points / 2);
-        EXPECT_GE(found.truths, points / 5);
+        const Distances found = expectNearTruth(corpus / (std::string(name) + ".svg"), drawn, truths);
+        EXPECT_GE(found.drawn, drawn / 2);
+        EXPECT_GE(found.truths, truths / 5);
     }
 }
 
@@ -69,8 +69,8 @@ TEST(Distance, OfRandomScenesIsBelowTheTolerance) {
         const scene::Scene scene = generate::randomScene(seed);
         const double tolerance = std::ldexp(1.0, seed % 2 == 0 ? -16 : -11);
         const compiler::Result result = compiler::compile(scene, {.tolerance = tolerance});
-        const Distances found =
-            measure(scene, result.asset, tolerance * std::max(scene.width, scene.height), seed, points);
+        const Distances found = measure(scene, result.asset, tolerance * std::max(scene.width, scene.height),
+                                        seed, points, points);
         expectWithinProof(found, result.provenError / tolerance);
         worst.fromDrawn = std::max(worst.fromDrawn, found.fromDrawn);
         worst.fromTrue = std::max(worst.fromTrue, found.fromTrue);
@@ -96,7 +96,7 @@ TEST(Distance, IsMeasured) {
     asset::Asset asset = compiler::compile(scene).asset;
     for (const double moved : {0.5, 1.5}) {
         asset.maps[0].x = moved * tolerance;
-        const Distances found = measure(scene, asset, tolerance, 1, 100);
+        const Distances found = measure(scene, asset, tolerance, 1, 100, 100);
         EXPECT_NEAR(found.fromDrawn, moved, 0.35);
         EXPECT_NEAR(found.fromTrue, moved, 0.35);
         EXPECT_GE(found.truths, 50);

@@ -36,21 +36,33 @@ bool partsTwoColours(const scene::Scene& scene, const OutlinePoint& p, double to
 
 }  // namespace
 
+FarPoints farPoints(const scene::Scene& scene, const asset::Asset& asset, double tolerance,
+                    std::uint64_t seed, int points) {
+    const Outlines outlines(scene);
+    FarPoints found;
+    for (const Point& p : DrawnBoundary(asset).somePoints(seed, points)) {
+        ++found.looked;
+        if (!outlines.isNear(p, tolerance) && !looksEqualAbout(asset, p, tolerance / 8))
+            found.at.push_back(p);
+    }
+    return found;
+}
+
 Distances measure(const scene::Scene& scene, const asset::Asset& asset, double tolerance, std::uint64_t seed,
-                  int points) {
+                  int drawn, int truths) {
     constexpr double most = 2;  // tolerances
     const Outlines outlines(scene);
-    const DrawnBoundary drawn(asset);
+    const DrawnBoundary boundary(asset);
     Distances found;
-    for (const Point& p : drawn.somePoints(seed, points)) {
-        if (looksEqualAbout(asset, p, tolerance / 8))
-            continue;
-        found.fromDrawn = std::max(found.fromDrawn, outlines.distance(p, most * tolerance) / tolerance);
+    for (const Point& p : boundary.somePoints(seed, drawn)) {
         ++found.drawn;
+        const bool isFarther = found.fromDrawn == 0 || !outlines.isNear(p, found.fromDrawn * tolerance);
+        if (isFarther && !looksEqualAbout(asset, p, tolerance / 8))
+            found.fromDrawn = std::max(found.fromDrawn, outlines.distance(p, most * tolerance) / tolerance);
     }
-    for (const OutlinePoint& p : outlines.pointsOn(seed, points))
+    for (const OutlinePoint& p : outlines.pointsOn(seed, truths))
         if (isInside(scene, p.at, 2 * tolerance) && partsTwoColours(scene, p, tolerance)) {
-            found.fromTrue = std::max(found.fromTrue, drawn.distance(p.at, most * tolerance) / tolerance);
+            found.fromTrue = std::max(found.fromTrue, boundary.distance(p.at, most * tolerance) / tolerance);
             ++found.truths;
         }
     return found;

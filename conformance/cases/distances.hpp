@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "asset/asset.hpp"
 #include "scene/scene.hpp"
@@ -15,10 +16,19 @@ struct Distances {
     int drawn = 0, truths = 0;           ///< points measured
 };
 
-/// Looks at up to `points` points of each: of the drawn ones those where two colours meet, of the true ones
-/// those where an outline shows and no other does near by (threads thinner than the tolerance may vanish).
-/// `tolerance` in picture units.
+/// Of up to `points` points of drawn boundaries those where two colours meet and that no true outline is
+/// nearer to than `tolerance`, picture units.
+struct FarPoints {
+    std::vector<scene::Point> at;
+    int looked = 0;
+};
+FarPoints farPoints(const scene::Scene& scene, const asset::Asset& asset, double tolerance,
+                    std::uint64_t seed, int points);
+
+/// Looks at up to `drawn` drawn points, of which those count where two colours meet, and at up to `truths`
+/// true ones, those where an outline shows and no other does near by (threads thinner than the tolerance may
+/// vanish): these take far longer. `tolerance` in picture units.
 Distances measure(const scene::Scene& scene, const asset::Asset& asset, double tolerance, std::uint64_t seed,
-                  int points);
+                  int drawn, int truths);
 
 }  // namespace vtm::cases

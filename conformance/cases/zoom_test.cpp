@@ -144,12 +144,13 @@ TEST_P(Zoom, KeepsOutlinesWithinAQuarterOfAPixel) {
 /// The same without pixels.
 TEST_P(Zoom, KeepsDrawnBoundariesNearTrueOutlines) {
     const Zoomed zoomed(GetParam());
-    constexpr int points = 150;
-    const Distances found = measure(zoomed.scene, zoomed.result.asset, farthest * zoomed.pixel, 1, points);
+    constexpr int drawn = 1000, truths = 150;
+    const Distances found =
+        measure(zoomed.scene, zoomed.result.asset, farthest * zoomed.pixel, 1, drawn, truths);
     EXPECT_LE(found.fromDrawn, 1);
     EXPECT_LE(found.fromTrue, 1);
-    EXPECT_EQ(found.drawn, points);
-    EXPECT_GE(found.truths, points / 5);
+    EXPECT_EQ(found.drawn, drawn);
+    EXPECT_GE(found.truths, truths / 5);
     RecordProperty("from_drawn_pixels", std::to_string(farthest * found.fromDrawn));
     RecordProperty("from_true_pixels", std::to_string(farthest * found.fromTrue));
 }
