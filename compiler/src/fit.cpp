@@ -75,22 +75,22 @@ void Fitter::link(const PlanarLeaf& leaf) {
 
 /// The edge that carries on with the same paints at a vertex where but one other visible edge ends.
 std::uint32_t Fitter::next(const PlanarLeaf& leaf, std::uint32_t edge, bool atB) {
-    const std::uint32_t self = leaf.endOf[2 * edge + (atB ? 1 : 0)], first = leaf.firstOf[self];
-    const PlanarLeaf::End* other = nullptr;
-    for (std::uint32_t i = first; i < leaf.ends.size() && leaf.firstOf[i] == first; ++i) {
-        if (i == self || !isVisible(leaf.sides[leaf.ends[i].edge]))
+    const EdgeEnd self = atB ? endAtB(edge) : endAtA(edge);
+    EdgeEnd other = noEdge;
+    for (const EdgeEnd end : leaf.vertices.ends(leaf.vertices.all()[leaf.vertices.of(self)])) {
+        if (end == self || !isVisible(leaf.sides[end / 2]))
             continue;
-        if (other)
+        if (other != noEdge)
             return noEdge;
-        other = &leaf.ends[i];
+        other = end;
     }
-    if (!other)
+    if (other == noEdge)
         return noEdge;
-    const Sides &s = leaf.sides[edge], &t = leaf.sides[other->edge];
-    const bool sameDirection = atB == other->isA;
+    const Sides &s = leaf.sides[edge], &t = leaf.sides[other / 2];
+    const bool sameDirection = atB == isAtA(other);
     const bool matches =
         sameDirection ? s.left == t.left && s.right == t.right : s.left == t.right && s.right == t.left;
-    return matches ? other->edge : noEdge;
+    return matches ? other / 2 : noEdge;
 }
 
 void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
