@@ -99,7 +99,8 @@ private:
     std::size_t gather(std::size_t first, std::size_t last, Coord low, Coord high);
     bool meetAll();
     void meet(std::uint32_t e, std::uint32_t f);
-    void meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
+    struct Meeting;
+    void meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
     void bend(LatticePoint a, LatticePoint b, LatticePoint to);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by);
     void applySplits();
