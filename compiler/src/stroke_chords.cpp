@@ -71,8 +71,9 @@ private:
         }
         const int count = std::max(1, static_cast<int>(std::ceil(std::min(sums[steps], mostChords))));
         std::size_t in = 0;
+        const double share = sums[steps] / count;
         for (int k = 1; k <= count; ++k) {
-            const double goal = sums[steps] * k / count;
+            const double goal = share * k;
             while (in + 1 < steps && sums[in + 1] < goal)
                 ++in;
             const double t =
@@ -86,7 +87,7 @@ private:
 
     void chord(const Vertex& a, const Vertex& b, int halvings) {
         const Vertex middle = vertex((a.t + b.t) / 2);
-        if (halvings > 0 && !(stray(a, middle, b) <= tolerance_)) {
+        if (halvings > 0 && !isNear(a, middle, b)) {
             chord(a, middle, halvings - 1);
             chord(middle, b, halvings - 1);
         } else {
@@ -94,13 +95,17 @@ private:
         }
     }
 
-    static double stray(const Vertex& a, const Vertex& m, const Vertex& b) {
+    /// Whether the tangent in m strays no farther than the tolerance from the chord over its ends; all
+    /// lengths times the chord's.
+    bool isNear(const Vertex& a, const Vertex& m, const Vertex& b) const {
         const Point ab = b.at - a.at, am = m.at - a.at;
-        const double length = glm::length(ab), along = glm::dot(am, ab) / length;
+        const double square = glm::dot(ab, ab), along = glm::dot(am, ab);
         const double slope = std::abs(cross(m.along, ab) / glm::dot(m.along, ab));
-        const double most = std::abs(cross(am, ab)) / length + slope * std::max(along, length - along);
+        const double most = std::abs(cross(am, ab)) + slope * std::max(along, square - along);
+        if (most <= tolerance_ * std::sqrt(square))
+            return true;
         // So short that its direction is rounding.
-        return std::min(2 * (glm::length(am) + glm::distance(m.at, b.at)), most);
+        return 2 * (glm::length(am) + glm::distance(m.at, b.at)) <= tolerance_;
     }
 
     const Cubic& curve_;
