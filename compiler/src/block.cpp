@@ -107,6 +107,9 @@ PaintId LeafRegions::compute() {
 Tree BlockBuilder::run(Cell cell) {
     Laps laps;
     tree_ = {};
+    constexpr std::size_t usualLeaves = 32, usualPieces = 256;
+    tree_.leaves.reserve(cell.strands.empty() ? 0 : usualLeaves);
+    tree_.pieces.reserve(cell.strands.empty() ? 0 : usualPieces);
     firstLevel_ = cell.level;
     regions_.forget();
     tree_.root = build(cell).entry;
