@@ -21,6 +21,8 @@ function(vtm_library name)
     add_library(vtm_${name} STATIC ${ARG_SOURCES})
     add_library(vtm::${name} ALIAS vtm_${name})
     set_target_properties(vtm_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    # Nobody replaces single functions of ours when a program is loaded, so they may be inlined where they are public.
+    target_compile_options(vtm_${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>")
     target_link_libraries(vtm_${name} PUBLIC vtm_settings ${ARG_DEPENDS} PRIVATE vtm_warnings ${ARG_LINK})
 endfunction()
 

@@ -24,19 +24,6 @@ constexpr std::size_t maxWork = 20'000'000'000;
 /// asset::Leaf::pieceCount is 16 bits.
 constexpr std::size_t maxLeafPieces = 0xFFFF;
 
-/// Tells the time between one thing and the next.
-class Laps {
-public:
-    void to(double& into) {
-        const Clock::time_point now = Clock::now();
-        into += milliseconds(last_, now);
-        last_ = now;
-    }
-
-private:
-    Clock::time_point last_ = Clock::now();
-};
-
 bool isInside(const Layer& layer, int winding) {
     return layer.rule == scene::FillRule::NonZero ? winding != 0 : winding % 2 != 0;
 }
@@ -105,13 +92,23 @@ PaintId LeafRegions::compute() {
 // ---- build ------------------------------------------------------------------------------------
 
 Tree BlockBuilder::run(Cell cell) {
-    Laps laps;
+    const Clock::time_point start = lastLap_ = Clock::now();
     tree_ = {};
+    constexpr std::size_t usualLeaves = 32, usualPieces = 256;
+    tree_.leaves.reserve(cell.strands.empty() ? 0 : usualLeaves);
+    tree_.pieces.reserve(cell.strands.empty() ? 0 : usualPieces);
     firstLevel_ = cell.level;
     regions_.forget();
     tree_.root = build(cell).entry;
-    laps.to(times_.all);
+    times_.all += milliseconds(start, Clock::now());
     return std::move(tree_);
+}
+
+/// Adds the time since the last lap to a stage's.
+void BlockBuilder::lap(double& stage) {
+    const Clock::time_point now = Clock::now();
+    stage += milliseconds(lastLap_, now);
+    lastLap_ = now;
 }
 
 /// `cell` is culled already if it has strands.
@@ -234,7 +231,6 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) con
 
 /// What of the cell is in its children; in those with strands, without what cannot show there.
 BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
-    Laps laps;
     const std::size_t depth = cell.level - firstLevel_;
     while (children_.size() <= depth)
         children_.emplace_back();
@@ -243,7 +239,7 @@ BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
     for (Cell& child : children)
         if (!child.strands.empty())
             culler_.run(child);
-    laps.to(times_.push);
+    lap(times_.push);
     return children;
 }
 
@@ -266,7 +262,6 @@ BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {
 /// Nothing if it cannot be proven, or has too many pieces for the format, or its error is beyond the
 /// tolerance and that of smaller leaves would not be.
 BlockBuilder::Made BlockBuilder::makeLeaf(const Cell& cell) {
-    Laps laps;
     regions_.enter(cell, tree_.palette);
     strands_ = cell.strands;
     std::uint32_t local = 0;
@@ -276,12 +271,12 @@ BlockBuilder::Made BlockBuilder::makeLeaf(const Cell& cell) {
         s.layer = local;
     }
     const PlanarLeaf& planar = planariser_.run(cell.square, points_, strands_, regions_);
-    laps.to(times_.planarise);
+    lap(times_.planarise);
     if (!planar.certified)
         return {};
     const ErrorBudget& budget = options_.budget;
     const FittedLeaf& fitted = fitter_.run(cell.square, planar, budget.fit());
-    laps.to(times_.fit);
+    lap(times_.fit);
     const double error = budget.leaf(cell.level, planar.set->bend, fitted.slivers);
     const bool maySplit = cell.level < options_.maxDepth && budget.canHold();
     if (fitted.pieces.size() > maxLeafPieces || (maySplit && !budget.holds(error)))

@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "compiler/src/cell.hpp"
+#include "compiler/src/clock.hpp"
 #include "compiler/src/fit.hpp"
 #include "compiler/src/planar.hpp"
 #include "compiler/src/tree.hpp"
@@ -90,6 +91,7 @@ private:
         int leaves = 0, visits = 0;
     };
 
+    void lap(double& stage);
     Built build(Cell& cell);
     Built buildFixed(Cell& cell);
     Built buildBest(Cell& cell);
@@ -128,6 +130,7 @@ private:
     unsigned firstLevel_ = 0;
     Tree tree_;
     TreeTimes times_;
+    Clock::time_point lastLap_;
 };
 
 }  // namespace vtm::compiler

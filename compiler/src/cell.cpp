@@ -156,6 +156,7 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
         child.square = cell.square.child(i % 4, i / 4);
         child.level = cell.level + 1;
         child.strands.clear();
+        child.strands.reserve(cell.strands.size() / 8);  // most strands visit one child or two
         child.windings.clear();
     }
     Splitter splitter(points, cell.square, children);

@@ -55,7 +55,7 @@ public:
 
 private:
     static constexpr double diagonal = std::numbers::sqrt2;
-    static constexpr double outlineShare = 3.0 / 16, strokeShare = 1.0 / 16, quantisationShare = 3.0 / 16;
+    static constexpr double outlineShare = 1.0 / 4, strokeShare = 1.0 / 16, quantisationShare = 3.0 / 16;
     static constexpr double mostFitShare = 1.0 / 2, leastFitShare = 1.0 / 8;
     static constexpr double usualBend = 1.5;  ///< one round; two or more are rare
 

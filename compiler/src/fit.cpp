@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -10,7 +9,6 @@ namespace vtm::compiler {
 namespace {
 
 using glm::dvec2;
-using Side = std::size_t;
 
 constexpr double extent = asset::leafExtent;
 
@@ -21,10 +19,8 @@ constexpr double maxSlope = 0.4142135623730951;
 /// Hermite displacement: t(s) = mA s (1-s)² - mB s² (1-s).
 double displacement(double mA, double mB, double s) { return s * (1 - s) * (mA * (1 - s) - mB * s); }
 
-/// Greatest |t''| on [0, 1]: t'' is linear, -4 mA - 2 mB at 0 and 2 mA + 4 mB at 1.
-double maxSecondDerivative(double mA, double mB) {
-    return std::max(std::abs(-4 * mA - 2 * mB), std::abs(2 * mA + 4 * mB));
-}
+/// t''(s), which is linear: 2 (mA + mB) (3 s - 1) - 2 mA.
+double secondDerivative(double mA, double mB, double s) { return 2 * (mA + mB) * (3 * s - 1) - 2 * mA; }
 
 std::int16_t stored(double slope) {
     const double scaled = std::clamp(slope, -1.0, 1.0) * double{asset::slopeScale};
@@ -75,22 +71,22 @@ void Fitter::link(const PlanarLeaf& leaf) {
 
 /// The edge that carries on with the same paints at a vertex where but one other visible edge ends.
 std::uint32_t Fitter::next(const PlanarLeaf& leaf, std::uint32_t edge, bool atB) {
-    const std::uint32_t self = leaf.endOf[2 * edge + (atB ? 1 : 0)], first = leaf.firstOf[self];
-    const PlanarLeaf::End* other = nullptr;
-    for (std::uint32_t i = first; i < leaf.ends.size() && leaf.firstOf[i] == first; ++i) {
-        if (i == self || !isVisible(leaf.sides[leaf.ends[i].edge]))
+    const EdgeEnd self = atB ? endAtB(edge) : endAtA(edge);
+    EdgeEnd other = noEdge;
+    for (const EdgeEnd end : leaf.vertices.ends(leaf.vertices.all()[leaf.vertices.of(self)])) {
+        if (end == self || !isVisible(leaf.sides[end / 2]))
             continue;
-        if (other)
+        if (other != noEdge)
             return noEdge;
-        other = &leaf.ends[i];
+        other = end;
     }
-    if (!other)
+    if (other == noEdge)
         return noEdge;
-    const Sides &s = leaf.sides[edge], &t = leaf.sides[other->edge];
-    const bool sameDirection = atB == other->isA;
+    const Sides &s = leaf.sides[edge], &t = leaf.sides[other / 2];
+    const bool sameDirection = atB == isAtA(other);
     const bool matches =
         sameDirection ? s.left == t.left && s.right == t.right : s.left == t.right && s.right == t.left;
-    return matches ? other->edge : noEdge;
+    return matches ? other / 2 : noEdge;
 }
 
 void Fitter::follow(const PlanarLeaf& leaf, std::uint32_t edge, bool fromA) {
@@ -135,82 +131,6 @@ Fitter::Steps Fitter::round(LatticePoint p) const {
     if (p.y == square_.y0 || p.y == square_.y1())
         r[1] = p.y == square_.y0 ? std::uint16_t{0} : asset::leafExtent;
     return r;
-}
-
-// ---- slivers ----------------------------------------------------------------------------------
-
-namespace {
-
-int distance(const std::array<std::uint16_t, 2>& p, Side side) {
-    const int across = side % 2 == 0 ? p[1] : p[0];
-    return side == 0 || side == 3 ? across : static_cast<int>(asset::leafExtent) - across;
-}
-
-std::optional<Side> sideOf(const Square& square, LatticePoint p) {
-    for (Side side = 0; side < 4; ++side)
-        if ((side % 2 == 0 ? p.y : p.x) == square.line(side))
-            return side;
-    return std::nullopt;
-}
-
-}  // namespace
-
-/// Drops chains that run along the border, nowhere more than a lattice step inside: traces of shapes
-/// that end on the cell's border. What lies between such a chain and the border is below the
-/// lattice's resolution; the corners that the chain passes take the paint of its inner side.
-void Fitter::cutSlivers() {
-    leaf_.slivers = false;
-    while (std::erase_if(chains_, [&](const Chain& c) { return isSliver(c); }) > 0)
-        leaf_.slivers = true;
-}
-
-/// Within twice the reach of a sliver from the border.
-bool Fitter::isNearBorder(LatticePoint p) const {
-    const auto margin = static_cast<Coord>(2 * sliverReach() / scale_) + 2;
-    return (p.x - square_.x0 <= margin) | (square_.x1() - p.x <= margin) | (p.y - square_.y0 <= margin) |
-           (square_.y1() - p.y <= margin);
-}
-
-bool Fitter::isSliver(const Chain& chain) {
-    if (!isNearBorder(points_[chain.first + chain.count / 2]))
-        return false;
-    const auto from = sideOf(square_, points_[chain.first]);
-    if (!from)
-        return false;
-    const auto to = sideOf(square_, points_[chain.first + chain.count - 1]);
-    if (!to)
-        return false;
-    return cutAlong(chain, *from, *to, chain.right, chain.left) ||
-           cutAlong(chain, *to, *from, chain.left, chain.right);
-}
-
-/// Counter-clockwise from one side to another; the leaf's inside lies on the left.
-bool Fitter::cutAlong(const Chain& chain, Side from, Side to, PaintId outer, PaintId inner) {
-    const Side sides = (to + 4 - from) % 4;
-    for (std::uint32_t i = 1; i < chain.count; ++i)
-        if (!hugs(round(points_[chain.first + i - 1]), round(points_[chain.first + i]), from, sides))
-            return false;
-    for (Side k = 1; k <= sides; ++k)
-        if (leaf_.corners[(from + k) % 4] != outer)
-            return false;
-    for (Side k = 1; k <= sides; ++k)
-        leaf_.corners[(from + k) % 4] = inner;
-    return true;
-}
-
-/// Whether an edge runs within reach of one of the sides from `from` on. The first and the last
-/// side are met only near their corners, unless there is but one.
-bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
-    const int reach = sliverReach();
-    const auto near = [&](Side side) { return distance(p, side) <= reach && distance(q, side) <= reach; };
-    for (Side k = 0; k <= sides; ++k) {
-        const Side side = (from + k) % 4;
-        const bool whole = sides == 0 || (k > 0 && k < sides);
-        const Side neighbour = k == 0 ? (side + 1) % 4 : (side + 3) % 4;
-        if (near(side) && (whole || near(neighbour)))
-            return true;
-    }
-    return false;
 }
 
 // ---- fit --------------------------------------------------------------------------------------
@@ -281,8 +201,7 @@ bool Fitter::isFlat(std::uint32_t from, std::uint32_t to) const {
 }
 
 /// By what factor the reach is too long, roughly; at most 1 if the fit is good. Least squares over some of
-/// the points between, in the basis of the rounded chord; then the bound, which is a proof: between two
-/// points the distance is at most the larger one of theirs and the sag of cubic and chain, |t''| ds² / 8.
+/// the points between, in the basis of the rounded chord; then the bound, which is a proof (`stray`).
 double Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
     constexpr double beyond = 2;
     const dvec2 a = point(rounded(from)), ab = point(rounded(to)) - a;
@@ -290,51 +209,66 @@ double Fitter::tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes) {
     if (length2 == 0)
         return beyond;
     const dvec2 along = ab / length2;
-    const std::uint32_t count = to - from - 1;
-    if (local_.size() < count)
-        local_.resize(count);
+    const std::uint32_t last = to - from;
+    if (local_.size() < last + 1)
+        local_.resize(last + 1);
+    local_[0] = {0, 0};
+    local_[last] = {1, 0};
     // Without branches on single points: which of them decides is random.
-    double previous = 0;
     bool rises = true;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const dvec2 d = exact_[from + 1 + i] - a;
-        const double s = glm::dot(d, along);
-        local_[i] = {s, along.x * d.y - along.y * d.x};
-        rises &= s > previous;
-        previous = s;
+    for (std::uint32_t i = 1; i < last; ++i) {
+        const dvec2 d = exact_[from + i] - a;
+        local_[i] = {glm::dot(d, along), along.x * d.y - along.y * d.x};
+        rises &= local_[i].x > local_[i - 1].x;
     }
-    if (!(rises && previous < 1))
+    if (!(rises && local_[last - 1].x < 1))
         return beyond;
+    const Slopes m = leastSquares(last);
+    const double steepest = std::max(std::abs(m.a), std::abs(m.b));
+    if (!(steepest <= maxSlope))
+        return std::max(steepest / maxSlope, 1.01);
+    slopes = {stored(m.a) / double{asset::slopeScale}, stored(m.b) / double{asset::slopeScale}};
+    const double most = tolerance_ / std::sqrt(length2), worst = stray(slopes, last);
+    return worst <= most ? 1 : std::clamp(std::sqrt(std::sqrt(worst / most)), 1.01, beyond);
+}
+
+/// The slopes that come closest to the means of the chords by some of the points 1 .. last - 1: chords lie on
+/// the inner side of points by up to a quarter of what these stray from the line of their neighbours, on
+/// average by half of that.
+Fitter::Slopes Fitter::leastSquares(std::uint32_t last) const {
     // Normal equations of t(s_i) = mA p_i + mB q_i; a whisper of regularisation keeps the case of one inner
     // point solvable and prefers small slopes.
     constexpr double whisper = 1e-9;
     constexpr std::uint32_t mostSamples = 8;
-    const std::uint32_t stride = (count + mostSamples) / mostSamples;
+    constexpr double inwards = 1.0 / 8;
+    const std::uint32_t stride = (last - 1 + mostSamples) / mostSamples;
     double pp = whisper, pq = 0, qq = whisper, pt = 0, qt = 0;
-    for (std::uint32_t i = (stride - 1) / 2; i < count; i += stride) {
-        const double s = local_[i].x, t = local_[i].y, h = s * (1 - s), p = h * (1 - s), q = -h * s;
+    for (std::uint32_t i = 1 + (stride - 1) / 2; i < last; i += stride) {
+        const dvec2 before = local_[i - 1], at = local_[i], after = local_[i + 1];
+        const double off = before.y + (after.y - before.y) * (at.x - before.x) / (after.x - before.x) - at.y;
+        const double s = at.x, t = at.y + inwards * off, h = s * (1 - s), p = h * (1 - s), q = -h * s;
         pp += p * p, pq += p * q, qq += q * q, pt += p * t, qt += q * t;
     }
     const double whole = pp * qq - pq * pq;
-    Slopes m{(pt * qq - qt * pq) / whole, (qt * pp - pt * pq) / whole};
-    const double steepest = std::max(std::abs(m.a), std::abs(m.b));
-    if (!(steepest <= maxSlope))
-        return std::max(steepest / maxSlope, 1.01);
-    m = {stored(m.a) / double{asset::slopeScale}, stored(m.b) / double{asset::slopeScale}};
-    const double sag = maxSecondDerivative(m.a, m.b) / 8, most = tolerance_ / std::sqrt(length2);
-    double error = 0, worst = 0;  // that of rounded ends is counted on its own
-    previous = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double s = local_[i].x, step = s - previous, before = error;
-        error = std::abs(local_[i].y - displacement(m.a, m.b, s));
-        worst = std::max(worst, std::max(before, error) + sag * step * step);
-        previous = s;
+    return {(pt * qq - qt * pq) / whole, (qt * pp - pt * pq) / whole};
+}
+
+/// How far the chain may be from a piece, as a share of its chord; that of rounded ends is counted on its
+/// own. Between two points a step ds apart the chain's chord lies above that of the curve by no more than at
+/// one of them, and the curve below its own chord by at most max(t'') ds² / 8, above it by at most max(-t'')
+/// ds² / 8.
+double Fitter::stray(const Slopes& m, std::uint32_t last) const {
+    double worst = 0, off = 0, bend = secondDerivative(m.a, m.b, 0) / 8;
+    for (std::uint32_t i = 1; i <= last; ++i) {
+        const double s = local_[i].x, step = s - local_[i - 1].x, offBefore = off, bendBefore = bend;
+        off = local_[i].y - displacement(m.a, m.b, s);
+        bend = secondDerivative(m.a, m.b, s) / 8;
+        const double below = std::max(std::max(bendBefore, bend), 0.0) * (step * step),
+                     above = std::max(std::max(-bendBefore, -bend), 0.0) * (step * step);
+        worst =
+            std::max(worst, std::max(std::max(offBefore, off) + below, std::max(-offBefore, -off) + above));
     }
-    worst = std::max(worst, error + sag * (1 - previous) * (1 - previous));
-    if (!(worst <= most))
-        return std::clamp(std::sqrt(std::sqrt(worst / most)), 1.01, beyond);
-    slopes = m;
-    return 1;
+    return worst;
 }
 
 void Fitter::emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m) {

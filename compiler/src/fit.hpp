@@ -61,6 +61,8 @@ private:
     std::uint32_t reach(std::uint32_t from, std::uint32_t last) const;
     bool isFlat(std::uint32_t from, std::uint32_t to) const;
     double tryFit(std::uint32_t from, std::uint32_t to, Slopes& slopes);
+    Slopes leastSquares(std::uint32_t last) const;
+    double stray(const Slopes& m, std::uint32_t last) const;
     void emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m);
 
     Square square_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "compiler/src/chords.hpp"
 #include "compiler/src/cubics.hpp"
 #include "compiler/src/error_budget.hpp"
 
@@ -139,78 +140,55 @@ bool beyondOneSide(const Cubic& c, Point min, Point max) {
     return false;
 }
 
-/// A cubic by powers: ((a t + b) t + c) t + d.
-struct Polynomial {
-    Point a, b, c, d;
-
-    explicit Polynomial(const Cubic& p)
-        : a(p[3] - p[0] + 3.0 * (p[1] - p[2])),
-          b(3.0 * (p[0] - 2.0 * p[1] + p[2])),
-          c(3.0 * (p[1] - p[0])),
-          d(p[0]) {}
-    Point at(double t) const { return ((a * t + b) * t + c) * t + d; }
-};
-
 std::array<Cubic, 2> halve(const Cubic& c) {
     const Point a = lerp(c[0], c[1], 0.5), b = lerp(c[1], c[2], 0.5), d = lerp(c[2], c[3], 0.5);
     const Point ab = lerp(a, b, 0.5), bd = lerp(b, d, 0.5), m = lerp(ab, bd, 0.5);
     return {Cubic{c[0], a, ab, m}, Cubic{m, bd, d, c[3]}};
 }
 
-/// The fourth power of the number of chords, times tolerance², needed so that none is further than the
-/// tolerance from the curve: the chord of a step h deviates by at most h² max|P''| / 8, and |P''| <= 6
-/// max|second difference of the controls| (Wang, Shen 1988). Domain: any cubic. Not rounded up, and infinite
-/// for infinite curves.
-double chordsNeeded(const Cubic& c) {
+/// Whether the cubic is so flat that one chord will do: it strays by at most max|P''| / 8, and |P''| <= 6
+/// max|second difference of the controls| (Wang, Shen 1988). False for infinite curves.
+bool isFlat(const Cubic& c, double tolerance) {
     const Point d0 = c[0] - c[1] * 2.0 + c[2], d1 = c[1] - c[2] * 2.0 + c[3];
-    return 0.75 * 0.75 * std::max(d0.x * d0.x + d0.y * d0.y, d1.x * d1.x + d1.y * d1.y);
+    return 0.75 * 0.75 * std::max(d0.x * d0.x + d0.y * d0.y, d1.x * d1.x + d1.y * d1.y) <=
+           tolerance * tolerance;
 }
 
-/// Cubics that would need more chords than this are halved first, so that parts outside the box can
-/// be left out and chords follow the curvature.
-constexpr double chordsAtOnce = 8;
+/// Cubics that need more chords are halved first, so that their bends are seen.
+constexpr double chordsAtOnce = 256;
+/// Those that may leave the box sooner, so that parts outside it can be left out.
+constexpr double chordsAtBox = 8;
 /// Halving so often brings any curve below a lattice step.
 constexpr int maxHalvings = 400;
 
-void flatten(RunSink& sink, const Cubic& c, double tolerance, int halvings = 0) {
-    const double needed = chordsNeeded(c) / (tolerance * tolerance);  // to the fourth
-    if (!(needed > 1) || halvings >= maxHalvings ||
-        (!sink.keepsInside(c) && beyondOneSide(c, sink.min(), sink.max()))) {
-        sink.line(c[3]);
-        return;
-    }
-    if (needed <= chordsAtOnce * chordsAtOnce * chordsAtOnce * chordsAtOnce) {
-        const double chords = std::sqrt(std::sqrt(needed));
-        const int whole = static_cast<int>(chords), n = whole + (chords > whole);
-        const Polynomial curve(c);
-        const double step = 1.0 / n;
-        if (sink.keepsInside(c)) {
-            std::array<Point, static_cast<std::size_t>(chordsAtOnce)> points;
-            for (int i = 1; i < n; ++i)
-                points[static_cast<std::size_t>(i - 1)] = curve.at(i * step);
-            points[static_cast<std::size_t>(n - 1)] = c[3];
-            sink.linesInside(std::span(points).first(static_cast<std::size_t>(n)));
-            return;
-        }
-        for (int i = 1; i < n; ++i)
-            sink.line(curve.at(i * step));
-        sink.line(c[3]);
-        return;
-    }
-    for (const Cubic& half : halve(c))
-        flatten(sink, half, tolerance, halvings + 1);
-}
-
 class Flattener : public CurveSink {
 public:
-    Flattener(RunSink& sink, double tolerance) : sink_(sink), tolerance_(tolerance) {}
+    Flattener(RunSink& sink, double tolerance) : sink_(sink), tolerance_(tolerance), cutter_(tolerance) {}
     void start(Point p) override { sink_.start(p); }
     void line(Point to) override { sink_.line(to); }
-    void cubic(const Cubic& c) override { flatten(sink_, c, tolerance_); }
+    void cubic(const Cubic& c) override { flatten(c, maxHalvings); }
 
 private:
+    void flatten(const Cubic& c, int halvings) {
+        const bool isInside = sink_.keepsInside(c);
+        if (halvings == 0 || isFlat(c, tolerance_) ||
+            (!isInside && beyondOneSide(c, sink_.min(), sink_.max())))
+            return sink_.line(c[3]);
+        const std::span<const Point> ends = cutter_.cut(c, isInside ? chordsAtOnce : chordsAtBox);
+        if (ends.empty()) {
+            for (const Cubic& half : halve(c))
+                flatten(half, halvings - 1);
+        } else if (isInside) {
+            sink_.linesInside(ends);
+        } else {
+            for (const Point p : ends)
+                sink_.line(p);
+        }
+    }
+
     RunSink& sink_;
     const double tolerance_;
+    ChordCutter cutter_;
 };
 
 }  // namespace

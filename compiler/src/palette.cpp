@@ -95,7 +95,7 @@ PaintId Palette::solid(const Color& c) {
         PaintId& id = solids_[key];
         if (id == NumberMap::unknown) {
             id = static_cast<PaintId>(paints_.size());
-            paints_.push_back({{asset::Instruction{Op::Solid}, c}});
+            paints_.emplace_back(1, PaintStep{asset::Instruction{Op::Solid}, c});
         } else if (std::bit_cast<std::array<std::uint64_t, 2>>(colorOf(paints_[id])) != bits) {
             continue;  // another of the same hash
         }

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "compiler/src/small_sort.hpp"
-
 namespace vtm::compiler {
 namespace {
 
@@ -37,8 +35,12 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
     if (!leaf_.set)
         return leaf_;
     leaf_.sides.assign(leaf_.set->edges.size(), {});
+    leftSums_.resize(leaf_.set->edges.size());
     consistent_ = true;
-    collectEnds();
+    leaf_.vertices.collect(*leaf_.set, square);
+    visited_.clear();
+    for (const Vertices::Vertex& v : leaf_.vertices.all())
+        visited_.push_back(!v.isInner());
     const bool cornersAgree = labelFromBorder();
     for (std::uint32_t e = 0; e < leaf_.sides.size(); ++e)
         if (!leaf_.sides[e].known) {
@@ -50,86 +52,10 @@ const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span
     return leaf_;
 }
 
-// ---- structure --------------------------------------------------------------------------------
-
-void Planariser::collectEnds() {
-    const std::vector<Edge>& edges = leaf_.set->edges;
-    std::vector<End>& ends = leaf_.ends;
-    ends.clear();
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-        ends.push_back({edges[e].a, e, true});
-        ends.push_back({edges[e].b, e, false});
-    }
-    sortByKey(ends, spareEnds_, [](const End& end) { return sortKey(end.at); });
-    leaf_.endOf.resize(ends.size());
-    leaf_.firstOf.resize(ends.size());
-    visited_.assign(ends.size(), false);
-    for (auto& side : border_)
-        side.clear();
-    for (std::uint32_t first = 0; first < ends.size();) {
-        const LatticePoint at = ends[first].at;
-        std::uint32_t last = first + 1;
-        while (last < ends.size() && ends[last].at == at)
-            ++last;
-        if (((at.x | at.y) & 1) != 0) {  // on the border
-            const int side = sideOf(at);
-            visited_[first] = true;
-            if (last > first + 1)
-                sortAlong(first, last, side);
-            auto& border = border_[static_cast<std::size_t>(side)];
-            border.insert(border.end(), ends.begin() + first, ends.begin() + last);
-        } else if (last > first + 2) {
-            sortRound(first, last);
-        }
-        for (std::uint32_t i = first; i < last; ++i) {
-            leaf_.endOf[2 * ends[i].edge + !ends[i].isA] = i;
-            leaf_.firstOf[i] = first;
-        }
-        first = last;
-    }
-}
-
-/// The vertex after the end's own on its edge.
-LatticePoint Planariser::next(const End& end) const {
-    const Edge& e = leaf_.set->edges[end.edge];
-    return leaf_.set->vertex(e, end.isA ? 1 : e.chordCount() - 1);
-}
-
-/// Counter-clockwise by direction, from -y.
-void Planariser::sortRound(std::uint32_t first, std::uint32_t last) {
-    const LatticePoint at = leaf_.ends[first].at;
-    const auto isRight = [&](LatticePoint p) { return p.x > at.x || (p.x == at.x && p.y < at.y); };
-    std::sort(leaf_.ends.begin() + first, leaf_.ends.begin() + last, [&](const End& p, const End& q) {
-        const LatticePoint a = next(p), b = next(q);
-        if (isRight(a) != isRight(b))
-            return isRight(a);
-        return orient(at, a, b) > 0;
-    });
-}
-
-/// In the order in which one crosses them on the way along their side: clockwise where the inside is on the
-/// left, and all directions lie in half a plane.
-void Planariser::sortAlong(std::uint32_t first, std::uint32_t last, int side) {
-    const LatticePoint at = leaf_.ends[first].at;
-    std::sort(leaf_.ends.begin() + first, leaf_.ends.begin() + last, [&](const End& p, const End& q) {
-        const std::int64_t o = orient(at, next(p), next(q));
-        return isInsideOnLeft(static_cast<std::size_t>(side)) ? o < 0 : o > 0;
-    });
-}
-
-/// The side a point lies on, or -1 inside.
-int Planariser::sideOf(LatticePoint p) const {
-    return p.y == square_.y0     ? 0
-           : p.x == square_.x1() ? 1
-           : p.y == square_.y1() ? 2
-           : p.x == square_.x0   ? 3
-                                 : -1;
-}
-
 // ---- label ------------------------------------------------------------------------------------
 
-void Planariser::cross(const Edge& e, int times) {
-    for (const Change& c : leaf_.set->of(e))
+void Planariser::cross(std::uint32_t edge, int times) {
+    for (const Change& c : leaf_.set->of(leaf_.set->edges[edge]))
         regions_->change(c.layer, times * c.winding);
 }
 
@@ -184,9 +110,9 @@ void Planariser::sweepTo(std::uint32_t index) {
     // From the first corner along the border to the start of the sweep line v = m + ½.
     regions_->toCorner();
     const Axis border{!axis.alongX};
-    for (const End& end : border_[axis.alongX ? 3 : 0])
-        if (axis.v(end.at) <= m)
-            cross(edges[end.edge], border.crossingSign(edges[end.edge]));
+    for (const EdgeEnd end : leaf_.vertices.border(axis.alongX ? 3 : 0))
+        if (axis.v(leaf_.vertices.all()[leaf_.vertices.of(end)].at) <= m)
+            cross(end / 2, border.crossingSign(edges[end / 2]));
     const Place place(axis, chordAt(axis, e, m), m);
     const auto [low, high] = std::minmax({axis.u(e.a), axis.u(e.b)});
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
@@ -195,34 +121,30 @@ void Planariser::sweepTo(std::uint32_t index) {
             continue;
         const auto [fLow, fHigh] = std::minmax({axis.u(f.a), axis.u(f.b)});
         if (fHigh < low || (fLow <= high && isBefore(Place(axis, chordAt(axis, f, m), m), place)))
-            cross(f, axis.crossingSign(f));
+            cross(i, axis.crossingSign(f));
     }
     if (axis.crossingSign(e) > 0)  // met from its right
-        cross(e, 1);
+        cross(index, 1);
 }
 
 /// From the left of an edge, all round the part of the map that it is connected with.
 void Planariser::walkFrom(std::uint32_t edge) {
-    const Edge& e = leaf_.set->edges[edge];
-    const PaintId left = regions_->paint();
-    arrive(leaf_.endOf[2 * edge + 1]);
+    arrive(endAtB(edge));
     walk();
-    cross(e, -1);
-    label(edge, {left, regions_->paint(), true});
-    arrive(leaf_.endOf[2 * edge]);
+    crossFrom(endAtA(edge));
+    arrive(endAtA(edge));
     walk();
 }
 
 /// At the end of an edge that has been followed with the region on its left.
-void Planariser::arrive(std::uint32_t end) {
-    const std::uint32_t first = leaf_.firstOf[end];
-    if (visited_[first])
+void Planariser::arrive(EdgeEnd end) {
+    const std::uint32_t vertex = leaf_.vertices.of(end);
+    if (visited_[vertex])
         return;
-    visited_[first] = true;
-    std::uint32_t count = 1;
-    while (first + count < leaf_.ends.size() && leaf_.firstOf[first + count] == first)
-        ++count;
-    visits_.push_back({first, count, end - first, 0, false, regions_->windingSum()});
+    visited_[vertex] = true;
+    const auto ends = leaf_.vertices.ends(leaf_.vertices.all()[vertex]);
+    visits_.push_back({ends, leaf_.vertices.place(end), static_cast<std::uint32_t>(ends.size()), false,
+                       regions_->windingSum()});
 }
 
 /// Going clockwise round a vertex from the edge by which one came, one stands on the left of the next
@@ -231,51 +153,58 @@ void Planariser::arrive(std::uint32_t end) {
 void Planariser::walk() {
     while (!visits_.empty()) {
         Visit& visit = visits_.back();
-        const std::uint32_t step = visit.crossed + 1;
-        const End& end =
-            leaf_.ends[visit.first + (visit.arrival + visit.count - step % visit.count) % visit.count];
-        const Edge& e = leaf_.set->edges[end.edge];
-        if (step < visit.count && !visit.followed) {
+        const std::uint32_t next =
+            (visit.at == 0 ? static_cast<std::uint32_t>(visit.ends.size()) : visit.at) - 1;
+        const EdgeEnd end = visit.ends[next];
+        if (visit.left > 1 && !visit.followed) {
             visit.followed = true;
-            arrive(leaf_.endOf[2 * end.edge + (end.isA ? 1 : 0)]);
-            continue;
+            const std::size_t depth = visits_.size();
+            arrive(otherEnd(end));
+            if (visits_.size() > depth)
+                continue;
         }
-        const PaintId left = regions_->paint();
-        cross(e, end.isA ? -1 : 1);
-        const PaintId right = regions_->paint();
-        label(end.edge, end.isA ? Sides{left, right, true} : Sides{right, left, true});
+        crossFrom(end);
+        visit.at = next;
         visit.followed = false;
-        if (++visit.crossed == visit.count) {
-            consistent_ = consistent_ && regions_->windingSum() == visit.windingSum;
+        if (--visit.left == 0) {
+            consistent_ &= regions_->windingSum() == visit.windingSum;
             visits_.pop_back();
         }
     }
 }
 
-void Planariser::label(std::uint32_t edge, const Sides& sides) {
-    Sides& known = leaf_.sides[edge];
-    consistent_ = consistent_ && (!known.known || (known.left == sides.left && known.right == sides.right));
-    known = sides;
+/// From the left to the right of an edge, as seen from one of its ends. The first time it gets its labels;
+/// then the windings must be what they were.
+void Planariser::crossFrom(EdgeEnd end) {
+    const std::uint32_t edge = end / 2;
+    const bool fromLeft = isAtA(end);
+    Sides& sides = leaf_.sides[edge];
+    const std::uint64_t before = regions_->windingSum();
+    if (sides.known) {
+        cross(edge, fromLeft ? -1 : 1);
+    } else {
+        const PaintId left = regions_->paint();
+        cross(edge, fromLeft ? -1 : 1);
+        const PaintId right = regions_->paint();
+        sides = fromLeft ? Sides{left, right, true} : Sides{right, left, true};
+        leftSums_[edge] = fromLeft ? before : regions_->windingSum();
+    }
+    consistent_ &= leftSums_[edge] == (fromLeft ? before : regions_->windingSum());
 }
 
 /// Along a side to its other corner, and all round the parts of the map that one meets there. One comes to
 /// an edge on its left, as seen from the border, where the inside is on the left.
 void Planariser::along(std::size_t side) {
-    const Axis axis{side % 2 == 0};
     const bool fromLeft = isInsideOnLeft(side);
-    for (const End& end : border_[side]) {
-        const Edge& e = leaf_.set->edges[end.edge];
-        const bool isNew = !leaf_.sides[end.edge].known;
+    for (const EdgeEnd end : leaf_.vertices.border(side)) {
+        const bool isNew = !leaf_.sides[end / 2].known;
         const auto walkOn = [&] {
-            arrive(leaf_.endOf[2 * end.edge + (end.isA ? 1 : 0)]);
+            arrive(otherEnd(end));
             walk();
         };
         if (isNew && fromLeft)
             walkOn();
-        const PaintId before = regions_->paint();
-        cross(e, axis.crossingSign(e));
-        const PaintId after = regions_->paint();
-        label(end.edge, fromLeft == end.isA ? Sides{before, after, true} : Sides{after, before, true});
+        crossFrom(fromLeft ? end : otherEnd(end));
         if (isNew && !fromLeft)
             walkOn();
     }
@@ -307,26 +236,26 @@ void Planariser::findFlows() {
 }
 
 /// As seen going to the vertex.
-std::uint64_t Planariser::flow(const End& end) const {
-    const std::uint64_t back = -std::uint64_t{end.isA};
-    return (flows_[end.edge] ^ back) - back;
+std::uint64_t Planariser::flow(EdgeEnd end) const {
+    const std::uint64_t back = -std::uint64_t{isAtA(end)};
+    return (flows_[end / 2] ^ back) - back;
 }
 
 bool Planariser::certifyVertices() const {
-    std::uint64_t sum = 0, open = 0;
-    for (std::uint32_t i = 0; i < leaf_.ends.size(); ++i) {
-        const End& end = leaf_.ends[i];
-        const bool begins = leaf_.firstOf[i] == i, isInner = ((end.at.x | end.at.y) & 1) == 0;
-        open |= begins ? sum : 0;  // of the vertex before
-        sum = (begins ? 0 : sum) + (isInner ? flow(end) : 0);
+    std::uint64_t open = 0;
+    for (const Vertices::Vertex& v : leaf_.vertices.all()) {
+        std::uint64_t sum = 0;
+        for (const EdgeEnd end : leaf_.vertices.ends(v))
+            sum += flow(end);
+        open |= v.isInner() ? sum : 0;
     }
-    return (open | sum) == 0;
+    return open == 0;
 }
 
 bool Planariser::certifySides() const {
     for (std::size_t side = 0; side < 4; ++side) {
         std::uint64_t sum = mixed(leaf_.corners[side]) - mixed(leaf_.corners[(side + 1) % 4]);
-        for (const End& end : border_[side])
+        for (const EdgeEnd end : leaf_.vertices.border(side))
             sum += flow(end);
         if (sum != 0)
             return false;

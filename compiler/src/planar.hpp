@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "compiler/src/region_paints.hpp"
-#include "compiler/src/snap.hpp"
+#include "compiler/src/vertices.hpp"
 
 namespace vtm::compiler {
 
@@ -28,23 +28,14 @@ struct Sides {
 };
 
 struct PlanarLeaf {
-    /// An edge's end at a vertex.
-    struct End {
-        LatticePoint at;
-        std::uint32_t edge;
-        bool isA;
-    };
-
-    const EdgeSet* set = nullptr;        ///< the edges; nothing if the leaf is beyond the limits
-    std::vector<End> ends;               ///< by vertex, counter-clockwise round each
-    std::vector<std::uint32_t> endOf;    ///< place in `ends` of edge e's a (2e) and b (2e + 1)
-    std::vector<std::uint32_t> firstOf;  ///< by end: the first end of its vertex
-    std::vector<Sides> sides;            ///< of each edge
-    std::array<PaintId, 4> corners{};    ///< paints at Square::corner(k)
+    const EdgeSet* set = nullptr;      ///< the edges; nothing if the leaf is beyond the limits
+    Vertices vertices;                 ///< of the edges
+    std::vector<Sides> sides;          ///< of each edge
+    std::array<PaintId, 4> corners{};  ///< paints at Square::corner(k)
     /// True if every label is proven: the windings close round every inner vertex and round the border;
-    /// edges are given the same labels from both ends; hash(left) - hash(right) cancels over the edges
-    /// at every inner vertex and adds up to the corners' difference on every side. A false label would
-    /// break one of them (but for 2^-64 of chance).
+    /// they are the same beside an edge as found from both of its ends; hash(left) - hash(right) cancels over
+    /// the edges at every inner vertex and adds up to the corners' difference on every side. A false label
+    /// would break one of them (but for 2^-64 of chance).
     bool certified = false;
 };
 
@@ -59,33 +50,27 @@ public:
 private:
     struct Axis;
     struct Place;
-    using End = PlanarLeaf::End;
     /// A vertex that is being walked round, clockwise from `arrival`.
     struct Visit {
-        std::uint32_t first, count;  ///< its ends
-        std::uint32_t arrival;       ///< of these
-        std::uint32_t crossed;       ///< ends after it that have been crossed
-        bool followed;               ///< the next end's edge has been followed to its other vertex
+        std::span<const EdgeEnd> ends;
+        std::uint32_t at;    ///< the end whose edge has been crossed last, of these
+        std::uint32_t left;  ///< ends that are left to cross
+        bool followed;       ///< the next end's edge has been followed to its other vertex
         std::uint64_t windingSum;
     };
 
-    void collectEnds();
-    void sortRound(std::uint32_t first, std::uint32_t last);
-    void sortAlong(std::uint32_t first, std::uint32_t last, int side);
-    LatticePoint next(const End& end) const;
-    int sideOf(LatticePoint p) const;
-    void cross(const Edge& e, int times);
+    void cross(std::uint32_t edge, int times);
     Chord chordAt(const Axis& axis, const Edge& e, Coord m) const;
     static bool isBefore(const Place& f, const Place& e);
     void sweepTo(std::uint32_t index);
     void walkFrom(std::uint32_t edge);
-    void arrive(std::uint32_t end);
+    void arrive(EdgeEnd end);
     void walk();
-    void label(std::uint32_t edge, const Sides& sides);
+    void crossFrom(EdgeEnd end);
     void along(std::size_t side);
     bool labelFromBorder();
     void findFlows();
-    std::uint64_t flow(const End& end) const;
+    std::uint64_t flow(EdgeEnd end) const;
     bool certifyVertices() const;
     bool certifySides() const;
 
@@ -94,11 +79,10 @@ private:
     Square square_;
     RegionPaints* regions_ = nullptr;
     bool consistent_ = true;
-    std::vector<End> spareEnds_;
-    std::vector<std::uint8_t> visited_;  ///< by a vertex's first end; border vertices count as visited
+    std::vector<std::uint8_t> visited_;    ///< by vertex; those on the border count as visited
+    std::vector<std::uint64_t> leftSums_;  ///< by edge whose sides are known: the windings' sum on its left
     std::vector<Visit> visits_;
     std::vector<std::uint64_t> flows_;  ///< by edge
-    std::array<std::vector<End>, 4> border_;
 };
 
 }  // namespace vtm::compiler

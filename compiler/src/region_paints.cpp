@@ -26,9 +26,10 @@ void RegionPaints::toCorner() {
 
 void RegionPaints::find() {
     lastKey_ = key_;
-    last_ = known_[key_];
-    if (last_ == NumberMap::unknown)
-        known_[key_] = last_ = compute();
+    PaintId& paint = known_[key_];
+    if (paint == NumberMap::unknown)
+        paint = compute();
+    last_ = paint;
 }
 
 }  // namespace vtm::compiler

@@ -199,6 +199,30 @@ bool Snapper::meetAll() {
     return true;
 }
 
+/// How the chords a→b and c→d lie to each other: on which side of one the ends of the other are.
+struct Snapper::Meeting {
+    LatticePoint a, b, c, d;
+    std::int64_t atC, atD;  ///< orient(a, b, ·)
+    std::int64_t atA, atB;  ///< orient(c, d, ·)
+    std::int64_t nearAB, nearCD;
+
+    /// orient(a, b, d) - orient(a, b, c) = (b - a) × (d - c) = orient(c, d, a) - orient(c, d, b).
+    Meeting(LatticePoint fromA, LatticePoint toB, LatticePoint fromC, LatticePoint toD)
+        : a(fromA), b(toB), c(fromC), d(toD) {
+        const std::int64_t abX = std::int64_t{b.x} - a.x, abY = std::int64_t{b.y} - a.y,
+                           cdX = std::int64_t{d.x} - c.x, cdY = std::int64_t{d.y} - c.y,
+                           acX = std::int64_t{c.x} - a.x, acY = std::int64_t{c.y} - a.y;
+        const std::int64_t turn = abX * cdY - abY * cdX;
+        atC = abX * acY - abY * acX;
+        atD = atC + turn;
+        atA = acX * cdY - acY * cdX;
+        atB = atA - turn;
+        nearAB = bendReach * (std::abs(abX) + std::abs(abY));
+        nearCD = bendReach * (std::abs(cdX) + std::abs(cdY));
+    }
+    bool isFar() const { return areBeyond(atC, atD, nearAB) | areBeyond(atA, atB, nearCD); }
+};
+
 /// All chords of e that meet chords of f. Both chains go to the right: the chord that ends first is done
 /// with the other's. (Chords that only begin where another ends share a vertex with one that is looked at.)
 void Snapper::meet(std::uint32_t e, std::uint32_t f) {
@@ -210,8 +234,9 @@ void Snapper::meet(std::uint32_t e, std::uint32_t f) {
                        *q = firstNotBelow(vertices + t.first + 1, qEnd, left);
     for (;;) {  // p and q end the chords at hand
         if (overlap(p[-1].y, p->y, q[-1].y, q->y) & (p[-1].x <= q->x) & (q[-1].x <= p->x))
-            meetChords(e, static_cast<std::uint32_t>(p - vertices) - 1 - s.first, f,
-                       static_cast<std::uint32_t>(q - vertices) - 1 - t.first);
+            if (const Meeting m(p[-1], *p, q[-1], *q); !m.isFar())
+                meetChords(m, e, static_cast<std::uint32_t>(p - vertices) - 1 - s.first, f,
+                           static_cast<std::uint32_t>(q - vertices) - 1 - t.first);
         const bool moves = (q == qEnd) | ((p != pEnd) & (p->x <= q->x));
         if (moves ? (p == pEnd) | (p->x > right) : q->x > right)
             return;
@@ -220,21 +245,17 @@ void Snapper::meet(std::uint32_t e, std::uint32_t f) {
     }
 }
 
-void Snapper::meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j) {
-    const LatticePoint a = set_.vertex(set_.edges[e], i), b = set_.vertex(set_.edges[e], i + 1),
-                       c = set_.vertex(set_.edges[f], j), d = set_.vertex(set_.edges[f], j + 1);
-    const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d), atA = orient(c, d, a),
-                       atB = orient(c, d, b);
-    const std::int64_t nearAB = near(a, b), nearCD = near(c, d);
-    if (areBeyond(atC, atD, nearAB) | areBeyond(atA, atB, nearCD))
-        return;
-    if (areBeyond(atC, atD, 0) | areBeyond(atA, atB, 0)) {
+/// Chords that are not far from each other.
+void Snapper::meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std::uint32_t f,
+                         std::uint32_t j) {
+    const LatticePoint a = m.a, b = m.b, c = m.c, d = m.d;
+    if (areBeyond(m.atC, m.atD, 0) | areBeyond(m.atA, m.atB, 0)) {
         isNear_ = true;
         return;
     }
-    if (atA != 0 && atB != 0 && atC != 0 && atD != 0) {
-        isNear_ |= !(areBeyond(atC, -atD, nearAB) & areBeyond(atA, -atB, nearCD));
-        const LatticePoint x = crossing(a, b, atA, atB);
+    if (m.atA != 0 && m.atB != 0 && m.atC != 0 && m.atD != 0) {
+        isNear_ |= !(areBeyond(m.atC, -m.atD, m.nearAB) & areBeyond(m.atA, -m.atB, m.nearCD));
+        const LatticePoint x = crossing(a, b, m.atA, m.atB);
         bend(a, b, x);
         bend(c, d, x);
         split(e, i, x, {c, d});
@@ -246,13 +267,13 @@ void Snapper::meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std:
         split(e, i, at, {c, d});
         split(f, j, at, {a, b});
     };
-    if (atA == 0 && isOnChord(c, d, a))
+    if (m.atA == 0 && isOnChord(c, d, a))
         touch(a);
-    if (atB == 0 && isOnChord(c, d, b))
+    if (m.atB == 0 && isOnChord(c, d, b))
         touch(b);
-    if (atC == 0 && isOnChord(a, b, c))
+    if (m.atC == 0 && isOnChord(a, b, c))
         touch(c);
-    if (atD == 0 && isOnChord(a, b, d))
+    if (m.atD == 0 && isOnChord(a, b, d))
         touch(d);
 }
 

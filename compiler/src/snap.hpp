@@ -99,9 +99,11 @@ private:
     std::size_t gather(std::size_t first, std::size_t last, Coord low, Coord high);
     bool meetAll();
     void meet(std::uint32_t e, std::uint32_t f);
-    void meetChords(std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
+    struct Meeting;
+    void meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
     void bend(LatticePoint a, LatticePoint b, LatticePoint to);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by);
+    void sortSplits();
     void applySplits();
     static bool areClear(const Split& p, const Split& q);
     void beginParts();
@@ -122,9 +124,10 @@ private:
     bool isNear_ = false;      ///< Pair::isNear of the pair at hand
     std::vector<std::uint8_t>
         isDoubtful_;  ///< by edge: its parts may meet others though its chords were not near theirs
-    std::vector<Split> splits_;
-    std::vector<Parts> parts_;         ///< by edge as it was, and the end of all
-    std::vector<NewChord> newChords_;  ///< parts of bent chords
+    std::vector<Split> splits_, nextSplits_;
+    std::vector<std::uint32_t> firstSplits_;  ///< by edge
+    std::vector<Parts> parts_;                ///< by edge as it was, and the end of all
+    std::vector<NewChord> newChords_;         ///< parts of bent chords
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;
     std::vector<Place> order_, spareOrder_;

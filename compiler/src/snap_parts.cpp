@@ -8,13 +8,29 @@ namespace vtm::compiler {
 
 // ---- cut --------------------------------------------------------------------------------------
 
+/// By edge, and along it: counted out by edges, most of which have few.
+void Snapper::sortSplits() {
+    firstSplits_.assign(set_.edges.size() + 1, 0);
+    for (const Split& split : splits_)
+        ++firstSplits_[split.edge + 1];
+    for (std::size_t e = 0; e < set_.edges.size(); ++e)
+        firstSplits_[e + 1] += firstSplits_[e];
+    nextSplits_.resize(splits_.size());
+    for (const Split& split : splits_)
+        nextSplits_[firstSplits_[split.edge]++] = split;  // in the end, where the next edge's begin
+    splits_.swap(nextSplits_);
+    const auto isBefore = [](const Split& p, const Split& q) {
+        return p.chord != q.chord ? p.chord < q.chord : p.progress < q.progress;
+    };
+    std::uint32_t first = 0;
+    for (std::size_t e = 0; e < set_.edges.size(); first = firstSplits_[e++])
+        if (firstSplits_[e] > first + 1)
+            std::sort(splits_.begin() + first, splits_.begin() + firstSplits_[e], isBefore);
+}
+
 /// Replaces every split edge by its parts, ordered along it.
 void Snapper::applySplits() {
-    std::sort(splits_.begin(), splits_.end(), [](const Split& p, const Split& q) {
-        return p.edge != q.edge     ? p.edge < q.edge
-               : p.chord != q.chord ? p.chord < q.chord
-                                    : p.progress < q.progress;
-    });
+    sortSplits();
     nextEdges_.clear();
     nextEdges_.swap(set_.edges);
     parts_.clear();

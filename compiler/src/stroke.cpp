@@ -84,7 +84,9 @@ private:
     }
 
     void ribbon(const Subpath& subpath) {
-        ribbon_ = {};
+        ribbon_.left.edges.clear();
+        ribbon_.right.edges.clear();
+        ribbon_.beyond.clear();
         const auto& segments = subpath.segments;
         const Point first = segments.front().curve.p0,
                     side = perp(startTangent(segments.front().curve)) * radius_;
@@ -96,7 +98,7 @@ private:
             sides(segments[i]);
         }
         subpath.closed ? closeRing(subpath) : closeEnds(subpath);
-        for (const Side& contour : ribbon_.beyond)
+        for (Side& contour : ribbon_.beyond)
             emit(contour);
     }
 
@@ -145,7 +147,8 @@ private:
         ribbon_.left.start = ribbon_.left.end();
         ribbon_.right.start = ribbon_.right.end();
         emit(ribbon_.right);
-        emit(reversed(ribbon_.left));
+        Side left = reversed(ribbon_.left);
+        emit(left);
     }
 
     void closeEnds(const Subpath& subpath) {
@@ -266,12 +269,14 @@ private:
     // --- output --------------------------------------------------------------------------------
 
     /// Close draws the last edge where that is a line; a rest that the tolerance hides is taken away.
-    void emit(Side contour) {
+    void emit(Side& contour) {
         auto& edges = contour.edges;
         if (!edges.empty() && glm::distance(contour.end(), contour.start) <= tolerance_ * joinShare)
             edges.back().to = contour.start;
         if (!edges.empty() && edges.back().straight && edges.back().to == contour.start)
             edges.pop_back();
+        if (const std::size_t needed = out_.size() + edges.size() + 2; needed > out_.capacity())
+            out_.reserve(std::max(needed, 2 * out_.capacity()));
         out_.push_back(scene::MoveTo{contour.start});
         Point at = contour.start;
         for (const Edge& e : edges) {

@@ -36,13 +36,21 @@ private:
     };
 
     Vertex vertex(double t) const {
-        const Point velocity = powers_.velocity(t);
-        if (!(t > 0 && t < 1) || velocity == Point{0, 0}) {
+        const double x = (3 * powers_.cubed.x * t + 2 * powers_.squared.x) * t + powers_.linear.x,
+                     y = (3 * powers_.cubed.y * t + 2 * powers_.squared.y) * t + powers_.linear.y;
+        const double square = x * x + y * y;
+        constexpr double least = 1e-280, most = 1e280;  // beyond, squares lose digits or overflow
+        if (!(t > 0 && t < 1 && square > least && square < most)) {
             const Point along = tangentAt(curve_, t);
             return {t, pointAt(curve_, t) + perp(along) * distance_, along};
         }
-        const Point along = unit(velocity);
-        return {t, powers_.at(t) + perp(along) * distance_, along};
+        const double share = 1 / std::sqrt(square), alongX = x * share, alongY = y * share;
+        return {t,
+                {((powers_.cubed.x * t + powers_.squared.x) * t + powers_.linear.x) * t + powers_.start.x -
+                     alongY * distance_,
+                 ((powers_.cubed.y * t + powers_.squared.y) * t + powers_.linear.y) * t + powers_.start.y +
+                     alongX * distance_},
+                {alongX, alongY}};
     }
 
     /// Chords for an equal part of [t, t + dt], divided by dt: a chord strays by a quarter of its length
@@ -71,8 +79,9 @@ private:
         }
         const int count = std::max(1, static_cast<int>(std::ceil(std::min(sums[steps], mostChords))));
         std::size_t in = 0;
+        const double share = sums[steps] / count;
         for (int k = 1; k <= count; ++k) {
-            const double goal = sums[steps] * k / count;
+            const double goal = share * k;
             while (in + 1 < steps && sums[in + 1] < goal)
                 ++in;
             const double t =
@@ -86,7 +95,7 @@ private:
 
     void chord(const Vertex& a, const Vertex& b, int halvings) {
         const Vertex middle = vertex((a.t + b.t) / 2);
-        if (halvings > 0 && !(stray(a, middle, b) <= tolerance_)) {
+        if (halvings > 0 && !isNear(a, middle, b)) {
             chord(a, middle, halvings - 1);
             chord(middle, b, halvings - 1);
         } else {
@@ -94,13 +103,17 @@ private:
         }
     }
 
-    static double stray(const Vertex& a, const Vertex& m, const Vertex& b) {
-        const Point ab = b.at - a.at, am = m.at - a.at;
-        const double length = glm::length(ab), along = glm::dot(am, ab) / length;
-        const double slope = std::abs(cross(m.along, ab) / glm::dot(m.along, ab));
-        const double most = std::abs(cross(am, ab)) / length + slope * std::max(along, length - along);
+    /// Whether the tangent in m strays no farther than the tolerance from the chord over its ends; all
+    /// lengths times the chord's.
+    bool isNear(const Vertex& a, const Vertex& m, const Vertex& b) const {
+        const double x = b.at.x - a.at.x, y = b.at.y - a.at.y, mx = m.at.x - a.at.x, my = m.at.y - a.at.y;
+        const double square = x * x + y * y, along = mx * x + my * y;
+        const double slope = std::abs((m.along.x * y - m.along.y * x) / (m.along.x * x + m.along.y * y));
+        const double most = std::abs(mx * y - my * x) + slope * std::max(along, square - along);
+        if (most <= tolerance_ * std::sqrt(square))
+            return true;
         // So short that its direction is rounding.
-        return std::min(2 * (glm::length(am) + glm::distance(m.at, b.at)), most);
+        return 2 * (glm::distance(a.at, m.at) + glm::distance(m.at, b.at)) <= tolerance_;
     }
 
     const Cubic& curve_;

@@ -49,6 +49,7 @@ void Side::lineTo(Point to, double gap) {
 
 Side reversed(const Side& side) {
     Side result{side.end(), {}};
+    result.edges.reserve(side.edges.size());
     for (std::size_t i = side.edges.size(); i-- > 0;) {
         const Edge& e = side.edges[i];
         result.edges.push_back({e.straight, e.c2, e.c1, i > 0 ? side.edges[i - 1].to : side.start});

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <optional>
+
+#include "compiler/src/fit.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using Side = std::size_t;
+
+int distance(const std::array<std::uint16_t, 2>& p, Side side) {
+    const int across = side % 2 == 0 ? p[1] : p[0];
+    return side == 0 || side == 3 ? across : static_cast<int>(asset::leafExtent) - across;
+}
+
+std::optional<Side> sideOf(const Square& square, LatticePoint p) {
+    for (Side side = 0; side < 4; ++side)
+        if ((side % 2 == 0 ? p.y : p.x) == square.line(side))
+            return side;
+    return std::nullopt;
+}
+
+}  // namespace
+
+/// Drops chains that run along the border, nowhere more than a lattice step inside: traces of shapes
+/// that end on the cell's border. What lies between such a chain and the border is below the
+/// lattice's resolution; the corners that the chain passes take the paint of its inner side.
+void Fitter::cutSlivers() {
+    leaf_.slivers = false;
+    while (std::erase_if(chains_, [&](const Chain& c) { return isSliver(c); }) > 0)
+        leaf_.slivers = true;
+}
+
+/// Within twice the reach of a sliver from the border.
+bool Fitter::isNearBorder(LatticePoint p) const {
+    const auto margin = static_cast<Coord>(2 * sliverReach() / scale_) + 2;
+    return (p.x - square_.x0 <= margin) | (square_.x1() - p.x <= margin) | (p.y - square_.y0 <= margin) |
+           (square_.y1() - p.y <= margin);
+}
+
+bool Fitter::isSliver(const Chain& chain) {
+    if (!isNearBorder(points_[chain.first + chain.count / 2]))
+        return false;
+    const auto from = sideOf(square_, points_[chain.first]);
+    if (!from)
+        return false;
+    const auto to = sideOf(square_, points_[chain.first + chain.count - 1]);
+    if (!to)
+        return false;
+    return cutAlong(chain, *from, *to, chain.right, chain.left) ||
+           cutAlong(chain, *to, *from, chain.left, chain.right);
+}
+
+/// Counter-clockwise from one side to another; the leaf's inside lies on the left.
+bool Fitter::cutAlong(const Chain& chain, Side from, Side to, PaintId outer, PaintId inner) {
+    const Side sides = (to + 4 - from) % 4;
+    for (std::uint32_t i = 1; i < chain.count; ++i)
+        if (!hugs(round(points_[chain.first + i - 1]), round(points_[chain.first + i]), from, sides))
+            return false;
+    for (Side k = 1; k <= sides; ++k)
+        if (leaf_.corners[(from + k) % 4] != outer)
+            return false;
+    for (Side k = 1; k <= sides; ++k)
+        leaf_.corners[(from + k) % 4] = inner;
+    return true;
+}
+
+/// Whether an edge runs within reach of one of the sides from `from` on. The first and the last
+/// side are met only near their corners, unless there is but one.
+bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
+    const int reach = sliverReach();
+    const auto near = [&](Side side) { return distance(p, side) <= reach && distance(q, side) <= reach; };
+    for (Side k = 0; k <= sides; ++k) {
+        const Side side = (from + k) % 4;
+        const bool whole = sides == 0 || (k > 0 && k < sides);
+        const Side neighbour = k == 0 ? (side + 1) % 4 : (side + 3) % 4;
+        if (near(side) && (whole || near(neighbour)))
+            return true;
+    }
+    return false;
+}
+
+}  // namespace vtm::compiler
