@@ -127,6 +127,8 @@ VtmSurface* vtmCreateImageSurface(VtmContext* context, VGImage image, VGint mask
         const std::shared_ptr<Image> target = context->objects->get<Image>(image);
         const ImageStorage& storage = *target->storage;
         require(!storage.isTarget && storage.images == 1 && storage.uses == 0, VG_IMAGE_IN_USE_ERROR);
+        // Another surface holds it.
+        require(target->storage.use_count() == storage.images, VG_IMAGE_IN_USE_ERROR);
         require(isSide(target->width()) && isSide(target->height()));
         auto surface = std::make_unique<VtmSurface>();
         surface->storage = target->storage;
@@ -177,6 +179,18 @@ VGboolean vtmResizeSurface(VtmSurface* surface, VGint width, VGint height) try {
 
 VGint vtmSurfaceWidth(const VtmSurface* surface) { return surface->width(); }
 VGint vtmSurfaceHeight(const VtmSurface* surface) { return surface->height(); }
+
+void vtmGetSurfaceFormat(const VtmSurface* surface, VtmSurfaceFormat* result) {
+    const PixelFormat& format = surface->pixels().format();
+    *result = {format.red.bits,
+               format.green.bits,
+               format.blue.bits,
+               format.alpha.bits,
+               format.grey.bits,
+               surface->mask ? 8 : 0,
+               VGboolean(format.space.linear),
+               VGboolean(format.space.premultiplied)};
+}
 
 void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
     const Pixels& pixels = surface->pixels();
