@@ -57,6 +57,12 @@ std::shared_ptr<Surface> surfaceForDrawing(const Display& display, EGLSurface ha
     return getSurface(display, handle);
 }
 
+bool isSystemContext(const Display& display, EGLContext handle) {
+    EGLint id = 0;
+    return !contexts().has(handle) && display.systemRuns &&
+           systemEgl()->QueryContext(display.handle, handle, EGL_CONFIG_ID, &id);
+}
+
 void makeCurrent(const Display& display, EGLSurface draw, EGLSurface read, EGLContext handle) {
     const auto context = getContext(display, handle);
     const auto surface = surfaceForDrawing(display, draw);
@@ -114,7 +120,7 @@ EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay dpy, EGLSurface draw, EGLSurfac
         }
         const Display& display = initializedDisplay(dpy);
         // OpenGL does not draw into surfaces of OpenVG.
-        require(isOurs && handle != EGL_NO_CONTEXT, EGL_BAD_MATCH);
+        require(handle != EGL_NO_CONTEXT && !isSystemContext(display, handle), EGL_BAD_MATCH);
         makeCurrent(display, draw, read, handle);
         return EGLBoolean(EGL_TRUE);
     });
