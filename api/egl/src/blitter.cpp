@@ -15,8 +15,8 @@ struct Gl {
 #define VTM_EGL_GL(f)                                                                                       \
     f(ActiveTexture) f(AttachShader) f(BindAttribLocation) f(BindTexture) f(CompileShader) f(CreateProgram) \
         f(CreateShader) f(Disable) f(DrawArrays) f(EnableVertexAttribArray) f(Finish) f(GenTextures)        \
-            f(GetError) f(GetProgramiv) f(LinkProgram) f(ShaderSource) f(TexImage2D) f(TexParameteri)       \
-                f(UseProgram) f(VertexAttribPointer) f(Viewport)
+            f(GetError) f(ReadPixels) f(GetProgramiv) f(LinkProgram) f(ShaderSource) f(TexImage2D)          \
+                f(TexParameteri) f(UseProgram) f(VertexAttribPointer) f(Viewport)
 #define VTM_EGL_GL_MEMBER(name)  \
     decltype(&::gl##name) name = \
         reinterpret_cast<decltype(&::gl##name)>(systemEgl()->GetProcAddress("gl" #name));
@@ -143,6 +143,19 @@ void Blitter::copy(EGLSurface target, VtmSurface* drawing) {
     const Current current(display_, target, context_);
     draw(drawing);
     gl().Finish();
+}
+
+void Blitter::read(EGLSurface target, VtmSurface* drawing) {
+    const Current current(display_, target, context_);
+    const GLsizei width = vtmSurfaceWidth(drawing), height = vtmSurfaceHeight(drawing);
+    const std::size_t rowBytes = std::size_t(width) * 4;
+    pixels_.resize(rowBytes * std::size_t(height));
+    // OpenGL begins with the lowest row.
+    for (GLsizei y = 0; y < height; ++y)
+        gl().ReadPixels(0, height - 1 - y, width, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                        pixels_.data() + std::size_t(y) * rowBytes);
+    require(gl().GetError() == GL_NO_ERROR, EGL_BAD_ALLOC);
+    vtmWriteSurface(drawing, pixels_.data(), rowBytes);
 }
 
 void Blitter::swap(EGLSurface target, VtmSurface* drawing, EGLint interval) {

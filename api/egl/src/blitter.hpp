@@ -24,6 +24,8 @@ public:
 
     /// Draws, and waits until the target has it. Throws Error.
     void copy(EGLSurface target, VtmSurface* drawing);
+    /// The other way: sets the drawing to what the target has. Throws Error.
+    void read(EGLSurface target, VtmSurface* drawing);
     /// Draws, and swaps the target's buffers. Throws Error.
     void swap(EGLSurface target, VtmSurface* drawing, EGLint interval);
 

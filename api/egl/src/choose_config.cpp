@@ -197,13 +197,21 @@ std::vector<EGLConfig> ourChoice(Display& display, const Request& request) {
     return chosen;
 }
 
+/// Programs that ask for OpenGL or OpenGL ES alone get what they get without us, though both draw with
+/// configs of ours.
+bool isForOpenGl(const Request& request) {
+    const EGLint apis = request[EGL_RENDERABLE_TYPE];
+    return request[EGL_CONFIG_ID] == EGL_DONT_CARE && apis > 0 && !(apis & EGL_OPENVG_BIT);
+}
+
 std::vector<EGLConfig> choice(Display& display, const EGLint* list) {
     std::vector<EGLConfig> systems = systemChoice(display, list);
     const Request request(list, display.systemRuns);
     if (request[EGL_CONFIG_ID] == EGL_DONT_CARE && request[EGL_RENDERABLE_TYPE] != EGL_DONT_CARE &&
         (request[EGL_RENDERABLE_TYPE] & EGL_OPENVG_BIT))
         systems.clear();
-    std::vector<EGLConfig> ours = ourChoice(display, request);
+    std::vector<EGLConfig> ours =
+        isForOpenGl(request) ? std::vector<EGLConfig>() : ourChoice(display, request);
     const auto isBefore = [&](EGLConfig a, EGLConfig b) {
         return sortKey(display, request, a) < sortKey(display, request, b);
     };

@@ -47,6 +47,29 @@ EGLConfig nearest(const Display& display, const std::vector<EGLConfig>& candidat
     return best;
 }
 
+/// The system's config with just these colours, for pbuffers and all of `surfaceBits`; the nearest to 24 bits
+/// of depth and 8 of stencil. Null if there is none.
+EGLConfig equal(const Display& display, const std::vector<EGLConfig>& candidates, EGLint surfaceBits,
+                const VtmSurfaceFormat& format) {
+    EGLConfig best = nullptr;
+    int bestDistance = INT_MAX;
+    for (const EGLConfig config : candidates) {
+        const auto value = [&](EGLint name) { return configAttribute(display, config, name); };
+        const bool isEqual =
+            value(EGL_RED_SIZE) == format.redBits && value(EGL_GREEN_SIZE) == format.greenBits &&
+            value(EGL_BLUE_SIZE) == format.blueBits && value(EGL_ALPHA_SIZE) == format.alphaBits &&
+            value(EGL_LUMINANCE_SIZE) == format.luminanceBits && format.redBits != 0 &&
+            value(EGL_SAMPLES) == 0 && (value(EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT) &&
+            (value(EGL_SURFACE_TYPE) & surfaceBits) == surfaceBits;
+        const int distance = std::abs(value(EGL_DEPTH_SIZE) - 24) + std::abs(value(EGL_STENCIL_SIZE) - 8);
+        if (isEqual && distance < bestDistance) {
+            bestDistance = distance;
+            best = config;
+        }
+    }
+    return best;
+}
+
 EGLint colorBits(const VtmSurfaceFormat& f) {
     return f.redBits + f.greenBits + f.blueBits + f.alphaBits + f.luminanceBits;
 }
@@ -87,7 +110,7 @@ std::optional<EGLint> Config::attribute(EGLint name) const {
             return id;
         case EGL_CONFORMANT:
         case EGL_RENDERABLE_TYPE:
-            return EGL_OPENVG_BIT;
+            return EGL_OPENVG_BIT | glApis;
         case EGL_SURFACE_TYPE:
             return surfaceType(*this);
         case EGL_MAX_PBUFFER_WIDTH:
@@ -110,10 +133,12 @@ std::optional<EGLint> Config::attribute(EGLint name) const {
         case EGL_NATIVE_RENDERABLE:
             return EGL_FALSE;
         case EGL_DEPTH_SIZE:
+            return depthBits;
+        case EGL_STENCIL_SIZE:
+            return stencilBits;
         case EGL_LEVEL:
         case EGL_SAMPLE_BUFFERS:
         case EGL_SAMPLES:
-        case EGL_STENCIL_SIZE:
         case EGL_TRANSPARENT_RED_VALUE:
         case EGL_TRANSPARENT_GREEN_VALUE:
         case EGL_TRANSPARENT_BLUE_VALUE:
@@ -156,6 +181,14 @@ void makeConfigs(Display& display) {
         config->format = format;
         config->window = nearest(display, systems, EGL_WINDOW_BIT, format);
         config->pixmap = nearest(display, systems, EGL_PIXMAP_BIT, format);
+        config->gl = equal(display, systems, EGL_PBUFFER_BIT | (config->window ? EGL_WINDOW_BIT : 0), format);
+        if (config->gl) {
+            config->glApis = configAttribute(display, config->gl, EGL_RENDERABLE_TYPE);
+            config->depthBits = configAttribute(display, config->gl, EGL_DEPTH_SIZE);
+            config->stencilBits = configAttribute(display, config->gl, EGL_STENCIL_SIZE);
+            if (config->window)
+                config->window = config->gl;
+        }
         if (config->window) {
             const auto value = [&](EGLint name) { return configAttribute(display, config->window, name); };
             config->visualId = value(EGL_NATIVE_VISUAL_ID);

@@ -2,6 +2,7 @@
 // current at once; ours is kept here and in libOpenVG, the other in the system.
 
 #include "api/egl/src/attributes.hpp"
+#include "api/egl/src/gl_contexts.hpp"
 #include "api/egl/src/posting.hpp"
 #include "api/egl/src/thread.hpp"
 
@@ -44,7 +45,7 @@ void release() {
         vtmMakeCurrent(nullptr, nullptr);
     }
     thisThread().context = nullptr;
-    thisThread().surface = nullptr;
+    thisThread().surface = {};
 }
 
 /// A surface for a context of ours: EGL_BAD_MATCH for one of the system's, EGL_BAD_SURFACE for none at all.
@@ -69,10 +70,12 @@ void makeCurrent(const Display& display, EGLSurface draw, EGLSurface read, EGLCo
     require(surfaceForDrawing(display, read) == surface && areCompatible(*context, *surface), EGL_BAD_MATCH);
     if (const auto old = currentSurface(); old && old != surface)
         showPixmap(*old);
+    require(surface->glUses == 0, EGL_BAD_ACCESS);
     fitToTarget(*surface);
     require(vtmMakeCurrent(context->drawing, surface->drawing), EGL_BAD_ACCESS);
     thisThread().context = context;
-    thisThread().surface = surface;
+    thisThread().surface = SurfaceUse<&Surface::vgUses>(surface);
+    takeFromGl(*surface);
 }
 
 }  // namespace
@@ -83,16 +86,14 @@ using namespace vtm::egl;
 
 EGLContext EGLAPIENTRY eglCreateContext(EGLDisplay dpy, EGLConfig config, EGLContext share,
                                         const EGLint* list) {
-    if (currentApi() == EGL_OPENVG_API)
+    if (isVgCurrentApi())
         return call(EGLContext(EGL_NO_CONTEXT),
                     [&] { return createContext(initializedDisplay(dpy), config, share, list); });
     if (!configs().has(config) && !contexts().has(share))
         return forward(&System::CreateContext, EGLContext(EGL_NO_CONTEXT), EGL_BAD_CONFIG, dpy, config, share,
                        list);
-    return call(EGLContext(EGL_NO_CONTEXT), [&]() -> EGLContext {
-        initializedDisplay(dpy);
-        throw Error{configs().has(config) ? EGL_BAD_MATCH : EGL_BAD_CONTEXT};
-    });
+    return call(EGLContext(EGL_NO_CONTEXT),
+                [&] { return createGlContext(initializedDisplay(dpy), config, share, list); });
 }
 
 EGLBoolean EGLAPIENTRY eglDestroyContext(EGLDisplay dpy, EGLContext handle) {
@@ -108,9 +109,14 @@ EGLBoolean EGLAPIENTRY eglDestroyContext(EGLDisplay dpy, EGLContext handle) {
 EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay dpy, EGLSurface draw, EGLSurface read, EGLContext handle) {
     const bool isOurs =
         handle == EGL_NO_CONTEXT ? isVgCurrentApi() || currentApi() == EGL_NONE : contexts().has(handle);
-    if (!isOurs && !surfaces().has(draw) && !surfaces().has(read))
-        return forward(&System::MakeCurrent, EGLBoolean(EGL_FALSE),
-                       handle == EGL_NO_CONTEXT ? EGL_BAD_MATCH : EGL_BAD_CONTEXT, dpy, draw, read, handle);
+    if (!isOurs && !surfaces().has(draw) && !surfaces().has(read)) {
+        const EGLBoolean succeeded =
+            forward(&System::MakeCurrent, EGLBoolean(EGL_FALSE),
+                    handle == EGL_NO_CONTEXT ? EGL_BAD_MATCH : EGL_BAD_CONTEXT, dpy, draw, read, handle);
+        if (succeeded)
+            forgetGlSurfaces();
+        return succeeded;
+    }
     return call(EGLBoolean(EGL_FALSE), [&] {
         if (handle == EGL_NO_CONTEXT && draw == EGL_NO_SURFACE && read == EGL_NO_SURFACE) {
             // Allowed of a display that is no longer initialised.
@@ -119,9 +125,11 @@ EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay dpy, EGLSurface draw, EGLSurfac
             return EGLBoolean(EGL_TRUE);
         }
         const Display& display = initializedDisplay(dpy);
-        // OpenGL does not draw into surfaces of OpenVG.
-        require(handle != EGL_NO_CONTEXT && !isSystemContext(display, handle), EGL_BAD_MATCH);
-        makeCurrent(display, draw, read, handle);
+        require(handle != EGL_NO_CONTEXT, EGL_BAD_MATCH);
+        if (isSystemContext(display, handle))
+            makeGlCurrent(display, draw, read, handle);
+        else
+            makeCurrent(display, draw, read, handle);
         return EGLBoolean(EGL_TRUE);
     });
 }
@@ -140,7 +148,8 @@ EGLContext EGLAPIENTRY eglGetCurrentContext(void) {
 EGLSurface EGLAPIENTRY eglGetCurrentSurface(EGLint readdraw) {
     if (!isVgCurrentApi() && systemEgl()) {
         thisThread().error = EGL_SUCCESS;
-        return systemEgl()->GetCurrentSurface(readdraw);
+        const EGLSurface surface = systemEgl()->GetCurrentSurface(readdraw);
+        return currentGlSurface(readdraw, surface);
     }
     return call(EGLSurface(EGL_NO_SURFACE), [&] {
         require(readdraw == EGL_READ || readdraw == EGL_DRAW, EGL_BAD_PARAMETER);

@@ -40,12 +40,14 @@ EGLint targetAttribute(const Surface& surface, EGLint name) {
 
 /// `make` creates the system's surface with a config of the system's.
 template <class Number, class Make>
-EGLSurface createNative(Display& display, Kind kind, EGLConfig handle, const Number* list, Make&& make) {
+EGLSurface createNative(Display& display, Kind kind, EGLConfig handle, const Number* list, Make&& make,
+                        EGLNativePixmapType pixmap) {
     const auto config = getConfig(display, handle);
     const bool isWindow = kind == Kind::window;
     const EGLConfig best = isWindow ? config->window : config->pixmap;
     require(best != nullptr && display.systemRuns, EGL_BAD_MATCH);
     const auto surface = std::make_shared<Surface>(display, config, kind);
+    surface->pixmap = pixmap;
     surface->renderBuffer = isWindow ? EGL_BACK_BUFFER : EGL_SINGLE_BUFFER;
     for (const auto& [attribute, value] : attributeList(list)) {
         if (isWindow && attribute == EGL_RENDER_BUFFER) {
@@ -62,9 +64,10 @@ EGLSurface createNative(Display& display, Kind kind, EGLConfig handle, const Num
 }
 
 template <class Number, class Make>
-EGLSurface createdNative(EGLDisplay dpy, Kind kind, EGLConfig config, const Number* list, Make&& make) {
+EGLSurface createdNative(EGLDisplay dpy, Kind kind, EGLConfig config, const Number* list, Make&& make,
+                         EGLNativePixmapType pixmap = 0) {
     return call(EGLSurface(EGL_NO_SURFACE),
-                [&] { return createNative(initializedDisplay(dpy), kind, config, list, make); });
+                [&] { return createNative(initializedDisplay(dpy), kind, config, list, make, pixmap); });
 }
 
 /// Calls the system's function of EGL_EXT_platform_base.
@@ -126,9 +129,10 @@ EGLSurface EGLAPIENTRY eglCreatePixmapSurface(EGLDisplay dpy, EGLConfig config, 
     if (!configs().has(config))
         return forward(&System::CreatePixmapSurface, EGLSurface(EGL_NO_SURFACE), EGL_BAD_CONFIG, dpy, config,
                        pixmap, list);
-    return createdNative(dpy, Kind::pixmap, config, list, [&](EGLConfig systems) {
+    const auto make = [&](EGLConfig systems) {
         return systemEgl()->CreatePixmapSurface(dpy, systems, pixmap, nullptr);
-    });
+    };
+    return createdNative(dpy, Kind::pixmap, config, list, make, pixmap);
 }
 
 EGLSurface EGLAPIENTRY eglCreatePlatformPixmapSurface(EGLDisplay dpy, EGLConfig config, void* pixmap,

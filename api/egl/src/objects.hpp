@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <EGL/egl.h>
@@ -43,6 +44,10 @@ struct Config {
     VtmSurfaceFormat format{};
     /// The system's configs by which windows and pixmaps are shown; null: they cannot be.
     EGLConfig window = nullptr, pixmap = nullptr;
+    /// The system's config with the same colours, by which OpenGL draws into surfaces of this one; null: it
+    /// cannot.
+    EGLConfig gl = nullptr;
+    EGLint glApis = 0, depthBits = 0, stencilBits = 0;
     EGLint visualId = 0, visualType = EGL_NONE;
     EGLint minSwapInterval = 0, maxSwapInterval = 0;
 
@@ -72,12 +77,41 @@ struct Surface {
     std::atomic<EGLint> swapBehavior = EGL_BUFFER_PRESERVED;
     VGImage image = VG_INVALID_HANDLE;   ///< that it draws into
     EGLSurface target = EGL_NO_SURFACE;  ///< the system's
+    EGLNativePixmapType pixmap = 0;      ///< that it is for; 0: only the system knows
     EGLConfig targetConfig = nullptr;    ///< of that
     const unsigned terminations;         ///< of the display, when it was created
     std::unique_ptr<Blitter> blitter;    ///< made when first needed
     EGLint swapInterval = 1;
 
+    std::atomic<int> vgUses = 0, glUses = 0;  ///< threads where it is current
+    bool glDrewLast = false, vgDrewLast = false;
+
     bool isBackBuffered() const { return kind != Kind::pixmap; }
+};
+
+/// Counts itself among the surface's uses as long as it lives.
+template <std::atomic<int> Surface::*uses>
+class SurfaceUse {
+public:
+    SurfaceUse() = default;
+    explicit SurfaceUse(std::shared_ptr<Surface> surface) : surface_(std::move(surface)) {
+        if (surface_)
+            ++(*surface_.*uses);
+    }
+    ~SurfaceUse() {
+        if (surface_)
+            --(*surface_.*uses);
+    }
+    SurfaceUse(SurfaceUse&& other) noexcept : surface_(std::exchange(other.surface_, nullptr)) {}
+    SurfaceUse& operator=(SurfaceUse&& other) noexcept {
+        std::swap(surface_, other.surface_);
+        return *this;
+    }
+
+    const std::shared_ptr<Surface>& operator*() const { return surface_; }
+
+private:
+    std::shared_ptr<Surface> surface_;
 };
 
 /// Section 3.7.

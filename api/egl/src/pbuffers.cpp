@@ -44,7 +44,15 @@ EGLSurface createPbuffer(Display& display, EGLConfig handle, const EGLint* list)
                 require(value == EGL_TRUE || value == EGL_FALSE, EGL_BAD_ATTRIBUTE);
                 surface->largestPbuffer = value;
                 break;
-            // Those of textures too: no config of ours supports OpenGL ES.
+            case EGL_TEXTURE_FORMAT:
+            case EGL_TEXTURE_TARGET:
+                require(config->gl != nullptr, EGL_BAD_ATTRIBUTE);
+                // No config of ours is for textures.
+                require(value == EGL_NO_TEXTURE, EGL_BAD_MATCH);
+                break;
+            case EGL_MIPMAP_TEXTURE:
+                require(config->gl && (value == EGL_TRUE || value == EGL_FALSE), EGL_BAD_ATTRIBUTE);
+                break;
             default:
                 require(setDrawingAttribute(*surface, attribute, value), EGL_BAD_ATTRIBUTE);
         }
@@ -91,6 +99,7 @@ EGLSurface createFromImage(Display& display, EGLClientBuffer buffer, EGLConfig h
     VtmSurfaceFormat format;
     vtmGetSurfaceFormat(surface->drawing, &format);
     require(hasFormatOf(*config, format), EGL_BAD_MATCH);
+    surface->image = VGImage(number);
     surface->isLinear = format.linear;
     surface->isPremultiplied = format.premultiplied;
     surface->width = vtmSurfaceWidth(surface->drawing);

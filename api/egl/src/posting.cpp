@@ -6,6 +6,7 @@
 
 #include "api/egl/src/blitter.hpp"
 #include "api/egl/src/thread.hpp"
+#include "api/egl/src/x_pixmaps.hpp"
 
 namespace vtm::egl {
 
@@ -17,15 +18,36 @@ Blitter& blitterOf(Surface& surface) {
     return *surface.blitter;
 }
 
-/// Of this thread's current context, and none other.
+/// False if only the system can do it.
+bool putDrawing(EGLNativePixmapType pixmap, const Surface& surface) {
+    if (pixmap == 0)
+        return false;
+    const int width = vtmSurfaceWidth(surface.drawing), height = vtmSurfaceHeight(surface.drawing);
+    std::vector<std::uint8_t> pixels(std::size_t(width) * std::size_t(height) * 4);
+    vtmReadSurface(surface.drawing, pixels.data(), std::size_t(width) * 4);
+    return putPicture(pixmap, width, height, pixels.data());
+}
+
+/// Of this thread's current context of OpenVG, and none other.
 std::shared_ptr<Surface> postedSurface(EGLDisplay dpy, EGLSurface handle) {
     const auto surface = getSurface(initializedDisplay(dpy), handle);
     require(surface == currentSurface(), EGL_BAD_SURFACE);
     return surface;
 }
 
+/// True if the system's context draws into this surface of ours.
+bool isGlCurrent(EGLSurface handle) {
+    const auto& surface = *thisThread().glDraw;
+    return surface && surface->handle == handle;
+}
+
 EGLBoolean swap(EGLDisplay dpy, EGLSurface handle) {
     return call(EGLBoolean(EGL_FALSE), [&] {
+        if (isGlCurrent(handle)) {
+            const auto drawn = getSurface(initializedDisplay(dpy), handle);
+            requireSystem(systemEgl()->SwapBuffers(dpy, drawn->target));
+            return EGLBoolean(EGL_TRUE);
+        }
         const auto surface = postedSurface(dpy, handle);
         if (surface->kind == Surface::Kind::window) {
             fitToTarget(*surface);
@@ -53,7 +75,8 @@ void copyTo(const Surface& surface, EGLNativePixmapType pixmap) {
     system->QuerySurface(display.handle, target, EGL_WIDTH, &width);
     system->QuerySurface(display.handle, target, EGL_HEIGHT, &height);
     require(width == surface.width && height == surface.height, EGL_BAD_MATCH);
-    Blitter(display, surface.config->pixmap).copy(target, surface.drawing);
+    if (!putDrawing(pixmap, surface))
+        Blitter(display, surface.config->pixmap).copy(target, surface.drawing);
 }
 
 /// Calls the system's function of this name, if the surface is none of ours.
@@ -84,9 +107,21 @@ void fitToTarget(Surface& surface) {
     surface.height = height;
 }
 
+void giveToGl(Surface& surface) {
+    if (std::exchange(surface.vgDrewLast, false))
+        blitterOf(surface).copy(surface.target, surface.drawing);
+}
+
+void takeFromGl(Surface& surface) {
+    if (std::exchange(surface.glDrewLast, false))
+        blitterOf(surface).read(surface.target, surface.drawing);
+    surface.vgDrewLast = true;
+}
+
 void showPixmap(Surface& surface) {
     if (surface.kind == Surface::Kind::pixmap && surface.terminations == surface.display.terminations)
-        blitterOf(surface).copy(surface.target, surface.drawing);
+        if (!putDrawing(surface.pixmap, surface))
+            blitterOf(surface).copy(surface.target, surface.drawing);
 }
 
 EGLBoolean EGLAPIENTRY swapBuffersWithDamageKhr(EGLDisplay dpy, EGLSurface surface, const EGLint* rectangles,

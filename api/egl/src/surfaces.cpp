@@ -59,6 +59,14 @@ void createDrawing(Surface& surface, EGLint width, EGLint height) {
 
 namespace {
 
+/// A window may have changed its size since OpenVG drew.
+EGLint side(const Surface& surface, EGLint name, EGLint drawn) {
+    EGLint value = drawn;
+    if (surface.kind == Surface::Kind::window && surface.glUses > 0)
+        systemEgl()->QuerySurface(surface.display.handle, surface.target, name, &value);
+    return value;
+}
+
 /// Of table 3.5; nothing for those that a surface of this kind leaves unmodified.
 std::optional<EGLint> surfaceAttribute(const Surface& surface, EGLint attribute) {
     const bool isPbuffer = surface.kind == Surface::Kind::pbuffer;
@@ -73,9 +81,9 @@ std::optional<EGLint> surfaceAttribute(const Surface& surface, EGLint attribute)
         case EGL_CONFIG_ID:
             return surface.config->id;
         case EGL_WIDTH:
-            return surface.width;
+            return side(surface, attribute, surface.width);
         case EGL_HEIGHT:
-            return surface.height;
+            return side(surface, attribute, surface.height);
         case EGL_LARGEST_PBUFFER:
             return ofPbuffer(surface.largestPbuffer);
         case EGL_HORIZONTAL_RESOLUTION:
@@ -103,8 +111,9 @@ std::optional<EGLint> surfaceAttribute(const Surface& surface, EGLint attribute)
 void setAttribute(Surface& surface, EGLint attribute, EGLint value) {
     switch (attribute) {
         case EGL_MIPMAP_LEVEL:
-            // OpenGL ES does not draw into it.
-            throw Error{EGL_BAD_PARAMETER};
+            // Has no effect on what is no texture.
+            require(surface.config->gl != nullptr, EGL_BAD_PARAMETER);
+            break;
         case EGL_MULTISAMPLE_RESOLVE:
             require(value != EGL_MULTISAMPLE_RESOLVE_BOX, EGL_BAD_MATCH);
             require(value == EGL_MULTISAMPLE_RESOLVE_DEFAULT, EGL_BAD_ATTRIBUTE);

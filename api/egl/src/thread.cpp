@@ -24,7 +24,7 @@ std::shared_ptr<Context> currentContext() {
     return isCurrent ? thread.context : nullptr;
 }
 
-std::shared_ptr<Surface> currentSurface() { return currentContext() ? thisThread().surface : nullptr; }
+std::shared_ptr<Surface> currentSurface() { return currentContext() ? *thisThread().surface : nullptr; }
 
 void setError(EGLint code) {
     if (systemEgl())
@@ -64,7 +64,7 @@ EGLBoolean EGLAPIENTRY eglReleaseThread(void) {
     return call(EGLBoolean(EGL_FALSE), [] {
         if (currentContext())
             vtmMakeCurrent(nullptr, nullptr);
-        thisThread() = {};
+        thisThread() = Thread();
         return systemEgl() ? systemEgl()->ReleaseThread() : EGLBoolean(EGL_TRUE);
     });
 }

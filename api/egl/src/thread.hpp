@@ -20,7 +20,8 @@ struct Thread {
     EGLenum api = 0;             ///< 0: nobody has asked for one yet
     EGLint error = EGL_SUCCESS;  ///< of the last call, if that was ours; the system knows of its own
     std::shared_ptr<Context> context;
-    std::shared_ptr<Surface> surface;
+    SurfaceUse<&Surface::vgUses> surface;
+    SurfaceUse<&Surface::glUses> glDraw, glRead;  ///< surfaces of ours that the system's context draws into
 };
 
 Thread& thisThread();

@@ -198,13 +198,99 @@ TEST_F(Both, AreNotMixedUp) {
     EXPECT_EGL_ERROR(EGL_BAD_CONTEXT);
     EXPECT_FALSE(makeCurrent(glSurface, ctx));
     EXPECT_EGL_ERROR(EGL_BAD_MATCH);
-    EXPECT_FALSE(makeCurrent(surface, glContext));
+    EXPECT_FALSE(makeCurrent(pbuffer(config(0, 0, 0, 8)), glContext));
+    EXPECT_EGL_ERROR(EGL_BAD_MATCH);
+    EXPECT_EQ(createGl(config(0, 0, 0, 0, 8)), EGL_NO_CONTEXT);
     EXPECT_EGL_ERROR(EGL_BAD_MATCH);
     ASSERT_TRUE(eglBindAPI(EGL_OPENVG_API));
     EXPECT_EQ(context(glConfig), EGL_NO_CONTEXT);
     EXPECT_EGL_ERROR(EGL_BAD_MATCH);
     EXPECT_EQ(context(c, glContext), EGL_NO_CONTEXT);
     EXPECT_EGL_ERROR(EGL_BAD_CONTEXT);
+}
+
+/// A config for both, as programs ask for it that draw with one of the two, or with one after the other.
+class OneSurface : public Both {
+protected:
+    void SetUp() override {
+        Both::SetUp();
+        if (IsSkipped())
+            return;
+        const auto configs = choose({EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT | EGL_OPENVG_BIT,
+                                     EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8,
+                                     EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8, EGL_DEPTH_SIZE, 16});
+        ASSERT_EQ(configs.size(), 1u);
+        one = pbuffer(configs[0]);
+        gl = createGl(configs[0]);
+        ASSERT_NE(gl, EGL_NO_CONTEXT) << std::hex << eglGetError();
+        eglBindAPI(EGL_OPENVG_API);
+        ours = context(configs[0]);
+        ASSERT_NE(ours, EGL_NO_CONTEXT);
+        eglBindAPI(EGL_OPENGL_ES_API);
+    }
+
+    /// Lets go of what is current for one API, and takes it for the other.
+    void change(EGLenum from, EGLenum to) const {
+        eglBindAPI(from);
+        ASSERT_EGL(makeCurrent(EGL_NO_SURFACE, EGL_NO_CONTEXT));
+        eglBindAPI(to);
+        ASSERT_EGL(makeCurrent(one, to == EGL_OPENVG_API ? ours : gl));
+    }
+
+    static void fillGl(float r, float g, float b, float a) {
+        function<decltype(::glClearColor)>("glClearColor")(r, g, b, a);
+        function<decltype(::glClear)>("glClear")(GL_COLOR_BUFFER_BIT);
+    }
+    static GLuint glPixel(GLint x, GLint y) {
+        GLuint pixel = 0;
+        function<decltype(::glReadPixels)>("glReadPixels")(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, &pixel);
+        return pixel;
+    }
+
+    EGLSurface one = EGL_NO_SURFACE;
+    EGLContext gl = EGL_NO_CONTEXT, ours = EGL_NO_CONTEXT;
+};
+
+TEST_F(OneSurface, IsDrawnIntoByOpenGl) {
+    ASSERT_EGL(makeCurrent(one, gl));
+    EXPECT_EQ(eglGetCurrentSurface(EGL_DRAW), one);
+    EXPECT_EQ(eglGetCurrentSurface(EGL_READ), one);
+    fillGl(1, 0, 0, 1);
+    EXPECT_EQ(glPixel(2, 2), 0xff0000ffu);
+    EXPECT_EGL_ERROR(EGL_SUCCESS);
+    EXPECT_TRUE(eglSwapBuffers(display, one));
+    EXPECT_EQ(query(one, EGL_WIDTH), 16);
+    ASSERT_TRUE(eglDestroySurface(display, one));
+    EXPECT_EQ(glPixel(2, 2), 0xff0000ffu);
+    EXPECT_EQ(eglGetCurrentSurface(EGL_DRAW), one);
+    EXPECT_TRUE(makeCurrent(EGL_NO_SURFACE, EGL_NO_CONTEXT));
+    EXPECT_EQ(eglGetCurrentSurface(EGL_DRAW), EGL_NO_SURFACE);
+}
+
+TEST_F(OneSurface, IsOfOneContextAtATime) {
+    ASSERT_EGL(makeCurrent(one, gl));
+    eglBindAPI(EGL_OPENVG_API);
+    EXPECT_FALSE(makeCurrent(one, ours));
+    EXPECT_EGL_ERROR(EGL_BAD_ACCESS);
+    change(EGL_OPENGL_ES_API, EGL_OPENVG_API);
+    EXPECT_FALSE(makeCurrent(one, gl));
+    EXPECT_EGL_ERROR(EGL_BAD_ACCESS);
+    EXPECT_EQ(eglGetCurrentContext(), ours);
+}
+
+TEST_F(OneSurface, KeepsWhatTheOtherDrew) {
+    const Vg vg;
+    if (!vg)
+        GTEST_SKIP() << "this libOpenVG does not draw";
+    ASSERT_EGL(makeCurrent(one, gl));
+    fillGl(1, 0, 0, 1);
+    change(EGL_OPENGL_ES_API, EGL_OPENVG_API);
+    EXPECT_EQ(vg.pixel(15, 7), 0xff0000ffu);
+    vg.fill(4, 2, {0, 1, 0, 1});
+    change(EGL_OPENVG_API, EGL_OPENGL_ES_API);
+    EXPECT_EQ(glPixel(3, 1), 0xff00ff00u);
+    EXPECT_EQ(glPixel(4, 1), 0xff0000ffu);
+    EXPECT_EQ(glPixel(3, 2), 0xff0000ffu);
 }
 
 TEST_F(Both, ErrorsAreMergedInOrder) {

@@ -64,6 +64,9 @@ VG_API_CALL void VG_API_ENTRY vtmGetSurfaceFormat(const VtmSurface *surface, Vtm
  * `rowBytes` from one row to the next. */
 VG_API_CALL void VG_API_ENTRY vtmReadSurface(VtmSurface *surface, void *pixels, size_t rowBytes) VG_API_EXIT;
 
+/* The inverse: sets all pixels. */
+VG_API_CALL void VG_API_ENTRY vtmWriteSurface(VtmSurface *surface, const void *pixels, size_t rowBytes) VG_API_EXIT;
+
 /* `share`: a context whose objects the new one shares, or NULL. NULL if there is no memory. */
 VG_API_CALL VtmContext *VG_API_ENTRY vtmCreateContext(VtmContext *share) VG_API_EXIT;
 

@@ -92,6 +92,9 @@ std::optional<PixelFormat> surfaceFormat(const VtmSurfaceFormat& f) {
     return std::nullopt;
 }
 
+/// Of vtmReadSurface and vtmWriteSurface.
+PixelFormat bytesFormat() { return *surfaceFormat({8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE}); }
+
 bool isSide(VGint side) { return side >= 1 && side <= maxSurfaceSide; }
 bool isMask(VGint bits) { return bits == 0 || bits == 8; }
 
@@ -195,7 +198,7 @@ void vtmGetSurfaceFormat(const VtmSurface* surface, VtmSurfaceFormat* result) {
 void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
     const Pixels& pixels = surface->pixels();
     const PixelFormat& format = pixels.format();
-    const PixelFormat output = *surfaceFormat({8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE});
+    const PixelFormat output = bytesFormat();
     for (int y = 0; y < pixels.height(); ++y) {
         auto* row = static_cast<std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes;
         if (format == output) {
@@ -207,6 +210,23 @@ void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
                 output.encode(fullyConverted(format.decode(pixels.word(x, y)), format.space, output.space));
             for (int c = 0; c < 4; ++c)
                 row[4 * x + c] = std::uint8_t(word >> (8 * c));
+        }
+    }
+}
+
+void vtmWriteSurface(VtmSurface* surface, const void* bytes, size_t rowBytes) {
+    Pixels& pixels = surface->pixels();
+    const PixelFormat& format = pixels.format();
+    const PixelFormat input = bytesFormat();
+    for (int y = 0; y < pixels.height(); ++y) {
+        const auto* row =
+            static_cast<const std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes;
+        for (int x = 0; x < pixels.width(); ++x) {
+            std::uint32_t word = 0;
+            for (int c = 0; c < 4; ++c)
+                word |= std::uint32_t(row[4 * x + c]) << (8 * c);
+            pixels.setWord(x, y,
+                           format.encode(fullyConverted(input.decode(word), input.space, format.space)));
         }
     }
 }
