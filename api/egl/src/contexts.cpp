@@ -39,13 +39,12 @@ bool areCompatible(const Context& context, const Surface& surface) {
            a.alphaBits == b.alphaBits && a.luminanceBits == b.luminanceBits && a.maskBits == b.maskBits;
 }
 
-void release() {
-    if (const auto surface = currentSurface()) {
-        showPixmap(*surface);
-        vtmMakeCurrent(nullptr, nullptr);
+/// The pixmap may be gone by now: then nobody misses the pixels.
+void leave(Surface& surface) {
+    try {
+        showPixmap(surface);
+    } catch (const Error&) {
     }
-    thisThread().context = nullptr;
-    thisThread().surface = {};
 }
 
 /// A surface for a context of ours: EGL_BAD_MATCH for one of the system's, EGL_BAD_SURFACE for none at all.
@@ -69,7 +68,7 @@ void makeCurrent(const Display& display, EGLSurface draw, EGLSurface read, EGLCo
     const auto surface = surfaceForDrawing(display, draw);
     require(surfaceForDrawing(display, read) == surface && areCompatible(*context, *surface), EGL_BAD_MATCH);
     if (const auto old = currentSurface(); old && old != surface)
-        showPixmap(*old);
+        leave(*old);
     require(surface->glUses == 0, EGL_BAD_ACCESS);
     fitToTarget(*surface);
     require(vtmMakeCurrent(context->drawing, surface->drawing), EGL_BAD_ACCESS);
@@ -79,6 +78,15 @@ void makeCurrent(const Display& display, EGLSurface draw, EGLSurface read, EGLCo
 }
 
 }  // namespace
+
+void releaseCurrent() {
+    if (const auto surface = currentSurface()) {
+        leave(*surface);
+        vtmMakeCurrent(nullptr, nullptr);
+    }
+    thisThread().context = nullptr;
+    thisThread().surface = {};
+}
 
 }  // namespace vtm::egl
 
@@ -121,7 +129,7 @@ EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay dpy, EGLSurface draw, EGLSurfac
         if (handle == EGL_NO_CONTEXT && draw == EGL_NO_SURFACE && read == EGL_NO_SURFACE) {
             // Allowed of a display that is no longer initialised.
             require(findDisplay(dpy) != nullptr, EGL_BAD_DISPLAY);
-            release();
+            releaseCurrent();
             return EGLBoolean(EGL_TRUE);
         }
         const Display& display = initializedDisplay(dpy);

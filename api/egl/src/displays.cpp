@@ -81,7 +81,7 @@ std::string displayString(const Display& display, EGLint name) {
                        ? std::to_string(display.major) + '.' + std::to_string(display.minor) + " VTM"
                        : systems;
         case EGL_EXTENSIONS:
-            return withWord(systems, "EGL_KHR_no_config_context");
+            return display.systemRuns ? systems : "EGL_KHR_no_config_context";
         default:
             throw Error{EGL_BAD_PARAMETER};
     }

@@ -148,6 +148,11 @@ EGLBoolean EGLAPIENTRY eglCopyBuffers(EGLDisplay dpy, EGLSurface handle, EGLNati
     if (!surfaces().has(handle))
         return forward(&System::CopyBuffers, EGLBoolean(EGL_FALSE), EGL_BAD_SURFACE, dpy, handle, pixmap);
     return call(EGLBoolean(EGL_FALSE), [&] {
+        if (isGlCurrent(handle)) {
+            const auto drawn = getSurface(initializedDisplay(dpy), handle);
+            requireSystem(systemEgl()->CopyBuffers(dpy, drawn->target, pixmap));
+            return EGLBoolean(EGL_TRUE);
+        }
         copyTo(*postedSurface(dpy, handle), pixmap);
         return EGLBoolean(EGL_TRUE);
     });

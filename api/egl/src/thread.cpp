@@ -62,8 +62,7 @@ EGLenum EGLAPIENTRY eglQueryAPI(void) {
 
 EGLBoolean EGLAPIENTRY eglReleaseThread(void) {
     return call(EGLBoolean(EGL_FALSE), [] {
-        if (currentContext())
-            vtmMakeCurrent(nullptr, nullptr);
+        releaseCurrent();
         thisThread() = Thread();
         return systemEgl() ? systemEgl()->ReleaseThread() : EGLBoolean(EGL_TRUE);
     });

@@ -33,6 +33,9 @@ EGLenum currentApi();
 std::shared_ptr<Context> currentContext();
 std::shared_ptr<Surface> currentSurface();
 
+/// Lets go of both.
+void releaseCurrent();
+
 /// The last call was ours and ended so. Forgets what the system has said before.
 void setError(EGLint code);
 
