@@ -103,8 +103,12 @@ struct Vg {
     decltype(&::vgGetImageSubData) getImageSubData =
         function<decltype(::vgGetImageSubData)>("vgGetImageSubData");
 
+    decltype(&::vgCreatePaint) createPaint = function<decltype(::vgCreatePaint)>("vgCreatePaint");
+    decltype(&::vgPaintPattern) paintPattern = function<decltype(::vgPaintPattern)>("vgPaintPattern");
+
     explicit operator bool() const {
-        return clear && setfv && readPixels && createImage && childImage && destroyImage && getImageSubData;
+        return clear && setfv && readPixels && createImage && childImage && destroyImage && getImageSubData &&
+               createPaint && paintPattern;
     }
 
     void fill(EGLint width, EGLint height, const VGfloat (&color)[4]) const {

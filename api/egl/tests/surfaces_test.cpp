@@ -218,6 +218,18 @@ TEST_F(Images, AreBoundOnce) {
     EXPECT_EGL_ERROR(EGL_BAD_ACCESS);
 }
 
+TEST_F(Images, AreNotDrawnIntoWhileTheyArePatterns) {
+    const VGImage image = vg.createImage(VG_sRGBA_8888, 6, 5, VG_IMAGE_QUALITY_NONANTIALIASED);
+    const EGLSurface s = bound(image, c);
+    const VGPaint paint = vg.createPaint();
+    vg.paintPattern(paint, image);
+    EXPECT_FALSE(eglMakeCurrent(display, s, s, ctx));
+    EXPECT_EGL_ERROR(EGL_BAD_ACCESS);
+    EXPECT_EQ(eglGetCurrentSurface(EGL_DRAW), surface);
+    vg.paintPattern(paint, VG_INVALID_HANDLE);
+    EXPECT_TRUE(eglMakeCurrent(display, s, s, ctx));
+}
+
 TEST_F(Images, LiveAsLongAsTheirSurface) {
     const VGImage image = vg.createImage(VG_sRGBA_8888, 6, 5, VG_IMAGE_QUALITY_NONANTIALIASED);
     const EGLSurface s = bound(image, c);

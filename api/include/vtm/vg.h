@@ -75,7 +75,7 @@ VG_API_CALL void VG_API_ENTRY vtmDestroyContext(VtmContext *context) VG_API_EXIT
 
 /* Makes both current in this thread, in place of what was; NULL, NULL makes nothing current. A context that gets another
  * surface has its mask reset (specification 7.2). False, and nothing changed, if only one is NULL, the context is current
- * in another thread, or the surface with another context. */
+ * in another thread, the surface with another context, or its image has become a paint's pattern or a font's glyph. */
 VG_API_CALL VGboolean VG_API_ENTRY vtmMakeCurrent(VtmContext *context, VtmSurface *surface) VG_API_EXIT;
 
 VG_API_CALL VtmContext *VG_API_ENTRY vtmGetCurrentContext(void) VG_API_EXIT;

@@ -259,6 +259,11 @@ VGboolean vtmMakeCurrent(VtmContext* context, VtmSurface* surface) {
             return VG_FALSE;
         if (context == old && context->surface == surface)
             return VG_TRUE;
+        if (surface->isImage) {
+            const std::lock_guard objectsLock(context->objects->mutex);
+            if (surface->storage->uses != 0)
+                return VG_FALSE;
+        }
     }
     // Neither may go with what is released, if it is used again.
     const bool keepsContext = context && context == old, keepsSurface = surface && surface->user;
