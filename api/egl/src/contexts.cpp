@@ -4,6 +4,7 @@
 #include "api/egl/src/attributes.hpp"
 #include "api/egl/src/gl_contexts.hpp"
 #include "api/egl/src/posting.hpp"
+#include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
 
 namespace vtm::egl {
@@ -19,7 +20,7 @@ bool isVgCurrentApi() { return currentApi() == EGL_OPENVG_API; }
 
 EGLContext createContext(Display& display, EGLConfig handle, EGLContext share, const EGLint* list) {
     // EGL_NO_CONFIG_KHR: EGL_KHR_no_config_context.
-    const auto config = handle == EGL_NO_CONFIG_KHR ? nullptr : getConfig(display, handle);
+    const auto config = handle == EGL_NO_CONFIG_KHR ? nullptr : configForVg(display, handle);
     const auto sharing = share == EGL_NO_CONTEXT ? nullptr : getContext(display, share);
     // None are for OpenVG.
     require(attributeList(list).empty(), EGL_BAD_ATTRIBUTE);
@@ -39,22 +40,19 @@ bool areCompatible(const Context& context, const Surface& surface) {
            a.alphaBits == b.alphaBits && a.luminanceBits == b.luminanceBits && a.maskBits == b.maskBits;
 }
 
-/// The pixmap may be gone by now: then nobody misses the pixels.
+/// What it shows may be gone by now: then nobody misses the pixels.
 void leave(Surface& surface) {
     try {
         showPixmap(surface);
+        if (surface.isAdopted)
+            giveToGl(surface);
     } catch (const Error&) {
     }
 }
 
-/// A surface for a context of ours: EGL_BAD_MATCH for one of the system's, EGL_BAD_SURFACE for none at all.
-std::shared_ptr<Surface> surfaceForDrawing(const Display& display, EGLSurface handle) {
+std::shared_ptr<Surface> surfaceForVg(Display& display, EGLSurface handle) {
     require(handle != EGL_NO_SURFACE, EGL_BAD_MATCH);
-    EGLint id = 0;
-    const bool isSystems = !surfaces().has(handle) && display.systemRuns &&
-                           systemEgl()->QuerySurface(display.handle, handle, EGL_CONFIG_ID, &id);
-    require(!isSystems, EGL_BAD_MATCH);
-    return getSurface(display, handle);
+    return surfaces().has(handle) ? getSurface(display, handle) : adoptedSurface(display, handle);
 }
 
 bool isSystemContext(const Display& display, EGLContext handle) {
@@ -63,10 +61,10 @@ bool isSystemContext(const Display& display, EGLContext handle) {
            systemEgl()->QueryContext(display.handle, handle, EGL_CONFIG_ID, &id);
 }
 
-void makeCurrent(const Display& display, EGLSurface draw, EGLSurface read, EGLContext handle) {
+void makeCurrent(Display& display, EGLSurface draw, EGLSurface read, EGLContext handle) {
     const auto context = getContext(display, handle);
-    const auto surface = surfaceForDrawing(display, draw);
-    require(surfaceForDrawing(display, read) == surface && areCompatible(*context, *surface), EGL_BAD_MATCH);
+    const auto surface = surfaceForVg(display, draw);
+    require(surfaceForVg(display, read) == surface && areCompatible(*context, *surface), EGL_BAD_MATCH);
     if (const auto old = currentSurface(); old && old != surface)
         leave(*old);
     require(surface->glUses == 0, EGL_BAD_ACCESS);
@@ -132,7 +130,7 @@ EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay dpy, EGLSurface draw, EGLSurfac
             releaseCurrent();
             return EGLBoolean(EGL_TRUE);
         }
-        const Display& display = initializedDisplay(dpy);
+        Display& display = initializedDisplay(dpy);
         require(handle != EGL_NO_CONTEXT, EGL_BAD_MATCH);
         if (isSystemContext(display, handle))
             makeGlCurrent(display, draw, read, handle);

@@ -5,6 +5,7 @@
 
 #include "api/egl/src/configs.hpp"
 #include "api/egl/src/displays.hpp"
+#include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
 
 namespace vtm::egl {
@@ -35,6 +36,7 @@ void terminate(Display& display) {
         return;
     display.isInitialized = false;
     // What is current in some thread stays until that thread lets go of it.
+    forgetAllAdopted(display);
     surfaces().removeAll(display);
     contexts().removeAll(display);
     configs().removeAll(display);

@@ -79,6 +79,7 @@ struct Surface {
     EGLSurface target = EGL_NO_SURFACE;  ///< the system's
     EGLNativePixmapType pixmap = 0;      ///< that it is for; 0: only the system knows
     EGLConfig targetConfig = nullptr;    ///< of that
+    bool isAdopted = false;              ///< `target` is the program's, and `handle` too
     const unsigned terminations;         ///< of the display, when it was created
     std::unique_ptr<Blitter> blitter;    ///< made when first needed
     EGLint swapInterval = 1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "api/egl/src/blitter.hpp"
+#include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
 #include "api/egl/src/x_pixmaps.hpp"
 
@@ -30,7 +31,10 @@ bool putDrawing(EGLNativePixmapType pixmap, const Surface& surface) {
 
 /// Of this thread's current context of OpenVG, and none other.
 std::shared_ptr<Surface> postedSurface(EGLDisplay dpy, EGLSurface handle) {
-    const auto surface = getSurface(initializedDisplay(dpy), handle);
+    const Display& display = initializedDisplay(dpy);
+    if (isAdoptedCurrent(handle))
+        return currentSurface();
+    const auto surface = getSurface(display, handle);
     require(surface == currentSurface(), EGL_BAD_SURFACE);
     return surface;
 }
@@ -79,10 +83,15 @@ void copyTo(const Surface& surface, EGLNativePixmapType pixmap) {
         Blitter(display, surface.config->pixmap).copy(target, surface.drawing);
 }
 
+/// To be posted by us.
+bool isOurs(EGLSurface handle) {
+    return surfaces().has(handle) || (currentApi() == EGL_OPENVG_API && isAdoptedCurrent(handle));
+}
+
 /// Calls the system's function of this name, if the surface is none of ours.
 EGLBoolean swapWithDamage(const char* name, EGLDisplay dpy, EGLSurface handle, const EGLint* rectangles,
                           EGLint count) {
-    if (surfaces().has(handle))
+    if (isOurs(handle))
         return swap(dpy, handle);
     thisThread().error = EGL_SUCCESS;
     const auto function =
@@ -113,7 +122,7 @@ void giveToGl(Surface& surface) {
 }
 
 void takeFromGl(Surface& surface) {
-    if (std::exchange(surface.glDrewLast, false))
+    if (std::exchange(surface.glDrewLast, false) || surface.isAdopted)
         blitterOf(surface).read(surface.target, surface.drawing);
     surface.vgDrewLast = true;
 }
@@ -139,7 +148,7 @@ EGLBoolean EGLAPIENTRY swapBuffersWithDamageExt(EGLDisplay dpy, EGLSurface surfa
 using namespace vtm::egl;
 
 EGLBoolean EGLAPIENTRY eglSwapBuffers(EGLDisplay dpy, EGLSurface handle) {
-    return surfaces().has(handle)
+    return isOurs(handle)
                ? swap(dpy, handle)
                : forward(&System::SwapBuffers, EGLBoolean(EGL_FALSE), EGL_BAD_SURFACE, dpy, handle);
 }

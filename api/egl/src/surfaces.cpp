@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "api/egl/src/blitter.hpp"
+#include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
 
 namespace vtm::egl {
@@ -21,7 +22,8 @@ Surface::~Surface() {
             blitter->forget();
     } else if (target != EGL_NO_SURFACE) {
         blitter = nullptr;
-        systemEgl()->DestroySurface(display.handle, target);
+        if (!isAdopted)
+            systemEgl()->DestroySurface(display.handle, target);
     }
 }
 
@@ -142,8 +144,13 @@ EGLBoolean refuseTexture(EGLDisplay dpy, EGLSurface handle) {
 using namespace vtm::egl;
 
 EGLBoolean EGLAPIENTRY eglDestroySurface(EGLDisplay dpy, EGLSurface handle) {
-    if (!surfaces().has(handle))
-        return forward(&System::DestroySurface, EGLBoolean(EGL_FALSE), EGL_BAD_SURFACE, dpy, handle);
+    if (!surfaces().has(handle)) {
+        const EGLBoolean isDestroyed =
+            forward(&System::DestroySurface, EGLBoolean(EGL_FALSE), EGL_BAD_SURFACE, dpy, handle);
+        if (isDestroyed)
+            forgetAdopted(handle);
+        return isDestroyed;
+    }
     return call(EGLBoolean(EGL_FALSE), [&] {
         getSurface(initializedDisplay(dpy), handle);
         surfaces().remove(handle);

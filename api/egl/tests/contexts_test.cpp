@@ -196,15 +196,11 @@ TEST_F(Both, AreCurrentAtOnce) {
 TEST_F(Both, AreNotMixedUp) {
     EXPECT_EQ(createGl(glConfig, ctx), EGL_NO_CONTEXT);
     EXPECT_EGL_ERROR(EGL_BAD_CONTEXT);
-    EXPECT_FALSE(makeCurrent(glSurface, ctx));
-    EXPECT_EGL_ERROR(EGL_BAD_MATCH);
     EXPECT_FALSE(makeCurrent(pbuffer(config(0, 0, 0, 8)), glContext));
     EXPECT_EGL_ERROR(EGL_BAD_MATCH);
     EXPECT_EQ(createGl(config(0, 0, 0, 0, 8)), EGL_NO_CONTEXT);
     EXPECT_EGL_ERROR(EGL_BAD_MATCH);
     ASSERT_TRUE(eglBindAPI(EGL_OPENVG_API));
-    EXPECT_EQ(context(glConfig), EGL_NO_CONTEXT);
-    EXPECT_EGL_ERROR(EGL_BAD_MATCH);
     EXPECT_EQ(context(c, glContext), EGL_NO_CONTEXT);
     EXPECT_EGL_ERROR(EGL_BAD_CONTEXT);
 }
@@ -291,6 +287,37 @@ TEST_F(OneSurface, KeepsWhatTheOtherDrew) {
     EXPECT_EQ(glPixel(3, 1), 0xff00ff00u);
     EXPECT_EQ(glPixel(4, 1), 0xff0000ffu);
     EXPECT_EQ(glPixel(3, 2), 0xff0000ffu);
+}
+
+// Programs that ask for colours alone get the system's configs, and may draw with OpenVG all the same.
+TEST_F(Both, OpenVgDrawsOnSurfacesOfTheSystem) {
+    const Vg vg;
+    if (!vg)
+        GTEST_SKIP() << "this libOpenVG does not draw";
+    ASSERT_EGL(makeCurrent(glSurface, glContext));
+    function<decltype(::glClearColor)>("glClearColor")(0, 1, 0, 1);
+    function<decltype(::glClear)>("glClear")(GL_COLOR_BUFFER_BIT);
+    ASSERT_TRUE(makeCurrent(EGL_NO_SURFACE, EGL_NO_CONTEXT));
+    ASSERT_TRUE(eglBindAPI(EGL_OPENVG_API));
+    const EGLContext ours = context(glConfig);
+    ASSERT_NE(ours, EGL_NO_CONTEXT) << std::hex << eglGetError();
+    ASSERT_EGL(makeCurrent(glSurface, ours));
+    EXPECT_EQ(eglGetCurrentSurface(EGL_DRAW), glSurface);
+    EXPECT_EQ(vg.pixel(3, 3), 0x00ff00ffu);
+    vg.fill(4, 4, {1, 0, 0, 1});
+    EXPECT_EQ(vg.pixel(3, 3), 0xff0000ffu);
+    EXPECT_TRUE(eglSwapBuffers(display, glSurface));
+    ASSERT_TRUE(makeCurrent(EGL_NO_SURFACE, EGL_NO_CONTEXT));
+    ASSERT_TRUE(eglBindAPI(EGL_OPENGL_ES_API));
+    ASSERT_EGL(makeCurrent(glSurface, glContext));
+    GLuint pixels[2] = {};
+    function<decltype(::glReadPixels)>("glReadPixels")(3, 3, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    EXPECT_EQ(pixels[0], 0xff0000ffu);
+    EXPECT_EQ(pixels[1], 0xff00ff00u);
+    EXPECT_TRUE(eglDestroySurface(display, glSurface));
+    ASSERT_TRUE(eglBindAPI(EGL_OPENVG_API));
+    EXPECT_FALSE(makeCurrent(this, ours));
+    EXPECT_EGL_ERROR(EGL_BAD_SURFACE);
 }
 
 TEST_F(Both, ErrorsAreMergedInOrder) {

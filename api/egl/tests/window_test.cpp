@@ -245,6 +245,29 @@ TEST_F(Windows, AreDrawnIntoByBothApisInTurn) {
     EXPECT_EQ(x.pixel(window, 5, 5), green);
 }
 
+TEST_F(Windows, OfTheSystemsConfigsAreDrawnInto) {
+    const EGLint colours[] = {EGL_RED_SIZE,   8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8,
+                              EGL_ALPHA_SIZE, 8, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    ASSERT_EGL(eglChooseConfig(display, colours, &config, 1, &count));
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
+    ASSERT_NE(context, EGL_NO_CONTEXT) << std::hex << eglGetError();
+    const unsigned long window = x.window(10, 10);
+    const EGLSurface s = eglCreateWindowSurface(display, config, window, nullptr);
+    ASSERT_NE(s, EGL_NO_SURFACE);
+    ASSERT_EGL(eglMakeCurrent(display, s, s, context));
+    vg.fill(10, 10, {0, 1, 0, 1});
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    EXPECT_EQ(x.pixel(window, 5, 5), green);
+    x.resize(window, 20, 15);
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    EXPECT_EQ(query(s, EGL_WIDTH), 20);
+    vg.fill(20, 15, {0, 0, 1, 1});
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    EXPECT_EQ(x.pixel(window, 19, 0), blue);
+}
+
 TEST_F(Windows, ArePlatformWindowsToo) {
     unsigned long window = x.window(10, 10);
     const EGLAttrib attributes[] = {EGL_RENDER_BUFFER, EGL_SINGLE_BUFFER, EGL_VG_COLORSPACE,
