@@ -54,6 +54,7 @@ LIBRARIES = {
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "api/egl"},
     r"dlfcn\.h": {"api/openvg", "api/egl"},
     r"stddef\.h": {"api"},
+    r"stdio\.h": {"api/egl"},
     r"CLI/.*": {"tools"},
     r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
     r"benchmark/.*|librsvg/.*|cairo\.h|ft2build\.h": {"bench"},

@@ -57,9 +57,15 @@ VG_API_CALL VGboolean VG_API_ENTRY vtmResizeSurface(VtmSurface *surface, VGint w
 VG_API_CALL VGint VG_API_ENTRY vtmSurfaceWidth(const VtmSurface *surface) VG_API_EXIT;
 VG_API_CALL VGint VG_API_ENTRY vtmSurfaceHeight(const VtmSurface *surface) VG_API_EXIT;
 
+/* Of an image too. */
+VG_API_CALL void VG_API_ENTRY vtmGetSurfaceFormat(const VtmSurface *surface, VtmSurfaceFormat *format) VG_API_EXIT;
+
 /* All pixels as sRGB-encoded, premultiplied bytes red, green, blue, alpha, rows from the TOP (y = height - 1 first),
  * `rowBytes` from one row to the next. */
 VG_API_CALL void VG_API_ENTRY vtmReadSurface(VtmSurface *surface, void *pixels, size_t rowBytes) VG_API_EXIT;
+
+/* The inverse: sets all pixels. */
+VG_API_CALL void VG_API_ENTRY vtmWriteSurface(VtmSurface *surface, const void *pixels, size_t rowBytes) VG_API_EXIT;
 
 /* `share`: a context whose objects the new one shares, or NULL. NULL if there is no memory. */
 VG_API_CALL VtmContext *VG_API_ENTRY vtmCreateContext(VtmContext *share) VG_API_EXIT;
@@ -69,7 +75,7 @@ VG_API_CALL void VG_API_ENTRY vtmDestroyContext(VtmContext *context) VG_API_EXIT
 
 /* Makes both current in this thread, in place of what was; NULL, NULL makes nothing current. A context that gets another
  * surface has its mask reset (specification 7.2). False, and nothing changed, if only one is NULL, the context is current
- * in another thread, or the surface with another context. */
+ * in another thread, the surface with another context, or its image has become a paint's pattern or a font's glyph. */
 VG_API_CALL VGboolean VG_API_ENTRY vtmMakeCurrent(VtmContext *context, VtmSurface *surface) VG_API_EXIT;
 
 VG_API_CALL VtmContext *VG_API_ENTRY vtmGetCurrentContext(void) VG_API_EXIT;

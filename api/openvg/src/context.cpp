@@ -92,6 +92,9 @@ std::optional<PixelFormat> surfaceFormat(const VtmSurfaceFormat& f) {
     return std::nullopt;
 }
 
+/// Of vtmReadSurface and vtmWriteSurface.
+PixelFormat bytesFormat() { return *surfaceFormat({8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE}); }
+
 bool isSide(VGint side) { return side >= 1 && side <= maxSurfaceSide; }
 bool isMask(VGint bits) { return bits == 0 || bits == 8; }
 
@@ -127,6 +130,8 @@ VtmSurface* vtmCreateImageSurface(VtmContext* context, VGImage image, VGint mask
         const std::shared_ptr<Image> target = context->objects->get<Image>(image);
         const ImageStorage& storage = *target->storage;
         require(!storage.isTarget && storage.images == 1 && storage.uses == 0, VG_IMAGE_IN_USE_ERROR);
+        // Another surface holds it.
+        require(target->storage.use_count() == storage.images, VG_IMAGE_IN_USE_ERROR);
         require(isSide(target->width()) && isSide(target->height()));
         auto surface = std::make_unique<VtmSurface>();
         surface->storage = target->storage;
@@ -178,10 +183,22 @@ VGboolean vtmResizeSurface(VtmSurface* surface, VGint width, VGint height) try {
 VGint vtmSurfaceWidth(const VtmSurface* surface) { return surface->width(); }
 VGint vtmSurfaceHeight(const VtmSurface* surface) { return surface->height(); }
 
+void vtmGetSurfaceFormat(const VtmSurface* surface, VtmSurfaceFormat* result) {
+    const PixelFormat& format = surface->pixels().format();
+    *result = {format.red.bits,
+               format.green.bits,
+               format.blue.bits,
+               format.alpha.bits,
+               format.grey.bits,
+               surface->mask ? 8 : 0,
+               VGboolean(format.space.linear),
+               VGboolean(format.space.premultiplied)};
+}
+
 void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
     const Pixels& pixels = surface->pixels();
     const PixelFormat& format = pixels.format();
-    const PixelFormat output = *surfaceFormat({8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE});
+    const PixelFormat output = bytesFormat();
     for (int y = 0; y < pixels.height(); ++y) {
         auto* row = static_cast<std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes;
         if (format == output) {
@@ -193,6 +210,23 @@ void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
                 output.encode(fullyConverted(format.decode(pixels.word(x, y)), format.space, output.space));
             for (int c = 0; c < 4; ++c)
                 row[4 * x + c] = std::uint8_t(word >> (8 * c));
+        }
+    }
+}
+
+void vtmWriteSurface(VtmSurface* surface, const void* bytes, size_t rowBytes) {
+    Pixels& pixels = surface->pixels();
+    const PixelFormat& format = pixels.format();
+    const PixelFormat input = bytesFormat();
+    for (int y = 0; y < pixels.height(); ++y) {
+        const auto* row =
+            static_cast<const std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes;
+        for (int x = 0; x < pixels.width(); ++x) {
+            std::uint32_t word = 0;
+            for (int c = 0; c < 4; ++c)
+                word |= std::uint32_t(row[4 * x + c]) << (8 * c);
+            pixels.setWord(x, y,
+                           format.encode(fullyConverted(input.decode(word), input.space, format.space)));
         }
     }
 }
@@ -225,6 +259,11 @@ VGboolean vtmMakeCurrent(VtmContext* context, VtmSurface* surface) {
             return VG_FALSE;
         if (context == old && context->surface == surface)
             return VG_TRUE;
+        if (surface->isImage) {
+            const std::lock_guard objectsLock(context->objects->mutex);
+            if (surface->storage->uses != 0)
+                return VG_FALSE;
+        }
     }
     // Neither may go with what is released, if it is used again.
     const bool keepsContext = context && context == old, keepsSurface = surface && surface->user;
