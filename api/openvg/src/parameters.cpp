@@ -1,5 +1,7 @@
 // Sections 5.1 and 5.2: parameters of the context.
 
+#include <VG/vgext.h>
+
 #include "api/openvg/src/context.hpp"
 #include "api/openvg/src/numbers.hpp"
 
@@ -131,7 +133,9 @@ void set(State& s, VGint type, const Values& v) {
                 toEnumerator(v[0], VG_RENDERING_QUALITY_NONANTIALIASED, VG_RENDERING_QUALITY_BETTER);
             break;
         case VG_BLEND_MODE:
-            s.blendMode = toEnumerator(v[0], VG_BLEND_SRC, VG_BLEND_ADDITIVE);
+            s.blendMode = toInt(v[0]) >= VG_BLEND_OVERLAY_KHR
+                              ? toEnumerator(v[0], VG_BLEND_OVERLAY_KHR, VG_BLEND_XOR_KHR)
+                              : toEnumerator(v[0], VG_BLEND_SRC, VG_BLEND_ADDITIVE);
             break;
         case VG_IMAGE_MODE:
             s.imageMode = toEnumerator(v[0], VG_DRAW_IMAGE_NORMAL, VG_DRAW_IMAGE_STENCIL);

@@ -1,0 +1,61 @@
+/*
+ * OpenVG and VGU extensions that libOpenVG.so.1 has, the same names and values as in the Khronos registry; vgGetString(
+ * VG_EXTENSIONS) lists them. Plain C89. All functions are exported; eglGetProcAddress and vtmGetProcAddress find them too.
+ * docs/openvg_extensions.md says how places are read where a registered text is silent.
+ */
+#ifndef VTM_VG_VGEXT_H
+#define VTM_VG_VGEXT_H
+
+#include <VG/openvg.h>
+#include <VG/vgu.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#ifndef VG_API_ENTRYP
+#define VG_API_ENTRYP VG_API_ENTRY *
+#endif
+#ifndef VGU_API_ENTRYP
+#define VGU_API_ENTRYP VGU_API_ENTRY *
+#endif
+
+/* ---- VG_KHR_advanced_blending: values of VG_BLEND_MODE ---- */
+
+#ifndef VG_KHR_advanced_blending
+#define VG_KHR_advanced_blending 1
+
+typedef enum {
+    VG_BLEND_OVERLAY_KHR = 0x2010,
+    VG_BLEND_HARDLIGHT_KHR = 0x2011,
+    VG_BLEND_SOFTLIGHT_SVG_KHR = 0x2012,
+    VG_BLEND_SOFTLIGHT_KHR = 0x2013,
+    VG_BLEND_COLORDODGE_KHR = 0x2014,
+    VG_BLEND_COLORBURN_KHR = 0x2015,
+    VG_BLEND_DIFFERENCE_KHR = 0x2016,
+    VG_BLEND_SUBTRACT_KHR = 0x2017,
+    VG_BLEND_INVERT_KHR = 0x2018,
+    VG_BLEND_EXCLUSION_KHR = 0x2019,
+    VG_BLEND_LINEARDODGE_KHR = 0x201A,
+    VG_BLEND_LINEARBURN_KHR = 0x201B,
+    VG_BLEND_VIVIDLIGHT_KHR = 0x201C,
+    VG_BLEND_LINEARLIGHT_KHR = 0x201D,
+    VG_BLEND_PINLIGHT_KHR = 0x201E,
+    VG_BLEND_HARDMIX_KHR = 0x201F,
+    VG_BLEND_CLEAR_KHR = 0x2020,
+    VG_BLEND_DST_KHR = 0x2021,
+    VG_BLEND_SRC_OUT_KHR = 0x2022,
+    VG_BLEND_DST_OUT_KHR = 0x2023,
+    VG_BLEND_SRC_ATOP_KHR = 0x2024,
+    VG_BLEND_DST_ATOP_KHR = 0x2025,
+    VG_BLEND_XOR_KHR = 0x2026,
+    VG_BLEND_MODE_KHR_FORCE_SIZE = VG_MAX_ENUM
+} VGBlendModeKHR;
+
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
