@@ -20,6 +20,30 @@ extern "C" {
 #define VGU_API_ENTRYP VGU_API_ENTRY *
 #endif
 
+/* ---- VG_KHR_iterative_average_blur ---- */
+
+/* Context parameters that can only be read. */
+typedef enum {
+    VG_MAX_AVERAGE_BLUR_DIMENSION_KHR = 0x116B,
+    VG_AVERAGE_BLUR_DIMENSION_RESOLUTION_KHR = 0x116C, /* bits behind the point; -1: those of a float */
+    VG_MAX_AVERAGE_BLUR_ITERATIONS_KHR = 0x116D,
+    VG_PARAM_TYPE_KHR_FORCE_SIZE = VG_MAX_ENUM
+} VGParamTypeKHR;
+
+#ifndef VG_KHR_iterative_average_blur
+#define VG_KHR_iterative_average_blur 1
+
+/* Means over dimX times dimY pixels, `iterative` times. */
+#ifdef VG_VGEXT_PROTOTYPES
+VG_API_CALL void VG_API_ENTRY vgIterativeAverageBlurKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
+                                                        VGuint iterative, VGTilingMode tilingMode) VG_API_EXIT;
+#endif
+typedef void(VG_API_ENTRYP PFNVGITERATIVEAVERAGEBLURKHRPROC)(VGImage dst, VGImage src, VGfloat dimX,
+                                                             VGfloat dimY, VGuint iterative,
+                                                             VGTilingMode tilingMode) VG_API_EXIT;
+
+#endif
+
 /* ---- VG_KHR_advanced_blending: values of VG_BLEND_MODE ---- */
 
 #ifndef VG_KHR_advanced_blending

@@ -98,6 +98,12 @@ Values get(const State& s, VGint type) {
             return {double(maxFloat)};
         case VG_MAX_GAUSSIAN_STD_DEVIATION:
             return {double(maxGaussianStdDeviation)};
+        case VG_MAX_AVERAGE_BLUR_DIMENSION_KHR:
+            return {double(maxAverageBlurDimension)};
+        case VG_AVERAGE_BLUR_DIMENSION_RESOLUTION_KHR:
+            return {-1.0};  // all bits of a float
+        case VG_MAX_AVERAGE_BLUR_ITERATIONS_KHR:
+            return {double(maxAverageBlurIterations)};
         default:
             throw Error(VG_ILLEGAL_ARGUMENT_ERROR);
     }
