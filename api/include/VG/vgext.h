@@ -1,7 +1,8 @@
 /*
- * OpenVG and VGU extensions that libOpenVG.so.1 has, the same names and values as in the Khronos registry; vgGetString(
- * VG_EXTENSIONS) lists them. Plain C89. All functions are exported; eglGetProcAddress and vtmGetProcAddress find them too.
- * docs/openvg_extensions.md says how places are read where a registered text is silent.
+ * OpenVG and VGU extensions that libOpenVG.so.1 has, the same names and values as in the Khronos registry;
+ * vgGetString(VG_EXTENSIONS) lists them. Plain C89. All functions are exported; eglGetProcAddress and
+ * vtmGetProcAddress find them too. docs/openvg_extensions.md says how places are read where a registered text
+ * is silent.
  */
 #ifndef VTM_VG_VGEXT_H
 #define VTM_VG_VGEXT_H
@@ -36,11 +37,12 @@ typedef enum {
 /* Means over dimX times dimY pixels, `iterative` times. */
 #ifdef VG_VGEXT_PROTOTYPES
 VG_API_CALL void VG_API_ENTRY vgIterativeAverageBlurKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
-                                                        VGuint iterative, VGTilingMode tilingMode) VG_API_EXIT;
+                                                        VGuint iterative,
+                                                        VGTilingMode tilingMode) VG_API_EXIT;
 #endif
 typedef void(VG_API_ENTRYP PFNVGITERATIVEAVERAGEBLURKHRPROC)(VGImage dst, VGImage src, VGfloat dimX,
                                                              VGfloat dimY, VGuint iterative,
-                                                             VGTilingMode tilingMode) VG_API_EXIT;
+                                                             VGTilingMode tilingMode);
 
 #endif
 
@@ -75,6 +77,88 @@ typedef enum {
     VG_BLEND_XOR_KHR = 0x2026,
     VG_BLEND_MODE_KHR_FORCE_SIZE = VG_MAX_ENUM
 } VGBlendModeKHR;
+
+#endif
+
+/* ---- VG_KHR_parametric_filter ---- */
+
+#ifndef VG_KHR_parametric_filter
+#define VG_KHR_parametric_filter 1
+
+typedef enum {
+    VG_PF_OBJECT_VISIBLE_FLAG_KHR = (1 << 0),
+    VG_PF_KNOCKOUT_FLAG_KHR = (1 << 1),
+    VG_PF_OUTER_FLAG_KHR = (1 << 2),
+    VG_PF_INNER_FLAG_KHR = (1 << 3),
+    VG_PF_TYPE_KHR_FORCE_SIZE = VG_MAX_ENUM
+} VGPfTypeKHR;
+
+typedef enum { VGU_IMAGE_IN_USE_ERROR = 0xF010, VGU_ERROR_CODE_KHR_FORCE_SIZE = VG_MAX_ENUM } VGUErrorCodeKHR;
+
+/* Offsets and distances are pixels, angles degrees. The effects of VGU blur `src` by
+ * vgIterativeAverageBlurKHR; they leave vgGetError() at VG_NO_ERROR. */
+#ifdef VG_VGEXT_PROTOTYPES
+VG_API_CALL void VG_API_ENTRY vgParametricFilterKHR(VGImage dst, VGImage src, VGImage blur, VGfloat strength,
+                                                    VGfloat offsetX, VGfloat offsetY, VGbitfield filterFlags,
+                                                    VGPaint highlightPaint, VGPaint shadowPaint) VG_API_EXIT;
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguDropShadowKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
+                                                         VGuint iterative, VGfloat strength, VGfloat distance,
+                                                         VGfloat angle, VGbitfield filterFlags,
+                                                         VGbitfield allowedQuality,
+                                                         VGuint shadowColorRGBA) VGU_API_EXIT;
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguGlowKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
+                                                   VGuint iterative, VGfloat strength, VGbitfield filterFlags,
+                                                   VGbitfield allowedQuality,
+                                                   VGuint glowColorRGBA) VGU_API_EXIT;
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguBevelKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
+                                                    VGuint iterative, VGfloat strength, VGfloat distance,
+                                                    VGfloat angle, VGbitfield filterFlags,
+                                                    VGbitfield allowedQuality, VGuint highlightColorRGBA,
+                                                    VGuint shadowColorRGBA) VGU_API_EXIT;
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguGradientGlowKHR(VGImage dst, VGImage src, VGfloat dimX,
+                                                           VGfloat dimY, VGuint iterative, VGfloat strength,
+                                                           VGfloat distance, VGfloat angle,
+                                                           VGbitfield filterFlags, VGbitfield allowedQuality,
+                                                           VGuint stopsCount,
+                                                           const VGfloat *glowColorRampStops) VGU_API_EXIT;
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguGradientBevelKHR(VGImage dst, VGImage src, VGfloat dimX,
+                                                            VGfloat dimY, VGuint iterative, VGfloat strength,
+                                                            VGfloat distance, VGfloat angle,
+                                                            VGbitfield filterFlags, VGbitfield allowedQuality,
+                                                            VGuint stopsCount,
+                                                            const VGfloat *bevelColorRampStops) VGU_API_EXIT;
+#endif
+typedef void(VG_API_ENTRYP PFNVGPARAMETRICFILTERKHRPROC)(VGImage dst, VGImage src, VGImage blur,
+                                                         VGfloat strength, VGfloat offsetX, VGfloat offsetY,
+                                                         VGbitfield filterFlags, VGPaint highlightPaint,
+                                                         VGPaint shadowPaint);
+typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUDROPSHADOWKHRPROC)(VGImage dst, VGImage src, VGfloat dimX,
+                                                             VGfloat dimY, VGuint iterative, VGfloat strength,
+                                                             VGfloat distance, VGfloat angle,
+                                                             VGbitfield filterFlags,
+                                                             VGbitfield allowedQuality,
+                                                             VGuint shadowColorRGBA);
+typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUGLOWKHRPROC)(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
+                                                       VGuint iterative, VGfloat strength,
+                                                       VGbitfield filterFlags, VGbitfield allowedQuality,
+                                                       VGuint glowColorRGBA);
+typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUBEVELKHRPROC)(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
+                                                        VGuint iterative, VGfloat strength, VGfloat distance,
+                                                        VGfloat angle, VGbitfield filterFlags,
+                                                        VGbitfield allowedQuality, VGuint highlightColorRGBA,
+                                                        VGuint shadowColorRGBA);
+typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUGRADIENTGLOWKHRPROC)(VGImage dst, VGImage src, VGfloat dimX,
+                                                               VGfloat dimY, VGuint iterative,
+                                                               VGfloat strength, VGfloat distance,
+                                                               VGfloat angle, VGbitfield filterFlags,
+                                                               VGbitfield allowedQuality, VGuint stopsCount,
+                                                               const VGfloat *glowColorRampStops);
+typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUGRADIENTBEVELKHRPROC)(VGImage dst, VGImage src, VGfloat dimX,
+                                                                VGfloat dimY, VGuint iterative,
+                                                                VGfloat strength, VGfloat distance,
+                                                                VGfloat angle, VGbitfield filterFlags,
+                                                                VGbitfield allowedQuality, VGuint stopsCount,
+                                                                const VGfloat *bevelColorRampStops);
 
 #endif
 

@@ -15,6 +15,11 @@ class ColorRamp {
 public:
     explicit ColorRamp(const Paint& paint);
 
+    /// Of the first stop, that of offset 0 if none is given: as at() gives them.
+    Color first() const {
+        return premultiplied_ ? stops_.front().color : premultiplied(stops_.front().color);
+    }
+
     /// At a gradient's value, any number: premultiplied sRGBA.
     Color at(double offset) const;
 

@@ -26,7 +26,7 @@ const VGubyte* vgGetString(VGStringID name) {
             case VG_VERSION:
                 return text("1.1");
             case VG_EXTENSIONS:
-                return text("VG_KHR_iterative_average_blur VG_KHR_advanced_blending");
+                return text("VG_KHR_iterative_average_blur VG_KHR_advanced_blending VG_KHR_parametric_filter");
             default:
                 return static_cast<const VGubyte*>(nullptr);
         }
