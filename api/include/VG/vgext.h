@@ -162,6 +162,27 @@ typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUGRADIENTBEVELKHRPROC)(VGImage dst, VGI
 
 #endif
 
+/* ---- VG_NDS_paint_generation ---- */
+
+#ifndef VG_NDS_paint_generation
+#define VG_NDS_paint_generation 1
+
+/* Parameters of paints. */
+typedef enum {
+    VG_PAINT_COLOR_RAMP_LINEAR_NDS = 0x1A10,
+    VG_COLOR_MATRIX_NDS = 0x1A11, /* 20 numbers: the columns for red, green, blue, alpha, and what is added */
+    VG_PAINT_COLOR_TRANSFORM_LINEAR_NDS = 0x1A12,
+    VG_PAINT_PARAM_TYPE_NDS_FORCE_SIZE = VG_MAX_ENUM
+} VGPaintParamTypeNds;
+
+/* A value of VG_IMAGE_MODE. */
+typedef enum {
+    VG_DRAW_IMAGE_COLOR_MATRIX_NDS = 0x1F10,
+    VG_IMAGE_MODE_NDS_FORCE_SIZE = VG_MAX_ENUM
+} VGImageModeNds;
+
+#endif
+
 #ifdef __cplusplus
 }
 #endif

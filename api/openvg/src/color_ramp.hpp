@@ -20,7 +20,10 @@ public:
         return premultiplied_ ? stops_.front().color : premultiplied(stops_.front().color);
     }
 
-    /// At a gradient's value, any number: premultiplied sRGBA.
+    /// Of what at() gives: premultiplied, sRGBA unless the paint's ramp is linear (VG_NDS_paint_generation).
+    ColorSpace space() const { return space_; }
+
+    /// At a gradient's value, any number.
     Color at(double offset) const;
 
 private:
@@ -30,6 +33,7 @@ private:
     };
 
     std::vector<Stop> stops_;  ///< from offset 0 to 1, at least two
+    ColorSpace space_;
     VGColorRampSpreadMode spread_;
     bool premultiplied_;  ///< colours of stops are, and so is what lies between
 };

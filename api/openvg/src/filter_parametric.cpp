@@ -8,6 +8,7 @@
 #include <VG/vgext.h>
 
 #include "api/openvg/src/color_ramp.hpp"
+#include "api/openvg/src/color_transform.hpp"
 #include "api/openvg/src/filter_images.hpp"
 
 using namespace vtm::openvg;
@@ -26,7 +27,8 @@ public:
         require(paint->type == VG_PAINT_TYPE_COLOR || paint->type == VG_PAINT_TYPE_LINEAR_GRADIENT);
         if (paint->type == VG_PAINT_TYPE_COLOR) {
             const std::array<VGfloat, 4>& c = paint->color;
-            color_ = fullyConverted(glm::clamp(Color(c[0], c[1], c[2], c[3]), 0.0f, 1.0f), sRGBA, space);
+            color_ = premultiplied(transformedColor(ColorTransform(*paint), Color(c[0], c[1], c[2], c[3]),
+                                                    {space.linear, false, false}));
         } else {
             ramp_.emplace(*paint);
             require(ramp_->first().a == 0);
@@ -41,7 +43,7 @@ public:
         const float amount = std::min(std::max(0.0f, alpha * strength_), 1.0f);
         if (color_)
             return *color_ * amount;
-        return ramp_ ? fullyConverted(ramp_->at(double(amount)), sRGBA_PRE, space_) : Color(0);
+        return ramp_ ? fullyConverted(ramp_->at(double(amount)), ramp_->space(), space_) : Color(0);
     }
 
 private:

@@ -144,7 +144,9 @@ void set(State& s, VGint type, const Values& v) {
                               : toEnumerator(v[0], VG_BLEND_SRC, VG_BLEND_ADDITIVE);
             break;
         case VG_IMAGE_MODE:
-            s.imageMode = toEnumerator(v[0], VG_DRAW_IMAGE_NORMAL, VG_DRAW_IMAGE_STENCIL);
+            s.imageMode = toInt(v[0]) == VG_DRAW_IMAGE_COLOR_MATRIX_NDS
+                              ? VGint(VG_DRAW_IMAGE_COLOR_MATRIX_NDS)
+                              : toEnumerator(v[0], VG_DRAW_IMAGE_NORMAL, VG_DRAW_IMAGE_STENCIL);
             break;
         case VG_SCISSOR_RECTS:
             require(v.size() % 4 == 0);
