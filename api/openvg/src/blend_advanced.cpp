@@ -110,10 +110,9 @@ float linearLight(const Operands& o) {
 }
 
 float pinLight(const Operands& o) {
+    // The larger is the text's choice in all its cases: `source` is more than `both` only for light sources.
     const float both = o.sa * o.da, source = 2 * o.s * o.da, destination = o.d * o.sa;
-    if (source - destination > both)
-        return (2 * o.s < o.sa ? 0 : source - both) + o.apart();
-    return std::min(source, destination) + o.apart();
+    return std::max(source - both, std::min(source, destination)) + o.apart();
 }
 
 float hardMix(const Operands& o) {

@@ -70,9 +70,9 @@ void filter(VGImage dst, VGImage src, const Blur& blur, VGfloat strength, Offset
 /// Runs what calls the API; the first error of its calls is the result.
 template <class Effect>
 VGUErrorCode apply(Effect&& effect) {
-    return callOr(VGU_OUT_OF_MEMORY_ERROR, [&](Context& context) {
+    return callOr(VGU_BAD_HANDLE_ERROR, [&](Context& context) {
         context.error = VG_NO_ERROR;
-        effect();
+        call([&](Context&) { effect(); });
         switch (std::exchange(context.error, VG_NO_ERROR)) {
             case VG_NO_ERROR:
                 return VGU_NO_ERROR;
@@ -88,8 +88,9 @@ VGUErrorCode apply(Effect&& effect) {
     });
 }
 
-bool areStops(VGuint count, const VGfloat* stops) {
-    return count <= VGuint(VG_MAXINT) / stopSize && (count == 0 || (stops != nullptr && isAligned(stops)));
+void requireStops(VGuint count, const VGfloat* stops) {
+    require(count <= VGuint(VG_MAXINT) / stopSize);
+    require(count == 0 || (stops != nullptr && isAligned(stops)));
 }
 
 }  // namespace
@@ -97,8 +98,6 @@ bool areStops(VGuint count, const VGfloat* stops) {
 VGUErrorCode vguDropShadowKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY, VGuint iterative,
                               VGfloat strength, VGfloat distance, VGfloat angle, VGbitfield filterFlags,
                               VGbitfield allowedQuality, VGuint shadowColorRGBA) {
-    if (!currentContext())
-        return VGU_BAD_HANDLE_ERROR;
     return apply([&] {
         const OwnPaint shadow(shadowColorRGBA);
         filter(dst, src, {dimX, dimY, iterative, allowedQuality}, strength, Offset(distance, angle),
@@ -109,8 +108,6 @@ VGUErrorCode vguDropShadowKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat di
 VGUErrorCode vguGlowKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY, VGuint iterative,
                         VGfloat strength, VGbitfield filterFlags, VGbitfield allowedQuality,
                         VGuint glowColorRGBA) {
-    if (!currentContext())
-        return VGU_BAD_HANDLE_ERROR;
     return apply([&] {
         const OwnPaint glow(glowColorRGBA);
         filter(dst, src, {dimX, dimY, iterative, allowedQuality}, strength, Offset(), filterFlags,
@@ -121,8 +118,6 @@ VGUErrorCode vguGlowKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY, VG
 VGUErrorCode vguBevelKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY, VGuint iterative,
                          VGfloat strength, VGfloat distance, VGfloat angle, VGbitfield filterFlags,
                          VGbitfield allowedQuality, VGuint highlightColorRGBA, VGuint shadowColorRGBA) {
-    if (!currentContext())
-        return VGU_BAD_HANDLE_ERROR;
     return apply([&] {
         const OwnPaint highlight(highlightColorRGBA), shadow(shadowColorRGBA);
         filter(dst, src, {dimX, dimY, iterative, allowedQuality}, strength, Offset(distance, angle),
@@ -134,11 +129,8 @@ VGUErrorCode vguGradientGlowKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat 
                                 VGfloat strength, VGfloat distance, VGfloat angle, VGbitfield filterFlags,
                                 VGbitfield allowedQuality, VGuint stopsCount,
                                 const VGfloat* glowColorRampStops) {
-    if (!currentContext())
-        return VGU_BAD_HANDLE_ERROR;
-    if (!areStops(stopsCount, glowColorRampStops))
-        return VGU_ILLEGAL_ARGUMENT_ERROR;
     return apply([&] {
+        requireStops(stopsCount, glowColorRampStops);
         const OwnPaint glow(std::span(glowColorRampStops, stopsCount * stopSize));
         filter(dst, src, {dimX, dimY, iterative, allowedQuality}, strength, -Offset(distance, angle),
                filterFlags, glow, VG_INVALID_HANDLE);
@@ -149,11 +141,8 @@ VGUErrorCode vguGradientBevelKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat
                                  VGfloat strength, VGfloat distance, VGfloat angle, VGbitfield filterFlags,
                                  VGbitfield allowedQuality, VGuint stopsCount,
                                  const VGfloat* bevelColorRampStops) {
-    if (!currentContext())
-        return VGU_BAD_HANDLE_ERROR;
-    if (!areStops(stopsCount, bevelColorRampStops))
-        return VGU_ILLEGAL_ARGUMENT_ERROR;
     return apply([&] {
+        requireStops(stopsCount, bevelColorRampStops);
         // The ramp's halves, both from its middle outwards. A middle that is no stop is transparent.
         std::vector<VGfloat> shadowStops, highlightStops;
         const auto add = [](std::vector<VGfloat>& stops, VGfloat offset, const VGfloat* stop) {
