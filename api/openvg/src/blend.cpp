@@ -1,5 +1,7 @@
 #include "api/openvg/src/blend.hpp"
 
+#include "api/openvg/src/blend_advanced.hpp"
+
 namespace vtm::openvg {
 
 namespace {
@@ -43,8 +45,10 @@ Blend blendOf(VGint mode) {
             return lighten;
         case VG_BLEND_ADDITIVE:
             return additive;
-        default:
-            return srcOver;
+        default: {
+            const Blend advanced = advancedBlendOf(mode);
+            return advanced ? advanced : srcOver;
+        }
     }
 }
 

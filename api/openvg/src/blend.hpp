@@ -12,7 +12,7 @@ namespace vtm::openvg {
 /// 1].
 using Blend = Color (*)(Color source, Color destination);
 
-/// Of a VGBlendMode.
+/// Of a VGBlendMode or VGBlendModeKHR.
 Blend blendOf(VGint mode);
 
 /// The same, each colour channel with a source alpha of its own, as stencils have: `source` is premultiplied

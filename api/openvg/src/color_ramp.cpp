@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/openvg/src/color_transform.hpp"
+
 namespace vtm::openvg {
 
-ColorRamp::ColorRamp(const Paint& paint) : spread_(paint.spread), premultiplied_(paint.rampPremultiplied) {
+ColorRamp::ColorRamp(const Paint& paint)
+    : space_{paint.rampLinear, true, false}, spread_(paint.spread), premultiplied_(paint.rampPremultiplied) {
     const std::vector<VGfloat>& v = paint.stops;
     float last = -1;
     for (std::size_t i = 0; i + 5 <= v.size(); i += 5) {
@@ -18,11 +21,16 @@ ColorRamp::ColorRamp(const Paint& paint) : spread_(paint.spread), premultiplied_
             break;
         }
         last = offset;
-        const Color color = glm::clamp(Color(v[i + 1], v[i + 2], v[i + 3], v[i + 4]), 0.0f, 1.0f);
-        stops_.push_back({offset, premultiplied_ ? premultiplied(color) : color});
+        stops_.push_back({offset, Color(v[i + 1], v[i + 2], v[i + 3], v[i + 4])});
     }
     if (stops_.empty())
         stops_ = {{0, Color(0, 0, 0, 1)}, {1, Color(1)}};
+    const ColorTransform transform(paint);
+    for (Stop& stop : stops_) {
+        stop.color = transformedColor(transform, stop.color, {paint.rampLinear, false, false});
+        if (premultiplied_)
+            stop.color = premultiplied(stop.color);
+    }
     if (stops_.front().offset > 0)
         stops_.insert(stops_.begin(), {0, stops_.front().color});
     if (stops_.back().offset < 1)

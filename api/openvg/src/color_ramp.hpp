@@ -15,7 +15,15 @@ class ColorRamp {
 public:
     explicit ColorRamp(const Paint& paint);
 
-    /// At a gradient's value, any number: premultiplied sRGBA.
+    /// Of the first stop, that of offset 0 if none is given: as at() gives them.
+    Color first() const {
+        return premultiplied_ ? stops_.front().color : premultiplied(stops_.front().color);
+    }
+
+    /// Of what at() gives: premultiplied, sRGBA unless the paint's ramp is linear (VG_NDS_paint_generation).
+    ColorSpace space() const { return space_; }
+
+    /// At a gradient's value, any number.
     Color at(double offset) const;
 
 private:
@@ -25,6 +33,7 @@ private:
     };
 
     std::vector<Stop> stops_;  ///< from offset 0 to 1, at least two
+    ColorSpace space_;
     VGColorRampSpreadMode spread_;
     bool premultiplied_;  ///< colours of stops are, and so is what lies between
 };

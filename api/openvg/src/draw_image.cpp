@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include <VG/vgext.h>
+
+#include "api/openvg/src/color_transform.hpp"
 #include "api/openvg/src/compositor.hpp"
 #include "api/openvg/src/images.hpp"
 
@@ -84,6 +87,12 @@ void drawImage(Context& context, const Image& image, const glm::mat3& toSurface,
     const VGint mode = isProjective(toSurface) ? VGint(VG_DRAW_IMAGE_NORMAL) : state.imageMode;
     if (mode == VG_DRAW_IMAGE_NORMAL) {
         Compositor compositor(context, *pixels);
+        return draw(compositor);
+    }
+    if (mode == VG_DRAW_IMAGE_COLOR_MATRIX_NDS) {
+        const std::unique_ptr<PixelSource> transformed =
+            transformedSource(std::move(pixels), ColorTransform(currentPaint(state, VG_FILL_PATH)));
+        Compositor compositor(context, *transformed);
         return draw(compositor);
     }
     std::unique_ptr<PixelSource> paint = paintSource(

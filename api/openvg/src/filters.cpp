@@ -5,102 +5,11 @@
 #include <cmath>
 #include <vector>
 
-#include "api/openvg/src/images.hpp"
+#include "api/openvg/src/filter_images.hpp"
 
 using namespace vtm::openvg;
 
 namespace {
-
-/// Rows of colours.
-struct Raster {
-    int width = 0, height = 0;
-    std::vector<Color> colors;
-
-    Raster(int w, int h) : width(w), height(h), colors(std::size_t(w) * std::size_t(h)) {}
-    Color& at(int x, int y) { return colors[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
-    const Color& at(int x, int y) const { return const_cast<Raster*>(this)->at(x, y); }
-};
-
-/// What a filter reads and where it writes; throws for images that it must not get.
-struct Images {
-    std::shared_ptr<Image> dst, src;
-
-    Images(const Context& context, VGImage dstHandle, VGImage srcHandle)
-        : dst(context.objects->get<Image>(dstHandle)), src(context.objects->get<Image>(srcHandle)) {
-        require(!dst->storage->isTarget && !src->storage->isTarget, VG_IMAGE_IN_USE_ERROR);
-        require(dst->storage != src->storage || dst->area.intersected(src->area).empty());
-    }
-
-    int width() const { return std::min(dst->width(), src->width()); }
-    int height() const { return std::min(dst->height(), src->height()); }
-};
-
-ColorSpace filterSpace(const State& state) {
-    return {state.filterFormatLinear, state.filterFormatPremultiplied, false};
-}
-
-/// Section 12.1. Grey is replicated, not converted.
-Color normalized(Color color, ColorSpace from, ColorSpace to) {
-    from.luminance = false;
-    return fullyConverted(color, from, to);
-}
-
-Raster normalized(const Image& image, ColorSpace space) {
-    Raster raster(image.width(), image.height());
-    for (int y = 0; y < raster.height; ++y)
-        for (int x = 0; x < raster.width; ++x)
-            raster.at(x, y) = normalized(image.color(x, y), image.format().space, space);
-    return raster;
-}
-
-Color clamped(Color color, ColorSpace space) {
-    color = glm::clamp(color, 0.0f, 1.0f);
-    return space.premultiplied ? Color(glm::min(glm::vec3(color), color.a), color.a) : color;
-}
-
-/// Writes a filtered colour's channels that VG_FILTER_CHANNEL_MASK names (section 12.2).
-void write(const State& state, Image& image, int x, int y, Color color, ColorSpace space) {
-    const PixelFormat& format = image.format();
-    color = clamped(color, space);
-    const VGbitfield all = VG_RED | VG_GREEN | VG_BLUE | VG_ALPHA;
-    if (format.grey.bits != 0 || (state.filterChannelMask & all) == all)
-        return image.setWord(x, y, format.encode(fullyConverted(color, space, format.space)));
-    ColorSpace plain = format.space;
-    plain.premultiplied = false;
-    const Color filtered = fullyConverted(color, space, plain);
-    Color result = fullyConverted(image.color(x, y), format.space, plain);
-    constexpr std::array<VGbitfield, 4> bits{VG_RED, VG_GREEN, VG_BLUE, VG_ALPHA};
-    for (int c = 0; c < 4; ++c)
-        if (state.filterChannelMask & bits[std::size_t(c)])
-            result[c] = filtered[c];
-    image.setWord(x, y, format.encode(fullyConverted(result, plain, format.space)));
-}
-
-/// The index of a place outside of 0 to size - 1, or -1 for the fill colour (section 9.4.1).
-int tiled(int i, int size, VGTilingMode mode) {
-    if (i >= 0 && i < size)
-        return i;
-    switch (mode) {
-        case VG_TILE_PAD:
-            return std::clamp(i, 0, size - 1);
-        case VG_TILE_REPEAT:
-            return (i % size + size) % size;
-        case VG_TILE_REFLECT: {
-            const int j = (i % (2 * size) + 2 * size) % (2 * size);
-            return j < size ? j : 2 * size - 1 - j;
-        }
-        default:
-            return -1;
-    }
-}
-
-bool isTiling(VGTilingMode mode) { return VGint(mode) >= VG_TILE_FILL && VGint(mode) <= VG_TILE_REFLECT; }
-
-/// VG_TILE_FILL_COLOR as normalized pixels are.
-Color fillColor(const State& state, ColorSpace space) {
-    const std::array<VGfloat, 4>& c = state.tileFillColor;
-    return fullyConverted(glm::clamp(Color(c[0], c[1], c[2], c[3]), 0.0f, 1.0f), sRGBA, space);
-}
 
 /// Weights of the source pixels at x + offset, x + offset + 1, ….
 struct Kernel {
@@ -109,11 +18,11 @@ struct Kernel {
 };
 
 /// One dimension after the other, only what is written.
-void separable(Context& context, const Images& images, const Kernel& across, const Kernel& up, double scale,
-               double bias, VGTilingMode mode) {
+void separable(Context& context, const FilterImages& images, const Kernel& across, const Kernel& up,
+               double scale, double bias, VGTilingMode mode) {
     const ColorSpace space = filterSpace(context.state);
     const Raster source = normalized(*images.src, space);
-    const Color fill = fillColor(context.state, space);
+    const Color fill = tileFillColor(context.state, space);
     using Sum = glm::dvec4;
     const int width = images.width(), height = images.height();
     // Rows of sums across: all rows of the source, and one of nothing but the fill colour.
@@ -138,7 +47,7 @@ void separable(Context& context, const Images& images, const Kernel& across, con
                 sum += up.weights[k] *
                        (j < 0 ? fillRow : rows[std::size_t(j) * std::size_t(width) + std::size_t(x)]);
             }
-            write(context.state, *images.dst, x, y, Color(sum * scale + bias), space);
+            writeFiltered(context.state, *images.dst, x, y, Color(sum * scale + bias), space);
         }
 }
 
@@ -174,7 +83,7 @@ std::size_t tableIndex(float channel) { return std::size_t(std::clamp(channel, 0
 
 void vgColorMatrix(VGImage dst, VGImage src, const VGfloat* matrix) {
     call([&](Context& context) {
-        const Images images(context, dst, src);
+        const FilterImages images(context, dst, src);
         require(matrix != nullptr && isAligned(matrix));
         glm::mat4 m;
         for (int c = 0; c < 4; ++c)
@@ -184,22 +93,23 @@ void vgColorMatrix(VGImage dst, VGImage src, const VGfloat* matrix) {
         const ColorSpace space = filterSpace(context.state);
         for (int y = 0; y < images.height(); ++y)
             for (int x = 0; x < images.width(); ++x)
-                write(context.state, *images.dst, x, y,
-                      m * normalized(images.src->color(x, y), images.src->format().space, space) + added,
-                      space);
+                writeFiltered(
+                    context.state, *images.dst, x, y,
+                    m * normalized(images.src->color(x, y), images.src->format().space, space) + added,
+                    space);
     });
 }
 
 void vgConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kernelHeight, VGint shiftX, VGint shiftY,
                 const VGshort* kernel, VGfloat scale, VGfloat bias, VGTilingMode tilingMode) {
     call([&](Context& context) {
-        const Images images(context, dst, src);
+        const FilterImages images(context, dst, src);
         require(kernelWidth > 0 && kernelHeight > 0 && kernelWidth <= maxKernelSize &&
                 kernelHeight <= maxKernelSize);
         require(kernel != nullptr && isAligned(kernel) && isTiling(tilingMode));
         const ColorSpace space = filterSpace(context.state);
         const Raster source = normalized(*images.src, space);
-        const Color fill = fillColor(context.state, space);
+        const Color fill = tileFillColor(context.state, space);
         const int left = -std::clamp(shiftX, -(1 << 28), 1 << 28),
                   low = -std::clamp(shiftY, -(1 << 28), 1 << 28);
         for (int y = 0; y < images.height(); ++y)
@@ -213,7 +123,8 @@ void vgConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kernelHeight,
                         sum += k * glm::dvec4(u < 0 || v < 0 ? fill : source.at(u, v));
                     }
                 }
-                write(context.state, *images.dst, x, y, Color(sum * double(scale) + double(bias)), space);
+                writeFiltered(context.state, *images.dst, x, y, Color(sum * double(scale) + double(bias)),
+                              space);
             }
     });
 }
@@ -222,7 +133,7 @@ void vgSeparableConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kern
                          VGint shiftY, const VGshort* kernelX, const VGshort* kernelY, VGfloat scale,
                          VGfloat bias, VGTilingMode tilingMode) {
     call([&](Context& context) {
-        const Images images(context, dst, src);
+        const FilterImages images(context, dst, src);
         require(kernelWidth > 0 && kernelHeight > 0 && kernelWidth <= maxSeparableKernelSize &&
                 kernelHeight <= maxSeparableKernelSize);
         require(kernelX != nullptr && isAligned(kernelX) && kernelY != nullptr && isAligned(kernelY));
@@ -235,7 +146,7 @@ void vgSeparableConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kern
 void vgGaussianBlur(VGImage dst, VGImage src, VGfloat stdDeviationX, VGfloat stdDeviationY,
                     VGTilingMode tilingMode) {
     call([&](Context& context) {
-        const Images images(context, dst, src);
+        const FilterImages images(context, dst, src);
         for (const VGfloat deviation : {stdDeviationX, stdDeviationY})
             require(deviation > 0 && deviation <= VGfloat(maxGaussianStdDeviation));
         require(isTiling(tilingMode));
@@ -248,7 +159,7 @@ void vgLookup(VGImage dst, VGImage src, const VGubyte* redLUT, const VGubyte* gr
               const VGubyte* blueLUT, const VGubyte* alphaLUT, VGboolean outputLinear,
               VGboolean outputPremultiplied) {
     call([&](Context& context) {
-        const Images images(context, dst, src);
+        const FilterImages images(context, dst, src);
         const std::array<const VGubyte*, 4> tables{redLUT, greenLUT, blueLUT, alphaLUT};
         for (const VGubyte* table : tables)
             require(table != nullptr);
@@ -260,7 +171,7 @@ void vgLookup(VGImage dst, VGImage src, const VGubyte* redLUT, const VGubyte* gr
                 Color out;
                 for (int c = 0; c < 4; ++c)
                     out[c] = float(tables[std::size_t(c)][tableIndex(in[c])]) / 255;
-                write(context.state, *images.dst, x, y, out, output);
+                writeFiltered(context.state, *images.dst, x, y, out, output);
             }
     });
 }
@@ -268,7 +179,7 @@ void vgLookup(VGImage dst, VGImage src, const VGubyte* redLUT, const VGubyte* gr
 void vgLookupSingle(VGImage dst, VGImage src, const VGuint* lookupTable, VGImageChannel sourceChannel,
                     VGboolean outputLinear, VGboolean outputPremultiplied) {
     call([&](Context& context) {
-        const Images images(context, dst, src);
+        const FilterImages images(context, dst, src);
         require(lookupTable != nullptr && isAligned(lookupTable));
         const PixelFormat& format = images.src->format();
         int channel = 0;
@@ -290,7 +201,7 @@ void vgLookupSingle(VGImage dst, VGImage src, const VGuint* lookupTable, VGImage
                 const VGuint entry = lookupTable[tableIndex(in[channel])];
                 const Color out(float(entry >> 24), float((entry >> 16) & 255), float((entry >> 8) & 255),
                                 float(entry & 255));
-                write(context.state, *images.dst, x, y, out / 255.0f, output);
+                writeFiltered(context.state, *images.dst, x, y, out / 255.0f, output);
             }
     });
 }

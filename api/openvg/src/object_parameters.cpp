@@ -1,5 +1,7 @@
 // Section 5.3: parameters of objects; those of paints are section 9.1.3.
 
+#include <VG/vgext.h>
+
 #include "api/openvg/src/context.hpp"
 #include "api/openvg/src/numbers.hpp"
 
@@ -9,7 +11,7 @@ namespace {
 
 bool isVector(VGint type) {
     return type == VG_PAINT_COLOR || type == VG_PAINT_COLOR_RAMP_STOPS || type == VG_PAINT_LINEAR_GRADIENT ||
-           type == VG_PAINT_RADIAL_GRADIENT;
+           type == VG_PAINT_RADIAL_GRADIENT || type == VG_COLOR_MATRIX_NDS;
 }
 
 Values getFrom(const Paint& paint, VGint type) {
@@ -30,6 +32,12 @@ Values getFrom(const Paint& paint, VGint type) {
             return toValues(paint.radial);
         case VG_PAINT_PATTERN_TILING_MODE:
             return {double(paint.tiling)};
+        case VG_PAINT_COLOR_RAMP_LINEAR_NDS:
+            return {double(paint.rampLinear)};
+        case VG_COLOR_MATRIX_NDS:
+            return toValues(paint.colorMatrix);
+        case VG_PAINT_COLOR_TRANSFORM_LINEAR_NDS:
+            return {double(paint.transformLinear)};
         default:
             throw Error(VG_ILLEGAL_ARGUMENT_ERROR);
     }
@@ -112,6 +120,15 @@ void setIn(Paint& paint, VGint type, const Values& v) {
             break;
         case VG_PAINT_RADIAL_GRADIENT:
             paint.radial = toFloats<5>(v);
+            break;
+        case VG_PAINT_COLOR_RAMP_LINEAR_NDS:
+            paint.rampLinear = toInt(v[0]) != 0;
+            break;
+        case VG_COLOR_MATRIX_NDS:
+            paint.colorMatrix = toFloats<20>(v);
+            break;
+        case VG_PAINT_COLOR_TRANSFORM_LINEAR_NDS:
+            paint.transformLinear = toInt(v[0]) != 0;
             break;
         default:
             paint.tiling = VGTilingMode(toEnumerator(v[0], VG_TILE_FILL, VG_TILE_REFLECT));

@@ -106,6 +106,11 @@ struct Paint : Object {
     std::array<VGfloat, 5> radial{0, 0, 0, 0, 1};
     VGTilingMode tiling = VG_TILE_FILL;
     UsedImage pattern;
+
+    // VG_NDS_paint_generation; the matrix in columns of four, the last what is added.
+    bool rampLinear = false, transformLinear = false;
+    static constexpr std::array<VGfloat, 20> identityMatrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    std::array<VGfloat, 20> colorMatrix = identityMatrix;
 };
 
 // ---- Section 7.2 ----------------------------------------------------------------------------------

@@ -1,5 +1,7 @@
 // Sections 5.1 and 5.2: parameters of the context.
 
+#include <VG/vgext.h>
+
 #include "api/openvg/src/context.hpp"
 #include "api/openvg/src/numbers.hpp"
 
@@ -96,6 +98,12 @@ Values get(const State& s, VGint type) {
             return {double(maxFloat)};
         case VG_MAX_GAUSSIAN_STD_DEVIATION:
             return {double(maxGaussianStdDeviation)};
+        case VG_MAX_AVERAGE_BLUR_DIMENSION_KHR:
+            return {double(maxAverageBlurDimension)};
+        case VG_AVERAGE_BLUR_DIMENSION_RESOLUTION_KHR:
+            return {-1.0};  // all bits of a float
+        case VG_MAX_AVERAGE_BLUR_ITERATIONS_KHR:
+            return {double(maxAverageBlurIterations)};
         default:
             throw Error(VG_ILLEGAL_ARGUMENT_ERROR);
     }
@@ -131,10 +139,14 @@ void set(State& s, VGint type, const Values& v) {
                 toEnumerator(v[0], VG_RENDERING_QUALITY_NONANTIALIASED, VG_RENDERING_QUALITY_BETTER);
             break;
         case VG_BLEND_MODE:
-            s.blendMode = toEnumerator(v[0], VG_BLEND_SRC, VG_BLEND_ADDITIVE);
+            s.blendMode = toInt(v[0]) >= VG_BLEND_OVERLAY_KHR
+                              ? toEnumerator(v[0], VG_BLEND_OVERLAY_KHR, VG_BLEND_XOR_KHR)
+                              : toEnumerator(v[0], VG_BLEND_SRC, VG_BLEND_ADDITIVE);
             break;
         case VG_IMAGE_MODE:
-            s.imageMode = toEnumerator(v[0], VG_DRAW_IMAGE_NORMAL, VG_DRAW_IMAGE_STENCIL);
+            s.imageMode = toInt(v[0]) == VG_DRAW_IMAGE_COLOR_MATRIX_NDS
+                              ? VGint(VG_DRAW_IMAGE_COLOR_MATRIX_NDS)
+                              : toEnumerator(v[0], VG_DRAW_IMAGE_NORMAL, VG_DRAW_IMAGE_STENCIL);
             break;
         case VG_SCISSOR_RECTS:
             require(v.size() % 4 == 0);

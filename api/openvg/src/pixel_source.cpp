@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "api/openvg/src/color_ramp.hpp"
+#include "api/openvg/src/color_transform.hpp"
 
 namespace vtm::openvg {
 
@@ -41,7 +42,9 @@ private:
 class LinearGradientSource final : public AffineSource {
 public:
     LinearGradientSource(const Paint& paint, const glm::dmat3& fromSurface)
-        : AffineSource(sRGBA_PRE, fromSurface), ramp_(paint), start_(paint.linear[0], paint.linear[1]) {
+        : AffineSource({paint.rampLinear, true, false}, fromSurface),
+          ramp_(paint),
+          start_(paint.linear[0], paint.linear[1]) {
         const dvec2 d = dvec2(paint.linear[2], paint.linear[3]) - start_;
         const double length2 = glm::dot(d, d);
         isPoint_ = !(length2 > 0);
@@ -64,7 +67,7 @@ private:
 class RadialGradientSource final : public AffineSource {
 public:
     RadialGradientSource(const Paint& paint, const glm::dmat3& fromSurface)
-        : AffineSource(sRGBA_PRE, fromSurface), ramp_(paint), radius_(paint.radial[4]) {
+        : AffineSource({paint.rampLinear, true, false}, fromSurface), ramp_(paint), radius_(paint.radial[4]) {
         const dvec2 center(paint.radial[0], paint.radial[1]);
         focus_ = {paint.radial[2], paint.radial[3]};
         // Inside of the circle by a little, so that the gradient has a value everywhere (section 9.3.2).
@@ -245,7 +248,7 @@ std::unique_ptr<PixelSource> paintSource(const Paint& paint, const glm::mat3& pa
     if (paint.type == VG_PAINT_TYPE_COLOR || (paint.type == VG_PAINT_TYPE_PATTERN && !paint.pattern)) {
         const std::array<VGfloat, 4>& c = paint.color;
         return std::make_unique<ConstantSource>(
-            premultiplied(glm::clamp(Color(c[0], c[1], c[2], c[3]), 0.0f, 1.0f)));
+            premultiplied(transformedColor(ColorTransform(paint), Color(c[0], c[1], c[2], c[3]), sRGBA)));
     }
     const std::optional<glm::dmat3> fromSurface = inverseOf(paintToSurface);
     if (!fromSurface)
@@ -254,8 +257,10 @@ std::unique_ptr<PixelSource> paintSource(const Paint& paint, const glm::mat3& pa
         return std::make_unique<LinearGradientSource>(paint, *fromSurface);
     if (paint.type == VG_PAINT_TYPE_RADIAL_GRADIENT)
         return std::make_unique<RadialGradientSource>(paint, *fromSurface);
-    return std::make_unique<ImageSource>(Texels(*paint.pattern, paint.tiling, state.tileFillColor),
-                                         *fromSurface, state.imageQuality != VG_IMAGE_QUALITY_NONANTIALIASED);
+    return transformedSource(
+        std::make_unique<ImageSource>(Texels(*paint.pattern, paint.tiling, state.tileFillColor), *fromSurface,
+                                      state.imageQuality != VG_IMAGE_QUALITY_NONANTIALIASED),
+        ColorTransform(paint));
 }
 
 std::unique_ptr<PixelSource> imageSource(const Image& image, const glm::mat3& imageToSurface,

@@ -26,7 +26,9 @@ const VGubyte* vgGetString(VGStringID name) {
             case VG_VERSION:
                 return text("1.1");
             case VG_EXTENSIONS:
-                return text("");
+                return text(
+                    "VG_KHR_iterative_average_blur VG_KHR_advanced_blending VG_KHR_parametric_filter "
+                    "VG_NDS_paint_generation");
             default:
                 return static_cast<const VGubyte*>(nullptr);
         }

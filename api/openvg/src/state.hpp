@@ -18,7 +18,8 @@ namespace vtm::openvg {
 /// Limits that programs can ask for.
 inline constexpr VGint maxScissorRects = 256, maxDashCount = 256, maxKernelSize = 31,
                        maxSeparableKernelSize = 127, maxColorRampStops = 256, maxImageSide = 16384,
-                       maxImagePixels = 1 << 28, maxImageBytes = 1 << 30, maxGaussianStdDeviation = 128;
+                       maxImagePixels = 1 << 28, maxImageBytes = 1 << 30, maxGaussianStdDeviation = 128,
+                       maxAverageBlurDimension = 256, maxAverageBlurIterations = 16;
 inline constexpr VGfloat maxFloat = 1e30f;
 
 /// Values as they were set (vgGet returns them); ranges are applied where they are used. Initial values:

@@ -1,0 +1,40 @@
+/// \file
+/// The colour transform of paints (VG_NDS_paint_generation, section 9.5 there).
+#pragma once
+
+#include <memory>
+
+#include <glm/mat4x4.hpp>
+
+#include "api/openvg/src/color.hpp"
+#include "api/openvg/src/objects.hpp"
+#include "api/openvg/src/pixel_source.hpp"
+
+namespace vtm::openvg {
+
+class ColorTransform {
+public:
+    explicit ColorTransform(const Paint& paint);
+
+    /// Colours pass as they are.
+    bool isIdentity() const { return isIdentity_; }
+    /// Of what operator() takes and gives: not premultiplied.
+    ColorSpace space() const { return space_; }
+    /// Clamps its result to [0, 1].
+    Color operator()(Color color) const;
+
+private:
+    glm::mat4 matrix_;
+    Color added_;
+    ColorSpace space_;
+    bool isIdentity_;
+};
+
+/// A colour of a paint's parameters, clamped to [0, 1] and transformed, in a space that is not premultiplied.
+Color transformedColor(const ColorTransform& transform, Color sRGBAColor, ColorSpace to);
+
+/// All colours transformed. `source` as it is if the transform is the identity.
+std::unique_ptr<PixelSource> transformedSource(std::unique_ptr<PixelSource> source,
+                                               const ColorTransform& transform);
+
+}  // namespace vtm::openvg
