@@ -15,6 +15,7 @@ namespace vtm::gl {
 namespace {
 
 using asset::Blend;
+using asset::ImageFilter;
 using asset::Op;
 using asset::Spread;
 
@@ -59,7 +60,9 @@ std::string operations() {
            constant("opPopMaskLinear", Op::PopMaskLinear) + constant("opPopMaskAlpha", Op::PopMaskAlpha) +
            constant("opSolid", Op::Solid) + constant("opLinear", Op::Linear) +
            constant("opRadial", Op::Radial) + constant("opImage", Op::Image) +
-           constant("opMaterial", Op::Material) + constant("spreadPad", Spread::Pad) +
+           constant("opMaterial", Op::Material) + constant("filterNearest", ImageFilter::Nearest) +
+           constant("filterTrilinear", ImageFilter::Trilinear) +
+           constant("filterBicubic", ImageFilter::Bicubic) + constant("spreadPad", Spread::Pad) +
            constant("spreadReflect", Spread::Reflect) + constant("spreadRepeat", Spread::Repeat);
 }
 
