@@ -46,6 +46,8 @@ std::string patches() {
 
 std::string paperMode() {
     return constant("kindNode", asset::Entry::Kind::Node) + constant("paperNone", asset::noPaperIndex) +
+           constant("patternInside", PatternKind::Inside) +
+           fmt::format("const float patternLargest = {:.17g};\n", 1 - 0x1p-24) +
            constant("paperIntersection", 1 + unsigned(asset::PaperOperator::Intersection)) +
            fmt::format(
                "const int paperPending = {};\nconst float paperMargin = {:.17g};\nconst float paperExtent = "
