@@ -85,8 +85,8 @@ void forEachStretch(std::uint32_t corner, std::span<const Change> changes, Visit
 
 /// What a square shows along a part of one of its borders.
 struct Stretch {
-    /// The border's line, counted in cells of the deepest level, above fromBits; then where the part begins, lattice
-    /// steps. Lines seen from below are counted from 1, so that 24 bits hold all of either kind.
+    /// The border's line, counted in cells of the deepest level, above fromBits; then where the part begins,
+    /// lattice steps. Lines seen from below are counted from 1, so that 24 bits hold all of either kind.
     std::uint64_t key;
     std::uint64_t to;
     std::uint32_t paint;
@@ -106,7 +106,8 @@ void addStretches(Cell cell, std::uint32_t corner, std::span<const Change> chang
                   std::array<Borders, 2>& borders) {
     const bool horizontal = side % 2 == 0, forward = side < 2;
     const std::uint64_t step = stepOf(cell);
-    const std::uint64_t first = step * leafExtent * (horizontal ? cell.x : cell.y), last = first + step * leafExtent;
+    const std::uint64_t first = step * leafExtent * (horizontal ? cell.x : cell.y),
+                        last = first + step * leafExtent;
     const std::uint64_t least = step * (horizontal ? cell.y : cell.x);
     // The square lies above its own least border; of the other, the line before is the number.
     const bool above = side == 0 || side == 3;
