@@ -103,7 +103,7 @@ asset::View viewOf(int side, double periods, int round) {
     return {side, side, {c, s, -s, c, 0.3 * side, 0.1 * side}};
 }
 
-constexpr int rounds = 41;
+constexpr int rounds = 80;
 
 void timeForms(const std::string& tile, const compiler::PaperResult& compiled, const DrawingOptions& options,
                Report& report) {
@@ -122,14 +122,17 @@ void timeForms(const std::string& tile, const compiler::PaperResult& compiled, c
     }
     for (const double periods : {1.0, 4.0, 11.0, 64.0}) {
         std::array<std::vector<double>, forms.size()> times, ratios;
-        for (int round = -1; round < rounds; ++round)  // the first is not counted
-            for (std::size_t i = 0; i < forms.size(); ++i) {
-                const double time = cpuTime([&] { patterns[i]->draw(viewOf(side, periods, round)); });
-                if (round < 0)
-                    continue;
-                times[i].push_back(time);
-                ratios[i].push_back(time / times[0].back());
+        for (int round = -1; round < rounds; ++round) {  // the first is not counted
+            std::array<double, forms.size()> once{};
+            for (std::size_t turn = 0; turn < forms.size(); ++turn) {
+                const std::size_t i = (turn + std::size_t(round + 1)) % forms.size();
+                once[i] = cpuTime([&] { patterns[i]->draw(viewOf(side, periods, round)); });
             }
+            for (std::size_t i = 0; i < forms.size() && round >= 0; ++i) {
+                times[i].push_back(once[i]);
+                ratios[i].push_back(once[i] / once[0]);
+            }
+        }
         for (std::size_t i = 0; i < forms.size(); ++i) {
             const double ratio = median(ratios[i]), low = quantile(ratios[i], 0.25),
                          high = quantile(ratios[i], 0.75);
