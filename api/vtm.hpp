@@ -46,7 +46,7 @@ public:
     static Vtm paint(scene::Paint paint, float opacity = 1);
     /// `glsl` defines `vec4 NAME(vec2 p)`: scene::Material.
     static Vtm material(std::string name, std::string glsl, const scene::Color& fallback);
-    static Vtm image(image::Bitmap bitmap, scene::ImageFilter filter = scene::ImageFilter::Bilinear);
+    static Vtm image(image::Bitmap bitmap, scene::ImageFilter filter = scene::ImageFilter::Trilinear);
 
     /// `inside` where the mask is inside, `outside` elsewhere: a choice, so a translucent inside does not
     /// show the outside.

@@ -173,11 +173,20 @@ struct GradientStop {
     std::uint32_t unused = 0;
 };
 
-/// Two texels. matrix: picture to pixels of Asset::images[image]; clamped to its edge.
+/// How an image is read; in the order of scene::ImageFilter.
+enum class ImageFilter : std::uint32_t {
+    Nearest,
+    Bilinear,
+    Trilinear,  ///< bilinear in the two levels of image/levels.hpp that are next to the footprint's longer
+                ///< axis
+    Bicubic     ///< likewise, with Catmull-Rom's kernel in the image itself
+};
+
+/// Two texels. matrix: picture to pixels of Asset::images[image]; beyond its border the border's go on.
 struct ImageFill {
     std::array<float, 6> matrix{1, 0, 0, 1, 0, 0};
     std::uint32_t image = 0;
-    std::uint32_t bilinear = 1;  ///< 0: nearest
+    ImageFilter filter = ImageFilter::Trilinear;
 };
 
 static_assert(sizeof(Node) == 64 && sizeof(Leaf) == 16 && sizeof(Piece) == 16);
@@ -293,6 +302,9 @@ struct AssetView {
           fallbackLeaves(a.fallbackLeaves),
           prefilter{a.prefilter.size, a.prefilter.texels} {}
 };
+
+/// For each image, whether a paint program reads its levels: fills it trilinear or bicubic.
+std::vector<bool> imagesWithLevels(const AssetView& asset);
 
 /// Whether an asset is nothing but maps that are added up: what the compiler makes in exact mode, one map.
 bool isSumOfMaps(const AssetView& asset);

@@ -58,13 +58,19 @@ struct Pattern {
     Affine transform = identity;
 };
 
-enum class ImageFilter { Nearest, Bilinear };
+/// How a bitmap is read at a pixel. All interpolate premultiplied colours; docs/scene.md has the formulas.
+enum class ImageFilter {
+    Nearest,    ///< the bitmap's pixel at the point
+    Bilinear,   ///< of the 2 × 2 pixels next to the point; aliases where the bitmap is shown smaller
+    Trilinear,  ///< the same while magnified; smaller, between levels of means over 2^l × 2^l pixels
+    Bicubic     ///< as Trilinear, but with Catmull-Rom's 4 × 4 kernel where the bitmap itself is read
+};
 
 /// A bitmap laid with pixel (0, 0)'s outer corner on the origin, one unit a pixel; beyond its
 /// border the border pixels go on.
 struct ImagePaint {
     std::shared_ptr<const image::Bitmap> bitmap;
-    ImageFilter filter = ImageFilter::Bilinear;
+    ImageFilter filter = ImageFilter::Trilinear;
     Affine transform = identity;
 };
 

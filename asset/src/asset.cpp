@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "asset/src/records.hpp"
+
 namespace vtm::asset {
 
 namespace {
@@ -17,6 +19,23 @@ bool isSumOfMaps(const AssetView& asset) {
     return asset.mode == Mode::Exact && std::ranges::all_of(asset.commands, [](const Command& command) {
                return command.kind == Command::Kind::DrawMap;
            });
+}
+
+std::vector<bool> imagesWithLevels(const AssetView& asset) {
+    std::vector<bool> wanted(asset.images.size());
+    for (const Paint& paint : asset.paints) {
+        if (!isProgram(paint))
+            continue;
+        for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
+            const auto in = recordAt<Instruction>(asset.data, i);
+            if (in.op != Op::Image)
+                continue;
+            const auto fill = recordAt<ImageFill>(asset.data, in.argument);
+            if (fill.filter >= ImageFilter::Trilinear)
+                wanted[fill.image] = true;
+        }
+    }
+    return wanted;
 }
 
 Asset toAsset(const AssetView& view) {

@@ -67,8 +67,9 @@ Overlap overlapOf(const PlacedLeaf& leaf, const LeafFrame& frame) {
 /// a chain of pieces.
 class ColorSum {
 public:
-    ColorSum(const AssetView& asset, PaintMeaning meaning, const MaterialFunction& materials, vec2 point)
-        : asset_(asset), meaning_(meaning), materials_(materials), point_(point) {}
+    ColorSum(const Paints& paints, PaintMeaning meaning, const MaterialFunction& materials,
+             const PaintPlace& place)
+        : paints_(paints), meaning_(meaning), materials_(materials), place_(place) {}
 
     void add(std::uint32_t paint, float weight) {
         if (weight != 0)
@@ -88,15 +89,15 @@ private:
         if (recent_.paint != paint) {
             std::swap(recent_, older_);
             if (recent_.paint != paint)
-                recent_ = {paint, paintColor(asset_, paint, point_, materials_)};
+                recent_ = {paint, paints_.color(paint, place_, materials_)};
         }
         return recent_.color;
     }
 
-    const AssetView& asset_;
+    const Paints& paints_;
     PaintMeaning meaning_;
     const MaterialFunction& materials_;
-    vec2 point_;
+    PaintPlace place_;
     Known recent_, older_;
     vec4 sum_{0};
 };
@@ -123,16 +124,17 @@ vec4 leafIntegral(const AssetView& asset, Entry entry, const PlacedLeaf& placed,
     return placed.sign * sum.sum();
 }
 
-void addLeaf(const AssetView& asset, PaintMeaning meaning, const MaterialFunction& materials, Entry entry,
+void addLeaf(const Paints& paints, PaintMeaning meaning, const MaterialFunction& materials, Entry entry,
              const PlacedLeaf& placed, const PixelBox& box, image::Raster& target) {
+    const glm::mat2 footprint = placed.inverse * float(placed.step);
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
             const LeafFrame frame{glm::mat2(placed.linear), vec2(placed.origin - dvec2(x, y))};
             if (overlapOf(placed, frame).empty())
                 continue;
             const vec2 samplePoint(placed.corner + placed.step * dvec2(centreIn(placed, frame)));
-            const vec4 color =
-                leafIntegral(asset, entry, placed, frame, {asset, meaning, materials, samplePoint});
+            const vec4 color = leafIntegral(paints.asset(), entry, placed, frame,
+                                            {paints, meaning, materials, {samplePoint, footprint}});
             float* pixel = target.pixel(x, y);
             for (int c = 0; c < 4; ++c)
                 pixel[c] += color[c];
@@ -166,8 +168,9 @@ View crop(const View& view, const PixelBox& box) {
     return cropped;
 }
 
-void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeaning meaning,
+void addMap(const Paints& paints, const Map& map, const View& view, PaintMeaning meaning,
             const MaterialFunction& materials, image::Raster& target) {
+    const AssetView& asset = paints.asset();
     walk(asset, map.root, [&](Cell cell, Entry entry) {
         if (isTransparent(meaning, asset, entry))
             return;
@@ -175,7 +178,7 @@ void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeani
         const dvec2 corner(map.x + cell.x * side, map.y + cell.y * side);
         const PixelBox box = pixelsOf(view, corner, side);
         if (!box.empty())
-            addLeaf(asset, meaning, materials, entry, place(view, corner, side), box, target);
+            addLeaf(paints, meaning, materials, entry, place(view, corner, side), box, target);
     });
 }
 

@@ -4,7 +4,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/evaluate.hpp"
+#include "asset/src/paint.hpp"
 #include "asset/view.hpp"
 
 namespace vtm::asset {
@@ -28,7 +28,7 @@ enum class PaintMeaning {
 };
 
 /// target += ∫ colour over each pixel's box.
-void addMap(const AssetView& asset, const Map& map, const View& view, PaintMeaning meaning,
+void addMap(const Paints& paints, const Map& map, const View& view, PaintMeaning meaning,
             const MaterialFunction& materials, image::Raster& target);
 
 }  // namespace vtm::asset

@@ -36,44 +36,46 @@ struct Mask {
     float at(int x, int y) const { return unit(coverage.pixel(x - box.min.x, y - box.min.y)[0]); }
 };
 
-Mask coverageOf(const AssetView& asset, const Map& map, const View& view) {
+Mask coverageOf(const Paints& paints, const Map& map, const View& view) {
     const PixelBox box = pixelsOf(view, {map.x, map.y}, map.side);
     const View cropped = crop(view, box);
     Mask mask{box, Raster(cropped.width, cropped.height)};
-    addMap(asset, map, cropped, PaintMeaning::Coverage, {}, mask.coverage);
+    addMap(paints, map, cropped, PaintMeaning::Coverage, {}, mask.coverage);
     return mask;
 }
 
-/// Picture coordinates to pixels and back.
+/// Pixels to places of the picture.
 class PixelCentres {
 public:
     explicit PixelCentres(const View& view)
         : linear_(view.toPixels[0], view.toPixels[1]), origin_(view.toPixels[2]) {
         linear_ = glm::inverse(linear_);
     }
-    vec2 operator()(int x, int y) const { return vec2(linear_ * (glm::dvec2(x + 0.5, y + 0.5) - origin_)); }
+    PaintPlace operator()(int x, int y) const {
+        return {vec2(linear_ * (glm::dvec2(x + 0.5, y + 0.5) - origin_)), glm::mat2(linear_)};
+    }
 
 private:
     glm::dmat2 linear_;
     glm::dvec2 origin_;
 };
 
-void fillMask(const AssetView& asset, const Command& command, const View& view,
+void fillMask(const Paints& paints, const Command& command, const View& view,
               const MaterialFunction& materials, Raster& top) {
-    const Mask mask = coverageOf(asset, asset.maps[command.map], view);
+    const Mask mask = coverageOf(paints, paints.asset().maps[command.map], view);
     const PixelCentres centre(view);
     for (int y = mask.box.min.y; y < mask.box.max.y; ++y)
         for (int x = mask.box.min.x; x < mask.box.max.x; ++x) {
             const float coverage = mask.at(x, y);
             if (coverage == 0)
                 continue;
-            const vec4 source = paintColor(asset, command.paint, centre(x, y), materials) * coverage;
+            const vec4 source = paints.color(command.paint, centre(x, y), materials) * coverage;
             store(top.pixel(x, y), over(source, load(top.pixel(x, y))));
         }
 }
 
-void clipMask(const AssetView& asset, const Command& command, const View& view, Raster& top) {
-    const Mask mask = coverageOf(asset, asset.maps[command.map], view);
+void clipMask(const Paints& paints, const Command& command, const View& view, Raster& top) {
+    const Mask mask = coverageOf(paints, paints.asset().maps[command.map], view);
     for (int y = 0; y < top.height; ++y)
         for (int x = 0; x < top.width; ++x) {
             const bool inside =
@@ -111,15 +113,16 @@ void pop(const Command& command, std::vector<Raster>& stack) {
                 [&](vec4 s, vec4 b) { return b * maskFactor(maskOp(command.kind), s); });
 }
 
-void execute(const AssetView& asset, const Command& command, const View& view,
+void execute(const Paints& paints, const Command& command, const View& view,
              const MaterialFunction& materials, std::vector<Raster>& stack) {
     switch (command.kind) {
         case Command::Kind::DrawMap:
-            return addMap(asset, asset.maps[command.map], view, PaintMeaning::Color, materials, stack.back());
+            return addMap(paints, paints.asset().maps[command.map], view, PaintMeaning::Color, materials,
+                          stack.back());
         case Command::Kind::FillMask:
-            return fillMask(asset, command, view, materials, stack.back());
+            return fillMask(paints, command, view, materials, stack.back());
         case Command::Kind::ClipMask:
-            return clipMask(asset, command, view, stack.back());
+            return clipMask(paints, command, view, stack.back());
         case Command::Kind::Push:
             stack.emplace_back(view.width, view.height);
             return;
@@ -131,10 +134,14 @@ void execute(const AssetView& asset, const Command& command, const View& view,
 }  // namespace
 
 Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials) {
+    return evaluate(Paints(asset), view, materials);
+}
+
+Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials) {
     validate(view);
     std::vector<Raster> stack(1, Raster(view.width, view.height));
-    for (const Command& command : asset.commands)
-        execute(asset, command, view, materials, stack);
+    for (const Command& command : paints.asset().commands)
+        execute(paints, command, view, materials, stack);
     std::ranges::transform(stack.back().rgba, stack.back().rgba.begin(), unit);
     return std::move(stack.back());
 }

@@ -1,11 +1,9 @@
 #include "asset/src/paint.hpp"
 
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
 
 #include <glm/common.hpp>
-#include <glm/vec3.hpp>
 
 #include "asset/src/blend.hpp"
 #include "asset/src/gradient.hpp"
@@ -22,34 +20,6 @@ vec4 floats(const Texel& t) {
             std::bit_cast<float>(t[3])};
 }
 
-// ---- Images ---------------------------------------------------------------------------------------
-
-vec4 imagePixel(const image::Bitmap& bitmap, int x, int y) {
-    x = std::clamp(x, 0, bitmap.width - 1);
-    y = std::clamp(y, 0, bitmap.height - 1);
-    const std::uint8_t* p = &bitmap.rgba[(std::size_t(y) * std::size_t(bitmap.width) + std::size_t(x)) * 4];
-    const vec4 c = vec4(p[0], p[1], p[2], p[3]) / 255.0f;
-    return {glm::vec3(c) * c.a, c.a};
-}
-
-/// Premultiplied neighbours are interpolated, so that transparent pixels lend no colour.
-vec4 imageColor(const AssetView& asset, const ImageFill& fill, vec2 point) {
-    const image::Bitmap& bitmap = asset.images[fill.image];
-    // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes
-    // on anyway.
-    const vec2 place = applyMatrix(fill.matrix, point);
-    vec2 p(std::fmax(-1.0f, std::fmin(place.x, float(bitmap.width) + 1)),
-           std::fmax(-1.0f, std::fmin(place.y, float(bitmap.height) + 1)));
-    if (fill.bilinear == 0)
-        return imagePixel(bitmap, int(std::floor(p.x)), int(std::floor(p.y)));
-    p -= 0.5f;
-    const vec2 corner = glm::floor(p), f = p - corner;
-    const int x = int(corner.x), y = int(corner.y);
-    const vec4 top = glm::mix(imagePixel(bitmap, x, y), imagePixel(bitmap, x + 1, y), f.x);
-    const vec4 bottom = glm::mix(imagePixel(bitmap, x, y + 1), imagePixel(bitmap, x + 1, y + 1), f.x);
-    return glm::mix(top, bottom, f.y);
-}
-
 // ---- Materials ------------------------------------------------------------------------------------
 
 vec4 materialColor(const MaterialFill& fill, vec2 point, const MaterialFunction& materials) {
@@ -60,19 +30,20 @@ vec4 materialColor(const MaterialFill& fill, vec2 point, const MaterialFunction&
 
 // ---- Programs -------------------------------------------------------------------------------------
 
-vec4 layerColor(const AssetView& asset, const Instruction& in, vec2 point,
+vec4 layerColor(const Paints& paints, const Instruction& in, const PaintPlace& place,
                 const MaterialFunction& materials) {
+    const std::span<const Texel> data = paints.asset().data;
     switch (in.op) {
         case Op::Solid:
-            return floats(asset.data[in.argument]);
+            return floats(data[in.argument]);
         case Op::Image:
-            return imageColor(asset, recordAt<ImageFill>(asset.data, in.argument), point);
+            return paints.images().color(recordAt<ImageFill>(data, in.argument), place.point, place.pixel);
         case Op::Material:
-            return materialColor(recordAt<MaterialFill>(asset.data, in.argument), point, materials);
+            return materialColor(recordAt<MaterialFill>(data, in.argument), place.point, materials);
         case Op::Linear:
-            return linearColor({asset.data, in.argument}, point);
+            return linearColor({data, in.argument}, place.point);
         default:
-            return radialColor({asset.data, in.argument}, point);
+            return radialColor({data, in.argument}, place.point);
     }
 }
 
@@ -84,8 +55,8 @@ struct Stack {
     vec4 pop() { return entries[top--]; }
 };
 
-void execute(const AssetView& asset, const Instruction& in, vec2 point, const MaterialFunction& materials,
-             Stack& stack) {
+void execute(const Paints& paints, const Instruction& in, const PaintPlace& place,
+             const MaterialFunction& materials, Stack& stack) {
     switch (in.op) {
         case Op::Push:
             return stack.push();
@@ -104,23 +75,20 @@ void execute(const AssetView& asset, const Instruction& in, vec2 point, const Ma
         }
         default:
             vec4& top = stack.entries[stack.top];
-            top = over(layerColor(asset, in, point, materials) * in.opacity, top);
+            top = over(layerColor(paints, in, place, materials) * in.opacity, top);
     }
-}
-
-vec4 run(const AssetView& asset, std::uint32_t first, std::uint32_t count, vec2 point,
-         const MaterialFunction& materials) {
-    Stack stack;
-    for (std::uint32_t i = 0; i < count; ++i)
-        execute(asset, recordAt<Instruction>(asset.data, first + i), point, materials, stack);
-    return stack.entries[stack.top];
 }
 
 }  // namespace
 
-vec4 paintColor(const AssetView& asset, std::uint32_t paint, vec2 point, const MaterialFunction& materials) {
-    const Paint& p = asset.paints[paint];
-    return isProgram(p) ? run(asset, p[0], p[1], point, materials) : floats(p);
+vec4 Paints::color(std::uint32_t paint, const PaintPlace& place, const MaterialFunction& materials) const {
+    const Paint& p = asset_.paints[paint];
+    if (!isProgram(p))
+        return floats(p);
+    Stack stack;
+    for (std::uint32_t i = p[0]; i < p[0] + p[1]; ++i)
+        execute(*this, recordAt<Instruction>(asset_.data, i), place, materials, stack);
+    return stack.entries[stack.top];
 }
 
 }  // namespace vtm::asset

@@ -2,15 +2,39 @@
 /// Paints and paint programs; twin of backend_gl/shaders/paint.glsl.
 #pragma once
 
+#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "asset/evaluate.hpp"
+#include "asset/src/image_fill.hpp"
 
 namespace vtm::asset {
 
-/// Premultiplied colour of a paint at a picture point.
-glm::vec4 paintColor(const AssetView& asset, std::uint32_t paint, glm::vec2 point,
-                     const MaterialFunction& materials = {});
+/// Where a paint is asked for its colour.
+struct PaintPlace {
+    glm::vec2 point{0};  ///< of the picture
+    glm::mat2 pixel{0};  ///< what a step of a pixel in x and in y is there; 0: images as if magnified
+};
+
+/// An asset's paints, with what they need made once. The asset must outlive it.
+class Paints {
+public:
+    explicit Paints(const AssetView& asset) : asset_(asset), images_(asset) {}
+
+    /// Premultiplied.
+    glm::vec4 color(std::uint32_t paint, const PaintPlace& place,
+                    const MaterialFunction& materials = {}) const;
+
+    const AssetView& asset() const { return asset_; }
+    const Images& images() const { return images_; }
+
+private:
+    AssetView asset_;
+    Images images_;
+};
+
+/// As evaluate(asset, view, materials), for drawing several views.
+image::Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials = {});
 
 }  // namespace vtm::asset

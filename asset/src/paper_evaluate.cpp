@@ -51,8 +51,8 @@ private:
 
 class Fragment {
 public:
-    Fragment(const PaperAsset& asset, dvec2 point, const PaperFootprint& pixel)
-        : asset_(asset), point_(point), pixel_(pixel) {}
+    Fragment(const PaperAsset& asset, const Paints& palette, dvec2 point, const PaperFootprint& pixel)
+        : asset_(asset), palette_(palette), point_(point), pixel_(pixel) {}
 
     PaperSample run() {
         if (asset_.root == noPaperIndex)
@@ -87,7 +87,8 @@ private:
         double through = 1;
         if (side.paint != 0) {
             ++sample_.cost.paints;
-            const glm::dvec4 color(paintColor(asset_.palette, side.paint, glm::vec2(point_)));
+            const glm::dvec4 color(
+                palette_.color(side.paint, {glm::vec2(point_), glm::mat2(glm::inverse(pixel_.toPixels))}));
             sum_ += weight * color;
             through = 1 - color.a;
         }
@@ -97,6 +98,7 @@ private:
     }
 
     const PaperAsset& asset_;
+    const Paints& palette_;
     const dvec2 point_;
     const PaperFootprint& pixel_;
     glm::dvec4 sum_{0};
@@ -121,7 +123,7 @@ PaperCost& PaperCost::operator+=(const PaperCost& o) {
 }
 
 PaperSample sample(const PaperAsset& asset, dvec2 point, const PaperFootprint& pixel) {
-    return Fragment(asset, point, pixel).run();
+    return Fragment(asset, Paints(asset.palette), point, pixel).run();
 }
 
 image::Raster evaluate(const PaperAsset& asset, const View& view, PaperCost* cost) {
@@ -132,13 +134,14 @@ image::Raster evaluate(const PaperAsset& asset, const View& view, PaperCost* cos
         return raster;
     const glm::dmat2 inverse = glm::inverse(linear);
     const PaperFootprint pixel(linear);
+    const Paints palette(asset.palette);
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
             const dvec2 point = inverse * (dvec2(x + 0.5, y + 0.5) - view.toPixels[2]);
             const double frame = frameCoverage(asset, point, pixel);
             if (frame == 0)
                 continue;
-            const PaperSample s = sample(asset, point, pixel);
+            const PaperSample s = Fragment(asset, palette, point, pixel).run();
             for (int c = 0; c < 4; ++c)
                 raster.pixel(x, y)[c] = std::clamp(float(frame) * s.color[c], 0.0f, 1.0f);
             if (cost != nullptr)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include <glm/geometric.hpp>
@@ -15,11 +16,14 @@ namespace {
 
 using glm::dvec2;
 
-double stepOf(Cell cell) { return std::ldexp(1.0, 2 * int(maxLevel - cell.level)); }
+/// The side of a cell in cells of the deepest level, and so a step of its leaf in lattice steps.
+std::uint64_t stepOf(Cell cell) { return std::uint64_t(1) << (2 * (maxLevel - cell.level)); }
 
 /// Of a leaf's point, or with the numbers 0 and leafExtent of a square's corner.
 dvec2 onLattice(Cell cell, std::uint32_t x, std::uint32_t y) {
-    return stepOf(cell) * dvec2(double(cell.x) * leafExtent + x, double(cell.y) * leafExtent + y);
+    const std::uint64_t step = stepOf(cell);
+    return {double(step * (std::uint64_t(cell.x) * leafExtent + x)),
+            double(step * (std::uint64_t(cell.y) * leafExtent + y))};
 }
 
 PlanarPiece planar(Cell cell, const Piece& piece) {
@@ -81,14 +85,17 @@ void forEachStretch(std::uint32_t corner, std::span<const Change> changes, Visit
 
 /// What a square shows along a part of one of its borders.
 struct Stretch {
-    double line;      ///< the coordinate that the border keeps
-    double from, to;  ///< of the other
+    /// The border's line, counted in cells of the deepest level, above fromBits; then where the part begins,
+    /// lattice steps. Lines seen from below are counted from 1, so that 24 bits hold all of either kind.
+    std::uint64_t key;
+    std::uint64_t to;
     std::uint32_t paint;
-};
 
-bool operator<(const Stretch& a, const Stretch& b) {
-    return a.line != b.line ? a.line < b.line : a.from < b.from;
-}
+    static constexpr unsigned fromBits = 40;
+    std::uint64_t line() const { return key >> fromBits; }
+    std::uint64_t from() const { return key & ((std::uint64_t(1) << fromBits) - 1); }
+};
+static_assert(latticeExtent < std::int64_t(1) << Stretch::fromBits && 2 * maxLevel + Stretch::fromBits <= 64);
 
 /// All borders of one direction, each seen from both of its sides.
 struct Borders {
@@ -97,51 +104,57 @@ struct Borders {
 
 void addStretches(Cell cell, std::uint32_t corner, std::span<const Change> changes, unsigned side,
                   std::array<Borders, 2>& borders) {
-    const dvec2 min = onLattice(cell, 0, 0), max = onLattice(cell, leafExtent, leafExtent);
     const bool horizontal = side % 2 == 0, forward = side < 2;
-    const double line = horizontal ? (side == 0 ? min.y : max.y) : (side == 1 ? max.x : min.x);
+    const std::uint64_t step = stepOf(cell);
+    const std::uint64_t first = step * leafExtent * (horizontal ? cell.x : cell.y),
+                        last = first + step * leafExtent;
+    const std::uint64_t least = step * (horizontal ? cell.y : cell.x);
+    // The square lies above its own least border; of the other, the line before is the number.
+    const bool above = side == 0 || side == 3;
     Borders& borderLines = borders[horizontal ? 0 : 1];
-    // The square lies above its own least border.
-    std::vector<Stretch>& stretches = side == 0 || side == 3 ? borderLines.above : borderLines.below;
-    const double first = horizontal ? min.x : min.y, last = horizontal ? max.x : max.y;
+    std::vector<Stretch>& stretches = above ? borderLines.above : borderLines.below;
+    const std::uint64_t line = (above ? least : least + step - 1) << Stretch::fromBits;
     forEachStretch(corner, changes, [&](std::uint32_t from, std::uint32_t to, std::uint32_t paint) {
-        const double u = from * stepOf(cell), v = to * stepOf(cell);
         if (forward)
-            stretches.push_back({line, first + u, first + v, paint});
+            stretches.push_back({line | (first + from * step), first + to * step, paint});
         else
-            stretches.push_back({line, last - v, last - u, paint});
+            stretches.push_back({line | (last - to * step), last - from * step, paint});
     });
 }
 
 /// A piece wherever the two sides of a border show different paints.
 void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& pieces) {
-    std::ranges::sort(borders.below, std::less());
-    std::ranges::sort(borders.above, std::less());
-    const auto add = [&](double line, double from, double to, std::uint32_t below, std::uint32_t above) {
-        if (below == above || !(from < to))
+    std::ranges::sort(borders.below, {}, &Stretch::key);
+    std::ranges::sort(borders.above, {}, &Stretch::key);
+    const auto add = [&](std::uint64_t cells, std::uint64_t start, std::uint64_t end, std::uint32_t below,
+                         std::uint32_t above) {
+        if (below == above || start >= end)
             return;
+        const auto line = double(cells * leafExtent), from = double(start), to = double(end);
         if (horizontal)  // towards +x, higher y is on the left
             pieces.push_back({{from, line}, {to, line}, 0, 0, above, below});
         else
             pieces.push_back({{line, from}, {line, to}, 0, 0, below, above});
     };
+    constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
     std::size_t i = 0, j = 0;
     const auto &low = borders.below, &high = borders.above;
     // Both lists tile their lines; where one has nothing, paint 0 is.
-    double line = -1, done = 0;
+    std::uint64_t line = none, done = 0;
     while (i < low.size() || j < high.size()) {
-        const double next =
-            std::min(i < low.size() ? low[i].line : HUGE_VAL, j < high.size() ? high[j].line : HUGE_VAL);
+        const std::uint64_t lowLine = i < low.size() ? low[i].line() + 1 : none,
+                            highLine = j < high.size() ? high[j].line() : none;
+        const std::uint64_t next = std::min(lowLine, highLine);
         if (next != line) {
             line = next;
             done = 0;
         }
-        const Stretch* a = i < low.size() && low[i].line == line ? &low[i] : nullptr;
-        const Stretch* b = j < high.size() && high[j].line == line ? &high[j] : nullptr;
-        const double startA = a ? std::max(a->from, done) : HUGE_VAL,
-                     startB = b ? std::max(b->from, done) : HUGE_VAL;
-        const double from = std::min(startA, startB);
-        double to = HUGE_VAL;
+        const Stretch* a = lowLine == line ? &low[i] : nullptr;
+        const Stretch* b = highLine == line ? &high[j] : nullptr;
+        const std::uint64_t startA = a ? std::max(a->from(), done) : none,
+                            startB = b ? std::max(b->from(), done) : none;
+        const std::uint64_t from = std::min(startA, startB);
+        std::uint64_t to = none;
         if (a)
             to = std::min(to, startA > from ? startA : a->to);
         if (b)
@@ -161,7 +174,7 @@ void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& piece
 std::uint32_t paintOnLeft(Cell cell, const Leaf& leaf, std::span<const Piece> own, double y) {
     ChangesBySide sides;
     changesOf(own, sides);
-    const double fromTop = (onLattice(cell, 0, leafExtent).y - y) / stepOf(cell);
+    const double fromTop = (onLattice(cell, 0, leafExtent).y - y) / double(stepOf(cell));
     std::uint32_t paint = leaf.corners[3];
     forEachStretch(leaf.corners[3], sides[3], [&](std::uint32_t from, std::uint32_t to, std::uint32_t here) {
         if (from < fromTop && fromTop < to)

@@ -44,11 +44,11 @@ void addMeans(const image::Raster& raster, std::uint32_t grid, std::uint32_t row
         }
 }
 
-image::Raster evaluateRows(const AssetView& asset, PyramidSize size, std::uint32_t grid, std::uint32_t row,
+image::Raster evaluateRows(const Paints& paints, PyramidSize size, std::uint32_t grid, std::uint32_t row,
                            std::uint32_t rows) {
-    const double x = size.width * grid / asset.width, y = size.height * grid / asset.height;
+    const double x = size.width * grid / paints.asset().width, y = size.height * grid / paints.asset().height;
     return evaluate(
-        asset, {int(size.width * grid), int(rows * grid), glm::dmat3x2(x, 0, 0, y, 0, -double(row) * grid)});
+        paints, {int(size.width * grid), int(rows * grid), glm::dmat3x2(x, 0, 0, y, 0, -double(row) * grid)});
 }
 
 /// Runs work(i) for all i below `count`, on up to `threads` threads; rethrows what one of them threw.
@@ -82,9 +82,10 @@ Means baseMeans(const AssetView& asset, PyramidSize size, unsigned threads) {
     const std::uint32_t grid = std::ranges::any_of(asset.paints, isProgram) ? finerGrid : 1;
     const std::uint32_t band = bandRows / grid;
     Means means{size, std::vector<double>(size.texels() * 4)};
+    const Paints paints(asset);
     inParallel((size.height + band - 1) / band, threads, [&](std::uint32_t i) {
         const std::uint32_t row = i * band, rows = std::min(band, size.height - row);
-        addMeans(evaluateRows(asset, size, grid, row, rows), grid, row, means);
+        addMeans(evaluateRows(paints, size, grid, row, rows), grid, row, means);
     });
     return means;
 }

@@ -114,7 +114,8 @@ PyramidSize sizeWith(const AssetView& asset, std::uint32_t longer) {
 }
 
 /// Pixels that the finest image fill lays along the picture's longer side; 0 without images. A footprint of
-/// two of them is the largest that a bilinear fill can be sampled at without skipping pixels.
+/// two of them is the largest that a bilinear fill can be sampled at without skipping pixels, and an oblong
+/// one that a trilinear fill can without blurring its narrow side.
 double imagePixels(const AssetView& asset) {
     double finest = 0;
     for (const Paint& paint : asset.paints)

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -88,7 +89,8 @@ struct Scanner::Impl {
         Accumulator<float> coverage;
         std::vector<vec4> pixels;
     };
-    Asset asset;  ///< without trees: paints and what they need
+    Asset asset;                   ///< without trees: paints and what they need
+    std::optional<Paints> paints;  ///< of `asset`
     std::vector<Drawn> drawn;
     std::vector<vec4> solid;      ///< by paint; nothing for programs
     std::vector<bool> isProgram;  ///< by paint
@@ -205,7 +207,7 @@ void Scanner::Impl::addPrograms(const View& view, const MaterialFunction& materi
                 for (int x = first; x < end; ++x) {
                     const dvec2 point = inverse * (dvec2(x + 0.5, top + row + 0.5) - view.toPixels[2]);
                     scratch.pixels[std::size_t(row) * std::size_t(view.width) + std::size_t(x)] +=
-                        share * paintColor(asset, paint, vec2(point), materials);
+                        share * paints->color(paint, {vec2(point), glm::mat2(inverse)}, materials);
                 }
             });
     }
@@ -223,6 +225,7 @@ Scanner::Scanner(const AssetView& asset) : impl_(std::make_unique<Impl>()) {
     kept.data.assign(asset.data.begin(), asset.data.end());
     kept.images.assign(asset.images.begin(), asset.images.end());
     kept.materials.assign(asset.materials.begin(), asset.materials.end());
+    impl_->paints.emplace(kept);
     for (const Paint& paint : kept.paints) {
         impl_->isProgram.push_back(asset::isProgram(paint));
         impl_->solid.push_back(asset::isProgram(paint) ? vec4(0) : std::bit_cast<vec4>(paint));

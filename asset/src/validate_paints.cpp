@@ -59,7 +59,7 @@ void validateImageFill(const Data& data, std::size_t texel) {
     const auto fill = recordAt<ImageFill>(data.asset.data, texel);
     require(areFinite(fill.matrix), "data", texel, "image fill's matrix is not finite");
     require(fill.image < data.asset.images.size(), "data", texel, "image fill names no image");
-    require(fill.bilinear <= 1, "data", texel, "image fill's filter is unknown");
+    require(fill.filter <= ImageFilter::Bicubic, "data", texel, "image fill's filter is unknown");
 }
 
 void validateMaterialFill(const Data& data, std::size_t texel) {

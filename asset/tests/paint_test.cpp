@@ -4,13 +4,16 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "asset/testing.hpp"
 
 namespace vtm::asset::test {
 namespace {
 
+using glm::mat2;
 using glm::vec2;
 using glm::vec4;
 
@@ -27,7 +30,7 @@ GradientStop grey(float offset, float value, float alpha = 1) {
 /// The colour of a program of one layer.
 vec4 colorOf(Op op, const std::vector<Texel>& data, vec2 point, float opacity = 1) {
     const Asset asset = programAsset({{op, Blend::Normal, opacity, 0}}, data);
-    return paintColor(asset, asset.maps[0].root.payload(), point);
+    return Paints(asset).color(asset.maps[0].root.payload(), {point});
 }
 
 vec4 ramp(Op op, Gradient gradient, vec2 point, std::vector<GradientStop> stops = {grey(0, 0), grey(1, 1)}) {
@@ -115,10 +118,12 @@ TEST(Paint, RadialIsTransparentWhereNoCircleReaches) {
 
 TEST(Paint, RadialCentreWithoutFocalRadius) { expectNear(ramp(Op::Radial, {}, {0, 0}), vec4(0, 0, 0, 1)); }
 
-vec4 imageAt(vec2 point, std::uint32_t bilinear) {
+/// A footprint of `sides` image pixels.
+vec4 imageAt(vec2 point, ImageFilter filter, mat2 sides = mat2(0)) {
     std::vector<Texel> data;
-    addImage(data, {{1, 0, 0, 1, 0, 0}, 0, bilinear});
-    return colorOf(Op::Image, data, point);
+    addImage(data, {{1, 0, 0, 1, 0, 0}, 0, filter});
+    const Asset asset = programAsset({{Op::Image, Blend::Normal, 1, 0}}, data);
+    return Paints(asset).color(asset.maps[0].root.payload(), {point, sides});
 }
 
 vec4 pixel(int x, int y) {
@@ -129,18 +134,56 @@ vec4 pixel(int x, int y) {
 }
 
 TEST(Paint, ImagesNearest) {
-    expectNear(imageAt({0.9f, 2.1f}, 0), pixel(0, 2));
-    expectNear(imageAt({1.0f, 1.9f}, 0), pixel(1, 1));
-    expectNear(imageAt({-100, 1e9f}, 0), pixel(0, 2));
-    EXPECT_TRUE(std::isfinite(imageAt({NAN, 0.5f}, 0).a));
+    expectNear(imageAt({0.9f, 2.1f}, ImageFilter::Nearest), pixel(0, 2));
+    expectNear(imageAt({1.0f, 1.9f}, ImageFilter::Nearest), pixel(1, 1));
+    expectNear(imageAt({-100, 1e9f}, ImageFilter::Nearest), pixel(0, 2));
+    EXPECT_TRUE(std::isfinite(imageAt({NAN, 0.5f}, ImageFilter::Nearest).a));
 }
 
 TEST(Paint, ImagesBilinear) {
-    expectNear(imageAt({1.5f, 1.5f}, 1), pixel(1, 1));
-    expectNear(imageAt({2, 1.5f}, 1), (pixel(1, 1) + pixel(2, 1)) * 0.5f);
-    expectNear(imageAt({1.5f, 1.25f}, 1), pixel(1, 0) * 0.25f + pixel(1, 1) * 0.75f);
-    expectNear(imageAt({0, 0}, 1), pixel(0, 0));
-    expectNear(imageAt({99, 99}, 1), pixel(3, 2));
+    expectNear(imageAt({1.5f, 1.5f}, ImageFilter::Bilinear), pixel(1, 1));
+    expectNear(imageAt({2, 1.5f}, ImageFilter::Bilinear), (pixel(1, 1) + pixel(2, 1)) * 0.5f);
+    expectNear(imageAt({1.5f, 1.25f}, ImageFilter::Bilinear), pixel(1, 0) * 0.25f + pixel(1, 1) * 0.75f);
+    expectNear(imageAt({0, 0}, ImageFilter::Bilinear), pixel(0, 0));
+    expectNear(imageAt({99, 99}, ImageFilter::Bilinear), pixel(3, 2));
+}
+
+TEST(Paint, ImagesTrilinearAreBilinearWhereMagnified) {
+    for (const vec2 p : {vec2(0.3f, 1.9f), vec2(2, 1.5f), vec2(-3, 9)})
+        expectNear(imageAt(p, ImageFilter::Trilinear, mat2(0.7f, -0.7f, 0.7f, 0.7f)),
+                   imageAt(p, ImageFilter::Bilinear));
+}
+
+/// smallPicture() is 4 x 3 pixels: its levels have 2 x 2 and 1 x 1 texels.
+TEST(Paint, ImagesTrilinearAreMeansWhereMinified) {
+    vec4 first(0), whole(0);
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 4; ++x) {
+            whole += pixel(x, y) / 12.0f;
+            first += x < 2 && y < 2 ? pixel(x, y) / 4.0f : vec4(0);
+        }
+    constexpr float byte = 0.5f / 255 + 1e-5f;
+    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(2)), first, byte);
+    // Turned; and by the longer axis alone.
+    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(0, 2, -2, 0)), first, byte);
+    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(0.1f, 0, 0, 2)), first, byte);
+    expectNear(imageAt({3, 2}, ImageFilter::Trilinear, mat2(4)), whole, byte);
+    expectNear(imageAt({3, 2}, ImageFilter::Trilinear, mat2(1e9f)), whole, byte);
+    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(std::exp2(1.25f))),
+               0.75f * imageAt({1, 1}, ImageFilter::Trilinear, mat2(2)) + 0.25f * whole, byte);
+    EXPECT_TRUE(std::isfinite(imageAt({NAN, 0.5f}, ImageFilter::Trilinear, mat2(NAN)).a));
+}
+
+/// Catmull-Rom's weights half way between pixels are -1, 9, 9, -1 sixteenths.
+TEST(Paint, ImagesBicubic) {
+    expectNear(imageAt({1.5f, 1.5f}, ImageFilter::Bicubic), pixel(1, 1));
+    const vec4 expected = (9.0f * (pixel(1, 1) + pixel(2, 1)) - pixel(0, 1) - pixel(3, 1)) / 16.0f;
+    const float alpha = std::min(expected.a, 1.0f);
+    expectNear(imageAt({2, 1.5f}, ImageFilter::Bicubic),
+               vec4(glm::clamp(glm::vec3(expected), 0.0f, alpha), alpha));
+    expectNear(imageAt({1, 1}, ImageFilter::Bicubic, mat2(2)),
+               imageAt({1, 1}, ImageFilter::Trilinear, mat2(2)));
+    expectNear(imageAt({-9, -9}, ImageFilter::Bicubic), pixel(0, 0));
 }
 
 TEST(Paint, MaterialsAreTheCallersOrTheirFallback) {
@@ -148,16 +191,16 @@ TEST(Paint, MaterialsAreTheCallersOrTheirFallback) {
     addMaterial(data, {{2, 0, 0, 2, 0, 1}, 3, 0, {0.25f, 0, 0, 0.5f}});
     const Asset asset = programAsset({{Op::Material, {}, 0.5f, 0}}, data);
     const std::uint32_t paint = asset.maps[0].root.payload();
-    expectNear(paintColor(asset, paint, {3, 4}), vec4(0.125f, 0, 0, 0.25f));
+    expectNear(Paints(asset).color(paint, {{3, 4}}), vec4(0.125f, 0, 0, 0.25f));
     const auto place = [](std::uint32_t material, vec2 p) { return vec4(p.x / 10, p.y / 10, material, 2); };
-    expectNear(paintColor(asset, paint, {3, 4}, place), vec4(0.3f, 0.45f, 0.5f, 0.5f));
+    expectNear(Paints(asset).color(paint, {{3, 4}}, place), vec4(0.3f, 0.45f, 0.5f, 0.5f));
 }
 
 TEST(Paint, LayersComposeInOrder) {
     std::vector<Texel> data;
     const std::uint32_t red50 = addColor(data, {0.5f, 0, 0, 0.5f}), blue1 = addColor(data, blue);
     const Asset asset = programAsset({{Op::Solid, {}, 1, blue1}, {Op::Solid, {}, 0.5f, red50}}, data);
-    expectNear(paintColor(asset, asset.maps[0].root.payload(), {}), vec4(0.25f, 0, 0.75f, 1));
+    expectNear(Paints(asset).color(asset.maps[0].root.payload(), {}), vec4(0.25f, 0, 0.75f, 1));
 }
 
 TEST(Paint, GroupsNestMasksMultiply) {
@@ -170,7 +213,7 @@ TEST(Paint, GroupsNestMasksMultiply) {
                                       {Op::PopMaskAlpha, {}, 1, 0},
                                       {Op::Pop, Blend::Screen, 0.5f, 0}},
                                      data);
-    expectNear(paintColor(asset, asset.maps[0].root.payload(), {}), vec4(0.125f, 0, 0, 0.125f));
+    expectNear(Paints(asset).color(asset.maps[0].root.payload(), {}), vec4(0.125f, 0, 0, 0.125f));
 }
 
 }  // namespace

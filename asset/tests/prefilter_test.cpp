@@ -111,11 +111,12 @@ TEST(PrefilterSize, TexelsAreNearlySquare) {
     }
 }
 
-/// A bilinear image fill skips pixels once a footprint is larger than two of them.
+/// A bilinear image fill skips pixels once a footprint is larger than two of them, a trilinear one blurs
+/// oblong ones.
 TEST(PrefilterSize, FollowsImages) {
     const auto asset = [](float pixelsPerUnit) {
         std::vector<Texel> data;
-        addImage(data, {{pixelsPerUnit, 0, 0, pixelsPerUnit, 0, 0}, 0, 1});
+        addImage(data, {{pixelsPerUnit, 0, 0, pixelsPerUnit, 0, 0}, 0, ImageFilter::Bilinear});
         return programAsset({{Op::Image, Blend::Normal, 1, 0}}, data);
     };
     EXPECT_EQ(prefilterSize(asset(2)).width, 128u);  // 2 pixels a unit, 64 units

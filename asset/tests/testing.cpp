@@ -140,10 +140,14 @@ Asset everyPaint() {
         paints.push_back(addProgram(asset, {layer(Op::Linear, straight)}));
         paints.push_back(addProgram(asset, {layer(Op::Solid, color), layer(Op::Radial, round, 0.75f)}));
     }
-    ImageFill fill{{0.1f, 0.02f, -0.03f, 0.09f, -1.5f, -1}, 0, 1};
+    ImageFill fill{{0.1f, 0.02f, -0.03f, 0.09f, -1.5f, -1}, 0, ImageFilter::Bilinear};
     const std::uint32_t bilinear = addImage(data, fill);
-    fill.bilinear = 0;
+    fill.filter = ImageFilter::Nearest;
     const std::uint32_t nearest = addImage(data, fill);
+    fill.filter = ImageFilter::Trilinear;
+    const std::uint32_t trilinear = addImage(data, fill);
+    fill.filter = ImageFilter::Bicubic;
+    const std::uint32_t bicubic = addImage(data, fill);
     const std::uint32_t outside = addGradient(data, radial(Spread::Pad, 0.95f, 0.2f), fourStops());
     paints.push_back(addProgram(asset, {layer(Op::Image, bilinear)}));
     paints.push_back(addProgram(asset, {layer(Op::Image, nearest, 0.5f)}));
@@ -155,6 +159,7 @@ Asset everyPaint() {
     asset.materials = {{"plain", "vec4 plain(vec2 p) { return vec4(0.25, 0.125, 0.0, 0.5); }"}};
     const std::uint32_t plain = addMaterial(data, {{1, 0, 0, 1, 0, 0}, 0, 0, {0.25f, 0.125f, 0, 0.5f}});
     paints.push_back(addProgram(asset, {layer(Op::Linear, ramp), layer(Op::Material, plain, 0.5f)}));
+    paints.push_back(addProgram(asset, {layer(Op::Image, trilinear), layer(Op::Image, bicubic, 0.5f)}));
     Node root;
     for (std::uint32_t i = 0; i < 16; ++i) {
         const std::uint16_t a = paints[i % paints.size()], b = paints[(i * 5 + 3) % paints.size()];

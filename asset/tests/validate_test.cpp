@@ -226,9 +226,11 @@ TEST(Validate, ImageFills) {
         return refusal(Op::Image, data);
     };
     EXPECT_EQ(fill({}), "");
-    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 1, 1}), "data[0]: image fill names no image");
-    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 0, 2}), "data[0]: image fill's filter is unknown");
-    EXPECT_EQ(fill({{1, 0, 0, NAN, 0, 0}, 0, 1}), "data[0]: image fill's matrix is not finite");
+    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 1}), "data[0]: image fill names no image");
+    for (const ImageFilter known : {ImageFilter::Nearest, ImageFilter::Bilinear, ImageFilter::Bicubic})
+        EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 0, known}), "");
+    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 0, ImageFilter(4)}), "data[0]: image fill's filter is unknown");
+    EXPECT_EQ(fill({{1, 0, 0, NAN, 0, 0}}), "data[0]: image fill's matrix is not finite");
 }
 
 TEST(Summary, CountsWhatIsThere) {

@@ -14,5 +14,5 @@ void main() {
     vec2 d = gl_FragCoord.xy - pictureAnchor.zw;
     vec2 point = pictureAnchor.xy + pixelToPicture.xy * d.x + pixelToPicture.zw * d.y;
     float coverage = clamp(texelFetch(layer, ivec2(gl_FragCoord.xy) + maskOffset, 0).r, 0.0, 1.0);
-    color = paintColor(boxPaint, point) * coverage;
+    color = paintColor(boxPaint, point, mat3x2(pixelToPicture, point)) * coverage;
 }

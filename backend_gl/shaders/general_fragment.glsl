@@ -14,5 +14,5 @@ void main() {
     Overlap overlap = overlapOf(frame);
     if (overlap.empty)
         discard;
-    color = leafOrigin.z * leafIntegral(frame, leafTexel(), picturePoint(overlap));
+    color = leafOrigin.z * leafIntegral(frame, leafTexel(), picturePoint(overlap), picturePixel(frame));
 }

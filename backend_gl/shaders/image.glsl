@@ -1,33 +1,81 @@
-// Pictures of paint programs, all in one texture, row after row.
-// Requires: fetch.glsl, gradient.glsl; constant imageColumnsLog2. Twin of: asset/src/paint.cpp.
+// Pictures of paint programs and their levels (image/levels.hpp), all in one texture, row after row.
+// Requires: fetch.glsl, gradient.glsl; constants imageColumnsLog2, filter*. Twin of: asset/src/image_fill.cpp.
 // Exports: imageColor.
 
 #ifdef ONE_ASSET
 uniform sampler2D images;
-// First texel of the list of pictures: first pixel, width, height.
+// First texel of the list of pictures: first pixel, width, height, 0.
 uniform uint imageSection;
 #endif
 
-vec4 imagePixel(ASSET_IN uvec3 picture, ivec2 p) {
-    p = clamp(p, ivec2(0), ivec2(picture.yz) - 1);
-    uint index = picture.x + uint(p.y) * picture.y + uint(p.x);
-    ivec2 place = ivec2(index & ((1u << imageColumnsLog2) - 1u), index >> imageColumnsLog2);
-    vec4 c = texelFetch(ASSET_PART(images), place, 0);
-    return vec4(c.rgb * c.a, c.a);
+// The level that is so much coarser, or the last. Each stands behind the one before: first texel, width, height, number.
+uvec4 levelOf(uvec4 picture, uint number) {
+    while (picture.w < number && picture.y * picture.z > 1u)
+        picture = uvec4(picture.x + picture.y * picture.z, (picture.yz + 1u) / 2u, picture.w + 1u);
+    return picture;
 }
 
-// Premultiplied neighbours are interpolated, so that transparent pixels lend no colour.
-vec4 imageColor(ASSET_IN uint fill, vec2 point) {
-    uvec4 a = texelAt(ASSET fill), b = texelAt(ASSET fill + 1u);
-    uvec3 picture = texelAt(ASSET ASSET_PART(imageSection) + b.z).xyz;
+// The picture itself is stored straight, means are premultiplied.
+vec4 levelTexel(ASSET_IN uvec4 level, ivec2 p) {
+    p = clamp(p, ivec2(0), ivec2(level.yz) - 1);
+    uint index = level.x + uint(p.y) * level.y + uint(p.x);
+    ivec2 place = ivec2(index & ((1u << imageColumnsLog2) - 1u), index >> imageColumnsLog2);
+    vec4 c = texelFetch(ASSET_PART(images), place, 0);
+    return vec4(level.w == 0u ? c.rgb * c.a : c.rgb, c.a);
+}
+
+// Weights of texels at these distances, of 1, 2 or 4 next to the point along one axis: box, tent, and Catmull-Rom's
+// cubic (Keys 1981, a = -1/2): it passes through the pixels, and through the points of any quadratic.
+vec2 kernel(int taps, vec2 d) {
+    d = abs(d);
+    if (taps == 1)
+        return vec2(1.0);
+    if (taps == 2)
+        return 1.0 - d;
+    return mix((1.5 * d - 2.5) * d * d + 1.0, ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0, step(1.0, d));
+}
+
+// Premultiplied neighbours are summed, so that transparent pixels lend no colour.
+vec4 filtered(ASSET_IN uvec4 level, vec2 p, int tapsLog2) {
     // Keeps the conversion to int defined; the edge goes on beyond the border anyway.
-    vec2 p = clamp(applyMatrix(a, b, point), vec2(-1.0), vec2(picture.yz) + 1.0);
-    if (b.w == 0u)
-        return imagePixel(ASSET picture, ivec2(floor(p)));
-    p -= 0.5;
-    vec2 corner = floor(p), f = p - corner;
-    ivec2 q = ivec2(corner);
-    vec4 top = mix(imagePixel(ASSET picture, q), imagePixel(ASSET picture, q + ivec2(1, 0)), f.x);
-    vec4 bottom = mix(imagePixel(ASSET picture, q + ivec2(0, 1)), imagePixel(ASSET picture, q + ivec2(1, 1)), f.x);
-    return mix(top, bottom, f.y);
+    p = clamp(p * exp2(-float(level.w)), vec2(-2.0), vec2(level.yz) + 2.0);
+    int taps = 1 << tapsLog2;
+    vec2 corner = floor(p - 0.5 * float(taps - 1));
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < taps * taps; ++i) {
+        ivec2 tap = ivec2(i & (taps - 1), i >> tapsLog2);
+        vec2 weights = kernel(taps, corner + vec2(tap) + 0.5 - p);
+        sum += weights.x * weights.y * levelTexel(ASSET level, ivec2(corner) + tap);
+    }
+    return sum;
+}
+
+// The larger singular value.
+float longerAxis(mat2 m) {
+    float a = dot(m[0], m[0]), b = dot(m[0], m[1]), c = dot(m[1], m[1]);
+    return sqrt(0.5 * (a + c) + length(vec2(0.5 * (a - c), b)));
+}
+
+// Nearest and bilinear at the point. The others filter for a pixel, so they are asked at its centre, wherever in it the
+// point lies. One loop over the two levels, because compilers inline what is in it.
+vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
+    uvec4 a = texelAt(ASSET fill), b = texelAt(ASSET fill + 1u);
+    uvec4 picture = texelAt(ASSET ASSET_PART(imageSection) + b.z);
+    bool ofPixel = b.w >= filterTrilinear;
+    vec2 p = applyMatrix(a, b, ofPixel ? pixel[2] : point);
+    vec4 linear = uintBitsToFloat(a);
+    float lod = 0.0;
+    if (ofPixel)
+        lod = clamp(log2(longerAxis(mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]))), 0.0, 30.0);
+    float share = fract(lod);
+    int tapsLog2 = b.w == filterNearest ? 0 : b.w == filterBicubic ? 2 : 1;
+    vec4 sum = vec4(0.0);
+    uint levels = share > 0.0 ? 2u : 1u;
+    for (uint i = 0u; i < levels; ++i) {
+        uvec4 level = levelOf(picture, uint(lod) + i);
+        sum += (i == 0u ? 1.0 - share : share) * filtered(ASSET level, p, level.w == 0u ? tapsLog2 : 1);
+    }
+    // Catmull-Rom overshoots beside edges.
+    sum.a = clamp(sum.a, 0.0, 1.0);
+    return vec4(clamp(sum.rgb, 0.0, sum.a), sum.a);
 }

@@ -6,7 +6,7 @@
 
 // One loop over the four corners and both sides of every piece, so that the paint interpreter, which
 // compilers inline, stands in the program once.
-vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point) {
+vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
     Recent recent = nothingRecent();
     uvec4 piece = uvec4(0u);
     vec4 sum = vec4(0.0);
@@ -26,7 +26,7 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point) {
             weight = -weight;
         }
         if (weight != 0.0)
-            sum += weight * regionColor(ASSET recent, paint, point);
+            sum += weight * regionColor(ASSET recent, paint, point, pixel);
     }
     return sum;
 }
@@ -34,7 +34,7 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point) {
 #else
 
 // Twin of pieces_fragment.glsl.
-vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point) {
+vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
     vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
     vec4 sum = seg(a, b) * solidColor(ASSET low(leaf.z)) + seg(b, c) * solidColor(ASSET high(leaf.z)) +
                seg(c, d) * solidColor(ASSET low(leaf.w)) + seg(d, a) * solidColor(ASSET high(leaf.w));

@@ -1,6 +1,6 @@
 // Where this fragment's pixel lies in the leaf.
 // Requires: coverage.glsl, leaf_vertex.glsl's outputs. Twin of: asset/src/draw_map.cpp.
-// Exports: leafFrame, Overlap, overlapOf, picturePoint.
+// Exports: leafFrame, Overlap, overlapOf, picturePoint, picturePixel.
 
 flat in vec4 leafLinear;
 flat in vec4 leafInverse;
@@ -35,4 +35,11 @@ Overlap overlapOf(Frame frame) {
 // is the leaf's own centre.
 vec2 picturePoint(Overlap overlap) {
     return leafPicture.xy + leafPicture.z * (overlap.least + overlap.most) * 0.5;
+}
+
+// The pixel's sides and centre.
+mat3x2 picturePixel(Frame frame) {
+    vec2 centre = mat2(leafInverse.xy, leafInverse.zw) * (vec2(0.5) - frame.origin);
+    return mat3x2(leafPicture.z * leafInverse.xy, leafPicture.z * leafInverse.zw,
+                  leafPicture.xy + leafPicture.z * centre);
 }

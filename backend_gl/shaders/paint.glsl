@@ -11,14 +11,14 @@
 vec4 materialColor(uint material, vec2 p);
 #endif
 
-vec4 layerColor(ASSET_IN uint op, uint argument, vec2 point) {
+vec4 layerColor(ASSET_IN uint op, uint argument, vec2 point, mat3x2 pixel) {
 #if LINEAR || RADIAL
     if (LINEAR == 1 && op == opLinear || RADIAL == 1 && op == opRadial)
         return gradientColor(ASSET RADIAL == 1 && op == opRadial, argument, point);
 #endif
 #if IMAGE
     if (op == opImage)
-        return imageColor(ASSET argument, point);
+        return imageColor(ASSET argument, point, pixel);
 #endif
 #if MATERIAL
     if (op == opMaterial) {
@@ -41,7 +41,7 @@ vec4 popped(uvec4 instruction, vec4 source, vec4 backdrop) {
 #endif
 }
 
-vec4 runProgram(ASSET_IN uint first, uint count, vec2 point) {
+vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
     vec4 stack[maxStack];
     int top = 0;
     stack[0] = vec4(0.0);
@@ -53,7 +53,7 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point) {
             --top;
             stack[top] = popped(instruction, stack[top + 1], stack[top]);
         } else {
-            vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point);
+            vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point, pixel);
             stack[top] = over(source * uintBitsToFloat(instruction.z), stack[top]);
         }
     }
@@ -62,11 +62,11 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point) {
 
 #else
 
-vec4 runProgram(ASSET_IN uint first, uint count, vec2 point) {
+vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
     vec4 sum = vec4(0.0);
     for (uint i = first; i < first + count; ++i) {
         uvec4 instruction = texelAt(ASSET ASSET_PART(sections).w + i);
-        vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point);
+        vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point, pixel);
         sum = over(source * uintBitsToFloat(instruction.z), sum);
     }
     return sum;
@@ -74,11 +74,11 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point) {
 
 #endif
 
-// Premultiplied colour of a paint at a picture point.
-vec4 paintColor(ASSET_IN uint paint, vec2 point) {
+// Premultiplied colour of a paint at a picture point of a pixel, whose sides and centre, in the picture, are `pixel`.
+vec4 paintColor(ASSET_IN uint paint, vec2 point, mat3x2 pixel) {
     uvec4 texel = paintAt(ASSET paint);
 #if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
-    return isProgram(texel) ? runProgram(ASSET texel.x, texel.y, point) : uintBitsToFloat(texel);
+    return isProgram(texel) ? runProgram(ASSET texel.x, texel.y, point, pixel) : uintBitsToFloat(texel);
 #else
     return uintBitsToFloat(texel);
 #endif

@@ -65,7 +65,7 @@ void main() {
             }
             float through = 1.0;
             if (side.x != 0u) {
-                vec4 shade = paintColor(side.x, point);
+                vec4 shade = paintColor(side.x, point, mat3x2(pixelToPicture, point));
                 sum += share * shade;
                 through = 1.0 - shade.a;
             }

@@ -1,5 +1,5 @@
 // Masks of the paper mode: the 16-tree, strict cells and the mip of the classification function.
-// Requires: fetch.glsl; constants paper*, kindNode, kindSolid. Positions are in single precision: a view may
+// Requires: fetch.glsl, paper_hermite.glsl; constants paper*, kindNode, kindSolid. Positions are in single precision: a view may
 // show a pixel of 2^-20 of the picture, no less.
 // Twin of: asset/src/paper_cell.cpp, asset/src/paper_mask.cpp.
 // Exports: maskCoverage, pixelNormals.
@@ -28,16 +28,6 @@ Mask maskAt(uint index) {
 }
 
 // ---- Cells (rows 1, 2, 6) -------------------------------------------------------------------------
-
-// Value and slope of the Hermite function, continued along its end tangents.
-vec2 hermite(vec2 m, float u) {
-    if (u < 0.0)
-        return vec2(m.x * u, m.x);
-    if (u > 1.0)
-        return vec2(m.y * (u - 1.0), m.y);
-    float w = 1.0 - u;
-    return vec2(m.x * u * w * w - m.y * u * u * w, m.x * w * (1.0 - 3.0 * u) - m.y * u * (2.0 - 3.0 * u));
-}
 
 // Signed distance in pixels, above zero outside; `scale` is the cell's side, margin included, in picture units.
 float pieceDistance(uvec4 piece, vec2 point, float scale) {

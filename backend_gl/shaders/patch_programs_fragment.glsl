@@ -7,6 +7,7 @@ out vec4 color;
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     vec2 point = patchPicture.xy + patchPicture.z * cell.o;
+    mat3x2 pixel = mat3x2(patchPicture.z * pixelToPatch.xy, patchPicture.z * pixelToPatch.zw, point);
     bool flatPatch = patchTexels.z != 0u;
     uvec4 references = flatPatch ? uvec4(0u) : firstReferences(cell);
     Recent recent = nothingRecent();
@@ -15,7 +16,7 @@ void main() {
     uint paint = flatPatch ? patchTexels.z - 1u : low(cell.texel.x), other = 0u, side = 1u, i = 0u;
     for (;;) {
         if (weight != 0.0)
-            sum += weight * regionValue(regionColor(recent, paint, point));
+            sum += weight * regionValue(regionColor(recent, paint, point, pixel));
         side ^= 1u;
         if (side == 1u) {
             paint = other;

@@ -9,11 +9,11 @@ struct Recent {
 
 Recent nothingRecent() { return Recent(0xFFFFFFFFu, 0xFFFFFFFFu, vec4(0.0), vec4(0.0)); }
 
-vec4 regionColor(ASSET_IN inout Recent recent, uint paint, vec2 point) {
+vec4 regionColor(ASSET_IN inout Recent recent, uint paint, vec2 point, mat3x2 pixel) {
     if (paint != recent.paint) {
         vec4 color = recent.olderColor;
         if (paint != recent.older)
-            color = paintColor(ASSET paint, point);
+            color = paintColor(ASSET paint, point, pixel);
         recent = Recent(paint, recent.paint, color, recent.color);
     }
     return recent.color;

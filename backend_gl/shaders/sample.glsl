@@ -10,6 +10,7 @@ struct Tile {
     vec2 centre, halfBox;  // of the footprint and its bounding box
     vec2 least, most;      // of that box, cut to the picture
     mat2 toBox;            // the footprint becomes the pixel's box [0, 1]², its centre 0.5
+    mat3x2 pixel;          // its sides and centre, in the picture
     float turn;            // -1 if that mirrors
 };
 
@@ -33,7 +34,7 @@ void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout Sum
     if (sum.cost > sum.allowed)
         return;
     Frame frame = Frame(tile.toBox * (side / float(leafExtent)), tile.toBox * (corner - tile.centre) + 0.5);
-    sum.color += tile.turn * leafIntegral(vtm, frame, leaf, picturePoint(vtm, 0.5 * (least + most)));
+    sum.color += tile.turn * leafIntegral(vtm, frame, leaf, picturePoint(vtm, 0.5 * (least + most)), tile.pixel);
 }
 
 // ---- The tree -----------------------------------------------------------------------------------------
@@ -153,7 +154,8 @@ void addFootprint(Vtm vtm, Footprint footprint, inout Sum sum) {
             if (any(greaterThan(least, most)))
                 continue;
             Tile tile = Tile(st * scale + offset, halfBox * scale, least * scale + offset, most * scale + offset,
-                             mat2(toBox[0] * turned.x, toBox[1] * turned.y), 1.0);
+                             mat2(toBox[0] * turned.x, toBox[1] * turned.y),
+                             mat3x2(footprint.sides[0], footprint.sides[1], picturePoint(vtm, st * scale + offset)), 1.0);
             tile.turn = cross2(tile.toBox[0], tile.toBox[1]) < 0.0 ? -1.0 : 1.0;
             addTile(vtm, tile, sum);
         }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "backend_gl/src/constants.hpp"
+#include "image/levels.hpp"
 
 namespace vtm::gl {
 
@@ -27,25 +28,30 @@ TextureHandle layOut(Items items, std::size_t itemsPerTexel, unsigned columnsLog
 
 }  // namespace
 
-std::vector<asset::Texel> imageList(const asset::AssetView& asset) {
-    std::vector<asset::Texel> list;
-    std::uint32_t pixels = 0;
-    for (const image::Bitmap& bitmap : asset.images) {
-        list.push_back({pixels, std::uint32_t(bitmap.width), std::uint32_t(bitmap.height), 0});
-        pixels += std::uint32_t(bitmap.rgba.size() / 4);
+ImageTexels imageTexels(const asset::AssetView& asset) {
+    const std::vector<bool> withLevels = asset::imagesWithLevels(asset);
+    ImageTexels texels;
+    const auto append = [&](std::span<const std::uint8_t> rgba) {
+        texels.rgba.insert(texels.rgba.end(), rgba.begin(), rgba.end());
+    };
+    for (std::size_t i = 0; i < asset.images.size(); ++i) {
+        const image::Bitmap& bitmap = asset.images[i];
+        texels.list.push_back({std::uint32_t(texels.rgba.size() / 4), std::uint32_t(bitmap.width),
+                               std::uint32_t(bitmap.height), 0});
+        append(bitmap.rgba);
+        if (withLevels[i])
+            for (const image::Level& level : image::levelsOf(bitmap))
+                append(level.rgba);
     }
-    return list;
+    return texels;
 }
 
 TextureHandle texelTexture(std::vector<asset::Texel> texels) {
     return layOut(std::move(texels), 1, texelColumnsLog2, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
 }
 
-TextureHandle imageTexture(const asset::AssetView& asset) {
-    std::vector<std::uint8_t> pixels;
-    for (const image::Bitmap& bitmap : asset.images)
-        pixels.insert(pixels.end(), bitmap.rgba.begin(), bitmap.rgba.end());
-    return layOut(std::move(pixels), 4, imageColumnsLog2, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+TextureHandle imageTexture(std::vector<std::uint8_t> rgba) {
+    return layOut(std::move(rgba), 4, imageColumnsLog2, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
 }
 
 }  // namespace vtm::gl

@@ -22,12 +22,16 @@ GLuint appendTexels(std::vector<asset::Texel>& texels, std::span<const Record> r
     return GLuint(first);
 }
 
-/// A texel a picture: its first pixel in imageTexture(), width, height.
-std::vector<asset::Texel> imageList(const asset::AssetView& asset);
+/// All pictures' pixels, each with its levels behind it where a paint reads them.
+struct ImageTexels {
+    std::vector<asset::Texel> list;  ///< one a picture: its first pixel in `rgba`, width, height, 0
+    std::vector<std::uint8_t> rgba;
+};
+ImageTexels imageTexels(const asset::AssetView& asset);
 
 /// RGBA32UI, 2^texelColumnsLog2 wide. Throws GlError where they are too many.
 TextureHandle texelTexture(std::vector<asset::Texel> texels);
-/// Of all pictures' pixels, RGBA8, 2^imageColumnsLog2 wide. Throws likewise.
-TextureHandle imageTexture(const asset::AssetView& asset);
+/// RGBA8, 2^imageColumnsLog2 wide. Throws likewise.
+TextureHandle imageTexture(std::vector<std::uint8_t> rgba);
 
 }  // namespace vtm::gl

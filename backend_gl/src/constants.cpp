@@ -15,6 +15,7 @@ namespace vtm::gl {
 namespace {
 
 using asset::Blend;
+using asset::ImageFilter;
 using asset::Op;
 using asset::Spread;
 
@@ -45,6 +46,8 @@ std::string patches() {
 
 std::string paperMode() {
     return constant("kindNode", asset::Entry::Kind::Node) + constant("paperNone", asset::noPaperIndex) +
+           constant("patternInside", PatternKind::Inside) +
+           fmt::format("const float patternLargest = {:.17g};\n", 1 - 0x1p-24) +
            constant("paperIntersection", 1 + unsigned(asset::PaperOperator::Intersection)) +
            fmt::format(
                "const int paperPending = {};\nconst float paperMargin = {:.17g};\nconst float paperExtent = "
@@ -59,7 +62,9 @@ std::string operations() {
            constant("opPopMaskLinear", Op::PopMaskLinear) + constant("opPopMaskAlpha", Op::PopMaskAlpha) +
            constant("opSolid", Op::Solid) + constant("opLinear", Op::Linear) +
            constant("opRadial", Op::Radial) + constant("opImage", Op::Image) +
-           constant("opMaterial", Op::Material) + constant("spreadPad", Spread::Pad) +
+           constant("opMaterial", Op::Material) + constant("filterNearest", ImageFilter::Nearest) +
+           constant("filterTrilinear", ImageFilter::Trilinear) +
+           constant("filterBicubic", ImageFilter::Bicubic) + constant("spreadPad", Spread::Pad) +
            constant("spreadReflect", Spread::Reflect) + constant("spreadRepeat", Spread::Repeat);
 }
 

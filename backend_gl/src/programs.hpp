@@ -30,6 +30,12 @@ inline constexpr std::size_t unitCount = 6;
 /// Of those who have one program only. `materials`: their text (materialsSource), if the features name them.
 ProgramSource paperSource(Features features, const std::string& materials);
 ProgramSource idsSource();
+/// `cells`, `mip`: what it reads; `depth`: levels of the tree, at least 1.
+struct PatternParts {
+    bool compressed = true, filtered = true, linear = false, cells = true, mip = true;
+    unsigned depth = 1;
+};
+ProgramSource paperPatternSource(const PatternParts& parts);
 
 /// Each throws GlError with the driver's log where a program does not compile.
 class Programs {

@@ -40,7 +40,7 @@ std::vector<Texel> dataOf(const AssetView& asset) {
     return data;
 }
 
-std::vector<Texel> joined(const AssetView& asset, Parts& parts) {
+std::vector<Texel> joined(const AssetView& asset, std::span<const Texel> imageList, Parts& parts) {
     std::vector<Texel> texels;
     const std::vector<Texel> data = dataOf(asset);
     parts.nodes = appendTexels(texels, asset.nodes);
@@ -48,7 +48,7 @@ std::vector<Texel> joined(const AssetView& asset, Parts& parts) {
     parts.pieces = appendTexels(texels, asset.pieces);
     parts.paints = appendTexels(texels, asset.paints);
     parts.data = appendTexels<Texel>(texels, data);
-    parts.images = appendTexels<Texel>(texels, imageList(asset));
+    parts.images = appendTexels<Texel>(texels, imageList);
     return texels;
 }
 
@@ -119,14 +119,16 @@ const asset::Map& onlyMap(const AssetView& asset) {
 
 struct SampledTexture::Impl {
     Impl(const AssetView& asset, const asset::PrefilterView& pyramid)
+        : Impl(asset, pyramid, imageTexels(asset)) {}
+    Impl(const AssetView& asset, const asset::PrefilterView& pyramid, ImageTexels pictures)
         : width(asset.width),
           height(asset.height),
           map(onlyMap(asset)),
           features(featuresOf(asset)),
           prefilterSize(pyramid.size),
-          texels(texelTexture(joined(asset, parts))),
+          texels(texelTexture(joined(asset, pictures.list, parts))),
           prefilter(uploadPrefilter(pyramid)),
-          images(features.has(Features::Image) ? imageTexture(asset) : TextureHandle()) {}
+          images(features.has(Features::Image) ? imageTexture(std::move(pictures.rgba)) : TextureHandle()) {}
 
     double width, height;
     asset::Map map;

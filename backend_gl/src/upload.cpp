@@ -13,7 +13,8 @@ using asset::Texel;
 constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
 
 /// The trees themselves stay behind: instances stand for them, and patches for the leaves of sums of maps.
-std::vector<Texel> joinedTexels(const AssetView& asset, Sections& sections) {
+std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const Texel> imageList,
+                                Sections& sections) {
     std::vector<Texel> texels;
     if (!isSumOfMaps(asset)) {
         sections.leaves = appendTexels(texels, asset.leaves);
@@ -21,7 +22,7 @@ std::vector<Texel> joinedTexels(const AssetView& asset, Sections& sections) {
     }
     sections.paints = appendTexels(texels, asset.paints);
     sections.data = appendTexels(texels, asset.data);
-    sections.images = appendTexels<Texel>(texels, imageList(asset));
+    sections.images = appendTexels<Texel>(texels, imageList);
     return texels;
 }
 
@@ -46,8 +47,9 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
     if (isSumOfMaps(asset))
         for (const asset::Command& command : asset.commands)
             atlases.emplace_back(asset, asset.maps[command.map]);
-    texels = texelTexture(joinedTexels(asset, sections));
-    images = imageTexture(asset);
+    ImageTexels pictures = imageTexels(asset);
+    texels = texelTexture(joinedTexels(asset, pictures.list, sections));
+    images = imageTexture(std::move(pictures.rgba));
     instances = uploadInstances(list.instances);
     list.instances = {};
     placements.resize((maps.size() / mapsPerRow + 1) * mapsPerRow);

@@ -13,13 +13,13 @@ namespace vtm::bench {
 namespace {
 
 constexpr const char* usage =
-    "bench_report peers|drawing|compression|editing|scaling|sweep [OPTIONS]\n\n"
+    "bench_report peers|drawing|compression|editing|paper|scaling|sweep [OPTIONS]\n\n"
     "  --examples        our own drawings only, not the corpus\n"
     "  --only NAME       this file only\n"
     "  --font FILE       the font whose glyphs are compressed (a DejaVu Sans, if there is one)\n"
     "  --largest N       curves of the largest scene of `scaling` (1000000)\n"
-    "  --side N          pixels of the longer side in `drawing` (1024)\n"
-    "  --pictures FOLDER where `drawing` writes what each engine draws (nowhere)\n"
+    "  --side N          pixels of the longer side in `drawing` and `paper` (1024)\n"
+    "  --pictures FOLDER where `drawing` and `paper` write what they draw (nowhere)\n"
     "  --node FOLDER     holds node_modules with peers of `drawing` ($VTM_BENCH_NODE)\n"
     "  --peer COMMAND    one more peer process of `drawing`; may be repeated\n"
     "  --output FOLDER   where the results go (bench/results)\n";
@@ -87,6 +87,8 @@ Report reportOf(const Arguments& a) {
         return compression(filesOf(a), a.font);
     if (a.subcommand == "editing")
         return editing(filesOf(a));
+    if (a.subcommand == "paper")
+        return paper(a.drawing);
     if (a.subcommand == "scaling")
         return scaling(a.largest);
     if (a.subcommand == "sweep")

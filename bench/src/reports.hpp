@@ -27,5 +27,7 @@ struct DrawingOptions {
 };
 /// Drawing under changing views against the peers, and from the file to pixels.
 Report drawing(const std::vector<File>& files, const DrawingOptions& options);
+/// Rows 9 to 11 of the paper: what its lookup costs in the compiled shader and on this driver.
+Report paper(const DrawingOptions& options);
 
 }  // namespace vtm::bench

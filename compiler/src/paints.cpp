@@ -114,7 +114,7 @@ std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, 
         picture_.images.push_back(image.bitmap);
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
     append(picture_.data,
-           asset::ImageFill{floats(*inverse), found->second, image.filter == scene::ImageFilter::Bilinear});
+           asset::ImageFill{floats(*inverse), found->second, static_cast<asset::ImageFilter>(image.filter)});
     return push({asset::Op::Image, {}, at, false});
 }
 

@@ -46,7 +46,8 @@ using MaterialFunction = std::function<glm::dvec4(const scene::Material& materia
 struct Options {
     Mode mode = Mode::Exact;
     /// Points a side of a pixel, in [1, 256], at which paints that vary (gradients, patterns, images)
-    /// are read where few do not do; solid colours need none.
+    /// are read where few do not do; solid colours need none, and trilinear and bicubic images have one
+    /// colour a pixel, for its centre.
     int samples = 32;
     /// Curves lie within it of the true outlines, in pixels, > 0: half a 255th of a pixel's colour takes 2e-3
     /// along a whole side of it.

@@ -21,7 +21,7 @@ constexpr std::array spreadNames{"pad", "reflect", "repeat"};
 constexpr std::array capNames{"butt", "round", "square"};
 constexpr std::array joinNames{"miter", "miter-clip", "round", "bevel"};
 constexpr std::array ruleNames{"nonzero", "evenodd"};
-constexpr std::array filterNames{"nearest", "bilinear"};
+constexpr std::array filterNames{"nearest", "bilinear", "trilinear", "bicubic"};
 constexpr std::array maskNames{"luminance", "alpha"};
 
 template <std::size_t N, class Enum>

@@ -143,7 +143,7 @@ std::string fault(const Pattern& p) {
 std::string fault(const ImagePaint& p) {
     if (!finite(p.transform))
         return "image transform is not finite";
-    if (!known(p.filter, ImageFilter::Bilinear))
+    if (!known(p.filter, ImageFilter::Bicubic))
         return fmt::format("image filter {} is unknown", int(p.filter));
     if (!p.bitmap)
         return "image is missing";

@@ -220,8 +220,8 @@ std::optional<bool> parseColorInterpolation(std::string_view text, const Units&)
 std::optional<scene::ImageFilter> parseImageRendering(std::string_view text, const Units&) {
     using scene::ImageFilter;
     static constexpr Keyword<ImageFilter> table[]{
-        {"auto", ImageFilter::Bilinear},         {"optimizeQuality", ImageFilter::Bilinear},
-        {"smooth", ImageFilter::Bilinear},       {"high-quality", ImageFilter::Bilinear},
+        {"auto", ImageFilter::Trilinear},        {"optimizeQuality", ImageFilter::Trilinear},
+        {"smooth", ImageFilter::Trilinear},      {"high-quality", ImageFilter::Bicubic},
         {"optimizeSpeed", ImageFilter::Nearest}, {"pixelated", ImageFilter::Nearest},
         {"crisp-edges", ImageFilter::Nearest}};
     return findKeyword(text, table);

@@ -50,7 +50,7 @@ struct Inherited {
     std::string_view markerStart, markerMid, markerEnd;  ///< hrefs, empty: none
     std::array<PaintStage, 3> paintOrder{PaintStage::Fill, PaintStage::Stroke, PaintStage::Markers};
     bool linearColors = false;  ///< color-interpolation
-    scene::ImageFilter imageFilter = scene::ImageFilter::Bilinear;
+    scene::ImageFilter imageFilter = scene::ImageFilter::Trilinear;
     double fontSize = 12;
 };
 

@@ -67,7 +67,11 @@ TEST(Image, RenderingChoosesTheFilter) {
     const auto filter = [](const std::string& attributes) {
         return std::get<scene::ImagePaint>(imageItem(attributes).paint).filter;
     };
-    EXPECT_EQ(filter(""), scene::ImageFilter::Bilinear);
+    EXPECT_EQ(filter(""), scene::ImageFilter::Trilinear);
+    EXPECT_EQ(filter("image-rendering='optimizeQuality'"), scene::ImageFilter::Trilinear);
+    EXPECT_EQ(filter("style='image-rendering:smooth'"), scene::ImageFilter::Trilinear);
+    EXPECT_EQ(filter("style='image-rendering:high-quality'"), scene::ImageFilter::Bicubic);
+    EXPECT_EQ(filter("style='image-rendering:crisp-edges'"), scene::ImageFilter::Nearest);
     EXPECT_EQ(filter("image-rendering='optimizeSpeed'"), scene::ImageFilter::Nearest);
     EXPECT_EQ(filter("style='image-rendering:pixelated'"), scene::ImageFilter::Nearest);
 }

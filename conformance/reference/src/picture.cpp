@@ -254,9 +254,8 @@ private:
     }
 
     static Shader shaderOf(const scene::ImagePaint& paint, const Affine& toPixels) {
-        return withInverse(paint, toPixels, [&](const Affine& toPaint) {
-            return ImageShader{toPaint, paint.bitmap, paint.filter};
-        });
+        return withInverse(paint, toPixels,
+                           [&](const Affine& toPaint) { return ImageShader(toPaint, paint); });
     }
 
     Shader shaderOf(const scene::Material& material, const Affine& toPixels) const {

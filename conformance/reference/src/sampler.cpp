@@ -1,6 +1,7 @@
 #include "conformance/reference/src/sampler.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "conformance/reference/src/composite.hpp"
@@ -100,8 +101,10 @@ Colour Sampler::shade(int index, Point p) {
     const Shader& shader = picture_.shaders[std::size_t(index)];
     if (const auto* solid = std::get_if<SolidShader>(&shader))
         return solid->colour;
-    const bool smooth =
-        std::holds_alternative<LinearShader>(shader) || std::holds_alternative<RadialShader>(shader);
+    const auto* image = std::get_if<ImageShader>(&shader);
+    const bool ofAPixel = image && image->isOfAPixel() && !ofTile_;
+    const bool smooth = ofAPixel || std::holds_alternative<LinearShader>(shader) ||
+                        std::holds_alternative<RadialShader>(shader);
     variation_ = std::max(variation_, smooth ? Variation::Smooth : Variation::Rough);
     if (const auto* tile = std::get_if<TileShader>(&shader))
         return tileColour(index, *tile, p);
@@ -111,13 +114,14 @@ Colour Sampler::shade(int index, Point p) {
         return radial->at(p);
     if (const auto* material = std::get_if<MaterialShader>(&shader))
         return material->at(p);
-    return std::get<ImageShader>(shader).at(p);
+    return image->at(ofAPixel ? Point(std::floor(p.x) + 0.5, std::floor(p.y) + 0.5) : p);
 }
 
 Colour Sampler::tileColour(int shader, const TileShader& tile, Point p) {
     std::unique_ptr<Sampler>& sampler = tiles_[std::size_t(shader)];
     if (!sampler) {
         sampler = std::make_unique<Sampler>(*tile.tile);
+        sampler->ofTile_ = true;
         sampler->indexRows();
     }
     return sampler->locate(tile.wrapped(p));

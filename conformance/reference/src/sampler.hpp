@@ -12,7 +12,7 @@ namespace vtm::reference {
 /// How a colour depends on the point while the shapes around it stay the same.
 enum class Variation {
     Constant,
-    Smooth,  ///< gradients: nearly linear almost everywhere
+    Smooth,  ///< gradients: nearly linear almost everywhere; and what is constant within a pixel
     Rough    ///< patterns, images and materials: may hold any detail
 };
 
@@ -45,6 +45,7 @@ private:
     std::vector<Colour> stack_;             ///< colours of open groups
     Variation variation_ = Variation::Constant;
     std::vector<std::unique_ptr<Sampler>> tiles_;  ///< by shader
+    bool ofTile_ = false;                          ///< whose pixels are not those of the raster
     // For tiles only, whose points come in any order: edges by the rows that they meet.
     double rowsPerPixel_ = 0;
     std::vector<std::size_t> rowBegins_;

@@ -1,5 +1,9 @@
 #include "conformance/reference/src/shader.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace vtm::reference {
 namespace {
 
@@ -28,6 +32,31 @@ Colour bilinear(const image::Bitmap& bitmap, Point p) {
     const double u = p.x - 0.5 - x, v = p.y - 0.5 - y;
     return (texel(bitmap, x, y) * (1 - u) + texel(bitmap, x + 1, y) * u) * (1 - v) +
            (texel(bitmap, x, y + 1) * (1 - u) + texel(bitmap, x + 1, y + 1) * u) * v;
+}
+
+/// Catmull-Rom's cubic through four values, at t between the two in the middle.
+template <class Value>
+Value catmullRom(const std::array<Value, 4>& v, double t) {
+    const Value slope = (v[2] - v[0]) * 0.5, next = (v[3] - v[1]) * 0.5, step = v[2] - v[1];
+    return v[1] + (slope + (step * 3.0 - slope * 2.0 - next + (slope + next - step * 2.0) * t) * t) * t;
+}
+
+Colour bicubic(const image::Bitmap& bitmap, Point p) {
+    const double x = std::floor(p.x - 0.5), y = std::floor(p.y - 0.5);
+    std::array<Colour, 4> rows;
+    for (int j = 0; j < 4; ++j) {
+        std::array<Colour, 4> row;
+        for (int i = 0; i < 4; ++i)
+            row[std::size_t(i)] = texel(bitmap, x + i - 1, y + j - 1);
+        rows[std::size_t(j)] = catmullRom(row, p.x - 0.5 - x);
+    }
+    return catmullRom(rows, p.y - 0.5 - y);
+}
+
+/// What is displayed is a colour; cubics overshoot.
+Colour clamped(const Colour& c) {
+    const double a = std::clamp(c.a, 0.0, 1.0);
+    return {std::clamp(c.r, 0.0, a), std::clamp(c.g, 0.0, a), std::clamp(c.b, 0.0, a), a};
 }
 
 double wrap(double v, double period) {
@@ -82,9 +111,57 @@ Colour RadialShader::at(Point p) const {
     return offset ? ramp.at(*offset) : Colour(0);
 }
 
+Means::Means(const image::Bitmap& bitmap, double footprint) {
+    for (int side = 2; side / 2 < footprint && side / 2 < std::max(bitmap.width, bitmap.height); side *= 2) {
+        Level level{(bitmap.width + side - 1) / side, (bitmap.height + side - 1) / side, double(side), {}};
+        for (int j = 0; j < level.height; ++j)
+            for (int i = 0; i < level.width; ++i) {
+                Colour sum(0);
+                int count = 0;
+                for (int y = j * side; y < std::min((j + 1) * side, bitmap.height); ++y)
+                    for (int x = i * side; x < std::min((i + 1) * side, bitmap.width); ++x, ++count)
+                        sum += texel(bitmap, x, y);
+                level.texels.push_back(sum / double(count));
+            }
+        levels_.push_back(std::move(level));
+    }
+}
+
+Colour Means::at(int l, Point p) const {
+    const Level& level = levels_[std::min(std::size_t(l), levels_.size()) - 1];
+    const auto texelAt = [&](double x, double y) {
+        const auto i = std::size_t(std::clamp(x, 0.0, level.width - 1.0));
+        const auto j = std::size_t(std::clamp(y, 0.0, level.height - 1.0));
+        return level.texels[j * std::size_t(level.width) + i];
+    };
+    const double x = p.x / level.side - 0.5, y = p.y / level.side - 0.5;
+    const double i = std::floor(x), j = std::floor(y), u = x - i, v = y - j;
+    return (texelAt(i, j) * (1 - u) + texelAt(i + 1, j) * u) * (1 - v) +
+           (texelAt(i, j + 1) * (1 - u) + texelAt(i + 1, j + 1) * u) * v;
+}
+
+ImageShader::ImageShader(const Affine& placement, const scene::ImagePaint& paint)
+    : toPaint(placement), bitmap(paint.bitmap), filter(paint.filter) {
+    // The longest image of a unit vector: its square is the larger eigenvalue of JᵀJ.
+    const Vector u = toPaint[0], v = toPaint[1];
+    const double half = (dot(u, u) + dot(v, v)) / 2, area = u.x * v.y - u.y * v.x;
+    footprint = std::sqrt(half + std::sqrt(std::max(0.0, half * half - area * area)));
+    if (isOfAPixel() && footprint > 1)
+        means = std::make_shared<const Means>(*bitmap, footprint);
+}
+
 Colour ImageShader::at(Point p) const {
     const Point q = scene::apply(toPaint, p);
-    return filter == scene::ImageFilter::Nearest ? texel(*bitmap, q.x, q.y) : bilinear(*bitmap, q);
+    if (filter == scene::ImageFilter::Nearest)
+        return texel(*bitmap, q.x, q.y);
+    const double level = isOfAPixel() ? std::max(0.0, std::log2(footprint)) : 0;
+    const int finer = int(level);
+    const auto at = [&](int l) {
+        if (l > 0)
+            return means->at(l, q);
+        return filter == scene::ImageFilter::Bicubic ? bicubic(*bitmap, q) : bilinear(*bitmap, q);
+    };
+    return clamped(level > 0 ? at(finer) * (finer + 1 - level) + at(finer + 1) * (level - finer) : at(0));
 }
 
 Point TileShader::wrapped(Point p) const {

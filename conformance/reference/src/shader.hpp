@@ -57,12 +57,34 @@ struct RadialShader {
     std::optional<double> offsetAt(Point p) const;
 };
 
+/// Means over 2^l × 2^l pixels of a bitmap, l = 1, 2 ... as far as they are asked for; in doubles.
+class Means {
+public:
+    Means(const image::Bitmap& bitmap, double footprint);
+    /// Bilinear in level l >= 1 or the last.
+    Colour at(int l, Point p) const;
+
+private:
+    struct Level {
+        int width, height;
+        double side;  ///< of a texel, pixels
+        std::vector<Colour> texels;
+    };
+    std::vector<Level> levels_;
+};
+
 struct ImageShader {
+    ImageShader(const Affine& toPaint, const scene::ImagePaint& paint);
+
+    /// Trilinear and bicubic: a colour for the pixel of which p is the centre.
+    bool isOfAPixel() const { return filter >= scene::ImageFilter::Trilinear; }
+    Colour at(Point p) const;
+
     Affine toPaint;
     std::shared_ptr<const image::Bitmap> bitmap;
     scene::ImageFilter filter;
-
-    Colour at(Point p) const;
+    double footprint;                    ///< the longer axis of a pixel of the raster, in those of the bitmap
+    std::shared_ptr<const Means> means;  ///< where it is longer than one
 };
 
 struct MaterialShader {

@@ -184,6 +184,58 @@ TEST_P(Paints, BilinearImageIsPremultiplied) {
     expectPixel(raster, 2, 2, {0.0625, 0.1875, 0.1875, 0.4375}, 1e-6);
 }
 
+/// 16 x 16 pixels, opaque, the green of (x, y) given by a function.
+template <class Function>
+ImagePaint greens(ImageFilter filter, double pixelSize, Function&& function) {
+    auto bitmap = std::make_shared<image::Bitmap>();
+    bitmap->width = bitmap->height = 16;
+    for (int i = 0; i < 256; ++i)
+        bitmap->rgba.insert(bitmap->rgba.end(), {0, std::uint8_t(function(i % 16, i / 16)), 0, 255});
+    return {bitmap, filter, scaling(pixelSize, pixelSize)};
+}
+
+TEST_P(Paints, TrilinearImagesAreMeansWhereMinified) {
+    const auto blocks = [](int x, int y) { return x / 2 * 20 + y / 2 * 10 + (x + y) % 2 * 40; };
+    // 8 pixels show 16: level 1, whose texels are these pixels; the checks are gone.
+    const auto half = draw(sceneOf({{fillAll(greens(ImageFilter::Trilinear, 0.5, blocks))}}));
+    expectPixel(half, 2, 5, {0, (2 * 20 + 5 * 10 + 20) / 255.0, 0, 1}, 1e-6);
+    // 2^1.5 as large: half way between levels 1 and 2, on whose ramps both agree.
+    const auto ramp = [](int x, int) { return x * 16; };
+    const double size = std::exp2(-1.5);
+    const auto between = draw(sceneOf({{fillAll(greens(ImageFilter::Trilinear, size, ramp))}}));
+    expectPixel(between, 2, 1, {0, (2.5 / size - 0.5) * 16 / 255, 0, 1}, 1e-6);
+    // So small that there is one texel.
+    const auto tiny = draw(sceneOf({{fillAll(greens(ImageFilter::Bicubic, 1.0 / 64, ramp))}}));
+    expectPixel(tiny, 4, 4, {0, 7.5 * 16 / 255, 0, 1}, 1e-6);
+}
+
+TEST_P(Paints, BicubicImagesRunThroughQuadratics) {
+    const auto parabola = [](int x, int) { return x * x; };
+    const auto raster = draw(sceneOf({{fillAll(greens(ImageFilter::Bicubic, 1.6, parabola))}}));
+    for (const int x : {3, 4, 5, 6}) {
+        const double at = (x + 0.5) / 1.6 - 0.5;
+        expectPixel(raster, x, 3, {0, at * at / 255, 0, 1}, 1e-6);
+    }
+}
+
+/// Beside an edge the cubic leaves [0, 255].
+TEST_P(Paints, BicubicImagesStayColours) {
+    const auto edge = [](int x, int) { return x < 4 ? 0 : 255; };
+    const auto raster = draw(sceneOf({{fillAll(greens(ImageFilter::Bicubic, 1.25, edge))}}));
+    for (int x = 0; x < 8; ++x) {
+        const float green = raster.pixel(x, 3)[1];
+        EXPECT_TRUE(green >= 0 && green <= 1) << x;
+    }
+    expectPixel(raster, 3, 3, {0, 0, 0, 1}, 1e-6);
+    expectPixel(raster, 6, 3, {0, 1, 0, 1}, 1e-6);
+}
+
+TEST_P(Paints, MagnifiedTrilinearIsBilinearAtThePixelsCentre) {
+    const auto raster = draw(sceneOf({{fillAll(picture(ImageFilter::Trilinear))}}));
+    expectPixel(raster, 1, 1, {0.5625, 0.1875, 0.1875, 0.9375}, 1e-6);
+    expectPixel(raster, 0, 0, {1, 0, 0, 1}, 1e-6);
+}
+
 TEST(Materials, AreTheCallersOrTheirFallback) {
     const Material material{"a", "", {1, 0, 0, 0.5f}, scaling(2, 2)};
     const Scene scene = sceneOf({{fillAll(material, 0.5f)}});
