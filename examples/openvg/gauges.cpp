@@ -1,10 +1,12 @@
 // A car's gauge cluster: vg_gauges OUT.png|window [SECONDS]
 //
 // Shapes by VGU, gradients, scales that are dashes, needles that are turned by a matrix, glass that is a
-// mask, bars cut to their level by scissoring. Everything is made once; a frame sets matrices and draws.
+// mask, bars cut to their level by scissoring. Shapes and paints are made where they are drawn and dropped at
+// once, as in a sketch; only the digits are kept.
 
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <stdexcept>
 
 #include <VG/openvg.h>
@@ -95,13 +97,12 @@ void drawFace(const Dial& dial, const digits::Digits& digits) {
     drawMarks(155, 4 * dial.numbers, 1.2f, 8, 0x9fb3c8ff);
     drawMarks(152, dial.numbers, 3.2f, 15, 0xffffffff);
 
-    vgSetPaint(VG_INVALID_HANDLE, VG_FILL_PATH);
     const VGPaint ink = paints::solid(0xd9e6f2ff);
     vgSetPaint(ink, VG_FILL_PATH);
     vgDestroyPaint(ink);
     for (int i = 0; i <= dial.numbers; ++i) {
         const double angle =
-            double(firstAngle + sweep * VGfloat(i) / VGfloat(dial.numbers)) * 3.14159265358979 / 180;
+            double(firstAngle + sweep * VGfloat(i) / VGfloat(dial.numbers)) * std::numbers::pi / 180;
         digits.draw(std::to_string(i * dial.step), VGfloat(124 * std::cos(angle)),
                     VGfloat(124 * std::sin(angle)), 13);
     }
@@ -231,7 +232,7 @@ void draw(double seconds, const digits::Digits& digits) {
     drawHousing();
     drawDial(speed, 120 - 100 * std::cos(0.5f * t), digits);
     drawDial(revolutions, 3.9f - 2.9f * std::cos(1.1f * t), digits);
-    drawBar(446, 88, 0.8f - 0.02f * t, 0xe12d39ff, 0x3ddc84ff);
+    drawBar(446, 88, 0.8f - 0.02f * std::fmod(t, 30.0f), 0xe12d39ff, 0x3ddc84ff);
     drawBar(492, 88, 0.45f + 0.1f * std::sin(0.3f * t), 0x4fd1ffff, 0xe12d39ff);
     const bool blink = std::fmod(seconds, 1) < 0.5;
     drawArrow(450, 326, -1, false);

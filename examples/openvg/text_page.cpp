@@ -3,8 +3,10 @@
 // One VGFont a typeface. Kerning and word spaces are adjustments beside the glyphs; size and slope are a
 // matrix; a gradient runs across a whole line.
 
-#include <numbers>
+#include <algorithm>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 #include <VG/openvg.h>
 #include <VG/vgu.h>
@@ -108,7 +110,6 @@ void drawHeadline(Typeface& face) {
 /// Only the outlines of a letter, as large as the page allows.
 void drawOrnament(Typeface& face) {
     place(478, 574, 292, -8);
-    vgSetPaint(VG_INVALID_HANDLE, VG_STROKE_PATH);
     const VGPaint line = paints::solid(0xdccfb2ff);
     vgSetPaint(line, VG_STROKE_PATH);
     vgDestroyPaint(line);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <stdexcept>
 
 #include <glm/trigonometric.hpp>
