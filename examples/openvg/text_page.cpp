@@ -104,7 +104,7 @@ void drawHeadline(Typeface& face) {
     place(margin, 632, size, 6.5f);
     setFill(paints::linear(0, 0, headline.width, 0,
                            {{0, 0xd7263dff}, {0.35f, 0xf46036ff}, {0.65f, 0x8a2be2ff}, {1, 0x1b7fdcff}}));
-    face.draw(headline);
+    face.drawAcross(headline);
 }
 
 /// Only the outlines of a letter, as large as the page allows.

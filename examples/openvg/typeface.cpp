@@ -125,4 +125,18 @@ void Typeface::draw(const Line& line, VGbitfield paintModes) const {
                      paintModes, VG_TRUE);
 }
 
+void Typeface::drawAcross(const Line& line) const {
+    VGfloat pen[] = {0, 0};
+    vgSetfv(VG_GLYPH_ORIGIN, 2, pen);
+    vgSeti(VG_MATRIX_MODE, VG_MATRIX_FILL_PAINT_TO_USER);
+    for (std::size_t i = 0; i < line.glyphs.size(); ++i) {
+        vgGetfv(VG_GLYPH_ORIGIN, 2, pen);
+        vgLoadIdentity();
+        vgTranslate(-pen[0], -pen[1]);
+        vgDrawGlyphs(font_, 1, &line.glyphs[i], &line.adjustments[i], nullptr, VG_FILL_PATH, VG_TRUE);
+    }
+    vgLoadIdentity();
+    vgSeti(VG_MATRIX_MODE, VG_MATRIX_GLYPH_USER_TO_SURFACE);
+}
+
 }  // namespace typeface

@@ -32,6 +32,8 @@ public:
 
     /// Draws with the current paints; the glyph matrix maps em to surface, the pen starts at its origin.
     void draw(const Line& line, VGbitfield paintModes = VG_FILL_PATH) const;
+    /// Fills with one paint across the whole line: paint moves with each glyph, unless it is moved back.
+    void drawAcross(const Line& line) const;
 
 private:
     VGuint glyph(char32_t character);

@@ -64,8 +64,7 @@ void coverQuad(const std::array<glm::dvec2, 4>& corners, bool antialiased, const
 
 }  // namespace
 
-void drawImage(Context& context, const Image& image, const glm::mat3& toSurface,
-               const glm::mat3& userToSurface) {
+void drawImage(Context& context, const Image& image, const glm::mat3& toSurface) {
     const State& state = context.state;
     const double w = image.width(), h = image.height();
     std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(w, 0), glm::dvec2(w, h), glm::dvec2(0, h)};
@@ -96,7 +95,7 @@ void drawImage(Context& context, const Image& image, const glm::mat3& toSurface,
         return draw(compositor);
     }
     std::unique_ptr<PixelSource> paint = paintSource(
-        currentPaint(state, VG_FILL_PATH), userToSurface * state.matrix(VG_MATRIX_FILL_PAINT_TO_USER), state);
+        currentPaint(state, VG_FILL_PATH), toSurface * state.matrix(VG_MATRIX_FILL_PAINT_TO_USER), state);
     if (!paint)
         return;
     if (mode == VG_DRAW_IMAGE_MULTIPLY) {
@@ -115,6 +114,6 @@ using namespace vtm::openvg;
 void vgDrawImage(VGImage handle) {
     call([&](Context& context) {
         const glm::mat3& toSurface = context.state.matrix(VG_MATRIX_IMAGE_USER_TO_SURFACE);
-        drawImage(context, *freeImage(context, handle), toSurface, toSurface);
+        drawImage(context, *freeImage(context, handle), toSurface);
     });
 }

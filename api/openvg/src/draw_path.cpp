@@ -71,8 +71,7 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
         mask.scan(toSurface, clip, row);
 }
 
-void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface,
-              const glm::mat3& userToSurface) {
+void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface) {
     const State& state = context.state;
     for (const VGPaintMode mode : {VG_FILL_PATH, VG_STROKE_PATH}) {
         if (!(modes & VGbitfield(mode)))
@@ -82,7 +81,7 @@ void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& t
         if (!inverseOf(toSurface))
             continue;
         const std::unique_ptr<PixelSource> paint =
-            paintSource(currentPaint(state, mode), userToSurface * paintToUser, state);
+            paintSource(currentPaint(state, mode), toSurface * paintToUser, state);
         if (!paint)
             continue;
         Compositor compositor(context, *paint);
@@ -99,6 +98,6 @@ void vgDrawPath(VGPath handle, VGbitfield paintModes) {
         const std::shared_ptr<Path> path = context.objects->get<Path>(handle);
         requirePaintModes(paintModes);
         const glm::mat3& toSurface = context.state.matrix(VG_MATRIX_PATH_USER_TO_SURFACE);
-        drawPath(context, *path, paintModes, toSurface, toSurface);
+        drawPath(context, *path, paintModes, toSurface);
     });
 }

@@ -17,8 +17,7 @@ std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const P
 /// A premultiplied clear colour and the like as a word of a format.
 std::uint32_t wordOf(const std::array<VGfloat, 4>& sRGBAColor, const PixelFormat& format);
 
-/// An image drawn by the context's state (section 10.8); `userToSurface` as for drawPath().
-void drawImage(Context& context, const Image& image, const glm::mat3& toSurface,
-               const glm::mat3& userToSurface);
+/// An image drawn by the context's state (section 10.8).
+void drawImage(Context& context, const Image& image, const glm::mat3& toSurface);
 
 }  // namespace vtm::openvg

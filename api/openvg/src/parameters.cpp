@@ -23,6 +23,19 @@ bool isVector(VGint type) {
     }
 }
 
+Values getOfExtensions(VGint type) {
+    switch (type) {
+        case VG_MAX_AVERAGE_BLUR_DIMENSION_KHR:
+            return {double(maxAverageBlurDimension)};
+        case VG_AVERAGE_BLUR_DIMENSION_RESOLUTION_KHR:
+            return {-1.0};  // all bits of a float
+        case VG_MAX_AVERAGE_BLUR_ITERATIONS_KHR:
+            return {double(maxAverageBlurIterations)};
+        default:
+            throw Error(VG_ILLEGAL_ARGUMENT_ERROR);
+    }
+}
+
 Values get(const State& s, VGint type) {
     switch (type) {
         case VG_MATRIX_MODE:
@@ -98,14 +111,9 @@ Values get(const State& s, VGint type) {
             return {double(maxFloat)};
         case VG_MAX_GAUSSIAN_STD_DEVIATION:
             return {double(maxGaussianStdDeviation)};
-        case VG_MAX_AVERAGE_BLUR_DIMENSION_KHR:
-            return {double(maxAverageBlurDimension)};
-        case VG_AVERAGE_BLUR_DIMENSION_RESOLUTION_KHR:
-            return {-1.0};  // all bits of a float
-        case VG_MAX_AVERAGE_BLUR_ITERATIONS_KHR:
-            return {double(maxAverageBlurIterations)};
         default:
-            throw Error(VG_ILLEGAL_ARGUMENT_ERROR);
+            require(s.knowsExtensions);
+            return getOfExtensions(type);
     }
 }
 

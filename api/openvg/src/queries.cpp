@@ -16,7 +16,7 @@ VGHardwareQueryResult vgHardwareQuery(VGHardwareQueryType key, VGint setting) {
 }
 
 const VGubyte* vgGetString(VGStringID name) {
-    return callOr(static_cast<const VGubyte*>(nullptr), [&](Context&) {
+    return callOr(static_cast<const VGubyte*>(nullptr), [&](Context& context) {
         const auto text = [](const char* s) { return reinterpret_cast<const VGubyte*>(s); };
         switch (name) {
             case VG_VENDOR:
@@ -26,6 +26,7 @@ const VGubyte* vgGetString(VGStringID name) {
             case VG_VERSION:
                 return text("1.1");
             case VG_EXTENSIONS:
+                context.state.knowsExtensions = true;
                 return text(
                     "VG_KHR_iterative_average_blur VG_KHR_advanced_blending VG_KHR_parametric_filter "
                     "VG_NDS_paint_generation");

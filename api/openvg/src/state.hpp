@@ -25,6 +25,11 @@ inline constexpr VGfloat maxFloat = 1e30f;
 /// Values as they were set (vgGet returns them); ranges are applied where they are used. Initial values:
 /// table 4.
 struct State {
+    /// The program has asked for VG_EXTENSIONS. Until then parameters of extensions do not exist: one of them
+    /// has the value behind the last of VGParamType, which is illegal for programs that know of no extension
+    /// (section 15).
+    bool knowsExtensions = false;
+
     VGint matrixMode = VG_MATRIX_PATH_USER_TO_SURFACE;
     VGint fillRule = VG_EVEN_ODD;
     VGint imageQuality = VG_IMAGE_QUALITY_FASTER;

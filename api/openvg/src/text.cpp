@@ -22,18 +22,18 @@ const Glyph& glyphOf(const Font& font, VGuint index) {
     return it->second;
 }
 
-/// Draws a glyph with its origin at VG_GLYPH_ORIGIN and moves on.
+/// Draws a glyph with its origin at VG_GLYPH_ORIGIN and moves on. Paint moves with the glyph, as programs
+/// expect it: its coordinates are those of the glyph's path.
 void draw(Context& context, const Glyph& glyph, VGbitfield modes, glm::vec2 adjustment) {
     std::array<VGfloat, 2>& origin = context.state.glyphOrigin;
     if (modes != 0) {
-        const glm::mat3& userToSurface = context.state.matrix(VG_MATRIX_GLYPH_USER_TO_SURFACE);
-        glm::mat3 toSurface = userToSurface;
+        glm::mat3 toSurface = context.state.matrix(VG_MATRIX_GLYPH_USER_TO_SURFACE);
         toSurface[2] +=
             toSurface[0] * (origin[0] - glyph.origin.x) + toSurface[1] * (origin[1] - glyph.origin.y);
         if (glyph.path)
-            drawPath(context, *glyph.path, modes, toSurface, userToSurface);
+            drawPath(context, *glyph.path, modes, toSurface);
         else if (glyph.image)
-            drawImage(context, *glyph.image, toSurface, userToSurface);
+            drawImage(context, *glyph.image, toSurface);
     }
     origin[0] += glyph.escapement.x + adjustment.x;
     origin[1] += glyph.escapement.y + adjustment.y;
