@@ -18,7 +18,7 @@ ColorRamp::ColorRamp(const Paint& paint) : spread_(paint.spread), premultiplied_
             break;
         }
         last = offset;
-        const Color color = glm::clamp(Color(v[i + 1], v[i + 2], v[i + 3], v[i + 4]), 0.0f, 1.0f);
+        const Color color = clampedToUnit({v[i + 1], v[i + 2], v[i + 3], v[i + 4]});
         stops_.push_back({offset, premultiplied_ ? premultiplied(color) : color});
     }
     if (stops_.empty())

@@ -54,7 +54,7 @@ Raster normalized(const Image& image, ColorSpace space) {
 }
 
 Color clamped(Color color, ColorSpace space) {
-    color = glm::clamp(color, 0.0f, 1.0f);
+    color = clampedToUnit(color);
     return space.premultiplied ? Color(glm::min(glm::vec3(color), color.a), color.a) : color;
 }
 
@@ -99,7 +99,7 @@ bool isTiling(VGTilingMode mode) { return VGint(mode) >= VG_TILE_FILL && VGint(m
 /// VG_TILE_FILL_COLOR as normalized pixels are.
 Color fillColor(const State& state, ColorSpace space) {
     const std::array<VGfloat, 4>& c = state.tileFillColor;
-    return fullyConverted(glm::clamp(Color(c[0], c[1], c[2], c[3]), 0.0f, 1.0f), sRGBA, space);
+    return fullyConverted(clampedToUnit({c[0], c[1], c[2], c[3]}), sRGBA, space);
 }
 
 /// Weights of the source pixels at x + offset, x + offset + 1, ….
