@@ -194,7 +194,7 @@ TEST_F(ImagesTest, AreasAreClippedWhateverTheirNumbers) {
             vgClearImage(image, x, y, 4, 4);
             vgCopyImage(image, x, y, image, y, x, greatest, greatest, VG_TRUE);
             vgSetPixels(x, y, image, 0, 0, greatest, greatest);
-            vgGetPixels(image, x, y, x, y, greatest, 1);
+            vgGetPixels(image, x, y, y, x, greatest, 1);
             vgCopyPixels(x, 0, y, 0, greatest, greatest);
             vgWritePixels(data.data(), 4, VG_A_8, x, y, 4, 4);
             vgReadPixels(data.data(), 4, VG_A_8, x, y, 4, 4);

@@ -71,9 +71,9 @@ TEST_F(ParametersTest, Defaults) {
 TEST_F(ParametersTest, LimitsAreAtLeastThoseOfTheSpecification) {
     EXPECT_GE(vgGeti(VG_MAX_SCISSOR_RECTS), 32);           // 7.1
     EXPECT_GE(vgGeti(VG_MAX_DASH_COUNT), 16);              // 8.7.5
-    EXPECT_GE(vgGeti(VG_MAX_KERNEL_SIZE), 7);              // 12.3
-    EXPECT_GE(vgGeti(VG_MAX_SEPARABLE_KERNEL_SIZE), 15);   // 12.3
-    EXPECT_GE(vgGeti(VG_MAX_GAUSSIAN_STD_DEVIATION), 16);  // 12.3
+    EXPECT_GE(vgGeti(VG_MAX_KERNEL_SIZE), 7);              // 12.4
+    EXPECT_GE(vgGeti(VG_MAX_SEPARABLE_KERNEL_SIZE), 15);   // 12.4
+    EXPECT_GE(vgGeti(VG_MAX_GAUSSIAN_STD_DEVIATION), 16);  // 12.4
     EXPECT_GE(vgGeti(VG_MAX_COLOR_RAMP_STOPS), 32);        // 9.3.3
     EXPECT_GE(vgGeti(VG_MAX_IMAGE_WIDTH), 256);            // 10.3
     EXPECT_GE(vgGeti(VG_MAX_IMAGE_HEIGHT), 256);

@@ -147,7 +147,7 @@ TEST_F(PathsTest, TransformKeepsKinds) {
     expectPoint(along(to, 0), {6, 23, 0, 1});
     EXPECT_NEAR(vgPathLength(to, 1, 1), 9, 1e-4f);
     EXPECT_NEAR(vgPathLength(to, 2, 1), 6, 1e-4f);
-    expectBounds(to, {-2, 23, 8, 15}, 1e-3f);
+    expectBounds(to, {0, 23, 6, 15}, 1e-3f);
 }
 
 TEST_F(PathsTest, InterpolationBlendsLikeSegments) {
