@@ -147,7 +147,9 @@ TEST_F(BlendingTest, ModesOnPremultipliedSurfaces) {
 TEST_F(BlendingTest, ModesOnLinearSurfaces) {
     // Paints are sRGB: the surface blends their light.
     useSurface(4, 4, {8, 8, 8, 8, 0, 0, VG_TRUE, VG_FALSE});
-    const auto decoded = [](double x) { return x <= 0.03928 ? x / 12.92 : std::pow((x + 0.0556) / 1.0556, 2.4); };
+    const auto decoded = [](double x) {
+        return x <= 0.03928 ? x / 12.92 : std::pow((x + 0.0556) / 1.0556, 2.4);
+    };
     for (VGint mode = VG_BLEND_SRC; mode <= VG_BLEND_ADDITIVE; ++mode)
         for (const Rgba& source : colors)
             for (const Rgba& destination : colors) {
@@ -157,7 +159,9 @@ TEST_F(BlendingTest, ModesOnLinearSurfaces) {
                 Color s = unitOf(source);
                 for (std::size_t c = 0; c < 3; ++c)
                     s[c] = decoded(s[c]);
-                EXPECT_TRUE(isNear(pixel(0, 0, VG_lRGBA_8888), bytesOf(blended(mode, s, unitOf(destination))), 1)) << mode;
+                EXPECT_TRUE(
+                    isNear(pixel(0, 0, VG_lRGBA_8888), bytesOf(blended(mode, s, unitOf(destination))), 1))
+                    << mode;
             }
 }
 
@@ -177,7 +181,8 @@ TEST_F(BlendingTest, AlphaSurfaces) {
             setPixel(0, 0, {0, 0, 0, 77});
             vgSeti(VG_BLEND_MODE, mode);
             drawPixel(source);
-            EXPECT_NEAR(pixel(0, 0)[3], 255 * blended(mode, unitOf(source), {1, 1, 1, 77 / 255.0})[3], 1) << mode;
+            EXPECT_NEAR(pixel(0, 0)[3], 255 * blended(mode, unitOf(source), {1, 1, 1, 77 / 255.0})[3], 1)
+                << mode;
         }
 }
 

@@ -85,7 +85,8 @@ protected:
         ASSERT_EQ(vgGetError(), VG_NO_ERROR);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
-                EXPECT_TRUE(isNear(texel(dst, x, y), stored(filtered(x, y), linear, premultiplied), 1)) << x << ' ' << y;
+                EXPECT_TRUE(isNear(texel(dst, x, y), stored(filtered(x, y), linear, premultiplied), 1))
+                    << x << ' ' << y;
     }
 
     VGImage src, dst;
@@ -114,8 +115,8 @@ TEST_F(FiltersTest, ColorMatrix) {
         }
 }
 
-Color convolved(const Source& p, int x, int y, int w, int h, int shiftX, int shiftY, double scale, double bias,
-                const std::function<double(int i, int j)>& k) {
+Color convolved(const Source& p, int x, int y, int w, int h, int shiftX, int shiftY, double scale,
+                double bias, const std::function<double(int i, int j)>& k) {
     Color sum{};
     for (int i = 0; i < w; ++i)
         for (int j = 0; j < h; ++j)
@@ -146,9 +147,9 @@ TEST_F(FiltersTest, SeparableConvolve) {
         useFormat(mode == VG_TILE_PAD, mode == VG_TILE_REPEAT);
         vgSeparableConvolve(dst, src, 9, 4, 4, 13, x.data(), y.data(), 0.02f, 0.1f, mode);
         expectFiltered([&](int px, int py) {
-            return convolved(source(mode), px, py, 9, 4, 4, 13, double(0.02f), double(0.1f), [&](int i, int j) {
-                return double(x[std::size_t(i)]) * double(y[std::size_t(j)]);
-            });
+            return convolved(
+                source(mode), px, py, 9, 4, 4, 13, double(0.02f), double(0.1f),
+                [&](int i, int j) { return double(x[std::size_t(i)]) * double(y[std::size_t(j)]); });
         });
     }
 }
@@ -176,7 +177,8 @@ TEST_F(FiltersTest, KernelsAreNoLongerThanTheirLimit) {
     const VGint size = vgGeti(VG_MAX_SEPARABLE_KERNEL_SIZE);
     const std::vector<VGshort> ones(std::size_t(size), 1);
     const VGfloat scale = 1.0f / VGfloat(size * size);
-    vgSeparableConvolve(dst, src, size, size, 1 << 30, -(1 << 30), ones.data(), ones.data(), scale, 0, VG_TILE_FILL);
+    vgSeparableConvolve(dst, src, size, size, 1 << 30, -(1 << 30), ones.data(), ones.data(), scale, 0,
+                        VG_TILE_FILL);
     EXPECT_TRUE(isNear(texel(dst, 0, 0), {64, 128, 191, 128}, 1)) << "nothing but the fill colour";
     vgGaussianBlur(dst, src, vgGetf(VG_MAX_GAUSSIAN_STD_DEVIATION), 1e-30f, VG_TILE_REPEAT);
     EXPECT_EQ(vgGetError(), VG_NO_ERROR);
@@ -187,7 +189,8 @@ TEST_F(FiltersTest, Lookups) {
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < 256; ++i)
             tables[c][i] = VGubyte(255 - i * (c + 1) / 5);
-    vgLookup(dst, src, tables[0].data(), tables[1].data(), tables[2].data(), tables[3].data(), VG_FALSE, VG_FALSE);
+    vgLookup(dst, src, tables[0].data(), tables[1].data(), tables[2].data(), tables[3].data(), VG_FALSE,
+             VG_FALSE);
     for (int x = 0; x < width; ++x) {
         const Rgba in = rgbaOf(words[std::size_t(x)]);
         Rgba out;
@@ -222,7 +225,8 @@ TEST_F(FiltersTest, Lookups) {
 
 TEST_F(FiltersTest, ChannelMasksAndAreas) {
     // Section 12.2, and section 12: only the common area is written.
-    const std::array<VGfloat, 20> constant{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.2f, 0.4f, 0.6f, 0.8f};
+    const std::array<VGfloat, 20> constant{0, 0, 0, 0, 0, 0, 0,    0,    0,    0,
+                                           0, 0, 0, 0, 0, 0, 0.2f, 0.4f, 0.6f, 0.8f};
     const VGImage small = newImage({{1, 2, 3, 4}, {5, 6, 7, 8}});
     vgSeti(VG_FILTER_CHANNEL_MASK, VG_RED | VG_ALPHA | 1 << 10);
     vgColorMatrix(small, src, constant.data());
