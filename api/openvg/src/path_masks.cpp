@@ -26,25 +26,34 @@ constexpr double mostWidths = 1 << 26;
 /// Lines for a curve then. They are off by 6 / (8 · 1024²) of its controls' polygon at most, 2^-20.
 constexpr int linesPerCurve = 1024;
 
-/// Controls that are nearer to their end than this share of the path's reach lie on it: directions that no
-/// double can square.
-constexpr double nearestControl = 1.0 / (1LL << 48);
+/// Points nearer to each other than this share of the stroked path's reach are one: directions between them
+/// no double can square.
+constexpr double nearestPoints = 1.0 / (1LL << 48);
 
 double reachOf(const Box& box) {
     const glm::dvec2 far = glm::max(glm::abs(box.min), glm::abs(box.max));
     return std::max(far.x, far.y);
 }
 
-void snapControls(std::vector<Segment>& segments, double least) {
-    const auto snap = [&](Point& control, Point end) {
-        if (glm::distance(control, end) < least)
-            control = end;
-    };
+/// Curves that are a point, but for `least`, become lines, and controls lie on ends that near.
+void snapCurves(std::vector<Segment>& segments, double least) {
+    const auto isNear = [&](Point a, Point b) { return glm::distance(a, b) < least; };
     for (Segment& s : segments) {
+        EllipticalArc arc;
+        if (s.isArc() && arcOf(s, arc)) {
+            if (glm::length(arc.axisX) < least && glm::length(arc.axisY) < least)
+                s.type = VG_LINE_TO;
+            continue;
+        }
         if (s.type != VG_QUAD_TO && s.type != VG_CUBIC_TO)
             continue;
-        snap(s.control1, s.from);
-        snap(s.type == VG_QUAD_TO ? s.control1 : s.control2, s.to);
+        Point& last = s.type == VG_QUAD_TO ? s.control1 : s.control2;
+        if (isNear(s.control1, s.from) && isNear(last, s.from) && isNear(s.to, s.from))
+            s.type = VG_LINE_TO;
+        if (isNear(s.control1, s.from))
+            s.control1 = s.from;
+        if (isNear(last, s.to))
+            last = s.to;
     }
 }
 
@@ -82,7 +91,7 @@ std::vector<Segment> asLines(const std::vector<Segment>& segments) {
 /// What the stroker takes, of a path with this box.
 std::vector<Segment> strokable(std::vector<Segment> segments, const Box& box, double width) {
     const double reach = reachOf(box);
-    snapControls(segments, nearestControl * reach);
+    snapCurves(segments, nearestPoints * std::max(reach, width));
     return reach > mostWidths * width ? asLines(segments) : segments;
 }
 

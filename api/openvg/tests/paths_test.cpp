@@ -255,6 +255,15 @@ TEST_F(PathsTest, WildNumbersEnd) {
         along(path, v);
         vguArc(newPath(), v, v, 1, 1, v, v, VGU_ARC_PIE);
     }
+    // All of a path too small for its width.
+    for (const VGfloat v : {1e-40f, 1e-37f, 1e-20f}) {
+        vgSetfv(VG_STROKE_DASH_PATTERN, 0, nullptr);
+        vgDrawPath(
+            newPath({VG_MOVE_TO_ABS, VG_QUAD_TO_ABS, VG_CUBIC_TO_ABS, VG_SCCWARC_TO_ABS, VG_LCWARC_TO_ABS},
+                    {v,      0, 3 * v, v, 9 * v, 2 * v, v, v, -v, 8 * v, 7 * v,
+                     -5 * v, v, 2 * v, 9, v,     v,     v, v, 0,  9 * v, 0}),
+            VG_STROKE_PATH);
+    }
     EXPECT_NE(vgGetError(), VG_BAD_HANDLE_ERROR);
 }
 
