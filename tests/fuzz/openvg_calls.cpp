@@ -282,7 +282,7 @@ constexpr Call table[] = {
     [](World& w, Arguments& a) { vgClearGlyph(w.any(w.fonts), a.byte() % 8); },
     [](World& w, Arguments& a) { vgDrawGlyph(w.any(w.fonts), a.byte() % 8, a.bits(2), a.boolean()); },
     [](World& w, Arguments& a) {
-        const VGint count = a.rarely() ? -a.side() : VGint(a.byte() % 6);
+        const VGint count = a.rarely() ? std::min(a.integer(), 6) : VGint(a.byte() % 6);
         std::array<VGuint, 6> glyphs;
         for (VGuint& glyph : glyphs)
             glyph = a.byte() % 4;

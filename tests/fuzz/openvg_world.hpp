@@ -227,7 +227,7 @@ inline PathData pathData(Arguments& a, VGint& count) {
     PathData data;
     for (VGubyte& command : data.commands)
         command = VGubyte(a.rarely(200) ? a.byte() : a.byte() % 26);
-    count = a.rarely(64) ? -a.integer() : VGint(a.byte() % 12);
+    count = a.rarely(64) ? a.integer() : VGint(a.byte() % 12);
     count = std::min(count, VGint(data.commands.size()));
     // As floats they are tame, as integers too: whatever the path's datatype is, these bytes are numbers of
     // it.
