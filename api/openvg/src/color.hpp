@@ -26,6 +26,9 @@ inline constexpr ColorSpace sRGBA{false, false, false}, sRGBA_PRE{false, true, f
 /// Red, green, blue, alpha in [0, 1] unless said otherwise.
 using Color = glm::vec4;
 
+/// Every number pulled to [0, 1]; what no number is becomes 0 (section 3.3).
+inline Color clampedToUnit(Color c) { return glm::min(glm::max(Color(0), c), Color(1)); }
+
 /// γ and its inverse of section 3.4.2, on [0, 1].
 float encodeGamma(float linear);
 float decodeGamma(float encoded);

@@ -40,7 +40,7 @@ Color ColorTransform::operator()(Color color) const {
 }
 
 Color transformedColor(const ColorTransform& transform, Color color, ColorSpace to) {
-    color = glm::clamp(color, 0.0f, 1.0f);
+    color = clampedToUnit(color);
     if (transform.isIdentity())
         return converted(color, sRGBA, to);
     return converted(transform(converted(color, sRGBA, transform.space())), transform.space(), to);

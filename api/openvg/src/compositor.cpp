@@ -98,7 +98,7 @@ Color Compositor::prepared(Color color) const {
         return color;
     color = unpremultiplied(color);
     if (transforms_) {
-        color = glm::clamp(color * scale_ + bias_, 0.0f, 1.0f);
+        color = clampedToUnit(color * scale_ + bias_);
         from.luminance = false;  // what was grey may no longer be
     }
     // Alpha-only surfaces keep no colour to convert.

@@ -21,10 +21,15 @@ void coverRectangle(glm::dvec2 min, glm::dvec2 max, const Rectangle& clip, const
     const auto share = [](double low, double high, int i) {
         return std::min(high, i + 1.0) - std::max(low, double(i));
     };
-    const auto from = [](double v, int least) { return int(std::max(std::floor(v), double(least))); };
-    const auto to = [](double v, int most) { return int(std::min(std::ceil(v), double(most))); };
-    const int x0 = from(min.x, clip.x0), x1 = to(max.x, clip.x1), y0 = from(min.y, clip.y0),
-              y1 = to(max.y, clip.y1);
+    const auto within = [](double v, int least, int most) {
+        return int(std::clamp(v, double(least), double(most)));
+    };
+    if (clip.empty())
+        return;
+    const int x0 = within(std::floor(min.x), clip.x0, clip.x1),
+              x1 = within(std::ceil(max.x), clip.x0, clip.x1),
+              y0 = within(std::floor(min.y), clip.y0, clip.y1),
+              y1 = within(std::ceil(max.y), clip.y0, clip.y1);
     std::vector<CoverageRun> runs;
     for (int y = y0; y < y1; ++y) {
         const double high = share(min.y, max.y, y);

@@ -31,7 +31,7 @@ Raster normalized(const Image& image, ColorSpace space) {
 namespace {
 
 Color clamped(Color color, ColorSpace space) {
-    color = glm::clamp(color, 0.0f, 1.0f);
+    color = clampedToUnit(color);
     return space.premultiplied ? Color(glm::min(glm::vec3(color), color.a), color.a) : color;
 }
 
@@ -75,7 +75,7 @@ bool isTiling(VGTilingMode mode) { return VGint(mode) >= VG_TILE_FILL && VGint(m
 
 Color tileFillColor(const State& state, ColorSpace space) {
     const std::array<VGfloat, 4>& c = state.tileFillColor;
-    return fullyConverted(glm::clamp(Color(c[0], c[1], c[2], c[3]), 0.0f, 1.0f), sRGBA, space);
+    return fullyConverted(clampedToUnit({c[0], c[1], c[2], c[3]}), sRGBA, space);
 }
 
 }  // namespace vtm::openvg

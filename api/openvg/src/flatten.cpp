@@ -36,7 +36,8 @@ Segment asSegment(dvec2 from, const scene::ArcTo& arc) {
 bool isBefore(dvec2 a, dvec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
 
 int linesFor(double bend) {
-    return int(std::clamp(std::ceil(std::sqrt(bend / (8 * flatness))), 1.0, mostLines));
+    // max first: it makes 1 of what is no number.
+    return int(std::min(std::max(1.0, std::ceil(std::sqrt(bend / (8 * flatness)))), mostLines));
 }
 
 template <std::size_t N>

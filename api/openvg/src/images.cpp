@@ -21,8 +21,7 @@ std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const P
 }
 
 std::uint32_t wordOf(const std::array<VGfloat, 4>& c, const PixelFormat& format) {
-    return format.encode(
-        fullyConverted(glm::clamp(Color(c[0], c[1], c[2], c[3]), 0.0f, 1.0f), sRGBA, format.space));
+    return format.encode(fullyConverted(clampedToUnit({c[0], c[1], c[2], c[3]}), sRGBA, format.space));
 }
 
 }  // namespace vtm::openvg

@@ -40,9 +40,9 @@ struct ImageStorage {
     explicit ImageStorage(Pixels p) : pixels(std::move(p)) {}
 
     Pixels pixels;
-    int images = 0;         ///< that show a part of it
-    int uses = 0;           ///< as patterns and glyphs
-    bool isTarget = false;  ///< drawn into
+    int images = 0;                      ///< that show a part of it
+    int uses = 0;                        ///< as patterns and glyphs
+    std::atomic<bool> isTarget = false;  ///< drawn into; contexts of other objects may be the ones that do
 };
 
 struct Image : Object {

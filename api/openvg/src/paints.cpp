@@ -49,7 +49,7 @@ VGuint vgGetColor(VGPaint handle) {
         const std::shared_ptr<Paint> paint = context.objects->get<Paint>(handle);
         VGuint rgba = 0;
         for (const VGfloat v : paint->color)
-            rgba = rgba << 8 | VGuint(std::min(std::max(v, 0.0f), 1.0f) * 255.0f + 0.5f);
+            rgba = rgba << 8 | VGuint(std::min(std::max(0.0f, v), 1.0f) * 255.0f + 0.5f);
         return rgba;
     });
 }

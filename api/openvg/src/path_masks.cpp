@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "api/openvg/src/flatten.hpp"
 #include "api/openvg/src/path_measure.hpp"
 #include "compiler/stroke.hpp"
@@ -16,6 +19,81 @@ constexpr std::size_t mostStrokes = 4;
 
 /// Of the size of the outline: half of what its mask is compiled with at best.
 constexpr double strokeTolerance = 1.0 / (1 << 22);
+
+/// A path that reaches farther than this many widths is stroked as lines: the stroker would fit curves to a
+/// share of the width, near to what doubles hold.
+constexpr double mostWidths = 1 << 26;
+/// Lines for a curve then. They are off by 6 / (8 · 1024²) of its controls' polygon at most, 2^-20.
+constexpr int linesPerCurve = 1024;
+
+/// Points nearer to each other than this share of the stroked path's reach are one: directions between them
+/// no double can square.
+constexpr double nearestPoints = 1.0 / (1LL << 48);
+
+double reachOf(const Box& box) {
+    const glm::dvec2 far = glm::max(glm::abs(box.min), glm::abs(box.max));
+    return std::max(far.x, far.y);
+}
+
+/// Curves that are a point, but for `least`, become lines, and controls lie on ends that near.
+void snapCurves(std::vector<Segment>& segments, double least) {
+    const auto isNear = [&](Point a, Point b) { return glm::distance(a, b) < least; };
+    for (Segment& s : segments) {
+        EllipticalArc arc;
+        if (s.isArc() && arcOf(s, arc)) {
+            if (glm::length(arc.axisX) < least && glm::length(arc.axisY) < least)
+                s.type = VG_LINE_TO;
+            continue;
+        }
+        if (s.type != VG_QUAD_TO && s.type != VG_CUBIC_TO)
+            continue;
+        Point& last = s.type == VG_QUAD_TO ? s.control1 : s.control2;
+        if (isNear(s.control1, s.from) && isNear(last, s.from) && isNear(s.to, s.from))
+            s.type = VG_LINE_TO;
+        if (isNear(s.control1, s.from))
+            s.control1 = s.from;
+        if (isNear(last, s.to))
+            last = s.to;
+    }
+}
+
+std::vector<Segment> asLines(const std::vector<Segment>& segments) {
+    std::vector<Segment> lines;
+    for (const Segment& s : segments) {
+        if (s.type == VG_CLOSE_PATH || s.type == VG_MOVE_TO || s.type == VG_LINE_TO) {
+            lines.push_back(s);
+            continue;
+        }
+        EllipticalArc arc;
+        const bool isEllipse = s.isArc() && arcOf(s, arc);
+        const auto at = [&](double t) {
+            const Point a = glm::mix(s.from, s.control1, t), b = glm::mix(s.control1, s.control2, t),
+                        c = glm::mix(s.control2, s.to, t);
+            if (s.type == VG_CUBIC_TO)
+                return glm::mix(glm::mix(a, b, t), glm::mix(b, c, t), t);
+            if (s.type == VG_QUAD_TO)
+                return glm::mix(a, glm::mix(s.control1, s.to, t), t);
+            return arc.at(arc.start + t * arc.sweep);
+        };
+        Segment line;
+        line.type = VG_LINE_TO;
+        line.from = s.from;
+        const int count = s.isArc() && !isEllipse ? 1 : linesPerCurve;
+        for (int i = 1; i <= count; ++i) {
+            line.to = i == count ? s.to : at(double(i) / count);
+            lines.push_back(line);
+            line.from = line.to;
+        }
+    }
+    return lines;
+}
+
+/// What the stroker takes, of a path with this box.
+std::vector<Segment> strokable(std::vector<Segment> segments, const Box& box, double width) {
+    const double reach = reachOf(box);
+    snapCurves(segments, nearestPoints * std::max(reach, width));
+    return reach > mostWidths * width ? asLines(segments) : segments;
+}
 
 }  // namespace
 
@@ -46,9 +124,9 @@ void PathMasks::clear() {
 }
 
 scene::Path strokeOutline(const PathData& path, const StrokeParameters& parameters) {
-    const std::vector<Segment> segments = path.segments();
+    const Box box = boxOf(outline(path.segments()));
+    const std::vector<Segment> segments = strokable(path.segments(), box, parameters.style.width);
     const scene::Path line = outline(segments);
-    const Box box = boxOf(line);
     const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y) + parameters.style.width;
     const double tolerance = size * strokeTolerance;
     if (parameters.style.dashes.empty() || parameters.dashPhaseReset)

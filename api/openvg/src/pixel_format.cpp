@@ -17,7 +17,7 @@ std::uint32_t encodedChannel(Channel channel, float value) {
         return 0;
     const std::uint32_t most = (1u << channel.bits) - 1;
     // max first: it makes 0 of what is no number.
-    const float unit = std::min(std::max(value, 0.0f), 1.0f);
+    const float unit = std::min(std::max(0.0f, value), 1.0f);
     return std::uint32_t(unit * float(most) + 0.5f) << channel.shift;
 }
 

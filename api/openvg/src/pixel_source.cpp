@@ -112,7 +112,7 @@ class Texels {
 public:
     Texels(const Image& image, VGTilingMode tiling, const std::array<VGfloat, 4>& fill)
         : image_(image), tiling_(tiling) {
-        const Color color = glm::clamp(Color(fill[0], fill[1], fill[2], fill[3]), 0.0f, 1.0f);
+        const Color color = clampedToUnit({fill[0], fill[1], fill[2], fill[3]});
         fill_ = premultiplied(converted(color, sRGBA, image.format().space));
     }
 
@@ -192,7 +192,8 @@ private:
 
     Color bilinear(dvec2 p) const {
         const dvec2 q = p - 0.5, floor = glm::floor(q), f = q - floor;
-        if (f == dvec2(0))
+        // So far away that there are no places between texels, or nowhere.
+        if (f == dvec2(0) || !(std::isfinite(f.x) && std::isfinite(f.y)))
             return texels_.at(floor.x, floor.y);
         const auto mix = [](Color a, Color b, double t) { return a + float(t) * (b - a); };
         return mix(mix(texels_.at(floor.x, floor.y), texels_.at(floor.x + 1, floor.y), f.x),

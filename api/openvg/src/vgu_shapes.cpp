@@ -126,7 +126,8 @@ VGUErrorCode vguArc(VGPath path, VGfloat x, VGfloat y, VGfloat width, VGfloat he
         width > 0 && height > 0 && VGint(arcType) >= VGU_ARC_OPEN && VGint(arcType) <= VGU_ARC_PIE;
     return append(path, isLegal, [&](Shape& shape) {
         const double rx = double(width) / 2, ry = double(height) / 2;
-        const double start = std::isfinite(startAngle) ? double(startAngle) : 0;
+        // Within a turn, where half turns still count.
+        const double start = std::isfinite(startAngle) ? std::fmod(double(startAngle), 360.0) : 0;
         const double extent =
             std::isnan(angleExtent) ? 0 : std::clamp(double(angleExtent), -mostExtent, mostExtent);
         const double last = start + extent;

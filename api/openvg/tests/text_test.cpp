@@ -1,0 +1,103 @@
+// Section 11: fonts.
+
+#include "api/openvg/tests/fixture.hpp"
+
+namespace vtm::openvg::testing {
+
+namespace {
+
+class TextTest : public VgTest {
+protected:
+    TextTest() {
+        vgSetPaint(newPaint({1, 1, 1, 1}), VG_FILL_PATH | VG_STROKE_PATH);
+        const std::array<VGfloat, 2> origin{1, 2}, escapement{3, 0.5f}, zero{0, 0};
+        const VGPath path = rectangle(1, 2, 1, 1);
+        vgSetGlyphToPath(font, 65, path, VG_FALSE, origin.data(), escapement.data());
+        vgDestroyPath(path);
+        const VGImage image = newImage({{255, 0, 0, 255}});
+        vgSetGlyphToImage(font, 66, image, zero.data(), escapement.data());
+        vgDestroyImage(image);
+        vgSetGlyphToPath(font, 32, VG_INVALID_HANDLE, VG_FALSE, zero.data(), escapement.data());
+    }
+    static std::array<VGfloat, 2> origin() {
+        std::array<VGfloat, 2> o{};
+        vgGetfv(VG_GLYPH_ORIGIN, 2, o.data());
+        return o;
+    }
+    static void moveTo(VGfloat x, VGfloat y) {
+        const std::array<VGfloat, 2> o{x, y};
+        vgSetfv(VG_GLYPH_ORIGIN, 2, o.data());
+    }
+
+    VGFont font = vgCreateFont(3);
+    const Rgba white{255, 255, 255, 255}, red{255, 0, 0, 255}, nothing{0, 0, 0, 0};
+};
+
+TEST_F(TextTest, GlyphsKeepWhatTheyAreMadeOf) {
+    EXPECT_EQ(vgGetParameteri(font, VG_FONT_NUM_GLYPHS), 3);
+    vgDrawGlyph(font, 65, VG_FILL_PATH, VG_FALSE);  // its path was destroyed by the program
+    EXPECT_EQ(pixel(0, 0), white);
+    EXPECT_EQ(pixel(1, 0), nothing);
+    vgClearGlyph(font, 65);
+    EXPECT_EQ(vgGetParameteri(font, VG_FONT_NUM_GLYPHS), 2);
+    const std::array<VGfloat, 2> zero{};
+    vgSetGlyphToPath(font, 66, rectangle(0, 0, 1, 1), VG_TRUE, zero.data(), zero.data());
+    EXPECT_EQ(vgGetParameteri(font, VG_FONT_NUM_GLYPHS), 2) << "replaced";
+}
+
+TEST_F(TextTest, OriginsAdvanceByEscapements) {
+    moveTo(4, 5);
+    vgDrawGlyph(font, 65, VG_FILL_PATH, VG_TRUE);
+    EXPECT_EQ(origin(), (std::array<VGfloat, 2>{7, 5.5f}));
+    EXPECT_EQ(pixel(4, 5), white);
+    moveTo(7, 8);
+    vgDrawGlyph(font, 66, VG_FILL_PATH, VG_TRUE);
+    EXPECT_EQ(pixel(7, 8), red);
+    vgDrawGlyph(font, 32, VG_FILL_PATH, VG_TRUE);
+    EXPECT_EQ(origin(), (std::array<VGfloat, 2>{13, 9}));
+    // Modes of 0 draw nothing and move on.
+    moveTo(0, 0);
+    vgDrawGlyph(font, 65, 0, VG_TRUE);
+    EXPECT_EQ(origin(), (std::array<VGfloat, 2>{3, 0.5f}));
+    EXPECT_EQ(pixel(0, 0), nothing);
+    EXPECT_EQ(vgGetError(), VG_NO_ERROR);
+}
+
+TEST_F(TextTest, AdjustmentsAreAdded) {
+    const std::array<VGuint, 3> text{65, 32, 66};
+    const std::array<VGfloat, 3> x{1, 2, 4}, y{0, 0.5f, 1};
+    moveTo(0, 0);
+    vgDrawGlyphs(font, 3, text.data(), x.data(), y.data(), VG_FILL_PATH, VG_FALSE);
+    EXPECT_EQ(origin(), (std::array<VGfloat, 2>{9 + 7, 1.5f + 1.5f}));
+    moveTo(0, 0);
+    vgDrawGlyphs(font, 3, text.data(), nullptr, nullptr, 0, VG_FALSE);
+    EXPECT_EQ(origin(), (std::array<VGfloat, 2>{9, 1.5f}));
+    // The image was drawn at (9, 1.5): half of two rows.
+    EXPECT_EQ(pixel(9, 1)[0], 255);
+    EXPECT_NEAR(pixel(9, 1)[3], 128, 2);
+    EXPECT_NEAR(pixel(9, 2)[3], 128, 2);
+    // An unknown glyph stops all, before anything is drawn.
+    moveTo(0, 0);
+    const std::array<VGuint, 2> wrong{65, 1};
+    EXPECT_VG_ERROR(VG_ILLEGAL_ARGUMENT_ERROR,
+                    vgDrawGlyphs(font, 2, wrong.data(), nullptr, nullptr, 0, VG_FALSE));
+    EXPECT_EQ(origin(), (std::array<VGfloat, 2>{0, 0}));
+}
+
+TEST_F(TextTest, TheGlyphMatrixIsUsed) {
+    vgSeti(VG_MATRIX_MODE, VG_MATRIX_GLYPH_USER_TO_SURFACE);
+    vgTranslate(2, 3);
+    vgScale(4, 4);
+    moveTo(1, 1);
+    vgDrawGlyph(font, 65, VG_FILL_PATH, VG_FALSE);
+    EXPECT_EQ(pixel(6, 7), white);
+    EXPECT_EQ(pixel(9, 10), white);
+    EXPECT_EQ(pixel(10, 10), nothing);
+    EXPECT_EQ(pixel(5, 7), nothing);
+    vgDestroyFont(font);
+    EXPECT_VG_ERROR(VG_BAD_HANDLE_ERROR, vgDrawGlyph(font, 65, VG_FILL_PATH, VG_FALSE));
+}
+
+}  // namespace
+
+}  // namespace vtm::openvg::testing
