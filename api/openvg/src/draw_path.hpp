@@ -15,9 +15,7 @@ void requirePaintModes(VGbitfield modes);
 void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::mat3& toSurface,
                const Rectangle& clip, const RowSink& row);
 
-/// Draws it with the current paints, whose user space is mapped by `userToSurface`: a glyph's path is moved
-/// in that.
-void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface,
-              const glm::mat3& userToSurface);
+/// Draws it with the current paints.
+void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface);
 
 }  // namespace vtm::openvg
