@@ -88,6 +88,10 @@ void PathData::modify(int first, int count, const void* data) {
     read(data, start, numbers);
 }
 
+double PathData::scaled(std::size_t i) const {
+    return tame(double(scale_) * coordinates_[i] + double(bias_));
+}
+
 double PathData::stored(double coordinate) const {
     const double v = tame((coordinate - double(bias_)) / double(scale_));
     const auto rounded = [&](double least, double most) {

@@ -67,7 +67,8 @@ public:
     std::vector<Segment> segments() const;
 
 private:
-    double scaled(std::size_t i) const { return double(scale_) * coordinates_[i] + double(bias_); }
+    /// A number even if scale or bias is none.
+    double scaled(std::size_t i) const;
     /// A scaled coordinate, rounded and pulled to what the datatype holds.
     double stored(double coordinate) const;
     void put(double coordinate) { coordinates_.push_back(stored(coordinate)); }

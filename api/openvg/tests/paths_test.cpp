@@ -255,6 +255,13 @@ TEST_F(PathsTest, WildNumbersEnd) {
         along(path, v);
         vguArc(newPath(), v, v, 1, 1, v, v, VGU_ARC_PIE);
     }
+    // Scales and biases that are no numbers.
+    for (const auto& [scale, bias] : {std::pair(inf, 0.0f), std::pair(1.0f, nan), std::pair(-inf, inf)}) {
+        const VGPath path = newPath(VG_PATH_DATATYPE_F, scale, bias);
+        append(path, {VG_MOVE_TO_ABS, VG_QUAD_TO_ABS, VG_CUBIC_TO_ABS}, {0, 1, 2, 0, 3, 4, 0, 5, 6, 0, 7, 8});
+        vgDrawPath(path, VG_FILL_PATH | VG_STROKE_PATH);
+        EXPECT_FALSE(std::isnan(boundsOf(path).x));
+    }
     // All of a path too small for its width.
     for (const VGfloat v : {1e-40f, 1e-37f, 1e-20f}) {
         vgSetfv(VG_STROKE_DASH_PATTERN, 0, nullptr);
