@@ -62,6 +62,10 @@ protected:
 
     void SetUp() override {
         Extensions::SetUp();
+        // Without knowing of extensions, a program has no such parameter (section 15).
+        EXPECT_EQ(vgGeti(maxDimension), 0);
+        EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
+        vgGetString(VG_EXTENSIONS);
         const float fill[] = {0.25f, 0.5f, 0.75f, 1};
         vgSetfv(VG_TILE_FILL_COLOR, 4, fill);
     }
