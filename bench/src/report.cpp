@@ -13,7 +13,7 @@ namespace vtm::bench {
 namespace {
 
 constexpr const char* usage =
-    "bench_report peers|drawing|compression|editing|paper|scaling|sweep [OPTIONS]\n\n"
+    "bench_report peers|drawing|compression|editing|openvg|paper|scaling|sweep [OPTIONS]\n\n"
     "  --examples        our own drawings only, not the corpus\n"
     "  --only NAME       this file only\n"
     "  --font FILE       the font whose glyphs are compressed (a DejaVu Sans, if there is one)\n"
@@ -87,6 +87,8 @@ Report reportOf(const Arguments& a) {
         return compression(filesOf(a), a.font);
     if (a.subcommand == "editing")
         return editing(filesOf(a));
+    if (a.subcommand == "openvg")
+        return openvg(filesOf(a));
     if (a.subcommand == "paper")
         return paper(a.drawing);
     if (a.subcommand == "scaling")

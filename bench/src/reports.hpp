@@ -29,5 +29,8 @@ struct DrawingOptions {
 Report drawing(const std::vector<File>& files, const DrawingOptions& options);
 /// Rows 9 to 11 of the paper: what its lookup costs in the compiled shader and on this driver.
 Report paper(const DrawingOptions& options);
+/// vgDrawPath under changing matrices against cairo: the Tiger or what `files` has, many paths, glyphs, an
+/// edited path.
+Report openvg(const std::vector<File>& files);
 
 }  // namespace vtm::bench

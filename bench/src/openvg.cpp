@@ -1,0 +1,345 @@
+// OpenVG against cairo: the same outlines, colours and matrices, one call a shape, into the same kind of
+// bitmap.
+
+#include <cmath>
+#include <random>
+#include <variant>
+#include <vector>
+
+#include <fmt/core.h>
+#include <glm/trigonometric.hpp>
+
+#include <VG/openvg.h>
+#include <vtm/vg.h>
+
+#include "bench/src/font.hpp"
+#include "bench/src/measure.hpp"
+#include "bench/src/reports.hpp"
+
+#ifdef VTM_HAVE_RSVG
+#include <cairo.h>
+#endif
+
+namespace vtm::bench {
+namespace {
+
+using scene::Affine;
+using scene::Path;
+
+constexpr int side = 1024;
+constexpr double budget = 4000;  ///< CPU milliseconds a workload
+
+/// A shape of one colour.
+struct Shape {
+    Path path;
+    Affine toPicture = scene::identity;
+    std::variant<scene::FillRule, scene::StrokeStyle> geometry = scene::FillRule::NonZero;
+    scene::Color color{0.2f, 0.3f, 0.5f, 1};
+};
+
+// ---- OpenVG ---------------------------------------------------------------------------------------
+
+class VgCanvas {
+public:
+    VgCanvas() {
+        const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
+        surface_ = vtmCreateSurface(side, side, &format);
+        context_ = vtmCreateContext(nullptr);
+        vtmMakeCurrent(context_, surface_);
+        paint_ = vgCreatePaint();
+        vgSetPaint(paint_, VG_FILL_PATH | VG_STROKE_PATH);
+        const VGfloat white[]{1, 1, 1, 1};
+        vgSetfv(VG_CLEAR_COLOR, 4, white);
+    }
+    ~VgCanvas() {
+        vtmMakeCurrent(nullptr, nullptr);
+        vtmDestroyContext(context_);
+        vtmDestroySurface(surface_);
+    }
+    VgCanvas(const VgCanvas&) = delete;
+    VgCanvas& operator=(const VgCanvas&) = delete;
+
+    void add(const Shape& shape) {
+        const VGPath path =
+            vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0, 0, 0, VG_PATH_CAPABILITY_ALL);
+        set(path, shape.path);
+        shapes_.push_back({path, shape});
+    }
+    /// Gives the shape another outline.
+    void change(std::size_t i, const Path& path) {
+        vgClearPath(shapes_[i].path, VG_PATH_CAPABILITY_ALL);
+        set(shapes_[i].path, path);
+    }
+    void draw(const Affine& view) {
+        vgClear(0, 0, side, side);
+        for (const Drawn& drawn : shapes_) {
+            const scene::Color& c = drawn.shape.color;
+            const VGfloat rgba[]{c.r, c.g, c.b, c.a};
+            vgSetParameterfv(paint_, VG_PAINT_COLOR, 4, rgba);
+            const Affine m = scene::compose(view, drawn.shape.toPicture);
+            const VGfloat matrix[]{VGfloat(m[0].x), VGfloat(m[0].y), 0, VGfloat(m[1].x), VGfloat(m[1].y), 0,
+                                   VGfloat(m[2].x), VGfloat(m[2].y), 1};
+            vgLoadMatrix(matrix);
+            if (const auto* stroke = std::get_if<scene::StrokeStyle>(&drawn.shape.geometry)) {
+                vgSetf(VG_STROKE_LINE_WIDTH, VGfloat(stroke->width));
+                vgSetf(VG_STROKE_MITER_LIMIT, VGfloat(stroke->miterLimit));
+                vgDrawPath(drawn.path, VG_STROKE_PATH);
+            } else {
+                vgSeti(VG_FILL_RULE,
+                       std::get<scene::FillRule>(drawn.shape.geometry) == scene::FillRule::EvenOdd
+                           ? VG_EVEN_ODD
+                           : VG_NON_ZERO);
+                vgDrawPath(drawn.path, VG_FILL_PATH);
+            }
+        }
+    }
+
+private:
+    struct Drawn {
+        VGPath path;
+        Shape shape;
+    };
+
+    static void set(VGPath to, const Path& path) {
+        std::vector<VGubyte> commands;
+        std::vector<VGfloat> numbers;
+        const auto add = [&](VGubyte command, std::initializer_list<scene::Point> points) {
+            commands.push_back(command);
+            for (const scene::Point p : points)
+                numbers.insert(numbers.end(), {VGfloat(p.x), VGfloat(p.y)});
+        };
+        for (const scene::Command& command : path) {
+            if (const auto* move = std::get_if<scene::MoveTo>(&command))
+                add(VG_MOVE_TO_ABS, {move->to});
+            else if (const auto* line = std::get_if<scene::LineTo>(&command))
+                add(VG_LINE_TO_ABS, {line->to});
+            else if (const auto* quad = std::get_if<scene::QuadTo>(&command))
+                add(VG_QUAD_TO_ABS, {quad->control, quad->to});
+            else if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
+                add(VG_CUBIC_TO_ABS, {cubic->control1, cubic->control2, cubic->to});
+            else
+                add(VG_CLOSE_PATH, {});
+        }
+        if (!commands.empty())
+            vgAppendPathData(to, VGint(commands.size()), commands.data(), numbers.data());
+    }
+
+    VtmSurface* surface_;
+    VtmContext* context_;
+    VGPaint paint_;
+    std::vector<Drawn> shapes_;
+};
+
+// ---- cairo ----------------------------------------------------------------------------------------
+
+#ifdef VTM_HAVE_RSVG
+class CairoCanvas {
+public:
+    CairoCanvas()
+        : surface_(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, side, side)), c_(cairo_create(surface_)) {}
+    ~CairoCanvas() {
+        cairo_destroy(c_);
+        cairo_surface_destroy(surface_);
+    }
+    CairoCanvas(const CairoCanvas&) = delete;
+    CairoCanvas& operator=(const CairoCanvas&) = delete;
+
+    void add(const Shape& shape) { shapes_.push_back(shape); }
+    void change(std::size_t i, const Path& path) { shapes_[i].path = path; }
+    void draw(const Affine& view) {
+        cairo_identity_matrix(c_);
+        cairo_set_source_rgb(c_, 1, 1, 1);
+        cairo_paint(c_);
+        for (const Shape& shape : shapes_) {
+            const Affine m = scene::compose(view, shape.toPicture);
+            cairo_matrix_t matrix;
+            cairo_matrix_init(&matrix, m[0].x, m[0].y, m[1].x, m[1].y, m[2].x, m[2].y);
+            cairo_set_matrix(c_, &matrix);
+            cairo_new_path(c_);
+            trace(shape.path);
+            cairo_set_source_rgba(c_, shape.color.r, shape.color.g, shape.color.b, shape.color.a);
+            if (const auto* stroke = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
+                cairo_set_line_width(c_, stroke->width);
+                cairo_set_miter_limit(c_, stroke->miterLimit);
+                cairo_stroke(c_);
+            } else {
+                cairo_set_fill_rule(c_, std::get<scene::FillRule>(shape.geometry) == scene::FillRule::EvenOdd
+                                            ? CAIRO_FILL_RULE_EVEN_ODD
+                                            : CAIRO_FILL_RULE_WINDING);
+                cairo_fill(c_);
+            }
+        }
+    }
+
+private:
+    void trace(const Path& path) {
+        scene::Point at(0);
+        for (const scene::Command& command : path) {
+            if (const auto* move = std::get_if<scene::MoveTo>(&command)) {
+                cairo_move_to(c_, move->to.x, move->to.y);
+            } else if (const auto* line = std::get_if<scene::LineTo>(&command)) {
+                cairo_line_to(c_, line->to.x, line->to.y);
+            } else if (const auto* quad = std::get_if<scene::QuadTo>(&command)) {
+                const scene::Point a = at + 2.0 / 3 * (quad->control - at),
+                                   b = quad->to + 2.0 / 3 * (quad->control - quad->to);
+                cairo_curve_to(c_, a.x, a.y, b.x, b.y, quad->to.x, quad->to.y);
+            } else if (const auto* cubic = std::get_if<scene::CubicTo>(&command)) {
+                cairo_curve_to(c_, cubic->control1.x, cubic->control1.y, cubic->control2.x, cubic->control2.y,
+                               cubic->to.x, cubic->to.y);
+            } else {
+                cairo_close_path(c_);
+            }
+            if (const auto end = scene::endOf(command))
+                at = *end;
+        }
+    }
+
+    cairo_surface_t* surface_;
+    cairo_t* c_;
+    std::vector<Shape> shapes_;
+};
+#endif
+
+// ---- Workloads ------------------------------------------------------------------------------------
+
+/// What is drawn in frame i.
+struct Workload {
+    std::string name;
+    std::vector<Shape> shapes;
+    std::function<Affine(int i)> view;
+    std::function<Path(int i)> edited;  ///< the first shape's outline, where it changes every frame
+};
+
+Affine turned(double degrees, double zoom) {
+    const double a = glm::radians(degrees), c = zoom * std::cos(a), s = zoom * std::sin(a), m = side / 2.0;
+    return scene::compose(Affine{c, s, -s, c, m, m}, scene::translation(-m, -m));
+}
+
+void collect(const scene::Group& group, const Affine& fit, std::vector<Shape>& shapes) {
+    for (const scene::Node& node : group.children) {
+        if (const auto* inner = std::get_if<scene::Group>(&node.value)) {
+            collect(*inner, fit, shapes);
+        } else if (const auto* item = std::get_if<scene::Item>(&node.value)) {
+            const auto* color = std::get_if<scene::Color>(&item->paint);
+            Shape shape{*item->path, scene::compose(fit, item->transform), item->geometry,
+                        color ? *color : scene::Color{0.5f, 0.5f, 0.5f, 1}};
+            shape.color.a *= item->opacity;
+            shapes.push_back(std::move(shape));
+        }
+    }
+}
+
+std::vector<Shape> shapesOf(const scene::Scene& scene) {
+    std::vector<Shape> shapes;
+    const double scale = side / std::max(scene.width, scene.height);
+    collect(scene.root, scene::scaling(scale, scale), shapes);
+    return shapes;
+}
+
+/// A closed curve of some quadratics round a point.
+Path flower(scene::Point center, double radius, int petals, double depth) {
+    const auto at = [&](double turn, double r) {
+        return center +
+               r * scene::Point(std::cos(glm::radians(360 * turn)), std::sin(glm::radians(360 * turn)));
+    };
+    Path path{scene::MoveTo{at(0, radius)}};
+    for (int i = 0; i < petals; ++i)
+        path.emplace_back(
+            scene::QuadTo{at((i + 0.5) / petals, depth * radius), at((i + 1.0) / petals, radius)});
+    path.emplace_back(scene::Close{});
+    return path;
+}
+
+std::vector<Workload> workloads(const std::vector<File>& files, std::vector<std::string>& notes) {
+    std::vector<Workload> all;
+    const auto turning = [](int i) { return turned(7 * i, 1); };
+    for (const File& file : files) {
+        const std::vector<Shape> shapes = shapesOf(load(file));
+        all.push_back({file.name + ", turning", shapes, turning, {}});
+        all.push_back(
+            {file.name + ", turning at 8 times", shapes, [](int i) { return turned(7 * i, 8); }, {}});
+    }
+    Workload small{"10 000 small paths", {}, turning, {}};
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> place(0, side), radius(3, 8);
+    for (int i = 0; i < 10000; ++i)
+        small.shapes.push_back({flower({place(random), place(random)}, radius(random), 5 + i % 4, 0.3)});
+    all.push_back(std::move(small));
+
+    std::string why;
+    if (const std::optional<scene::Scene> font = fontSheet("", why)) {
+        const std::vector<Shape> glyphs = shapesOf(*font);
+        Workload text{"2000 glyphs of about 14 pixels", {}, turning, {}};
+        for (int i = 0; i < 2000; ++i) {
+            Shape glyph = glyphs[std::size_t(i) % glyphs.size()];
+            const double scale = 0.16;
+            const scene::Point moved(double(i % 50) * 20, double(i / 50) * 25);
+            glyph.toPicture = scene::compose(Affine{scale, 0, 0, scale, moved.x, moved.y}, glyph.toPicture);
+            text.shapes.push_back(std::move(glyph));
+        }
+        all.push_back(std::move(text));
+    } else {
+        notes.push_back("2000 glyphs: missing, " + why);
+    }
+    const auto edited = [](int i) { return flower({512, 512}, 400, 40, 0.7 + 0.2 * std::sin(i)); };
+    all.push_back(
+        {"one path edited every frame", {{edited(0)}}, [](int) { return scene::identity; }, edited});
+    return all;
+}
+
+template <class Canvas>
+void drawFrame(Canvas& canvas, const Workload& workload, int i) {
+    if (workload.edited)
+        canvas.change(0, workload.edited(i));
+    canvas.draw(workload.view(i));
+}
+
+void addWorkload(const Workload& workload, Report& report) {
+    VgCanvas ours;
+    for (const Shape& shape : workload.shapes)
+        ours.add(shape);
+    const double first = cpuTime([&] { drawFrame(ours, workload, 0); });
+    Json row{{"workload", workload.name}, {"shapes", workload.shapes.size()}, {"first frame ms", first}};
+#ifdef VTM_HAVE_RSVG
+    CairoCanvas cairo;
+    for (const Shape& shape : workload.shapes)
+        cairo.add(shape);
+    int cairoFrame = 0, ourFrame = 0;
+    const Paired paired = pairwise([&] { drawFrame(cairo, workload, ++cairoFrame); },
+                                   [&] { drawFrame(ours, workload, ++ourFrame); }, budget, 100);
+    row["cairo ms"] = paired.first;
+    row["OpenVG ms"] = paired.second;
+    row["OpenVG / cairo"] = paired.ratio;
+    row["quartiles"] = fmt::format("{:.2f} to {:.2f}", paired.low, paired.high);
+#else
+    std::vector<double> times;
+    for (int i = 1; i <= 20; ++i)
+        times.push_back(cpuTime([&] { drawFrame(ours, workload, i); }));
+    row["OpenVG ms"] = median(times);
+#endif
+    report.rows.push_back(std::move(row));
+}
+
+}  // namespace
+
+Report openvg(const std::vector<File>& files) {
+    Report report;
+    report.name = "openvg";
+    report.title = "OpenVG against cairo";
+    report.text =
+        "vgDrawPath, a call a shape, into 1024 × 1024 pixels in memory, under a matrix that changes every "
+        "frame; cairo's image "
+        "backend gets the same outlines, colours and matrices in turns with it. CPU milliseconds a frame, "
+        "medians, and the median "
+        "of the ratios pair by pair. Paints other than colours are grey, strokes have cairo's default caps "
+        "and joins in both. The first "
+        "frame of OpenVG compiles every path. NanoVG is not in Debian.";
+#ifndef VTM_HAVE_RSVG
+    report.notes.push_back("cairo: missing (librsvg2-dev)");
+#endif
+    for (const Workload& workload : workloads(files, report.notes))
+        addWorkload(workload, report);
+    return report;
+}
+
+}  // namespace vtm::bench
