@@ -97,4 +97,16 @@ BufferHandle makeBuffer() {
     return BufferHandle(id);
 }
 
+VertexArrayHandle makeVertexArray() {
+    GLuint id = 0;
+    glGenVertexArrays(1, &id);
+    return VertexArrayHandle(id);
+}
+
+FramebufferHandle makeFramebuffer() {
+    GLuint id = 0;
+    glGenFramebuffers(1, &id);
+    return FramebufferHandle(id);
+}
+
 }  // namespace vtm::gl

@@ -65,5 +65,7 @@ using SamplerHandle = Handle<deleteSampler>;
 /// A texture for texelFetch: no filter, one level.
 TextureHandle makeTexture(GLenum format, int width, int height);
 BufferHandle makeBuffer();
+VertexArrayHandle makeVertexArray();
+FramebufferHandle makeFramebuffer();
 
 }  // namespace vtm::gl

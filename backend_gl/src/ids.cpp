@@ -26,12 +26,6 @@ using glm::dvec2;
 
 constexpr double unitsPerSide = double(1u << (2 * asset::maxLevel));
 
-VertexArrayHandle makeVertexArray() {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    return VertexArrayHandle(id);
-}
-
 /// The map's place, picture units to units of id_fragment.glsl.
 dvec2 toUnits(const asset::Map& map, dvec2 picture) {
     return (picture - dvec2(map.x, map.y)) / map.side * unitsPerSide;
@@ -138,10 +132,8 @@ std::vector<std::uint32_t> IdRenderer::render(const IdTexture& texture, const as
     dropErrors();
     const StateGuard guard(impl_->contract, true);
     const TextureHandle target = makeTexture(GL_R32UI, view.width, view.height);
-    GLuint name = 0;
-    glGenFramebuffers(1, &name);
-    const FramebufferHandle framebuffer(name);
-    glBindFramebuffer(GL_FRAMEBUFFER, name);
+    const FramebufferHandle framebuffer = makeFramebuffer();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.get(), 0);
     impl_->draw(*texture.impl_, view);
     // Of integers only four channels can be read everywhere.

@@ -28,12 +28,6 @@ GLuint maskOp(Command::Kind kind) {
     }
 }
 
-VertexArrayHandle makeVertexArray() {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    return VertexArrayHandle(id);
-}
-
 /// Runs of instances, neighbours joined.
 std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint32_t>& drawn, unsigned cost) {
     std::vector<Range> runs;

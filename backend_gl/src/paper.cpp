@@ -50,12 +50,6 @@ void setUniforms(const Program& program, const asset::View& view) {
                 float(pixel.y));
 }
 
-VertexArrayHandle makeVertexArray() {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    return VertexArrayHandle(id);
-}
-
 void bindTexture(Unit unit, const TextureHandle& texture) {
     glActiveTexture(GL_TEXTURE0 + GLenum(unit));
     glBindTexture(GL_TEXTURE_2D, texture.get());

@@ -56,18 +56,6 @@ TextureHandle uploadMip(const asset::PaperMip& mip) {
     return texture;
 }
 
-VertexArrayHandle makeVertexArray() {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    return VertexArrayHandle(id);
-}
-
-FramebufferHandle makeFramebuffer() {
-    GLuint id = 0;
-    glGenFramebuffers(1, &id);
-    return FramebufferHandle(id);
-}
-
 /// Of a pixel so wide that the mip has its part, all, or none: it is not asked for what has no weight.
 enum class Reach { Near, Between, Far };
 

@@ -30,12 +30,6 @@ struct PatchVertex {
     float picture[4];
 };
 
-VertexArrayHandle makeVertexArray() {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    return VertexArrayHandle(id);
-}
-
 void pointFloats(GLuint index, GLint count, std::size_t stride, std::size_t offset) {
     glEnableVertexAttribArray(index);
     glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, GLsizei(stride),

@@ -9,9 +9,7 @@ namespace {
 Target makeTarget(GLenum format, glm::ivec2 size) {
     Target target;
     target.texture = makeTexture(format, size.x, size.y);
-    GLuint id = 0;
-    glGenFramebuffers(1, &id);
-    target.framebuffer = FramebufferHandle(id);
+    target.framebuffer = makeFramebuffer();
     target.bind();
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture.get(), 0);
     const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);

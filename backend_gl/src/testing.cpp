@@ -51,18 +51,6 @@ ProgramHandle link(const std::string& fragmentText) {
     return program;
 }
 
-VertexArrayHandle makeVertexArray() {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    return VertexArrayHandle(id);
-}
-
-FramebufferHandle makeFramebuffer() {
-    GLuint id = 0;
-    glGenFramebuffers(1, &id);
-    return FramebufferHandle(id);
-}
-
 }  // namespace
 
 struct ShaderCanvas::Impl {
