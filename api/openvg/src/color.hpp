@@ -69,4 +69,9 @@ Color converted(Color color, ColorSpace from, ColorSpace to);
 /// The same with alpha taken out before and put back after, as both spaces want it (section 3.4.4).
 Color fullyConverted(Color color, ColorSpace from, ColorSpace to);
 
+/// A colour that a program gave, four numbers without premultiplied alpha in sRGB, as one of another space.
+inline Color givenColor(const std::array<float, 4>& c, ColorSpace to) {
+    return fullyConverted(clampedToUnit({c[0], c[1], c[2], c[3]}), sRGBA, to);
+}
+
 }  // namespace vtm::openvg

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "api/openvg/src/compositor.hpp"
+#include "api/openvg/src/matrix.hpp"
 #include "api/openvg/src/pixel_source.hpp"
 
 namespace vtm::openvg {
@@ -73,13 +74,13 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
 
 void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface) {
     const State& state = context.state;
+    if (!inverseOf(toSurface))
+        return;
     for (const VGPaintMode mode : {VG_FILL_PATH, VG_STROKE_PATH}) {
         if (!(modes & VGbitfield(mode)))
             continue;
         const glm::mat3& paintToUser = state.matrix(mode == VG_FILL_PATH ? VG_MATRIX_FILL_PAINT_TO_USER
                                                                          : VG_MATRIX_STROKE_PAINT_TO_USER);
-        if (!inverseOf(toSurface))
-            continue;
         const std::unique_ptr<PixelSource> paint =
             paintSource(currentPaint(state, mode), toSurface * paintToUser, state);
         if (!paint)

@@ -73,9 +73,6 @@ int tiled(int i, int size, VGTilingMode mode) {
 
 bool isTiling(VGTilingMode mode) { return VGint(mode) >= VG_TILE_FILL && VGint(mode) <= VG_TILE_REFLECT; }
 
-Color tileFillColor(const State& state, ColorSpace space) {
-    const std::array<VGfloat, 4>& c = state.tileFillColor;
-    return fullyConverted(clampedToUnit({c[0], c[1], c[2], c[3]}), sRGBA, space);
-}
+Color tileFillColor(const State& state, ColorSpace space) { return givenColor(state.tileFillColor, space); }
 
 }  // namespace vtm::openvg

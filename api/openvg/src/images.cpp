@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "api/openvg/src/memory_pixels.hpp"
-
 namespace vtm::openvg {
 
 std::shared_ptr<Image> freeImage(const Context& context, VGImage handle) {
@@ -21,7 +19,7 @@ std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const P
 }
 
 std::uint32_t wordOf(const std::array<VGfloat, 4>& c, const PixelFormat& format) {
-    return format.encode(fullyConverted(clampedToUnit({c[0], c[1], c[2], c[3]}), sRGBA, format.space));
+    return format.encode(givenColor(c, format.space));
 }
 
 }  // namespace vtm::openvg
@@ -79,11 +77,7 @@ void vgImageSubData(VGImage handle, const void* data, VGint dataStride, VGImageF
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const CopyArea area =
             clipped({x, y, 0, 0, width, height}, image->width(), image->height(), width, height);
-        for (int j = 0; j < area.height; ++j)
-            for (int i = 0; i < area.width; ++i)
-                image->setWord(
-                    area.dx + i, area.dy + j,
-                    convertedWord(memory.word(area.sx + i, area.sy + j), memory.format, image->format()));
+        copyPixels(memory, *image, area);
     });
 }
 
@@ -91,14 +85,10 @@ void vgGetImageSubData(VGImage handle, void* data, VGint dataStride, VGImageForm
                        VGint y, VGint width, VGint height) {
     call([&](Context& context) {
         const std::shared_ptr<Image> image = freeImage(context, handle);
-        MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
+        const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const CopyArea area =
             clipped({0, 0, x, y, width, height}, width, height, image->width(), image->height());
-        for (int j = 0; j < area.height; ++j)
-            for (int i = 0; i < area.width; ++i)
-                memory.setWord(
-                    area.dx + i, area.dy + j,
-                    convertedWord(image->word(area.sx + i, area.sy + j), image->format(), memory.format));
+        copyPixels(*image, memory, area);
     });
 }
 

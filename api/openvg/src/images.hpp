@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "api/openvg/src/context.hpp"
+#include "api/openvg/src/memory_pixels.hpp"
 
 namespace vtm::openvg {
 
@@ -14,7 +15,17 @@ std::shared_ptr<Image> freeImage(const Context& context, VGImage handle);
 /// Converts a word from one format to another (section 3.4.4).
 std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const PixelFormat& to);
 
-/// A premultiplied clear colour and the like as a word of a format.
+/// Copies pixels, each converted, between things that have words and a format: images, surfaces' pixels,
+/// memory.
+template <class From, class To>
+void copyPixels(const From& from, To& to, const CopyArea& area) {
+    for (int j = 0; j < area.height; ++j)
+        for (int i = 0; i < area.width; ++i)
+            to.setWord(area.dx + i, area.dy + j,
+                       convertedWord(from.word(area.sx + i, area.sy + j), from.format(), to.format()));
+}
+
+/// A clear colour as a word of a format.
 std::uint32_t wordOf(const std::array<VGfloat, 4>& sRGBAColor, const PixelFormat& format);
 
 /// An image drawn by the context's state (section 10.8).

@@ -7,7 +7,7 @@ namespace vtm::openvg {
 
 std::uint32_t MemoryPixels::word(int x, int y) const {
     const std::uint8_t* row = first + y * stride;
-    switch (format.bits) {
+    switch (layout.bits) {
         case 1:
             return (row[x / 8] >> (x % 8)) & 1u;
         case 4:
@@ -32,7 +32,7 @@ void MemoryPixels::setWord(int x, int y, std::uint32_t word) const {
     const auto setBits = [&](std::uint8_t& byte, unsigned shift, unsigned mask) {
         byte = std::uint8_t((byte & ~(mask << shift)) | (word & mask) << shift);
     };
-    switch (format.bits) {
+    switch (layout.bits) {
         case 1:
             return setBits(row[x / 8], unsigned(x % 8), 1);
         case 4:

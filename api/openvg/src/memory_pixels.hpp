@@ -14,8 +14,9 @@ namespace vtm::openvg {
 struct MemoryPixels {
     std::uint8_t* first = nullptr;
     std::ptrdiff_t stride = 0;
-    PixelFormat format;
+    PixelFormat layout;
 
+    const PixelFormat& format() const { return layout; }
     std::uint32_t word(int x, int y) const;
     void setWord(int x, int y, std::uint32_t word) const;
 };

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "api/openvg/src/flatten.hpp"
+#include "api/openvg/src/matrix.hpp"
 #include "compiler/compile.hpp"
 #include "scene/scene.hpp"
 
@@ -63,14 +64,6 @@ Fit fitted(dvec2 min, dvec2 max) {
     return {scale, dvec2(pictureMargin) - scale * min, scale * extent + 2 * pictureMargin};
 }
 
-bool isFinite(const glm::mat3& m) {
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-            if (!std::isfinite(m[i][k]))
-                return false;
-    return true;
-}
-
 }  // namespace
 
 Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Rectangle& clip) {
@@ -109,7 +102,7 @@ const asset::CoverageScanner& PathMask::scannerFor(double tolerance) {
 }
 
 void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) {
-    if (!(max_.x > min_.x && max_.y > min_.y) || !isFinite(toSurface))
+    if (!(max_.x > min_.x && max_.y > min_.y) || !isFinite(glm::dmat3(toSurface)))
         return;
     const Rectangle seen = pixelsOf(toSurface, min_, max_, clip);
     if (seen.empty())
@@ -146,7 +139,7 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
 }
 
 void PathMask::scanCenters(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) const {
-    if (!isFinite(toSurface))
+    if (!isFinite(glm::dmat3(toSurface)))
         return;
     const Rectangle seen = pixelsOf(toSurface, min_, max_, clip);
     if (seen.empty())

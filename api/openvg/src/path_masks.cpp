@@ -17,7 +17,8 @@ namespace {
 /// Styles of one path whose masks are kept.
 constexpr std::size_t mostStrokes = 4;
 
-/// Of the size of the outline: half of what its mask is compiled with at best.
+/// Of the size of the outline: a 64th of a pixel at 65536 pixels. Strokes beyond that are as exact as this,
+/// whatever their mask is.
 constexpr double strokeTolerance = 1.0 / (1 << 22);
 
 /// A path that reaches farther than this many widths is stroked as lines: the stroker would fit curves to a

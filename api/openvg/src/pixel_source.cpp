@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "api/openvg/src/color_ramp.hpp"
 #include "api/openvg/src/color_transform.hpp"
+#include "api/openvg/src/matrix.hpp"
 
 namespace vtm::openvg {
 
@@ -112,8 +112,8 @@ class Texels {
 public:
     Texels(const Image& image, VGTilingMode tiling, const std::array<VGfloat, 4>& fill)
         : image_(image), tiling_(tiling) {
-        const Color color = clampedToUnit({fill[0], fill[1], fill[2], fill[3]});
-        fill_ = premultiplied(converted(color, sRGBA, image.format().space));
+        const ColorSpace own = image.format().space;
+        fill_ = givenColor(fill, {own.linear, true, own.luminance});
     }
 
     const Image& image() const { return image_; }
@@ -228,15 +228,6 @@ private:
 };
 
 }  // namespace
-
-std::optional<glm::dmat3> inverseOf(const glm::mat3& matrix) {
-    const glm::dmat3 m(matrix), inverse = glm::inverse(m);
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-            if (!std::isfinite(inverse[i][k]))
-                return std::nullopt;
-    return inverse;
-}
 
 const Paint& currentPaint(const State& state, VGPaintMode mode) {
     static const Paint defaults;

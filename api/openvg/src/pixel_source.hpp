@@ -49,7 +49,4 @@ std::unique_ptr<PixelSource> imageSource(const Image& image, const glm::mat3& im
 std::unique_ptr<PixelSource> productSource(std::unique_ptr<PixelSource> image,
                                            std::unique_ptr<PixelSource> paint);
 
-/// A matrix's inverse, or nothing where it is not invertible within single precision.
-std::optional<glm::dmat3> inverseOf(const glm::mat3& matrix);
-
 }  // namespace vtm::openvg

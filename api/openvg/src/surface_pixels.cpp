@@ -2,7 +2,6 @@
 
 #include "api/openvg/src/compositor.hpp"
 #include "api/openvg/src/images.hpp"
-#include "api/openvg/src/memory_pixels.hpp"
 
 using namespace vtm::openvg;
 
@@ -55,7 +54,7 @@ void vgWritePixels(const void* data, VGint dataStride, VGImageFormat dataFormat,
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const CopyArea area = clipped({dx, dy, 0, 0, width, height}, context.surface->width(),
                                       context.surface->height(), width, height);
-        write(context, area, memory.format,
+        write(context, area, memory.format(),
               [&](int i, int j) { return memory.word(area.sx + i, area.sy + j); });
     });
 }
@@ -67,11 +66,7 @@ void vgGetPixels(VGImage dst, VGint dx, VGint dy, VGint sx, VGint sy, VGint widt
         const Pixels& pixels = context.surface->pixels();
         const CopyArea area = clipped({dx, dy, sx, sy, width, height}, image->width(), image->height(),
                                       pixels.width(), pixels.height());
-        for (int j = 0; j < area.height; ++j)
-            for (int i = 0; i < area.width; ++i)
-                image->setWord(
-                    area.dx + i, area.dy + j,
-                    convertedWord(pixels.word(area.sx + i, area.sy + j), pixels.format(), image->format()));
+        copyPixels(pixels, *image, area);
     });
 }
 
@@ -82,11 +77,7 @@ void vgReadPixels(void* data, VGint dataStride, VGImageFormat dataFormat, VGint 
         const Pixels& pixels = context.surface->pixels();
         const CopyArea area =
             clipped({0, 0, sx, sy, width, height}, width, height, pixels.width(), pixels.height());
-        for (int j = 0; j < area.height; ++j)
-            for (int i = 0; i < area.width; ++i)
-                memory.setWord(
-                    area.dx + i, area.dy + j,
-                    convertedWord(pixels.word(area.sx + i, area.sy + j), pixels.format(), memory.format));
+        copyPixels(pixels, memory, area);
     });
 }
 

@@ -10,6 +10,7 @@
 #include <VG/vgu.h>
 
 #include "api/openvg/src/context.hpp"
+#include "api/openvg/src/matrix.hpp"
 
 using namespace vtm::openvg;
 
@@ -39,11 +40,8 @@ VGUErrorCode store(const std::optional<glm::dmat3>& map, VGfloat* matrix) {
     if (!map)
         return VGU_BAD_WARP_ERROR;
     const double determinant = glm::determinant(*map);
-    if (!std::isfinite(determinant) || determinant == 0)
+    if (!isFinite(*map) || !std::isfinite(determinant) || determinant == 0)
         return VGU_BAD_WARP_ERROR;
-    for (int i = 0; i < 9; ++i)
-        if (!std::isfinite((*map)[i / 3][i % 3]))
-            return VGU_BAD_WARP_ERROR;
     for (int i = 0; i < 9; ++i)
         matrix[i] = VGfloat((*map)[i / 3][i % 3]);
     return VGU_NO_ERROR;
