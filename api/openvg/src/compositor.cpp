@@ -60,15 +60,11 @@ Compositor::Compositor(Context& context, const PixelSource& source)
       blend_(blendOf(context.state.blendMode)),
       isOver_(context.state.blendMode == VG_BLEND_SRC_OVER),
       mixesLight_(!surface_.pixels().format().space.linear),
-      transforms_(context.state.colorTransform),
+      transform_(context.state),
       space_(surface_.pixels().format().space) {
     const State& state = context.state;
     if (state.masking && surface_.mask)
         mask_ = &*surface_.mask;
-    for (int c = 0; c < 4; ++c) {
-        scale_[c] = std::clamp(state.colorTransformValues[std::size_t(c)], -127.0f, 127.0f);
-        bias_[c] = std::clamp(state.colorTransformValues[std::size_t(4 + c)], -1.0f, 1.0f);
-    }
     const PixelFormat& format = surface_.pixels().format();
     isAlphaOnly_ = format.red.bits == 0 && format.grey.bits == 0;
     mixesLight_ = mixesLight_ && !isAlphaOnly_;
@@ -94,11 +90,11 @@ Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSo
 Color Compositor::prepared(Color color) const {
     ColorSpace from = source_.space();
     const bool isSame = from.linear == space_.linear && from.luminance == space_.luminance;
-    if (isSame && !transforms_)
+    if (isSame && !transform_.isOn())
         return color;
     color = unpremultiplied(color);
-    if (transforms_) {
-        color = clampedToUnit(color * scale_ + bias_);
+    if (transform_.isOn()) {
+        color = transform_(color);
         from.luminance = false;  // what was grey may no longer be
     }
     // Alpha-only surfaces keep no colour to convert.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/openvg/src/blend.hpp"
+#include "api/openvg/src/color_transform.hpp"
 #include "api/openvg/src/context.hpp"
 #include "api/openvg/src/path_mask.hpp"
 #include "api/openvg/src/pixel_source.hpp"
@@ -65,8 +66,7 @@ private:
     bool isOver_;
     bool mixesLight_;                   ///< edges are mixed in linear light, though the surface is not linear
     const MaskValues* mask_ = nullptr;  ///< null: no masking
-    bool transforms_;
-    Color scale_, bias_;
+    ScaleAndBias transform_;
     ColorSpace space_;  ///< the surface's
     bool isAlphaOnly_;
     bool hasBytes_;                  ///< red, green, blue, alpha bytes, or padding for alpha
