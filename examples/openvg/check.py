@@ -56,6 +56,14 @@ def drawing(example):
     check(abs(numpy.asarray(halved).astype(float) - small[180:540, 180:540]).mean() < 3, "half the size by the matrix")
 
 
+def record(example):
+    """The lighthouse as one picture: what it is without a recording, and a file that others read."""
+    file = next(pathlib.Path(word) for word in example.command if word.endswith(".vtm"))
+    file.unlink(missing_ok=True)
+    drawing(example)
+    check(file.read_bytes()[:4] == b"VTM\xb6", "the recording is a .vtm file")
+
+
 def tiger(example):
     pixels = example.draw("")
     green = (pixels[:, :, 1] > 120) & (pixels[:, :, 0] < 170) & (pixels[:, :, 2] < 80)
