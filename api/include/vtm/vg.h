@@ -64,7 +64,11 @@ VG_API_CALL void VG_API_ENTRY vtmGetSurfaceFormat(const VtmSurface *surface, Vtm
  * `rowBytes` from one row to the next. */
 VG_API_CALL void VG_API_ENTRY vtmReadSurface(VtmSurface *surface, void *pixels, size_t rowBytes) VG_API_EXIT;
 
-/* The inverse: sets all pixels. */
+/* The same of a rectangle, which must be within the surface; (x, y) is its lowest left pixel. */
+VG_API_CALL void VG_API_ENTRY vtmReadSurfacePart(VtmSurface *surface, VGint x, VGint y, VGint width, VGint height,
+                                                 void *pixels, size_t rowBytes) VG_API_EXIT;
+
+/* The inverse of vtmReadSurface: sets all pixels. */
 VG_API_CALL void VG_API_ENTRY vtmWriteSurface(VtmSurface *surface, const void *pixels, size_t rowBytes) VG_API_EXIT;
 
 /* `share`: a context whose objects the new one shares, or NULL. NULL if there is no memory. */
