@@ -87,11 +87,15 @@ Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSo
     drawsBytes_ = false;
 }
 
+bool Compositor::isPrepared() const {
+    const ColorSpace from = source_.space();
+    return from.linear == space_.linear && from.luminance == space_.luminance && !transform_.isOn();
+}
+
 Color Compositor::prepared(Color color) const {
-    ColorSpace from = source_.space();
-    const bool isSame = from.linear == space_.linear && from.luminance == space_.luminance;
-    if (isSame && !transform_.isOn())
+    if (isPrepared())
         return color;
+    ColorSpace from = source_.space();
     color = unpremultiplied(color);
     if (transform_.isOn()) {
         color = transform_(color);
@@ -108,6 +112,8 @@ void Compositor::prepare(std::span<Color> colors) const {
         std::ranges::fill(colors, *constant_);
         return;
     }
+    if (isPrepared())
+        return;
     for (Color& color : colors)
         color = prepared(color);
 }
@@ -176,6 +182,8 @@ void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
 void Compositor::drawPixel(int x, int y, Color source, float coverage, const Color* stencil) {
     Pixels& pixels = surface_.pixels();
     const PixelFormat& format = pixels.format();
+    if (isOver_ && source.a == 1 && coverage == 1 && !stencil)
+        return pixels.setWord(x, y, format.encode(source));
     Color before = format.decode(pixels.word(x, y));
     if (!space_.premultiplied)
         before = premultiplied(before);

@@ -57,6 +57,8 @@ private:
     /// Colours of the source as they are blended: transformed, in the surface's space, premultiplied.
     void prepare(std::span<Color> colors) const;
     Color prepared(Color color) const;
+    /// The source's colours need nothing of that.
+    bool isPrepared() const;
 
     Surface& surface_;
     Clip clip_;

@@ -1,6 +1,6 @@
 // Recordings (vtm/vg.h): made, kept and drawn.
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 
 #include "api/openvg/src/compositor.hpp"
@@ -46,16 +46,22 @@ public:
     }
 
     void colors(int x, int y, std::span<Color> colors) const override {
-        for (std::size_t i = 0; i < colors.size(); ++i) {
-            const int column = x - area_.x0 + int(i);
-            const float* sum = light_.pixel(column, y - area_.y0);
-            const float share = shares_[std::size_t(column)];
-            const Color mean(sum[0] / share, sum[1] / share, sum[2] / share, std::min(sum[3] / share, 1.0f));
-            colors[i] = premultiplied(fastEncoded(unpremultiplied(mean)));
-        }
+        const int first = x - area_.x0;
+        const float* sums = light_.pixel(first, y - area_.y0);
+        const float* shares = &shares_[std::size_t(first)];
+        const auto isLikeLast = [&](std::size_t i) {
+            return shares[i] == shares[i - 1] && std::equal(sums + 4 * i, sums + 4 * i + 4, sums + 4 * i - 4);
+        };
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = i > 0 && isLikeLast(i) ? colors[i - 1] : color(sums + 4 * i, shares[i]);
     }
 
 private:
+    static Color color(const float* sum, float share) {
+        const Color mean(sum[0] / share, sum[1] / share, sum[2] / share, std::min(sum[3] / share, 1.0f));
+        return premultiplied(fastEncoded(unpremultiplied(mean)));
+    }
+
     const image::Raster& light_;
     Rectangle area_;
     std::vector<float> shares_;
