@@ -1,6 +1,8 @@
 // Recordings (vtm/vg.h): made, kept and drawn.
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 #include <string>
 
 #include "api/openvg/src/compositor.hpp"
@@ -18,13 +20,19 @@ struct VtmRecording {
         : width(asset.width),
           height(asset.height),
           bytes(asset::write(asset)),
-          light(asset, asset::Sums::Light),
-          coverage(asset) {}
+          light(asset, asset::Sums::Light) {
+        const auto isAllOrNothing = [](const asset::Paint& paint) {
+            const auto alpha = std::bit_cast<float>(paint[3]);
+            return !asset::isProgram(paint) && (alpha == 0 || alpha == 1);
+        };
+        if (!std::ranges::all_of(asset.paints, isAllOrNothing))
+            coverage.emplace(asset);
+    }
 
     double width, height;
     std::vector<std::uint8_t> bytes;
     asset::Scanner light;
-    asset::CoverageScanner coverage;
+    std::optional<asset::CoverageScanner> coverage;  ///< none where alpha says it: of opaque colours
 };
 
 namespace {
@@ -67,6 +75,27 @@ private:
     std::vector<float> shares_;
 };
 
+/// Runs of pixels whose alpha, their coverage, is the same.
+void coverByAlpha(const image::Raster& light, const RowSink& row) {
+    // Roundings of running sums: this is no 255th of a pixel.
+    constexpr float rounding = 1e-5f;
+    std::vector<CoverageRun> runs;
+    for (int y = 0; y < light.height; ++y) {
+        runs.clear();
+        for (int x = 0; x < light.width; ++x) {
+            const float alpha = light.pixel(x, y)[3], share = alpha > 1 - rounding ? 1 : alpha;
+            if (share < rounding)
+                continue;
+            if (!runs.empty() && runs.back().end == x && runs.back().share == share)
+                ++runs.back().end;
+            else
+                runs.push_back({x, x + 1, share});
+        }
+        if (!runs.empty())
+            row(y, runs);
+    }
+}
+
 void draw(Context& context, const VtmRecording& recording) {
     glm::mat3 toSurface = context.state.matrix(VG_MATRIX_PATH_USER_TO_SURFACE);
     if (!inverseOf(toSurface))
@@ -85,7 +114,7 @@ void draw(Context& context, const VtmRecording& recording) {
     PictureSource source(light, seen);
     Compositor compositor(context, source);
     std::vector<CoverageRun> moved;
-    recording.coverage.scan(view, [&](int y, std::span<const CoverageRun> runs) {
+    const RowSink row = [&](int y, std::span<const CoverageRun> runs) {
         moved.assign(runs.begin(), runs.end());
         for (CoverageRun& run : moved) {
             run.first += seen.x0;
@@ -93,7 +122,11 @@ void draw(Context& context, const VtmRecording& recording) {
         }
         source.cover(moved);
         compositor(y + seen.y0, moved);
-    });
+    };
+    if (recording.coverage)
+        recording.coverage->scan(view, row);
+    else
+        coverByAlpha(light, row);
 }
 
 }  // namespace
