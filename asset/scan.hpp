@@ -8,7 +8,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+
+#include <glm/vec4.hpp>
 
 #include "asset/asset.hpp"
 #include "asset/evaluate.hpp"
@@ -20,6 +23,12 @@ namespace vtm::asset {
 struct ByteTarget {
     std::uint8_t* pixels = nullptr;
     std::size_t rowBytes = 0;  ///< from one row to the next, at least 4 · view.width
+};
+
+/// Pixels first to end - 1 of a row.
+struct ColorRun {
+    int first, end;
+    glm::vec4 color;
 };
 
 /// In which numbers the shares of regions in a pixel are added, and what comes out.
@@ -41,6 +50,11 @@ public:
     void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
     /// The same in floats.
     image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
+
+    /// The same as runs of pixels of one colour, which is not clamped: row by row, from left to right, every
+    /// pixel once.
+    void scan(const View& view, const std::function<void(int y, const ColorRun& run)>& take,
+              const MaterialFunction& materials = {}) const;
 
 private:
     struct Impl;

@@ -244,6 +244,13 @@ void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFun
     impl_->draw(view, materials, ByteStore(target));
 }
 
+void Scanner::scan(const View& view, const std::function<void(int, const ColorRun&)>& take,
+                   const MaterialFunction& materials) const {
+    impl_->draw(view, materials, [&](int row, int first, int end, const vec4& color) {
+        take(row, {first, end, color});
+    });
+}
+
 image::Raster Scanner::draw(const View& view, const MaterialFunction& materials) const {
     validate(view);
     image::Raster raster(view.width, view.height);

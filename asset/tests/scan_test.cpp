@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 #include "asset/container.hpp"
 #include "asset/evaluate.hpp"
@@ -67,6 +68,33 @@ TEST(Scan, BytesAreTheRasterRounded) {
                 ASSERT_EQ(int(row[x]), int(raster.pixel(0, y)[x] * 255.0f + 0.5f)) << x << ' ' << y;
             for (std::size_t x = std::size_t(view.width) * 4; x < rowBytes; ++x)
                 ASSERT_EQ(row[x], 77);
+        }
+    }
+}
+
+TEST(Scan, RunsAreTheRaster) {
+    for (const Asset& asset : {disc(), everyPaint()}) {
+        const Scanner scanner(asset);
+        std::mt19937 random(5);
+        for (int i = 0; i < 10; ++i) {
+            const View view = randomView(random);
+            const image::Raster raster = scanner.draw(view);
+            int row = 0, column = 0;
+            scanner.scan(view, [&](int y, const ColorRun& run) {
+                if (y != row) {
+                    ASSERT_EQ(column, view.width);
+                    ASSERT_EQ(y, row + 1);
+                    row = y;
+                    column = 0;
+                }
+                ASSERT_EQ(run.first, column);
+                column = run.end;
+                for (int x = run.first; x < run.end; ++x)
+                    for (int c = 0; c < 4; ++c)
+                        ASSERT_EQ(raster.pixel(x, y)[c], glm::clamp(run.color[c], 0.0f, 1.0f));
+            });
+            EXPECT_EQ(row, view.height - 1);
+            EXPECT_EQ(column, view.width);
         }
     }
 }

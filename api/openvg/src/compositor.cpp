@@ -72,13 +72,17 @@ Compositor::Compositor(Context& context, const PixelSource& source)
                 format.red == Channel{8, 0} && format.green == Channel{8, 8} &&
                 format.blue == Channel{8, 16} && (format.alpha.bits == 0 || format.alpha == Channel{8, 24});
     if (const std::optional<Color> color = source.constant())
-        constant_ = prepared(*color);
-    drawsBytes_ = constant_ && isOver_ && !mask_ && hasBytes_;
-    if (drawsBytes_) {
-        word_ = format.encode(*constant_);
-        for (int c = 0; c < 3; ++c)
-            light_[c] = gamma_.decode((*constant_)[c]);
-    }
+        use(*color);
+}
+
+void Compositor::use(Color color) {
+    constant_ = prepared(color);
+    drawsBytes_ = isOver_ && !mask_ && hasBytes_;
+    if (!drawsBytes_)
+        return;
+    word_ = surface_.pixels().format().encode(*constant_);
+    for (int c = 0; c < 3; ++c)
+        light_[c] = gamma_.decode((*constant_)[c]);
 }
 
 Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil)

@@ -42,6 +42,8 @@ public:
     Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil);
 
     const Clip& clip() const { return clip_; }
+    /// The one colour of what comes next, in place of the source's: in its space, premultiplied.
+    void use(Color color);
     void operator()(int y, std::span<const CoverageRun> runs);
 
 private:

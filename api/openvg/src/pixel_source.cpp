@@ -234,6 +234,8 @@ bool isSmooth(const Image& image, const State& state) {
            (state.imageQuality == VG_IMAGE_QUALITY_FASTER && image.allowedQuality & VG_IMAGE_QUALITY_FASTER);
 }
 
+std::unique_ptr<PixelSource> constantSource(Color color) { return std::make_unique<ConstantSource>(color); }
+
 const Paint& currentPaint(const State& state, VGPaintMode mode) {
     static const Paint defaults;
     const std::shared_ptr<Paint>& paint = mode == VG_STROKE_PATH ? state.strokePaint : state.fillPaint;
@@ -244,7 +246,7 @@ std::unique_ptr<PixelSource> paintSource(const Paint& paint, const glm::mat3& pa
                                          const State& state) {
     if (paint.type == VG_PAINT_TYPE_COLOR || (paint.type == VG_PAINT_TYPE_PATTERN && !paint.pattern)) {
         const std::array<VGfloat, 4>& c = paint.color;
-        return std::make_unique<ConstantSource>(
+        return constantSource(
             premultiplied(transformedColor(ColorTransform(paint), Color(c[0], c[1], c[2], c[3]), sRGBA)));
     }
     const std::optional<glm::dmat3> fromSurface = inverseOf(paintToSurface);

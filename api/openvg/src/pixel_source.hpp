@@ -33,6 +33,9 @@ private:
     ColorSpace space_;
 };
 
+/// A premultiplied colour in sRGB.
+std::unique_ptr<PixelSource> constantSource(Color color);
+
 /// `paintToSurface`: from the paint's coordinates. Null if it cannot be inverted, when nothing is drawn
 /// (section 9). Reads the paint, its pattern and `state`; they must stay.
 std::unique_ptr<PixelSource> paintSource(const Paint& paint, const glm::mat3& paintToSurface,

@@ -75,25 +75,39 @@ private:
     std::vector<float> shares_;
 };
 
-/// Runs of pixels whose alpha, their coverage, is the same.
-void coverByAlpha(const image::Raster& light, const RowSink& row) {
+/// Opaque regions: what is covered of a pixel is its alpha.
+void drawOpaque(Context& context, const VtmRecording& recording, const asset::View& view,
+                const Rectangle& seen) {
     // Roundings of running sums: this is no 255th of a pixel.
     constexpr float rounding = 1e-5f;
-    std::vector<CoverageRun> runs;
-    for (int y = 0; y < light.height; ++y) {
-        runs.clear();
-        for (int x = 0; x < light.width; ++x) {
-            const float alpha = light.pixel(x, y)[3], share = alpha > 1 - rounding ? 1 : alpha;
-            if (share < rounding)
-                continue;
-            if (!runs.empty() && runs.back().end == x && runs.back().share == share)
-                ++runs.back().end;
-            else
-                runs.push_back({x, x + 1, share});
+    const std::unique_ptr<PixelSource> source = constantSource(Color(0));
+    Compositor compositor(context, *source);
+    recording.light.scan(view, [&](int y, const asset::ColorRun& run) {
+        if (run.color.a < rounding)
+            return;
+        const float share = run.color.a > 1 - rounding ? 1 : run.color.a;
+        const Color light = clampedToUnit(run.color / run.color.a);
+        compositor.use(fastEncoded({glm::vec3(light), 1}));
+        const CoverageRun covered{run.first + seen.x0, run.end + seen.x0, share};
+        compositor(y + seen.y0, std::span(&covered, 1));
+    });
+}
+
+void drawTranslucent(Context& context, const VtmRecording& recording, const asset::View& view,
+                     const Rectangle& seen) {
+    const image::Raster light = recording.light.draw(view);
+    PictureSource source(light, seen);
+    Compositor compositor(context, source);
+    std::vector<CoverageRun> moved;
+    recording.coverage->scan(view, [&](int y, std::span<const CoverageRun> runs) {
+        moved.assign(runs.begin(), runs.end());
+        for (CoverageRun& run : moved) {
+            run.first += seen.x0;
+            run.end += seen.x0;
         }
-        if (!runs.empty())
-            row(y, runs);
-    }
+        source.cover(moved);
+        compositor(y + seen.y0, moved);
+    });
 }
 
 void draw(Context& context, const VtmRecording& recording) {
@@ -110,23 +124,10 @@ void draw(Context& context, const VtmRecording& recording) {
     const asset::View view{seen.x1 - seen.x0,
                            seen.y1 - seen.y0,
                            {glm::dvec2(m[0]), -glm::dvec2(m[1]), origin - glm::dvec2(seen.x0, seen.y0)}};
-    const image::Raster light = recording.light.draw(view);
-    PictureSource source(light, seen);
-    Compositor compositor(context, source);
-    std::vector<CoverageRun> moved;
-    const RowSink row = [&](int y, std::span<const CoverageRun> runs) {
-        moved.assign(runs.begin(), runs.end());
-        for (CoverageRun& run : moved) {
-            run.first += seen.x0;
-            run.end += seen.x0;
-        }
-        source.cover(moved);
-        compositor(y + seen.y0, moved);
-    };
     if (recording.coverage)
-        recording.coverage->scan(view, row);
+        drawTranslucent(context, recording, view, seen);
     else
-        coverByAlpha(light, row);
+        drawOpaque(context, recording, view, seen);
 }
 
 }  // namespace
