@@ -117,7 +117,7 @@ VG_API_CALL VtmRecording *VG_API_ENTRY vtmEndRecording(void) VG_API_EXIT;
 VG_API_CALL const char *VG_API_ENTRY vtmGetRecordingFault(void) VG_API_EXIT;
 
 /* A recording of the bytes of a .vtm file, wherever it was made. NULL if they are none (whatever they are, no harm comes of
- * it), or a picture in compat mode, which has no regions. */
+ * it), or a picture in compat mode, which has no regions. Materials, which are GLSL, show their fallback colours. */
 VG_API_CALL VtmRecording *VG_API_ENTRY vtmLoadRecording(const void *bytes, size_t size) VG_API_EXIT;
 
 /* A recording never changes, and belongs to no context: any thread may use it at any time. */
