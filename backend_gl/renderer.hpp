@@ -2,6 +2,8 @@
 /// Draws assets with OpenGL ES 3.0: upload once, draw under any affine view.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -33,6 +35,13 @@ enum class Pixels {
     Automatic,  ///< Scanned where the driver runs shaders on the CPU (llvmpipe and the like), else Shaders
     Shaders,
     Scanned  ///< asset/scan.hpp, on the CPU, several times faster there; pictures with materials take Shaders
+};
+
+/// Premultiplied sRGB-encoded bytes red, green, blue, alpha; rows from the top.
+struct BytePixels {
+    const std::uint8_t* pixels = nullptr;
+    int width = 0, height = 0;
+    std::size_t rowBytes = 0;  ///< from one row to the next, at least 4 · width
 };
 
 struct RendererOptions {
@@ -87,6 +96,11 @@ public:
     /// Draws into a framebuffer of the user's. Does not wait for the GPU. Throws std::invalid_argument for an
     /// Output that contradicts itself.
     void draw(const Texture& texture, const asset::View& view, const Output& output);
+
+    /// Pixels that others made, as a view of their size. Of `output.damage` only these pixels are read.
+    /// Throws std::invalid_argument for an Output that contradicts itself or wants linear light: they are
+    /// mixed already.
+    void draw(const BytePixels& pixels, const Output& output);
 
     /// Draws into 8 bits of the renderer's own and waits for the GPU, without reading back (for measuring).
     void draw(const Texture& texture, const asset::View& view);

@@ -127,13 +127,15 @@ vec4 blend(Blend mode, vec4 source, vec4 backdrop) {
     return {color, source.a + backdrop.a - source.a * backdrop.a};
 }
 
+vec4 light(vec4 color) {
+    const vec3 c = straight(color);
+    return {color.a * vec3(linearLight(c.r), linearLight(c.g), linearLight(c.b)), color.a};
+}
+
 float maskFactor(Op op, vec4 mask) {
     if (op == Op::PopMaskAlpha)
         return mask.a;
-    if (op == Op::PopMaskLuminance)
-        return maskLuminance(vec3(mask));
-    const vec3 c = straight(mask);
-    return mask.a * maskLuminance({linearLight(c.r), linearLight(c.g), linearLight(c.b)});
+    return maskLuminance(vec3(op == Op::PopMaskLuminance ? mask : light(mask)));
 }
 
 }  // namespace vtm::asset

@@ -18,6 +18,7 @@
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 
+#include "asset/src/blend.hpp"
 #include "asset/src/paint.hpp"
 #include "asset/src/row_sums.hpp"
 
@@ -92,9 +93,11 @@ struct Scanner::Impl {
     Asset asset;                   ///< without trees: paints and what they need
     std::optional<Paints> paints;  ///< of `asset`
     std::vector<Drawn> drawn;
-    std::vector<vec4> solid;      ///< by paint; nothing for programs
+    Sums sums = Sums::Encoded;
+    std::vector<vec4> solid;      ///< by paint, as it is added; nothing for programs
     std::vector<bool> isProgram;  ///< by paint
 
+    vec4 added(vec4 color) const { return sums == Sums::Light ? light(color) : color; }
     template <class Store>
     void draw(const View& view, const MaterialFunction& materials, const Store& store);
     template <class Store>
@@ -207,13 +210,14 @@ void Scanner::Impl::addPrograms(const View& view, const MaterialFunction& materi
                 for (int x = first; x < end; ++x) {
                     const dvec2 point = inverse * (dvec2(x + 0.5, top + row + 0.5) - view.toPixels[2]);
                     scratch.pixels[std::size_t(row) * std::size_t(view.width) + std::size_t(x)] +=
-                        share * paints->color(paint, {vec2(point), glm::mat2(inverse)}, materials);
+                        share * added(paints->color(paint, {vec2(point), glm::mat2(inverse)}, materials));
                 }
             });
     }
 }
 
-Scanner::Scanner(const AssetView& asset) : impl_(std::make_unique<Impl>()) {
+Scanner::Scanner(const AssetView& asset, Sums sums) : impl_(std::make_unique<Impl>()) {
+    impl_->sums = sums;
     if (!isSumOfMaps(asset))
         throw std::invalid_argument("only pictures of disjoint regions can be summed along rows");
     for (const Command& command : asset.commands) {
@@ -228,7 +232,7 @@ Scanner::Scanner(const AssetView& asset) : impl_(std::make_unique<Impl>()) {
     impl_->paints.emplace(kept);
     for (const Paint& paint : kept.paints) {
         impl_->isProgram.push_back(asset::isProgram(paint));
-        impl_->solid.push_back(asset::isProgram(paint) ? vec4(0) : std::bit_cast<vec4>(paint));
+        impl_->solid.push_back(asset::isProgram(paint) ? vec4(0) : impl_->added(std::bit_cast<vec4>(paint)));
     }
 }
 
@@ -238,6 +242,13 @@ Scanner& Scanner::operator=(Scanner&&) noexcept = default;
 
 void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
     impl_->draw(view, materials, ByteStore(target));
+}
+
+void Scanner::scan(const View& view, const std::function<void(int, const ColorRun&)>& take,
+                   const MaterialFunction& materials) const {
+    impl_->draw(view, materials, [&](int row, int first, int end, const vec4& color) {
+        take(row, {first, end, color});
+    });
 }
 
 image::Raster Scanner::draw(const View& view, const MaterialFunction& materials) const {

@@ -2,11 +2,13 @@
 
 #include "asset/scan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 #include "asset/container.hpp"
 #include "asset/evaluate.hpp"
@@ -67,6 +69,72 @@ TEST(Scan, BytesAreTheRasterRounded) {
             for (std::size_t x = std::size_t(view.width) * 4; x < rowBytes; ++x)
                 ASSERT_EQ(row[x], 77);
         }
+    }
+}
+
+TEST(Scan, RunsAreTheRaster) {
+    for (const Asset& asset : {disc(), everyPaint()}) {
+        const Scanner scanner(asset);
+        std::mt19937 random(5);
+        for (int i = 0; i < 10; ++i) {
+            const View view = randomView(random);
+            const image::Raster raster = scanner.draw(view);
+            int row = 0, column = 0;
+            scanner.scan(view, [&](int y, const ColorRun& run) {
+                if (y != row) {
+                    ASSERT_EQ(column, view.width);
+                    ASSERT_EQ(y, row + 1);
+                    row = y;
+                    column = 0;
+                }
+                ASSERT_EQ(run.first, column);
+                column = run.end;
+                for (int x = run.first; x < run.end; ++x)
+                    for (int c = 0; c < 4; ++c)
+                        ASSERT_EQ(raster.pixel(x, y)[c], glm::clamp(run.color[c], 0.0f, 1.0f));
+            });
+            EXPECT_EQ(row, view.height - 1);
+            EXPECT_EQ(column, view.width);
+        }
+    }
+}
+
+/// Half a pixel of a colour is half its light; what is whole is the colour decoded, translucent or not.
+TEST(Scan, SumsOfLight) {
+    const auto decoded = [](float c) {
+        return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+    };
+    for (const Asset& asset : {halfPlane(), everyPaint()}) {
+        const Scanner encoded(asset), light(asset, Sums::Light);
+        // A pixel is far smaller than any region here, so most hold one colour.
+        const View view{200, 200, {200 / asset.width, 0, 0, 200 / asset.height, 0, 0}};
+        const image::Raster colors = encoded.draw(view), sums = light.draw(view);
+        int whole = 0;
+        for (int y = 1; y < 199; ++y)
+            for (int x = 1; x < 199; ++x) {
+                const float* c = colors.pixel(x, y);
+                const auto isSame = [&](const float* other) { return std::equal(c, c + 4, other); };
+                if (c[3] <= 0 || !isSame(colors.pixel(x - 1, y)) || !isSame(colors.pixel(x + 1, y)) ||
+                    !isSame(colors.pixel(x, y - 1)) || !isSame(colors.pixel(x, y + 1)))
+                    continue;
+                ++whole;
+                for (int i = 0; i < 3; ++i)
+                    ASSERT_NEAR(sums.pixel(x, y)[i], c[3] * decoded(c[i] / c[3]), 1e-4) << x << ' ' << y;
+                ASSERT_NEAR(sums.pixel(x, y)[3], c[3], 1e-5);
+            }
+        EXPECT_GT(whole, 2000);
+    }
+    // Across the border of two colours light is mixed as coverage is.
+    const Asset halves = halfPlane();
+    const View one{1, 1, {1 / halves.width, 0, 0, 1 / halves.height, 0, 0}};
+    const View many{256, 256, {256 / halves.width, 0, 0, 256 / halves.height, 0, 0}};
+    const Scanner light(halves, Sums::Light);
+    const image::Raster pixel = light.draw(one), pixels = light.draw(many);
+    for (std::size_t c = 0; c < 4; ++c) {
+        double sum = 0;
+        for (std::size_t i = c; i < pixels.rgba.size(); i += 4)
+            sum += double(pixels.rgba[i]);
+        EXPECT_NEAR(double(pixel.rgba[c]), sum / (256 * 256), 1e-3);
     }
 }
 

@@ -136,6 +136,9 @@ Destination destinationOf(const asset::View& view, const Output& output, GLuint 
     destination.bits = attachment.isFloat() ? 0 : attachment.redBits();
     destination.over = output.write == Output::Write::Over;
     destination.finish = finishOf(output, attachment);
+    destination.corner = {output.x, output.y};
+    destination.rows = view.height;
+    destination.isTopFirst = output.firstRow == Output::FirstRow::Top;
 
     std::vector<PixelBox> boxes;
     for (const PixelRectangle& r :

@@ -21,6 +21,11 @@ struct Destination {
     Finish finish;
     /// To the framebuffer's pixels; its raster is [0, width) × [0, height) of them.
     asset::View view;
+    /// Where the view's own rectangle begins, and its rows, from the framebuffer's.
+    glm::ivec2 corner{0};
+    int rows = 0;
+    bool isTopFirst = false;
+    int rowOf(int y) const { return isTopFirst ? corner.y + rows - 1 - y : y - corner.y; }
     /// Disjoint, in the framebuffer, none empty.
     std::vector<PixelBox> boxes;
 };

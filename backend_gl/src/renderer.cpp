@@ -1,10 +1,12 @@
 #include "backend_gl/renderer.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include <glm/common.hpp>
 
+#include "backend_gl/src/compose.hpp"
 #include "backend_gl/src/destination.hpp"
 #include "backend_gl/src/painter.hpp"
 #include "backend_gl/src/picture.hpp"
@@ -50,23 +52,6 @@ void readBack(const Target& target, const asset::View& tile, GLenum type, int ro
 
 PixelBox wholeOf(const asset::View& view) { return {{0, 0}, {view.width, view.height}}; }
 
-void limitTo(const PixelBox& box) {
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(box.min.x, box.min.y, box.size().x, box.size().y);
-}
-
-void makeTransparent() {
-    const GLfloat transparent[4] = {0, 0, 0, 0};
-    glClearBufferfv(GL_COLOR, 0, transparent);
-}
-
-void blendOver(bool over) {
-    if (!over)
-        return glDisable(GL_BLEND);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-}
-
 }  // namespace
 
 struct Renderer::Impl {
@@ -83,12 +68,11 @@ struct Renderer::Impl {
     bool lost = false;
 
     Workshop workshop;
-    TargetPool bytes{GL_RGBA8};    ///< for reading back 8 bits
-    TargetPool scanned{GL_RGBA8};  ///< for sending them
+    TargetPool bytes{GL_RGBA8};  ///< for reading back 8 bits
+    ByteSender bytePixels;       ///< for sending them
     bool scans =
         options.pixels == Pixels::Scanned || (options.pixels == Pixels::Automatic && isSoftwareDriver());
     PictureBuffers picture;
-    std::vector<std::uint8_t> pixels;
 
     void checkLost() {
         if (!lost && reset && reset() != GL_NO_ERROR)
@@ -116,7 +100,7 @@ struct Renderer::Impl {
         } catch (const OutOfMemory&) {
             workshop.pool.resize({0, 0});
             bytes.resize({0, 0});
-            scanned.resize({0, 0});
+            bytePixels.clear();
             throw;
         } catch (const ContextLost&) {
             lost = true;
@@ -165,44 +149,28 @@ struct Renderer::Impl {
         check("drawing");
     }
 
-    void begin(const Destination& d, const PixelBox& box) {
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, d.framebuffer);
-        glViewport(0, 0, d.view.width, d.view.height);
-        limitTo(box);
-        if (!d.over)
-            makeTransparent();
-        blendOver(d.over);
-    }
-
     void drawDirectly(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
         begin(d, box);
         if (isInvertible(d.view))
             drawPicture(workshop.programs, picture, asset, d.view, box, d.finish);
-        glDisable(GL_SCISSOR_TEST);
-        glDisable(GL_BLEND);
+        end();
     }
 
     void drawScanned(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
         const asset::View view = viewOf(d.view, box);
-        pixels.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
-        asset.scanner->draw(view, {pixels.data(), std::size_t(view.width) * 4});
-        scanned.resize(box.size());
-        Target target = scanned.take();
-        glBindTexture(GL_TEXTURE_2D, target.texture.get());
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, view.width, view.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        pixels.data());
-        if (d.over || d.multisampled) {
-            begin(d, box);
-            compose(d, target, box, -box.min);
-        } else {
-            glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer.get());
-            glBindFramebuffer(GL_DRAW_FRAMEBUFFER, d.framebuffer);
-            glBlitFramebuffer(0, 0, view.width, view.height, box.min.x, box.min.y, box.max.x, box.max.y,
-                              GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        }
-        glDisable(GL_SCISSOR_TEST);
-        glDisable(GL_BLEND);
-        scanned.giveBack(std::move(target));
+        asset.scanner->draw(view, {bytePixels.room(box.size()), std::size_t(view.width) * 4});
+        bytePixels.draw(workshop, d, box);
+    }
+
+    void drawGiven(const BytePixels& given, const Destination& d, const PixelBox& box) {
+        const std::size_t rowBytes = std::size_t(box.size().x) * 4;
+        std::uint8_t* to = bytePixels.room(box.size());
+        for (int y = box.min.y; y < box.max.y; ++y, to += rowBytes)
+            std::memcpy(to,
+                        given.pixels + std::size_t(d.rowOf(y)) * given.rowBytes +
+                            std::size_t(box.min.x - d.corner.x) * 4,
+                        rowBytes);
+        bytePixels.draw(workshop, d, box);
     }
 
     /// All boxes' parts in the tile, from one target.
@@ -218,22 +186,11 @@ struct Renderer::Impl {
                 continue;
             begin(d, part);
             if (shows)
-                compose(d, target, part, -tile.min);
+                compose(workshop, d, target, part, -tile.min);
         }
-        glDisable(GL_SCISSOR_TEST);
-        glDisable(GL_BLEND);
+        end();
         if (shows)
             workshop.pool.giveBack(std::move(target));
-    }
-
-    void compose(const Destination& d, const Target& target, const PixelBox& box, glm::ivec2 toTarget) {
-        const Program& program = workshop.programs.compose(d.finish);
-        program.use();
-        glUniform2f(program.uniform("targetSize"), float(d.view.width), float(d.view.height));
-        glActiveTexture(GL_TEXTURE0 + GLenum(Unit::Layer));
-        glBindTexture(GL_TEXTURE_2D, target.texture.get());
-        glBindVertexArray(workshop.vertexArray.get());
-        drawBoxes(workshop.boxes, {boxOf(box, toTarget)});
     }
 
     /// Calls use(target, tile, corner) for each painted tile.
@@ -318,6 +275,20 @@ void Renderer::draw(const Texture& texture, const asset::View& view, const Outpu
     asset::validate(view);
     impl_->call([&](const StateGuard& guard) {
         impl_->draw(*texture.impl_, destinationOf(view, output, guard.drawFramebuffer()));
+    });
+}
+
+void Renderer::draw(const BytePixels& pixels, const Output& output) {
+    if (output.linearLight)
+        throw std::invalid_argument("linear light is for pictures; pixels are mixed already");
+    const asset::View view{pixels.width, pixels.height};
+    asset::validate(view);
+    impl_->call([&](const StateGuard& guard) {
+        const Destination d = destinationOf(view, output, guard.drawFramebuffer());
+        const OneDrawBuffer one;
+        for (const PixelBox& box : d.boxes)
+            forEachTile(box, tileSide(), [&](const PixelBox& part) { impl_->drawGiven(pixels, d, part); });
+        impl_->check("drawing");
     });
 }
 

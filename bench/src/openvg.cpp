@@ -9,12 +9,10 @@
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
-#include <VG/openvg.h>
-#include <vtm/vg.h>
-
 #include "bench/src/font.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
+#include "bench/src/vg_canvas.hpp"
 
 #ifdef VTM_HAVE_RSVG
 #include <cairo.h>
@@ -26,109 +24,8 @@ namespace {
 using scene::Affine;
 using scene::Path;
 
-constexpr int side = 1024;
+constexpr int side = VgCanvas::side;
 constexpr double budget = 4000;  ///< CPU milliseconds a workload
-
-/// A shape of one colour.
-struct Shape {
-    Path path;
-    Affine toPicture = scene::identity;
-    std::variant<scene::FillRule, scene::StrokeStyle> geometry = scene::FillRule::NonZero;
-    scene::Color color{0.2f, 0.3f, 0.5f, 1};
-};
-
-// ---- OpenVG ---------------------------------------------------------------------------------------
-
-class VgCanvas {
-public:
-    VgCanvas() {
-        const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
-        surface_ = vtmCreateSurface(side, side, &format);
-        context_ = vtmCreateContext(nullptr);
-        vtmMakeCurrent(context_, surface_);
-        paint_ = vgCreatePaint();
-        vgSetPaint(paint_, VG_FILL_PATH | VG_STROKE_PATH);
-        const VGfloat white[]{1, 1, 1, 1};
-        vgSetfv(VG_CLEAR_COLOR, 4, white);
-    }
-    ~VgCanvas() {
-        vtmMakeCurrent(nullptr, nullptr);
-        vtmDestroyContext(context_);
-        vtmDestroySurface(surface_);
-    }
-    VgCanvas(const VgCanvas&) = delete;
-    VgCanvas& operator=(const VgCanvas&) = delete;
-
-    void add(const Shape& shape) {
-        const VGPath path =
-            vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0, 0, 0, VG_PATH_CAPABILITY_ALL);
-        set(path, shape.path);
-        shapes_.push_back({path, shape});
-    }
-    /// Gives the shape another outline.
-    void change(std::size_t i, const Path& path) {
-        vgClearPath(shapes_[i].path, VG_PATH_CAPABILITY_ALL);
-        set(shapes_[i].path, path);
-    }
-    void draw(const Affine& view) {
-        vgClear(0, 0, side, side);
-        for (const Drawn& drawn : shapes_) {
-            const scene::Color& c = drawn.shape.color;
-            const VGfloat rgba[]{c.r, c.g, c.b, c.a};
-            vgSetParameterfv(paint_, VG_PAINT_COLOR, 4, rgba);
-            const Affine m = scene::compose(view, drawn.shape.toPicture);
-            const VGfloat matrix[]{VGfloat(m[0].x), VGfloat(m[0].y), 0, VGfloat(m[1].x), VGfloat(m[1].y), 0,
-                                   VGfloat(m[2].x), VGfloat(m[2].y), 1};
-            vgLoadMatrix(matrix);
-            if (const auto* stroke = std::get_if<scene::StrokeStyle>(&drawn.shape.geometry)) {
-                vgSetf(VG_STROKE_LINE_WIDTH, VGfloat(stroke->width));
-                vgSetf(VG_STROKE_MITER_LIMIT, VGfloat(stroke->miterLimit));
-                vgDrawPath(drawn.path, VG_STROKE_PATH);
-            } else {
-                vgSeti(VG_FILL_RULE,
-                       std::get<scene::FillRule>(drawn.shape.geometry) == scene::FillRule::EvenOdd
-                           ? VG_EVEN_ODD
-                           : VG_NON_ZERO);
-                vgDrawPath(drawn.path, VG_FILL_PATH);
-            }
-        }
-    }
-
-private:
-    struct Drawn {
-        VGPath path;
-        Shape shape;
-    };
-
-    static void set(VGPath to, const Path& path) {
-        std::vector<VGubyte> commands;
-        std::vector<VGfloat> numbers;
-        const auto add = [&](VGubyte command, std::initializer_list<scene::Point> points) {
-            commands.push_back(command);
-            for (const scene::Point p : points)
-                numbers.insert(numbers.end(), {VGfloat(p.x), VGfloat(p.y)});
-        };
-        for (const scene::Command& command : path) {
-            if (const auto* move = std::get_if<scene::MoveTo>(&command))
-                add(VG_MOVE_TO_ABS, {move->to});
-            else if (const auto* line = std::get_if<scene::LineTo>(&command))
-                add(VG_LINE_TO_ABS, {line->to});
-            else if (const auto* quad = std::get_if<scene::QuadTo>(&command))
-                add(VG_QUAD_TO_ABS, {quad->control, quad->to});
-            else if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
-                add(VG_CUBIC_TO_ABS, {cubic->control1, cubic->control2, cubic->to});
-            else
-                add(VG_CLOSE_PATH, {});
-        }
-        if (!commands.empty())
-            vgAppendPathData(to, VGint(commands.size()), commands.data(), numbers.data());
-    }
-
-    VtmSurface* surface_;
-    VtmContext* context_;
-    VGPaint paint_;
-    std::vector<Drawn> shapes_;
-};
 
 // ---- cairo ----------------------------------------------------------------------------------------
 
@@ -317,6 +214,14 @@ void addWorkload(const Workload& workload, Report& report) {
         times.push_back(cpuTime([&] { drawFrame(ours, workload, i); }));
     row["OpenVG ms"] = median(times);
 #endif
+    if (!workload.edited && ours.record()) {
+        int callsFrame = 0, recordedFrame = 0;
+        const Paired recorded =
+            pairwise([&] { drawFrame(ours, workload, ++callsFrame); },
+                     [&] { ours.drawRecording(workload.view(++recordedFrame)); }, budget, 100);
+        row["recorded ms"] = recorded.second;
+        row["recorded / OpenVG"] = recorded.ratio;
+    }
     report.rows.push_back(std::move(row));
 }
 
@@ -333,7 +238,9 @@ Report openvg(const std::vector<File>& files) {
         "medians, and the median "
         "of the ratios pair by pair. Paints other than colours are grey, strokes have cairo's default caps "
         "and joins in both. The first "
-        "frame of OpenVG compiles every path. NanoVG is not in Debian.";
+        "frame of OpenVG compiles every path. Recorded: the same calls made once between vtmBeginRecording "
+        "and "
+        "vtmEndRecording, and drawn in turns with them by one vtmDrawRecording. NanoVG is not in Debian.";
 #ifndef VTM_HAVE_RSVG
     report.notes.push_back("cairo: missing (librsvg2-dev)");
 #endif

@@ -56,6 +56,28 @@ def drawing(example):
     check(abs(numpy.asarray(halved).astype(float) - small[180:540, 180:540]).mean() < 3, "half the size by the matrix")
 
 
+def record(example):
+    """The lighthouse as one picture: what it is without a recording, and a file that others read."""
+    file = next(pathlib.Path(word) for word in example.command if word.endswith(".vtm"))
+    file.unlink(missing_ok=True)
+    drawing(example)
+    check(file.read_bytes()[:4] == b"VTM\xb6", "the recording is a .vtm file")
+
+
+def in_gles(example):
+    """The program's stripes, on them three recordings drawn by shaders, and a panel that OpenVG drew."""
+    pixels = example.draw("")
+    stripe, other = pixels[10, 40], pixels[10, 120]
+    check(distance(stripe, other) > 5 and (distance(pixels[:, :80], stripe) < 1)[430:].all(), "stripes")
+    for x, y, size in ((300, 270, 420), (700, 210, 240), (880, 390, 90)):
+        part = pixels[y - size // 8:y + size // 8, x - size // 4:x + size // 4]
+        check(part[:, :, 0].max() > 190 and part.std() > 30, f"a recording of {size} pixels")
+    check(distance(pixels[464, 608:800], (76, 214, 164)).min() < 2, "green dots")
+    check(distance(pixels[464, 640], pixels[464, 560]) > 15, "the panel is translucent: lighter than the stripes")
+    steps = abs(numpy.diff(pixels[430, 600:820].mean(axis=1)))
+    check(steps.max() > 2, "and stripes are seen through it")
+
+
 def tiger(example):
     pixels = example.draw("")
     green = (pixels[:, :, 1] > 120) & (pixels[:, :, 0] < 170) & (pixels[:, :, 2] < 80)

@@ -363,6 +363,23 @@ constexpr Call table[] = {
         vguComputeWarpQuadToQuad(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11],
                                  p[12], p[13], p[14], p[15], a.results());
     },
+    // ---- Recordings
+    [](World&, Arguments& a) {
+        if (a.rarely(4))
+            vtmBeginRecording(a.rarely(8) ? a.number() : VGfloat(1 + a.byte()), VGfloat(1 + a.byte()));
+    },
+    [](World& w, Arguments& a) {
+        VtmRecording* const recording = vtmEndRecording();
+        if (!recording)
+            return static_cast<void>(vtmGetRecordingFault());
+        vtmDestroyRecording(w.recording);
+        w.recording = recording;
+        std::size_t size = 0;
+        const void* const bytes = vtmGetRecordingBytes(recording, &size);
+        vtmDestroyRecording(vtmLoadRecording(bytes, a.rarely() ? size / 2 : size));
+    },
+    [](World&, Arguments&) { vtmDestroyRecording(vtmEndRecording()); },
+    [](World& w, Arguments&) { vtmDrawRecording(w.recording); },
 };
 
 }  // namespace

@@ -24,6 +24,7 @@ struct World {
     }
     ~World() {
         vtmMakeCurrent(nullptr, nullptr);
+        vtmDestroyRecording(recording);
         for (VtmSurface* surface : surfaces)
             vtmDestroySurface(surface);
         for (VtmContext* context : contexts)
@@ -85,6 +86,7 @@ struct World {
     std::array<VtmSurface*, 3> surfaces{};
     Pool paths, images, paints, fonts, layers;
     VGHandle dead = VG_INVALID_HANDLE;
+    VtmRecording* recording = nullptr;
 };
 
 inline VGParamType parameter(Arguments& a) {

@@ -64,7 +64,11 @@ VG_API_CALL void VG_API_ENTRY vtmGetSurfaceFormat(const VtmSurface *surface, Vtm
  * `rowBytes` from one row to the next. */
 VG_API_CALL void VG_API_ENTRY vtmReadSurface(VtmSurface *surface, void *pixels, size_t rowBytes) VG_API_EXIT;
 
-/* The inverse: sets all pixels. */
+/* The same of a rectangle, which must be within the surface; (x, y) is its lowest left pixel. */
+VG_API_CALL void VG_API_ENTRY vtmReadSurfacePart(VtmSurface *surface, VGint x, VGint y, VGint width, VGint height,
+                                                 void *pixels, size_t rowBytes) VG_API_EXIT;
+
+/* The inverse of vtmReadSurface: sets all pixels. */
 VG_API_CALL void VG_API_ENTRY vtmWriteSurface(VtmSurface *surface, const void *pixels, size_t rowBytes) VG_API_EXIT;
 
 /* `share`: a context whose objects the new one shares, or NULL. NULL if there is no memory. */
@@ -80,6 +84,55 @@ VG_API_CALL VGboolean VG_API_ENTRY vtmMakeCurrent(VtmContext *context, VtmSurfac
 
 VG_API_CALL VtmContext *VG_API_ENTRY vtmGetCurrentContext(void) VG_API_EXIT;
 VG_API_CALL VtmSurface *VG_API_ENTRY vtmGetCurrentSurface(void) VG_API_EXIT;
+
+/*
+ * Recordings: a sequence of calls as one picture, compiled to a Vector Texture Map. Layers become disjoint regions, so
+ * shapes that abut leave no seam, and what is drawn under a matrix is exact again (docs/openvg.md).
+ *
+ *     vtmBeginRecording(400, 300);
+ *     ...                                                 calls as ever: nothing is drawn meanwhile
+ *     VtmRecording *recording = vtmEndRecording();
+ *     vtmDrawRecording(recording);                        under the path matrix, any number of times
+ */
+typedef struct VtmRecording VtmRecording;
+
+/* A call that no picture can hold. */
+#define VTM_NOT_RECORDABLE_ERROR ((VGErrorCode)0x1F00)
+
+/* From here on vgClear and what draws paths, glyphs and images on the current context is kept instead: what would appear
+ * in [0, width] x [0, height] of the surface, of whatever size that is, on transparent ground. The recording has a mask of
+ * its own, which is 1; the surface's pixels and mask stay as they are. VG_ILLEGAL_ARGUMENT_ERROR if a recording is under
+ * way already, or a side is not in (0, 1000000].
+ *
+ * What a picture cannot hold is refused where it is called, by VTM_NOT_RECORDABLE_ERROR; docs/openvg.md lists it. */
+VG_API_CALL void VG_API_ENTRY vtmBeginRecording(VGfloat width, VGfloat height) VG_API_EXIT;
+
+/* Ends it, in every case. NULL with VG_ILLEGAL_ARGUMENT_ERROR if none is under way, with VTM_NOT_RECORDABLE_ERROR if a
+ * call was refused, with VG_OUT_OF_MEMORY_ERROR if there is no memory or the picture is beyond a limit of the
+ * compiler's. */
+VG_API_CALL VtmRecording *VG_API_ENTRY vtmEndRecording(void) VG_API_EXIT;
+
+/* Why the current context's last recording failed: which call, and what about it. Empty if it did not; valid until the
+ * next recording begins. */
+VG_API_CALL const char *VG_API_ENTRY vtmGetRecordingFault(void) VG_API_EXIT;
+
+/* A recording of the bytes of a .vtm file, wherever it was made. NULL if they are none (whatever they are, no harm comes of
+ * it), or a picture in compat mode, which has no regions. Materials, which are GLSL, show their fallback colours. */
+VG_API_CALL VtmRecording *VG_API_ENTRY vtmLoadRecording(const void *bytes, size_t size) VG_API_EXIT;
+
+/* A recording never changes, and belongs to no context: any thread may use it at any time. */
+VG_API_CALL void VG_API_ENTRY vtmDestroyRecording(VtmRecording *recording) VG_API_EXIT;
+
+/* The .vtm file: its bytes, which live as long as the recording, and in *size how many. */
+VG_API_CALL const void *VG_API_ENTRY vtmGetRecordingBytes(const VtmRecording *recording, size_t *size) VG_API_EXIT;
+
+VG_API_CALL VGfloat VG_API_ENTRY vtmRecordingWidth(const VtmRecording *recording) VG_API_EXIT;
+VG_API_CALL VGfloat VG_API_ENTRY vtmRecordingHeight(const VtmRecording *recording) VG_API_EXIT;
+
+/* Draws it on the current surface under VG_MATRIX_PATH_USER_TO_SURFACE, with (0, 0) where it was when recorded: as one shape
+ * whose paint is the picture, so scissoring, masking, blend mode and colour transform are those of now. While another
+ * recording is under way the call is refused. */
+VG_API_CALL void VG_API_ENTRY vtmDrawRecording(const VtmRecording *recording) VG_API_EXIT;
 
 /* The address of an exported vg, vgu or vtm function, or NULL. */
 typedef void (*VtmFunction)(void);

@@ -26,13 +26,20 @@ public:
     /// At a gradient's value, any number.
     Color at(double offset) const;
 
-private:
     struct Stop {
         float offset;
-        Color color;
+        Color color;  ///< premultiplied if the ramp's are
     };
+    /// From offset 0 to 1, at least two.
+    const std::vector<Stop>& stops() const { return stops_; }
+    /// As at(), of a place between two neighbours: 0 at a, 1 at b.
+    Color between(const Stop& a, const Stop& b, float t) const {
+        const Color color = glm::mix(a.color, b.color, t);
+        return premultiplied_ ? color : premultiplied(color);
+    }
 
-    std::vector<Stop> stops_;  ///< from offset 0 to 1, at least two
+private:
+    std::vector<Stop> stops_;
     ColorSpace space_;
     VGColorRampSpreadMode spread_;
     bool premultiplied_;  ///< colours of stops are, and so is what lies between

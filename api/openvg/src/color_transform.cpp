@@ -1,5 +1,7 @@
 #include "api/openvg/src/color_transform.hpp"
 
+#include <algorithm>
+
 namespace vtm::openvg {
 
 namespace {
@@ -24,6 +26,13 @@ private:
 };
 
 }  // namespace
+
+ScaleAndBias::ScaleAndBias(const State& state) : isOn_(state.colorTransform) {
+    for (int c = 0; c < 4; ++c) {
+        scale_[c] = std::clamp(state.colorTransformValues[std::size_t(c)], -127.0f, 127.0f);
+        bias_[c] = std::clamp(state.colorTransformValues[std::size_t(4 + c)], -1.0f, 1.0f);
+    }
+}
 
 ColorTransform::ColorTransform(const Paint& paint)
     : space_{paint.transformLinear, false, false}, isIdentity_(paint.colorMatrix == Paint::identityMatrix) {

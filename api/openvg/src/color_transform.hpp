@@ -9,8 +9,23 @@
 #include "api/openvg/src/color.hpp"
 #include "api/openvg/src/objects.hpp"
 #include "api/openvg/src/pixel_source.hpp"
+#include "api/openvg/src/state.hpp"
 
 namespace vtm::openvg {
+
+/// VG_COLOR_TRANSFORM of a context (section 13.1 of OpenVG 1.1).
+class ScaleAndBias {
+public:
+    explicit ScaleAndBias(const State& state);
+
+    bool isOn() const { return isOn_; }
+    /// Of a colour that is not premultiplied.
+    Color operator()(Color color) const { return clampedToUnit(color * scale_ + bias_); }
+
+private:
+    bool isOn_;
+    Color scale_, bias_;
+};
 
 class ColorTransform {
 public:

@@ -60,15 +60,11 @@ Compositor::Compositor(Context& context, const PixelSource& source)
       blend_(blendOf(context.state.blendMode)),
       isOver_(context.state.blendMode == VG_BLEND_SRC_OVER),
       mixesLight_(!surface_.pixels().format().space.linear),
-      transforms_(context.state.colorTransform),
+      transform_(context.state),
       space_(surface_.pixels().format().space) {
     const State& state = context.state;
     if (state.masking && surface_.mask)
         mask_ = &*surface_.mask;
-    for (int c = 0; c < 4; ++c) {
-        scale_[c] = std::clamp(state.colorTransformValues[std::size_t(c)], -127.0f, 127.0f);
-        bias_[c] = std::clamp(state.colorTransformValues[std::size_t(4 + c)], -1.0f, 1.0f);
-    }
     const PixelFormat& format = surface_.pixels().format();
     isAlphaOnly_ = format.red.bits == 0 && format.grey.bits == 0;
     mixesLight_ = mixesLight_ && !isAlphaOnly_;
@@ -76,13 +72,17 @@ Compositor::Compositor(Context& context, const PixelSource& source)
                 format.red == Channel{8, 0} && format.green == Channel{8, 8} &&
                 format.blue == Channel{8, 16} && (format.alpha.bits == 0 || format.alpha == Channel{8, 24});
     if (const std::optional<Color> color = source.constant())
-        constant_ = prepared(*color);
-    drawsBytes_ = constant_ && isOver_ && !mask_ && hasBytes_;
-    if (drawsBytes_) {
-        word_ = format.encode(*constant_);
-        for (int c = 0; c < 3; ++c)
-            light_[c] = gamma_.decode((*constant_)[c]);
-    }
+        use(*color);
+}
+
+void Compositor::use(Color color) {
+    constant_ = prepared(color);
+    drawsBytes_ = isOver_ && !mask_ && hasBytes_;
+    if (!drawsBytes_)
+        return;
+    word_ = surface_.pixels().format().encode(*constant_);
+    for (int c = 0; c < 3; ++c)
+        light_[c] = gamma_.decode((*constant_)[c]);
 }
 
 Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
@@ -91,14 +91,18 @@ Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSo
     drawsBytes_ = false;
 }
 
+bool Compositor::isPrepared() const {
+    const ColorSpace from = source_.space();
+    return from.linear == space_.linear && from.luminance == space_.luminance && !transform_.isOn();
+}
+
 Color Compositor::prepared(Color color) const {
-    ColorSpace from = source_.space();
-    const bool isSame = from.linear == space_.linear && from.luminance == space_.luminance;
-    if (isSame && !transforms_)
+    if (isPrepared())
         return color;
+    ColorSpace from = source_.space();
     color = unpremultiplied(color);
-    if (transforms_) {
-        color = clampedToUnit(color * scale_ + bias_);
+    if (transform_.isOn()) {
+        color = transform_(color);
         from.luminance = false;  // what was grey may no longer be
     }
     // Alpha-only surfaces keep no colour to convert.
@@ -112,6 +116,8 @@ void Compositor::prepare(std::span<Color> colors) const {
         std::ranges::fill(colors, *constant_);
         return;
     }
+    if (isPrepared())
+        return;
     for (Color& color : colors)
         color = prepared(color);
 }
@@ -180,6 +186,8 @@ void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
 void Compositor::drawPixel(int x, int y, Color source, float coverage, const Color* stencil) {
     Pixels& pixels = surface_.pixels();
     const PixelFormat& format = pixels.format();
+    if (isOver_ && source.a == 1 && coverage == 1 && !stencil)
+        return pixels.setWord(x, y, format.encode(source));
     Color before = format.decode(pixels.word(x, y));
     if (!space_.premultiplied)
         before = premultiplied(before);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/openvg/src/blend.hpp"
+#include "api/openvg/src/color_transform.hpp"
 #include "api/openvg/src/context.hpp"
 #include "api/openvg/src/path_mask.hpp"
 #include "api/openvg/src/pixel_source.hpp"
@@ -41,6 +42,8 @@ public:
     Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil);
 
     const Clip& clip() const { return clip_; }
+    /// The one colour of what comes next, in place of the source's: in its space, premultiplied.
+    void use(Color color);
     void operator()(int y, std::span<const CoverageRun> runs);
 
 private:
@@ -56,6 +59,8 @@ private:
     /// Colours of the source as they are blended: transformed, in the surface's space, premultiplied.
     void prepare(std::span<Color> colors) const;
     Color prepared(Color color) const;
+    /// The source's colours need nothing of that.
+    bool isPrepared() const;
 
     Surface& surface_;
     Clip clip_;
@@ -65,8 +70,7 @@ private:
     bool isOver_;
     bool mixesLight_;                   ///< edges are mixed in linear light, though the surface is not linear
     const MaskValues* mask_ = nullptr;  ///< null: no masking
-    bool transforms_;
-    Color scale_, bias_;
+    ScaleAndBias transform_;
     ColorSpace space_;  ///< the surface's
     bool isAlphaOnly_;
     bool hasBytes_;                  ///< red, green, blue, alpha bytes, or padding for alpha

@@ -196,18 +196,23 @@ void vtmGetSurfaceFormat(const VtmSurface* surface, VtmSurfaceFormat* result) {
 }
 
 void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
+    vtmReadSurfacePart(surface, 0, 0, surface->width(), surface->height(), bytes, rowBytes);
+}
+
+void vtmReadSurfacePart(VtmSurface* surface, VGint x0, VGint y0, VGint width, VGint height, void* bytes,
+                        size_t rowBytes) {
     const Pixels& pixels = surface->pixels();
     const PixelFormat& format = pixels.format();
     const PixelFormat output = bytesFormat();
-    for (int y = 0; y < pixels.height(); ++y) {
-        auto* row = static_cast<std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes;
+    for (int y = 0; y < height; ++y) {
+        auto* row = static_cast<std::uint8_t*>(bytes) + std::size_t(height - 1 - y) * rowBytes;
         if (format == output) {
-            std::memcpy(row, pixels.at(0, y), std::size_t(pixels.width()) * 4);
+            std::memcpy(row, pixels.at(x0, y0 + y), std::size_t(width) * 4);
             continue;
         }
-        for (int x = 0; x < pixels.width(); ++x) {
-            const std::uint32_t word =
-                output.encode(fullyConverted(format.decode(pixels.word(x, y)), format.space, output.space));
+        for (int x = 0; x < width; ++x) {
+            const std::uint32_t word = output.encode(
+                fullyConverted(format.decode(pixels.word(x0 + x, y0 + y)), format.space, output.space));
             for (int c = 0; c < 4; ++c)
                 row[4 * x + c] = std::uint8_t(word >> (8 * c));
         }

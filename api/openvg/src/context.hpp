@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <string>
 #include <utility>
 
 #include <vtm/vg.h>
@@ -15,12 +16,19 @@
 #include "api/openvg/src/state.hpp"
 #include "api/openvg/src/surface.hpp"
 
+namespace vtm::openvg {
+class Recorder;
+}
+
 struct VtmContext {
     vtm::openvg::State state;
     std::shared_ptr<vtm::openvg::Handles> objects;  ///< shared by contexts that share
     VtmSurface* surface = nullptr;                  ///< not null while current
     VGErrorCode error = VG_NO_ERROR;                ///< the oldest not asked for
     bool isDestroyed = false;                       ///< goes when it is no longer current
+
+    std::shared_ptr<vtm::openvg::Recorder> recorder;  ///< while a recording is under way
+    std::string recordingFault;                       ///< of the last one
 };
 
 namespace vtm::openvg {

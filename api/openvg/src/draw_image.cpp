@@ -9,6 +9,7 @@
 #include "api/openvg/src/color_transform.hpp"
 #include "api/openvg/src/compositor.hpp"
 #include "api/openvg/src/images.hpp"
+#include "api/openvg/src/record.hpp"
 
 namespace vtm::openvg {
 
@@ -71,6 +72,8 @@ void coverQuad(const std::array<glm::dvec2, 4>& corners, bool antialiased, const
 
 void drawImage(Context& context, const Image& image, const glm::mat3& toSurface) {
     const State& state = context.state;
+    if (context.recorder)
+        return context.recorder->drawImage(state, image, toSurface);
     const double w = image.width(), h = image.height();
     std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(w, 0), glm::dvec2(w, h), glm::dvec2(0, h)};
     for (glm::dvec2& corner : corners) {

@@ -7,6 +7,7 @@
 #include "api/openvg/src/compositor.hpp"
 #include "api/openvg/src/matrix.hpp"
 #include "api/openvg/src/pixel_source.hpp"
+#include "api/openvg/src/record.hpp"
 
 namespace vtm::openvg {
 
@@ -24,7 +25,10 @@ scene::Join joinOf(VGint style) {
                                     : scene::Join::Miter;
 }
 
-/// Of a state whose line width is a number above 0.
+}  // namespace
+
+bool hasStroke(const State& state) { return state.lineWidth > 0 && std::isfinite(state.lineWidth); }
+
 StrokeParameters strokeParameters(const State& state) {
     StrokeParameters p;
     p.style.width = double(state.lineWidth);
@@ -49,8 +53,6 @@ StrokeParameters strokeParameters(const State& state) {
     return p;
 }
 
-}  // namespace
-
 void requirePaintModes(VGbitfield modes) {
     require(modes != 0 && (modes & ~VGbitfield(VG_FILL_PATH | VG_STROKE_PATH)) == 0);
 }
@@ -60,7 +62,7 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
     const State& state = context.state;
     if (path.data.commands().empty() || clip.empty())
         return;
-    if (mode == VG_STROKE_PATH && !(state.lineWidth > 0 && std::isfinite(state.lineWidth)))
+    if (mode == VG_STROKE_PATH && !hasStroke(state))
         return;
     PathMask& mask = mode == VG_STROKE_PATH ? path.masks.stroked(path.data, strokeParameters(state))
                                             : path.masks.filled(path.data, state.fillRule == VG_EVEN_ODD
@@ -74,6 +76,8 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
 
 void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface) {
     const State& state = context.state;
+    if (context.recorder)
+        return context.recorder->drawPath(state, path, modes, toSurface);
     if (!inverseOf(toSurface))
         return;
     for (const VGPaintMode mode : {VG_FILL_PATH, VG_STROKE_PATH}) {

@@ -4,11 +4,18 @@
 
 #include "api/openvg/src/context.hpp"
 #include "api/openvg/src/path_mask.hpp"
+#include "api/openvg/src/path_masks.hpp"
 
 namespace vtm::openvg {
 
 /// Throws for what is no bitwise OR of VGPaintMode values.
 void requirePaintModes(VGbitfield modes);
+
+/// Whether a state's strokes have a width.
+bool hasStroke(const State& state);
+
+/// Of a state that hasStroke().
+StrokeParameters strokeParameters(const State& state);
 
 /// Gives the pixels of `clip` that a path covers, filled or stroked as the context's state says: exactly, or
 /// by centres where antialiasing is off. Nothing for a stroke without width.

@@ -7,6 +7,7 @@
 #include "api/openvg/src/draw_path.hpp"
 #include "api/openvg/src/images.hpp"
 #include "api/openvg/src/memory_pixels.hpp"
+#include "api/openvg/src/record.hpp"
 
 using namespace vtm::openvg;
 
@@ -71,6 +72,11 @@ void vgMask(VGHandle handle, VGMaskOperation operation, VGint x, VGint y, VGint 
         }
         require(isOperation(operation));
         require(width > 0 && height > 0);
+        if (context.recorder) {
+            if (image)
+                context.recorder->refuse("a mask made of an image");
+            return context.recorder->mask(layer.get(), operation, {x, y, 0, 0, width, height});
+        }
         if (!context.surface->mask)
             return;
         MaskValues& mask = *context.surface->mask;
@@ -92,6 +98,8 @@ void vgRenderToMask(VGPath handle, VGbitfield paintModes, VGMaskOperation operat
         const std::shared_ptr<Path> path = context.objects->get<Path>(handle);
         requirePaintModes(paintModes);
         require(isOperation(operation));
+        if (context.recorder)
+            return context.recorder->renderToMask(context.state, *path, paintModes, operation);
         if (!context.surface->mask)
             return;
         MaskValues& mask = *context.surface->mask;
@@ -136,17 +144,24 @@ void vgDestroyMaskLayer(VGMaskLayer layer) {
 
 void vgFillMaskLayer(VGMaskLayer handle, VGint x, VGint y, VGint width, VGint height, VGfloat value) {
     call([&](Context& context) {
-        MaskValues& mask = context.objects->get<MaskLayer>(handle)->mask;
+        const std::shared_ptr<MaskLayer> layer = context.objects->get<MaskLayer>(handle);
+        MaskValues& mask = layer->mask;
         require(value >= 0 && value <= 1 && width > 0 && height > 0 && x >= 0 && y >= 0);
         require(width <= mask.width - x && height <= mask.height - y);
-        fill(mask, {x, y, 0, 0, width, height}, toByte(value));
+        const CopyArea area{x, y, 0, 0, width, height};
+        if (context.recorder)
+            return context.recorder->fillMaskLayer(*layer, area, value);
+        fill(mask, area, toByte(value));
     });
 }
 
 void vgCopyMask(VGMaskLayer handle, VGint dx, VGint dy, VGint sx, VGint sy, VGint width, VGint height) {
     call([&](Context& context) {
-        MaskValues& layer = context.objects->get<MaskLayer>(handle)->mask;
+        const std::shared_ptr<MaskLayer> target = context.objects->get<MaskLayer>(handle);
+        MaskValues& layer = target->mask;
         require(width > 0 && height > 0);
+        if (context.recorder)
+            return context.recorder->copyMask(*target, {dx, dy, sx, sy, width, height});
         if (!context.surface->mask)
             return;
         const MaskValues& mask = *context.surface->mask;

@@ -68,15 +68,8 @@ class RadialGradientSource final : public AffineSource {
 public:
     RadialGradientSource(const Paint& paint, const glm::dmat3& fromSurface)
         : AffineSource({paint.rampLinear, true, false}, fromSurface), ramp_(paint), radius_(paint.radial[4]) {
-        const dvec2 center(paint.radial[0], paint.radial[1]);
-        focus_ = {paint.radial[2], paint.radial[3]};
-        // Inside of the circle by a little, so that the gradient has a value everywhere (section 9.3.2).
-        const dvec2 off = focus_ - center;
-        const double distance = glm::length(off);
-        if (distance > mostOff * radius_)
-            focus_ = center + off * (mostOff * radius_ / distance);
-        focus_ -= center;
-        center_ = center;
+        center_ = {paint.radial[0], paint.radial[1]};
+        focus_ = insideFocus(paint) - center_;
         inverse_ = 1 / (radius_ * radius_ - glm::dot(focus_, focus_));
     }
 
@@ -89,8 +82,6 @@ public:
     }
 
 private:
-    static constexpr double mostOff = 0.999;
-
     /// At an offset from the focus.
     double value(dvec2 d) const {
         if (!(radius_ > 0))
@@ -229,6 +220,22 @@ private:
 
 }  // namespace
 
+glm::dvec2 insideFocus(const Paint& paint) {
+    // By a little, so that the gradient has a value everywhere.
+    constexpr double mostOff = 0.999;
+    const dvec2 center(paint.radial[0], paint.radial[1]), focus(paint.radial[2], paint.radial[3]);
+    const double distance = glm::distance(focus, center), most = mostOff * double(paint.radial[4]);
+    return distance > most ? center + (focus - center) * (most / distance) : focus;
+}
+
+bool isSmooth(const Image& image, const State& state) {
+    return (state.imageQuality == VG_IMAGE_QUALITY_BETTER &&
+            image.allowedQuality & (VG_IMAGE_QUALITY_BETTER | VG_IMAGE_QUALITY_FASTER)) ||
+           (state.imageQuality == VG_IMAGE_QUALITY_FASTER && image.allowedQuality & VG_IMAGE_QUALITY_FASTER);
+}
+
+std::unique_ptr<PixelSource> constantSource(Color color) { return std::make_unique<ConstantSource>(color); }
+
 const Paint& currentPaint(const State& state, VGPaintMode mode) {
     static const Paint defaults;
     const std::shared_ptr<Paint>& paint = mode == VG_STROKE_PATH ? state.strokePaint : state.fillPaint;
@@ -239,7 +246,7 @@ std::unique_ptr<PixelSource> paintSource(const Paint& paint, const glm::mat3& pa
                                          const State& state) {
     if (paint.type == VG_PAINT_TYPE_COLOR || (paint.type == VG_PAINT_TYPE_PATTERN && !paint.pattern)) {
         const std::array<VGfloat, 4>& c = paint.color;
-        return std::make_unique<ConstantSource>(
+        return constantSource(
             premultiplied(transformedColor(ColorTransform(paint), Color(c[0], c[1], c[2], c[3]), sRGBA)));
     }
     const std::optional<glm::dmat3> fromSurface = inverseOf(paintToSurface);
@@ -260,12 +267,8 @@ std::unique_ptr<PixelSource> imageSource(const Image& image, const glm::mat3& im
     const std::optional<glm::dmat3> fromSurface = inverseOf(imageToSurface);
     if (!fromSurface)
         return nullptr;
-    // The best that the image allows and the context does not forbid.
-    const bool isSmooth =
-        ((state.imageQuality == VG_IMAGE_QUALITY_BETTER &&
-          image.allowedQuality & (VG_IMAGE_QUALITY_BETTER | VG_IMAGE_QUALITY_FASTER)) ||
-         (state.imageQuality == VG_IMAGE_QUALITY_FASTER && image.allowedQuality & VG_IMAGE_QUALITY_FASTER));
-    return std::make_unique<ImageSource>(Texels(image, VG_TILE_PAD, {}), *fromSurface, isSmooth);
+    return std::make_unique<ImageSource>(Texels(image, VG_TILE_PAD, {}), *fromSurface,
+                                         isSmooth(image, state));
 }
 
 std::unique_ptr<PixelSource> productSource(std::unique_ptr<PixelSource> image,

@@ -8,6 +8,7 @@
 #include <span>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 
 #include "api/openvg/src/color.hpp"
 #include "api/openvg/src/objects.hpp"
@@ -32,6 +33,9 @@ private:
     ColorSpace space_;
 };
 
+/// A premultiplied colour in sRGB.
+std::unique_ptr<PixelSource> constantSource(Color color);
+
 /// `paintToSurface`: from the paint's coordinates. Null if it cannot be inverted, when nothing is drawn
 /// (section 9). Reads the paint, its pattern and `state`; they must stay.
 std::unique_ptr<PixelSource> paintSource(const Paint& paint, const glm::mat3& paintToSurface,
@@ -39,6 +43,12 @@ std::unique_ptr<PixelSource> paintSource(const Paint& paint, const glm::mat3& pa
 
 /// The paint of a mode: VG_FILL_PATH or VG_STROKE_PATH.
 const Paint& currentPaint(const State& state, VGPaintMode mode);
+
+/// A radial gradient's focus, moved into the circle if it is not well inside (section 9.3.2).
+glm::dvec2 insideFocus(const Paint& paint);
+
+/// Whether an image is interpolated: the best that it allows and the context does not forbid.
+bool isSmooth(const Image& image, const State& state);
 
 /// An image's colours, taken at the quality that the context and the image both allow, its border pixels
 /// going on outside. Null if the matrix cannot be inverted.

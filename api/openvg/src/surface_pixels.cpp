@@ -2,10 +2,17 @@
 
 #include "api/openvg/src/compositor.hpp"
 #include "api/openvg/src/images.hpp"
+#include "api/openvg/src/record.hpp"
 
 using namespace vtm::openvg;
 
 namespace {
+
+/// Recordings have no pixels.
+void requirePixels(const Context& context, const char* function) {
+    if (context.recorder)
+        context.recorder->refuse(function);
+}
 
 /// Puts words of another format into the surface, where scissoring lets it.
 template <class Word>
@@ -26,6 +33,8 @@ void write(Context& context, const CopyArea& area, const PixelFormat& format, Wo
 void vgClear(VGint x, VGint y, VGint width, VGint height) {
     call([&](Context& context) {
         require(width > 0 && height > 0);
+        if (context.recorder)
+            return context.recorder->clear(context.state, x, y, width, height);
         Pixels& pixels = context.surface->pixels();
         const std::uint32_t word = wordOf(context.state.clearColor, pixels.format());
         const CopyArea area =
@@ -39,6 +48,7 @@ void vgClear(VGint x, VGint y, VGint width, VGint height) {
 
 void vgSetPixels(VGint dx, VGint dy, VGImage src, VGint sx, VGint sy, VGint width, VGint height) {
     call([&](Context& context) {
+        requirePixels(context, "vgSetPixels");
         const std::shared_ptr<Image> image = freeImage(context, src);
         require(width > 0 && height > 0);
         const CopyArea area = clipped({dx, dy, sx, sy, width, height}, context.surface->width(),
@@ -51,6 +61,7 @@ void vgSetPixels(VGint dx, VGint dy, VGImage src, VGint sx, VGint sy, VGint widt
 void vgWritePixels(const void* data, VGint dataStride, VGImageFormat dataFormat, VGint dx, VGint dy,
                    VGint width, VGint height) {
     call([&](Context& context) {
+        requirePixels(context, "vgWritePixels");
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const CopyArea area = clipped({dx, dy, 0, 0, width, height}, context.surface->width(),
                                       context.surface->height(), width, height);
@@ -61,6 +72,7 @@ void vgWritePixels(const void* data, VGint dataStride, VGImageFormat dataFormat,
 
 void vgGetPixels(VGImage dst, VGint dx, VGint dy, VGint sx, VGint sy, VGint width, VGint height) {
     call([&](Context& context) {
+        requirePixels(context, "vgGetPixels");
         const std::shared_ptr<Image> image = freeImage(context, dst);
         require(width > 0 && height > 0);
         const Pixels& pixels = context.surface->pixels();
@@ -73,6 +85,7 @@ void vgGetPixels(VGImage dst, VGint dx, VGint dy, VGint sx, VGint sy, VGint widt
 void vgReadPixels(void* data, VGint dataStride, VGImageFormat dataFormat, VGint sx, VGint sy, VGint width,
                   VGint height) {
     call([&](Context& context) {
+        requirePixels(context, "vgReadPixels");
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const Pixels& pixels = context.surface->pixels();
         const CopyArea area =
@@ -83,6 +96,7 @@ void vgReadPixels(void* data, VGint dataStride, VGImageFormat dataFormat, VGint 
 
 void vgCopyPixels(VGint dx, VGint dy, VGint sx, VGint sy, VGint width, VGint height) {
     call([&](Context& context) {
+        requirePixels(context, "vgCopyPixels");
         require(width > 0 && height > 0);
         const Pixels& pixels = context.surface->pixels();
         const CopyArea area = clipped({dx, dy, sx, sy, width, height}, pixels.width(), pixels.height(),
