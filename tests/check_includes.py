@@ -33,6 +33,7 @@ MODULES = {
     "conformance/generate": {"scene", "image"},
     "conformance/reference": {"scene", "image"},
     "conformance/compare": {"image"},
+    "conformance/vgscript": {"svg", "scene", "image"},
 }
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
