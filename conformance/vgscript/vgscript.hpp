@@ -1,5 +1,6 @@
 /// \file
-/// OpenVG calls written as text, for cases that anybody can add: docs/testing.md has the language.
+/// OpenVG calls written as text, for cases that anybody can add: conformance/suites/openvg/README.md has the
+/// language.
 #pragma once
 
 #include <stdexcept>

@@ -37,8 +37,11 @@ struct Appender {
 }  // namespace
 
 PathData pathData(const std::string& text) {
+    // A stroke with caps: the importer leaves out what covers nothing.
     const std::string document = fmt::format(
-        "<svg xmlns='http://www.w3.org/2000/svg' width='1' height='1'><path d='{}'/></svg>", text);
+        "<svg xmlns='http://www.w3.org/2000/svg' width='1' height='1'>"
+        "<path fill='none' stroke='#000' stroke-linecap='round' d='{}'/></svg>",
+        text);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(document.data());
     const svg::Document read = svg::load({bytes, document.size()});
     PathData data;
