@@ -79,13 +79,20 @@ SceneSettings at(SceneSettings settings, int size) {
     return settings;
 }
 
+/// Paints that vary are read once a pixel by the engines, which differs from the reference where pixels are
+/// large.
+SceneSettings twinsOnly(SceneSettings settings) {
+    settings.bounds = {.twin = settings.bounds.twin};
+    return settings;
+}
+
 }  // namespace
 
 std::vector<Case> corpusCases(const Folder& folder) {
     const SceneSettings settings = sceneSettings(folder.settings);
     const std::string table = "conformance/cases/limits.tsv";
     std::vector<Case> cases;
-    const auto add = [&](const std::string& name, const char* about, auto run) {
+    const auto add = [&](const std::string& name, const char* about, const auto& run) {
         cases.push_back({folder.name + "." + name, table, about, run});
     };
     for (const CorpusFile& file : vtm::cases::corpusFiles()) {
@@ -97,8 +104,12 @@ std::vector<Case> corpusCases(const Folder& folder) {
                 [=](const Setting& setting) {
                     return againstTruth(file, limit, at(settings, limit.size), setting);
                 });
-        add("engines." + file.name, "A real file at 1024 pixels: every engine against the exact reference.",
+        add("engines." + file.name + ".1024px", "A real file: every engine against the exact reference.",
             [=](const Setting& setting) { return againstReference(file.name, at(settings, 1024), setting); });
+        add("engines." + file.name + ".64px", "A real file made small: the engines against each other.",
+            [=](const Setting& setting) {
+                return againstReference(file.name, twinsOnly(at(settings, 64)), setting);
+            });
     }
     for (const std::string& icon : iconNames())
         add("icons." + icon, "A real icon at 64 pixels: every engine against the exact reference.",

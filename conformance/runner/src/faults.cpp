@@ -8,8 +8,8 @@ namespace vtm::conformance {
 namespace {
 
 constexpr std::string_view names[] = {"none",        "flipped-winding", "dropped-piece", "swapped-paint",
-                                      "cell-origin", "half-distance",   "blank",         "shifted",
-                                      "recoloured",  "neighbour",       "missing-cell"};
+                                      "cell-origin", "layers",          "half-distance", "blank",
+                                      "shifted",     "recoloured",      "neighbour",     "missing-cell"};
 
 using image::Raster;
 

@@ -18,7 +18,8 @@ enum class Fault {
     DroppedPiece,    ///< one piece less in one leaf
     SwappedPaint,    ///< two entries of the palette exchanged
     CellOrigin,      ///< the children of one node moved on by one
-    // of the estimator
+    // of the way in which pixels are made
+    Layers,        ///< layers over each other by their coverage, instead of regions
     HalfDistance,  ///< coverage is 0.5 - h, the paper's, instead of exact
     // of the picture
     Blank,

@@ -49,6 +49,12 @@ compiler::Options compileOptions(const Settings& json) {
     return options;
 }
 
+compiler::Options withFault(compiler::Options options, Fault fault) {
+    if (fault == Fault::Layers)
+        options.mode = asset::Mode::Compat;
+    return options;
+}
+
 }  // namespace
 
 SceneSettings sceneSettings(const Settings& settings) {
@@ -72,8 +78,8 @@ SceneSubject::SceneSubject(scene::Scene scene, SceneSettings settings, std::vect
       settings_(std::move(settings)),
       views_(std::move(views)),
       fault_(fault),
-      asset_(damaged(compiler::compile(scene_, settings_.compile).asset, fault)) {
-    if (fault_ == Fault::HalfDistance)
+      asset_(damaged(compiler::compile(scene_, withFault(settings_.compile, fault)).asset, fault)) {
+    if (fault_ == Fault::HalfDistance || fault_ == Fault::Layers)
         settings_.engines = {Engine::Asset};
 }
 
@@ -95,8 +101,11 @@ Raster SceneSubject::expected(std::size_t view) { return reference(views_[view].
 
 Raster SceneSubject::drawn(std::size_t index, Engine engine) {
     const asset::View& view = views_[index].view;
-    if (fault_ == Fault::HalfDistance)
-        return asset::evaluate(compiler::compilePaper(scene_).asset, view);
+    if (fault_ == Fault::HalfDistance) {
+        if (!paper_)
+            paper_ = compiler::compilePaper(scene_).asset;
+        return asset::evaluate(*paper_, view);
+    }
     switch (engine) {
         case Engine::Gl:
             if (!texture_)

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "asset/paper.hpp"
 #include "asset/scan.hpp"
 #include "backend_gl/renderer.hpp"
 #include "compiler/compile.hpp"
@@ -45,6 +46,7 @@ private:
     asset::Asset asset_;
     std::optional<asset::Scanner> scanner_;
     std::optional<gl::Texture> texture_;
+    std::optional<asset::PaperAsset> paper_;  ///< for Fault::HalfDistance
 };
 
 /// This thread's renderer, made when it is first asked for. Throws gl::GlError.

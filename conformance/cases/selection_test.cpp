@@ -1,4 +1,5 @@
-// Shapes that abut: no ground may show through where they meet.
+// The two sides of a selection share a boundary: no ground may show through there. SVG has no selections;
+// shapes that abut in SVG files are the suite conformance/suites/regions.
 
 #include <gtest/gtest.h>
 
@@ -30,14 +31,12 @@ scene::Node filled(Path path, const scene::Affine& transform, const scene::Color
     return {item};
 }
 
-/// Black shapes on white: what leaks shows at full contrast.
-scene::Scene onWhite(const std::vector<Path>& shapes, const scene::Affine& transform) {
+/// A white ground: what leaks shows at full contrast.
+scene::Scene whiteGround() {
     scene::Scene scene;
     scene.width = scene.height = side;
     scene.root.children.push_back(
         filled(scene::rectangle({0, 0}, {side, side}), scene::identity, {1, 1, 1, 1}));
-    for (const Path& shape : shapes)
-        scene.root.children.push_back(filled(shape, transform, {0, 0, 0, 1}));
     return scene;
 }
 
@@ -57,14 +56,9 @@ double leak(const image::Raster& drawn, const std::vector<double>& inside) {
     return 255 * worst;
 }
 
-class Seams : public testing::Test {
+class Selection : public testing::Test {
 protected:
     /// The worst over views that turn the picture on the raster, and the shapes in the picture.
-    double worstLeak(const std::vector<Path>& shapes, const Path& inside, asset::Mode mode) {
-        return worstLeak(inside, mode, [&](const scene::Affine& m) { return onWhite(shapes, m); });
-    }
-
-    /// `make` places the shapes, which cover `inside` together, by an affine map.
     template <class Make>
     double worstLeak(const Path& inside, asset::Mode mode, Make make) {
         compiler::Options options;
@@ -97,20 +91,6 @@ private:
     std::mt19937 random_{2005};  // fixed, so that a failure can be repeated
 };
 
-Point polar(double radius, double angle) { return centre + radius * Point(std::cos(angle), std::sin(angle)); }
-
-const std::vector<Path> twoRectangles{scene::rectangle({64, 64}, {128.3, 192}),
-                                      scene::rectangle({128.3, 64}, {192, 192})};
-const Path theirUnion = scene::rectangle({64, 64}, {192, 192});
-
-TEST_F(Seams, TwoRectangles) {
-    EXPECT_LE(worstLeak(twoRectangles, theirUnion, asset::Mode::Exact), leakBound);
-}
-
-/// That the tests above and below would see a leak: blended layers let a quarter of the ground through
-/// where each covers half a pixel, 64 of 255.
-TEST_F(Seams, LayersDoLeak) { EXPECT_GT(worstLeak(twoRectangles, theirUnion, asset::Mode::Compat), 55); }
-
 /// Black inside of a bow of cubics and blue outside of it, on white: two sides with one boundary.
 scene::Scene selectedOnWhite(const scene::Affine& transform) {
     const Path bow{scene::MoveTo{{40, 128}}, scene::CubicTo{{60, 10}, {170, 60}, {216, 128}},
@@ -123,47 +103,16 @@ scene::Scene selectedOnWhite(const scene::Affine& transform) {
     select.inside = std::make_shared<scene::Group>(content);
     content.children[0] = filled(all, scene::identity, {0, 0, 1, 1});
     select.outside = std::make_shared<scene::Group>(content);
-    scene::Scene scene = onWhite({}, transform);
+    scene::Scene scene = whiteGround();
     scene.root.children.push_back({select});
     return scene;
 }
 
 /// Red is white's alone. In compat mode, too, the sides' shares add up to one.
-TEST_F(Seams, TheSidesOfASelection) {
+TEST_F(Selection, DoesNotLeakBetweenItsSides) {
     const Path inside = scene::rectangle({60, 60}, {196, 196});  // inside the picture at any angle
     EXPECT_LE(worstLeak(inside, asset::Mode::Exact, selectedOnWhite), leakBound);
     EXPECT_LE(worstLeak(inside, asset::Mode::Compat, selectedOnWhite), leakBound);
-}
-
-TEST_F(Seams, DiscOfTwelveSectors) {
-    constexpr int sectors = 12;
-    constexpr double radius = 100;
-    std::vector<Path> shapes;
-    std::vector<Point> corners;
-    for (int i = 0; i < sectors; ++i) {
-        const Point from = polar(radius, 2 * pi * i / sectors),
-                    to = polar(radius, 2 * pi * (i + 1) / sectors);
-        shapes.push_back({scene::MoveTo{centre}, scene::LineTo{from},
-                          scene::ArcTo{{radius, radius}, 0, false, true, to}, scene::Close{}});
-        corners.push_back(from);
-    }
-    // The polygon of the sectors' corners lies inside the disc whatever happens to the arcs.
-    Path inside{scene::MoveTo{corners[0]}};
-    for (int i = 1; i < sectors; ++i)
-        inside.push_back(scene::LineTo{corners[std::size_t(i)]});
-    inside.push_back(scene::Close{});
-    EXPECT_LE(worstLeak(shapes, inside, asset::Mode::Exact), leakBound);
-}
-
-TEST_F(Seams, FanOfCurves) {
-    const Point top{128, 40}, bottom{128, 216};
-    const auto bow = [&](double x) { return scene::CubicTo{{x, 90}, {x, 160}, bottom}; };
-    const auto back = [&](double x) { return scene::CubicTo{{x, 160}, {x, 90}, top}; };
-    std::vector<Path> shapes;
-    for (const double x : {20.0, 70.0, 120.0, 170.0})
-        shapes.push_back({scene::MoveTo{top}, bow(x), back(x + 50), scene::Close{}});
-    const Path inside{scene::MoveTo{top}, bow(20), back(220), scene::Close{}};
-    EXPECT_LE(worstLeak(shapes, inside, asset::Mode::Exact), leakBound);
 }
 
 }  // namespace
