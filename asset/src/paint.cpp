@@ -41,9 +41,9 @@ vec4 layerColor(const Paints& paints, const Instruction& in, const PaintPlace& p
         case Op::Material:
             return materialColor(recordAt<MaterialFill>(data, in.argument), place.point, materials);
         case Op::Linear:
-            return linearColor({data, in.argument}, place.point);
+            return linearColor({data, in.argument}, place.point, place.pixel);
         default:
-            return radialColor({data, in.argument}, place.point);
+            return radialColor({data, in.argument}, place.point, place.pixel);
     }
 }
 

@@ -14,7 +14,7 @@ namespace vtm::asset {
 /// Where a paint is asked for its colour.
 struct PaintPlace {
     glm::vec2 point{0};  ///< of the picture
-    glm::mat2 pixel{0};  ///< what a step of a pixel in x and in y is there; 0: images as if magnified
+    glm::mat2 pixel{0};  ///< what a step of a pixel in x and in y is there; 0: as if magnified
 };
 
 /// An asset's paints, with what they need made once. The asset must outlive it.

@@ -28,16 +28,40 @@ GradientStop grey(float offset, float value, float alpha = 1) {
 }
 
 /// The colour of a program of one layer.
-vec4 colorOf(Op op, const std::vector<Texel>& data, vec2 point, float opacity = 1) {
+vec4 colorOf(Op op, const std::vector<Texel>& data, const PaintPlace& place, float opacity = 1) {
     const Asset asset = programAsset({{op, Blend::Normal, opacity, 0}}, data);
-    return Paints(asset).color(asset.maps[0].root.payload(), {point});
+    return Paints(asset).color(asset.maps[0].root.payload(), place);
 }
 
-vec4 ramp(Op op, Gradient gradient, vec2 point, std::vector<GradientStop> stops = {grey(0, 0), grey(1, 1)}) {
+/// Over a pixel about a place, or at it.
+vec4 ramp(Op op, Gradient gradient, const PaintPlace& place,
+          std::vector<GradientStop> stops = {grey(0, 0), grey(1, 1)}) {
     gradient.stopCount = std::uint32_t(stops.size());
     std::vector<Texel> data;
     addGradient(data, gradient, stops);
-    return colorOf(op, data, point);
+    return colorOf(op, data, place);
+}
+vec4 ramp(Op op, const Gradient& gradient, vec2 point,
+          std::vector<GradientStop> stops = {grey(0, 0), grey(1, 1)}) {
+    return ramp(op, gradient, PaintPlace{point}, std::move(stops));
+}
+
+/// The mean of the colours at 256 × 256 points of the pixel.
+vec4 sampled(Op op, const Gradient& gradient, const PaintPlace& place,
+             const std::vector<GradientStop>& stops) {
+    constexpr int side = 256;
+    Gradient whole = gradient;
+    whole.stopCount = std::uint32_t(stops.size());
+    std::vector<Texel> data;
+    addGradient(data, whole, stops);
+    const Asset asset = programAsset({{op, Blend::Normal, 1, 0}}, data);
+    const Paints paints(asset);
+    glm::dvec4 sum(0);
+    for (int i = 0; i < side * side; ++i) {
+        const vec2 offset((float(i % side) + 0.5f) / side - 0.5f, (float(i / side) + 0.5f) / side - 0.5f);
+        sum += paints.color(asset.maps[0].root.payload(), {place.point + place.pixel * offset});
+    }
+    return sum / double(side * side);
 }
 
 Gradient spread(Spread s) {
@@ -90,6 +114,46 @@ TEST(Paint, ManyStops) {
 }
 
 /// The offset shows as the grey value, and must solve the circles' equation.
+const std::vector<GradientStop> kinked{grey(0, 0.2f), grey(0.25f, 1, 0.5f), grey(0.25f, 0.1f),
+                                       grey(0.8f, 0.9f), grey(1, 0)};
+
+TEST(Paint, LinearGradientIsItsMeanOverAPixelAlongIt) {
+    for (const Spread s : {Spread::Pad, Spread::Reflect, Spread::Repeat})
+        for (const float width : {0.01f, 0.1f, 0.7f, 1.9f})
+            for (const float x : {-1.3f, -0.003f, 0.1f, 0.249f, 0.5f, 0.999f, 2.6f}) {
+                const PaintPlace place{{x, 3}, mat2(width, 0, 0, width)};
+                // 256 points leave a jump anywhere within a 512th of the pixel.
+                expectNear(ramp(Op::Linear, spread(s), place, kinked),
+                           sampled(Op::Linear, spread(s), place, kinked), 1.5f / 512);
+            }
+}
+
+TEST(Paint, LinearGradientIsItsMeanOverATurnedPixel) {
+    for (const float angle : {0.2f, 0.5f, 0.785f, 1.3f})
+        for (const float x : {0.1f, 0.24f, 0.26f, 0.4f, 0.97f}) {
+            const vec2 side = 0.2f * vec2(std::cos(angle), std::sin(angle));
+            const PaintPlace place{{x, 0}, mat2(side, vec2(-side.y, side.x))};
+            expectNear(ramp(Op::Linear, {}, place, kinked), sampled(Op::Linear, {}, place, kinked), 0.012f);
+        }
+}
+
+TEST(Paint, PeriodicGradientFarAwayIsItsMean) {
+    // Over many periods, and far from the first one: 0.5 whatever the phase.
+    for (const Spread s : {Spread::Reflect, Spread::Repeat})
+        expectNear(ramp(Op::Linear, spread(s), {{1234.5f, 0}, mat2(40, 0, 0, 40)}), vec4(0.5f, 0.5f, 0.5f, 1),
+                   1e-4f);
+}
+
+TEST(Paint, RadialGradientIsItsMeanAtItsTip) {
+    for (const float side : {0.02f, 0.1f, 0.4f})
+        for (const vec2 middle :
+             {vec2(0, 0), vec2(0.3f, 0.1f), vec2(0.5f, 0.5f), vec2(-0.9f, 0.4f), vec2(2, -3)}) {
+            const PaintPlace place{side * middle, mat2(side, 0, 0, side)};
+            expectNear(ramp(Op::Radial, {}, place), sampled(Op::Radial, {}, place, {grey(0, 0), grey(1, 1)}),
+                       0.007f * side + 1e-5f);
+        }
+}
+
 TEST(Paint, RadialOffsetSolvesTheCircles) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 1);

@@ -31,44 +31,128 @@ uint stopsUpTo(ASSET_IN uint firstStop, uint count, float u) {
 
 vec4 stopColor(uvec4 stop) { return vec4(low(stop.y), high(stop.y), low(stop.z), high(stop.z)) / 65535.0; }
 
+vec4 premultiplied(vec4 c) { return vec4(c.rgb * c.a, c.a); }
+
 // Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
-vec4 colorAt(ASSET_IN uint firstStop, uint count, float u) {
-    uint upTo = stopsUpTo(ASSET firstStop, count, u);
+vec4 colorBetween(uvec4 before, uvec4 after, float u) {
+    float start = uintBitsToFloat(before.x), gap = uintBitsToFloat(after.x) - start;
+    return premultiplied(mix(stopColor(before), stopColor(after), gap > 0.0 ? (u - start) / gap : 0.0));
+}
+
+// ---- Means over pixels
+
+// The padded ramp's integral from a to b. Between stops it is a quadratic, which Simpson's rule integrates exactly; at
+// the same time that serves what lies before the first stop and behind the last.
+vec4 rampIntegral(ASSET_IN uint firstStop, uint count, float a, float b) {
+    vec4 sum = vec4(0.0);
+    float from = a;
+    for (uint next = stopsUpTo(ASSET firstStop, count, a); from < b; ++next) {
+        uvec4 before = texelAt(ASSET firstStop + (next == 0u ? 0u : next - 1u));
+        uvec4 after = texelAt(ASSET firstStop + min(next, count - 1u));
+        float to = next == count ? b : min(b, uintBitsToFloat(after.x));
+        sum += (colorBetween(before, after, from) + 4.0 * colorBetween(before, after, 0.5 * (from + to)) +
+                colorBetween(before, after, to)) * ((to - from) / 6.0);
+        from = to;
+    }
+    return sum;
+}
+
+// The mean from u - width / 2 to u + width / 2, width > 0. A reflected ramp repeats after two, so no mean is over
+// more; a padded one is all but two colours beyond 1024.
+vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float width) {
+    bool periodic = spread == spreadReflect || spread == spreadRepeat;
+    width = min(width, periodic ? 2.0 : 1024.0);
+    u -= periodic ? 2.0 * floor(0.5 * u) : 0.0;
+    float from = u - 0.5 * width, to = u + 0.5 * width;
+    vec4 sum = vec4(0.0);
+    // One turn with the whole stretch where the ramp is padded.
+    float first = periodic ? floor(from) : 0.0, last = periodic ? to : 1.0;
+    for (float n = first; n < last; ++n) {
+        float a = periodic ? max(from - n, 0.0) : from, b = periodic ? min(to - n, 1.0) : to;
+        bool mirrored = spread == spreadReflect && n != 0.0 && n != 2.0;
+        sum += rampIntegral(ASSET firstStop, count, mirrored ? 1.0 - b : a, mirrored ? 1.0 - a : b);
+    }
+    return sum / width;
+}
+
+// Ramps narrower than this in a pixel are as good as straight there, but for stops.
+const float straightWidth = 1.0 / 16.0;
+
+// The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other one's box is
+// replaced by two points with the same variance. Where the pixel has nothing but a little of one stretch between two
+// stops, it is the colour in the middle.
+vec4 colorOver(ASSET_IN uint firstStop, uint count, uint spread, float u, vec2 sides) {
+    sides = min(abs(sides), vec2(1024.0));
+    float longer = max(sides.x, sides.y), shorter = min(sides.x, sides.y), width = longer + shorter;
+    bool padded = spread != spreadReflect && spread != spreadRepeat;
+    float v = spreadOffset(spread, u), unclamped = padded ? u : v;
+    uint upTo = stopsUpTo(ASSET firstStop, count, unclamped);
     uvec4 before = texelAt(ASSET firstStop + (upTo == 0u ? 0u : upTo - 1u));
     uvec4 after = texelAt(ASSET firstStop + min(upTo, count - 1u));
-    float start = uintBitsToFloat(before.x), gap = uintBitsToFloat(after.x) - start;
-    vec4 c = mix(stopColor(before), stopColor(after), gap > 0.0 ? (u - start) / gap : 0.0);
-    return vec4(c.rgb * c.a, c.a);
+    float low = upTo > 0u ? uintBitsToFloat(before.x) : 0.0, high = upTo < count ? uintBitsToFloat(after.x) : 1.0;
+    bool outer = padded && (upTo == 0u || upTo == count);
+    if ((width <= straightWidth || outer) && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
+        (padded && upTo == count || unclamped + 0.5 * width <= high))
+        return colorBetween(before, after, v);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 2; ++i)
+        sum += rampMean(ASSET firstStop, count, spread, u + (i == 0 ? -0.28867513 : 0.28867513) * shorter, longer);
+    return 0.5 * sum;
 }
+
+// ---- Radial gradients
 
 // The larger root u of |p - (1-u) f| = (1-u) fr + u with (1-u) fr + u >= 0, and whether there is one.
 // With d = p - f: a u² - 2 b u - c = 0; the roots are q / a and -c / q, q = b ± sqrt(b² + a c) with the
-// sign that cancels nothing.
-bool radialOffset(vec2 p, vec2 f, float fr, out float u) {
+// sign that cancels nothing. Its slope is (u f + d) / (a u - b).
+bool radialOffset(vec2 p, vec2 f, float fr, out float u, out vec2 slope) {
     vec2 d = p - f;
     float grow = 1.0 - fr;
     float a = grow * grow - dot(f, f), b = dot(d, f) - fr * grow, c = dot(d, d) - fr * fr;
     float discriminant = b * b + a * c;
     u = 0.0;
+    slope = vec2(0.0);
     if (discriminant < 0.0)
         return false;
     float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant);
     float one = q == 0.0 ? 0.0 : -c / q, other = a == 0.0 ? one : q / a;
-    u = max(one, other);
-    if (fr + u * grow >= 0.0)
-        return true;
-    u = min(one, other);
+    float larger = max(one, other), smaller = min(one, other);
+    u = fr + larger * grow >= 0.0 ? larger : smaller;
+    slope = (u * f + d) / max(abs(a * u - b), 1e-6);
     return fr + u * grow >= 0.0;
 }
 
-vec4 gradientColor(ASSET_IN bool radial, uint gradient, vec2 point) {
+// A radial gradient is a cone over the plane, about its focus: the mean of u over a pixel is not that in the middle. Moves
+// u, and scales what the pixel's sides change it by, to mean and variance; the formula stands in the twin.
+void overCone(vec2 slope, vec2 d, mat2 sides, inout float u, out vec2 along) {
+    along = slope * sides;
+    float steep = dot(slope, slope), above = steep * dot(d, d);
+    float all = steep * (dot(sides[0], sides[0]) + dot(sides[1], sides[1])), radial = dot(along, along);
+    if (!(radial > 0.0))
+        return;
+    float near = 1.0 / (1.0 + 6.6 * above / all), tip = 0.0315 * all * near * near;
+    u += sqrt(above + max(all - radial, 0.0) / 12.0 + tip) - sqrt(above);
+    along *= sqrt(max(0.0, 1.0 - 12.0 * tip / radial));
+}
+
+// Where the middle of a pixel is nearer to the focus than this share of its side, it is put there: at the focus itself
+// there is no slope.
+const float besideFocus = 1e-3;
+
+// The mean over a pixel whose middle is `point`, where the ramp bends within it.
+vec4 gradientColor(ASSET_IN bool radial, uint gradient, vec2 point, mat3x2 pixel) {
     uvec4 a = texelAt(ASSET gradient), b = texelAt(ASSET gradient + 1u);
-    vec2 p = applyMatrix(a, b, point);
+    vec4 linear = uintBitsToFloat(a);
+    mat2 sides = mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]);
+    vec2 p = applyMatrix(a, b, point), along = vec2(sides[0].x, sides[1].x);
     float u = p.x;
     if (radial) {
         vec4 focus = uintBitsToFloat(texelAt(ASSET gradient + 2u));
-        if (!radialOffset(p, focus.xy, focus.z, u))
+        vec2 d = p - focus.xy, slope;
+        d = length(d) < besideFocus * length(sides[0]) ? besideFocus * sides[0] : d;
+        if (!radialOffset(focus.xy + d, focus.xy, focus.z, u, slope))
             return vec4(0.0);
+        overCone(slope, d, sides, u, along);
     }
-    return colorAt(ASSET gradient + 3u, b.w, spreadOffset(b.z, u));
+    return colorOver(ASSET gradient + 3u, b.w, b.z, u, along);
 }

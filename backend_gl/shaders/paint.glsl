@@ -14,7 +14,7 @@ vec4 materialColor(uint material, vec2 p);
 vec4 layerColor(ASSET_IN uint op, uint argument, vec2 point, mat3x2 pixel) {
 #if LINEAR || RADIAL
     if (LINEAR == 1 && op == opLinear || RADIAL == 1 && op == opRadial)
-        return gradientColor(ASSET RADIAL == 1 && op == opRadial, argument, point);
+        return gradientColor(ASSET RADIAL == 1 && op == opRadial, argument, point, pixel);
 #endif
 #if IMAGE
     if (op == opImage)

@@ -88,9 +88,7 @@ TEST_P(CorpusTexture, IsThePictureAtAnySize) {
         }
         RecordProperty(fmt::format("rms_{}", size), fmt::format("{:.3f}", d.rms));
     }
-    // Gradients finer than leaves, looked at once a leaf and pixel: 2.2 at 64 pixels.
-    const bool isKnownMiss = GetParam().name == "fluent_prince";
-    EXPECT_EQ(worst <= minifiedRms, !isKnownMiss) << worst;
+    EXPECT_LE(worst, minifiedRms);
 }
 
 // ---- Any picture --------------------------------------------------------------------------------------

@@ -58,8 +58,8 @@ struct Options {
 
 /// The scene on transparent black. Exact: the mean of the composited colour over the pixel's box,
 /// weighted by the exact areas of the regions that outlines cut it into. Compat: each layer's exact
-/// coverage times its paint at the pixel's centre, `over`, layer by layer. The scene is valid.
-/// Throws std::invalid_argument if `samples` or `flatness` is out of range.
+/// coverage times its paint's mean over the pixel (images: at its centre), `over`, layer by layer. The scene
+/// is valid. Throws std::invalid_argument if `samples` or `flatness` is out of range.
 image::Raster render(const scene::Scene& scene, const View& view, const Options& options = {});
 
 }  // namespace vtm::reference

@@ -7,8 +7,16 @@
 namespace vtm::reference {
 namespace {
 
-/// Points a side of a pixel at which patterns are read; other paints at its centre only.
-constexpr int patternSamples = 8;
+/// Points a side of a pixel at which patterns and gradients are read; other paints at its centre only.
+constexpr int patternSamples = 8, gradientSamples = 16;
+
+int samplesOf(const Shader& shader) {
+    if (std::holds_alternative<TileShader>(shader))
+        return patternSamples;
+    const bool isGradient =
+        std::holds_alternative<LinearShader>(shader) || std::holds_alternative<RadialShader>(shader);
+    return isGradient ? gradientSamples : 1;
+}
 
 using Coverage = std::vector<double>;
 
@@ -80,8 +88,7 @@ struct RowCanvas {
     }
 
     Colour paint(int shader, int x) {
-        const bool pattern = std::holds_alternative<TileShader>(picture.shaders[std::size_t(shader)]);
-        const int n = pattern ? patternSamples : 1;
+        const int n = samplesOf(picture.shaders[std::size_t(shader)]);
         Colour sum(0);
         for (int i = 0; i < n * n; ++i)
             sum += sampler.shade(shader, {x + (i % n + 0.5) / n, y + (i / n + 0.5) / n});

@@ -56,7 +56,7 @@ TEST(Paints, HardStopsInsideAPixel) {
     g.stops = {{0, red}, {0.40625f, red}, {0.40625f, blue}, {1, blue}};  // at x = 3.25
     const Scene scene = sceneOf({{fillAll(g)}});
     expectPixel(renderAt(scene, Mode::Exact), 3, 3, {0.25, 0, 0.75, 1});
-    expectPixel(renderAt(scene, Mode::Compat), 3, 3, {0, 0, 1, 1});
+    expectPixel(renderAt(scene, Mode::Compat), 3, 3, {0.25, 0, 0.75, 1});
 }
 
 TEST_P(Paints, RadialGradientIsTheDistance) {

@@ -11,7 +11,7 @@ struct Kind {
 constexpr Kind kinds[] = {{"scene", sceneCases},           {"texture", textureCases},
                           {"random", randomCases},         {"paper", paperCases},
                           {"robustness", robustnessCases}, {"corpus", corpusCases},
-                          {"svg-suite", svgSuiteCases}};
+                          {"svg-suite", svgSuiteCases},    {"openvg", openvgCases}};
 
 }  // namespace
 
