@@ -34,9 +34,11 @@ MODULES = {
     "conformance/generate": {"scene", "image"},
     "conformance/reference": {"scene", "image"},
     "conformance/compare": {"image"},
+    "conformance/vgscript": {"svg", "scene", "image"},
 }
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
+MODULES["conformance/runner"] = EVERYTHING | {"conformance/cases"}
 MODULES["bench"] = EVERYTHING
 MODULES["tools"] = EVERYTHING
 MODULES["examples"] = EVERYTHING
@@ -56,14 +58,15 @@ LIBRARIES = {
     r"dlfcn\.h": {"api/openvg", "api/egl"},
     r"stddef\.h": {"api"},
     r"stdio\.h": {"api/egl"},
-    r"CLI/.*": {"tools"},
-    r"nlohmann/.*": {"tools", "bench", "conformance/cases"},
+    r"CLI/.*": {"tools", "conformance/runner"},
+    r"nlohmann/.*": {"tools", "bench", "conformance/cases", "conformance/runner"},
     r"benchmark/.*|librsvg/.*|cairo\.h": {"bench"},
     r"ft2build\.h": {"bench", "examples"},
     r"X11/.*": {"examples"},
     r"Q[A-Z]\w+": {"bench"},
     r"potracelib\.h": {"trace"},
     r"emmintrin\.h": {"asset"},
+    r"fnmatch\.h": {"conformance/runner"},
     r"unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder

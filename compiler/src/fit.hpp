@@ -53,7 +53,8 @@ private:
     int sliverReach() const { return 1 + static_cast<int>(scale_); }
     bool isNearBorder(LatticePoint p) const;
     bool isSliver(const Chain& chain);
-    bool cutAlong(const Chain& chain, std::size_t from, std::size_t to, PaintId outer, PaintId inner);
+    bool cutAlong(const Chain& chain, LatticePoint start, LatticePoint end, PaintId outer, PaintId inner);
+    bool isBorderFree(LatticePoint from, LatticePoint to) const;
     bool hugs(Steps p, Steps q, std::size_t from, std::size_t sides) const;
 
     void fit(const Chain& chain);

@@ -41,28 +41,53 @@ bool Fitter::isNearBorder(LatticePoint p) const {
 bool Fitter::isSliver(const Chain& chain) {
     if (!isNearBorder(points_[chain.first + chain.count / 2]))
         return false;
-    const auto from = sideOf(square_, points_[chain.first]);
-    if (!from)
+    const LatticePoint first = points_[chain.first], last = points_[chain.first + chain.count - 1];
+    if (!sideOf(square_, first) || !sideOf(square_, last))
         return false;
-    const auto to = sideOf(square_, points_[chain.first + chain.count - 1]);
-    if (!to)
-        return false;
-    return cutAlong(chain, *from, *to, chain.right, chain.left) ||
-           cutAlong(chain, *to, *from, chain.left, chain.right);
+    return cutAlong(chain, first, last, chain.right, chain.left) ||
+           cutAlong(chain, last, first, chain.left, chain.right);
 }
 
-/// Counter-clockwise from one side to another; the leaf's inside lies on the left.
-bool Fitter::cutAlong(const Chain& chain, Side from, Side to, PaintId outer, PaintId inner) {
-    const Side sides = (to + 4 - from) % 4;
+/// Along the border counter-clockwise from one end of the chain to the other; the leaf's inside lies on the
+/// left.
+bool Fitter::cutAlong(const Chain& chain, LatticePoint start, LatticePoint end, PaintId outer,
+                      PaintId inner) {
+    const Side from = *sideOf(square_, start), sides = (*sideOf(square_, end) + 4 - from) % 4;
     for (std::uint32_t i = 1; i < chain.count; ++i)
         if (!hugs(round(points_[chain.first + i - 1]), round(points_[chain.first + i]), from, sides))
             return false;
     for (Side k = 1; k <= sides; ++k)
         if (leaf_.corners[(from + k) % 4] != outer)
             return false;
+    if (!isBorderFree(start, end))
+        return false;
     for (Side k = 1; k <= sides; ++k)
         leaf_.corners[(from + k) % 4] = inner;
     return true;
+}
+
+/// Whether no chain ends on the border between two of its points, counter-clockwise. One that does lies
+/// between the border and a sliver, and has to be cut before it.
+bool Fitter::isBorderFree(LatticePoint from, LatticePoint to) const {
+    const auto along = [&](LatticePoint p) -> std::optional<std::int64_t> {
+        const auto side = sideOf(square_, p);
+        if (!side)
+            return std::nullopt;
+        const std::int64_t x = p.x - std::int64_t{square_.x0}, y = p.y - std::int64_t{square_.y0},
+                           length = square_.side;
+        const std::array<std::int64_t, 4> behind{x, y, length - x, length - y};
+        return static_cast<std::int64_t>(*side) * length + behind[*side];
+    };
+    const std::int64_t perimeter = 4 * std::int64_t{square_.side}, start = *along(from);
+    const auto distanceTo = [&](std::int64_t place) { return (place - start + perimeter) % perimeter; };
+    const std::int64_t end = distanceTo(*along(to));
+    return std::ranges::none_of(chains_, [&](const Chain& c) {
+        const auto isBetween = [&](LatticePoint p) {
+            const auto place = along(p);
+            return place && *place != start && distanceTo(*place) < end;
+        };
+        return isBetween(points_[c.first]) || isBetween(points_[c.first + c.count - 1]);
+    });
 }
 
 /// Whether an edge runs within reach of one of the sides from `from` on. The first and the last

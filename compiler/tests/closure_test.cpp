@@ -1,11 +1,13 @@
 // What a renderer adds up must close: in every leaf of an asset, as quantised, the regions on both
 // sides of the pieces fit together round every point and along every side.
+#include <cmath>
 #include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "asset/asset.hpp"
+#include "asset/planar_map.hpp"
 #include "compiler/compile.hpp"
 
 namespace vtm::compiler {
@@ -16,7 +18,7 @@ using asset::Leaf;
 using asset::Piece;
 
 /// A paint's weight: sums of a few of them are equal only if the paints are.
-std::uint64_t weight(std::uint16_t paint) { return std::mt19937_64(paint + 1u)(); }
+std::uint64_t weight(std::uint32_t paint) { return std::mt19937_64(paint + 1u)(); }
 
 /// Sum of weight(left) - weight(right) of what arrives minus what departs, by point.
 using Flows = std::map<std::array<std::uint16_t, 2>, std::uint64_t>;
@@ -45,6 +47,19 @@ void expectClosed(const Asset& asset) {
         for (std::size_t k = 0; k < 4; ++k)
             ASSERT_EQ(sides[k], weight(leaf.corners[(k + 1) % 4]) - weight(leaf.corners[k])) << "side " << k;
     }
+}
+
+/// All boundaries together, with what lies on the borders between leaves: where paints along a side stand in
+/// the wrong order, a border is missing there.
+void expectMapClosed(const Asset& asset) {
+    std::map<std::pair<double, double>, std::uint64_t> flows;
+    for (const asset::PlanarPiece& p : asset::planarPieces(asset, asset.maps[0])) {
+        const std::uint64_t step = weight(p.left) - weight(p.right);
+        flows[{p.b.x, p.b.y}] += step;
+        flows[{p.a.x, p.a.y}] -= step;
+    }
+    for (const auto& [point, flow] : flows)
+        ASSERT_EQ(flow, 0u) << "at " << point.first << ", " << point.second;
 }
 
 class Scribbler {
@@ -89,6 +104,7 @@ TEST_P(Closure, holdsForRandomCurves) {
     const Asset asset = compile(scene).asset;
     EXPECT_FALSE(asset.leaves.empty());
     expectClosed(asset);
+    expectMapClosed(asset);
 }
 
 TEST_P(Closure, holdsForShapesThatEndOnCellBorders) {
@@ -102,7 +118,31 @@ TEST_P(Closure, holdsForShapesThatEndOnCellBorders) {
             add(scene, {scene::MoveTo{a}, scene::LineTo{b}, scene::LineTo{c}, scene::Close{}}, random.color(),
                 random.rule());
     }
-    expectClosed(compile(scene).asset);
+    const Asset asset = compile(scene).asset;
+    expectClosed(asset);
+    expectMapClosed(asset);
+}
+
+TEST(Rays, CloseRoundACornerOfCells) {
+    // Rays of one vertex that is a corner of cells, some of them along borders: there a sliver lies behind
+    // the ends of others, which go first.
+    for (const int count : {4, 12, 40, 100})
+        for (const scene::FillRule rule : {scene::FillRule::NonZero, scene::FillRule::EvenOdd}) {
+            scene::Path rays;
+            const scene::Point hub(32, 32);
+            for (int i = 0; i < count; ++i) {
+                const double angle = 2 * 3.14159265358979 * i / count;
+                const auto at = [&](double a) { return hub + 28.0 * scene::Point(std::cos(a), std::sin(a)); };
+                const scene::Path ray =
+                    scene::polygon({hub, at(angle), at(angle + 3.14159265358979 / count)});
+                rays.insert(rays.end(), ray.begin(), ray.end());
+            }
+            scene::Scene scene{64, 64, {}};
+            add(scene, rays, {0, 0, 0, 1}, rule);
+            const Asset asset = compile(scene).asset;
+            expectClosed(asset);
+            expectMapClosed(asset);
+        }
 }
 
 }  // namespace

@@ -28,8 +28,6 @@ compare::Difference Measurement::glToReference(Gl& gl, int size) const {
     return compare::compare(gl.render(asset_, view), reference::render(scene_, same));
 }
 
-bool hasGradientTips(const std::string& name) { return name == "gallardo" || name == "fluent_prince"; }
-
 compare::Difference Measurement::scanToGl(Gl& gl, int size) const {
     const asset::View view = wholePicture(scene_, size);
     return compare::compare(asset::Scanner(asset_).draw(view), gl.render(asset_, view));

@@ -36,10 +36,4 @@ image::Raster truthOf(const std::string& name, int size);
 /// Bounds that hold for every file, in 1/255.
 inline constexpr double truthP999 = 6, assetMax = 2, referenceMax = 4, referenceRms = 0.3;
 
-/// Known fault: paints are looked at in the middle of a pixel, and the tips of radial gradients that are a
-/// few pixels wide are further off than `referenceMax` there, by this at most.
-inline constexpr double gradientTipMax = 8;
-/// Drawings in which it shows at 1024 pixels; they must, or the list is out of date.
-bool hasGradientTips(const std::string& name);
-
 }  // namespace vtm::cases

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the SVG test suite with the vtm command and scores it with the suite's own scorer.
 
-svg_suite.py --vtm VTM [--keep DIR] [--fails]
+svg_suite.py --vtm VTM [--keep DIR] [--fails] [--verdicts FILE]
 Exit code 1 where a folder falls below its share in WANTED, 77 where the suite is absent.
 """
 import argparse
@@ -40,18 +40,17 @@ def draw(vtm, suite, folder):
 
 
 def score(suite, folder):
-    """Passed and all tests by folder, and the names of those that failed."""
+    """Passed and all tests by folder, and whether each passed, by name."""
     result = folder / "score.json"
     subprocess.run([sys.executable, suite / "score.py", folder, "--quiet", "--json", result],
                    check=True, stdout=subprocess.DEVNULL)
-    counts, failed = {}, []
+    counts, passed = {}, {}
     for name, verdict in json.loads(result.read_text()).items():
         count = counts.setdefault(name.split("/")[0], [0, 0])
         count[0] += verdict["ok"]
         count[1] += 1
-        if not verdict["ok"]:
-            failed.append(name)
-    return counts, failed
+        passed[name] = verdict["ok"]
+    return counts, passed
 
 
 def report(counts):
@@ -72,6 +71,7 @@ def main():
     parser.add_argument("--vtm", required=True, type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--keep", type=pathlib.Path, help="leave the pictures here")
     parser.add_argument("--fails", action="store_true", help="name the tests that fail")
+    parser.add_argument("--verdicts", type=pathlib.Path, help="write what passed as JSON, by the tests' names")
     arguments = parser.parse_args()
     suite = suite_folder()
     if not suite.is_dir():
@@ -81,9 +81,11 @@ def main():
         folder = (arguments.keep or pathlib.Path(temporary)).resolve()
         folder.mkdir(parents=True, exist_ok=True)
         draw(arguments.vtm, suite, folder)
-        counts, failed = score(suite, folder)
+        counts, passed = score(suite, folder)
     if arguments.fails:
-        print("\n".join(failed))
+        print("\n".join(name for name in passed if not passed[name]))
+    if arguments.verdicts:
+        arguments.verdicts.write_text(json.dumps(passed))
     return 0 if report(counts) else 1
 
 
