@@ -1,5 +1,5 @@
 /// \file
-/// Figures of one file of the corpus, for the tests and for the table.
+/// A file of the corpus, compiled, and its truth.
 #pragma once
 
 #include "compiler/compile.hpp"
@@ -8,24 +8,16 @@
 
 namespace vtm::cases {
 
-/// A file of the corpus on its way through every engine.
+/// A file of the corpus, compiled.
 class Measurement {
 public:
     /// Throws the modules' exceptions.
     explicit Measurement(const std::string& name);
 
-    /// Against the ground truth, which must exist.
-    compare::Difference glToTruth(Gl& gl, int size) const;
-    compare::Difference glToAsset(Gl& gl, int size) const;
-    compare::Difference glToReference(Gl& gl, int size) const;
-    /// The scanner's picture against the shaders'.
-    compare::Difference scanToGl(Gl& gl, int size) const;
-
     const scene::Scene& scene() const { return scene_; }
     const asset::Asset& asset() const { return asset_; }
 
 private:
-    std::string name_;
     scene::Scene scene_;
     asset::Asset asset_;
 };
@@ -35,11 +27,5 @@ image::Raster truthOf(const std::string& name, int size);
 
 /// Bounds that hold for every file, in 1/255.
 inline constexpr double truthP999 = 6, assetMax = 2, referenceMax = 4, referenceRms = 0.3;
-
-/// Known fault: paints are looked at in the middle of a pixel, and the tips of radial gradients that are a
-/// few pixels wide are further off than `referenceMax` there, by this at most.
-inline constexpr double gradientTipMax = 8;
-/// Drawings in which it shows at 1024 pixels; they must, or the list is out of date.
-bool hasGradientTips(const std::string& name);
 
 }  // namespace vtm::cases
