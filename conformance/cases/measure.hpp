@@ -1,5 +1,5 @@
 /// \file
-/// Figures of one file of the corpus, for the tests and for the table.
+/// A file of the corpus, compiled, and its truth.
 #pragma once
 
 #include "compiler/compile.hpp"
@@ -8,24 +8,16 @@
 
 namespace vtm::cases {
 
-/// A file of the corpus on its way through every engine.
+/// A file of the corpus, compiled.
 class Measurement {
 public:
     /// Throws the modules' exceptions.
     explicit Measurement(const std::string& name);
 
-    /// Against the ground truth, which must exist.
-    compare::Difference glToTruth(Gl& gl, int size) const;
-    compare::Difference glToAsset(Gl& gl, int size) const;
-    compare::Difference glToReference(Gl& gl, int size) const;
-    /// The scanner's picture against the shaders'.
-    compare::Difference scanToGl(Gl& gl, int size) const;
-
     const scene::Scene& scene() const { return scene_; }
     const asset::Asset& asset() const { return asset_; }
 
 private:
-    std::string name_;
     scene::Scene scene_;
     asset::Asset asset_;
 };

@@ -56,19 +56,23 @@ Outcome againstTruth(const CorpusFile& file, const CorpusFile::Limit& limit, con
     return judge(subject, setting);
 }
 
-Outcome againstReference(const std::string& name, SceneSettings settings, const Setting& setting) {
-    if (const std::string why = absent(); !why.empty())
-        return Outcome::skipped(why);
-    const scene::Scene scene = sceneOf(name);
-    SceneSubject subject(scene, settings, viewsOf(settings.views, scene, name), setting.fault);
+Outcome againstReference(const scene::Scene& scene, const SceneSettings& settings, const Setting& setting) {
+    SceneSubject subject(scene, settings, viewsOf(settings.views, scene, ""), setting.fault);
     return judge(subject, setting);
 }
 
-std::vector<std::string> iconNames() {
+Outcome againstReference(const std::string& name, const SceneSettings& settings, const Setting& setting) {
+    const std::string why = absent();
+    return why.empty() ? againstReference(sceneOf(name), settings, setting) : Outcome::skipped(why);
+}
+
+/// The names of the SVG files in a folder, which may be absent.
+std::vector<std::string> drawingsIn(const fs::path& folder) {
     std::vector<std::string> names;
-    if (absent().empty())
-        for (const auto& entry : fs::directory_iterator(cases::sharedDirectory() / "corpus/icons"))
-            names.push_back(entry.path().stem().string());
+    if (fs::exists(folder))
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (entry.path().extension() == ".svg")
+                names.push_back(entry.path().stem().string());
     std::ranges::sort(names);
     return names;
 }
@@ -83,6 +87,13 @@ SceneSettings at(SceneSettings settings, int size) {
 /// large.
 SceneSettings twinsOnly(SceneSettings settings) {
     settings.bounds = {.twin = settings.bounds.twin};
+    return settings;
+}
+
+/// Layer by layer, which the scanner does not do.
+SceneSettings inLayers(SceneSettings settings) {
+    settings.compile.mode = asset::Mode::Compat;
+    settings.engines = {Engine::Gl, Engine::Asset};
     return settings;
 }
 
@@ -111,11 +122,21 @@ std::vector<Case> corpusCases(const Folder& folder) {
                 return againstReference(file.name, twinsOnly(at(settings, 64)), setting);
             });
     }
-    for (const std::string& icon : iconNames())
+    for (const std::string& icon : drawingsIn(vtm::cases::sharedDirectory() / "corpus/icons"))
         add("icons." + icon, "A real icon at 64 pixels: every engine against the exact reference.",
             [=](const Setting& setting) {
                 return againstReference("icons/" + icon, at(settings, 64), setting);
             });
+    const fs::path own = vtm::cases::examplesDirectory();
+    for (const std::string& name : drawingsIn(own))
+        for (const bool layers : {false, true})
+            add(fmt::format("own.{}.{}", name, layers ? "compat" : "exact"),
+                "One of our own drawings at 256 pixels, in one of the two modes.",
+                [=](const Setting& setting) {
+                    const SceneSettings whole = at(settings, 256);
+                    return againstReference(vtm::cases::loadScene(own / (name + ".svg")),
+                                            layers ? inLayers(whole) : whole, setting);
+                });
     return cases;
 }
 

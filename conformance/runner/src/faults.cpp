@@ -31,17 +31,19 @@ asset::Piece& longest(asset::Asset& asset, const asset::Leaf& leaf) {
                              [&](const auto& a, const auto& b) { return length(a) < length(b); });
 }
 
+/// The children of the node that holds the busiest leaf, each one place on.
 void moveOrigins(asset::Asset& asset) {
-    const auto leaves = [](const asset::Node& node) {
-        return std::ranges::count(node.children, asset::Entry::Kind::Leaf, &asset::Entry::kind);
+    const asset::Leaf* const leaf = busiest(asset);
+    const auto isIt = [&](asset::Entry entry) {
+        return entry.kind() == asset::Entry::Kind::Leaf && &asset.leaves[entry.payload()] == leaf;
     };
-    if (asset.nodes.empty()) {
+    const auto node = std::ranges::find_if(
+        asset.nodes, [&](const asset::Node& n) { return std::ranges::any_of(n.children, isIt); });
+    if (node != asset.nodes.end())
+        std::rotate(node->children.begin(), node->children.begin() + 1, node->children.end());
+    else  // the root itself is the leaf
         for (asset::Map& map : asset.maps)
             map.x += map.side / 16;
-        return;
-    }
-    asset::Node& node = *std::ranges::max_element(asset.nodes, {}, leaves);
-    std::rotate(node.children.begin(), node.children.begin() + 1, node.children.end());
 }
 
 void swapPaints(asset::Asset& asset) {

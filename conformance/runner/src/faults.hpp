@@ -17,7 +17,7 @@ enum class Fault {
     FlippedWinding,  ///< left and right of one piece exchanged
     DroppedPiece,    ///< one piece less in one leaf
     SwappedPaint,    ///< two entries of the palette exchanged
-    CellOrigin,      ///< the children of one node moved on by one
+    CellOrigin,      ///< the children of the busiest leaf's node, each one place on
     // of the way in which pixels are made
     Layers,        ///< layers over each other by their coverage, instead of regions
     HalfDistance,  ///< coverage is 0.5 - h, the paper's, instead of exact

@@ -32,7 +32,15 @@ public:
     }
 
     const Scores& scores() {
-        std::call_once(once_, [this] { run(); });
+        std::call_once(once_, [this] {
+            try {
+                run();
+            } catch (const std::exception& error) {
+                error_ = error.what();
+            }
+        });
+        if (!error_.empty())
+            throw SuiteError(error_);
         return scores_;
     }
     Pictures pictures(const std::string& test) const {
@@ -56,13 +64,15 @@ private:
         const std::string log = readText(pictures_ / "log.txt");
         if (!fs::exists(json))
             throw SuiteError("svg_suite.py failed: " + log);
-        for (const auto& [test, verdict] : nlohmann::json::parse(readText(json)).items())
+        const nlohmann::json verdicts = nlohmann::json::parse(readText(json));
+        for (const auto& [test, verdict] : verdicts.items())
             scores_.passed[test] = verdict.get<bool>();
         if (status != 0)
             scores_.shares = log;
     }
 
     fs::path folder_, pictures_;
+    std::string error_;  ///< why there are no scores
     std::once_flag once_;
     Scores scores_;
 };
