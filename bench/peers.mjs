@@ -142,8 +142,15 @@ function viewOf(words) {
     return {width, height, matrix};
 }
 
+/** Bytes of the largest resident set so far. */
+function peakBytes() {
+    return Number(fs.readFileSync('/proc/self/status', 'utf8').match(/VmHWM:\s*(\d+)/)[1]) * 1024;
+}
+
 function answer(line) {
     const [verb, name, ...words] = line.split(' ');
+    if (verb === 'peak')
+        return peakBytes();
     const engine = engines[name];
     const [width, height] = verb === 'load' || verb === 'cold' ? words.splice(0, 2).map(Number) : [];
     const view = verb === 'load' ? null : viewOf(words);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "bench/src/files.hpp"
 #include "bench/src/font.hpp"
 #include "bench/src/fragment_cost.hpp"
 #include "bench/src/measure.hpp"
@@ -64,7 +65,7 @@ void addScene(const std::string& name, const scene::Scene& scene, Report& report
 
 }  // namespace
 
-Report compression(const std::vector<File>& files, const std::string& font) {
+Report compression(const Options& options) {
     Report report;
     report.name = "compression";
     report.title = "Bytes against a flat grid";
@@ -79,10 +80,10 @@ Report compression(const std::vector<File>& files, const std::string& font) {
         "used or not; with ours of 16 bytes each that is the last column. The paper reports 8 for its "
         "font.";
     Factors corpus, sheets;
-    for (const File& file : files)
+    for (const File& file : filesOf(options))
         addScene(file.name, load(file), report, corpus);
     std::string why;
-    if (const auto sheet = fontSheet(font, why))
+    if (const auto sheet = fontSheet(options.font, why))
         addScene("font", *sheet, report, sheets);
     else
         report.notes.push_back("No font: " + why + ".");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -11,25 +12,7 @@
 namespace vtm::bench {
 namespace {
 
-constexpr double budget = 4000;  ///< CPU milliseconds of a file and a kind of views, all engines
-constexpr int fewestRounds = 5, mostRounds = 41;
-constexpr double patience = 5000;  ///< CPU milliseconds: who takes longer draws once, and is noted
-
 constexpr int squares = 64;  ///< along a picture's longer side, for comparing pictures
-
-/// Turned and enlarged about the picture's middle, more with each step; its longer side fills `side` pixels
-/// at zoom 1.
-asset::View viewOf(const scene::Scene& scene, int side, double zoom, int step) {
-    const double fit = side / std::max(scene.width, scene.height);
-    asset::View view;
-    view.width = std::max(1, int(std::lround(fit * scene.width)));
-    view.height = std::max(1, int(std::lround(fit * scene.height)));
-    const double angle = 0.1 + 0.02 * step, scale = fit * zoom * (1 + 0.005 * step);
-    const glm::dvec2 x = scale * glm::dvec2(std::cos(angle), std::sin(angle)), y(-x.y, x.x);
-    const glm::dvec2 middle = 0.5 * glm::dvec2(view.width, view.height);
-    view.toPixels = {x, y, middle - 0.5 * (scene.width * x + scene.height * y)};
-    return view;
-}
 
 /// Of the means of premultiplied channels over squares, of 255: rough edges even out, what is missing
 /// remains.
@@ -61,57 +44,88 @@ bool did(Contender& one, const std::string& where, std::vector<std::string>& not
     return one.able;
 }
 
-void writePicture(Engine& engine, const Picture& picture, const Kind& kind, const DrawingOptions& options) {
+void writePicture(Engine& engine, const Picture& picture, const Kind& kind, const Options& options) {
     const std::string name = fmt::format("{}_{}x_{}.png", picture.file.name, kind.zoom, engine.name());
-    const image::Bitmap drawn = engine.pixels(viewOf(picture.scene, options.side, kind.zoom, 0));
+    const image::Bitmap drawn = engine.pixels(viewOf(picture.scene, options.side, kind, 0));
     image::writeFile((std::filesystem::path(options.pictures) / name).string(), encodePng(drawn));
 }
 
-Engines qtEngines(std::vector<std::string>& notes) {
+/// Nothing where we were built without it, which is noted.
+std::vector<std::string> qtCommands(std::vector<std::string>& notes) {
 #ifdef VTM_BENCH_QT
-    return childEngines("if [ -n \"$DISPLAY\" ]; then exec '" VTM_BENCH_QT
-                        "'; "
-                        "elif command -v xvfb-run >/dev/null; then exec xvfb-run -a '" VTM_BENCH_QT
-                        "'; "
-                        "else QT_QPA_PLATFORM=offscreen exec '" VTM_BENCH_QT "'; fi",
-                        notes);
+    static_cast<void>(notes);
+    return {"if [ -n \"$DISPLAY\" ]; then exec '" VTM_BENCH_QT
+            "'; elif command -v xvfb-run >/dev/null; then exec xvfb-run -a '" VTM_BENCH_QT
+            "'; else QT_QPA_PLATFORM=offscreen exec '" VTM_BENCH_QT "'; fi"};
 #else
     notes.push_back("qt-raster, qt-gl, qt-gl-4: missing, built without Qt (qtbase5-dev, libqt5svg5-dev).");
     return {};
 #endif
 }
 
+/// Peers that are processes of their own.
+std::vector<std::string> peerCommands(const Options& options, std::vector<std::string>& notes) {
+    std::vector<std::string> commands = qtCommands(notes);
+    if (options.nodeModules.empty())
+        notes.push_back("skia, resvg: missing, no folder with node_modules is named.");
+    else
+        for (const std::string name : {"skia", "resvg"})
+            commands.push_back("exec node '" VTM_SOURCE_DIR "/bench/peers.mjs' '" + options.nodeModules +
+                               "' " + name);
+    notes.push_back("nanovg: missing, Debian 12 has no package of it.");
+    std::ranges::copy(options.peers, std::back_inserter(commands));
+    return commands;
+}
+
 }  // namespace
 
-Contenders contenders(const DrawingOptions& options, std::vector<std::string>& notes) {
+Patience patienceOf(const Options& options) {
+    return options.quick ? Patience{500, 5, 15, 1000} : Patience{4000, 5, 41, 5000};
+}
+
+asset::View viewOf(const scene::Scene& scene, int side, const Kind& kind, int step) {
+    const double fit = side * kind.size / std::max(scene.width, scene.height);
+    const double zoom = kind.zooming ? std::exp2(step - 4) : kind.zoom;
+    asset::View view;
+    view.width = std::max(1, int(std::lround(fit * scene.width)));
+    view.height = std::max(1, int(std::lround(fit * scene.height)));
+    const double angle = 0.1 + 0.02 * step, scale = fit * zoom * (1 + 0.005 * step);
+    const glm::dvec2 x = scale * glm::dvec2(std::cos(angle), std::sin(angle)), y(-x.y, x.x);
+    const glm::dvec2 middle = 0.5 * glm::dvec2(view.width, view.height);
+    view.toPixels = {x, y, middle - 0.5 * (scene.width * x + scene.height * y)};
+    return view;
+}
+
+Contenders contenders(const Options& options, std::vector<std::string>& notes) {
     Contenders all;
     const auto add = [&](Engines engines, bool ours) {
         for (auto& engine : engines)
             all.push_back({.engine = std::move(engine), .ours = ours});
     };
-    add(ourEngines(), true);
+    add(glEngines(), true);
+    add(scanEngines(), true);
+    add(cairoEngines(notes), false);
     add(rsvgEngines(notes), false);
-    add(qtEngines(notes), false);
-    if (options.nodeModules.empty())
-        notes.push_back("skia, resvg: missing, no folder with node_modules is named.");
-    else
-        for (const std::string name : {"skia", "resvg"})
-            add(childEngines(
-                    "exec node '" VTM_SOURCE_DIR "/bench/peers.mjs' '" + options.nodeModules + "' " + name,
-                    notes),
-                false);
-    for (const std::string& command : options.peers)
+    for (const std::string& command : peerCommands(options, notes))
         add(childEngines(command, notes), false);
     return all;
+}
+
+std::vector<std::string> engineCommands(const Options& options, std::vector<std::string>& notes) {
+    std::vector<std::string> commands;
+    for (const char* engine : {"shaders", "gl", "scan", "cairo", "librsvg"})
+        commands.push_back("exec '" + options.program + "' serve " + engine);
+    std::ranges::copy(peerCommands(options, notes), std::back_inserter(commands));
+    return commands;
 }
 
 const Contender& reference(const Contenders& all) {
     return *std::ranges::find_if(all.rbegin(), all.rend(), &Contender::ours);
 }
 
-void prepare(Contenders& all, const Picture& picture, std::span<const Kind> kinds,
-             const DrawingOptions& options, std::vector<std::string>& notes) {
-    const asset::View view = viewOf(picture.scene, options.side, 1, 0);
+void prepare(Contenders& all, const Picture& picture, std::span<const Kind> kinds, const Options& options,
+             std::vector<std::string>& notes) {
+    const asset::View view = viewOf(picture.scene, options.side, {""}, 0);
     std::vector<image::Bitmap> drawn(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         all[i].able = true;
@@ -129,12 +143,12 @@ void prepare(Contenders& all, const Picture& picture, std::span<const Kind> kind
     std::filesystem::create_directories(options.pictures);
     for (Contender& one : all)
         for (const Kind& kind : kinds)
-            if (kind.moving)
+            if (kind.moving && !kind.zooming)
                 did(one, picture.file.name, notes,
                     [&] { writePicture(*one.engine, picture, kind, options); });
 }
 
-void takeTurns(Contenders& all, const Picture& picture, const Kind& kind, int side,
+void takeTurns(Contenders& all, const Picture& picture, const Kind& kind, int side, const Patience& patience,
                std::vector<std::string>& notes) {
     const std::string where = picture.file.name + ", " + kind.name;
     for (Contender& one : all) {
@@ -145,8 +159,10 @@ void takeTurns(Contenders& all, const Picture& picture, const Kind& kind, int si
         }
     }
     double spent = 0;
-    for (int round = -1; round < fewestRounds || (spent < budget && round < mostRounds); ++round) {
-        const asset::View view = viewOf(picture.scene, side, kind.zoom, kind.moving ? round : 0);
+    const int fewest = kind.zooming ? zoomRounds : patience.fewest,
+              most = kind.zooming ? zoomRounds : patience.most;
+    for (int round = -1; round < fewest || (spent < patience.budget && round < most); ++round) {
+        const asset::View view = viewOf(picture.scene, side, kind, kind.moving ? std::max(round, 0) : 0);
         for (Contender& one : all) {
             std::optional<double> time;
             const auto draw = [&] {
@@ -154,7 +170,7 @@ void takeTurns(Contenders& all, const Picture& picture, const Kind& kind, int si
             };
             if (!did(one, where, notes, draw) || !time)
                 continue;
-            if (*time > patience) {
+            if (*time > patience.longest) {
                 one.able = false;
                 notes.push_back(
                     fmt::format("{}: {} takes {:.1f} s.", where, one.engine->name(), *time / 1000));

@@ -13,10 +13,12 @@ namespace {
 /// than 1.6 on our files, what a peer leaves out 3 and more.
 constexpr double otherPicture = 2.5;
 
-constexpr Kind kinds[] = {{"turning", 1, true, false},
-                          {"turning at 8x", 8, true, false},
-                          {"unchanged", 1, false, false},
-                          {"cold", 1, false, true}};
+constexpr Kind kinds[] = {{.name = "cold", .moving = false, .cold = true},
+                          {.name = "unchanged", .moving = false},
+                          {.name = "turning"},
+                          {.name = "turning at 8x", .zoom = 8},
+                          {.name = "zoom path", .zooming = true},
+                          {.name = "minified", .size = 1.0 / 16}};
 
 struct Ratio {
     double median, low, high;
@@ -85,7 +87,7 @@ void addMedians(const Contenders& all, Report& report) {
 
 }  // namespace
 
-Report drawing(const std::vector<File>& files, const DrawingOptions& options) {
+Report drawing(const Options& options) {
     Report report;
     report.name = options.side == 1024 ? "drawing" : fmt::format("drawing_{}", options.side);
     report.title = fmt::format("Drawing at {} pixels", options.side);
@@ -94,19 +96,22 @@ Report drawing(const std::vector<File>& files, const DrawingOptions& options) {
         "CPU milliseconds (user and system, all threads) of one drawing, medians, all taking turns in one "
         "run; in brackets how many times as long as `{}`, round by round: median and quartiles. ≠ marks a "
         "picture that differs from ours by more than {} of 255 (rms of means over 64ths of the side). "
-        "Turning: rotation and zoom change with every drawing, everything prepared before. Cold: from the "
-        "file to pixels.\n",
+        "Turning: rotation and zoom change with every drawing, everything prepared before. Zoom path: from "
+        "1/16 to "
+        "64 times, doubled with every drawing. Minified: turning, on a raster of a sixteenth of the side. "
+        "Cold: "
+        "from the file to pixels.\n",
         reference(all).engine->name(), otherPicture);
     for (const Contender& one : all)
         report.text += fmt::format("\n- `{}`: {}", one.engine->name(), one.engine->description());
     report.text += "\n";
-    for (const File& file : files) {
+    for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
         Picture picture{file, load(file), {}};
         picture.asset = compiler::compile(picture.scene).asset;
         prepare(all, picture, kinds, options, report.notes);
         for (const Kind& kind : kinds) {
-            takeTurns(all, picture, kind, options.side, report.notes);
+            takeTurns(all, picture, kind, options.side, patienceOf(options), report.notes);
             addRows(all, picture, kind, options.side, report);
         }
     }

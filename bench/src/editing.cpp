@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "bench/src/files.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
 #include "compiler/session.hpp"
@@ -132,7 +133,7 @@ void addFile(const File& file, Report& report) {
 
 }  // namespace
 
-Report editing(const std::vector<File>& files) {
+Report editing(const Options& options) {
     Report report;
     report.name = "editing";
     report.title = "Editing against encoding anew";
@@ -147,7 +148,7 @@ Report editing(const std::vector<File>& files) {
         "Then what "
         "starting the session costs, and the bytes of its asset, by the encoder's.",
         items, 1 / moveShare, 1 / smallShare);
-    for (const File& file : files)
+    for (const File& file : filesOf(options))
         addFile(file, report);
     return report;
 }

@@ -1,5 +1,5 @@
 /// \file
-/// What draws in `bench_report drawing`: ours and the peers, all through one door.
+/// What draws: ours and the peers, all through one door.
 #pragma once
 
 #include <memory>
@@ -43,6 +43,8 @@ public:
     virtual std::optional<double> drawCold(const Picture& picture, const asset::View& view) = 0;
     /// What draw() draws.
     virtual image::Bitmap pixels(const asset::View& view) = 0;
+    /// Bytes of the largest resident set of the engine's process so far; nothing for one in ours.
+    virtual std::optional<double> peakBytes() { return std::nullopt; }
 
 private:
     std::string name_, description_;
@@ -51,7 +53,14 @@ private:
 using Engines = std::vector<std::unique_ptr<Engine>>;
 
 /// Our ways to draw, in the table's order; ratios in the table are against the last one.
-Engines ourEngines();
+Engines glEngines();
+Engines scanEngines();
+
+/// Answers requests of that protocol from standard input, for these engines, until its end.
+void serve(Engines engines);
+
+/// cairo, given the paths of our scene; none where it is not installed, which is noted.
+Engines cairoEngines(std::vector<std::string>& notes);
 
 /// librsvg with cairo; none where it is not installed, which is noted.
 Engines rsvgEngines(std::vector<std::string>& notes);

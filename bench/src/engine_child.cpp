@@ -140,6 +140,8 @@ public:
         return image::decode(image::readFile(png.string()));
     }
 
+    std::optional<double> peakBytes() override { return std::stod(child_->ask("peak " + name())); }
+
 private:
     std::string subject(const Picture& picture, const std::string& rest) const {
         return fmt::format("{} {} {} {}", name(), picture.scene.width, picture.scene.height, rest);

@@ -82,13 +82,18 @@ private:
 
 }  // namespace
 
-Engines ourEngines() {
+Engines glEngines() {
     Engines engines;
     const auto context = std::make_shared<gl::Context>();
     engines.push_back(
         std::make_unique<GlEngine>("shaders", "gl::Renderer, the shaders", context, gl::Pixels::Shaders));
     engines.push_back(
         std::make_unique<GlEngine>("gl", "gl::Renderer as it is", context, gl::Pixels::Automatic));
+    return engines;
+}
+
+Engines scanEngines() {
+    Engines engines;
     engines.push_back(std::make_unique<ScanEngine>());
     return engines;
 }

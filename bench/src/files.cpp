@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -22,16 +24,54 @@ std::vector<File> svgFilesIn(const fs::path& folder) {
     return files;
 }
 
-}  // namespace
-
 std::vector<File> exampleFiles() { return svgFilesIn(fs::path(VTM_SOURCE_DIR) / "examples"); }
 
 std::vector<File> corpusFiles() {
-    const char* given = std::getenv("VTM_SHARED");
-    const fs::path corpus = (given ? fs::path(given) : fs::path(VTM_SOURCE_DIR) / "../shared") / "corpus";
+    const fs::path corpus = sharedFolder() / "corpus";
     if (fs::exists(corpus))
         return svgFilesIn(corpus);
     fmt::print(stderr, "skipped: the corpus, which is not in {}\n", corpus.string());
+    return {};
+}
+
+/// Strokes, gradients, small detail, abutting shapes, large curves.
+bool isQuick(const File& file) {
+    static constexpr std::string_view quick[] = {"lighthouse",  "rose_window", "tree", "counties",
+                                                 "noto_people", "tiger",       "world"};
+    return std::ranges::find(quick, file.name) != std::end(quick);
+}
+
+std::vector<File> allFiles(const Options& options) {
+    std::vector<File> files = exampleFiles();
+    if (!options.examples)
+        std::ranges::copy(corpusFiles(), std::back_inserter(files));
+    return files;
+}
+
+}  // namespace
+
+fs::path sharedFolder() {
+    const char* given = std::getenv("VTM_SHARED");
+    return given ? fs::path(given) : fs::path(VTM_SOURCE_DIR) / "../shared";
+}
+
+std::vector<File> filesOf(const Options& options) {
+    std::vector<File> files = allFiles(options);
+    if (!options.only.empty())
+        std::erase_if(files, [&](const File& file) { return file.name != options.only; });
+    else if (options.quick)
+        std::erase_if(files, [](const File& file) { return !isQuick(file); });
+    return files;
+}
+
+std::vector<File> oneFileOf(const Options& options) {
+    const std::vector<File> files = allFiles(options);
+    for (const std::string_view name :
+         {std::string_view(options.only), std::string_view("tiger"), std::string_view("lighthouse")})
+        if (const auto file = std::ranges::find(files, name, &File::name); file != files.end())
+            return {*file};
+        else if (name == options.only && !name.empty())
+            break;
     return {};
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/src/options.hpp"
 #include "scene/scene.hpp"
 
 namespace vtm::bench {
@@ -15,11 +16,16 @@ struct File {
     std::filesystem::path path;
 };
 
-/// Our own drawings.
-std::vector<File> exampleFiles();
-/// The real pictures in $VTM_SHARED/corpus, or shared/corpus beside the checkout; none where it is absent,
-/// which is said on stderr.
-std::vector<File> corpusFiles();
+/// Our own drawings, and the real pictures in $VTM_SHARED/corpus, or shared/corpus beside the checkout; where
+/// that is absent is said on stderr. A few of both in a quick run.
+std::vector<File> filesOf(const Options& options);
+
+/// The one of these that is asked for; else the Tiger, or the lighthouse where the corpus is absent. Nothing
+/// if there is no such file.
+std::vector<File> oneFileOf(const Options& options);
+
+/// $VTM_SHARED, or shared beside the checkout; perhaps absent.
+std::filesystem::path sharedFolder();
 
 scene::Scene load(const File& file);
 

@@ -1,10 +1,11 @@
 #include "bench/src/measure.hpp"
 
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
 #include <ctime>
+#include <fstream>
+#include <string>
 
 namespace vtm::bench {
 namespace {
@@ -15,13 +16,16 @@ double milliseconds(clockid_t clock) {
     return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
 }
 
-double peakBytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return double(usage.ru_maxrss) * 1024;  // Linux counts kibibytes
-}
-
 }  // namespace
+
+/// Of /proc, since getrusage keeps the peak of the program that ran in the process before.
+double peakBytes() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:"))
+            return std::stod(line.substr(6)) * 1024;  // Linux counts kibibytes
+    return 0;
+}
 
 double cpuMilliseconds() { return milliseconds(CLOCK_PROCESS_CPUTIME_ID); }
 double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }

@@ -13,6 +13,9 @@ double cpuMilliseconds();
 /// Wall time in milliseconds.
 double wallMilliseconds();
 
+/// Bytes of the largest resident set of this process since its program began.
+double peakBytes();
+
 /// CPU milliseconds of one call.
 template <class Work>
 double cpuTime(Work&& work) {

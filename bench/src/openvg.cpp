@@ -9,14 +9,12 @@
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
+#include "bench/src/files.hpp"
 #include "bench/src/font.hpp"
 #include "bench/src/measure.hpp"
+#include "bench/src/peer_cairo.hpp"
 #include "bench/src/reports.hpp"
 #include "bench/src/vg_canvas.hpp"
-
-#ifdef VTM_HAVE_RSVG
-#include <cairo.h>
-#endif
 
 namespace vtm::bench {
 namespace {
@@ -25,77 +23,20 @@ using scene::Affine;
 using scene::Path;
 
 constexpr int side = VgCanvas::side;
-constexpr double budget = 4000;  ///< CPU milliseconds a workload
+constexpr double budget = 4000, quickBudget = 1000;  ///< CPU milliseconds a workload
 
 // ---- cairo ----------------------------------------------------------------------------------------
 
-#ifdef VTM_HAVE_RSVG
-class CairoCanvas {
+class Cairo {
 public:
-    CairoCanvas()
-        : surface_(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, side, side)), c_(cairo_create(surface_)) {}
-    ~CairoCanvas() {
-        cairo_destroy(c_);
-        cairo_surface_destroy(surface_);
-    }
-    CairoCanvas(const CairoCanvas&) = delete;
-    CairoCanvas& operator=(const CairoCanvas&) = delete;
-
     void add(const Shape& shape) { shapes_.push_back(shape); }
     void change(std::size_t i, const Path& path) { shapes_[i].path = path; }
-    void draw(const Affine& view) {
-        cairo_identity_matrix(c_);
-        cairo_set_source_rgb(c_, 1, 1, 1);
-        cairo_paint(c_);
-        for (const Shape& shape : shapes_) {
-            const Affine m = scene::compose(view, shape.toPicture);
-            cairo_matrix_t matrix;
-            cairo_matrix_init(&matrix, m[0].x, m[0].y, m[1].x, m[1].y, m[2].x, m[2].y);
-            cairo_set_matrix(c_, &matrix);
-            cairo_new_path(c_);
-            trace(shape.path);
-            cairo_set_source_rgba(c_, shape.color.r, shape.color.g, shape.color.b, shape.color.a);
-            if (const auto* stroke = std::get_if<scene::StrokeStyle>(&shape.geometry)) {
-                cairo_set_line_width(c_, stroke->width);
-                cairo_set_miter_limit(c_, stroke->miterLimit);
-                cairo_stroke(c_);
-            } else {
-                cairo_set_fill_rule(c_, std::get<scene::FillRule>(shape.geometry) == scene::FillRule::EvenOdd
-                                            ? CAIRO_FILL_RULE_EVEN_ODD
-                                            : CAIRO_FILL_RULE_WINDING);
-                cairo_fill(c_);
-            }
-        }
-    }
+    void draw(const Affine& view) { canvas_.draw(shapes_, view, {1, 1, 1, 1}); }
 
 private:
-    void trace(const Path& path) {
-        scene::Point at(0);
-        for (const scene::Command& command : path) {
-            if (const auto* move = std::get_if<scene::MoveTo>(&command)) {
-                cairo_move_to(c_, move->to.x, move->to.y);
-            } else if (const auto* line = std::get_if<scene::LineTo>(&command)) {
-                cairo_line_to(c_, line->to.x, line->to.y);
-            } else if (const auto* quad = std::get_if<scene::QuadTo>(&command)) {
-                const scene::Point a = at + 2.0 / 3 * (quad->control - at),
-                                   b = quad->to + 2.0 / 3 * (quad->control - quad->to);
-                cairo_curve_to(c_, a.x, a.y, b.x, b.y, quad->to.x, quad->to.y);
-            } else if (const auto* cubic = std::get_if<scene::CubicTo>(&command)) {
-                cairo_curve_to(c_, cubic->control1.x, cubic->control1.y, cubic->control2.x, cubic->control2.y,
-                               cubic->to.x, cubic->to.y);
-            } else {
-                cairo_close_path(c_);
-            }
-            if (const auto end = scene::endOf(command))
-                at = *end;
-        }
-    }
-
-    cairo_surface_t* surface_;
-    cairo_t* c_;
+    CairoCanvas canvas_{side, side};
     std::vector<Shape> shapes_;
 };
-#endif
 
 // ---- Workloads ------------------------------------------------------------------------------------
 
@@ -117,8 +58,12 @@ void collect(const scene::Group& group, const Affine& fit, std::vector<Shape>& s
         if (const auto* inner = std::get_if<scene::Group>(&node.value)) {
             collect(*inner, fit, shapes);
         } else if (const auto* item = std::get_if<scene::Item>(&node.value)) {
+            auto geometry = item->geometry;
+            if (const auto* stroke = std::get_if<scene::StrokeStyle>(&geometry))
+                geometry = scene::StrokeStyle{
+                    .width = stroke->width, .miterLimit = stroke->miterLimit, .dashes = {}};
             const auto* color = std::get_if<scene::Color>(&item->paint);
-            Shape shape{*item->path, scene::compose(fit, item->transform), item->geometry,
+            Shape shape{*item->path, scene::compose(fit, item->transform), geometry,
                         color ? *color : scene::Color{0.5f, 0.5f, 0.5f, 1}};
             shape.color.a *= item->opacity;
             shapes.push_back(std::move(shape));
@@ -191,34 +136,34 @@ void drawFrame(Canvas& canvas, const Workload& workload, int i) {
     canvas.draw(workload.view(i));
 }
 
-void addWorkload(const Workload& workload, Report& report) {
+void addWorkload(const Workload& workload, double spend, Report& report) {
     VgCanvas ours;
     for (const Shape& shape : workload.shapes)
         ours.add(shape);
     const double first = cpuTime([&] { drawFrame(ours, workload, 0); });
     Json row{{"workload", workload.name}, {"shapes", workload.shapes.size()}, {"first frame ms", first}};
-#ifdef VTM_HAVE_RSVG
-    CairoCanvas cairo;
-    for (const Shape& shape : workload.shapes)
-        cairo.add(shape);
-    int cairoFrame = 0, ourFrame = 0;
-    const Paired paired = pairwise([&] { drawFrame(cairo, workload, ++cairoFrame); },
-                                   [&] { drawFrame(ours, workload, ++ourFrame); }, budget, 100);
-    row["cairo ms"] = paired.first;
-    row["OpenVG ms"] = paired.second;
-    row["OpenVG / cairo"] = paired.ratio;
-    row["quartiles"] = fmt::format("{:.2f} to {:.2f}", paired.low, paired.high);
-#else
-    std::vector<double> times;
-    for (int i = 1; i <= 20; ++i)
-        times.push_back(cpuTime([&] { drawFrame(ours, workload, i); }));
-    row["OpenVG ms"] = median(times);
-#endif
+    if (cairoVersion()) {
+        Cairo cairo;
+        for (const Shape& shape : workload.shapes)
+            cairo.add(shape);
+        int cairoFrame = 0, ourFrame = 0;
+        const Paired paired = pairwise([&] { drawFrame(cairo, workload, ++cairoFrame); },
+                                       [&] { drawFrame(ours, workload, ++ourFrame); }, spend, 100);
+        row["cairo ms"] = paired.first;
+        row["OpenVG ms"] = paired.second;
+        row["OpenVG / cairo"] = paired.ratio;
+        row["quartiles"] = fmt::format("{:.2f} to {:.2f}", paired.low, paired.high);
+    } else {
+        std::vector<double> times;
+        for (int i = 1; i <= 20; ++i)
+            times.push_back(cpuTime([&] { drawFrame(ours, workload, i); }));
+        row["OpenVG ms"] = median(times);
+    }
     if (!workload.edited && ours.record()) {
         int callsFrame = 0, recordedFrame = 0;
         const Paired recorded =
             pairwise([&] { drawFrame(ours, workload, ++callsFrame); },
-                     [&] { ours.drawRecording(workload.view(++recordedFrame)); }, budget, 100);
+                     [&] { ours.drawRecording(workload.view(++recordedFrame)); }, spend, 100);
         row["recorded ms"] = recorded.second;
         row["recorded / OpenVG"] = recorded.ratio;
     }
@@ -227,7 +172,7 @@ void addWorkload(const Workload& workload, Report& report) {
 
 }  // namespace
 
-Report openvg(const std::vector<File>& files) {
+Report openvg(const Options& options) {
     Report report;
     report.name = "openvg";
     report.title = "OpenVG against cairo";
@@ -239,13 +184,11 @@ Report openvg(const std::vector<File>& files) {
         "of the ratios pair by pair. Paints other than colours are grey, strokes have cairo's default caps "
         "and joins in both. The first "
         "frame of OpenVG compiles every path. Recorded: the same calls made once between vtmBeginRecording "
-        "and "
-        "vtmEndRecording, and drawn in turns with them by one vtmDrawRecording. NanoVG is not in Debian.";
-#ifndef VTM_HAVE_RSVG
-    report.notes.push_back("cairo: missing (librsvg2-dev)");
-#endif
-    for (const Workload& workload : workloads(files, report.notes))
-        addWorkload(workload, report);
+        "and vtmEndRecording, and drawn in turns with them by one vtmDrawRecording. NanoVG is not in Debian.";
+    if (!cairoVersion())
+        report.notes.push_back("cairo: missing (librsvg2-dev)");
+    for (const Workload& workload : workloads(oneFileOf(options), report.notes))
+        addWorkload(workload, options.quick ? quickBudget : budget, report);
     return report;
 }
 

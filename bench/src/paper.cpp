@@ -103,9 +103,9 @@ asset::View viewOf(int side, double periods, int round) {
     return {side, side, {c, s, -s, c, 0.3 * side, 0.1 * side}};
 }
 
-constexpr int rounds = 80;
+constexpr int manyRounds = 80, quickRounds = 24;
 
-void timeForms(const std::string& tile, const compiler::PaperResult& compiled, const DrawingOptions& options,
+void timeForms(const std::string& tile, const compiler::PaperResult& compiled, const Options& options,
                Report& report) {
     const int side = options.side;
     const asset::PaperMask& mask = compiled.asset.masks.at(0);
@@ -120,6 +120,7 @@ void timeForms(const std::string& tile, const compiler::PaperResult& compiled, c
         image::writeFile(fmt::format("{}/{}, {}.png", options.pictures, tile, form.name),
                          image::encodePng(image::toBitmap(patterns.back()->render(viewOf(side, 4, 0)))));
     }
+    const int rounds = options.quick ? quickRounds : manyRounds;
     for (const double periods : {1.0, 4.0, 11.0, 64.0}) {
         std::array<std::vector<double>, forms.size()> times, ratios;
         for (int round = -1; round < rounds; ++round) {  // the first is not counted
@@ -159,7 +160,7 @@ void timeForms(const std::string& tile, const compiler::PaperResult& compiled, c
 
 }  // namespace
 
-Report paper(const DrawingOptions& options) {
+Report paper(const Options& options) {
     Report report;
     report.name = "paper";
     report.title = "The paper's lookup: rows 9 to 11";
@@ -175,7 +176,7 @@ Report paper(const DrawingOptions& options) {
         "the pattern turns; then milliseconds, and bytes of the textures. Filtered forms are drawn from the "
         "cells up to 8 "
         "periods here, from the mip alone beyond 16, from both between.",
-        options.side, rounds);
+        options.side, options.quick ? quickRounds : manyRounds);
     if (!count(report))
         report.notes.push_back(
             "glslangValidator (Debian: glslang-tools) is not installed: nothing is counted");

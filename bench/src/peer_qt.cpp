@@ -132,7 +132,8 @@ public:
         std::cout << "ready" << std::endl;
         for (std::string line; std::getline(std::cin, line);) {
             try {
-                std::cout << "ok " << answer(line) << std::endl;
+                const std::string reply = answer(line);  // may throw, before "ok" is said
+                std::cout << "ok " << reply << std::endl;
             } catch (const std::exception& error) {
                 std::cout << "error " << error.what() << std::endl;
             }
@@ -151,6 +152,8 @@ private:
         in >> verb >> name;
         Engine& engine = engines_.at(name);
         double width = 0, height = 0;
+        if (verb == "peak")
+            return std::to_string(peakBytes());
         if (verb == "load" || verb == "cold")
             in >> width >> height;
         const View view = verb == "load" ? View() : readView(in);

@@ -1,12 +1,12 @@
 #include "bench/src/peer_rsvg.hpp"
 
-#include <cstring>
-
 #include <fmt/core.h>
 
 #ifdef VTM_HAVE_RSVG
 #include <cairo.h>
 #include <librsvg/rsvg.h>
+
+#include "bench/src/cairo_pixels.hpp"
 #endif
 
 namespace vtm::bench {
@@ -63,20 +63,7 @@ void Rsvg::draw(const asset::View& view) {
     cairo_surface_flush(surface.get());
 }
 
-image::Bitmap Rsvg::pixels() const {
-    cairo_surface_t* surface = impl_->surface.get();
-    image::Raster raster(cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
-    const unsigned char* bytes = cairo_image_surface_get_data(surface);
-    for (int y = 0; y < raster.height; ++y)
-        for (int x = 0; x < raster.width; ++x) {
-            std::uint32_t argb = 0;
-            std::memcpy(&argb, bytes + y * cairo_image_surface_get_stride(surface) + 4 * x, sizeof argb);
-            float* pixel = raster.pixel(x, y);
-            for (int channel = 0; channel < 4; ++channel)
-                pixel[channel] = float(argb >> (channel == 3 ? 24 : 16 - 8 * channel) & 255) / 255;
-        }
-    return image::toBitmap(raster);
-}
+image::Bitmap Rsvg::pixels() const { return bitmapOf(impl_->surface.get()); }
 
 std::optional<std::string> rsvgVersion() {
     return fmt::format("librsvg {}.{}.{} with cairo {}", LIBRSVG_MAJOR_VERSION, LIBRSVG_MINOR_VERSION,

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "bench/src/files.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/peer_rsvg.hpp"
 #include "bench/src/reports.hpp"
@@ -8,8 +9,8 @@
 namespace vtm::bench {
 namespace {
 
-constexpr int width = 1024;      ///< pixels
-constexpr double budget = 4000;  ///< CPU milliseconds a file
+constexpr int width = 1024;                          ///< pixels
+constexpr double budget = 4000, quickBudget = 1000;  ///< CPU milliseconds a file
 constexpr int mostPairs = 41;
 
 /// The whole picture, `width` pixels wide.
@@ -18,12 +19,12 @@ asset::View viewOf(const scene::Scene& scene) {
     return {width, std::max(1, int(scale * scene.height + 0.5)), {scale, 0, 0, scale, 0, 0}};
 }
 
-void addCompared(const File& file, Report& report) {
+void addCompared(const File& file, double spend, Report& report) {
     const scene::Scene scene = load(file);
     const asset::View view = viewOf(scene);
     Rsvg rsvg(file.path, scene.width, scene.height);
     const Paired time =
-        pairwise([&] { rsvg.draw(view); }, [&] { compiler::compile(scene); }, budget, mostPairs);
+        pairwise([&] { rsvg.draw(view); }, [&] { compiler::compile(scene); }, spend, mostPairs);
     const asset::Summary summary = asset::summarize(compiler::compile(scene).asset);
     report.rows.push_back({{"file", file.name},
                            {"librsvg ms", time.first},
@@ -49,7 +50,7 @@ void addAlone(const File& file, Report& report) {
 
 }  // namespace
 
-Report peers(const std::vector<File>& files) {
+Report peers(const Options& options) {
     Report report;
     report.name = "peers";
     report.title = "Encoding against drawing once";
@@ -59,9 +60,9 @@ Report peers(const std::vector<File>& files) {
         " draws each file once, 1024 pixels wide, from a parsed handle; we encode it from a scene in "
         "memory, with the default options. CPU time of all threads, the two taking turns: medians, and the "
         "median and the quartiles of the ratios pair by pair.";
-    for (const File& file : files)
+    for (const File& file : filesOf(options))
         try {
-            peer ? addCompared(file, report) : addAlone(file, report);
+            peer ? addCompared(file, options.quick ? quickBudget : budget, report) : addAlone(file, report);
         } catch (const RsvgError& error) {
             report.notes.push_back(file.name + ": " + error.what() + ".");
         }

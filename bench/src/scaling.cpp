@@ -9,7 +9,7 @@
 
 namespace vtm::bench {
 
-Report scaling(std::size_t largest) {
+Report scaling(const Options& options) {
     Report report;
     report.name = "scaling";
     report.title = "Growth over the number of curves";
@@ -22,7 +22,7 @@ Report scaling(std::size_t largest) {
     double first = 0;
     for (double exponent = 2; exponent < 6.25; exponent += 0.5) {
         const auto curves = std::size_t(std::lround(std::pow(10, exponent)));
-        if (curves > largest)
+        if (curves > options.largest)
             break;
         scene::Scene scene;
         asset::Asset asset;

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "bench/src/files.hpp"
 #include "bench/src/fragment_cost.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
@@ -90,7 +91,8 @@ void add(std::vector<Point>& sums, const std::vector<Point>& points) {
 
 }  // namespace
 
-Report sweep(const std::vector<File>& files) {
+Report sweep(const Options& options) {
+    const std::vector<File> files = filesOf(options);
     const std::vector<Setting> fixed = fixedSettings(), model = modelSettings();
     Report report;
     report.name = "sweep";

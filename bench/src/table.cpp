@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "bench/src/machine.hpp"
+
 namespace vtm::bench {
 namespace {
 
@@ -13,6 +15,8 @@ std::string cell(const Json& value) {
         return fmt::format("{:.4g}", value.get<double>());
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
+
+std::string said(const Json& value) { return value.get<std::string>(); }
 
 std::string markdown(const Report& report) {
     const Json& rows = report.summary.empty() ? report.rows : report.summary;
@@ -48,9 +52,14 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
 
 void write(const Report& report, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
-    const std::string text = markdown(report);
-    const Json json = {{"name", report.name}, {"title", report.title},     {"text", report.text},
-                       {"rows", report.rows}, {"summary", report.summary}, {"notes", report.notes}};
+    const Json machine = machineFacts();
+    const std::string text =
+        markdown(report) + fmt::format("\n{}; {}; {}; {}{}.\n", said(machine["processor"]),
+                                       said(machine["system"]), said(machine["driver"]),
+                                       said(machine["date"]), report.quick ? "; a quick run" : "");
+    const Json json = {{"name", report.name},   {"title", report.title},     {"text", report.text},
+                       {"rows", report.rows},   {"summary", report.summary}, {"notes", report.notes},
+                       {"quick", report.quick}, {"seconds", report.seconds}, {"machine", machine}};
     writeText(folder / (report.name + ".md"), text);
     writeText(folder / (report.name + ".json"), json.dump(2) + "\n");
     fmt::print("{}\n", text);

@@ -21,9 +21,12 @@ struct Report {
     Json rows = Json::array();
     Json summary = Json::array();    ///< shown in the Markdown instead, unless empty
     std::vector<std::string> notes;  ///< what was missing or did not work
+    double seconds = 0;              ///< wall time that the report took
+    bool quick = false;              ///< Options::quick
 };
 
-/// Writes name.json and name.md into the folder, which is made; the Markdown goes to stdout too.
+/// Writes name.json, with what it was measured on, and name.md into the folder, which is made; the Markdown
+/// goes to stdout too.
 void write(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace vtm::bench

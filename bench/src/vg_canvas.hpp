@@ -10,17 +10,9 @@
 #include <VG/openvg.h>
 #include <vtm/vg.h>
 
-#include "scene/scene.hpp"
+#include "bench/src/shape.hpp"
 
 namespace vtm::bench {
-
-/// A shape of one colour.
-struct Shape {
-    scene::Path path;
-    scene::Affine toPicture = scene::identity;
-    std::variant<scene::FillRule, scene::StrokeStyle> geometry = scene::FillRule::NonZero;
-    scene::Color color{0.2f, 0.3f, 0.5f, 1};
-};
 
 class VgCanvas {
 public:
