@@ -12,7 +12,7 @@
 
 #include <EGL/egl.h>
 
-#include <vtm/vg.h>
+#include <vtm/vg_image.h>
 
 namespace vtm::egl {
 
@@ -126,6 +126,18 @@ struct Context {
     const std::shared_ptr<const Config> config;  ///< null: fits every surface
     VtmContext* const drawing;
     EGLContext handle = EGL_NO_CONTEXT;
+};
+
+/// Of an image of OpenVG's (EGL_KHR_vg_parent_image). All others are the system's.
+struct Image {
+    Image(Display& d, VtmSharedImage* s) : display(d), shared(s) {}
+    ~Image() { vtmDestroySharedImage(shared); }
+    Image(const Image&) = delete;
+    Image& operator=(const Image&) = delete;
+
+    Display& display;
+    VtmSharedImage* const shared;
+    EGLImage handle = EGL_NO_IMAGE;
 };
 
 }  // namespace vtm::egl

@@ -78,6 +78,7 @@ private:
 Table<Config>& configs();
 Table<Surface>& surfaces();
 Table<Context>& contexts();
+Table<Image>& images();
 
 /// Null if no program got it from us.
 Display* findDisplay(EGLDisplay handle);

@@ -46,6 +46,21 @@ typedef void(VG_API_ENTRYP PFNVGITERATIVEAVERAGEBLURKHRPROC)(VGImage dst, VGImag
 
 #endif
 
+/* ---- VG_KHR_EGL_image ---- */
+
+#ifndef VG_KHR_EGL_image
+#define VG_KHR_EGL_image 1
+
+/* An EGLImage, as eglCreateImage gives it for an image (EGL_VG_PARENT_IMAGE_KHR). */
+typedef void *VGeglImageKHR;
+
+#ifdef VG_VGEXT_PROTOTYPES
+VG_API_CALL VGImage VG_API_ENTRY vgCreateEGLImageTargetKHR(VGeglImageKHR image) VG_API_EXIT;
+#endif
+typedef VGImage(VG_API_ENTRYP PFNVGCREATEEGLIMAGETARGETKHRPROC)(VGeglImageKHR image);
+
+#endif
+
 /* ---- VG_KHR_advanced_blending: values of VG_BLEND_MODE ---- */
 
 #ifndef VG_KHR_advanced_blending

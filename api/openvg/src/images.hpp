@@ -12,6 +12,9 @@ namespace vtm::openvg {
 /// Throws VG_BAD_HANDLE_ERROR, or VG_IMAGE_IN_USE_ERROR for an image that is drawn into.
 std::shared_ptr<Image> freeImage(const Context& context, VGImage handle);
 
+/// The nearest ancestor that has a handle; null if there is none.
+std::shared_ptr<Image> parentOf(const Image& image);
+
 /// Converts a word from one format to another (section 3.4.4).
 std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const PixelFormat& to);
 
