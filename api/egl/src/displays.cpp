@@ -5,6 +5,7 @@
 
 #include "api/egl/src/configs.hpp"
 #include "api/egl/src/displays.hpp"
+#include "api/egl/src/images.hpp"
 #include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
 
@@ -38,7 +39,7 @@ void terminate(Display& display) {
     // What is current in some thread stays until that thread lets go of it.
     forgetAllAdopted(display);
     surfaces().removeAll(display);
-    images().removeAll(display);
+    forgetImages(display);
     contexts().removeAll(display);
     configs().removeAll(display);
     display.configs.clear();

@@ -3,7 +3,11 @@
 
 #include "api/egl/src/images.hpp"
 
+#include <algorithm>
+#include <atomic>
+
 #include "api/egl/src/attributes.hpp"
+#include "api/egl/src/gl_image.hpp"
 #include "api/egl/src/thread.hpp"
 
 namespace vtm::egl {
@@ -29,12 +33,56 @@ F* systemsExtension(EGLDisplay dpy, const char* name) {
     return isForSystem(dpy) ? reinterpret_cast<F*>(systemEgl()->GetProcAddress(name)) : nullptr;
 }
 
+/// What textures of OpenGL show, also after the program has destroyed the EGLImage.
+struct Shown {
+    std::mutex mutex;
+    std::vector<std::shared_ptr<Image>> all;
+    std::atomic<bool> isEmpty = true;
+
+    /// With the lock held.
+    template <class Is>
+    void drop(Is&& is) {
+        std::erase_if(all, is);
+        isEmpty = all.empty();
+    }
+};
+Shown& shown() {
+    static auto& shown = *new Shown;
+    return shown;
+}
+
+/// Where the system has OpenGL ES, its drivers know the image.
+void showInGl(const std::shared_ptr<Image>& image) {
+    if (!image->display.systemRuns)
+        return;
+    const std::lock_guard lock(shown().mutex);
+    // Of an EGLImage that is destroyed: the source is no sibling any more, or it could not be shared again.
+    shown().drop([&](const auto& other) { return other->source == image->source; });
+    try {
+        image->gl = std::make_unique<GlImage>(image->display, image->shared);
+    } catch (const Error&) {
+        return;
+    }
+    image->handle = image->gl->handle();
+    shown().all.push_back(image);
+    shown().isEmpty = false;
+}
+
+/// Textures go on showing it.
+void retire(Image& image) {
+    const std::lock_guard lock(shown().mutex);
+    vtmNameSharedImage(image.shared, nullptr);
+    if (image.gl)
+        image.gl->destroyHandle();
+}
+
 EGLBoolean destroyImage(EGLDisplay dpy, EGLImage handle) {
     return call(EGLBoolean(EGL_FALSE), [&] {
         const Display& display = initializedDisplay(dpy);
         const auto image = images().find(handle);
         require(image && &image->display == &display, EGL_BAD_PARAMETER);
         images().remove(handle);
+        retire(*image);
         return EGLBoolean(EGL_TRUE);
     });
 }
@@ -56,16 +104,46 @@ EGLImage createImage(EGLDisplay dpy, EGLContext handle, EGLenum target, EGLClien
     VGErrorCode error = VG_NO_ERROR;
     VtmSharedImage* const shared = vtmShareImage(context->drawing, VGImage(number), &error);
     require(shared != nullptr, errorOf(error));
-    const auto image = std::make_shared<Image>(display, shared);
+    const auto image = std::make_shared<Image>(display, VGImage(number), shared);
+    showInGl(image);
     images().add(image);
     if (!vtmNameSharedImage(shared, image->handle)) {
         images().remove(image->handle);
+        retire(*image);
         throw Error{EGL_BAD_ALLOC};
     }
     return image->handle;
 }
 
 }  // namespace
+
+Image::Image(Display& d, VGImage image, VtmSharedImage* pixels) : display(d), source(image), shared(pixels) {}
+
+Image::~Image() {
+    gl.reset();
+    vtmDestroySharedImage(shared);
+}
+
+void synchronizeImages() {
+    if (shown().isEmpty)
+        return;
+    const bool isGlCurrent = systemEgl()->GetCurrentContext() != EGL_NO_CONTEXT;
+    const std::lock_guard lock(shown().mutex);
+    shown().drop([&](const auto& image) {
+        try {
+            return !image->gl->synchronize(isGlCurrent);
+        } catch (const Error&) {
+            return false;  // not now
+        }
+    });
+}
+
+void forgetImages(const Display& display) {
+    for (const auto& image : images().removeAll(display))
+        retire(*image);
+    const std::lock_guard lock(shown().mutex);
+    shown().drop([&](const auto& image) { return &image->display == &display; });
+}
 
 EGLImageKHR EGLAPIENTRY createImageKhr(EGLDisplay dpy, EGLContext context, EGLenum target,
                                        EGLClientBuffer buffer, const EGLint* list) {

@@ -18,6 +18,7 @@ namespace vtm::egl {
 
 struct Config;
 class Blitter;
+class GlImage;
 
 /// Section 2.1.2. A display stays for ever once a program has asked for it.
 struct Display {
@@ -130,14 +131,16 @@ struct Context {
 
 /// Of an image of OpenVG's (EGL_KHR_vg_parent_image). All others are the system's.
 struct Image {
-    Image(Display& d, VtmSharedImage* s) : display(d), shared(s) {}
-    ~Image() { vtmDestroySharedImage(shared); }
+    Image(Display& display, VGImage source, VtmSharedImage* shared);
+    ~Image();
     Image(const Image&) = delete;
     Image& operator=(const Image&) = delete;
 
     Display& display;
+    const VGImage source;
     VtmSharedImage* const shared;
-    EGLImage handle = EGL_NO_IMAGE;
+    EGLImage handle = EGL_NO_IMAGE;  ///< the system's, if OpenGL can use it
+    std::unique_ptr<GlImage> gl;     ///< null: it cannot
 };
 
 }  // namespace vtm::egl

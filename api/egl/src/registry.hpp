@@ -21,11 +21,11 @@ void* newHandle();
 template <class T>
 class Table {
 public:
+    /// With a new handle, if it has none.
     void add(const std::shared_ptr<T>& object) {
         const std::lock_guard lock(mutex_);
-        do
+        while (!object->handle || !objects_.try_emplace(object->handle, object).second)
             object->handle = newHandle();
-        while (!objects_.try_emplace(object->handle, object).second);
     }
 
     /// Null if the handle is not ours.

@@ -33,8 +33,26 @@ VG_API_CALL VtmSharedImage *VG_API_ENTRY vtmShareImage(VtmContext *context, VGIm
 VG_API_CALL void VG_API_ENTRY vtmDestroySharedImage(VtmSharedImage *image) VG_API_EXIT;
 
 /* What vgCreateEGLImageTargetKHR knows it by, in place of the name it had: any address. False, and nothing changed, if
- * the name is NULL or taken, or there is no memory. */
+ * the name is taken, or there is no memory. With NULL it has no name any more, nor ever again; what is left of it neither
+ * keeps pixels nor makes siblings, and only the functions below tell more of it. */
 VG_API_CALL VGboolean VG_API_ENTRY vtmNameSharedImage(VtmSharedImage *image, VGeglImageKHR name) VG_API_EXIT;
+
+VG_API_CALL VGint VG_API_ENTRY vtmSharedImageWidth(const VtmSharedImage *image) VG_API_EXIT;
+VG_API_CALL VGint VG_API_ENTRY vtmSharedImageHeight(const VtmSharedImage *image) VG_API_EXIT;
+
+/* Its pixels, for other APIs: as bytes red, green, blue, alpha, the numbers as the image stores them, whatever color space
+ * they are in; a luminance in all of the first three, 255 for an alpha that there is not; rows from the bottom, one right
+ * after the other. Not for two threads at once. */
+typedef enum {
+    VTM_PIXELS_SAME,    /* none has changed since they were last taken or put; nothing is stored */
+    VTM_PIXELS_CHANGED, /* some have; all are stored */
+    VTM_PIXELS_GONE     /* they are gone with the last image that had them; nothing is stored */
+} VtmPixels;
+VG_API_CALL VtmPixels VG_API_ENTRY vtmTakeSharedPixels(VtmSharedImage *image, void *pixels) VG_API_EXIT;
+
+/* Sets the pixels whose bytes differ from those last taken or put; the others keep all bits that they have. Of no effect
+ * before they are first taken. */
+VG_API_CALL void VG_API_ENTRY vtmPutSharedPixels(VtmSharedImage *image, const void *pixels) VG_API_EXIT;
 
 #ifdef __cplusplus
 }

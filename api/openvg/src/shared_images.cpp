@@ -2,6 +2,8 @@
 
 #include "api/openvg/src/shared_images.hpp"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 
@@ -34,6 +36,12 @@ void forgetName(VtmSharedImage& image) {
     image.name = nullptr;
 }
 
+/// As numbers are stored: red, green, blue, alpha.
+std::array<std::uint8_t, 4> bytesOf(const Pixels& pixels, int x, int y) {
+    const Color color = pixels.format().decode(pixels.word(x, y)) * 255.0f + 0.5f;
+    return {std::uint8_t(color.r), std::uint8_t(color.g), std::uint8_t(color.b), std::uint8_t(color.a)};
+}
+
 std::shared_ptr<const SharedPixels> shared(Context& context, VGImage handle) {
     const std::lock_guard lock(context.objects->mutex);
     const std::shared_ptr<Image> image = context.objects->get<Image>(handle);
@@ -58,9 +66,7 @@ VtmSharedImage* vtmShareImage(VtmContext* context, VGImage handle, VGErrorCode* 
     VtmSharedImage* result = nullptr;
     try {
         require(context != nullptr, VG_BAD_HANDLE_ERROR);
-        auto image = std::make_unique<VtmSharedImage>();
-        image->pixels = shared(*context, handle);
-        result = image.release();
+        result = new VtmSharedImage(shared(*context, handle));
     } catch (const Error& e) {
         code = e.code;
     } catch (const std::bad_alloc&) {
@@ -82,10 +88,15 @@ void vtmDestroySharedImage(VtmSharedImage* image) {
 }
 
 VGboolean vtmNameSharedImage(VtmSharedImage* image, VGeglImageKHR name) try {
-    if (!name)
-        return VG_FALSE;
     const std::lock_guard lock(names().mutex);
+    if (!name) {
+        forgetName(*image);
+        image->pixels = nullptr;
+        return VG_TRUE;
+    }
     auto& images = names().images;
+    if (!image->pixels)
+        return VG_FALSE;
     if (!images.try_emplace(name, image).second)
         return VG_FALSE;
     forgetName(*image);
@@ -93,6 +104,53 @@ VGboolean vtmNameSharedImage(VtmSharedImage* image, VGeglImageKHR name) try {
     return VG_TRUE;
 } catch (const std::bad_alloc&) {
     return VG_FALSE;
+}
+
+VGint vtmSharedImageWidth(const VtmSharedImage* image) { return image->area.x1 - image->area.x0; }
+VGint vtmSharedImageHeight(const VtmSharedImage* image) { return image->area.y1 - image->area.y0; }
+
+VtmPixels vtmTakeSharedPixels(VtmSharedImage* image, void* to) {
+    const std::shared_ptr<ImageStorage> storage = image->storage.lock();
+    if (!storage)
+        return VTM_PIXELS_GONE;
+    const Pixels& pixels = storage->pixels;
+    const std::size_t rowBytes = std::size_t(vtmSharedImageWidth(image)) * pixels.pixelBytes();
+    std::vector<std::uint8_t> stored;
+    stored.reserve(rowBytes * std::size_t(vtmSharedImageHeight(image)));
+    for (int y = image->area.y0; y < image->area.y1; ++y) {
+        const std::uint8_t* row = pixels.at(image->area.x0, y);
+        stored.insert(stored.end(), row, row + rowBytes);
+    }
+    if (stored == image->stored)
+        return VTM_PIXELS_SAME;
+    image->stored = std::move(stored);
+    image->bytes.clear();
+    for (int y = image->area.y0; y < image->area.y1; ++y)
+        for (int x = image->area.x0; x < image->area.x1; ++x) {
+            const std::array<std::uint8_t, 4> bytes = bytesOf(pixels, x, y);
+            image->bytes.insert(image->bytes.end(), bytes.begin(), bytes.end());
+        }
+    std::ranges::copy(image->bytes, static_cast<std::uint8_t*>(to));
+    return VTM_PIXELS_CHANGED;
+}
+
+void vtmPutSharedPixels(VtmSharedImage* image, const void* from) {
+    const std::shared_ptr<ImageStorage> storage = image->storage.lock();
+    if (!storage || image->bytes.empty())
+        return;
+    Pixels& pixels = storage->pixels;
+    const auto* bytes = static_cast<const std::uint8_t*>(from);
+    std::size_t i = 0;
+    for (int y = image->area.y0; y < image->area.y1; ++y)
+        for (int x = image->area.x0; x < image->area.x1; ++x, i += 4) {
+            if (std::equal(bytes + i, bytes + i + 4, image->bytes.data() + i))
+                continue;
+            const Color color(bytes[i], bytes[i + 1], bytes[i + 2], bytes[i + 3]);
+            pixels.setWord(x, y, pixels.format().encode(color / 255.0f));
+            std::copy_n(bytes + i, 4, image->bytes.data() + i);
+            std::copy_n(pixels.at(x, y), pixels.pixelBytes(),
+                        image->stored.data() + i / 4 * pixels.pixelBytes());
+        }
 }
 
 VGImage vgCreateEGLImageTargetKHR(VGeglImageKHR name) {

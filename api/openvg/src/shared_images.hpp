@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <vtm/vg_image.h>
 
@@ -22,6 +23,12 @@ struct SharedPixels {
 }  // namespace vtm::openvg
 
 struct VtmSharedImage {
-    std::shared_ptr<const vtm::openvg::SharedPixels> pixels;
+    explicit VtmSharedImage(std::shared_ptr<const vtm::openvg::SharedPixels> shared)
+        : pixels(std::move(shared)), storage(pixels->storage), area(pixels->area) {}
+
+    std::shared_ptr<const vtm::openvg::SharedPixels> pixels;  ///< null: it will have no name any more
+    const std::weak_ptr<vtm::openvg::ImageStorage> storage;
+    const vtm::openvg::Rectangle area;
     VGeglImageKHR name = nullptr;
+    std::vector<std::uint8_t> stored, bytes;  ///< when last taken or put; empty before
 };

@@ -190,7 +190,6 @@ TEST_F(EglImage, NamesAreOfOneAtATime) {
     const auto widthOf = [](void* name) {
         return vgGetParameteri(vgCreateEGLImageTargetKHR(name), VG_IMAGE_WIDTH);
     };
-    EXPECT_FALSE(vtmNameSharedImage(a, nullptr));
     EXPECT_TRUE(vtmNameSharedImage(a, &place));
     EXPECT_FALSE(vtmNameSharedImage(b, &place));
     EXPECT_EQ(widthOf(&place), 1);
@@ -203,6 +202,48 @@ TEST_F(EglImage, NamesAreOfOneAtATime) {
     EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
     vtmDestroySharedImage(b);
     vtmDestroySharedImage(nullptr);
+}
+
+TEST_F(EglImage, WithoutANameIsNoSiblingAnyMore) {
+    const VGImage source = image(sRGBA, 1, 1, {1, 2, 3, 4});
+    VtmSharedImage* const shared = share(source);
+    EXPECT_TRUE(vtmNameSharedImage(shared, nullptr));
+    EXPECT_FALSE(vtmNameSharedImage(shared, shared));
+    EXPECT_EQ(vgCreateEGLImageTargetKHR(shared), VG_INVALID_HANDLE);
+    EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
+    vtmDestroySharedImage(share(source));
+    Bytes pixels(4);
+    EXPECT_EQ(vtmTakeSharedPixels(shared, pixels.data()), VTM_PIXELS_CHANGED);
+    EXPECT_EQ(pixels, (Bytes{1, 2, 3, 4}));
+    vgDestroyImage(source);
+    EXPECT_EQ(vtmTakeSharedPixels(shared, pixels.data()), VTM_PIXELS_GONE);
+    vtmPutSharedPixels(shared, pixels.data());
+    vtmDestroySharedImage(shared);
+}
+
+TEST_F(EglImage, GivesAndTakesPixelsThatChange) {
+    // Five bits of red: 7 of 31 are 58 of 255, and so are all bytes near to that.
+    const VGImage source = vgCreateImage(VG_sRGB_565, 2, 1, VG_IMAGE_QUALITY_FASTER);
+    const std::uint16_t words[] = {7 << 11, 63 << 5};
+    vgImageSubData(source, words, 4, VG_sRGB_565, 0, 0, 2, 1);
+    VtmSharedImage* const shared = share(source);
+    EXPECT_EQ(vtmSharedImageWidth(shared), 2);
+    EXPECT_EQ(vtmSharedImageHeight(shared), 1);
+    Bytes pixels(8);
+    ASSERT_EQ(vtmTakeSharedPixels(shared, pixels.data()), VTM_PIXELS_CHANGED);
+    EXPECT_EQ(pixels, (Bytes{58, 0, 0, 255, 0, 255, 0, 255}));
+    EXPECT_EQ(vtmTakeSharedPixels(shared, pixels.data()), VTM_PIXELS_SAME);
+    pixels = {58, 0, 0, 255, 0, 0, 255, 255};
+    vtmPutSharedPixels(shared, pixels.data());
+    EXPECT_EQ(vtmTakeSharedPixels(shared, pixels.data()), VTM_PIXELS_SAME);
+    std::uint16_t after[2] = {};
+    vgGetImageSubData(source, after, 4, VG_sRGB_565, 0, 0, 2, 1);
+    EXPECT_EQ(after[0], words[0]);
+    EXPECT_EQ(after[1], 31);
+    vgClearImage(source, 0, 0, 1, 1);
+    ASSERT_EQ(vtmTakeSharedPixels(shared, pixels.data()), VTM_PIXELS_CHANGED);
+    EXPECT_EQ(pixels, (Bytes{0, 0, 0, 255, 0, 0, 255, 255}));
+    vtmDestroySharedImage(shared);
 }
 
 TEST_F(EglImage, IsAPatternAGlyphAndAPicture) {
