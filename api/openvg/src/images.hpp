@@ -31,7 +31,7 @@ void copyPixels(const From& from, To& to, const CopyArea& area) {
 /// A clear colour as a word of a format.
 std::uint32_t wordOf(const std::array<VGfloat, 4>& sRGBAColor, const PixelFormat& format);
 
-/// An image drawn by the context's state (section 10.8).
-void drawImage(Context& context, const Image& image, const glm::mat3& toSurface);
+/// An image drawn by the context's state (section 10.8). `matrix`: the one that `toSurface` comes from.
+void drawImage(Context& context, const Image& image, const glm::mat3& toSurface, VGMatrixMode matrix);
 
 }  // namespace vtm::openvg

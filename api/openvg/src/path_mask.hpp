@@ -28,6 +28,9 @@ class PathMask {
 public:
     PathMask(scene::Path outline, scene::FillRule rule);
 
+    const scene::Path& outline() const { return outline_; }
+    scene::FillRule rule() const { return rule_; }
+
     /// Exact coverage of the pixels of `clip` (section 6: pixel (x, y) is the square from there to (x + 1, y
     /// + 1)).
     void scan(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row);

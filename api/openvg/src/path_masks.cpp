@@ -8,6 +8,7 @@
 
 #include "api/openvg/src/flatten.hpp"
 #include "api/openvg/src/path_measure.hpp"
+#include "api/openvg/src/rational_curve.hpp"
 #include "compiler/stroke.hpp"
 
 namespace vtm::openvg {
@@ -125,8 +126,9 @@ void PathMasks::clear() {
 }
 
 scene::Path strokeOutline(const PathData& path, const StrokeParameters& parameters) {
-    const Box box = boxOf(outline(path.segments()));
-    const std::vector<Segment> segments = strokable(path.segments(), box, parameters.style.width);
+    const std::vector<Segment> plain = withoutRationals(path.segments());
+    const Box box = boxOf(outline(plain));
+    const std::vector<Segment> segments = strokable(plain, box, parameters.style.width);
     const scene::Path line = outline(segments);
     const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y) + parameters.style.width;
     const double tolerance = size * strokeTolerance;
