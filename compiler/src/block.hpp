@@ -16,10 +16,13 @@ namespace vtm::compiler {
 /// Pairs of chords looked at before the picture is refused.
 class WorkLimit {
 public:
+    explicit WorkLimit(std::size_t most) : most_(most) {}
+
     /// Throws LimitError beyond the limit.
     void spend(std::size_t work);
 
 private:
+    const std::size_t most_;
     std::atomic<std::size_t> spent_{0};
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -44,6 +45,11 @@ void PathData::clear() {
     coordinates_.clear();
 }
 
+void PathData::requireRoomFor(std::size_t segments) const {
+    if (segments > mostSegments - commands_.size())
+        throw std::length_error("too much path data");
+}
+
 void PathData::read(const void* data, std::size_t first, std::size_t count) {
     std::vector<double> numbers;
     numbers.reserve(count);
@@ -70,6 +76,7 @@ void PathData::append(const VGubyte* commands, int count, const void* data) {
     std::size_t numbers = 0;
     for (int i = 0; i < count; ++i)
         numbers += std::size_t(coordinateCount(commands[i]));
+    requireRoomFor(std::size_t(count));
     commands_.reserve(commands_.size() + std::size_t(count));
     read(data, coordinates_.size(), numbers);
     commands_.insert(commands_.end(), commands, commands + count);
@@ -105,6 +112,7 @@ double PathData::stored(double coordinate) const {
 
 void PathData::append(const PathData& other) {
     const std::size_t commands = other.commands_.size(), numbers = other.coordinates_.size();
+    requireRoomFor(commands);
     commands_.reserve(commands_.size() + commands);
     coordinates_.reserve(coordinates_.size() + numbers);
     for (std::size_t i = 0; i < numbers; ++i)
@@ -114,12 +122,14 @@ void PathData::append(const PathData& other) {
 }
 
 void PathData::append(const std::vector<VGubyte>& commands, const std::vector<double>& coordinates) {
+    requireRoomFor(commands.size());
     commands_.insert(commands_.end(), commands.begin(), commands.end());
     for (const double coordinate : coordinates)
         put(coordinate);
 }
 
 void PathData::append(const std::vector<Segment>& segments) {
+    requireRoomFor(segments.size());
     for (const Segment& s : segments) {
         commands_.push_back(VGubyte(s.type | VG_ABSOLUTE));
         if (s.type == VG_CLOSE_PATH)
@@ -242,6 +252,7 @@ std::vector<Segment> PathData::segments() const {
 // ---- Transformation, interpolation ----------------------------------------------------------------
 
 void PathData::appendTransformed(const PathData& other, const glm::mat3& affine) {
+    requireRoomFor(other.commands_.size());
     const glm::dmat3 m(affine);
     const glm::dmat2 linear(m[0], m[1]);
     const Point shift(m[2]);

@@ -11,6 +11,9 @@
 
 namespace vtm::openvg {
 
+/// Of one path. What goes beyond throws std::length_error, and changes nothing.
+inline constexpr std::size_t mostSegments = std::size_t(1) << 20;
+
 /// Coordinates are kept as what the datatype can hold; scaled ones are scale · v + bias.
 class PathData {
 public:
@@ -48,6 +51,7 @@ private:
     double scaled(std::size_t i) const;
     /// A scaled coordinate, rounded and pulled to what the datatype holds.
     double stored(double coordinate) const;
+    void requireRoomFor(std::size_t segments) const;
     void appendRational(const Segment& segment);
     void put(double coordinate) { coordinates_.push_back(stored(coordinate)); }
     void read(const void* data, std::size_t first, std::size_t count);

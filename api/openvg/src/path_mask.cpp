@@ -37,6 +37,9 @@ constexpr double pixelTolerance = 1.0 / 64;
 /// One leaf where it can be: a scanner wants few pieces, not short lists.
 constexpr unsigned piecesPerLeaf = 4096;
 
+/// Of one mask, in pairs of chords: a few seconds. No call may take a program's minute.
+constexpr std::size_t mostWork = 1'000'000'000;
+
 asset::CoverageScanner compiled(const scene::Path& outline, scene::FillRule rule,
                                 const scene::Affine& toPicture, dvec2 picture, double tolerance) {
     scene::Item item;
@@ -48,9 +51,34 @@ asset::CoverageScanner compiled(const scene::Path& outline, scene::FillRule rule
     scene.width = picture.x;
     scene.height = picture.y;
     scene.root.children.push_back({std::move(item)});
-    const compiler::Result result =
-        compiler::compile(scene, {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf});
+    const compiler::Result result = compiler::compile(
+        scene, {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf, .maxWork = mostWork});
     return asset::CoverageScanner(result.asset);
+}
+
+/// The subpaths whose boxes meet a picture: all others wind round no point of it. Of a stroke with dashes
+/// from afar most are such.
+scene::Path partSeen(const scene::Path& outline, const scene::Affine& toPicture, dvec2 picture) {
+    scene::Path seen;
+    for (auto first = outline.begin(); first != outline.end();) {
+        const auto end = std::find_if(first + 1, outline.end(), [](const scene::Command& command) {
+            return std::holds_alternative<scene::MoveTo>(command);
+        });
+        const std::size_t before = seen.size();
+        seen.insert(seen.end(), first, end);
+        const Box box = boxOf({seen.begin() + std::ptrdiff_t(before), seen.end()});
+        dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+        for (const dvec2 corner :
+             {box.min, box.max, dvec2(box.min.x, box.max.y), dvec2(box.max.x, box.min.y)}) {
+            const dvec2 p = scene::apply(toPicture, corner);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        if (!(least.x <= picture.x && least.y <= picture.y && most.x >= 0 && most.y >= 0))
+            seen.resize(before);
+        first = end;
+    }
+    return seen;
 }
 
 /// Of the whole outline: scale and shift of its box into a picture.
@@ -127,8 +155,9 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
     if (tolerance < tolerances.back()) {
         // The view is the picture; what lies outside is cut off before anything is rounded.
         const scene::Affine toView{dvec2(m[0]), dvec2(m[1]), origin};
+        const dvec2 picture(view.width, view.height);
         view.toPixels = scene::identity;
-        compiled(outline_, rule_, toView, dvec2(view.width, view.height), viewTolerance)
+        compiled(partSeen(outline_, toView, picture), rule_, toView, picture, viewTolerance)
             .scan(view, onSurface);
         return;
     }
