@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -40,10 +41,10 @@ constexpr unsigned piecesPerLeaf = 4096;
 /// Of one mask, in pairs of chords: a few seconds. No call may take a program's minute.
 constexpr std::size_t mostWork = 1'000'000'000;
 
-asset::CoverageScanner compiled(const scene::Path& outline, scene::FillRule rule,
+asset::CoverageScanner compiled(std::shared_ptr<const scene::Path> outline, scene::FillRule rule,
                                 const scene::Affine& toPicture, dvec2 picture, double tolerance) {
     scene::Item item;
-    item.path = std::make_shared<scene::Path>(outline);
+    item.path = std::move(outline);
     item.transform = toPicture;
     item.geometry = rule;
     item.paint = scene::Color{0, 0, 0, 1};
@@ -58,8 +59,10 @@ asset::CoverageScanner compiled(const scene::Path& outline, scene::FillRule rule
 
 /// The subpaths whose boxes meet a picture: all others wind round no point of it. Of a stroke with dashes
 /// from afar most are such.
-scene::Path partSeen(const scene::Path& outline, const scene::Affine& toPicture, dvec2 picture) {
-    scene::Path seen;
+std::shared_ptr<const scene::Path> partSeen(const scene::Path& outline, const scene::Affine& toPicture,
+                                            dvec2 picture) {
+    auto result = std::make_shared<scene::Path>();
+    scene::Path& seen = *result;
     for (auto first = outline.begin(); first != outline.end();) {
         const auto end = std::find_if(first + 1, outline.end(), [](const scene::Command& command) {
             return std::holds_alternative<scene::MoveTo>(command);
@@ -78,7 +81,23 @@ scene::Path partSeen(const scene::Path& outline, const scene::Affine& toPicture,
             seen.resize(before);
         first = end;
     }
-    return seen;
+    return result;
+}
+
+/// Of an outline so many pixels wide doubles do not tell a curve from its rounding: it is drawn as lines, few
+/// of them, where the compiler would cut it finer and finer.
+constexpr double mostPixels = double(1LL << 40);
+
+std::shared_ptr<const scene::Path> asLines(const scene::Path& outline, const glm::mat3& toSurface) {
+    auto lines = std::make_shared<scene::Path>();
+    std::optional<dvec2> end;
+    flatten(outline, toSurface, [&](dvec2 a, dvec2 b) {
+        if (end != a)
+            lines->emplace_back(scene::MoveTo{a});
+        lines->emplace_back(scene::LineTo{b});
+        end = b;
+    });
+    return lines;
 }
 
 /// Of the whole outline: scale and shift of its box into a picture.
@@ -110,8 +129,9 @@ Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Recta
         .intersected(clip);
 }
 
-PathMask::PathMask(scene::Path outline, scene::FillRule rule) : outline_(std::move(outline)), rule_(rule) {
-    const Box box = boxOf(outline_);
+PathMask::PathMask(scene::Path outline, scene::FillRule rule)
+    : outline_(std::make_shared<const scene::Path>(std::move(outline))), rule_(rule) {
+    const Box box = boxOf(*outline_);
     min_ = box.min;
     max_ = box.max;
 }
@@ -157,7 +177,11 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
         const scene::Affine toView{dvec2(m[0]), dvec2(m[1]), origin};
         const dvec2 picture(view.width, view.height);
         view.toPixels = scene::identity;
-        compiled(partSeen(outline_, toView, picture), rule_, toView, picture, viewTolerance)
+        if (stretch * std::max(extent.x, extent.y) > mostPixels)
+            return compiled(asLines(*outline_, toSurface), rule_,
+                            scene::translation(-double(seen.x0), -double(seen.y0)), picture, viewTolerance)
+                .scan(view, onSurface);
+        compiled(partSeen(*outline_, toView, picture), rule_, toView, picture, viewTolerance)
             .scan(view, onSurface);
         return;
     }
@@ -178,7 +202,7 @@ void PathMask::scanCenters(const glm::mat3& toSurface, const Rectangle& clip, co
         int column, change;
     };
     std::vector<std::vector<Crossing>> rows(std::size_t(seen.y1 - seen.y0));
-    flatten(outline_, toSurface, [&](dvec2 a, dvec2 b) {
+    flatten(*outline_, toSurface, [&](dvec2 a, dvec2 b) {
         int change = 1;
         if (a.y > b.y) {
             std::swap(a, b);

@@ -280,6 +280,16 @@ TEST_F(PathsTest, HaveNotTooManyDashes) {
     EXPECT_NEAR(pixel(8, 8)[3], 128, 4);
 }
 
+TEST_F(PathsTest, WildMatricesEnd) {
+    // A shear by 1e28 makes of two pixels of the path more than doubles can tell apart.
+    const VGPath path = newPath({VG_MOVE_TO_ABS, VG_CUBIC_TO_ABS, VG_CUBIC_TO_ABS, VG_CLOSE_PATH},
+                                {0, 40, -2.5f, 31.25f, -1.25f, 46.25f, -1.25f, -1.25f, -1.25f, -48.75f,
+                                 40957.5f, 48.75f, -1.25f, 51.25f});
+    const VGfloat matrix[] = {0.25f, 1.2f, 0, -2.9e26f, 1.46e28f, 0, 1.5f, -1.1f, 1};
+    vgLoadMatrix(matrix);
+    EXPECT_VG_ERROR(VG_NO_ERROR, vgDrawPath(path, VG_FILL_PATH));
+}
+
 TEST_F(PathsTest, WildNumbersEnd) {
     // Section 3.3: no number may stop the program.
     const VGfloat huge = 3e38f, nan = std::nanf(""), inf = std::numeric_limits<VGfloat>::infinity();
