@@ -9,6 +9,8 @@ target_compile_options(vtm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
 # GCC 12 warns of overlapping copies inside std::string (its bug 105651), and of members of a std::variant's other
 # alternatives as perhaps uninitialised, depending on what it inlines.
 target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>")
+# In inner loops & and | of bools are meant: nothing branches.
+target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>")
 option(VTM_WERROR "Treat our warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 if(VTM_WERROR)
     target_compile_options(vtm_warnings INTERFACE -Werror)

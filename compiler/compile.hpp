@@ -2,6 +2,7 @@
 /// Scene in, Vector Texture Map out: regions, cells, tree, encode.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,8 @@ struct Options {
     std::optional<unsigned> piecesPerLeaf = std::nullopt;
     /// Levels of the 16-tree. In [0, asset::maxLevel]; cells finer than the tolerance allows are not made.
     unsigned maxDepth = 8;
+    /// Pairs of chords looked at before the picture is a LimitError: a minute or so.
+    std::size_t maxWork = 20'000'000'000;
 };
 
 /// Milliseconds of wall time a stage took.

@@ -19,8 +19,6 @@ constexpr std::size_t maxChordsInLastLeaf = 2000;
 /// A cell is not pushed down to find out what its children cost if it costs less than this share of the least
 /// that they can: where outlines hide each other they may cost less.
 constexpr double sureShare = 0.75;
-/// A minute or so.
-constexpr std::size_t maxWork = 20'000'000'000;
 /// asset::Leaf::pieceCount is 16 bits.
 constexpr std::size_t maxLeafPieces = 0xFFFF;
 
@@ -31,8 +29,8 @@ bool isInside(const Layer& layer, int winding) {
 }  // namespace
 
 void WorkLimit::spend(std::size_t work) {
-    if (spent_.fetch_add(work, std::memory_order_relaxed) + work > maxWork)
-        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maxWork) +
+    if (spent_.fetch_add(work, std::memory_order_relaxed) + work > most_)
+        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(most_) +
                          " pairs of chords");
 }
 

@@ -16,10 +16,13 @@ namespace vtm::compiler {
 /// Pairs of chords looked at before the picture is refused.
 class WorkLimit {
 public:
+    explicit WorkLimit(std::size_t most) : most_(most) {}
+
     /// Throws LimitError beyond the limit.
     void spend(std::size_t work);
 
 private:
+    const std::size_t most_;
     std::atomic<std::size_t> spent_{0};
 };
 
@@ -67,8 +70,7 @@ private:
 class BlockBuilder {
 public:
     BlockBuilder(const Picture& picture, const Painter& painter, const TreeOptions& options, WorkLimit& work)
-        : picture_(picture),
-          points_(picture.outlines.points),
+        : points_(picture.outlines.points),
           painter_(painter.clone()),
           options_(options),
           work_(work),
@@ -116,7 +118,6 @@ private:
     Built emit(const Made& made, unsigned level);
     Built emitMean(const Cell& cell);
 
-    const Picture& picture_;
     const Points points_;
     const std::unique_ptr<Painter> painter_;
     const TreeOptions& options_;

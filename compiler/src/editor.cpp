@@ -94,7 +94,7 @@ private:
             if (block.dirty)
                 dirty.push_back(&block);
 
-        WorkLimit work;
+        WorkLimit work(treeOptions_.maxWork);
         std::vector<Tree> trees(dirty.size());
         tbb::enumerable_thread_specific<Worker> workers(
             [&] { return Worker(picture_, painter, treeOptions_, work); });

@@ -33,6 +33,7 @@ ErrorBudget errorBudget(const Options& o) { return {o.tolerance, latticeBits(o)}
 
 TreeOptions treeOptions(const Options& o) {
     TreeOptions t(errorBudget(o));
+    t.maxWork = o.maxWork;
     t.cost.nanosecondsPerByte = o.nanosecondsPerByte;
     t.piecesPerLeaf = o.piecesPerLeaf;
     t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(latticeBits(o) - lastCellBits) / 2);

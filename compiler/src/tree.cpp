@@ -159,7 +159,7 @@ private:
 Tree buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
                const Painter& painter, const TreeOptions& options, TreeTimes& times) {
     const auto start = Clock::now();
-    WorkLimit work;
+    WorkLimit work(options.maxWork);
     Cell cell = rootCell(picture, root, layers);
     TopBuilder topBuilder(picture, painter, options.maxDepth, cell.strands.size());
     Top top = topBuilder.run(std::move(cell));

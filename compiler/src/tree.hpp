@@ -44,6 +44,7 @@ struct TreeOptions {
     std::optional<unsigned> piecesPerLeaf;
     unsigned minDepth = 2;  ///< of leaves with pieces: keeps their quantisation below the tolerance
     unsigned maxDepth = 8;
+    std::size_t maxWork = 0;  ///< pairs of chords
 };
 
 /// Milliseconds of wall time: pushing, also above the blocks, planarising and fitting; and in all for

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <VG/vgu.h>
-#include <vtm/vg.h>
+#include <vtm/vg_image.h>
 
 namespace vtm::fuzz {
 

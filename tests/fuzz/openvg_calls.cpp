@@ -350,6 +350,33 @@ constexpr Call table[] = {
         vguArc(path, a.number(), a.number(), a.number(), a.number(), a.number() * 8, a.number() * 8,
                a.one(VGU_ARC_OPEN, VGU_ARC_PIE));
     },
+    // ---- Extensions
+    [](World& w, Arguments& a) {
+        VtmSharedImage* const shared = vtmShareImage(w.context(), w.any(w.images), nullptr);
+        if (!shared)
+            return;
+        vtmNameSharedImage(shared, shared);
+        vgDestroyImage(w.keep(w.images, vgCreateEGLImageTargetKHR(shared)));
+        std::vector<std::uint8_t> pixels(std::size_t(vtmSharedImageWidth(shared)) *
+                                         std::size_t(vtmSharedImageHeight(shared)) * 4);
+        vtmTakeSharedPixels(shared, pixels.data());
+        pixels[a.byte() % pixels.size()] ^= 255;
+        vtmPutSharedPixels(shared, pixels.data());
+        vtmDestroySharedImage(shared);
+    },
+    [](World&, Arguments& a) { vgCreateEGLImageTargetKHR(a.results()); },
+    [](World&, Arguments&) { vgGetString(VG_EXTENSIONS); },
+    [](World&, Arguments& a) { vgProjectiveMatrixNDS(a.boolean()); },
+    [](World&, Arguments& a) {
+        const auto lines = VGParamType(VG_CLIP_LINES_NDS), mode = VGParamType(VG_CLIP_MODE_NDS);
+        const VGint count = a.rarely() ? a.count() : 3 * VGint(a.byte() % 3);
+        vgSetfv(lines, count, a.floats(count));
+        vgSeti(mode, VG_CLIPMODE_NONE_NDS + VGint(a.byte() % 5));
+    },
+    [](World&, Arguments& a) {
+        VGfloat* const out = a.results();
+        vguTransformClipLineNDS(a.number(), a.number(), a.number(), matrix(a), a.boolean(), out, out, out);
+    },
     [](World&, Arguments& a) {
         const VGfloat* const p = warpPoints(a);
         vguComputeWarpQuadToSquare(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], a.results());

@@ -228,13 +228,13 @@ struct PathData {
 inline PathData pathData(Arguments& a, VGint& count) {
     PathData data;
     for (VGubyte& command : data.commands)
-        command = VGubyte(a.rarely(200) ? a.byte() : a.byte() % 26);
+        command = VGubyte(a.rarely(200) ? a.byte() : a.byte() % 30);
     count = a.rarely(64) ? a.integer() : VGint(a.byte() % 12);
     count = std::min(count, VGint(data.commands.size()));
     // As floats they are tame, as integers too: whatever the path's datatype is, these bytes are numbers of
     // it.
     data.numbers =
-        a.rarely(2) ? static_cast<const void*>(a.floats(72)) : static_cast<const void*>(a.integers(72));
+        a.rarely(2) ? static_cast<const void*>(a.floats(120)) : static_cast<const void*>(a.integers(120));
     return data;
 }
 

@@ -1,10 +1,8 @@
 #include "api/egl/src/blitter.hpp"
 
-#include <string>
-
 #include <GLES3/gl3.h>
 
-#include "api/egl/src/thread.hpp"
+#include "api/egl/src/gl_current.hpp"
 
 namespace vtm::egl {
 
@@ -50,47 +48,10 @@ constexpr const char* fragmentShader =
 
 constexpr float corners[] = {0, 0, 1, 0, 0, 1, 1, 1};
 
-/// Makes a context current in the system for as long as this lives, and then again what was.
-class Current {
-public:
-    Current(EGLDisplay display, EGLSurface surface, EGLContext context)
-        : system_(*systemEgl()),
-          display_(system_.GetCurrentDisplay()),
-          draw_(system_.GetCurrentSurface(EGL_DRAW)),
-          read_(system_.GetCurrentSurface(EGL_READ)),
-          context_(system_.GetCurrentContext()),
-          madeFor_(display) {
-        requireSystem(system_.MakeCurrent(display, surface, surface, context));
-    }
-    ~Current() {
-        if (context_ != EGL_NO_CONTEXT)
-            system_.MakeCurrent(display_, draw_, read_, context_);
-        else
-            system_.MakeCurrent(madeFor_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
-    Current(const Current&) = delete;
-    Current& operator=(const Current&) = delete;
-
-private:
-    const System& system_;
-    const EGLDisplay display_;
-    const EGLSurface draw_, read_;
-    const EGLContext context_;
-    const EGLDisplay madeFor_;
-};
-
 }  // namespace
 
-Blitter::Blitter(const Display& display, EGLConfig config) : display_(display.handle) {
-    const System& system = *systemEgl();
-    const EGLint attributes[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
-    const EGLenum api = system.QueryAPI();
-    requireSystem(system.BindAPI(EGL_OPENGL_ES_API));
-    context_ = system.CreateContext(display_, config, EGL_NO_CONTEXT, attributes);
-    const EGLint error = system.GetError();
-    system.BindAPI(api);
-    require(context_ != EGL_NO_CONTEXT, error);
-}
+Blitter::Blitter(const Display& display, EGLConfig config)
+    : display_(display.handle), context_(newGlContext(display, config)) {}
 
 Blitter::~Blitter() {
     if (context_ != EGL_NO_CONTEXT)
@@ -140,13 +101,13 @@ void Blitter::draw(VtmSurface* drawing) {
 }
 
 void Blitter::copy(EGLSurface target, VtmSurface* drawing) {
-    const Current current(display_, target, context_);
+    const GlCurrent current(display_, target, context_);
     draw(drawing);
     gl().Finish();
 }
 
 void Blitter::read(EGLSurface target, VtmSurface* drawing) {
-    const Current current(display_, target, context_);
+    const GlCurrent current(display_, target, context_);
     const GLsizei width = vtmSurfaceWidth(drawing), height = vtmSurfaceHeight(drawing);
     const std::size_t rowBytes = std::size_t(width) * 4;
     pixels_.resize(rowBytes * std::size_t(height));
@@ -159,7 +120,7 @@ void Blitter::read(EGLSurface target, VtmSurface* drawing) {
 }
 
 void Blitter::swap(EGLSurface target, VtmSurface* drawing, EGLint interval) {
-    const Current current(display_, target, context_);
+    const GlCurrent current(display_, target, context_);
     draw(drawing);
     systemEgl()->SwapInterval(display_, interval);
     requireSystem(systemEgl()->SwapBuffers(display_, target));

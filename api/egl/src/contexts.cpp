@@ -3,6 +3,7 @@
 
 #include "api/egl/src/attributes.hpp"
 #include "api/egl/src/gl_contexts.hpp"
+#include "api/egl/src/images.hpp"
 #include "api/egl/src/posting.hpp"
 #include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
@@ -113,6 +114,7 @@ EGLBoolean EGLAPIENTRY eglDestroyContext(EGLDisplay dpy, EGLContext handle) {
 }
 
 EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay dpy, EGLSurface draw, EGLSurface read, EGLContext handle) {
+    synchronizeImages();
     const bool isOurs =
         handle == EGL_NO_CONTEXT ? isVgCurrentApi() || currentApi() == EGL_NONE : contexts().has(handle);
     if (!isOurs && !surfaces().has(draw) && !surfaces().has(read)) {

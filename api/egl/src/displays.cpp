@@ -5,6 +5,7 @@
 
 #include "api/egl/src/configs.hpp"
 #include "api/egl/src/displays.hpp"
+#include "api/egl/src/images.hpp"
 #include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
 
@@ -38,6 +39,7 @@ void terminate(Display& display) {
     // What is current in some thread stays until that thread lets go of it.
     forgetAllAdopted(display);
     surfaces().removeAll(display);
+    forgetImages(display);
     contexts().removeAll(display);
     configs().removeAll(display);
     display.configs.clear();
@@ -83,7 +85,9 @@ std::string displayString(const Display& display, EGLint name) {
                        ? std::to_string(display.major) + '.' + std::to_string(display.minor) + " VTM"
                        : systems;
         case EGL_EXTENSIONS:
-            return display.systemRuns ? systems : "EGL_KHR_no_config_context";
+            return withWord(
+                withWord(display.systemRuns ? systems : "EGL_KHR_no_config_context", "EGL_KHR_image_base"),
+                "EGL_KHR_vg_parent_image");
         default:
             throw Error{EGL_BAD_PARAMETER};
     }

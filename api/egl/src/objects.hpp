@@ -12,12 +12,13 @@
 
 #include <EGL/egl.h>
 
-#include <vtm/vg.h>
+#include <vtm/vg_image.h>
 
 namespace vtm::egl {
 
 struct Config;
 class Blitter;
+class GlImage;
 
 /// Section 2.1.2. A display stays for ever once a program has asked for it.
 struct Display {
@@ -126,6 +127,20 @@ struct Context {
     const std::shared_ptr<const Config> config;  ///< null: fits every surface
     VtmContext* const drawing;
     EGLContext handle = EGL_NO_CONTEXT;
+};
+
+/// Of an image of OpenVG's (EGL_KHR_vg_parent_image). All others are the system's.
+struct Image {
+    Image(Display& display, VGImage source, VtmSharedImage* shared);
+    ~Image();
+    Image(const Image&) = delete;
+    Image& operator=(const Image&) = delete;
+
+    Display& display;
+    const VGImage source;
+    VtmSharedImage* const shared;
+    EGLImage handle = EGL_NO_IMAGE;  ///< the system's, if OpenGL can use it
+    std::unique_ptr<GlImage> gl;     ///< null: it cannot
 };
 
 }  // namespace vtm::egl

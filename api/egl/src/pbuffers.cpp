@@ -66,19 +66,6 @@ EGLSurface createPbuffer(Display& display, EGLConfig handle, const EGLint* list)
     return surface->handle;
 }
 
-EGLint errorOf(VGErrorCode code) {
-    switch (code) {
-        case VG_BAD_HANDLE_ERROR:
-            return EGL_BAD_PARAMETER;
-        case VG_IMAGE_IN_USE_ERROR:
-            return EGL_BAD_ACCESS;
-        case VG_OUT_OF_MEMORY_ERROR:
-            return EGL_BAD_ALLOC;
-        default:
-            return EGL_BAD_MATCH;
-    }
-}
-
 bool hasFormatOf(const Config& config, const VtmSurfaceFormat& image) {
     const VtmSurfaceFormat& f = config.format;
     return f.redBits == image.redBits && f.greenBits == image.greenBits && f.blueBits == image.blueBits &&

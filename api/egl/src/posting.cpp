@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "api/egl/src/blitter.hpp"
+#include "api/egl/src/images.hpp"
 #include "api/egl/src/system_surfaces.hpp"
 #include "api/egl/src/thread.hpp"
 #include "api/egl/src/x_pixmaps.hpp"
@@ -148,6 +149,7 @@ EGLBoolean EGLAPIENTRY swapBuffersWithDamageExt(EGLDisplay dpy, EGLSurface surfa
 using namespace vtm::egl;
 
 EGLBoolean EGLAPIENTRY eglSwapBuffers(EGLDisplay dpy, EGLSurface handle) {
+    synchronizeImages();
     return isOurs(handle)
                ? swap(dpy, handle)
                : forward(&System::SwapBuffers, EGLBoolean(EGL_FALSE), EGL_BAD_SURFACE, dpy, handle);
@@ -181,6 +183,7 @@ EGLBoolean EGLAPIENTRY eglSwapInterval(EGLDisplay dpy, EGLint interval) {
 }
 
 EGLBoolean EGLAPIENTRY eglWaitClient(void) {
+    synchronizeImages();
     if (currentApi() != EGL_OPENVG_API && systemEgl()) {
         thisThread().error = EGL_SUCCESS;
         return systemEgl()->WaitClient();
@@ -193,6 +196,7 @@ EGLBoolean EGLAPIENTRY eglWaitClient(void) {
 }
 
 EGLBoolean EGLAPIENTRY eglWaitGL(void) {
+    synchronizeImages();
     if (systemEgl()) {
         thisThread().error = EGL_SUCCESS;
         return systemEgl()->WaitGL();

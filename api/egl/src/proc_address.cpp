@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "api/egl/src/displays.hpp"
+#include "api/egl/src/images.hpp"
 #include "api/egl/src/posting.hpp"
 #include "api/egl/src/surfaces.hpp"
 #include "api/egl/src/thread.hpp"
@@ -28,6 +29,12 @@ Function plain(F* function) {
 #define VTM_EGL_NAMED(name) Named{"egl" #name, plain(&::egl##name)},
 const std::array core{VTM_EGL_FUNCTIONS(VTM_EGL_NAMED)};
 #undef VTM_EGL_NAMED
+
+/// Functions of extensions that OpenVG has with any system, and without.
+const std::array ofOpenVg{
+    Named{"eglCreateImageKHR", plain(&createImageKhr)},
+    Named{"eglDestroyImageKHR", plain(&destroyImageKhr)},
+};
 
 /// Functions of the system's extensions that may be given handles of ours.
 const std::array extensions{
@@ -56,6 +63,8 @@ __eglMustCastToProperFunctionPointerType EGLAPIENTRY eglGetProcAddress(const cha
     if (const auto function = name ? vtmGetProcAddress(name) : nullptr)
         return reinterpret_cast<Function>(function);
     if (const auto function = name ? find(core, name) : nullptr)
+        return function;
+    if (const auto function = name ? find(ofOpenVg, name) : nullptr)
         return function;
     if (!name || !systemEgl())
         return nullptr;

@@ -43,6 +43,11 @@ Table<Context>& contexts() {
     return table;
 }
 
+Table<Image>& images() {
+    static auto& table = *new Table<Image>;
+    return table;
+}
+
 Display* findDisplay(EGLDisplay handle) {
     const std::lock_guard lock(displays().mutex);
     const auto it = displays().all.find(handle);

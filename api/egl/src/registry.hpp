@@ -21,11 +21,11 @@ void* newHandle();
 template <class T>
 class Table {
 public:
+    /// With a new handle, if it has none.
     void add(const std::shared_ptr<T>& object) {
         const std::lock_guard lock(mutex_);
-        do
+        while (!object->handle || !objects_.try_emplace(object->handle, object).second)
             object->handle = newHandle();
-        while (!objects_.try_emplace(object->handle, object).second);
     }
 
     /// Null if the handle is not ours.
@@ -78,6 +78,7 @@ private:
 Table<Config>& configs();
 Table<Surface>& surfaces();
 Table<Context>& contexts();
+Table<Image>& images();
 
 /// Null if no program got it from us.
 Display* findDisplay(EGLDisplay handle);

@@ -133,8 +133,6 @@ TEST_F(Contexts, HaveNoFences) {
     ASSERT_EGL(makeCurrent(surface, ctx));
     EXPECT_EQ(eglCreateSync(display, EGL_SYNC_FENCE, nullptr), EGL_NO_SYNC);
     EXPECT_EGL_ERROR(EGL_BAD_MATCH);
-    EXPECT_EQ(eglCreateImage(display, ctx, EGL_VG_PARENT_IMAGE_KHR, nullptr, nullptr), EGL_NO_IMAGE);
-    EXPECT_EGL_ERROR(EGL_BAD_PARAMETER);
 }
 
 class Both : public Contexts {

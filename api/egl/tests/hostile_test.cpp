@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <random>
+#include <type_traits>
 
 #include "api/egl/tests/support.hpp"
 
@@ -23,6 +24,10 @@ void callAll(EGLDisplay d, void* h) {
     eglCreateContext(d, h, h, nullptr);
     eglCreateContext(d, h, EGL_NO_CONTEXT, list);
     eglCreateImage(d, h, EGL_GL_TEXTURE_2D, h, nullptr);
+    eglCreateImage(d, h, EGL_VG_PARENT_IMAGE_KHR, h, nullptr);
+    function<std::remove_pointer_t<PFNEGLCREATEIMAGEKHRPROC>>("eglCreateImageKHR")(
+        d, h, EGL_VG_PARENT_IMAGE_KHR, h, nullptr);
+    function<std::remove_pointer_t<PFNEGLDESTROYIMAGEKHRPROC>>("eglDestroyImageKHR")(d, h);
     eglCreatePbufferFromClientBuffer(d, EGL_OPENVG_IMAGE, h, h, nullptr);
     eglCreatePbufferSurface(d, h, list);
     eglCreatePixmapSurface(d, h, 0, nullptr);

@@ -46,6 +46,21 @@ typedef void(VG_API_ENTRYP PFNVGITERATIVEAVERAGEBLURKHRPROC)(VGImage dst, VGImag
 
 #endif
 
+/* ---- VG_KHR_EGL_image ---- */
+
+#ifndef VG_KHR_EGL_image
+#define VG_KHR_EGL_image 1
+
+/* An EGLImage, as eglCreateImage gives it for an image (EGL_VG_PARENT_IMAGE_KHR). */
+typedef void *VGeglImageKHR;
+
+#ifdef VG_VGEXT_PROTOTYPES
+VG_API_CALL VGImage VG_API_ENTRY vgCreateEGLImageTargetKHR(VGeglImageKHR image) VG_API_EXIT;
+#endif
+typedef VGImage(VG_API_ENTRYP PFNVGCREATEEGLIMAGETARGETKHRPROC)(VGeglImageKHR image);
+
+#endif
+
 /* ---- VG_KHR_advanced_blending: values of VG_BLEND_MODE ---- */
 
 #ifndef VG_KHR_advanced_blending
@@ -180,6 +195,58 @@ typedef enum {
     VG_DRAW_IMAGE_COLOR_MATRIX_NDS = 0x1F10,
     VG_IMAGE_MODE_NDS_FORCE_SIZE = VG_MAX_ENUM
 } VGImageModeNds;
+
+#endif
+
+/* ---- VG_NDS_projective_geometry ---- */
+
+#ifndef VG_NDS_projective_geometry
+#define VG_NDS_projective_geometry 1
+
+/* Parameters of contexts. */
+typedef enum {
+    VG_CLIP_MODE_NDS = 0x1180,
+    VG_CLIP_LINES_NDS = 0x1181, /* numbers a, b, c of each line: where a w x + b w y + c w >= 0 is kept */
+    VG_MAX_CLIP_LINES_NDS = 0x1182,
+    VG_PARAM_TYPE_NDS_FORCE_SIZE = VG_MAX_ENUM
+} VGParamTypeNds;
+
+typedef enum {
+    VG_CLIPMODE_NONE_NDS = 0x3000,
+    VG_CLIPMODE_CLIP_CLOSED_NDS = 0x3001,
+    VG_CLIPMODE_CLIP_OPEN_NDS = 0x3002,
+    VG_CLIPMODE_CULL_NDS = 0x3003,
+    VG_CLIPMODE_NDS_FORCE_SIZE = VG_MAX_ENUM
+} VGClipModeNds;
+
+/* Rational curves: w0, x1, y1, w1, x2, y2, w2, and x3, y3, w3 for cubic ones. */
+typedef enum {
+    VG_RQUAD_TO_NDS = (13 << 1),
+    VG_RCUBIC_TO_NDS = (14 << 1),
+    VG_PATH_SEGMENT_NDS_FORCE_SIZE = VG_MAX_ENUM
+} VGPathSegmentNds;
+
+typedef enum {
+    VG_RQUAD_TO_ABS_NDS = (13 << 1) | 0,
+    VG_RQUAD_TO_REL_NDS = (13 << 1) | 1,
+    VG_RCUBIC_TO_ABS_NDS = (14 << 1) | 0,
+    VG_RCUBIC_TO_REL_NDS = (14 << 1) | 1,
+    VG_PATH_COMMAND_NDS_FORCE_SIZE = VG_MAX_ENUM
+} VGPathCommandNds;
+
+/* vgProjectiveMatrixNDS is about the matrix of the current VG_MATRIX_MODE. */
+#ifdef VG_VGEXT_PROTOTYPES
+VG_API_CALL void VG_API_ENTRY vgProjectiveMatrixNDS(VGboolean enable) VG_API_EXIT;
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguTransformClipLineNDS(const VGfloat Ain, const VGfloat Bin,
+                                                                const VGfloat Cin, const VGfloat *matrix,
+                                                                const VGboolean inverse, VGfloat *Aout,
+                                                                VGfloat *Bout, VGfloat *Cout) VGU_API_EXIT;
+#endif
+typedef void(VG_API_ENTRYP PFNVGPROJECTIVEMATRIXNDSPROC)(VGboolean enable);
+typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUTRANSFORMCLIPLINENDSPROC)(const VGfloat Ain, const VGfloat Bin,
+                                                                    const VGfloat Cin, const VGfloat *matrix,
+                                                                    const VGboolean inverse, VGfloat *Aout,
+                                                                    VGfloat *Bout, VGfloat *Cout);
 
 #endif
 

@@ -9,13 +9,13 @@
 #include "api/openvg/src/color_transform.hpp"
 #include "api/openvg/src/compositor.hpp"
 #include "api/openvg/src/images.hpp"
+#include "api/openvg/src/matrix.hpp"
+#include "api/openvg/src/projective.hpp"
 #include "api/openvg/src/record.hpp"
 
 namespace vtm::openvg {
 
 namespace {
-
-bool isProjective(const glm::mat3& m) { return m[0].z != 0 || m[1].z != 0 || m[2].z != 1; }
 
 /// The rows of a rectangle along the axes: shares of columns times shares of rows.
 void coverRectangle(glm::dvec2 min, glm::dvec2 max, const Rectangle& clip, const RowSink& row) {
@@ -53,45 +53,60 @@ void coverRectangle(glm::dvec2 min, glm::dvec2 max, const Rectangle& clip, const
     }
 }
 
-void coverQuad(const std::array<glm::dvec2, 4>& corners, bool antialiased, const Rectangle& clip,
-               const RowSink& row) {
-    const bool isUpright = (corners[0].x == corners[3].x && corners[1].x == corners[2].x &&
-                            corners[0].y == corners[1].y && corners[2].y == corners[3].y) ||
-                           (corners[0].y == corners[3].y && corners[1].y == corners[2].y &&
-                            corners[0].x == corners[1].x && corners[2].x == corners[3].x);
+void coverPolygon(const std::vector<glm::dvec2>& corners, bool antialiased, const Rectangle& clip,
+                  const RowSink& row) {
+    const bool isUpright =
+        corners.size() == 4 && ((corners[0].x == corners[3].x && corners[1].x == corners[2].x &&
+                                 corners[0].y == corners[1].y && corners[2].y == corners[3].y) ||
+                                (corners[0].y == corners[3].y && corners[1].y == corners[2].y &&
+                                 corners[0].x == corners[1].x && corners[2].x == corners[3].x));
     if (antialiased && isUpright)
         return coverRectangle(glm::min(corners[0], corners[2]), glm::max(corners[0], corners[2]), clip, row);
-    PathMask mask(scene::polygon({corners.begin(), corners.end()}), scene::FillRule::NonZero);
+    PathMask mask(scene::polygon(corners), scene::FillRule::NonZero);
     if (antialiased)
         mask.scan(glm::mat3(1), clip, row);
     else
         mask.scanCenters(glm::mat3(1), clip, row);
 }
 
+/// The clipped outline on the surface; nothing if no part of it is seen, or a corner not before the viewer.
+std::vector<glm::dvec2> cornersOf(const Image& image, const glm::mat3& toSurface, const State& state) {
+    const std::vector<Segment> outline =
+        segmentsOf(scene::rectangle(glm::dvec2(0), glm::dvec2(image.width(), image.height())));
+    const std::vector<ClipLine> lines = clipLines(state);
+    RationalPath path = mapped(outline, toSurface);
+    if (state.clipMode == VG_CLIPMODE_CULL_NDS ? !isWithin(path, lines)
+                                               : (path = clippedArea(std::move(path), lines)).empty())
+        return {};
+    std::vector<glm::dvec2> corners;
+    const auto take = [&](glm::dvec3 p) {
+        corners.push_back(glm::dvec2(p) / p.z);
+        return p.z > 0 && std::isfinite(corners.back().x) && std::isfinite(corners.back().y);
+    };
+    bool isSeen = take(path[0].start);
+    for (const RationalCurve& side : path[0].curves)
+        isSeen = (side.end() == path[0].start || take(side.end())) && isSeen;
+    return isSeen ? corners : std::vector<glm::dvec2>();
+}
+
 }  // namespace
 
-void drawImage(Context& context, const Image& image, const glm::mat3& toSurface) {
+void drawImage(Context& context, const Image& image, const glm::mat3& toSurface, VGMatrixMode matrix) {
     const State& state = context.state;
     if (context.recorder)
         return context.recorder->drawImage(state, image, toSurface);
-    const double w = image.width(), h = image.height();
-    std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(w, 0), glm::dvec2(w, h), glm::dvec2(0, h)};
-    for (glm::dvec2& corner : corners) {
-        const glm::dvec3 p = glm::dmat3(toSurface) * glm::dvec3(corner, 1);
-        if (!(p.z > 0))
-            return;
-        corner = glm::dvec2(p) / p.z;
-        if (!(std::isfinite(corner.x) && std::isfinite(corner.y)))
-            return;
-    }
+    const std::vector<glm::dvec2> corners = cornersOf(image, toSurface, state);
+    if (corners.empty())
+        return;
     std::unique_ptr<PixelSource> pixels = imageSource(image, toSurface, state);
     if (!pixels)
         return;
     const bool antialiased = state.renderingQuality != VG_RENDERING_QUALITY_NONANTIALIASED;
     const auto draw = [&](Compositor& compositor) {
-        coverQuad(corners, antialiased, compositor.clip().bounds(), std::ref(compositor));
+        coverPolygon(corners, antialiased, compositor.clip().bounds(), std::ref(compositor));
     };
-    const VGint mode = isProjective(toSurface) ? VGint(VG_DRAW_IMAGE_NORMAL) : state.imageMode;
+    const VGint mode = isProjective(toSurface) && !state.isProjective(matrix) ? VGint(VG_DRAW_IMAGE_NORMAL)
+                                                                              : state.imageMode;
     if (mode == VG_DRAW_IMAGE_NORMAL) {
         Compositor compositor(context, *pixels);
         return draw(compositor);
@@ -122,6 +137,6 @@ using namespace vtm::openvg;
 void vgDrawImage(VGImage handle) {
     call([&](Context& context) {
         const glm::mat3& toSurface = context.state.matrix(VG_MATRIX_IMAGE_USER_TO_SURFACE);
-        drawImage(context, *freeImage(context, handle), toSurface);
+        drawImage(context, *freeImage(context, handle), toSurface, VG_MATRIX_IMAGE_USER_TO_SURFACE);
     });
 }

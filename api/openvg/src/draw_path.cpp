@@ -7,6 +7,7 @@
 #include "api/openvg/src/compositor.hpp"
 #include "api/openvg/src/matrix.hpp"
 #include "api/openvg/src/pixel_source.hpp"
+#include "api/openvg/src/projective.hpp"
 #include "api/openvg/src/record.hpp"
 
 namespace vtm::openvg {
@@ -68,10 +69,17 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
                                             : path.masks.filled(path.data, state.fillRule == VG_EVEN_ODD
                                                                                ? scene::FillRule::EvenOdd
                                                                                : scene::FillRule::NonZero);
-    if (state.renderingQuality == VG_RENDERING_QUALITY_NONANTIALIASED)
-        mask.scanCenters(toSurface, clip, row);
-    else
-        mask.scan(toSurface, clip, row);
+    const bool antialiased = state.renderingQuality != VG_RENDERING_QUALITY_NONANTIALIASED;
+    const auto scan = [&](PathMask& of, const glm::mat3& matrix) {
+        antialiased ? of.scan(matrix, clip, row) : of.scanCenters(matrix, clip, row);
+    };
+    const std::vector<ClipLine> lines = clipLines(state);
+    if (lines.empty() && !isProjective(toSurface))
+        return scan(mask, toSurface);
+    if (state.clipMode == VG_CLIPMODE_CULL_NDS && !isWithin(mapped(path.data.segments(), toSurface), lines))
+        return;
+    PathMask seen(projectedOutline(mask.outline(), toSurface, lines, clip), mask.rule());
+    scan(seen, glm::mat3(1));
 }
 
 void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface) {

@@ -8,9 +8,8 @@
 #include <variant>
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
-#include "api/openvg/src/path_data.hpp"
+#include "api/openvg/src/segment.hpp"
 
 namespace vtm::openvg {
 
@@ -21,17 +20,6 @@ using glm::dvec2;
 constexpr double flatness = 1.0 / 64;
 /// Of one segment; what is larger than any surface need not be rounder than this.
 constexpr double mostLines = 4096;
-
-Segment asSegment(dvec2 from, const scene::ArcTo& arc) {
-    Segment s;
-    s.type = arc.largeArc ? (arc.sweep ? VG_LCCWARC_TO : VG_LCWARC_TO)
-                          : (arc.sweep ? VG_SCCWARC_TO : VG_SCWARC_TO);
-    s.from = from;
-    s.radii = arc.radii;
-    s.rotation = glm::degrees(arc.rotation);
-    s.to = arc.to;
-    return s;
-}
 
 bool isBefore(dvec2 a, dvec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
 
@@ -78,7 +66,7 @@ public:
                 [&](double t) { return bezier(p, t); });
     }
     void arcTo(const scene::ArcTo& arc) {
-        Segment segment = asSegment(at_, arc);
+        Segment segment = arcSegment(at_, arc);
         // From the lesser end, so that both directions see one ellipse.
         const bool backwards = isBefore(segment.to, segment.from);
         if (backwards) {
@@ -162,7 +150,7 @@ Box boxOf(const scene::Path& outline) {
             take(cubic->control2);
         } else if (const auto* arc = std::get_if<scene::ArcTo>(&command)) {
             EllipticalArc ellipse;
-            if (arcOf(asSegment(at, *arc), ellipse)) {
+            if (arcOf(arcSegment(at, *arc), ellipse)) {
                 const dvec2 reach(std::hypot(ellipse.axisX.x, ellipse.axisY.x),
                                   std::hypot(ellipse.axisX.y, ellipse.axisY.y));
                 take(ellipse.center - reach);

@@ -12,6 +12,13 @@ std::shared_ptr<Image> freeImage(const Context& context, VGImage handle) {
     return image;
 }
 
+std::shared_ptr<Image> parentOf(const Image& image) {
+    std::shared_ptr<Image> ancestor = image.parent;
+    while (ancestor && ancestor->handle == VG_INVALID_HANDLE)
+        ancestor = ancestor->parent;
+    return ancestor;
+}
+
 std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const PixelFormat& to) {
     // Premultiplied colours above their alpha are clamped, even on the way into the same format.
     const bool isSame = from == to && !from.space.premultiplied;
@@ -110,11 +117,8 @@ VGImage vgChildImage(VGImage parent, VGint x, VGint y, VGint width, VGint height
 
 VGImage vgGetParent(VGImage handle) {
     return callOr(VG_INVALID_HANDLE, [&](Context& context) {
-        const std::shared_ptr<Image> image = freeImage(context, handle);
-        for (std::shared_ptr<Image> ancestor = image->parent; ancestor; ancestor = ancestor->parent)
-            if (ancestor->handle != VG_INVALID_HANDLE)
-                return ancestor->handle;
-        return handle;
+        const std::shared_ptr<Image> parent = parentOf(*freeImage(context, handle));
+        return parent ? parent->handle : handle;
     });
 }
 

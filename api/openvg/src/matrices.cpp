@@ -4,6 +4,8 @@
 
 #include <glm/trigonometric.hpp>
 
+#include <VG/vgext.h>
+
 #include "api/openvg/src/context.hpp"
 
 using namespace vtm::openvg;
@@ -14,9 +16,10 @@ glm::mat3& currentMatrix(Context& context) {
     return context.state.matrices[std::size_t(context.state.matrixMode - VG_MATRIX_PATH_USER_TO_SURFACE)];
 }
 
-/// Those of images may be projective, all others end in 0 0 1.
+/// Those of images may be projective, all others end in 0 0 1 unless the program enabled more.
 glm::mat3 fitting(const Context& context, glm::mat3 m) {
-    if (context.state.matrixMode != VG_MATRIX_IMAGE_USER_TO_SURFACE) {
+    const auto mode = VGMatrixMode(context.state.matrixMode);
+    if (mode != VG_MATRIX_IMAGE_USER_TO_SURFACE && !context.state.isProjective(mode)) {
         m[0].z = m[1].z = 0;
         m[2].z = 1;
     }
@@ -54,6 +57,14 @@ void vgGetMatrix(VGfloat* m) {
 
 void vgMultMatrix(const VGfloat* m) {
     call([&](Context& context) { currentMatrix(context) = currentMatrix(context) * read(context, m); });
+}
+
+void vgProjectiveMatrixNDS(VGboolean enable) {
+    call([&](Context& context) {
+        State& state = context.state;
+        state.projective[std::size_t(state.matrixMode - VG_MATRIX_PATH_USER_TO_SURFACE)] = enable != VG_FALSE;
+        currentMatrix(context) = fitting(context, currentMatrix(context));
+    });
 }
 
 void vgTranslate(VGfloat tx, VGfloat ty) { multiply({1, 0, 0, 0, 1, 0, tx, ty, 1}); }

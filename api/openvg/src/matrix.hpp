@@ -18,7 +18,7 @@ inline bool isFinite(const glm::dmat3& m) {
     return true;
 }
 
-inline bool isAffine(const glm::mat3& m) { return m[0].z == 0 && m[1].z == 0 && m[2].z == 1; }
+inline bool isProjective(const glm::mat3& m) { return m[0].z != 0 || m[1].z != 0 || m[2].z != 1; }
 
 /// Nothing if there is none within double precision.
 inline std::optional<glm::dmat3> inverseOf(const glm::mat3& matrix) {

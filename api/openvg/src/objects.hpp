@@ -35,14 +35,17 @@ struct Path : Object {
 
 // ---- Section 10 -----------------------------------------------------------------------------------
 
-/// The pixels that related images share, and who uses them.
+struct SharedPixels;
+
+/// The pixels that related images share, and who uses them. Contexts that share no objects may share pixels.
 struct ImageStorage {
     explicit ImageStorage(Pixels p) : pixels(std::move(p)) {}
 
     Pixels pixels;
-    int images = 0;                      ///< that show a part of it
-    int uses = 0;                        ///< as patterns and glyphs
-    std::atomic<bool> isTarget = false;  ///< drawn into; contexts of other objects may be the ones that do
+    std::atomic<int> images = 0;               ///< that show a part of it
+    std::atomic<int> uses = 0;                 ///< as patterns and glyphs
+    std::atomic<bool> isTarget = false;        ///< drawn into
+    std::weak_ptr<const SharedPixels> shared;  ///< of EGLImage siblings
 };
 
 struct Image : Object {
@@ -51,6 +54,7 @@ struct Image : Object {
     VGint formatName = 0;
     VGbitfield allowedQuality = 0;
     std::shared_ptr<Image> parent;
+    std::shared_ptr<const SharedPixels> siblings;  ///< of an EGLImage target
 
     Image(std::shared_ptr<ImageStorage> s, Rectangle a) : storage(std::move(s)), area(a) {
         ++storage->images;

@@ -17,13 +17,14 @@ bool isVector(VGint type) {
         case VG_TILE_FILL_COLOR:
         case VG_CLEAR_COLOR:
         case VG_GLYPH_ORIGIN:
+        case VG_CLIP_LINES_NDS:
             return true;
         default:
             return false;
     }
 }
 
-Values getOfExtensions(VGint type) {
+Values getOfExtensions(const State& s, VGint type) {
     switch (type) {
         case VG_MAX_AVERAGE_BLUR_DIMENSION_KHR:
             return {double(maxAverageBlurDimension)};
@@ -31,6 +32,12 @@ Values getOfExtensions(VGint type) {
             return {-1.0};  // all bits of a float
         case VG_MAX_AVERAGE_BLUR_ITERATIONS_KHR:
             return {double(maxAverageBlurIterations)};
+        case VG_CLIP_MODE_NDS:
+            return {double(s.clipMode)};
+        case VG_CLIP_LINES_NDS:
+            return toValues(s.clipLines);
+        case VG_MAX_CLIP_LINES_NDS:
+            return {double(maxClipLines)};
         default:
             throw Error(VG_ILLEGAL_ARGUMENT_ERROR);
     }
@@ -113,7 +120,7 @@ Values get(const State& s, VGint type) {
             return {double(maxGaussianStdDeviation)};
         default:
             require(s.knowsExtensions);
-            return getOfExtensions(type);
+            return getOfExtensions(s, type);
     }
 }
 
@@ -213,6 +220,14 @@ void set(State& s, VGint type, const Values& v) {
             break;
         case VG_FILTER_CHANNEL_MASK:
             s.filterChannelMask = VGbitfield(toInt(v[0]));
+            break;
+        case VG_CLIP_MODE_NDS:
+            require(s.knowsExtensions);
+            s.clipMode = toEnumerator(v[0], VG_CLIPMODE_NONE_NDS, VG_CLIPMODE_CULL_NDS);
+            break;
+        case VG_CLIP_LINES_NDS:
+            require(s.knowsExtensions && v.size() % 3 == 0);
+            s.clipLines = firstOf<VGfloat>(v, 3 * std::size_t(maxClipLines), toFloat);
             break;
         default:
             get(s, type);  // what can be read but not set stays as it is, what cannot be read is illegal

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -13,8 +14,6 @@
 namespace vtm::openvg {
 
 namespace {
-
-constexpr std::array<int, 13> counts{0, 2, 2, 1, 1, 4, 6, 2, 4, 5, 5, 5, 5};
 
 /// What no number is becomes 0 (section 3.3), what is out of reach the farthest that is not.
 double tame(double v) {
@@ -39,15 +38,16 @@ bool isSame(unsigned a, unsigned b) {
 
 }  // namespace
 
-int coordinateCount(unsigned segment) { return counts[segment >> 1]; }
-
-bool isCommand(unsigned segment) { return segment >> 1 < counts.size(); }
-
 // ---- Storage --------------------------------------------------------------------------------------
 
 void PathData::clear() {
     commands_.clear();
     coordinates_.clear();
+}
+
+void PathData::requireRoomFor(std::size_t segments) const {
+    if (segments > mostSegments - commands_.size())
+        throw std::length_error("too much path data");
 }
 
 void PathData::read(const void* data, std::size_t first, std::size_t count) {
@@ -76,6 +76,7 @@ void PathData::append(const VGubyte* commands, int count, const void* data) {
     std::size_t numbers = 0;
     for (int i = 0; i < count; ++i)
         numbers += std::size_t(coordinateCount(commands[i]));
+    requireRoomFor(std::size_t(count));
     commands_.reserve(commands_.size() + std::size_t(count));
     read(data, coordinates_.size(), numbers);
     commands_.insert(commands_.end(), commands, commands + count);
@@ -111,6 +112,7 @@ double PathData::stored(double coordinate) const {
 
 void PathData::append(const PathData& other) {
     const std::size_t commands = other.commands_.size(), numbers = other.coordinates_.size();
+    requireRoomFor(commands);
     commands_.reserve(commands_.size() + commands);
     coordinates_.reserve(coordinates_.size() + numbers);
     for (std::size_t i = 0; i < numbers; ++i)
@@ -120,12 +122,14 @@ void PathData::append(const PathData& other) {
 }
 
 void PathData::append(const std::vector<VGubyte>& commands, const std::vector<double>& coordinates) {
+    requireRoomFor(commands.size());
     commands_.insert(commands_.end(), commands.begin(), commands.end());
     for (const double coordinate : coordinates)
         put(coordinate);
 }
 
 void PathData::append(const std::vector<Segment>& segments) {
+    requireRoomFor(segments.size());
     for (const Segment& s : segments) {
         commands_.push_back(VGubyte(s.type | VG_ABSOLUTE));
         if (s.type == VG_CLOSE_PATH)
@@ -143,9 +147,26 @@ void PathData::append(const std::vector<Segment>& segments) {
             put(s.control2.x);
             put(s.control2.y);
         }
+        if (s.isRational()) {
+            appendRational(s);
+            continue;
+        }
         put(s.to.x);
         put(s.to.y);
     }
+}
+
+void PathData::appendRational(const Segment& s) {
+    const auto putPoint = [&](Point p, double weight) {
+        put(p.x);
+        put(p.y);
+        put(weight);
+    };
+    put(s.weights[0]);
+    putPoint(s.control1, s.weights[1]);
+    if (s.type == VG_RCUBIC_TO_NDS)
+        putPoint(s.control2, s.weights[2]);
+    putPoint(s.to, s.weights[s.type == VG_RCUBIC_TO_NDS ? 3 : 2]);
 }
 
 // ---- Segments -------------------------------------------------------------------------------------
@@ -204,6 +225,18 @@ std::vector<Segment> PathData::segments() const {
                 p = segment.control2 = point();
                 o = segment.to = point();
                 break;
+            case VG_RQUAD_TO_NDS:
+            case VG_RCUBIC_TO_NDS:
+                segment.weights[0] = scaled(next++);
+                segment.control1 = point();
+                segment.weights[1] = scaled(next++);
+                if (type == VG_RCUBIC_TO_NDS) {
+                    segment.control2 = point();
+                    segment.weights[2] = scaled(next++);
+                }
+                o = p = segment.to = point();
+                segment.weights[type == VG_RCUBIC_TO_NDS ? 3 : 2] = scaled(next++);
+                break;
             default:
                 segment.radii = {scaled(next), scaled(next + 1)};
                 segment.rotation = scaled(next + 2);
@@ -216,98 +249,10 @@ std::vector<Segment> PathData::segments() const {
     return segments;
 }
 
-scene::Path outline(const std::vector<Segment>& segments) {
-    scene::Path path;
-    path.reserve(segments.size() + 1);
-    if (!segments.empty() && segments.front().type != VG_MOVE_TO)
-        path.emplace_back(scene::MoveTo{Point(0)});
-    for (const Segment& s : segments) {
-        switch (s.type) {
-            case VG_CLOSE_PATH:
-                path.emplace_back(scene::Close{});
-                break;
-            case VG_MOVE_TO:
-                path.emplace_back(scene::MoveTo{s.to});
-                break;
-            case VG_LINE_TO:
-                path.emplace_back(scene::LineTo{s.to});
-                break;
-            case VG_QUAD_TO:
-                path.emplace_back(scene::QuadTo{s.control1, s.to});
-                break;
-            case VG_CUBIC_TO:
-                path.emplace_back(scene::CubicTo{s.control1, s.control2, s.to});
-                break;
-            default: {
-                EllipticalArc arc;
-                if (!arcOf(s, arc)) {
-                    path.emplace_back(scene::LineTo{s.to});
-                    break;
-                }
-                const bool large = s.type == VG_LCCWARC_TO || s.type == VG_LCWARC_TO;
-                const bool counterClockwise = s.type == VG_SCCWARC_TO || s.type == VG_LCCWARC_TO;
-                path.emplace_back(scene::ArcTo{glm::abs(s.radii), glm::radians(std::fmod(s.rotation, 360.0)),
-                                               large, counterClockwise, s.to});
-                break;
-            }
-        }
-    }
-    return path;
-}
-
-// ---- Arcs -----------------------------------------------------------------------------------------
-
-Point EllipticalArc::at(double t) const { return center + std::cos(t) * axisX + std::sin(t) * axisY; }
-Point EllipticalArc::derivative(double t) const { return -std::sin(t) * axisX + std::cos(t) * axisY; }
-
-bool arcOf(const Segment& s, EllipticalArc& arc) {
-    const Point radii = glm::abs(s.radii);
-    if (!(radii.x > 0) || !(radii.y > 0) || s.from == s.to)
-        return false;
-    const double angle = glm::radians(std::fmod(s.rotation, 360.0)), c = std::cos(angle), n = std::sin(angle);
-    // Half the chord where the ellipse is the unit circle.
-    const Point half = (s.to - s.from) / 2.0;
-    Point h((half.x * c + half.y * n) / radii.x, (-half.x * n + half.y * c) / radii.y);
-    const double length2 = glm::dot(h, h), grown = std::max(1.0, std::sqrt(length2));
-    if (!std::isfinite(length2) || !(length2 > 0))
-        return false;
-    h /= grown;
-    arc.axisX = grown * radii.x * Point(c, n);
-    arc.axisY = grown * radii.y * Point(-n, c);
-    const bool large = s.type == VG_LCCWARC_TO || s.type == VG_LCWARC_TO;
-    const bool counterClockwise = s.type == VG_SCCWARC_TO || s.type == VG_LCCWARC_TO;
-    // The centre lies left of the chord for small counter-clockwise arcs and large clockwise ones.
-    const double unit2 = glm::dot(h, h), distance = std::sqrt(std::max(0.0, 1 / unit2 - 1));
-    const double side = large == counterClockwise ? -distance : distance;
-    const Point middle = h + side * Point(-h.y, h.x);  // of the circle, from the arc's start
-    arc.center = s.from + middle.x * arc.axisX + middle.y * arc.axisY;
-    const Point first = -middle, last = 2.0 * h - middle;
-    arc.start = std::atan2(first.y, first.x);
-    arc.sweep = std::atan2(first.x * last.y - first.y * last.x, glm::dot(first, last));
-    constexpr double turn = 2 * 3.14159265358979323846;
-    if (counterClockwise && arc.sweep < 0)
-        arc.sweep += turn;
-    if (!counterClockwise && arc.sweep > 0)
-        arc.sweep -= turn;
-    return true;
-}
-
-void transformEllipse(const glm::dmat2& linear, Point& radii, double& rotation) {
-    // The image of the unit circle under M has the singular values of M as radii; by M Mᵀ = (a b; b d).
-    const double angle = glm::radians(rotation), c = std::cos(angle), n = std::sin(angle);
-    const glm::dvec2 x = linear * (radii.x * Point(c, n)), y = linear * (radii.y * Point(-n, c));
-    const double a = x.x * x.x + y.x * y.x, b = x.x * x.y + y.x * y.y, d = x.y * x.y + y.y * y.y;
-    const double mean = (a + d) / 2, spread = std::hypot((a - d) / 2, b);
-    const double larger = std::sqrt(mean + spread);
-    // The product of the radii is |det|, which keeps the smaller one exact.
-    const double area = std::abs(x.x * y.y - x.y * y.x);
-    radii = {larger, larger > 0 ? area / larger : 0};
-    rotation = glm::degrees(0.5 * std::atan2(2 * b, a - d));
-}
-
 // ---- Transformation, interpolation ----------------------------------------------------------------
 
 void PathData::appendTransformed(const PathData& other, const glm::mat3& affine) {
+    requireRoomFor(other.commands_.size());
     const glm::dmat3 m(affine);
     const glm::dmat2 linear(m[0], m[1]);
     const Point shift(m[2]);
@@ -363,6 +308,15 @@ void PathData::appendTransformed(const PathData& other, const glm::mat3& affine)
                                                    : VG_LCCWARC_TO;
                 break;
             }
+            case VG_RQUAD_TO_NDS:
+            case VG_RCUBIC_TO_NDS:
+                // Weights stay: w, then x, y, w of each point.
+                put(raw[next++]);
+                for (int k = 1; k < coordinateCount(type); k += 3) {
+                    point();
+                    put(raw[next++]);
+                }
+                break;
             default:
                 for (int k = 0; k < coordinateCount(type); k += 2)
                     point();
@@ -384,10 +338,23 @@ bool appendInterpolated(PathData& result, const PathData& from, const PathData& 
         s.control1 = (s.from + 2.0 * q) / 3.0;
         s.control2 = (s.to + 2.0 * q) / 3.0;
     };
+    // The same of points (w x, w y, w).
+    const auto raiseRational = [](Segment& s) {
+        if (s.type != VG_RQUAD_TO_NDS)
+            return;
+        s.type = VG_RCUBIC_TO_NDS;
+        const auto [w0, w1, w2, unused] = s.weights;
+        const Point q = s.control1;
+        s.weights = {w0, (w0 + 2 * w1) / 3, (w2 + 2 * w1) / 3, w2};
+        s.control1 = (w0 * s.from + 2 * w1 * q) / (w0 + 2 * w1);
+        s.control2 = (w2 * s.to + 2 * w1 * q) / (w2 + 2 * w1);
+    };
     const auto blend = [&](auto x, auto y) { return x + amount * (y - x); };
     for (std::size_t i = 0; i < a.size(); ++i) {
-        raise(a[i]);
-        raise(b[i]);
+        for (Segment* s : {&a[i], &b[i]}) {
+            raise(*s);
+            raiseRational(*s);
+        }
         if (!isSame(a[i].type, b[i].type))
             return false;
         if (amount >= 0.5)
@@ -397,6 +364,8 @@ bool appendInterpolated(PathData& result, const PathData& from, const PathData& 
         a[i].radii = blend(a[i].radii, b[i].radii);
         a[i].rotation = blend(a[i].rotation, b[i].rotation);
         a[i].to = blend(a[i].to, b[i].to);
+        for (std::size_t k = 0; k < 4; ++k)
+            a[i].weights[k] = blend(a[i].weights[k], b[i].weights[k]);
     }
     result.append(a);
     return true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -37,10 +38,13 @@ constexpr double pixelTolerance = 1.0 / 64;
 /// One leaf where it can be: a scanner wants few pieces, not short lists.
 constexpr unsigned piecesPerLeaf = 4096;
 
-asset::CoverageScanner compiled(const scene::Path& outline, scene::FillRule rule,
+/// Of one mask, in pairs of chords: a few seconds. No call may take a program's minute.
+constexpr std::size_t mostWork = 1'000'000'000;
+
+asset::CoverageScanner compiled(std::shared_ptr<const scene::Path> outline, scene::FillRule rule,
                                 const scene::Affine& toPicture, dvec2 picture, double tolerance) {
     scene::Item item;
-    item.path = std::make_shared<scene::Path>(outline);
+    item.path = std::move(outline);
     item.transform = toPicture;
     item.geometry = rule;
     item.paint = scene::Color{0, 0, 0, 1};
@@ -48,9 +52,52 @@ asset::CoverageScanner compiled(const scene::Path& outline, scene::FillRule rule
     scene.width = picture.x;
     scene.height = picture.y;
     scene.root.children.push_back({std::move(item)});
-    const compiler::Result result =
-        compiler::compile(scene, {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf});
+    const compiler::Result result = compiler::compile(
+        scene, {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf, .maxWork = mostWork});
     return asset::CoverageScanner(result.asset);
+}
+
+/// The subpaths whose boxes meet a picture: all others wind round no point of it. Of a stroke with dashes
+/// from afar most are such.
+std::shared_ptr<const scene::Path> partSeen(const scene::Path& outline, const scene::Affine& toPicture,
+                                            dvec2 picture) {
+    auto result = std::make_shared<scene::Path>();
+    scene::Path& seen = *result;
+    for (auto first = outline.begin(); first != outline.end();) {
+        const auto end = std::find_if(first + 1, outline.end(), [](const scene::Command& command) {
+            return std::holds_alternative<scene::MoveTo>(command);
+        });
+        const std::size_t before = seen.size();
+        seen.insert(seen.end(), first, end);
+        const Box box = boxOf({seen.begin() + std::ptrdiff_t(before), seen.end()});
+        dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+        for (const dvec2 corner :
+             {box.min, box.max, dvec2(box.min.x, box.max.y), dvec2(box.max.x, box.min.y)}) {
+            const dvec2 p = scene::apply(toPicture, corner);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        if (!(least.x <= picture.x && least.y <= picture.y && most.x >= 0 && most.y >= 0))
+            seen.resize(before);
+        first = end;
+    }
+    return result;
+}
+
+/// Of an outline so many pixels wide doubles do not tell a curve from its rounding: it is drawn as lines, few
+/// of them, where the compiler would cut it finer and finer.
+constexpr double mostPixels = double(1LL << 40);
+
+std::shared_ptr<const scene::Path> asLines(const scene::Path& outline, const glm::mat3& toSurface) {
+    auto lines = std::make_shared<scene::Path>();
+    std::optional<dvec2> end;
+    flatten(outline, toSurface, [&](dvec2 a, dvec2 b) {
+        if (end != a)
+            lines->emplace_back(scene::MoveTo{a});
+        lines->emplace_back(scene::LineTo{b});
+        end = b;
+    });
+    return lines;
 }
 
 /// Of the whole outline: scale and shift of its box into a picture.
@@ -82,8 +129,9 @@ Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Recta
         .intersected(clip);
 }
 
-PathMask::PathMask(scene::Path outline, scene::FillRule rule) : outline_(std::move(outline)), rule_(rule) {
-    const Box box = boxOf(outline_);
+PathMask::PathMask(scene::Path outline, scene::FillRule rule)
+    : outline_(std::make_shared<const scene::Path>(std::move(outline))), rule_(rule) {
+    const Box box = boxOf(*outline_);
     min_ = box.min;
     max_ = box.max;
 }
@@ -127,8 +175,13 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
     if (tolerance < tolerances.back()) {
         // The view is the picture; what lies outside is cut off before anything is rounded.
         const scene::Affine toView{dvec2(m[0]), dvec2(m[1]), origin};
+        const dvec2 picture(view.width, view.height);
         view.toPixels = scene::identity;
-        compiled(outline_, rule_, toView, dvec2(view.width, view.height), viewTolerance)
+        if (stretch * std::max(extent.x, extent.y) > mostPixels)
+            return compiled(asLines(*outline_, toSurface), rule_,
+                            scene::translation(-double(seen.x0), -double(seen.y0)), picture, viewTolerance)
+                .scan(view, onSurface);
+        compiled(partSeen(*outline_, toView, picture), rule_, toView, picture, viewTolerance)
             .scan(view, onSurface);
         return;
     }
@@ -149,7 +202,7 @@ void PathMask::scanCenters(const glm::mat3& toSurface, const Rectangle& clip, co
         int column, change;
     };
     std::vector<std::vector<Crossing>> rows(std::size_t(seen.y1 - seen.y0));
-    flatten(outline_, toSurface, [&](dvec2 a, dvec2 b) {
+    flatten(*outline_, toSurface, [&](dvec2 a, dvec2 b) {
         int change = 1;
         if (a.y > b.y) {
             std::swap(a, b);

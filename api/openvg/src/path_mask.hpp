@@ -28,6 +28,9 @@ class PathMask {
 public:
     PathMask(scene::Path outline, scene::FillRule rule);
 
+    const scene::Path& outline() const { return *outline_; }
+    scene::FillRule rule() const { return rule_; }
+
     /// Exact coverage of the pixels of `clip` (section 6: pixel (x, y) is the square from there to (x + 1, y
     /// + 1)).
     void scan(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row);
@@ -38,7 +41,7 @@ public:
 private:
     const asset::CoverageScanner& scannerFor(double tolerance);
 
-    scene::Path outline_;
+    std::shared_ptr<const scene::Path> outline_;  ///< shared with the scenes that are compiled
     scene::FillRule rule_;
     glm::dvec2 min_{0}, max_{0};                                     ///< a box around the outline
     std::array<std::optional<asset::CoverageScanner>, 5> scanners_;  ///< from coarse to fine

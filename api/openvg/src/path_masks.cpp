@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <stdexcept>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "api/openvg/src/flatten.hpp"
 #include "api/openvg/src/path_measure.hpp"
+#include "api/openvg/src/rational_curve.hpp"
 #include "compiler/stroke.hpp"
 
 namespace vtm::openvg {
@@ -30,6 +34,18 @@ constexpr int linesPerCurve = 1024;
 /// Points nearer to each other than this share of the stroked path's reach are one: directions between them
 /// no double can square.
 constexpr double nearestPoints = 1.0 / (1LL << 48);
+
+/// About a second and 200 megabytes, where all of them are seen.
+constexpr double mostDashes = 100'000;
+
+/// Throws std::length_error.
+void requireFewDashes(std::span<const Segment> segments, const std::vector<double>& dashes) {
+    if (dashes.empty())
+        return;
+    const double period = std::accumulate(dashes.begin(), dashes.end(), 0.0);
+    if (!(length(segments) / period * double(dashes.size() / 2) <= mostDashes))
+        throw std::length_error("too many dashes");
+}
 
 double reachOf(const Box& box) {
     const glm::dvec2 far = glm::max(glm::abs(box.min), glm::abs(box.max));
@@ -125,8 +141,10 @@ void PathMasks::clear() {
 }
 
 scene::Path strokeOutline(const PathData& path, const StrokeParameters& parameters) {
-    const Box box = boxOf(outline(path.segments()));
-    const std::vector<Segment> segments = strokable(path.segments(), box, parameters.style.width);
+    const std::vector<Segment> plain = withoutRationals(path.segments());
+    const Box box = boxOf(outline(plain));
+    const std::vector<Segment> segments = strokable(plain, box, parameters.style.width);
+    requireFewDashes(segments, parameters.style.dashes);
     const scene::Path line = outline(segments);
     const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y) + parameters.style.width;
     const double tolerance = size * strokeTolerance;

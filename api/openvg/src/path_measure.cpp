@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 
+#include "api/openvg/src/rational_curve.hpp"
+
 namespace vtm::openvg {
 
 namespace {
@@ -136,14 +138,14 @@ std::optional<Point> outgoingOf(const Segment& s) {
 
 double length(std::span<const Segment> segments) {
     double sum = 0;
-    for (const Segment& s : segments)
+    for (const Segment& s : withoutRationals(segments))
         sum += lengthOf(s);
     return sum;
 }
 
 PointOnPath pointAlong(std::span<const Segment> segments, std::size_t first, std::size_t count,
                        double distance) {
-    const std::span<const Segment> part = segments.subspan(first, count);
+    const std::vector<Segment> part = withoutRationals(segments.subspan(first, count));
     // The tangent at the end of segment i - 1, or where there is none, the next that goes out.
     const auto tangentAt = [&](std::size_t i) {
         for (std::size_t k = i; k > 0; --k)
@@ -191,7 +193,7 @@ PathBounds bounds(std::span<const Segment> segments, const glm::mat3& affine) {
         box.max = box.isEmpty ? q : glm::max(box.max, q);
         box.isEmpty = false;
     };
-    for (const Segment& s : segments) {
+    for (const Segment& s : withoutRationals(segments)) {
         if (s.type != VG_MOVE_TO)
             take(s.from);
         take(s.to);

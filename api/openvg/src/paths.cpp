@@ -3,7 +3,9 @@
 #include <limits>
 
 #include "api/openvg/src/context.hpp"
+#include "api/openvg/src/matrix.hpp"
 #include "api/openvg/src/path_measure.hpp"
+#include "api/openvg/src/projective.hpp"
 
 using namespace vtm::openvg;
 
@@ -106,7 +108,7 @@ void vgAppendPathData(VGPath dstPath, VGint numSegments, const VGubyte* pathSegm
         require(pathSegments != nullptr && pathData != nullptr && isAlignedFor(path->data, pathData));
         require(numSegments > 0);
         for (VGint i = 0; i < numSegments; ++i)
-            require(isCommand(pathSegments[i]));
+            require(isCommand(pathSegments[i], context.state.knowsExtensions));
         path->data.append(pathSegments, numSegments, pathData);
         path->masks.clear();
     });
@@ -129,7 +131,11 @@ void vgTransformPath(VGPath dstPath, VGPath srcPath) {
         require(src->capabilities & VG_PATH_CAPABILITY_TRANSFORM_FROM &&
                     dst->capabilities & VG_PATH_CAPABILITY_TRANSFORM_TO,
                 VG_PATH_CAPABILITY_ERROR);
-        dst->data.appendTransformed(src->data, context.state.matrix(VG_MATRIX_PATH_USER_TO_SURFACE));
+        const glm::mat3& toSurface = context.state.matrix(VG_MATRIX_PATH_USER_TO_SURFACE);
+        if (isProjective(toSurface) || !clipLines(context.state).empty())
+            dst->data.append(projectedSegments(src->data.segments(), toSurface, context.state));
+        else
+            dst->data.appendTransformed(src->data, toSurface);
         dst->masks.clear();
     });
 }
@@ -199,7 +205,11 @@ void vgPathTransformedBounds(VGPath handle, VGfloat* minX, VGfloat* minY, VGfloa
         const std::shared_ptr<Path> path = context.objects->get<Path>(handle);
         requireOutputs({minX, minY, width, height});
         require(path->capabilities & VG_PATH_CAPABILITY_PATH_TRANSFORMED_BOUNDS, VG_PATH_CAPABILITY_ERROR);
-        storeBounds(bounds(path->data.segments(), context.state.matrix(VG_MATRIX_PATH_USER_TO_SURFACE)), minX,
-                    minY, width, height);
+        const glm::mat3& toSurface = context.state.matrix(VG_MATRIX_PATH_USER_TO_SURFACE);
+        const PathBounds box =
+            isProjective(toSurface)
+                ? bounds(projectedSegments(path->data.segments(), toSurface, State()), glm::mat3(1))
+                : bounds(path->data.segments(), toSurface);
+        storeBounds(box, minX, minY, width, height);
     });
 }

@@ -26,23 +26,31 @@ private:
     Color color_;
 };
 
-/// Walks the pixels of a row through an affine map.
-class AffineSource : public PixelSource {
+/// Walks the pixels of a row through a map.
+class GradientSource : public PixelSource {
 protected:
-    AffineSource(ColorSpace space, const glm::dmat3& fromSurface)
-        : PixelSource(space), fromSurface_(fromSurface) {}
+    GradientSource(ColorSpace space, const glm::dmat3& fromSurface)
+        : PixelSource(space),
+          fromSurface_(fromSurface),
+          isAffine_(fromSurface[0].z == 0 && fromSurface[1].z == 0) {}
 
-    dvec2 at(int x, int y) const { return dvec2(fromSurface_ * glm::dvec3(x + 0.5, y + 0.5, 1)); }
-    dvec2 step() const { return dvec2(fromSurface_[0]); }
+    dvec2 at(double x, double y) const {
+        const glm::dvec3 p = fromSurface_ * glm::dvec3(x + 0.5, y + 0.5, 1);
+        return isAffine_ && p.z == 1 ? dvec2(p) : dvec2(p) / p.z;
+    }
+    /// From one pixel to the next, if all are equally far from each other.
+    bool isAffine() const { return isAffine_; }
+    dvec2 step() const { return dvec2(fromSurface_[0]) / fromSurface_[2].z; }
 
 private:
     glm::dmat3 fromSurface_;
+    bool isAffine_;
 };
 
-class LinearGradientSource final : public AffineSource {
+class LinearGradientSource final : public GradientSource {
 public:
     LinearGradientSource(const Paint& paint, const glm::dmat3& fromSurface)
-        : AffineSource({paint.rampLinear, true, false}, fromSurface),
+        : GradientSource({paint.rampLinear, true, false}, fromSurface),
           ramp_(paint),
           start_(paint.linear[0], paint.linear[1]) {
         const dvec2 d = dvec2(paint.linear[2], paint.linear[3]) - start_;
@@ -52,22 +60,25 @@ public:
     }
 
     void colors(int x, int y, std::span<Color> colors) const override {
-        const double first = isPoint_ ? 1 : glm::dot(at(x, y) - start_, slope_),
-                     step = glm::dot(this->step(), slope_);
+        const double first = value(x, y), step = glm::dot(this->step(), slope_);
         for (std::size_t i = 0; i < colors.size(); ++i)
-            colors[i] = ramp_.at(first + double(i) * step);
+            colors[i] = ramp_.at(isAffine() ? first + double(i) * step : value(x + double(i), y));
     }
 
 private:
+    double value(double x, double y) const { return isPoint_ ? 1 : glm::dot(at(x, y) - start_, slope_); }
+
     ColorRamp ramp_;
     dvec2 start_, slope_;
     bool isPoint_;
 };
 
-class RadialGradientSource final : public AffineSource {
+class RadialGradientSource final : public GradientSource {
 public:
     RadialGradientSource(const Paint& paint, const glm::dmat3& fromSurface)
-        : AffineSource({paint.rampLinear, true, false}, fromSurface), ramp_(paint), radius_(paint.radial[4]) {
+        : GradientSource({paint.rampLinear, true, false}, fromSurface),
+          ramp_(paint),
+          radius_(paint.radial[4]) {
         center_ = {paint.radial[0], paint.radial[1]};
         focus_ = insideFocus(paint) - center_;
         inverse_ = 1 / (radius_ * radius_ - glm::dot(focus_, focus_));
@@ -75,8 +86,10 @@ public:
 
     void colors(int x, int y, std::span<Color> colors) const override {
         dvec2 d = at(x, y) - center_ - focus_;
-        for (Color& color : colors) {
-            color = ramp_.at(value(d));
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            if (!isAffine())
+                d = at(x + double(i), y) - center_ - focus_;
+            colors[i] = ramp_.at(value(d));
             d += step();
         }
     }

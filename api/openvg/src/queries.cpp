@@ -29,7 +29,7 @@ const VGubyte* vgGetString(VGStringID name) {
                 context.state.knowsExtensions = true;
                 return text(
                     "VG_KHR_iterative_average_blur VG_KHR_advanced_blending VG_KHR_parametric_filter "
-                    "VG_NDS_paint_generation");
+                    "VG_NDS_paint_generation VG_NDS_projective_geometry VG_KHR_EGL_image");
             default:
                 return static_cast<const VGubyte*>(nullptr);
         }

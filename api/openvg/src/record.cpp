@@ -10,6 +10,7 @@
 
 #include "api/openvg/src/matrix.hpp"
 #include "api/openvg/src/pixel_source.hpp"
+#include "api/openvg/src/projective.hpp"
 #include "api/openvg/src/record_shapes.hpp"
 
 namespace vtm::openvg {
@@ -66,6 +67,7 @@ scene::Scene Recorder::finish() { return {width_, height_, std::move(root_)}; }
 
 void Recorder::drawPath(const State& state, const Path& path, VGbitfield modes, const glm::mat3& toSurface) {
     ++calls_;
+    refuseClipLines(state);
     if (path.data.commands().empty() || !inverseOf(toSurface))
         return;
     for (const VGPaintMode mode : {VG_FILL_PATH, VG_STROKE_PATH}) {
@@ -73,7 +75,7 @@ void Recorder::drawPath(const State& state, const Path& path, VGbitfield modes, 
             continue;
         const glm::mat3& paintToUser = state.matrix(mode == VG_FILL_PATH ? VG_MATRIX_FILL_PAINT_TO_USER
                                                                          : VG_MATRIX_STROKE_PAINT_TO_USER);
-        if (!isAffine(paintToUser))
+        if (isProjective(paintToUser))
             refuse("paint in perspective");
         const Paint& paint = currentPaint(state, mode);
         const scene::Shape shape = shapeOf(state, path, mode, toPicture(toSurface));
@@ -85,6 +87,7 @@ void Recorder::drawPath(const State& state, const Path& path, VGbitfield modes, 
 
 void Recorder::drawImage(const State& state, const Image& image, const glm::mat3& toSurface) {
     ++calls_;
+    refuseClipLines(state);
     if (state.imageMode != VG_DRAW_IMAGE_NORMAL)
         refuse(fmt::format("an image in mode 0x{:x}", state.imageMode));
     if (!inverseOf(toSurface))
@@ -94,8 +97,13 @@ void Recorder::drawImage(const State& state, const Image& image, const glm::mat3
     draw(state, node, {item.path, item.transform, item.geometry});
 }
 
+void Recorder::refuseClipLines(const State& state) {
+    if (!clipLines(state).empty())
+        refuse("clip lines");
+}
+
 scene::Affine Recorder::toPicture(const glm::mat3& toSurface) {
-    if (!isAffine(toSurface))
+    if (isProjective(toSurface))
         refuse("a matrix in perspective");
     return scene::compose(flip_, affineOf(toSurface));
 }

@@ -50,6 +50,7 @@ private:
     };
     Cut cutOf(const State& state) const;
 
+    void refuseClipLines(const State& state);
     scene::Affine toPicture(const glm::mat3& toSurface);
     bool covers(const CopyArea& area) const;
     void draw(const State& state, scene::Node node, const scene::Shape& shape);

@@ -9,7 +9,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include <VG/openvg.h>
+#include <VG/vgext.h>
 
 #include "api/openvg/src/objects.hpp"
 
@@ -19,7 +19,7 @@ namespace vtm::openvg {
 inline constexpr VGint maxScissorRects = 256, maxDashCount = 256, maxKernelSize = 31,
                        maxSeparableKernelSize = 127, maxColorRampStops = 256, maxImageSide = 16384,
                        maxImagePixels = 1 << 28, maxImageBytes = 1 << 30, maxGaussianStdDeviation = 128,
-                       maxAverageBlurDimension = 256, maxAverageBlurIterations = 16;
+                       maxAverageBlurDimension = 256, maxAverageBlurIterations = 16, maxClipLines = 32;
 inline constexpr VGfloat maxFloat = 1e30f;
 
 /// Values as they were set (vgGet returns them); ranges are applied where they are used. Initial values:
@@ -60,6 +60,15 @@ struct State {
     std::array<glm::mat3, 5> matrices{glm::mat3(1), glm::mat3(1), glm::mat3(1), glm::mat3(1), glm::mat3(1)};
     const glm::mat3& matrix(VGMatrixMode mode) const {
         return matrices[std::size_t(mode - VG_MATRIX_PATH_USER_TO_SURFACE)];
+    }
+
+    // VG_NDS_projective_geometry.
+    VGint clipMode = VG_CLIPMODE_NONE_NDS;
+    std::vector<VGfloat> clipLines;  ///< three numbers each
+    std::array<bool, 5>
+        projective{};  ///< by mode, like the matrices: their last row is kept, images' mode too
+    bool isProjective(VGMatrixMode mode) const {
+        return projective[std::size_t(mode - VG_MATRIX_PATH_USER_TO_SURFACE)];
     }
 
     std::shared_ptr<Paint> fillPaint, strokePaint;  ///< null: the default paint

@@ -33,7 +33,7 @@ void draw(Context& context, const Glyph& glyph, VGbitfield modes, glm::vec2 adju
         if (glyph.path)
             drawPath(context, *glyph.path, modes, toSurface);
         else if (glyph.image)
-            drawImage(context, *glyph.image, toSurface);
+            drawImage(context, *glyph.image, toSurface, VG_MATRIX_GLYPH_USER_TO_SURFACE);
     }
     origin[0] += glyph.escapement.x + adjustment.x;
     origin[1] += glyph.escapement.y + adjustment.y;

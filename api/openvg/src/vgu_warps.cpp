@@ -1,4 +1,4 @@
-// Section 17.2: projective maps between quadrilaterals.
+// Section 17.2: projective maps between quadrilaterals, and of lines (VG_NDS_projective_geometry).
 
 #include <cmath>
 #include <optional>
@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 
-#include <VG/vgu.h>
+#include <VG/vgext.h>
 
 #include "api/openvg/src/context.hpp"
 #include "api/openvg/src/matrix.hpp"
@@ -60,6 +60,26 @@ std::optional<glm::dmat3> inverse(const std::optional<glm::dmat3>& map) {
 bool isLegal(const VGfloat* matrix) { return matrix != nullptr && isAligned(matrix); }
 
 }  // namespace
+
+VGUErrorCode vguTransformClipLineNDS(const VGfloat a, const VGfloat b, const VGfloat c, const VGfloat* matrix,
+                                     const VGboolean inverse, VGfloat* aOut, VGfloat* bOut, VGfloat* cOut) {
+    if (!isLegal(matrix) || !isLegal(aOut) || !isLegal(bOut) || !isLegal(cOut))
+        return VGU_ILLEGAL_ARGUMENT_ERROR;
+    glm::dmat3 transposed;
+    for (int i = 0; i < 9; ++i)
+        transposed[i % 3][i / 3] = double(matrix[i]);
+    if (!inverse) {
+        const double determinant = glm::determinant(transposed);
+        transposed = glm::inverse(transposed);
+        if (determinant == 0 || !isFinite(transposed))
+            return VGU_BAD_WARP_ERROR;
+    }
+    const glm::dvec3 line = transposed * glm::dvec3(a, b, c);
+    *aOut = VGfloat(line.x);
+    *bOut = VGfloat(line.y);
+    *cOut = VGfloat(line.z);
+    return VGU_NO_ERROR;
+}
 
 VGUErrorCode vguComputeWarpQuadToSquare(VGfloat sx0, VGfloat sy0, VGfloat sx1, VGfloat sy1, VGfloat sx2,
                                         VGfloat sy2, VGfloat sx3, VGfloat sy3, VGfloat* matrix) {

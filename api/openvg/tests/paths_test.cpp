@@ -234,6 +234,62 @@ TEST_F(PathsTest, BoundsAreTight) {
     EXPECT_NEAR(b.height, 2 * std::sqrt(2.0f), 1e-5f);
 }
 
+TEST_F(PathsTest, DoubleOnlySoOften) {
+    const VGPath path = newPath({VG_MOVE_TO_ABS, VG_HLINE_TO_REL}, {0, 0, 1});
+    VGErrorCode error = VG_NO_ERROR;
+    VGint before = 0;
+    for (int i = 0; i < 30 && error == VG_NO_ERROR; ++i) {
+        before = vgGetParameteri(path, VG_PATH_NUM_SEGMENTS);
+        vgAppendPath(path, path);
+        error = vgGetError();
+    }
+    EXPECT_EQ(error, VG_OUT_OF_MEMORY_ERROR);
+    EXPECT_EQ(vgGetParameteri(path, VG_PATH_NUM_SEGMENTS), before);
+    EXPECT_EQ(before, 1 << 20);
+    EXPECT_VG_ERROR(VG_OUT_OF_MEMORY_ERROR, vgTransformPath(path, path));
+    EXPECT_VG_ERROR(VG_OUT_OF_MEMORY_ERROR, vgInterpolatePath(path, path, path, 0.5f));
+    EXPECT_EQ(vgGetParameteri(path, VG_PATH_NUM_SEGMENTS), before);
+    vgDestroyPath(path);
+}
+
+TEST_F(PathsTest, OfDashesOnlyThoseInViewCount) {
+    // 50 000 dashes, of which the view shows one and a gap.
+    clear({0, 0, 0, 1});
+    vgSetPaint(newPaint({1, 1, 1, 1}), VG_STROKE_PATH);
+    const VGPath path = newPath({VG_MOVE_TO_ABS, VG_LINE_TO_ABS}, {-25000, 0.5f, 25000, 0.5f});
+    const std::array<VGfloat, 2> dashes{0.5f, 0.5f};
+    vgSetfv(VG_STROKE_DASH_PATTERN, 2, dashes.data());
+    vgSetf(VG_STROKE_LINE_WIDTH, 0.5f);
+    vgScale(16, 16);
+    vgDrawPath(path, VG_STROKE_PATH);
+    EXPECT_EQ(vgGetError(), VG_NO_ERROR);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            EXPECT_EQ(pixel(x, y)[0], x < 8 && y >= 4 && y < 12 ? 255 : 0) << x << ' ' << y;
+}
+
+TEST_F(PathsTest, HaveNotTooManyDashes) {
+    const VGPath path = newPath({VG_MOVE_TO_ABS, VG_LINE_TO_ABS}, {0, 8, 16, 8});
+    const std::array<VGfloat, 2> few{1e-3f, 1e-3f}, many{1e-5f, 1e-5f};
+    vgSetPaint(newPaint({1, 1, 1, 1}), VG_STROKE_PATH);
+    vgSetf(VG_STROKE_LINE_WIDTH, 4);
+    vgSetfv(VG_STROKE_DASH_PATTERN, 2, many.data());
+    EXPECT_VG_ERROR(VG_OUT_OF_MEMORY_ERROR, vgDrawPath(path, VG_STROKE_PATH));
+    vgSetfv(VG_STROKE_DASH_PATTERN, 2, few.data());
+    EXPECT_VG_ERROR(VG_NO_ERROR, vgDrawPath(path, VG_STROKE_PATH));
+    EXPECT_NEAR(pixel(8, 8)[3], 128, 4);
+}
+
+TEST_F(PathsTest, WildMatricesEnd) {
+    // A shear by 1e28 makes of two pixels of the path more than doubles can tell apart.
+    const VGPath path = newPath({VG_MOVE_TO_ABS, VG_CUBIC_TO_ABS, VG_CUBIC_TO_ABS, VG_CLOSE_PATH},
+                                {0, 40, -2.5f, 31.25f, -1.25f, 46.25f, -1.25f, -1.25f, -1.25f, -48.75f,
+                                 40957.5f, 48.75f, -1.25f, 51.25f});
+    const VGfloat matrix[] = {0.25f, 1.2f, 0, -2.9e26f, 1.46e28f, 0, 1.5f, -1.1f, 1};
+    vgLoadMatrix(matrix);
+    EXPECT_VG_ERROR(VG_NO_ERROR, vgDrawPath(path, VG_FILL_PATH));
+}
+
 TEST_F(PathsTest, WildNumbersEnd) {
     // Section 3.3: no number may stop the program.
     const VGfloat huge = 3e38f, nan = std::nanf(""), inf = std::numeric_limits<VGfloat>::infinity();

@@ -1,5 +1,4 @@
-// Sections 3.8.1 and 3.9: sync objects and EGLImages, all of which are the system's. libOpenVG has neither
-// VG_KHR_EGL_sync nor images that OpenGL could share.
+// Section 3.8.1: sync objects, all of which are the system's. libOpenVG has no VG_KHR_EGL_sync.
 
 #include "api/egl/src/thread.hpp"
 
@@ -46,19 +45,4 @@ EGLBoolean EGLAPIENTRY eglWaitSync(EGLDisplay dpy, EGLSync sync, EGLint flags) {
         initializedDisplay(dpy);
         throw Error{EGL_BAD_MATCH};
     });
-}
-
-EGLImage EGLAPIENTRY eglCreateImage(EGLDisplay dpy, EGLContext context, EGLenum target,
-                                    EGLClientBuffer buffer, const EGLAttrib* list) {
-    if (!contexts().has(context))
-        return forward(&System::CreateImage, EGLImage(EGL_NO_IMAGE), EGL_BAD_PARAMETER, dpy, context, target,
-                       buffer, list);
-    return call(EGLImage(EGL_NO_IMAGE), [&]() -> EGLImage {
-        getContext(initializedDisplay(dpy), context);
-        throw Error{EGL_BAD_PARAMETER};
-    });
-}
-
-EGLBoolean EGLAPIENTRY eglDestroyImage(EGLDisplay dpy, EGLImage image) {
-    return forward(&System::DestroyImage, no, EGL_BAD_PARAMETER, dpy, image);
 }

@@ -1,0 +1,64 @@
+/// \file
+/// Segments of paths, one by one (specification sections 8.3 to 8.5).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <glm/mat2x2.hpp>
+#include <glm/vec2.hpp>
+
+#include <VG/vgext.h>
+
+#include "scene/path.hpp"
+
+namespace vtm::openvg {
+
+using Point = glm::dvec2;
+
+/// Numbers that a segment takes (table 6). `segment`: a VGPathCommand or VGPathSegment.
+int coordinateCount(unsigned segment);
+
+/// A VGPathCommand, or closing with either of its spellings. Those of VG_NDS_projective_geometry are only
+/// legal for programs that know of extensions.
+bool isCommand(unsigned segment, bool knowsExtensions);
+
+/// A segment with all that is implicit made explicit (sections 8.5.1 and 8.5.2): absolute points, one of
+/// VG_CLOSE_PATH, VG_MOVE_TO, VG_LINE_TO, VG_QUAD_TO, VG_CUBIC_TO, the four arcs, VG_RQUAD_TO_NDS and
+/// VG_RCUBIC_TO_NDS.
+struct Segment {
+    unsigned type = VG_CLOSE_PATH;
+    Point from{0};  ///< (ox, oy)
+    Point control1{0}, control2{0};
+    Point radii{0};       ///< of arcs, as given
+    double rotation = 0;  ///< of arcs, degrees
+    Point to{0};
+    std::array<double, 4> weights{1, 1, 1, 1};  ///< of rational curves' points, in their order
+
+    bool isRational() const { return type == VG_RQUAD_TO_NDS || type == VG_RCUBIC_TO_NDS; }
+    bool isArc() const { return type >= VG_SCCWARC_TO && type <= VG_LCWARC_TO; }
+};
+
+/// The path as outlines are made of it; rational curves as cubic ones (rational_curve.hpp).
+scene::Path outline(const std::vector<Segment>& segments);
+/// The other way.
+std::vector<Segment> segmentsOf(const scene::Path& outline);
+Segment arcSegment(Point from, const scene::ArcTo& arc);
+
+/// An arc by its centre (section 18.4), radii grown where no ellipse reaches both ends (section 8.4).
+struct EllipticalArc {
+    Point center{0};
+    Point axisX{0}, axisY{0};     ///< point(t) = center + cos t axisX + sin t axisY
+    double start = 0, sweep = 0;  ///< radians
+
+    Point at(double t) const;
+    Point derivative(double t) const;
+};
+
+/// Of a segment that isArc(); false if it is drawn as a line.
+bool arcOf(const Segment& segment, EllipticalArc& arc);
+
+/// The affine image of an ellipse: radii and rotation (degrees) of what becomes of them.
+void transformEllipse(const glm::dmat2& linear, Point& radii, double& rotation);
+
+}  // namespace vtm::openvg
