@@ -22,6 +22,10 @@ double displacement(double mA, double mB, double s) { return s * (1 - s) * (mA *
 /// t''(s), which is linear: 2 (mA + mB) (3 s - 1) - 2 mA.
 double secondDerivative(double mA, double mB, double s) { return 2 * (mA + mB) * (3 * s - 1) - 2 * mA; }
 
+/// By value: compilers make no branches of them.
+double larger(double a, double b) { return a < b ? b : a; }
+double smaller(double a, double b) { return b < a ? b : a; }
+
 std::int16_t stored(double slope) {
     const double scaled = std::clamp(slope, -1.0, 1.0) * double{asset::slopeScale};
     return static_cast<std::int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
@@ -258,17 +262,17 @@ Fitter::Slopes Fitter::leastSquares(std::uint32_t last) const {
 /// one of them, and the curve below its own chord by at most max(t'') ds² / 8, above it by at most max(-t'')
 /// ds² / 8.
 double Fitter::stray(const Slopes& m, std::uint32_t last) const {
-    double worst = 0, off = 0, bend = secondDerivative(m.a, m.b, 0) / 8;
+    double high = 0, low = 0, off = 0, bend = secondDerivative(m.a, m.b, 0) / 8;
     for (std::uint32_t i = 1; i <= last; ++i) {
         const double s = local_[i].x, step = s - local_[i - 1].x, offBefore = off, bendBefore = bend;
         off = local_[i].y - displacement(m.a, m.b, s);
         bend = secondDerivative(m.a, m.b, s) / 8;
-        const double below = std::max(std::max(bendBefore, bend), 0.0) * (step * step),
-                     above = std::max(std::max(-bendBefore, -bend), 0.0) * (step * step);
-        worst =
-            std::max(worst, std::max(std::max(offBefore, off) + below, std::max(-offBefore, -off) + above));
+        const double below = larger(larger(bendBefore, bend), 0.0),
+                     above = smaller(smaller(bendBefore, bend), 0.0);
+        high = larger(high, larger(offBefore, off) + below * (step * step));
+        low = smaller(low, smaller(offBefore, off) + above * (step * step));
     }
-    return worst;
+    return larger(high, -low);
 }
 
 void Fitter::emit(const Chain& chain, std::uint32_t from, std::uint32_t to, const Slopes& m) {

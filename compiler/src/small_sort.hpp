@@ -40,4 +40,21 @@ void sortByKey(std::vector<T>& items, std::vector<T>& spare, const KeyOf& keyOf)
     items.swap(spare);
 }
 
+/// Sorts a few things by `isBefore`, in place.
+template <class Iterator, class IsBefore>
+void sortFew(Iterator first, Iterator last, const IsBefore& isBefore) {
+    constexpr auto few = 16;
+    if (last - first > few) {
+        std::sort(first, last, isBefore);
+        return;
+    }
+    for (Iterator next = first; next != last; ++next) {
+        const auto item = *next;
+        Iterator at = next;
+        for (; at != first && isBefore(item, at[-1]); --at)
+            *at = at[-1];
+        *at = item;
+    }
+}
+
 }  // namespace vtm::compiler

@@ -232,17 +232,36 @@ void Snapper::meet(std::uint32_t e, std::uint32_t f) {
     const LatticePoint *pEnd = vertices + s.last, *qEnd = vertices + t.last;
     const LatticePoint *p = firstNotBelow(vertices + s.first + 1, pEnd, left),
                        *q = firstNotBelow(vertices + t.first + 1, qEnd, left);
+    Coord column = left - 1;
     for (;;) {  // p and q end the chords at hand
         if (overlap(p[-1].y, p->y, q[-1].y, q->y) & (p[-1].x <= q->x) & (q[-1].x <= p->x))
             if (const Meeting m(p[-1], *p, q[-1], *q); !m.isFar())
                 meetChords(m, e, static_cast<std::uint32_t>(p - vertices) - 1 - s.first, f,
                            static_cast<std::uint32_t>(q - vertices) - 1 - t.first);
+        if ((p->x == q->x) & (p->x != column)) {
+            column = p->x;
+            meetUpright(e, p, f, q);
+        }
         const bool moves = (q == qEnd) | ((p != pEnd) & (p->x <= q->x));
         if (moves ? (p == pEnd) | (p->x > right) : q->x > right)
             return;
         p += moves;
         q += !moves;
     }
+}
+
+/// Chords of both that stand upright in the column where p and q end, which the walk passes by one after the
+/// other.
+void Snapper::meetUpright(std::uint32_t e, const LatticePoint* p, std::uint32_t f, const LatticePoint* q) {
+    const LatticePoint* const vertices = set_.vertices.data();
+    const Edge &s = set_.edges[e], &t = set_.edges[f];
+    const Coord x = p->x;
+    for (const LatticePoint* i = p; i <= vertices + s.last && i->x == x; ++i)
+        for (const LatticePoint* j = q; i[-1].x == x && j <= vertices + t.last && j->x == x; ++j)
+            if (j[-1].x == x && !(i == p && j == q) && overlap(i[-1].y, i->y, j[-1].y, j->y))
+                meetChords(Meeting(i[-1], *i, j[-1], *j), e,
+                           static_cast<std::uint32_t>(i - vertices) - 1 - s.first, f,
+                           static_cast<std::uint32_t>(j - vertices) - 1 - t.first);
 }
 
 /// Chords that are not far from each other.

@@ -99,6 +99,7 @@ private:
     std::size_t gather(std::size_t first, std::size_t last, Coord low, Coord high);
     bool meetAll();
     void meet(std::uint32_t e, std::uint32_t f);
+    void meetUpright(std::uint32_t e, const LatticePoint* p, std::uint32_t f, const LatticePoint* q);
     struct Meeting;
     void meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
     void bend(LatticePoint a, LatticePoint b, LatticePoint to);

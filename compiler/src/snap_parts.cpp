@@ -25,7 +25,7 @@ void Snapper::sortSplits() {
     std::uint32_t first = 0;
     for (std::size_t e = 0; e < set_.edges.size(); first = firstSplits_[e++])
         if (firstSplits_[e] > first + 1)
-            std::sort(splits_.begin() + first, splits_.begin() + firstSplits_[e], isBefore);
+            sortFew(splits_.begin() + first, splits_.begin() + firstSplits_[e], isBefore);
 }
 
 /// Replaces every split edge by its parts, ordered along it.
@@ -188,11 +188,11 @@ void Snapper::mergeEqual() {
         while (end < order_.size() && order_[end].a == order_[i].a)
             ++end;
         if (end > i + 1)
-            std::sort(order_.begin() + std::ptrdiff_t(i), order_.begin() + std::ptrdiff_t(end),
-                      [&](const Place& p, const Place& q) {
-                          const int c = compare(set_.edges[p.edge], set_.edges[q.edge]);
-                          return c != 0 ? c < 0 : p.edge < q.edge;
-                      });
+            sortFew(order_.begin() + std::ptrdiff_t(i), order_.begin() + std::ptrdiff_t(end),
+                    [&](const Place& p, const Place& q) {
+                        const int c = compare(set_.edges[p.edge], set_.edges[q.edge]);
+                        return c != 0 ? c < 0 : p.edge < q.edge;
+                    });
         while (i < end) {
             Edge e = set_.edges[order_[i].edge];
             const std::size_t first = i++;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "compiler/src/small_sort.hpp"
+
 namespace vtm::compiler {
 namespace {
 
@@ -82,7 +84,7 @@ void Vertices::groupEnds() {
 void Vertices::sortRound(const EdgeSet& set, const Vertex& v) {
     const auto first = ends_.begin() + v.first, last = first + v.count;
     const auto isRight = [&](LatticePoint p) { return p.x > v.at.x || (p.x == v.at.x && p.y < v.at.y); };
-    std::sort(first, last, [&](EdgeEnd p, EdgeEnd q) {
+    sortFew(first, last, [&](EdgeEnd p, EdgeEnd q) {
         const LatticePoint a = next(set, p), b = next(set, q);
         if (isRight(a) != isRight(b))
             return isRight(a);
@@ -95,7 +97,7 @@ void Vertices::sortRound(const EdgeSet& set, const Vertex& v) {
 /// Clockwise where the inside is on the left, and all directions lie in half a plane.
 void Vertices::sortAlong(const EdgeSet& set, const Vertex& v, std::size_t side) {
     const auto first = ends_.begin() + v.first, last = first + v.count;
-    std::sort(first, last, [&](EdgeEnd p, EdgeEnd q) {
+    sortFew(first, last, [&](EdgeEnd p, EdgeEnd q) {
         const std::int64_t o = orient(v.at, next(set, p), next(set, q));
         return side < 2 ? o < 0 : o > 0;
     });
@@ -110,8 +112,8 @@ void Vertices::listBorder(const EdgeSet& set) {
         const auto along = [&](std::uint32_t i) {
             return side % 2 == 0 ? vertices_[i].at.x : vertices_[i].at.y;
         };
-        std::sort(vertices.begin(), vertices.end(),
-                  [&](std::uint32_t i, std::uint32_t j) { return along(i) < along(j); });
+        sortFew(vertices.begin(), vertices.end(),
+                [&](std::uint32_t i, std::uint32_t j) { return along(i) < along(j); });
         border.clear();
         for (const std::uint32_t i : vertices) {
             const Vertex& v = vertices_[i];

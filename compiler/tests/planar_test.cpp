@@ -1,8 +1,11 @@
 #include "compiler/src/planar.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "compiler/tests/leaf_support.hpp"
 
@@ -182,6 +185,22 @@ TEST_P(RandomPolygons, afterSnappingEdgesMeetOnlyInVertices) {
             const int sa = side(orient(t.a, t.b, s.a)), sb = side(orient(t.a, t.b, s.b));
             EXPECT_FALSE(ta * tb < 0 && sa * sb < 0) << "chords " << i << " and " << j << " cross";
         }
+}
+
+TEST(Planar, uprightChordsInOneColumnMeet) {
+    const TestLeaf leaf =
+        leafOf(square, {{{1000, 900}, {1500, 1400}, {1500, 2600}, {2200, 3500}, {200, 3600}, {200, 900}},
+                        {{1100, 500}, {1500, 1000}, {1500, 2000}, {2500, 3000}, {3800, 2900}, {3800, 400}}});
+    Snapper snapper;
+    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.strands);
+    ASSERT_TRUE(set);
+    std::vector<std::pair<Coord, Coord>> upright;  // y from and to
+    for (const Edge& e : set->edges)
+        for (std::uint32_t k = 0; k < e.chordCount(); ++k)
+            if (const auto a = set->vertex(e, k), b = set->vertex(e, k + 1); a.x == 1500 && b.x == 1500)
+                upright.push_back(std::minmax(a.y, b.y));
+    std::sort(upright.begin(), upright.end());
+    EXPECT_EQ(upright, (std::vector<std::pair<Coord, Coord>>{{1000, 1400}, {1400, 2000}, {2000, 2600}}));
 }
 
 TEST(Planar, coincidentBordersOfNeighboursLeaveNoThirdPaint) {
