@@ -50,12 +50,6 @@ vec4 colorBetween(const GradientStop& before, const GradientStop& after, float u
     return premultiplied(glm::mix(unpack(before), unpack(after), gap > 0 ? (u - before.offset) / gap : 0.0f));
 }
 
-vec4 colorAt(const GradientView& gradient, float u) {
-    const std::size_t upTo = stopsUpTo(gradient, u);
-    return colorBetween(gradient.stop(upTo == 0 ? 0 : upTo - 1),
-                        gradient.stop(std::min(upTo, gradient.size() - 1)), u);
-}
-
 // ---- Means over pixels ------------------------------------------------------------------------------
 
 /// The padded ramp's integral from a to b. Between stops it is a quadratic, which Simpson's rule integrates
@@ -99,25 +93,24 @@ vec4 mean(const GradientView& gradient, float u, float width) {
 /// straight colours bends them by is below width² / 12 = 1/3000.
 constexpr float straightWidth = 1.0f / 16;
 
-/// Whether the colour in the middle is the mean: nothing but a little of one stretch between two stops.
-bool isStraight(const GradientView& gradient, float u, float width) {
-    const bool isPadded = gradient.gradient().spread == Spread::Pad;
-    const float v = isPadded ? u : spreadOffset(gradient.gradient().spread, u);
-    const std::size_t upTo = stopsUpTo(gradient, v);
-    const bool isBefore = isPadded && upTo == 0, isBehind = isPadded && upTo == gradient.size();
-    const float low = upTo > 0 ? gradient.stop(upTo - 1).offset : 0,
-                high = upTo < gradient.size() ? gradient.stop(upTo).offset : 1;
-    return (width <= straightWidth || isBefore || isBehind) && (isBefore || v - 0.5f * width >= low) &&
-           (isBehind || v + 0.5f * width <= high);
-}
-
 /// The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other
-/// one's box is replaced by two points with the same variance.
+/// one's box is replaced by two points with the same variance. Where the pixel has nothing but a little of
+/// one stretch between two stops, it is the colour in the middle.
 vec4 colorOver(const GradientView& gradient, float u, vec2 sides) {
     sides = glm::min(glm::abs(sides), vec2(widestPadded));
-    const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y);
-    if (isStraight(gradient, u, longer + shorter))
-        return colorAt(gradient, spreadOffset(gradient.gradient().spread, u));
+    const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y),
+                width = longer + shorter;
+    const Spread spread = gradient.gradient().spread;
+    const bool isPadded = spread == Spread::Pad;
+    const float offset = spreadOffset(spread, u), place = isPadded ? u : offset;
+    const std::size_t upTo = stopsUpTo(gradient, place);
+    const GradientStop before = gradient.stop(upTo == 0 ? 0 : upTo - 1),
+                       after = gradient.stop(std::min(upTo, gradient.size() - 1));
+    const bool isBefore = isPadded && upTo == 0, isBehind = isPadded && upTo == gradient.size();
+    const float low = upTo > 0 ? before.offset : 0, high = upTo < gradient.size() ? after.offset : 1;
+    if ((width <= straightWidth || isBefore || isBehind) && (isBefore || place - 0.5f * width >= low) &&
+        (isBehind || place + 0.5f * width <= high))
+        return colorBetween(before, after, offset);
     const float apart = shorter * 0.28867513f;  // 1 / √12
     return 0.5f * (mean(gradient, u - apart, longer) + mean(gradient, u + apart, longer));
 }
@@ -160,12 +153,15 @@ struct Spot {
     vec2 sides;  ///< what the pixel's sides change u by, scaled to the variance
 };
 
+/// Eight pixels from the tip it moves u by less than a 380th of what a pixel does.
+constexpr float farFromTip = 64;
+
 Spot conePixel(const Root& root, vec2 d, const glm::mat2& sides) {
     const vec2 along = root.slope * sides;
     const float steep = glm::dot(root.slope, root.slope), above = steep * glm::dot(d, d);
     const float all = steep * (glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]));
     const float radial = glm::dot(along, along);
-    if (!(radial > 0))
+    if (!(radial > 0) || above > farFromTip * all)
         return {root.u, along};
     const float near = 1 / (1 + 6.6f * above / all), tip = 0.0315f * all * near * near;
     const float squared = above + std::max(all - radial, 0.0f) / 12 + tip;

@@ -128,7 +128,7 @@ void overCone(vec2 slope, vec2 d, mat2 sides, inout float u, out vec2 along) {
     along = slope * sides;
     float steep = dot(slope, slope), above = steep * dot(d, d);
     float all = steep * (dot(sides[0], sides[0]) + dot(sides[1], sides[1])), radial = dot(along, along);
-    if (!(radial > 0.0))
+    if (!(radial > 0.0) || above > 64.0 * all)  // far from the tip
         return;
     float near = 1.0 / (1.0 + 6.6 * above / all), tip = 0.0315 * all * near * near;
     u += sqrt(above + max(all - radial, 0.0) / 12.0 + tip) - sqrt(above);
