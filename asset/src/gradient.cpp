@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -25,10 +26,6 @@ float spreadOffset(Spread spread, float u) {
     }
 }
 
-vec4 unpack(const GradientStop& stop) {
-    return vec4(stop.rgba[0], stop.rgba[1], stop.rgba[2], stop.rgba[3]) / 65535.0f;
-}
-
 vec4 premultiplied(vec4 c) { return {glm::vec3(c) * c.a, c.a}; }
 
 /// How many stops have an offset <= u; of several at one offset the last counts from there on.
@@ -36,7 +33,7 @@ std::size_t stopsUpTo(const GradientView& gradient, float u) {
     std::size_t low = 0, high = gradient.size();
     while (low < high) {
         const std::size_t middle = (low + high) / 2;
-        if (gradient.stop(middle).offset <= u)
+        if (gradient.offset(middle) <= u)
             low = middle + 1;
         else
             high = middle;
@@ -44,10 +41,11 @@ std::size_t stopsUpTo(const GradientView& gradient, float u) {
     return low;
 }
 
-/// Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
-vec4 colorBetween(const GradientStop& before, const GradientStop& after, float u) {
-    const float gap = after.offset - before.offset;
-    return premultiplied(glm::mix(unpack(before), unpack(after), gap > 0 ? (u - before.offset) / gap : 0.0f));
+/// Between two stops. Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
+vec4 colorBetween(const GradientView& gradient, std::size_t before, std::size_t after, float u) {
+    const float start = gradient.offset(before), gap = gradient.offset(after) - start;
+    return premultiplied(
+        glm::mix(gradient.color(before), gradient.color(after), gap > 0 ? (u - start) / gap : 0.0f));
 }
 
 // ---- Means over pixels ------------------------------------------------------------------------------
@@ -58,11 +56,11 @@ vec4 integral(const GradientView& gradient, float a, float b) {
     std::size_t next = stopsUpTo(gradient, a);
     vec4 sum(0);
     for (float from = a; from < b; ++next) {
-        const GradientStop before = gradient.stop(next == 0 ? 0 : next - 1),
-                           after = gradient.stop(std::min(next, gradient.size() - 1));
-        const float to = next == gradient.size() ? b : std::min(b, after.offset);
-        sum += (colorBetween(before, after, from) + 4.0f * colorBetween(before, after, 0.5f * (from + to)) +
-                colorBetween(before, after, to)) *
+        const std::size_t before = next == 0 ? 0 : next - 1, after = std::min(next, gradient.size() - 1);
+        const float to = next == gradient.size() ? b : std::min(b, gradient.offset(after));
+        sum += (colorBetween(gradient, before, after, from) +
+                4.0f * colorBetween(gradient, before, after, 0.5f * (from + to)) +
+                colorBetween(gradient, before, after, to)) *
                ((to - from) / 6);
         from = to;
     }
@@ -93,27 +91,59 @@ vec4 mean(const GradientView& gradient, float u, float width) {
 /// straight colours bends them by is below width² / 12 = 1/3000.
 constexpr float straightWidth = 1.0f / 16;
 
-/// The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other
-/// one's box is replaced by two points with the same variance. Where the pixel has nothing but a little of
-/// one stretch between two stops, it is the colour in the middle.
-vec4 colorOver(const GradientView& gradient, float u, vec2 sides) {
-    sides = glm::min(glm::abs(sides), vec2(widestPadded));
-    const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y),
-                width = longer + shorter;
-    const Spread spread = gradient.gradient().spread;
-    const bool isPadded = spread == Spread::Pad;
-    const float offset = spreadOffset(spread, u), place = isPadded ? u : offset;
-    const std::size_t upTo = stopsUpTo(gradient, place);
-    const GradientStop before = gradient.stop(upTo == 0 ? 0 : upTo - 1),
-                       after = gradient.stop(std::min(upTo, gradient.size() - 1));
-    const bool isBefore = isPadded && upTo == 0, isBehind = isPadded && upTo == gradient.size();
-    const float low = upTo > 0 ? before.offset : 0, high = upTo < gradient.size() ? after.offset : 1;
-    if ((width <= straightWidth || isBefore || isBehind) && (isBefore || place - 0.5f * width >= low) &&
-        (isBehind || place + 0.5f * width <= high))
-        return colorBetween(before, after, offset);
-    const float apart = shorter * 0.28867513f;  // 1 / √12
-    return 0.5f * (mean(gradient, u - apart, longer) + mean(gradient, u + apart, longer));
-}
+/// A ramp that is asked for neighbours: it keeps the stretch between two stops that it was asked for last.
+class Ramp {
+public:
+    explicit Ramp(const GradientView& gradient)
+        : gradient_(gradient), spread_(gradient.gradient().spread), isPadded_(spread_ == Spread::Pad) {
+        find(0);
+    }
+
+    /// The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other
+    /// one's box is replaced by two points with the same variance. Where the pixel has nothing but a little
+    /// of one stretch, it is the colour in the middle.
+    vec4 over(float u, vec2 sides) {
+        sides = glm::min(glm::abs(sides), vec2(widestPadded));
+        const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y);
+        const float place = isPadded_ ? u : spreadOffset(spread_, u), reach = 0.5f * (longer + shorter);
+        if (!holds(place, reach)) {
+            find(place);
+            if (!holds(place, reach)) {
+                const float apart = shorter * 0.28867513f;  // 1 / √12
+                return 0.5f * (mean(gradient_, u - apart, longer) + mean(gradient_, u + apart, longer));
+            }
+        }
+        return premultiplied(color_ + (place - start_) * slope_);
+    }
+
+private:
+    bool holds(float place, float reach) const {
+        return place - reach >= low_ && place + reach <= high_ && place < next_ && reach <= widest_;
+    }
+    void find(float place) {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        const std::size_t upTo = stopsUpTo(gradient_, place), count = gradient_.size();
+        const bool isBefore = upTo == 0, isBehind = upTo == count;
+        const std::size_t before = isBefore ? 0 : upTo - 1, after = std::min(upTo, count - 1);
+        low_ = isBefore ? (isPadded_ ? -infinity : 0) : gradient_.offset(before);
+        high_ = isBehind ? (isPadded_ ? infinity : 1) : gradient_.offset(after);
+        const bool isFlat = isBefore || isBehind;
+        next_ = isBehind ? infinity : high_;
+        widest_ = isFlat ? infinity : 0.5f * straightWidth;
+        color_ = gradient_.color(before);
+        start_ = isFlat ? 0 : low_;
+        const float gap = high_ - low_;
+        slope_ = isFlat || !(gap > 0) ? vec4(0) : (gradient_.color(after) - color_) / gap;
+    }
+
+    const GradientView& gradient_;
+    Spread spread_;
+    bool isPadded_;
+    // The stretch, of which its upper end is not a part: straight colours at `start_` and what they change
+    // by; up to which reach it is straight.
+    float low_ = 0, high_ = 0, next_ = 0, widest_ = 0, start_ = 0;
+    vec4 color_{0}, slope_{0};
+};
 
 // ---- Radial gradients -------------------------------------------------------------------------------
 
@@ -175,24 +205,35 @@ constexpr float besideFocus = 1e-3f;
 
 }  // namespace
 
-vec4 linearColor(const GradientView& view, vec2 point, const glm::mat2& pixel) {
+void linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
+                  std::span<vec4> colors) {
     const std::array<float, 6>& m = view.gradient().matrix;
-    return colorOver(view, applyMatrix(m, point).x, vec2(m[0], m[2]) * pixel);
+    const vec2 row(m[0], m[2]), sides = row * pixel;
+    const float first = applyMatrix(m, point).x, change = glm::dot(row, step);
+    Ramp ramp(view);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        colors[i] = ramp.over(first + float(i) * change, sides);
 }
 
-vec4 radialColor(const GradientView& view, vec2 point, const glm::mat2& pixel) {
+void radialColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
+                  std::span<vec4> colors) {
     const Gradient& gradient = view.gradient();
     const std::array<float, 6>& m = gradient.matrix;
-    const glm::mat2 sides = glm::mat2(m[0], m[1], m[2], m[3]) * pixel;
-    const vec2 focus(gradient.fx, gradient.fy);
-    vec2 d = applyMatrix(m, point) - focus;
-    if (glm::length(d) < besideFocus * glm::length(sides[0]))
-        d = besideFocus * sides[0];
-    const Root root = radialOffset(focus + d, focus, gradient.fr);
-    if (!root.real)
-        return vec4(0);
-    const Spot spot = conePixel(root, d, sides);
-    return colorOver(view, spot.u, spot.sides);
+    const glm::mat2 linear(m[0], m[1], m[2], m[3]), sides = linear * pixel;
+    const vec2 focus(gradient.fx, gradient.fy), first = applyMatrix(m, point) - focus, change = linear * step;
+    const float atFocus = besideFocus * glm::length(sides[0]);
+    Ramp ramp(view);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        vec2 d = first + float(i) * change;
+        if (glm::dot(d, d) < atFocus * atFocus)
+            d = besideFocus * sides[0];
+        const Root root = radialOffset(focus + d, focus, gradient.fr);
+        colors[i] = vec4(0);
+        if (root.real) {
+            const Spot spot = conePixel(root, d, sides);
+            colors[i] = ramp.over(spot.u, spot.sides);
+        }
+    }
 }
 
 }  // namespace vtm::asset

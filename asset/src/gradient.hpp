@@ -2,6 +2,8 @@
 /// Gradients of paint programs; twin of backend_gl/shaders/gradient.glsl.
 #pragma once
 
+#include <span>
+
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -15,9 +17,12 @@ inline glm::vec2 applyMatrix(const std::array<float, 6>& m, glm::vec2 p) {
     return {m[0] * p.x + m[2] * p.y + m[4], m[1] * p.x + m[3] * p.y + m[5]};
 }
 
-/// Premultiplied mean colour over a pixel whose middle is a picture point and whose sides there are `pixel`;
-/// 0: the colour at the point. Exact for linear gradients and pixels along their axis (docs/coverage.md).
-glm::vec4 linearColor(const GradientView& gradient, glm::vec2 point, const glm::mat2& pixel);
-glm::vec4 radialColor(const GradientView& gradient, glm::vec2 point, const glm::mat2& pixel);
+/// Premultiplied mean colours over pixels, one after the other: the middle of the first one is a picture
+/// point, a step leads to the next one's, and their sides are `pixel`; 0: the colours at the points. Exact
+/// for linear gradients and pixels along their axis (docs/coverage.md).
+void linearColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
+                  std::span<glm::vec4> colors);
+void radialColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
+                  std::span<glm::vec4> colors);
 
 }  // namespace vtm::asset

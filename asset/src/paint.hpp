@@ -2,6 +2,9 @@
 /// Paints and paint programs; twin of backend_gl/shaders/paint.glsl.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -20,18 +23,24 @@ struct PaintPlace {
 /// An asset's paints, with what they need made once. The asset must outlive it.
 class Paints {
 public:
-    explicit Paints(const AssetView& asset) : asset_(asset), images_(asset) {}
+    explicit Paints(const AssetView& asset);
 
     /// Premultiplied.
     glm::vec4 color(std::uint32_t paint, const PaintPlace& place,
                     const MaterialFunction& materials = {}) const;
+    /// At places that are `step` apart, of which `place` is the first.
+    void colors(std::uint32_t paint, const PaintPlace& place, glm::vec2 step, std::span<glm::vec4> colors,
+                const MaterialFunction& materials = {}) const;
 
     const AssetView& asset() const { return asset_; }
     const Images& images() const { return images_; }
+    /// Of gradients: by texel of the asset's data, straight, where a stop stands.
+    std::span<const glm::vec4> stopColors() const { return stopColors_; }
 
 private:
     AssetView asset_;
     Images images_;
+    std::vector<glm::vec4> stopColors_;
 };
 
 /// As evaluate(asset, view, materials), for drawing several views.

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <span>
 
+#include <glm/vec4.hpp>
+
 #include "asset/asset.hpp"
 
 namespace vtm::asset {
@@ -20,21 +22,24 @@ Record recordAt(std::span<const Texel> data, std::size_t texel) {
     return std::bit_cast<Record>(texels);
 }
 
-/// A gradient with its stops.
+/// A gradient with its stops. `stopColors`: by texel of data, straight colours in [0, 1] where a stop stands.
 class GradientView {
 public:
-    GradientView(std::span<const Texel> data, std::size_t texel)
-        : data_(data),
-          firstStop_(texel + sizeof(Gradient) / sizeof(Texel)),
+    GradientView(std::span<const Texel> data, std::span<const glm::vec4> stopColors, std::size_t texel)
+        : stops_(data.data() + texel + headTexels),
+          colors_(stopColors.data() + texel + headTexels),
           gradient_(recordAt<Gradient>(data, texel)) {}
+
+    static constexpr std::size_t headTexels = sizeof(Gradient) / sizeof(Texel);
 
     const Gradient& gradient() const { return gradient_; }
     std::size_t size() const { return gradient_.stopCount; }
-    GradientStop stop(std::size_t i) const { return recordAt<GradientStop>(data_, firstStop_ + i); }
+    float offset(std::size_t stop) const { return std::bit_cast<float>(stops_[stop][0]); }
+    const glm::vec4& color(std::size_t stop) const { return colors_[stop]; }
 
 private:
-    std::span<const Texel> data_;
-    std::size_t firstStop_;
+    const Texel* stops_;
+    const glm::vec4* colors_;
     Gradient gradient_;
 };
 

@@ -89,6 +89,7 @@ struct Scanner::Impl {
         Accumulator<vec4> colors;
         Accumulator<float> coverage;
         std::vector<vec4> pixels;
+        std::vector<vec4> run;  ///< colours of a program
     };
     Asset asset;                   ///< without trees: paints and what they need
     std::optional<Paints> paints;  ///< of `asset`
@@ -207,11 +208,13 @@ void Scanner::Impl::addPrograms(const View& view, const MaterialFunction& materi
                 // Roundings of the running sum; a share that small is no 1/255 of a pixel.
                 if (std::abs(share) < 1e-5f)
                     return;
-                for (int x = first; x < end; ++x) {
-                    const dvec2 point = inverse * (dvec2(x + 0.5, top + row + 0.5) - view.toPixels[2]);
-                    scratch.pixels[std::size_t(row) * std::size_t(view.width) + std::size_t(x)] +=
-                        share * added(paints->color(paint, {vec2(point), glm::mat2(inverse)}, materials));
-                }
+                std::vector<vec4>& run = scratch.run;
+                run.resize(std::size_t(end - first));
+                const dvec2 point = inverse * (dvec2(first + 0.5, top + row + 0.5) - view.toPixels[2]);
+                paints->colors(paint, {vec2(point), glm::mat2(inverse)}, vec2(inverse[0]), run, materials);
+                vec4* pixels = scratch.pixels.data() + std::size_t(row) * std::size_t(view.width) + first;
+                for (std::size_t x = 0; x < run.size(); ++x)
+                    pixels[x] += share * added(run[x]);
             });
     }
 }
