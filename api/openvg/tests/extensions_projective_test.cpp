@@ -26,9 +26,7 @@ protected:
         Extensions::SetUp();
         EXPECT_TRUE(has("VG_NDS_projective_geometry"));
         vgSeti(VG_RENDERING_QUALITY, VG_RENDERING_QUALITY_BETTER);
-        const VGfloat white[] = {1, 1, 1, 1};
-        paint_ = vgCreatePaint();
-        vgSetParameterfv(paint_, VG_PAINT_COLOR, 4, white);
+        paint_ = newPaint({1, 1, 1, 1});
         vgSetPaint(paint_, VG_FILL_PATH | VG_STROKE_PATH);
     }
     void TearDown() override {
@@ -50,20 +48,6 @@ protected:
     static void clipBy(const std::vector<VGfloat>& lines, VGint mode) {
         vgSetfv(VGParamType(VG_CLIP_LINES_NDS), VGint(lines.size()), lines.data());
         vgSeti(VGParamType(VG_CLIP_MODE_NDS), mode);
-    }
-    static VGPath newPath(VGPathDatatype type = VG_PATH_DATATYPE_F, VGfloat scale = 1) {
-        return vgCreatePath(VG_PATH_FORMAT_STANDARD, type, scale, 0, 0, 0, VG_PATH_CAPABILITY_ALL);
-    }
-    static VGPath newPath(const std::vector<VGubyte>& commands, const std::vector<VGfloat>& numbers) {
-        const VGPath path = newPath();
-        vgAppendPathData(path, VGint(commands.size()), commands.data(), numbers.data());
-        EXPECT_EQ(vgGetError(), VG_NO_ERROR);
-        return path;
-    }
-    static VGPath rectangle(VGfloat x, VGfloat y, VGfloat width, VGfloat height) {
-        const VGPath path = newPath();
-        vguRect(path, x, y, width, height);
-        return path;
     }
     static VGPath transformed(VGPath path) {
         const VGPath result = newPath();
@@ -304,8 +288,6 @@ TEST_F(Projective, HasRationalCurves) {
 
 TEST_F(Projective, RationalCurvesNeedAProgramThatKnowsThem) {
     const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
-    VtmContext* const before = vtmGetCurrentContext();
-    VtmSurface* const surface = vtmGetCurrentSurface();
     VtmContext* const other = vtmCreateContext(nullptr);
     VtmSurface* const own = vtmCreateSurface(4, 4, &format);
     ASSERT_TRUE(vtmMakeCurrent(other, own));
@@ -315,7 +297,7 @@ TEST_F(Projective, RationalCurvesNeedAProgramThatKnowsThem) {
     EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
     vgSeti(VGParamType(VG_CLIP_MODE_NDS), VG_CLIPMODE_NONE_NDS);
     EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
-    ASSERT_TRUE(vtmMakeCurrent(before, surface));
+    ASSERT_TRUE(vtmMakeCurrent(context, surface));
     vtmDestroyContext(other);
     vtmDestroySurface(own);
     const VGubyte beyond = 15 << 1;
