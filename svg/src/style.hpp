@@ -93,7 +93,4 @@ struct Property {
 /// Null for unknown names.
 const Property* findProperty(std::string_view name);
 
-/// `url(#id)`, `url("#id")`: what is in it. Stays where it is if there is none.
-std::optional<std::string_view> readUrl(Cursor& cursor);
-
 }  // namespace vtm::svg
