@@ -60,8 +60,11 @@ Property property(std::string_view name, bool attribute = true) {
 
 constexpr std::string_view geometryNames[]{"x", "y", "width", "height", "cx", "cy", "r", "rx", "ry", "d"};
 
+/// What is no length gives way to the attribute, as any declaration that is not valid does.
 template <std::size_t I>
-bool applyGeometry(Style& style, std::string_view value, const Units&) {
+bool applyGeometry(Style& style, std::string_view value, const Units& units) {
+    if (geometryNames[I] != "d" && !equalsIgnoringCase(value, "auto") && !parseLength(value, units))
+        return false;
     style.geometry.push_back({geometryNames[I], value});
     return true;
 }

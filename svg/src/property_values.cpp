@@ -116,7 +116,7 @@ std::optional<Dashes> parseDashes(std::string_view text, const Units& units) {
     auto dashes = std::make_shared<std::vector<Length>>();
     for (Cursor cursor(text); !cursor.atEnd(); cursor.skipCommaSpaces()) {
         const auto dash = readLength(cursor, units);
-        if (!dash)
+        if (!dash || dash->value < 0)
             return std::nullopt;
         dashes->push_back(*dash);
     }

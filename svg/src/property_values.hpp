@@ -22,6 +22,7 @@ std::optional<Length> parseWidth(std::string_view text, const Units&);
 std::optional<scene::Cap> parseCap(std::string_view text, const Units&);
 std::optional<scene::Join> parseJoin(std::string_view text, const Units&);
 std::optional<double> parseMiterLimit(std::string_view text, const Units&);
+/// None negative.
 std::optional<Dashes> parseDashes(std::string_view text, const Units&);
 std::optional<bool> parseVisibility(std::string_view text, const Units&);
 std::optional<bool> parseDisplay(std::string_view text, const Units&);

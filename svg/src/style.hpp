@@ -90,6 +90,9 @@ struct Property {
     void (*copy)(Style& to, const Style& from);
 };
 
+/// Whether a value is one of the property's, or a keyword that all properties have.
+bool isValid(const Property& property, std::string_view value);
+
 /// Null for unknown names.
 const Property* findProperty(std::string_view name);
 
