@@ -29,7 +29,8 @@ private:
     Location where_;
 };
 
-/// Something that was left out or repaired; names the element. The picture is drawn without it.
+/// Something that was left out or repaired; names the element, and the attribute or property if its value is
+/// not one of its own. The picture is drawn without it.
 struct Warning {
     Location where;
     std::string message;

@@ -14,6 +14,7 @@
 #include "asset/prefilter.hpp"
 #include "asset/testing_files.hpp"
 #include "compiler/compile.hpp"
+#include "conformance/generate/damage.hpp"
 #include "image/codec.hpp"
 #include "svg/load.hpp"
 
@@ -169,27 +170,6 @@ fs::path corpus() {
 
 class CorruptedFile : public BadInput, public testing::WithParamInterface<const char*> {};
 
-/// Overwrites, deletes, doubles or cuts off a few random bytes.
-void corrupt(Bytes& bytes, std::mt19937& random) {
-    const auto at = [&] { return std::ptrdiff_t(random() % bytes.size()); };
-    for (int i = 0; i < 8 && !bytes.empty(); ++i) {
-        const std::ptrdiff_t place = at();
-        switch (random() % 8) {
-            case 0:
-                bytes.erase(bytes.begin() + place);
-                break;
-            case 1:
-                bytes.insert(bytes.begin() + place, bytes[std::size_t(at())]);
-                break;
-            default:
-                bytes[std::size_t(place)] =
-                    std::uint8_t(random() % 3 != 0 ? '0' + random() % 10 : random() % 256);
-        }
-    }
-    if (random() % 8 == 0 && !bytes.empty())
-        bytes.resize(std::size_t(at()));
-}
-
 /// Drawing a large file takes long; reading 20 corruptions of it does not.
 constexpr int corruptions = 20, drawnCorruptions = 3;
 
@@ -198,13 +178,11 @@ TEST_P(CorruptedFile, IsDrawnOrRefused) {
     if (!fs::exists(path))
         GTEST_SKIP() << path << " is absent";
     const Bytes whole = image::readFile(path.string());
-    std::mt19937 random(20051u);  // any seed; fixed so that a failure can be repeated
+    std::mt19937_64 random(20051u);  // any seed; fixed so that a failure can be repeated
     int drawn = 0;
     for (int i = 0; i < corruptions; ++i) {
-        Bytes bytes = whole;
-        corrupt(bytes, random);
         try {
-            const scene::Scene scene = svg::load(bytes).scene;
+            const scene::Scene scene = svg::load(generate::damaged(whole, random)).scene;
             if (drawn++ < drawnCorruptions)
                 draw(scene);
         } catch (const svg::ParseError& error) {
@@ -226,14 +204,11 @@ TEST_F(BadInput, CorruptedIconsAreDrawnOrRefused) {
     if (!fs::exists(corpus() / "icons"))
         GTEST_SKIP() << corpus() / "icons"
                      << " is absent";
-    std::mt19937 random(20052u);
+    std::mt19937_64 random(20052u);
     for (const fs::directory_entry& entry : fs::directory_iterator(corpus() / "icons")) {
         const Bytes whole = image::readFile(entry.path().string());
-        for (int i = 0; i < corruptions; ++i) {
-            Bytes bytes = whole;
-            corrupt(bytes, random);
-            draw(bytes);
-        }
+        for (int i = 0; i < corruptions; ++i)
+            draw(generate::damaged(whole, random));
     }
 }
 
@@ -258,10 +233,9 @@ TEST_F(BadInput, CorruptedAssetsAreRefusedOrDrawn) {
     made.prefilter = asset::buildPrefilter(made, asset::PyramidSize{8, 8});
     const Bytes whole = asset::write(made);
     ASSERT_EQ(drawAsset(whole), Outcome::Picture);
-    std::mt19937 random(20053u);
+    std::mt19937_64 random(20053u);
     for (int i = 0; i < 1000; ++i) {
-        Bytes bytes = whole;
-        corrupt(bytes, random);
+        Bytes bytes = generate::damaged(whole, random);
         drawAsset(bytes);
         if (bytes.size() >= asset::test::headerBytes) {
             asset::test::fixChecksums(bytes);

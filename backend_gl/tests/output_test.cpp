@@ -1,80 +1,15 @@
 // Drawing into users' framebuffers: every promise of output.hpp, against render().
-#include <algorithm>
-#include <cmath>
-#include <functional>
+
 #include <random>
 #include <stdexcept>
 
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
-#include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
-#include "backend_gl/src/destination.hpp"
-#include "backend_gl/tests/gl_fixture.hpp"
-#include "backend_gl/tests/user_framebuffer.hpp"
+#include "backend_gl/tests/output_support.hpp"
 
 namespace vtm::gl {
 namespace {
-
-using asset::Asset;
-using asset::View;
-using namespace asset::test;
-using Color = std::array<double, 4>;
-
-constexpr double byteStep = 1.0 / 255;
-/// Of a stored byte against the number that was stored, with a hundredth of a step for the driver's
-/// arithmetic.
-constexpr double halfByte = 0.51 * byteStep;
-/// Of single precision and pow() on the way.
-constexpr double conversion = 1e-5;
-
-double decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-double encoded(double v) { return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-
-Color straight(const Color& c) {
-    Color result = c;
-    for (std::size_t i = 0; i < 3; ++i)
-        result[i] = c[3] > 0 ? std::min(c[i] / c[3], 1.0) : 0;
-    return result;
-}
-Color toLinear(const Color& c) {
-    Color result = straight(c);
-    for (std::size_t i = 0; i < 3; ++i)
-        result[i] = decoded(result[i]) * c[3];
-    return result;
-}
-Color identity(const Color& c) { return c; }
-
-Color pixelOf(const image::Raster& raster, int x, int y) {
-    const float* p = raster.pixel(x, y);
-    return {p[0], p[1], p[2], p[3]};
-}
-
-image::Raster rasterOf(const UserFramebuffer& target) {
-    image::Raster raster(target.width, target.height);
-    std::ranges::transform(target.bytes(), raster.rgba.begin(),
-                           [](std::uint8_t b) { return float(b) / 255.0f; });
-    return raster;
-}
-
-constexpr int side = 48;
-View turned() { return turnedView(side, side, {32, 32}, 0.7, 0.4); }
-
-std::vector<Asset> assets() { return {disc(), everyPaint(), layers()}; }
-
-/// The largest difference of the target's pixels to made(colour of render()).
-double worst(const image::Raster& drawn, const image::Raster& picture,
-             const std::function<Color(const Color&)>& made) {
-    double most = 0;
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) {
-            const Color expected = made(pixelOf(picture, x, y)), got = pixelOf(drawn, x, y);
-            for (std::size_t c = 0; c < 4; ++c)
-                most = std::max(most, std::abs(got[c] - expected[c]));
-        }
-    return most;
-}
 
 TEST_F(Gl, EveryFormatTakesThePicture) {
     for (const Asset& asset : assets()) {
@@ -136,30 +71,6 @@ TEST_F(Gl, ScannedPicturesAreTheShaders) {
                 }
         }
         scanning.draw(texture, turned());
-    }
-}
-
-TEST_F(Gl, StraightAndLinearColours) {
-    for (const Asset& asset : assets()) {
-        const Texture texture = renderer->upload(asset);
-        const image::Raster picture = renderer->render(texture, turned());
-        Output output;
-        output.alpha = Output::Alpha::Straight;
-        const UserFramebuffer straightTarget(GL_RGBA32F, side, side);
-        renderer->draw(texture, turned(), output);
-        const image::Raster drawn = straightTarget.floats();
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                const Color c = pixelOf(picture, x, y), s = straight(c), got = pixelOf(drawn, x, y);
-                EXPECT_NEAR(got[3], c[3], 1e-6);
-                for (std::size_t i = 0; i < 3; ++i)
-                    EXPECT_NEAR(got[i] * c[3], s[i] * c[3], conversion);
-            }
-        output.alpha = Output::Alpha::Premultiplied;
-        output.encoding = Output::Encoding::Linear;
-        const UserFramebuffer linear(GL_RGBA32F, side, side);
-        renderer->draw(texture, turned(), output);
-        EXPECT_LE(worst(linear.floats(), picture, toLinear), conversion);
     }
 }
 
@@ -320,115 +231,6 @@ TEST_F(Gl, OtherDrawBuffersKeepTheirPixels) {
     EXPECT_NE(first.bytes(), std::vector<std::uint8_t>(side * side * 4));
 }
 
-/// A ramp of a tenth of the range, so that 8 bits show steps.
-Asset shallowRamp() {
-    std::vector<asset::Texel> data;
-    const auto stop = [](float offset, std::uint16_t v) {
-        return asset::GradientStop{offset, {v, v, v, 65535}, 0};
-    };
-    asset::Gradient gradient;
-    gradient.matrix = {float(1 / mapSide), 0, 0, 0, 0, 0};
-    const std::uint32_t at = addGradient(data, gradient, {stop(0, 20000), stop(1, 26000)});
-    return programAsset({{asset::Op::Linear, {}, 1, at}}, data);
-}
-
-TEST_F(Gl, DitheringKeepsTheMeanAndExactColours) {
-    const View view{64, 64, {1, 0, 0, 1, 0, 0}};
-    for (const GLenum format : {GL_RGBA8, GL_SRGB8_ALPHA8}) {
-        const Texture ramp = renderer->upload(shallowRamp());
-        const image::Raster picture = renderer->render(ramp, view);
-        const UserFramebuffer target(format, 64, 64);
-        Output output;
-        output.dither = true;
-        renderer->draw(ramp, view, output);
-        const std::vector<std::uint8_t> drawn = target.bytes();
-        renderer->draw(ramp, view, output);
-        EXPECT_EQ(target.bytes(), drawn);
-        // The mean of eight rows of a column is the column's value to a 64th of the pattern's range: the
-        // offsets of eight rows of one column are spread evenly but for their order.
-        double worstMean = 0, worstPlain = 0;
-        for (int x = 0; x < 64; x += 8) {
-            double mean = 0, exact = 0, plain = 0;
-            for (int y = 0; y < 8; ++y)
-                for (int i = x; i < x + 8; ++i) {
-                    mean += drawn[std::size_t((y * 64 + i) * 4)] / 64.0;
-                    exact += 255 * picture.pixel(i, y)[0] / 64.0;
-                    plain += std::round(255 * picture.pixel(i, y)[0]) / 64.0;
-                }
-            worstMean = std::max(worstMean, std::abs(mean - exact));
-            worstPlain = std::max(worstPlain, std::abs(plain - exact));
-        }
-        EXPECT_LT(worstMean, 0.12);
-        EXPECT_GT(worstPlain, 2 * worstMean);
-        // 64/255 is a number that bytes hold.
-        Asset exact = emptyAsset();
-        exact.paints[1] = solid({64 / 255.0f, 128 / 255.0f, 1, 1});
-        exact.maps[0].root = asset::Entry::make(asset::Entry::Kind::Solid, 1);
-        renderer->draw(renderer->upload(exact), view, output);
-        const std::vector<std::uint8_t> same = target.bytes();
-        for (std::size_t i = 0; i < same.size(); i += 4)
-            ASSERT_TRUE(same[i] == 64 && same[i + 1] == 128 && same[i + 2] == 255 && same[i + 3] == 255);
-    }
-}
-
-TEST_F(Gl, LinearLightAddsLight) {
-    // Half black, half white: the mean of the light is 1/2 at a pixel that the border halves.
-    Asset asset = halfPlane(32767, 32767);
-    asset.paints[1] = solid({0, 0, 0, 1});
-    asset.paints[2] = solid({1, 1, 1, 1});
-    const View view{9, 9, {9 / mapSide, 0, 0, 9 / mapSide, 0, 0}};
-    const Texture texture = renderer->upload(asset);
-    GLint samples = 0;
-    glGetInternalformativ(GL_RENDERBUFFER, GL_RGBA16F, GL_SAMPLES, 1, &samples);
-    Output output;
-    output.linearLight = true;
-    const double share = pixelOf(renderer->render(texture, view), 4, 4)[0];
-    EXPECT_NEAR(share, 0.5, 1e-3);
-    const UserFramebuffer target(GL_RGBA32F, 9, 9);
-    renderer->draw(texture, view, output);
-    EXPECT_NEAR(pixelOf(target.floats(), 4, 4)[0], encoded(share), conversion);
-    EXPECT_NEAR(pixelOf(target.floats(), 2, 4)[0], 0, conversion);
-    EXPECT_NEAR(pixelOf(target.floats(), 7, 4)[0], 1, conversion);
-    output.encoding = Output::Encoding::Linear;
-    renderer->draw(texture, view, output);
-    EXPECT_NEAR(pixelOf(target.floats(), 4, 4)[0], share, conversion);
-    if (samples >= 2) {
-        const UserFramebuffer many(GL_RGBA16F, 9, 9, {}, samples);
-        output.encoding = Output::Encoding::Srgb;
-        renderer->draw(texture, view, output);
-        const UserFramebuffer resolved(GL_RGBA16F, 9, 9);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, many.framebuffer.get());
-        glBlitFramebuffer(0, 0, 9, 9, 0, 0, 9, 9, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        EXPECT_NEAR(pixelOf(resolved.floats(), 4, 4)[0], encoded(share), 0x1p-10);
-    }
-    target.bind();
-    EXPECT_THROW(renderer->draw(renderer->upload(layers()), view, output), std::invalid_argument);
-}
-
-/// Programs as well as solids, in every numbers a framebuffer may want.
-TEST_F(Gl, LinearLightOfPrograms) {
-    const Asset asset = blendAsset(asset::Blend::Normal);
-    const Texture texture = renderer->upload(asset);
-    const image::Raster picture = renderer->render(texture, turned());
-    Output output;
-    output.linearLight = true;
-    const UserFramebuffer target(GL_RGBA32F, side, side);
-    renderer->draw(texture, turned(), output);
-    const image::Raster drawn = target.floats();
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            const bool inside = x > 0 && y > 0 && x + 1 < side && y + 1 < side;
-            bool uniform = inside;  // pixels of one region, whose sum has one term
-            for (int dy = -1; uniform && dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx)
-                    uniform &= picture.pixel(x + dx, y + dy)[3] > 0;
-            if (!uniform)
-                continue;
-            for (int c = 0; c < 4; ++c)
-                ASSERT_NEAR(drawn.pixel(x, y)[c], picture.pixel(x, y)[c], 1e-4);
-        }
-}
-
 TEST_F(Gl, ContradictionsAndBadFramebuffersAreErrors) {
     const Texture texture = renderer->upload(disc());
     const UserFramebuffer target(GL_RGBA8, side, side, {1, 0, 0, 1});
@@ -476,30 +278,6 @@ TEST_F(Gl, BitmapsAreRastersInBytes) {
                     ASSERT_NEAR(bitmap.rgba[at], expected.rgba[at], 1) << at;
                 }
         }
-}
-
-TEST(Boxes, BecomeDisjointAndKeepTheirPixels) {
-    std::mt19937 random(8);
-    for (int round = 0; round < 50; ++round) {
-        std::vector<PixelBox> boxes;
-        for (int i = 0; i < 9; ++i) {
-            const glm::ivec2 corner(random() % 20, random() % 20);
-            boxes.push_back({corner, corner + glm::ivec2(random() % 12, random() % 12)});
-        }
-        std::array<int, 32 * 32> wanted{}, got{};
-        const auto mark = [](const PixelBox& box, std::array<int, 32 * 32>& in, bool count) {
-            for (int y = box.min.y; y < box.max.y; ++y)
-                for (int x = box.min.x; x < box.max.x; ++x) {
-                    int& cell = in.at(std::size_t(y * 32 + x));
-                    cell = count ? cell + 1 : 1;
-                }
-        };
-        for (const PixelBox& box : boxes)
-            mark(box, wanted, false);
-        for (const PixelBox& box : disjoint(boxes))
-            mark(box, got, true);
-        EXPECT_EQ(got, wanted);
-    }
 }
 
 }  // namespace

@@ -74,12 +74,21 @@ std::string_view sheetText(const Element& style, Tree& tree) {
     return tree.ownedText.emplace_back(withoutComments(text));
 }
 
-std::vector<Rule> readSheets(Tree& tree) {
+/// Declarations of known properties, whose values are none of theirs.
+void check(const Element& element, const std::vector<RawDeclaration>& declarations, Reporter& reporter) {
+    for (const RawDeclaration& raw : declarations)
+        if (const Property* property = findProperty(raw.name); property && !isValid(*property, raw.value))
+            reporter.warnInvalid(element, raw.name, raw.value);
+}
+
+std::vector<Rule> readSheets(Tree& tree, Reporter& reporter) {
     std::vector<Rule> rules;
     for (const Element& element : tree.elements)
         if (element.tag == Tag::Style && isCss(element))
-            for (Rule& rule : parseStyleSheet(sheetText(element, tree)))
+            for (Rule& rule : parseStyleSheet(sheetText(element, tree))) {
+                check(element, rule.declarations, reporter);
                 rules.push_back(std::move(rule));
+            }
     return rules;
 }
 
@@ -88,10 +97,23 @@ std::string_view cleaned(std::string_view text, Tree& tree) {
     return text.find("/*") == text.npos ? text : tree.ownedText.emplace_back(withoutComments(text));
 }
 
-void addPresentationAttributes(Element& element, Tree& tree) {
-    for (const Attribute& attribute : element.attributes)
-        if (const Property* property = findProperty(attribute.name); property && property->attribute)
-            element.declarations.push_back({property, trim(cleaned(attribute.value, tree))});
+/// Elsewhere attributes may be called like properties and mean something else, as `fill` of animations does.
+bool isStyled(Tag tag) {
+    constexpr Tag others[]{Tag::Unknown,         Tag::Foreign, Tag::Animation, Tag::Descriptive,
+                           Tag::FilterPrimitive, Tag::Script,  Tag::Style};
+    return std::find(std::begin(others), std::end(others), tag) == std::end(others);
+}
+
+void addPresentationAttributes(Element& element, Tree& tree, Reporter& reporter) {
+    for (const Attribute& attribute : element.attributes) {
+        const Property* property = findProperty(attribute.name);
+        if (!property || !property->attribute)
+            continue;
+        const std::string_view value = trim(cleaned(attribute.value, tree));
+        if (isStyled(element.tag) && !isValid(*property, value))
+            reporter.warnInvalid(element, attribute.name, attribute.value);
+        element.declarations.push_back({property, value});
+    }
 }
 
 void add(Element& element, const std::vector<RawDeclaration>& declarations, bool important) {
@@ -100,9 +122,11 @@ void add(Element& element, const std::vector<RawDeclaration>& declarations, bool
             element.declarations.push_back({property, raw.value});
 }
 
-void addAll(Element& element, const std::vector<Candidate>& rules, Tree& tree) {
-    addPresentationAttributes(element, tree);
+void addAll(Element& element, const std::vector<Candidate>& rules, Tree& tree, Reporter& reporter) {
+    addPresentationAttributes(element, tree, reporter);
     const auto style = parseDeclarations(cleaned(element.get("style"), tree));
+    if (isStyled(element.tag))
+        check(element, style, reporter);
     for (const bool important : {false, true}) {
         for (const Candidate& candidate : rules)
             add(element, candidate.rule->declarations, important);
@@ -113,14 +137,14 @@ void addAll(Element& element, const std::vector<Candidate>& rules, Tree& tree) {
 }  // namespace
 
 void cascade(Tree& tree, Reporter& reporter) {
-    const std::vector<Rule> rules = readSheets(tree);
+    const std::vector<Rule> rules = readSheets(tree, reporter);
     SelectorIndex index;
     for (const Rule& rule : rules)
         index.add(rule);
     long steps = maxMatchingSteps;
     for (Element& element : tree.elements)
         if (element.tag != Tag::CharacterData)
-            addAll(element, index.match(element, steps), tree);
+            addAll(element, index.match(element, steps), tree, reporter);
     if (steps <= 0)
         reporter.warn(*tree.root, "the style sheets are too expensive to match; some rules are left out");
 }

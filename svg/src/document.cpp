@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "svg/src/attributes.hpp"
 #include "svg/src/cascade.hpp"
 #include "svg/src/converter.hpp"
 #include "svg/src/decode.hpp"
@@ -24,6 +25,7 @@ std::unique_ptr<ParsedDocument> parseDocument(std::span<const std::uint8_t> byte
     document->map = SourceMap(options.fileName, text);
     text = expandEntities(std::move(text), document->map);
     document->tree = parseXml(std::move(text), document->map);
+    checkAttributes(*document->tree, document->reporter);
     cascade(*document->tree, document->reporter);
     return document;
 }

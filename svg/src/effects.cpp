@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "svg/src/converter.hpp"
+#include "svg/src/property_values.hpp"
 
 namespace vtm::svg {
 namespace {

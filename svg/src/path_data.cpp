@@ -18,13 +18,17 @@ public:
     ParsedPath read() {
         in_.skipSpaces();
         bool complete = in_.atEnd() || upper(in_.peek()) == 'M';
+        std::string_view unread = in_.rest();
         while (complete && !in_.atEnd()) {
-            const char letter = in_.peek();
+            const std::string_view command = in_.rest();
             in_.advance();
-            complete = commands(letter);
+            in_.skipSpaces();
+            const std::string_view numbers = in_.rest();
+            complete = commands(command.front());
+            unread = in_.rest().size() < numbers.size() ? in_.rest() : command;
             in_.skipSpaces();
         }
-        return {std::move(path_), complete};
+        return {std::move(path_), complete, complete ? std::string_view{} : unread};
     }
 
 private:
@@ -187,12 +191,14 @@ ParsedPath parsePoints(std::string_view text) {
     Cursor in(text);
     in.skipSpaces();
     while (!in.atEnd()) {
+        const std::string_view point = in.rest();
         const auto x = in.number();
         in.skipCommaSpaces();
         const auto y = in.number();
         in.skipCommaSpaces();
         if (!x || !y) {
             parsed.complete = false;
+            parsed.unread = in.atEnd() ? in.rest() : point;
             break;
         }
         if (parsed.path.empty())

@@ -11,7 +11,8 @@ namespace vtm::svg {
 /// What was read up to the first error, as SVG 2 section 9.5.4 asks for.
 struct ParsedPath {
     scene::Path path;
-    bool complete = true;  ///< false where an error ended it
+    bool complete = true;       ///< false where an error ended it
+    std::string_view unread{};  ///< from the error on; empty where the text ends too early
 };
 
 ParsedPath parsePathData(std::string_view text);

@@ -56,7 +56,7 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
         return Invalid{};
     const Style& style = styleOf(server);
     const Rect tile = tileOf(chain, boxUnits, scope.viewport, unitsFor(style), box);
-    if (!(tile.width > 0 && tile.height > 0))
+    if (!(tile.width > 0 && tile.height > 0) || isEmptyViewBox(inherited(chain, "viewBox")))
         return Nothing{};
     // Without a viewBox the content's origin is the tile's corner.
     const scene::Affine scale = boxContent ? scene::scaling(box.width(), box.height()) : scene::identity;

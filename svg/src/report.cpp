@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "svg/src/cursor.hpp"
+
 namespace vtm::svg {
 
 ParseError::ParseError(Location where, const std::string& what)
@@ -31,6 +33,21 @@ Location SourceMap::at(std::size_t parsedOffset) const {
         return atSource(parsedOffset);
     const Piece& piece = next[-1];
     return atSource(piece.source + (piece.fixed ? 0 : parsedOffset - piece.parsed));
+}
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::size_t size = std::min(text.size(), longest);
+    const auto isInsideCharacter = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+    while (size < text.size() && size > 0 && isInsideCharacter(text[size]))
+        --size;
+    std::string shown(text.substr(0, size));
+    std::replace_if(shown.begin(), shown.end(), isSpace, ' ');
+    return fmt::format("\"{}{}\"", shown, size < text.size() ? "…" : "");
+}
+
+void Reporter::warnInvalid(const Element& element, std::string_view attribute, std::string_view value) {
+    warn(element, fmt::format("{}={} is not valid; it is ignored", attribute, quoted(value)));
 }
 
 void Reporter::warn(const Element& element, const std::string& what) {

@@ -38,6 +38,9 @@ private:
     std::vector<Piece> pieces_;
 };
 
+/// `"text"` on one line, cut short if it is long.
+std::string quoted(std::string_view text);
+
 /// Collects warnings, each once a place, up to a limit.
 class Reporter {
 public:
@@ -47,6 +50,8 @@ public:
 
     /// `<name>: what`
     void warn(const Element& element, const std::string& what);
+    /// `<name>: attribute="value" is not valid; it is ignored`
+    void warnInvalid(const Element& element, std::string_view attribute, std::string_view value);
     std::vector<Warning>& warnings() const { return warnings_; }
 
 private:

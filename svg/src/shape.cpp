@@ -17,7 +17,7 @@ Converter::CachedShape* Converter::shapeOf(const Element& element, const Scope& 
         cached.path && cached.viewport == scope.viewport && cached.fontSize == scope.style.fontSize;
     if (!fresh) {
         Shape shape = makeShape(lengths(element, scope));
-        if (shape.problem)
+        if (!shape.problem.empty())
             reporter_.warn(element, shape.problem);
         if (!isDrawable(shape.path, scene::identity)) {
             reporter_.warn(element, "a coordinate is too large; it is left out");
@@ -132,11 +132,7 @@ void Converter::addDashes(const Element& element, const Scope& scope, CachedShap
         stroke.dashes.push_back(resolve(dash, Axis::Diagonal, scope.viewport) * scale);
         sum += stroke.dashes.back();
     }
-    const bool valid =
-        std::all_of(stroke.dashes.begin(), stroke.dashes.end(), [](double dash) { return dash >= 0; });
-    if (!valid || !(sum > 0) || sum > maxCoordinate) {
-        if (!valid)
-            reporter_.warn(element, "stroke-dasharray has a negative value; it is ignored");
+    if (!(sum > 0) || sum > maxCoordinate) {
         stroke.dashes.clear();
         return;
     }

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "svg/src/path_data.hpp"
+#include "svg/src/report.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -68,11 +69,20 @@ Shape line(const LengthReader& reader) {
              scene::LineTo{{reader.lengthOr("x2", Axis::X, 0), reader.lengthOr("y2", Axis::Y, 0)}}}};
 }
 
+/// What is wrong with data that was read up to an error; empty if it was not.
+std::string problemOf(std::string_view name, const ParsedPath& parsed) {
+    if (parsed.complete)
+        return {};
+    const std::string at =
+        parsed.unread.empty() ? " ends too early" : " is malformed at " + quoted(parsed.unread);
+    return std::string(name) + at + "; it is read up to there";
+}
+
 Shape polyline(const LengthReader& reader, bool closed) {
     ParsedPath parsed = parsePoints(reader.element.get("points"));
-    const char* problem = parsed.complete ? nullptr : "the list of points is malformed";
+    const std::string problem = problemOf("points", parsed);
     if (parsed.path.size() < 2)
-        return {{}, problem ? problem : "there are fewer than two points"};
+        return {{}, problem.empty() ? "there are fewer than two points" : problem};
     if (closed)
         parsed.path.push_back(scene::Close{});
     return {std::move(parsed.path), problem};
@@ -91,7 +101,8 @@ std::string_view pathText(std::string_view text) {
 
 Shape path(const LengthReader& reader) {
     ParsedPath parsed = parsePathData(pathText(reader.text("d")));
-    return {std::move(parsed.path), parsed.complete ? nullptr : "the path data is malformed"};
+    const std::string problem = problemOf("d", parsed);
+    return {std::move(parsed.path), problem};
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ struct LengthReader {
 };
 
 struct Shape {
-    scene::Path path;               ///< empty: nothing to draw
-    const char* problem = nullptr;  ///< what is wrong with the element, if anything
+    scene::Path path;       ///< empty: nothing to draw
+    std::string problem{};  ///< what is wrong with the element; empty: nothing
 };
 
 bool isShape(Tag tag);

@@ -8,9 +8,12 @@ const Style& initialStyle() {
     return style;
 }
 
-/// CSS-wide keywords (CSS Cascade 4 section 7.3).
+/// CSS-wide keywords (CSS Cascade 4 section 7.3); no other style sheet stands behind the author's, to which
+/// `revert` could go back.
 bool applyKeyword(Style& style, const Style& parent, const Property& property, std::string_view value) {
-    if (equalsIgnoringCase(value, "inherit")) {
+    // currentColor as the colour itself is the parent's (CSS Color 4 section 9.3).
+    if (equalsIgnoringCase(value, "inherit") ||
+        (property.name == "color" && equalsIgnoringCase(value, "currentColor"))) {
         property.copy(style, parent);
         return true;
     }
@@ -18,7 +21,7 @@ bool applyKeyword(Style& style, const Style& parent, const Property& property, s
         property.copy(style, initialStyle());
         return true;
     }
-    if (equalsIgnoringCase(value, "unset")) {
+    if (equalsIgnoringCase(value, "unset") || equalsIgnoringCase(value, "revert")) {
         property.copy(style, property.inherited ? parent : initialStyle());
         return true;
     }
@@ -41,6 +44,11 @@ Style computeStyle(const Element& element, const Style& parent, Units units) {
         units.fontSize = style.fontSize;
     }
     return style;
+}
+
+bool isValid(const Property& property, std::string_view value) {
+    Style style;
+    return applyKeyword(style, initialStyle(), property, value) || property.apply(style, value, {});
 }
 
 scene::Color resolveColor(const ColorValue& value, const Style& style) {

@@ -90,10 +90,10 @@ struct Property {
     void (*copy)(Style& to, const Style& from);
 };
 
+/// Whether a value is one of the property's, or a keyword that all properties have.
+bool isValid(const Property& property, std::string_view value);
+
 /// Null for unknown names.
 const Property* findProperty(std::string_view name);
-
-/// `url(#id)`, `url("#id")`: what is in it. Stays where it is if there is none.
-std::optional<std::string_view> readUrl(Cursor& cursor);
 
 }  // namespace vtm::svg

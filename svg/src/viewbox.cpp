@@ -18,9 +18,7 @@ std::optional<double> readAlignment(Cursor& cursor) {
     return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<Rect> parseViewBox(std::string_view text) {
+std::optional<Rect> readRect(std::string_view text) {
     Cursor cursor(text);
     std::array<double, 4> values{};
     for (double& value : values) {
@@ -30,27 +28,41 @@ std::optional<Rect> parseViewBox(std::string_view text) {
             return std::nullopt;
         value = *number;
     }
-    if (values[2] <= 0 || values[3] <= 0)
-        return std::nullopt;
     return Rect{values[0], values[1], values[2], values[3]};
 }
 
-AspectRatio parseAspectRatio(std::string_view text) {
-    Cursor cursor(text);
-    cursor.skipSpaces();
+}  // namespace
+
+std::optional<Rect> parseViewBox(std::string_view text) {
+    const auto rect = readRect(text);
+    return rect && rect->width > 0 && rect->height > 0 ? rect : std::nullopt;
+}
+
+bool isEmptyViewBox(std::string_view text) {
+    const auto rect = readRect(text);
+    return rect && std::min(rect->width, rect->height) == 0;
+}
+
+std::optional<AspectRatio> readAspectRatio(std::string_view text) {
+    Cursor cursor(trim(text));
     if (cursor.consume("defer"))
         cursor.skipSpaces();
     AspectRatio ratio;
     if (cursor.consume("none")) {
         ratio.keep = false;
-        return ratio;
+    } else {
+        const auto x = cursor.consume('x') ? readAlignment(cursor) : std::nullopt;
+        const auto y = cursor.consume('Y') ? readAlignment(cursor) : std::nullopt;
+        if (!x || !y)
+            return std::nullopt;
+        ratio.alignX = *x;
+        ratio.alignY = *y;
     }
-    const auto x = cursor.consume('x') ? readAlignment(cursor) : std::nullopt;
-    const auto y = cursor.consume('Y') ? readAlignment(cursor) : std::nullopt;
-    if (!x || !y)
-        return {};
     cursor.skipSpaces();
-    return {true, *x, *y, cursor.consume("slice")};
+    ratio.slice = cursor.consume("slice");
+    if (!ratio.slice)
+        cursor.consume("meet");
+    return cursor.atEnd() ? std::optional(ratio) : std::nullopt;
 }
 
 Rect fittedRect(double contentWidth, double contentHeight, const AspectRatio& ratio, const Rect& viewport) {

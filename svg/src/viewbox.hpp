@@ -18,14 +18,20 @@ struct Rect {
 /// Nothing unless there are four numbers and both sizes are positive.
 std::optional<Rect> parseViewBox(std::string_view text);
 
+/// Four numbers, one size 0 and none negative: nothing of the element is drawn (SVG 2 section 8.6).
+bool isEmptyViewBox(std::string_view text);
+
 struct AspectRatio {
     bool keep = true;                   ///< false: none
     double alignX = 0.5, alignY = 0.5;  ///< 0: min, 1: max
     bool slice = false;
 };
 
+std::optional<AspectRatio> readAspectRatio(std::string_view text);
 /// The default, xMidYMid meet, for anything malformed.
-AspectRatio parseAspectRatio(std::string_view text);
+inline AspectRatio parseAspectRatio(std::string_view text) {
+    return readAspectRatio(text).value_or(AspectRatio{});
+}
 
 /// Where `content` lies once fitted into `viewport`.
 Rect fittedRect(double contentWidth, double contentHeight, const AspectRatio& ratio, const Rect& viewport);

@@ -80,6 +80,11 @@ void Converter::convertViewport(const Element& element, const Rect& viewport, co
         reporter_.warn(element, "width and height must be positive; it is left out");
         return;
     }
+    if (isEmptyViewBox(element.get("viewBox"))) {
+        reporter_.warn(element,
+                       "viewBox=" + quoted(element.get("viewBox")) + " is empty; nothing of it is drawn");
+        return;
+    }
     const auto viewBox = parseViewBox(element.get("viewBox"));
     const scene::Affine inner =
         viewBox ? fit(*viewBox, parseAspectRatio(element.get("preserveAspectRatio")), viewport)

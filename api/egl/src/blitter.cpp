@@ -1,32 +1,11 @@
 #include "api/egl/src/blitter.hpp"
 
-#include <GLES3/gl3.h>
-
 #include "api/egl/src/gl_current.hpp"
+#include "api/egl/src/gl_functions.hpp"
 
 namespace vtm::egl {
 
 namespace {
-
-/// The functions of OpenGL ES 2 that a picture on a surface takes.
-struct Gl {
-#define VTM_EGL_GL(f)                                                                                       \
-    f(ActiveTexture) f(AttachShader) f(BindAttribLocation) f(BindTexture) f(CompileShader) f(CreateProgram) \
-        f(CreateShader) f(Disable) f(DrawArrays) f(EnableVertexAttribArray) f(Finish) f(GenTextures)        \
-            f(GetError) f(ReadPixels) f(GetProgramiv) f(LinkProgram) f(ShaderSource) f(TexImage2D)          \
-                f(TexParameteri) f(UseProgram) f(VertexAttribPointer) f(Viewport)
-#define VTM_EGL_GL_MEMBER(name)  \
-    decltype(&::gl##name) name = \
-        reinterpret_cast<decltype(&::gl##name)>(systemEgl()->GetProcAddress("gl" #name));
-    VTM_EGL_GL(VTM_EGL_GL_MEMBER)
-#undef VTM_EGL_GL_MEMBER
-#undef VTM_EGL_GL
-};
-
-const Gl& gl() {
-    static const Gl functions;
-    return functions;
-}
 
 constexpr const char* vertexShader =
     "attribute vec2 corner;\n"

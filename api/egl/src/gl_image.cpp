@@ -1,31 +1,12 @@
 #include "api/egl/src/gl_image.hpp"
 
-#include <GLES3/gl3.h>
-
 #include "api/egl/src/configs.hpp"
 #include "api/egl/src/gl_current.hpp"
+#include "api/egl/src/gl_functions.hpp"
 
 namespace vtm::egl {
 
 namespace {
-
-/// The functions of OpenGL ES 2 that copying takes.
-struct Gl {
-#define VTM_EGL_GL(f)                                                                                     \
-    f(BindFramebuffer) f(BindTexture) f(FramebufferTexture2D) f(Finish) f(GenFramebuffers) f(GenTextures) \
-        f(GetError) f(ReadPixels) f(TexImage2D) f(TexParameteri) f(TexSubImage2D)
-#define VTM_EGL_GL_MEMBER(name)  \
-    decltype(&::gl##name) name = \
-        reinterpret_cast<decltype(&::gl##name)>(systemEgl()->GetProcAddress("gl" #name));
-    VTM_EGL_GL(VTM_EGL_GL_MEMBER)
-#undef VTM_EGL_GL_MEMBER
-#undef VTM_EGL_GL
-};
-
-const Gl& gl() {
-    static const Gl functions;
-    return functions;
-}
 
 /// By which OpenGL ES 2 draws into pbuffers. Throws Error.
 EGLConfig anyGlConfig(const Display& display) {

@@ -9,26 +9,13 @@
 namespace vtm::egl::testing {
 namespace {
 
-class Contexts : public EglTest {
+class Contexts : public ContextTest {
 protected:
-    void SetUp() override {
-        EglTest::SetUp();
-        c = config(8, 8, 8, 8);
-        surface = pbuffer(c);
-        ctx = context(c);
-    }
-
     EGLint queryContext(EGLContext handle, EGLint name) const {
         EGLint result = -12345;
         EXPECT_TRUE(eglQueryContext(display, handle, name, &result));
         return result;
     }
-
-    bool makeCurrent(EGLSurface s, EGLContext handle) const { return eglMakeCurrent(display, s, s, handle); }
-
-    EGLConfig c = nullptr;
-    EGLSurface surface = EGL_NO_SURFACE;
-    EGLContext ctx = EGL_NO_CONTEXT;
 };
 
 TEST_F(Contexts, AreCurrentUntilTheyAreNot) {

@@ -14,14 +14,11 @@ namespace {
 
 EGLClientBuffer bufferOf(VGImage image) { return reinterpret_cast<EGLClientBuffer>(std::uintptr_t(image)); }
 
-class EglImages : public EglTest {
+class EglImages : public ContextTest {
 protected:
     void SetUp() override {
-        EglTest::SetUp();
-        c = config(8, 8, 8, 8);
-        surface = pbuffer(c);
-        ctx = context(c);
-        ASSERT_EGL(eglMakeCurrent(display, surface, surface, ctx));
+        ContextTest::SetUp();
+        ASSERT_EGL(makeCurrent(surface, ctx));
         image = vg.createImage(VG_sRGBA_8888, 2, 2, VG_IMAGE_QUALITY_NONANTIALIASED);
     }
 
@@ -43,9 +40,6 @@ protected:
     decltype(&::vgCreateEGLImageTargetKHR) createTarget =
         function<decltype(::vgCreateEGLImageTargetKHR)>("vgCreateEGLImageTargetKHR");
     decltype(&::vgImageSubData) imageSubData = function<decltype(::vgImageSubData)>("vgImageSubData");
-    EGLConfig c = nullptr;
-    EGLSurface surface = EGL_NO_SURFACE;
-    EGLContext ctx = EGL_NO_CONTEXT;
     VGImage image = VG_INVALID_HANDLE;
 };
 

@@ -92,6 +92,23 @@ protected:
     EGLDisplay display = EGL_NO_DISPLAY;
 };
 
+/// There is a pbuffer and a context of OpenVG of one config; neither is current.
+class ContextTest : public EglTest {
+protected:
+    void SetUp() override {
+        EglTest::SetUp();
+        c = config(8, 8, 8, 8);
+        surface = pbuffer(c);
+        ctx = context(c);
+    }
+
+    bool makeCurrent(EGLSurface s, EGLContext handle) const { return eglMakeCurrent(display, s, s, handle); }
+
+    EGLConfig c = nullptr;
+    EGLSurface surface = EGL_NO_SURFACE;
+    EGLContext ctx = EGL_NO_CONTEXT;
+};
+
 /// OpenVG's, as far as the tests draw.
 struct Vg {
     decltype(&::vgClear) clear = function<decltype(::vgClear)>("vgClear");

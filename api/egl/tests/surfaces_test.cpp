@@ -161,16 +161,13 @@ TEST_F(Surfaces, WindowsNeedADisplayThatHasThem) {
     EXPECT_EGL_ERROR(EGL_BAD_MATCH);
 }
 
-class Images : public EglTest {
+class Images : public ContextTest {
 protected:
     void SetUp() override {
-        EglTest::SetUp();
+        ContextTest::SetUp();
         if (!vg)
             GTEST_SKIP() << "this libOpenVG does not draw";
-        c = config(8, 8, 8, 8);
-        surface = pbuffer(c);
-        ctx = context(c);
-        ASSERT_EGL(eglMakeCurrent(display, surface, surface, ctx));
+        ASSERT_EGL(makeCurrent(surface, ctx));
     }
 
     EGLSurface bound(VGImage image, EGLConfig of, Attributes attributes = {}) const {
@@ -181,9 +178,6 @@ protected:
     }
 
     const Vg vg;
-    EGLConfig c = nullptr;
-    EGLSurface surface = EGL_NO_SURFACE;
-    EGLContext ctx = EGL_NO_CONTEXT;
 };
 
 TEST_F(Images, AreDrawnInto) {

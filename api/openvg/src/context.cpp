@@ -122,9 +122,7 @@ VtmSurface* vtmCreateSurface(VGint width, VGint height, const VtmSurfaceFormat* 
 }
 
 VtmSurface* vtmCreateImageSurface(VtmContext* context, VGImage image, VGint maskBits, VGErrorCode* error) {
-    VGErrorCode code = VG_NO_ERROR;
-    VtmSurface* result = nullptr;
-    try {
+    return madeOrNull(error, [&] {
         require(context != nullptr && isMask(maskBits));
         const std::lock_guard lock(context->objects->mutex);
         const std::shared_ptr<Image> target = context->objects->get<Image>(image);
@@ -138,15 +136,8 @@ VtmSurface* vtmCreateImageSurface(VtmContext* context, VGImage image, VGint mask
         surface->isImage = true;
         if (maskBits != 0)
             surface->mask.emplace(target->width(), target->height());
-        result = surface.release();
-    } catch (const Error& e) {
-        code = e.code;
-    } catch (const std::bad_alloc&) {
-        code = VG_OUT_OF_MEMORY_ERROR;
-    }
-    if (error)
-        *error = code;
-    return result;
+        return surface.release();
+    });
 }
 
 void vtmDestroySurface(VtmSurface* surface) {

@@ -2,7 +2,6 @@
 /// The drawing context, and how every function of the API gets to it (specification section 4).
 #pragma once
 
-#include <exception>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -50,16 +49,13 @@ Result callOr(Result otherwise, Body&& body) noexcept {
     Context* const context = currentContext();
     if (!context)
         return otherwise;
-    try {
+    Result result = otherwise;
+    const VGErrorCode code = errorOf([&] {
         const std::lock_guard lock(context->objects->mutex);
-        return std::forward<Body>(body)(*context);
-    } catch (const Error& error) {
-        setError(*context, error.code);
-    } catch (const std::exception&) {
-        // What is left are allocations, and limits of ours that a call went beyond.
-        setError(*context, VG_OUT_OF_MEMORY_ERROR);
-    }
-    return otherwise;
+        result = std::forward<Body>(body)(*context);
+    });
+    setError(*context, code);
+    return result;
 }
 
 template <class Body>

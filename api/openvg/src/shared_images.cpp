@@ -62,19 +62,10 @@ std::shared_ptr<const SharedPixels> shared(Context& context, VGImage handle) {
 using namespace vtm::openvg;
 
 VtmSharedImage* vtmShareImage(VtmContext* context, VGImage handle, VGErrorCode* error) {
-    VGErrorCode code = VG_NO_ERROR;
-    VtmSharedImage* result = nullptr;
-    try {
+    return madeOrNull(error, [&] {
         require(context != nullptr, VG_BAD_HANDLE_ERROR);
-        result = new VtmSharedImage(shared(*context, handle));
-    } catch (const Error& e) {
-        code = e.code;
-    } catch (const std::bad_alloc&) {
-        code = VG_OUT_OF_MEMORY_ERROR;
-    }
-    if (error)
-        *error = code;
-    return result;
+        return new VtmSharedImage(shared(*context, handle));
+    });
 }
 
 void vtmDestroySharedImage(VtmSharedImage* image) {

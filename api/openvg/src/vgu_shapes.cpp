@@ -26,6 +26,8 @@ struct Shape {
 
 VGUErrorCode vguError(VGErrorCode code) {
     switch (code) {
+        case VG_NO_ERROR:
+            return VGU_NO_ERROR;
         case VG_BAD_HANDLE_ERROR:
         case VG_NO_CONTEXT_ERROR:
             return VGU_BAD_HANDLE_ERROR;
@@ -42,7 +44,7 @@ VGUErrorCode vguError(VGErrorCode code) {
 template <class Make>
 VGUErrorCode append(VGPath handle, bool isLegal, Make&& make) {
     return callOr(VGU_BAD_HANDLE_ERROR, [&](Context& context) {
-        try {
+        return vguError(errorOf([&] {
             const std::shared_ptr<Path> path = context.objects->get<Path>(handle);
             require(path->capabilities & VG_PATH_CAPABILITY_APPEND_TO, VG_PATH_CAPABILITY_ERROR);
             require(isLegal);
@@ -50,12 +52,7 @@ VGUErrorCode append(VGPath handle, bool isLegal, Make&& make) {
             make(shape);
             path->data.append(shape.commands, shape.coordinates);
             path->masks.clear();
-            return VGU_NO_ERROR;
-        } catch (const Error& error) {
-            return vguError(error.code);
-        } catch (const std::bad_alloc&) {
-            return VGU_OUT_OF_MEMORY_ERROR;
-        }
+        }));
     });
 }
 

@@ -14,11 +14,8 @@ class EglImage : public Extensions {
 protected:
     void SetUp() override {
         Extensions::SetUp();
-        first_ = vtmGetCurrentContext();
-        firstSurface_ = vtmGetCurrentSurface();
         second_ = vtmCreateContext(nullptr);
-        const VtmSurfaceFormat format{8, 8, 8, 8, 0, 8, VG_FALSE, VG_FALSE};
-        secondSurface_ = vtmCreateSurface(4, 4, &format);
+        secondSurface_ = vtmCreateSurface(4, 4, &vtm::openvg::testing::sRGBA8888);
     }
     void TearDown() override {
         vtmMakeCurrent(second_, secondSurface_);
@@ -29,24 +26,24 @@ protected:
         Extensions::TearDown();
     }
 
-    void useFirst() const { ASSERT_TRUE(vtmMakeCurrent(first_, firstSurface_)); }
+    void useFirst() const { ASSERT_TRUE(vtmMakeCurrent(context, surface)); }
     void useSecond() const { ASSERT_TRUE(vtmMakeCurrent(second_, secondSurface_)); }
 
     /// Shared under the name of its own address.
     VtmSharedImage* share(VGImage image) const {
-        VtmSharedImage* const shared = vtmShareImage(first_, image, nullptr);
+        VtmSharedImage* const shared = vtmShareImage(context, image, nullptr);
         EXPECT_NE(shared, nullptr);
         EXPECT_TRUE(vtmNameSharedImage(shared, shared));
         return shared;
     }
     VGErrorCode errorOfSharing(VGImage image) const {
         VGErrorCode error = VG_NO_ERROR;
-        EXPECT_EQ(vtmShareImage(first_, image, &error), nullptr);
+        EXPECT_EQ(vtmShareImage(context, image, &error), nullptr);
         return error;
     }
 
-    VtmContext *first_ = nullptr, *second_ = nullptr;
-    VtmSurface *firstSurface_ = nullptr, *secondSurface_ = nullptr;
+    VtmContext* second_ = nullptr;
+    VtmSurface* secondSurface_ = nullptr;
 };
 
 TEST_F(EglImage, IsAnExtension) {
@@ -166,27 +163,27 @@ TEST_F(EglImage, SiblingsAreNotSharedAgain) {
 TEST_F(EglImage, SiblingsAreNoSurfaces) {
     const VGImage source = image(sRGBA, width, height, noise(width * height * 4));
     VGErrorCode error = VG_NO_ERROR;
-    VtmSurface* const surface = vtmCreateImageSurface(first_, source, 0, &error);
-    ASSERT_NE(surface, nullptr);
+    VtmSurface* const onSource = vtmCreateImageSurface(context, source, 0, &error);
+    ASSERT_NE(onSource, nullptr);
     EXPECT_EQ(errorOfSharing(source), VG_IMAGE_IN_USE_ERROR);
-    vtmDestroySurface(surface);
+    vtmDestroySurface(onSource);
     VtmSharedImage* const shared = share(source);
     const VGImage target = vgCreateEGLImageTargetKHR(shared);
     for (const VGImage sibling : {source, target}) {
-        EXPECT_EQ(vtmCreateImageSurface(first_, sibling, 0, &error), nullptr);
+        EXPECT_EQ(vtmCreateImageSurface(context, sibling, 0, &error), nullptr);
         EXPECT_EQ(error, VG_IMAGE_IN_USE_ERROR);
     }
     // Not even the last that is left: a target is one for good.
     vgDestroyImage(source);
     vtmDestroySharedImage(shared);
-    EXPECT_EQ(vtmCreateImageSurface(first_, target, 0, &error), nullptr);
+    EXPECT_EQ(vtmCreateImageSurface(context, target, 0, &error), nullptr);
     EXPECT_EQ(error, VG_IMAGE_IN_USE_ERROR);
 }
 
 TEST_F(EglImage, NamesAreOfOneAtATime) {
     int place = 0, other = 0;
-    VtmSharedImage* const a = vtmShareImage(first_, image(sRGBA, 1, 1, noise(4)), nullptr);
-    VtmSharedImage* const b = vtmShareImage(first_, image(sRGBA, 2, 1, noise(8)), nullptr);
+    VtmSharedImage* const a = vtmShareImage(context, image(sRGBA, 1, 1, noise(4)), nullptr);
+    VtmSharedImage* const b = vtmShareImage(context, image(sRGBA, 2, 1, noise(8)), nullptr);
     const auto widthOf = [](void* name) {
         return vgGetParameteri(vgCreateEGLImageTargetKHR(name), VG_IMAGE_WIDTH);
     };

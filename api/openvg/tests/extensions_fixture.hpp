@@ -1,5 +1,6 @@
 /// \file
-/// What the tests of extensions share: a context, bytes in and out of images and the surface.
+/// What the tests of extensions share besides: bytes in and out of images and the surface, colours as
+/// numbers.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +17,8 @@
 #include <VG/vgext.h>
 #include <VG/vgu.h>
 #include <vtm/vg.h>
+
+#include "api/openvg/tests/fixture.hpp"
 
 namespace extensions {
 
@@ -61,24 +64,17 @@ inline constexpr auto sRGBA = VGImageFormat(VG_sABGR_8888), sRGBA_PRE = VGImageF
                       lRGBA = VGImageFormat(VG_lABGR_8888), lRGBA_PRE = VGImageFormat(VG_lABGR_8888_PRE);
 
 /// A premultiplied sRGB surface of `side` times `side` pixels; row 0 is at the bottom.
-class Extensions : public testing::Test {
+class Extensions : public vtm::openvg::testing::VgTest {
 protected:
     static constexpr int side = 32;
 
+    Extensions() : VgTest(side, side, {8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE}) {}
+
     void SetUp() override {
-        const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
-        surface_ = vtmCreateSurface(side, side, &format);
-        context_ = vtmCreateContext(nullptr);
-        ASSERT_TRUE(vtmMakeCurrent(context_, surface_));
         vgSeti(VG_RENDERING_QUALITY, VG_RENDERING_QUALITY_NONANTIALIASED);
         vgSeti(VG_IMAGE_QUALITY, VG_IMAGE_QUALITY_NONANTIALIASED);
     }
-    void TearDown() override {
-        EXPECT_EQ(vgGetError(), VG_NO_ERROR);
-        vtmMakeCurrent(nullptr, nullptr);
-        vtmDestroyContext(context_);
-        vtmDestroySurface(surface_);
-    }
+    void TearDown() override { EXPECT_EQ(vgGetError(), VG_NO_ERROR); }
 
     static bool has(const char* extension) {
         const std::string all = std::string(reinterpret_cast<const char*>(vgGetString(VG_EXTENSIONS))) + " ";
@@ -121,17 +117,13 @@ protected:
 
     /// Covers the surface with the current paint.
     static void fillSurface() {
-        const VGPath path =
-            vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0, 0, 0, VG_PATH_CAPABILITY_ALL);
-        vguRect(path, 0, 0, side, side);
+        const VGPath path = rectangle(0, 0, side, side);
         vgDrawPath(path, VG_FILL_PATH);
         vgDestroyPath(path);
     }
 
 private:
     std::mt19937 random_{1};
-    VtmSurface* surface_ = nullptr;
-    VtmContext* context_ = nullptr;
 };
 
 }  // namespace extensions

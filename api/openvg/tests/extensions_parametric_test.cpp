@@ -309,14 +309,12 @@ TEST_F(Effects, NameErrorsAndLeaveNone) {
     EXPECT_EQ(vgGetError(), VG_NO_ERROR);
 
     VGErrorCode code = VG_NO_ERROR;
-    VtmContext* const context = vtmGetCurrentContext();
-    VtmSurface *const window = vtmGetCurrentSurface(), *const target =
-                                                           vtmCreateImageSurface(context, result_, 0, &code);
+    VtmSurface* const target = vtmCreateImageSurface(context, result_, 0, &code);
     ASSERT_TRUE(vtmMakeCurrent(context, target));
     EXPECT_EQ(error(result_, source_, 2, quality), VGUErrorCode(VGU_IMAGE_IN_USE_ERROR));
     vtmMakeCurrent(nullptr, nullptr);
     EXPECT_EQ(error(result_, source_, 2, quality), VGU_BAD_HANDLE_ERROR);
-    ASSERT_TRUE(vtmMakeCurrent(context, window));
+    ASSERT_TRUE(vtmMakeCurrent(context, surface));
     vtmDestroySurface(target);
 }
 

@@ -9,6 +9,7 @@
 #include "asset/evaluate.hpp"
 #include "compiler/compile.hpp"
 #include "conformance/cases/support.hpp"
+#include "conformance/generate/damage.hpp"
 #include "conformance/runner/src/kinds.hpp"
 #include "conformance/runner/src/views.hpp"
 #include "image/codec.hpp"
@@ -87,28 +88,6 @@ Outcome runFile(const fs::path& file, const std::string& wanted) {
 
 // ---- Files damaged on purpose -------------------------------------------------------------------
 
-/// Overwrites, deletes or doubles a few bytes, or cuts the rest off.
-Bytes corrupted(Bytes bytes, std::mt19937_64& random) {
-    const auto at = [&] { return std::ptrdiff_t(random() % bytes.size()); };
-    for (int i = 0; i < 8 && !bytes.empty(); ++i) {
-        const std::ptrdiff_t place = at();
-        switch (random() % 8) {
-            case 0:
-                bytes.erase(bytes.begin() + place);
-                break;
-            case 1:
-                bytes.insert(bytes.begin() + place, bytes[std::size_t(at())]);
-                break;
-            default:
-                bytes[std::size_t(place)] =
-                    std::uint8_t(random() % 2 == 0 ? '0' + random() % 10 : random() % 256);
-        }
-    }
-    if (random() % 8 == 0 && !bytes.empty())
-        bytes.resize(std::size_t(at()));
-    return bytes;
-}
-
 bool namesItself(const std::string& got, const std::string& file) {
     return got == "picture" || got.starts_with("error: " + file + ":") ||
            got.starts_with("warning: " + file + ":");
@@ -161,8 +140,9 @@ void addDamaged(const Folder& folder, std::vector<Case>& cases) {
                              "A file with bytes overwritten, doubled, lost.", [=](const Setting&) {
                                  const Bytes whole = wholeFile(name);
                                  std::mt19937_64 random(seedOf(name) + seed);
-                                 return runDamaged(name, whole, each,
-                                                   [&](std::size_t) { return corrupted(whole, random); });
+                                 return runDamaged(name, whole, each, [&](std::size_t) {
+                                     return generate::damaged(whole, random);
+                                 });
                              }});
     }
 }
