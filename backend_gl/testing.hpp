@@ -18,8 +18,9 @@ namespace vtm::gl::test {
 class ShaderCanvas {
 public:
     /// `text` follows the include and defines `vec4 shade(vec2 pixel)`; pixel (i, j) is asked for at (i +
-    /// 0.5, j + 0.5), j downwards. Throws GlError with the driver's log.
-    ShaderCanvas(const std::string& include, const std::string& text);
+    /// 0.5, j + 0.5), j downwards. `vertices`, if given, is the vertex shader: of a strip of four. Throws
+    /// GlError with the driver's log.
+    ShaderCanvas(const std::string& include, const std::string& text, const std::string& vertices = {});
     ~ShaderCanvas();
     ShaderCanvas(const ShaderCanvas&) = delete;
     ShaderCanvas& operator=(const ShaderCanvas&) = delete;

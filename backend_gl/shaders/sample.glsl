@@ -1,7 +1,7 @@
 // An asset as a texture: the mean colour over a parallelogram of the picture. docs/texture.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, sample_prefilter.glsl; constants kind*, wrap*, maxLevel,
 // walkBudget, FEATURES.
-// Exports: vtm_sample, vtm_sample_grad.
+// Exports: vtm_sample, vtm_sample_proj, vtm_sample_grad.
 
 // ---- One square of the tree -------------------------------------------------------------------------
 
@@ -179,4 +179,28 @@ vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
     return color;
 }
 
-vec4 vtm_sample(Vtm vtm, vec2 st) { return vtm_sample_grad(vtm, st, dFdx(st), dFdy(st)); }
+// ---- Perspective ----------------------------------------------------------------------------------------
+
+// On a plane in perspective (s, t, q) times gl_FragCoord.w is linear over the screen, so its differences are exact.
+// With g = q' / q and J = ((s, t)' - (s, t) q' / q) / q what lies p pixels away is (s, t) / q + J p / (1 + g · p). A
+// footprint is that with g = 0, which is off by |g| / 4 of a pixel at most where the pixel ends; on strips, 1 / n of a
+// pixel wide, it is off by |g| / (4 n²), which is to stay below 1 / 256.
+int stripsFor(float g) { return clamp(int(ceil(8.0 * sqrt(g))), 1, 4); }
+
+vec4 vtm_sample_proj(Vtm vtm, vec3 stq) {
+    vec3 at = stq * gl_FragCoord.w, dx = dFdx(at) / at.z, dy = dFdy(at) / at.z;
+    vec2 st = stq.xy / stq.z, g = clamp(vec2(dx.z, dy.z), -1.0, 1.0);
+    mat2 sides = mat2(dx.xy - st * dx.z, dy.xy - st * dy.z);
+    int axis = abs(g.x) > abs(g.y) ? 0 : 1, count = stripsFor(abs(g[axis]));
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < count; ++i) {
+        float p = (float(i) + 0.5) / float(count) - 0.5, scale = 1.0 / (1.0 + g[axis] * p);
+        vec2 away = sides[axis] * (p * scale);
+        mat2 strip = mat2(sides[0] - away * g.x, sides[1] - away * g.y) * scale;
+        strip[axis] /= float(count);
+        sum += vtm_sample_grad(vtm, st + away, strip[0], strip[1]);
+    }
+    return sum / float(count);
+}
+
+vec4 vtm_sample(Vtm vtm, vec2 st) { return vtm_sample_proj(vtm, vec3(st, 1.0)); }

@@ -21,6 +21,7 @@ using asset::Material;
 constexpr const char* head =
     R"(// Vector Texture Maps: uniform Vtm NAME; premultiplied colours, t running down.
 //     vec4 vtm_sample(Vtm vtm, vec2 st)
+//     vec4 vtm_sample_proj(Vtm vtm, vec3 stq)
 //     vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy)
 precision highp float;
 precision highp int;

@@ -8,6 +8,7 @@ namespace vtm::gl::test {
 
 namespace {
 
+/// The first three vertices hold the whole raster.
 constexpr const char* vertexText = R"(#version 300 es
 void main() {
     gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID >> 1) * 4 - 1), 0.0, 1.0);
@@ -33,8 +34,8 @@ ShaderHandle compile(GLenum stage, const std::string& text) {
     return shader;
 }
 
-ProgramHandle link(const std::string& fragmentText) {
-    const ShaderHandle vertex = compile(GL_VERTEX_SHADER, vertexText),
+ProgramHandle link(const std::string& vertices, const std::string& fragmentText) {
+    const ShaderHandle vertex = compile(GL_VERTEX_SHADER, vertices),
                        fragment = compile(GL_FRAGMENT_SHADER, fragmentText);
     ProgramHandle program(glCreateProgram());
     glAttachShader(program.get(), vertex.get());
@@ -74,9 +75,10 @@ struct ShaderCanvas::Impl {
     }
 };
 
-ShaderCanvas::ShaderCanvas(const std::string& include, const std::string& text)
+ShaderCanvas::ShaderCanvas(const std::string& include, const std::string& text, const std::string& vertices)
     : impl_(std::make_unique<Impl>()) {
-    impl_->program = link("#version 300 es\n" + include + text + mainText);
+    impl_->program =
+        link(vertices.empty() ? vertexText : vertices, "#version 300 es\n" + include + text + mainText);
 }
 ShaderCanvas::~ShaderCanvas() = default;
 
@@ -96,7 +98,7 @@ void ShaderCanvas::drawOnly(int width, int height) {
     glUseProgram(program());
     for (const GLenum state : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_BLEND})
         glDisable(state);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glFinish();
     checkErrors("drawing on a canvas");
 }
@@ -117,7 +119,7 @@ uniform Vtm picture;
 uniform mat3 toPicture;
 vec4 shade(vec2 pixel) {
     vec3 p = toPicture * vec3(pixel, 1.0);
-    return vtm_sample(picture, p.xy / p.z);
+    return vtm_sample_proj(picture, p);
 })") {}
 
 image::Raster TextureCanvas::draw(const glm::dmat3& toPicture, int width, int height, Wrapping wrapping) {

@@ -235,6 +235,50 @@ vec4 shade(vec2 pixel) {
     }
 }
 
+// ---- Perspective --------------------------------------------------------------------------------------
+
+/// A floor whose horizon is twelve pixels above the raster, in homogeneous (s, t).
+constexpr const char* floorText = R"(
+vec3 onFloor(vec2 pixel) { return vec3(0.004 * (pixel.x - 32.0), 0.2, 0.05 * (pixel.y + 12.0)); })";
+
+/// The mean of n × n points of vtm_sample_grad's, each over its share of the pixel, is exact in the limit.
+TEST_F(Gl, PerspectiveIsThatOfTheSurface) {
+    const Asset asset = disc();
+    SampledTexture texture(asset);
+    const std::string include = sampleInclude({asset}) + "uniform Vtm sign;\n";
+    test::ShaderCanvas surface(include, "in vec2 st;\nvec4 shade(vec2 p) { return vtm_sample(sign, st); }",
+                               std::string("#version 300 es\nout vec2 st;") + floorText + R"(
+void main() {
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    vec3 stq = onFloor(64.0 * corner);
+    st = stq.xy / stq.z;
+    gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0) / stq.z;
+})"),
+        plane(include + floorText, "vec4 shade(vec2 p) { return vtm_sample_proj(sign, onFloor(p)); }"),
+        truth(include + floorText, R"(
+vec4 shade(vec2 p) {
+    const float n = 8.0;
+    vec4 sum = vec4(0.0);
+    for (float y = 0.5 - 0.5 * n; y < 0.5 * n; ++y)
+        for (float x = 0.5 - 0.5 * n; x < 0.5 * n; ++x) {
+            vec3 at = onFloor(p + vec2(x, y) / n), right = onFloor(p + vec2(x + 1.0, y) / n), down = onFloor(p + vec2(x, y + 1.0) / n);
+            vec2 st = at.xy / at.z;
+            vec2 dx = ((right - at).xy - st * (right - at).z) / at.z, dy = ((down - at).xy - st * (down - at).z) / at.z;
+            sum += vtm_sample_grad(sign, st, dx, dy);
+        }
+    return sum / (n * n);
+})");
+    for (test::ShaderCanvas* canvas : {&surface, &plane, &truth})
+        texture.bind(canvas->program(), "sign", 0, {Wrap::Repeat, Wrap::Repeat});
+    const Raster onSurface = surface.draw(64, 64), onPlane = plane.draw(64, 64),
+                 expected = truth.draw(64, 64);
+    constexpr float sameMaths = 1e-3f, aStripsError = 1.5f / 256;
+    for (std::size_t i = 0; i < expected.rgba.size(); ++i) {
+        ASSERT_NEAR(onSurface.rgba[i], onPlane.rgba[i], sameMaths) << i / 4 % 64 << ' ' << i / 256;
+        ASSERT_NEAR(onPlane.rgba[i], expected.rgba[i], aStripsError) << i / 4 % 64 << ' ' << i / 256;
+    }
+}
+
 // ---- Contract -----------------------------------------------------------------------------------------
 
 TEST_F(Gl, MakingAndBindingLeavesTheUsersState) {

@@ -26,7 +26,7 @@ uniform Vtm picture;
 uniform mat3 toPicture;
 vec4 shade(vec2 pixel) {
     vec3 p = toPicture * vec3(pixel, 1.0);
-    return vtm_sample(picture, p.xy / p.z);
+    return vtm_sample_proj(picture, p);
 })") {}
 
     /// `toPicture`: (pixel, 1) to homogeneous (s, t).

@@ -15,9 +15,10 @@ namespace {
 
 using image::Raster;
 
-/// The truth of a floor: so many points a side of a pixel, read from the exact picture at this many pixels of
-/// its longer side.
-constexpr int samples = 16, truthPixels = 2048;
+/// The truth of a floor: so many points of a pixel, read from the exact picture at this many pixels of its
+/// longer side. They are a Fibonacci lattice (Niederreiter 1992, 5.3): no two in one row or column, so an
+/// edge along either is right to 1 / samples.
+constexpr int samples = 377, stride = 233, truthPixels = 2048;
 
 class TextureSubject : public Subject {
 public:
@@ -67,14 +68,16 @@ private:
 
     Raster floor(const glm::dmat3& toPicture, int width, int height) {
         Raster result(width, height);
-        for (int y = 0; y < height * samples; ++y)
-            for (int x = 0; x < width * samples; ++x) {
-                const glm::dvec3 at = toPicture * glm::dvec3((x + 0.5) / samples, (y + 0.5) / samples, 1);
-                const float* const colour = texel(at.x / at.z, at.y / at.z);
-                float* const pixel = result.pixel(x / samples, y / samples);
-                for (int c = 0; c < 4; ++c)
-                    pixel[c] += colour[c] / float(samples * samples);
-            }
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int i = 0; i < samples; ++i) {
+                    const glm::dvec3 at =
+                        toPicture *
+                        glm::dvec3(x + (i + 0.5) / samples, y + (i * stride % samples + 0.5) / samples, 1);
+                    const float* const colour = texel(at.x / at.z, at.y / at.z);
+                    for (int c = 0; c < 4; ++c)
+                        result.pixel(x, y)[c] += colour[c] / float(samples);
+                }
         return result;
     }
 
