@@ -177,8 +177,8 @@ struct GradientStop {
 enum class ImageFilter : std::uint32_t {
     Nearest,
     Bilinear,
-    Trilinear,  ///< bilinear in the two levels of image/levels.hpp that are next to the footprint's longer
-                ///< axis
+    Trilinear,  ///< bilinear in the two levels of image/levels.hpp that are next to the footprint's shorter
+                ///< axis, at points along the longer one
     Bicubic     ///< likewise, with Catmull-Rom's kernel in the image itself
 };
 

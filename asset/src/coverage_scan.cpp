@@ -15,7 +15,6 @@ constexpr float leastShare = 1e-5f;
 
 /// What one mask needs and the next uses again.
 struct Scratch {
-    std::vector<Chord> chords;
     Bands bands;
     Accumulator<float> coverage;
     std::vector<CoverageRun> runs;
@@ -64,23 +63,20 @@ void CoverageScanner::scan(const View& view,
         return;
     Scratch& scratch = scratchOfThread();
     scratch.isWhole = false;
-    scratch.chords.clear();
+    scratch.bands.clear(view.height);
     for (const Drawn& drawn : drawn_) {
-        Chords chords(drawn.map, view, scratch.chords);
+        Chords chords(drawn.map, view, scratch.bands);
         for (const Boundary& boundary : drawn.boundaries)
             chords.add(boundary);
     }
-    scratch.bands.sort(scratch.chords, view.height);
     scratch.coverage.resize(view.width);
     for (int band = 0; band * bandRows < view.height; ++band) {
-        const std::span<const std::uint32_t> chords = scratch.bands.of(band);
+        const std::span<const Chord> chords = scratch.bands.of(band);
         if (chords.empty())
             continue;
         const int top = band * bandRows, rows = std::min(bandRows, view.height - top);
-        for (const std::uint32_t i : chords) {
-            const Chord& c = scratch.chords[i];
+        for (const Chord& c : chords)
             scratch.coverage.add(c, float(top), rows, float(c.left) - float(c.right));
-        }
         for (int y = 0; y < rows; ++y) {
             scratch.runs.clear();
             scratch.coverage.resolve(std::size_t(y), [&](int first, int end, float share) {

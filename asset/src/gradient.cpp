@@ -2,148 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
+
+#include "asset/src/ramp.hpp"
 
 namespace vtm::asset {
 
 namespace {
 
 using glm::vec2;
-using glm::vec4;
-
-float spreadOffset(Spread spread, float u) {
-    switch (spread) {
-        case Spread::Reflect:
-            return 1 - std::abs(1 - (u - 2 * std::floor(u / 2)));
-        case Spread::Repeat:
-            return u - std::floor(u);
-        default:
-            return std::clamp(u, 0.0f, 1.0f);
-    }
-}
-
-vec4 premultiplied(vec4 c) { return {glm::vec3(c) * c.a, c.a}; }
-
-/// How many stops have an offset <= u; of several at one offset the last counts from there on.
-std::size_t stopsUpTo(const GradientView& gradient, float u) {
-    std::size_t low = 0, high = gradient.size();
-    while (low < high) {
-        const std::size_t middle = (low + high) / 2;
-        if (gradient.offset(middle) <= u)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-/// Between two stops. Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
-vec4 colorBetween(const GradientView& gradient, std::size_t before, std::size_t after, float u) {
-    const float start = gradient.offset(before), gap = gradient.offset(after) - start;
-    return premultiplied(
-        glm::mix(gradient.color(before), gradient.color(after), gap > 0 ? (u - start) / gap : 0.0f));
-}
-
-// ---- Means over pixels ------------------------------------------------------------------------------
-
-/// The padded ramp's integral from a to b. Between stops it is a quadratic, which Simpson's rule integrates
-/// exactly; at the same time that serves what lies before the first stop and behind the last.
-vec4 integral(const GradientView& gradient, float a, float b) {
-    std::size_t next = stopsUpTo(gradient, a);
-    vec4 sum(0);
-    for (float from = a; from < b; ++next) {
-        const std::size_t before = next == 0 ? 0 : next - 1, after = std::min(next, gradient.size() - 1);
-        const float to = next == gradient.size() ? b : std::min(b, gradient.offset(after));
-        sum += (colorBetween(gradient, before, after, from) +
-                4.0f * colorBetween(gradient, before, after, 0.5f * (from + to)) +
-                colorBetween(gradient, before, after, to)) *
-               ((to - from) / 6);
-        from = to;
-    }
-    return sum;
-}
-
-/// A reflected ramp repeats after two, so no mean is over more; a padded one is all but two colours beyond.
-constexpr float widestPeriodic = 2, widestPadded = 1024;
-
-/// The mean from u - width / 2 to u + width / 2, width > 0.
-vec4 mean(const GradientView& gradient, float u, float width) {
-    const Spread spread = gradient.gradient().spread;
-    width = std::min(width, spread == Spread::Pad ? widestPadded : widestPeriodic);
-    if (spread == Spread::Pad)
-        return integral(gradient, u - 0.5f * width, u + 0.5f * width) / width;
-    u -= 2 * std::floor(0.5f * u);
-    const float from = u - 0.5f * width, to = u + 0.5f * width;
-    vec4 sum(0);
-    for (float n = std::floor(from); n < to; ++n) {
-        const float a = std::max(from - n, 0.0f), b = std::min(to - n, 1.0f);
-        const bool isMirrored = spread == Spread::Reflect && n != 0 && n != 2;
-        sum += isMirrored ? integral(gradient, 1 - b, 1 - a) : integral(gradient, a, b);
-    }
-    return sum / width;
-}
-
-/// Ramps narrower than this in a pixel are as good as straight there, but for stops: what interpolating
-/// straight colours bends them by is below width² / 12 = 1/3000.
-constexpr float straightWidth = 1.0f / 16;
-
-/// A ramp that is asked for neighbours: it keeps the stretch between two stops that it was asked for last.
-class Ramp {
-public:
-    explicit Ramp(const GradientView& gradient)
-        : gradient_(gradient), spread_(gradient.gradient().spread), isPadded_(spread_ == Spread::Pad) {
-        find(0);
-    }
-
-    /// The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other
-    /// one's box is replaced by two points with the same variance. Where the pixel has nothing but a little
-    /// of one stretch, it is the colour in the middle.
-    vec4 over(float u, vec2 sides) {
-        sides = glm::min(glm::abs(sides), vec2(widestPadded));
-        const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y);
-        const float place = isPadded_ ? u : spreadOffset(spread_, u), reach = 0.5f * (longer + shorter);
-        if (!holds(place, reach)) {
-            find(place);
-            if (!holds(place, reach)) {
-                const float apart = shorter * 0.28867513f;  // 1 / √12
-                return 0.5f * (mean(gradient_, u - apart, longer) + mean(gradient_, u + apart, longer));
-            }
-        }
-        return premultiplied(color_ + (place - start_) * slope_);
-    }
-
-private:
-    bool holds(float place, float reach) const {
-        return place - reach >= low_ && place + reach <= high_ && place < next_ && reach <= widest_;
-    }
-    void find(float place) {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        const std::size_t upTo = stopsUpTo(gradient_, place), count = gradient_.size();
-        const bool isBefore = upTo == 0, isBehind = upTo == count;
-        const std::size_t before = isBefore ? 0 : upTo - 1, after = std::min(upTo, count - 1);
-        low_ = isBefore ? (isPadded_ ? -infinity : 0) : gradient_.offset(before);
-        high_ = isBehind ? (isPadded_ ? infinity : 1) : gradient_.offset(after);
-        const bool isFlat = isBefore || isBehind;
-        next_ = isBehind ? infinity : high_;
-        widest_ = isFlat ? infinity : 0.5f * straightWidth;
-        color_ = gradient_.color(before);
-        start_ = isFlat ? 0 : low_;
-        const float gap = high_ - low_;
-        slope_ = isFlat || !(gap > 0) ? vec4(0) : (gradient_.color(after) - color_) / gap;
-    }
-
-    const GradientView& gradient_;
-    Spread spread_;
-    bool isPadded_;
-    // The stretch, of which its upper end is not a part: straight colours at `start_` and what they change
-    // by; up to which reach it is straight.
-    float low_ = 0, high_ = 0, next_ = 0, widest_ = 0, start_ = 0;
-    vec4 color_{0}, slope_{0};
-};
 
 // ---- Radial gradients -------------------------------------------------------------------------------
 
@@ -203,37 +71,114 @@ Spot conePixel(const Root& root, vec2 d, const glm::mat2& sides) {
 /// focus itself there is no slope.
 constexpr float besideFocus = 1e-3f;
 
+struct Range {
+    std::size_t first, end;
+};
+
+/// The pixels of a row in a radial gradient's space.
+struct RadialRow {
+    vec2 first, change;  ///< from the focus
+    glm::mat2 sides;
+    vec2 focus;
+    float fr;
+
+    vec2 fromFocus(std::size_t i) const { return first + float(i) * change; }
+
+    Float4 color(std::size_t i, Spread spread, Ramp& ramp) const {
+        vec2 d = fromFocus(i);
+        const float atFocus = besideFocus * glm::length(sides[0]);
+        if (glm::dot(d, d) < atFocus * atFocus)
+            d = besideFocus * sides[0];
+        const Root root = radialOffset(focus + d, focus, fr);
+        if (!root.real)
+            return Float4{};
+        const Spot spot = conePixel(root, d, sides);
+        return ramp.over(spreadOffset(spread, spot.u), spot.sides);
+    }
+
+    /// Which of `count` pixels are not far from the tip.
+    Range nearTip(std::size_t count) const {
+        const float far = farFromTip * (glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]));
+        const float steps = glm::dot(change, change),
+                    middle = steps > 0 ? -glm::dot(first, change) / steps : 0;
+        const vec2 d = first + middle * change;
+        const float rest = far - glm::dot(d, d);
+        if (!(rest >= 0))
+            return {0, 0};
+        const float half = steps > 0 ? std::sqrt(rest / steps) : 0, most = float(count);
+        return {std::size_t(std::clamp(std::floor(middle - half), 0.0f, most)),
+                std::size_t(std::clamp(std::ceil(middle + half) + 1, 0.0f, most))};
+    }
+};
+
+/// Circles that lie within each other fill the plane: everywhere there is a root, the larger one, and u
+/// changes by no more than 1 / (1 - fr - |f|) with the point. This is the least 1 - fr - |f| where
+/// single precision has them, without care for what cancels.
+constexpr float leastGap = 0.1f;
+
+/// u in such circles: along the row b and the discriminant are polynomials of the step.
+void nestedOffsets(const RadialRow& row, std::span<float> offsets) {
+    const vec2 f = row.focus, d = row.first, change = row.change;
+    const float fr = row.fr, grow = 1 - fr, a = grow * grow - glm::dot(f, f), inverse = 1 / a;
+    const float b0 = (glm::dot(d, f) - fr * grow) * inverse, b1 = glm::dot(change, f) * inverse;
+    const float c0 = (glm::dot(d, d) - fr * fr) * inverse, c1 = glm::dot(d, change) * inverse,
+                c2 = glm::dot(change, change) * inverse;
+    const float s0 = b0 * b0 + c0, s1 = 2 * (b0 * b1 + c1), s2 = b1 * b1 + c2;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const float t = float(int(i));
+        offsets[i] = b0 + t * b1 + std::sqrt(std::max(s0 + t * (s1 + t * s2), 0.0f));
+    }
+}
+
+void spreadOffsets(Spread spread, std::span<float> offsets) {
+    if (spread != Spread::Pad)
+        for (float& u : offsets)
+            u = spreadOffset(spread, u);
+}
+
 }  // namespace
 
 void linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
-                  std::span<vec4> colors) {
+                  std::span<Float4> colors) {
     const std::array<float, 6>& m = view.gradient().matrix;
     const vec2 row(m[0], m[2]), sides = row * pixel;
     const float first = applyMatrix(m, point).x, change = glm::dot(row, step);
+    std::array<float, longestRow> offsets;
+    const std::span<float> places = std::span(offsets).first(colors.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+        places[i] = first + float(int(i)) * change;
+    spreadOffsets(view.gradient().spread, places);
     Ramp ramp(view);
-    for (std::size_t i = 0; i < colors.size(); ++i)
-        colors[i] = ramp.over(first + float(i) * change, sides);
+    const float reach = 0.5f * (std::abs(sides.x) + std::abs(sides.y));
+    ramp.over(places, reach, colors, [&](std::size_t i) { return ramp.over(places[i], sides); });
 }
 
 void radialColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
-                  std::span<vec4> colors) {
+                  std::span<Float4> colors) {
     const Gradient& gradient = view.gradient();
     const std::array<float, 6>& m = gradient.matrix;
-    const glm::mat2 linear(m[0], m[1], m[2], m[3]), sides = linear * pixel;
-    const vec2 focus(gradient.fx, gradient.fy), first = applyMatrix(m, point) - focus, change = linear * step;
-    const float atFocus = besideFocus * glm::length(sides[0]);
+    const glm::mat2 linear(m[0], m[1], m[2], m[3]);
+    const vec2 focus(gradient.fx, gradient.fy);
+    const RadialRow row{applyMatrix(m, point) - focus, linear * step, linear * pixel, focus, gradient.fr};
     Ramp ramp(view);
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-        vec2 d = first + float(i) * change;
-        if (glm::dot(d, d) < atFocus * atFocus)
-            d = besideFocus * sides[0];
-        const Root root = radialOffset(focus + d, focus, gradient.fr);
-        colors[i] = vec4(0);
-        if (root.real) {
-            const Spot spot = conePixel(root, d, sides);
-            colors[i] = ramp.over(spot.u, spot.sides);
-        }
-    }
+    const std::size_t count = colors.size();
+    const float gap = 1 - gradient.fr - glm::length(focus);
+    const Range near = gap < leastGap ? Range{0, count} : row.nearTip(count);
+    for (std::size_t i = near.first; i < near.end; ++i)
+        colors[i] = row.color(i, gradient.spread, ramp);
+    if (near.first == 0 && near.end == count)
+        return;
+    std::array<float, longestRow> offsets;
+    const std::span<float> places = std::span(offsets).first(count);
+    nestedOffsets(row, places);
+    spreadOffsets(gradient.spread, places);
+    const float reach = 0.5f * (glm::length(row.sides[0]) + glm::length(row.sides[1])) / gap;
+    const auto fill = [&](std::size_t first, std::size_t end) {
+        ramp.over(places.subspan(first, end - first), reach, colors.subspan(first, end - first),
+                  [&](std::size_t i) { return row.color(first + i, gradient.spread, ramp); });
+    };
+    fill(0, near.first);
+    fill(near.end, count);
 }
 
 }  // namespace vtm::asset

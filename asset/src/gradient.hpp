@@ -6,8 +6,8 @@
 
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
 
+#include "asset/src/float4.hpp"
 #include "asset/src/records.hpp"
 
 namespace vtm::asset {
@@ -17,12 +17,15 @@ inline glm::vec2 applyMatrix(const std::array<float, 6>& m, glm::vec2 p) {
     return {m[0] * p.x + m[2] * p.y + m[4], m[1] * p.x + m[3] * p.y + m[5]};
 }
 
-/// Premultiplied mean colours over pixels, one after the other: the middle of the first one is a picture
-/// point, a step leads to the next one's, and their sides are `pixel`; 0: the colours at the points. Exact
-/// for linear gradients and pixels along their axis (docs/coverage.md).
+/// Colours of so many places are made together, at most.
+inline constexpr std::size_t longestRow = 64;
+
+/// Premultiplied mean colours over up to longestRow pixels, one after the other: the middle of the first one
+/// is a picture point, a step leads to the next one's, and their sides are `pixel`; 0: the colours at the
+/// points. Exact for linear gradients and pixels along their axis (docs/coverage.md).
 void linearColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
-                  std::span<glm::vec4> colors);
+                  std::span<Float4> colors);
 void radialColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
-                  std::span<glm::vec4> colors);
+                  std::span<Float4> colors);
 
 }  // namespace vtm::asset

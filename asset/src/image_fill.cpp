@@ -60,10 +60,31 @@ vec4 filtered(const Texels& texels, vec2 place, int taps) {
     return sum;
 }
 
-/// The larger singular value.
-float longerAxis(const mat2& m) {
-    const float a = glm::dot(m[0], m[0]), b = glm::dot(m[0], m[1]), c = glm::dot(m[1], m[1]);
-    return std::sqrt(0.5f * (a + c) + glm::length(vec2(0.5f * (a - c), b)));
+/// Where a pixel's footprint is read (docs/scene.md, filters of images): at 2 side + 1 points along its
+/// longer axis, a step apart, each for a square `width` wide. The outermost two count `outer`, and all of
+/// them `all`.
+struct Probes {
+    int side;
+    float width, outer, all;
+    vec2 step;
+};
+
+constexpr float mostOblong = 16, nearlyRound = 1.0f / 64;
+
+/// `m`: a pixel's sides in the image. Its singular values are the axes of the ellipse that it makes of a
+/// circle.
+Probes probesOf(const mat2& m) {
+    const float a = m[0].x * m[0].x + m[1].x * m[1].x, b = m[0].x * m[0].y + m[1].x * m[1].y,
+                c = m[0].y * m[0].y + m[1].y * m[1].y;
+    const float half = 0.5f * (a - c), root = glm::length(vec2(half, b));
+    const float longer = std::sqrt(0.5f * (a + c) + root), shorter = std::abs(glm::determinant(m)) / longer;
+    const vec2 along = half > 0 ? vec2(half + root, b) : vec2(b, root - half);
+    // fmax and fmin: what is no number gives way to the other.
+    const float width = std::fmax(1.0f, std::fmax(shorter, longer / mostOblong));
+    const float all = std::fmax(1.0f, std::fmin(longer / width - nearlyRound, mostOblong));
+    const int side = int(std::ceil(0.5f * (all - 1)));
+    return {side, width, side == 0 ? 1 : 0.5f * (all - float(2 * side - 1)), all,
+            side == 0 ? vec2(0) : along * (width / glm::length(along))};
 }
 
 /// Catmull-Rom overshoots beside edges.
@@ -88,23 +109,31 @@ Images::Images(const AssetView& asset) {
 vec4 Images::color(const ImageFill& fill, vec2 point, const mat2& pixel) const {
     const Picture& picture = pictures_[fill.image];
     const vec2 p = applyMatrix(fill.matrix, point);
-    const auto level = [&](std::size_t l) {
+    const auto level = [&](std::size_t l, vec2 place) {
         if (l == 0)
             return filtered(
-                {picture.bitmap->width, picture.bitmap->height, picture.bitmap->rgba.data(), false}, p,
+                {picture.bitmap->width, picture.bitmap->height, picture.bitmap->rgba.data(), false}, place,
                 tapsOf(fill.filter));
         const image::Level& texels = picture.levels[l - 1];
         return filtered({texels.width, texels.height, texels.rgba.data(), true},
-                        std::ldexp(1.0f, -int(l)) * p, 2);
+                        std::ldexp(1.0f, -int(l)) * place, 2);
     };
     if (fill.filter < ImageFilter::Trilinear)
-        return level(0);
+        return level(0, p);
     const mat2 linear(fill.matrix[0], fill.matrix[1], fill.matrix[2], fill.matrix[3]);
+    const Probes probes = probesOf(linear * pixel);
     const float last = float(picture.levels.size());
-    const float lod = std::fmax(0.0f, std::fmin(std::log2(longerAxis(linear * pixel)), last));
+    const float lod = std::fmin(std::log2(probes.width), last);
     const auto finer = std::size_t(lod);
     const float share = lod - float(finer);
-    return asColor(share == 0 ? level(finer) : glm::mix(level(finer), level(finer + 1), share));
+    vec4 sum(0);
+    for (int i = -probes.side; i <= probes.side; ++i) {
+        const vec2 place = p + float(i) * probes.step;
+        const vec4 color =
+            share == 0 ? level(finer, place) : glm::mix(level(finer, place), level(finer + 1, place), share);
+        sum += (std::abs(i) == probes.side ? probes.outer : 1) / probes.all * color;
+    }
+    return asColor(sum);
 }
 
 }  // namespace vtm::asset

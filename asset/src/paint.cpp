@@ -16,10 +16,9 @@ namespace {
 using glm::vec2;
 using glm::vec4;
 
-vec4 floats(const Texel& t) {
-    return {std::bit_cast<float>(t[0]), std::bit_cast<float>(t[1]), std::bit_cast<float>(t[2]),
-            std::bit_cast<float>(t[3])};
-}
+bool isTransparent(Float4 c) { return c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0; }
+
+Float4 floats(const Texel& t) { return float4(std::bit_cast<vec4>(t)); }
 
 // ---- Materials ------------------------------------------------------------------------------------
 
@@ -39,17 +38,15 @@ struct Row {
     vec2 point(std::size_t i) const { return first.point + float(i) * step; }
 };
 
+/// Of a layer that is not solid.
 void layerColors(const Paints& paints, const Instruction& in, const Row& row,
-                 const MaterialFunction& materials, std::span<vec4> colors) {
+                 const MaterialFunction& materials, std::span<Float4> colors) {
     const std::span<const Texel> data = paints.asset().data;
     const auto each = [&](auto&& color) {
         for (std::size_t i = 0; i < colors.size(); ++i)
-            colors[i] = color(row.point(i));
+            colors[i] = float4(color(row.point(i)));
     };
     switch (in.op) {
-        case Op::Solid:
-            std::ranges::fill(colors, floats(data[in.argument]));
-            return;
         case Op::Image: {
             const auto fill = recordAt<ImageFill>(data, in.argument);
             return each([&](vec2 p) { return paints.images().color(fill, p, row.first.pixel); });
@@ -67,41 +64,93 @@ void layerColors(const Paints& paints, const Instruction& in, const Row& row,
     }
 }
 
-/// Colours of so many places are made together.
-constexpr std::size_t chunk = 64;
-
+/// A level is of one colour, whatever stands in its row, until something else is drawn into it.
 struct Stack {
-    std::array<std::array<vec4, chunk>, maxStack> entries;  // those above `top` are not read
+    std::span<Float4> lowest;
+    std::array<std::array<Float4, longestRow>, maxStack> others;
+    std::array<Float4, maxStack> color;
+    std::array<bool, maxStack> isOneColor;
     std::size_t top = 0;
-    std::size_t count;
 
-    explicit Stack(std::size_t places) : count(places) { std::ranges::fill(row(0), vec4(0)); }
-    std::span<vec4> row(std::size_t i) { return std::span(entries[i]).first(count); }
+    explicit Stack(std::span<Float4> colors) : lowest(colors) { clear(); }
+    void clear() {
+        color[top] = Float4{};
+        isOneColor[top] = true;
+    }
+    std::span<Float4> row(std::size_t i) {
+        return i == 0 ? lowest : std::span(others[i]).first(lowest.size());
+    }
+    /// The row with what is in the level.
+    std::span<Float4> filledRow(std::size_t i) {
+        if (isOneColor[i])
+            std::ranges::fill(row(i), color[i]);
+        isOneColor[i] = false;
+        return row(i);
+    }
 };
+
+Float4 popped(const Instruction& in, Float4 source, Float4 below) {
+    if (in.op != Op::Pop)
+        return below * maskFactor(in.op, toVec4(source));
+    source *= in.opacity;
+    return in.blend == Blend::Normal ? over(source, below)
+                                     : float4(blend(in.blend, toVec4(source), toVec4(below)));
+}
+
+void pop(const Instruction& in, Stack& stack) {
+    const std::size_t top = stack.top--, below = stack.top;
+    if (stack.isOneColor[top] && stack.isOneColor[below]) {
+        stack.color[below] = popped(in, stack.color[top], stack.color[below]);
+        return;
+    }
+    const std::span<Float4> source = stack.filledRow(top), target = stack.filledRow(below);
+    for (std::size_t i = 0; i < target.size(); ++i)
+        target[i] = popped(in, source[i], target[i]);
+}
+
+void drawSolid(Float4 source, Stack& stack) {
+    if (stack.isOneColor[stack.top])
+        stack.color[stack.top] = over(source, stack.color[stack.top]);
+    else
+        for (Float4& below : stack.row(stack.top))
+            below = over(source, below);
+}
+
+void drawLayer(const Paints& paints, const Instruction& in, const Row& row, const MaterialFunction& materials,
+               Stack& stack) {
+    if (in.op == Op::Solid)
+        return drawSolid(floats(paints.asset().data[in.argument]) * in.opacity, stack);
+    const std::span<Float4> below = stack.row(stack.top);
+    const float opacity = in.opacity;
+    if (stack.isOneColor[stack.top]) {
+        layerColors(paints, in, row, materials, below);
+        stack.isOneColor[stack.top] = false;
+        const Float4 ground = stack.color[stack.top];
+        if (opacity != 1 || !isTransparent(ground))
+            for (Float4& color : below)
+                color = over(color * opacity, ground);
+        return;
+    }
+    std::array<Float4, longestRow> layer;
+    const std::span<Float4> source = std::span(layer).first(below.size());
+    layerColors(paints, in, row, materials, source);
+    for (std::size_t i = 0; i < below.size(); ++i)
+        below[i] = over(source[i] * opacity, below[i]);
+}
 
 void execute(const Paints& paints, const Instruction& in, const Row& row, const MaterialFunction& materials,
              Stack& stack) {
     switch (in.op) {
         case Op::Push:
-            std::ranges::fill(stack.row(++stack.top), vec4(0));
-            return;
+            ++stack.top;
+            return stack.clear();
         case Op::Pop:
         case Op::PopMaskLuminance:
         case Op::PopMaskLinear:
-        case Op::PopMaskAlpha: {
-            const std::span<vec4> source = stack.row(stack.top--), below = stack.row(stack.top);
-            for (std::size_t i = 0; i < stack.count; ++i)
-                below[i] = in.op == Op::Pop ? blend(in.blend, source[i] * in.opacity, below[i])
-                                            : below[i] * maskFactor(in.op, source[i]);
-            return;
-        }
-        default: {
-            std::array<vec4, chunk> layer;
-            const std::span<vec4> source = std::span(layer).first(stack.count), below = stack.row(stack.top);
-            layerColors(paints, in, row, materials, source);
-            for (std::size_t i = 0; i < stack.count; ++i)
-                below[i] = over(source[i] * in.opacity, below[i]);
-        }
+        case Op::PopMaskAlpha:
+            return pop(in, stack);
+        default:
+            return drawLayer(paints, in, row, materials, stack);
     }
 }
 
@@ -129,12 +178,12 @@ Paints::Paints(const AssetView& asset) : asset_(asset), images_(asset) {
 }
 
 vec4 Paints::color(std::uint32_t paint, const PaintPlace& place, const MaterialFunction& materials) const {
-    vec4 color;
+    Float4 color;
     colors(paint, place, vec2(0), {&color, 1}, materials);
-    return color;
+    return toVec4(color);
 }
 
-void Paints::colors(std::uint32_t paint, const PaintPlace& place, vec2 step, std::span<vec4> colors,
+void Paints::colors(std::uint32_t paint, const PaintPlace& place, vec2 step, std::span<Float4> colors,
                     const MaterialFunction& materials) const {
     const Paint& p = asset_.paints[paint];
     if (!isProgram(p)) {
@@ -142,12 +191,12 @@ void Paints::colors(std::uint32_t paint, const PaintPlace& place, vec2 step, std
         return;
     }
     Row row{place, step};
-    for (std::size_t done = 0; done < colors.size(); done += chunk) {
-        Stack stack(std::min(chunk, colors.size() - done));
+    for (std::size_t done = 0; done < colors.size(); done += longestRow) {
+        Stack stack(colors.subspan(done, std::min(longestRow, colors.size() - done)));
         row.first.point = place.point + float(done) * step;
         for (std::uint32_t i = p[0]; i < p[0] + p[1]; ++i)
             execute(*this, recordAt<Instruction>(asset_.data, i), row, materials, stack);
-        std::ranges::copy(stack.row(stack.top), colors.begin() + std::ptrdiff_t(done));
+        stack.filledRow(0);
     }
 }
 

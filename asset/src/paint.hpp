@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include "asset/evaluate.hpp"
+#include "asset/src/float4.hpp"
 #include "asset/src/image_fill.hpp"
 
 namespace vtm::asset {
@@ -29,7 +30,7 @@ public:
     glm::vec4 color(std::uint32_t paint, const PaintPlace& place,
                     const MaterialFunction& materials = {}) const;
     /// At places that are `step` apart, of which `place` is the first.
-    void colors(std::uint32_t paint, const PaintPlace& place, glm::vec2 step, std::span<glm::vec4> colors,
+    void colors(std::uint32_t paint, const PaintPlace& place, glm::vec2 step, std::span<Float4> colors,
                 const MaterialFunction& materials = {}) const;
 
     const AssetView& asset() const { return asset_; }

@@ -237,19 +237,29 @@ double PlanarPiece::bulge() const {
 }
 
 std::vector<PlanarPiece> planarPieces(const AssetView& asset, const Map& map) {
+    // What the maps have on average, so that mostly nothing is moved.
+    const std::size_t maps = std::max<std::size_t>(asset.maps.size(), 1);
+    const std::size_t squares = 16 * asset.nodes.size() / maps, count = asset.pieces.size() / maps;
     std::vector<PlanarPiece> pieces;
+    pieces.reserve(count + count / 4);
     std::array<Borders, 2> borders;
+    for (Borders& lines : borders) {
+        lines.below.reserve(squares + count / 2);
+        lines.above.reserve(squares + count / 2);
+    }
     ChangesBySide sides;
     walk(asset, map.root, [&](Cell cell, Entry entry) {
         std::array<std::uint32_t, 4> corners;
         std::span<const Piece> own;
         corners.fill(entry.payload());
+        for (std::vector<Change>& side : sides)
+            side.clear();
         if (entry.kind() == Entry::Kind::Leaf) {
             const Leaf& leaf = asset.leaves[entry.payload()];
             std::ranges::copy(leaf.corners, corners.begin());
             own = asset.pieces.subspan(leaf.firstPiece, leaf.pieceCount);
+            changesOf(own, sides);
         }
-        changesOf(own, sides);
         for (unsigned side = 0; side < 4; ++side)
             addStretches(cell, corners[side], sides[side], side, borders);
         for (const Piece& piece : own)

@@ -1,26 +1,23 @@
 #include "asset/scan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
 #include "asset/src/blend.hpp"
 #include "asset/src/paint.hpp"
+#include "asset/src/program_pixels.hpp"
 #include "asset/src/row_sums.hpp"
+#include "asset/src/scan_stores.hpp"
 
 namespace vtm::asset {
 
@@ -30,82 +27,163 @@ using glm::dvec2;
 using glm::vec2;
 using glm::vec4;
 
-// ---- Pixels ---------------------------------------------------------------------------------------
-
-std::uint32_t packed(vec4 color) {
-#if defined(__SSE2__)
-    // max first: it makes 0 of what is no number.
-    const __m128 unit = _mm_min_ps(_mm_max_ps(_mm_loadu_ps(&color.x), _mm_setzero_ps()), _mm_set1_ps(1));
-    const __m128i words = _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(unit, _mm_set1_ps(255)), _mm_set1_ps(0.5f)));
-    const __m128i halves = _mm_packs_epi32(words, words);
-    return std::uint32_t(_mm_cvtsi128_si32(_mm_packus_epi16(halves, halves)));
-#else
-    const vec4 scaled = glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f;
-    const std::array<std::uint8_t, 4> bytes{std::uint8_t(scaled.r), std::uint8_t(scaled.g),
-                                            std::uint8_t(scaled.b), std::uint8_t(scaled.a)};
-    return std::bit_cast<std::uint32_t>(bytes);
-#endif
-}
-
-/// Stores a run of one colour.
-class ByteStore {
-public:
-    explicit ByteStore(const ByteTarget& target) : target_(target) {}
-    void operator()(int row, int first, int end, vec4 color) const {
-        std::uint8_t* at = target_.pixels + std::size_t(row) * target_.rowBytes + std::size_t(first) * 4;
-        const std::uint32_t word = packed(color);
-        for (int x = first; x < end; ++x, at += 4)
-            std::memcpy(at, &word, 4);
-    }
-
-private:
-    ByteTarget target_;
+/// A chord and the change of coverage that it means to a program.
+struct Side {
+    const Chord* chord;
+    float change;
 };
 
-class RasterStore {
-public:
-    explicit RasterStore(image::Raster& raster) : raster_(raster) {}
-    void operator()(int row, int first, int end, vec4 color) const {
-        for (int x = first; x < end; ++x)
-            for (int c = 0; c < 4; ++c)
-                raster_.pixel(x, row)[c] = glm::clamp(color[c], 0.0f, 1.0f);
-    }
-
-private:
-    image::Raster& raster_;
+/// Pixels of a row up to `end`, of which a program has the same share.
+struct Share {
+    int end;
+    float share;
 };
 
-}  // namespace
+/// What one picture needs and the next uses again.
+struct Scratch {
+    Bands bands;
+    Accumulator<Float4> colors;
+    Accumulator<float> coverage;
+    ProgramPixels pixels;
+    std::vector<std::vector<Side>> sides;  ///< by paint; those of programs in a band
+    std::vector<std::uint16_t> programs;   ///< in a band
+    std::vector<Share> shares;
+    std::vector<Float4> run;  ///< colours of a program
+};
 
-struct Scanner::Impl {
+/// What is kept of an asset.
+struct Picture {
     struct Drawn {
         Map map;
         std::vector<Boundary> boundaries;
-    };
-    /// What one picture needs and the next uses again.
-    struct Scratch {
-        std::vector<Chord> chords;
-        Bands bands;
-        Accumulator<vec4> colors;
-        Accumulator<float> coverage;
-        std::vector<vec4> pixels;
-        std::vector<vec4> run;  ///< colours of a program
     };
     Asset asset;                   ///< without trees: paints and what they need
     std::optional<Paints> paints;  ///< of `asset`
     std::vector<Drawn> drawn;
     Sums sums = Sums::Encoded;
-    std::vector<vec4> solid;      ///< by paint, as it is added; nothing for programs
-    std::vector<bool> isProgram;  ///< by paint
+    std::vector<Float4> solid;            ///< by paint, as it is added; nothing for programs
+    std::vector<std::uint8_t> isProgram;  ///< by paint
 
     vec4 added(vec4 color) const { return sums == Sums::Light ? light(color) : color; }
+};
+
+/// A picture under a view, band by band.
+class Drawing {
+public:
+    Drawing(const Picture& of, const View& view, const MaterialFunction& materials, Scratch& scratch)
+        : of_(of),
+          view_(view),
+          materials_(materials),
+          scratch_(scratch),
+          inverse_(glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]))) {
+        scratch_.bands.clear(view.height);
+        for (const Picture::Drawn& drawn : of.drawn) {
+            Chords chords(drawn.map, view, scratch_.bands);
+            for (const Boundary& boundary : drawn.boundaries)
+                chords.add(boundary);
+        }
+        scratch_.colors.resize(view.width);
+        scratch_.coverage.resize(view.width);
+        scratch_.sides.resize(of.solid.size());
+    }
+
+    template <class Store>
+    void drawBand(int band, const Store& store) {
+        top_ = band * bandRows;
+        rows_ = std::min(bandRows, view_.height - top_);
+        scratch_.programs.clear();
+        const std::uint8_t* isProgram = of_.isProgram.data();
+        const Float4* solid = of_.solid.data();
+        const auto top = float(top_);
+        const int rows = rows_;
+        for (const Chord& c : scratch_.bands.of(band)) {
+            if (const unsigned programs = isProgram[c.left] + isProgram[c.right]; programs != 0) {
+                addSides(c);
+                if (programs == 2)
+                    continue;
+            }
+            scratch_.colors.add(c, top, rows, solid[c.left] - solid[c.right]);
+        }
+        if (!scratch_.programs.empty())
+            scratch_.pixels.resize(view_.width);
+        for (const std::uint16_t paint : scratch_.programs)
+            addProgram(paint);
+        for (int row = 0; row < rows_; ++row)
+            scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
+                if (scratch_.programs.empty())
+                    store(top_ + row, first, end, color);
+                else
+                    scratch_.pixels.finish(top_, row, first, end, color, store);
+            });
+    }
+
+private:
+    void addSides(const Chord& chord) {
+        addSide(chord, chord.left, 1);
+        addSide(chord, chord.right, -1);
+    }
+    void addSide(const Chord& chord, std::uint16_t paint, float change) {
+        if (!of_.isProgram[paint])
+            return;
+        std::vector<Side>& sides = scratch_.sides[paint];
+        if (sides.empty())
+            scratch_.programs.push_back(paint);
+        sides.push_back({&chord, change});
+    }
+
+    /// By its own coverage.
+    void addProgram(std::uint16_t paint) {
+        Accumulator<float>& coverage = scratch_.coverage;
+        for (const Side& side : scratch_.sides[paint])
+            coverage.add(*side.chord, float(top_), rows_, side.change);
+        scratch_.sides[paint].clear();
+        std::vector<Share>& shares = scratch_.shares;
+        for (int row = 0; row < rows_; ++row) {
+            int begin = 0;
+            coverage.resolve(std::size_t(row), [&](int first, int end, float share) {
+                if (std::abs(share) < leastShare)
+                    return addShares(paint, row, begin);
+                if (shares.empty())
+                    begin = first;
+                shares.push_back({end, share});
+            });
+            addShares(paint, row, begin);
+        }
+    }
+
+    /// Of a program, in the pixels of a row from `first` on.
+    void addShares(std::uint16_t paint, int row, int first) {
+        if (scratch_.shares.empty())
+            return;
+        const int end = scratch_.shares.back().end;
+        std::vector<Float4>& run = scratch_.run;
+        run.resize(std::size_t(end - first));
+        const dvec2 point = inverse_ * (dvec2(first + 0.5, top_ + row + 0.5) - view_.toPixels[2]);
+        of_.paints->colors(paint, {vec2(point), glm::mat2(inverse_)}, vec2(inverse_[0]), run, materials_);
+        if (of_.sums == Sums::Light)
+            for (Float4& color : run)
+                color = float4(light(toVec4(color)));
+        Float4* pixels = scratch_.pixels.use(row, first, end);
+        std::size_t i = 0;
+        for (const auto& [shareEnd, share] : scratch_.shares)
+            for (const auto last = std::size_t(shareEnd - first); i < last; ++i)
+                pixels[i] += share * run[i];
+        scratch_.shares.clear();
+    }
+
+    const Picture& of_;
+    const View& view_;
+    const MaterialFunction& materials_;
+    Scratch& scratch_;
+    glm::dmat2 inverse_;
+    int top_ = 0, rows_ = 0;
+};
+
+}  // namespace
+
+struct Scanner::Impl : Picture {
     template <class Store>
     void draw(const View& view, const MaterialFunction& materials, const Store& store);
-    template <class Store>
-    void drawBand(const View& view, const MaterialFunction& materials, int band, Scratch& scratch,
-                  const Store& store) const;
-    /// The programs of a band, each by its own coverage, over rows of solid colours.
-    void addPrograms(const View& view, const MaterialFunction& materials, int band, Scratch& scratch) const;
 
     std::unique_ptr<Scratch> takeScratch() {
         const std::lock_guard lock(mutex_);
@@ -131,92 +209,15 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
     if (drawn.empty() || !(std::abs(determinant) > std::numeric_limits<double>::min())) {
         for (int y = 0; y < view.height; ++y)
-            store(y, 0, view.width, vec4(0));
+            store(y, 0, view.width, Float4{});
         return;
     }
     // An exception loses the scratch, whose sums may be half done.
     std::unique_ptr<Scratch> scratch = takeScratch();
-    scratch->chords.clear();
-    for (const Drawn& d : drawn) {
-        Chords chords(d.map, view, scratch->chords);
-        for (const Boundary& boundary : d.boundaries)
-            chords.add(boundary);
-    }
-    scratch->bands.sort(scratch->chords, view.height);
-    scratch->colors.resize(view.width);
+    Drawing drawing(*this, view, materials, *scratch);
     for (int band = 0; band * bandRows < view.height; ++band)
-        drawBand(view, materials, band, *scratch, store);
+        drawing.drawBand(band, store);
     giveBack(std::move(scratch));
-}
-
-template <class Store>
-void Scanner::Impl::drawBand(const View& view, const MaterialFunction& materials, int band, Scratch& scratch,
-                             const Store& store) const {
-    const int top = band * bandRows, rows = std::min(bandRows, view.height - top);
-    bool programs = false;
-    for (const std::uint32_t i : scratch.bands.of(band)) {
-        const Chord& c = scratch.chords[i];
-        programs = programs || isProgram[c.left] || isProgram[c.right];
-        scratch.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
-    }
-    if (!programs) {
-        for (int row = 0; row < rows; ++row)
-            scratch.colors.resolve(std::size_t(row), [&](int first, int end, const vec4& color) {
-                store(top + row, first, end, color);
-            });
-        return;
-    }
-    std::vector<vec4>& pixels = scratch.pixels;
-    pixels.resize(std::size_t(bandRows) * std::size_t(view.width));
-    for (int row = 0; row < rows; ++row)
-        scratch.colors.resolve(std::size_t(row), [&](int first, int end, const vec4& color) {
-            std::fill_n(pixels.begin() + row * view.width + first, end - first, color);
-        });
-    addPrograms(view, materials, band, scratch);
-    for (int row = 0; row < rows; ++row)
-        for (int x = 0; x < view.width; ++x)
-            store(top + row, x, x + 1, pixels[std::size_t(row) * std::size_t(view.width) + std::size_t(x)]);
-}
-
-void Scanner::Impl::addPrograms(const View& view, const MaterialFunction& materials, int band,
-                                Scratch& scratch) const {
-    const int top = band * bandRows, rows = std::min(bandRows, view.height - top);
-    const std::vector<Chord>& chords = scratch.chords;
-    /// A chord and the change of coverage that it means to one program.
-    struct Side {
-        std::uint16_t paint;
-        std::uint32_t chord;
-        float change;
-    };
-    std::vector<Side> sides;
-    for (const std::uint32_t i : scratch.bands.of(band)) {
-        if (isProgram[chords[i].left])
-            sides.push_back({chords[i].left, i, 1});
-        if (isProgram[chords[i].right])
-            sides.push_back({chords[i].right, i, -1});
-    }
-    std::ranges::stable_sort(sides, {}, &Side::paint);
-    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    Accumulator<float>& coverage = scratch.coverage;
-    coverage.resize(view.width);
-    for (std::size_t i = 0; i < sides.size();) {
-        const std::uint16_t paint = sides[i].paint;
-        for (; i < sides.size() && sides[i].paint == paint; ++i)
-            coverage.add(chords[sides[i].chord], float(top), rows, sides[i].change);
-        for (int row = 0; row < rows; ++row)
-            coverage.resolve(std::size_t(row), [&](int first, int end, float share) {
-                // Roundings of the running sum; a share that small is no 1/255 of a pixel.
-                if (std::abs(share) < 1e-5f)
-                    return;
-                std::vector<vec4>& run = scratch.run;
-                run.resize(std::size_t(end - first));
-                const dvec2 point = inverse * (dvec2(first + 0.5, top + row + 0.5) - view.toPixels[2]);
-                paints->colors(paint, {vec2(point), glm::mat2(inverse)}, vec2(inverse[0]), run, materials);
-                vec4* pixels = scratch.pixels.data() + std::size_t(row) * std::size_t(view.width) + first;
-                for (std::size_t x = 0; x < run.size(); ++x)
-                    pixels[x] += share * added(run[x]);
-            });
-    }
 }
 
 Scanner::Scanner(const AssetView& asset, Sums sums) : impl_(std::make_unique<Impl>()) {
@@ -235,7 +236,8 @@ Scanner::Scanner(const AssetView& asset, Sums sums) : impl_(std::make_unique<Imp
     impl_->paints.emplace(kept);
     for (const Paint& paint : kept.paints) {
         impl_->isProgram.push_back(asset::isProgram(paint));
-        impl_->solid.push_back(asset::isProgram(paint) ? vec4(0) : impl_->added(std::bit_cast<vec4>(paint)));
+        impl_->solid.push_back(asset::isProgram(paint) ? Float4{}
+                                                       : float4(impl_->added(std::bit_cast<vec4>(paint))));
     }
 }
 
@@ -244,20 +246,24 @@ Scanner::Scanner(Scanner&&) noexcept = default;
 Scanner& Scanner::operator=(Scanner&&) noexcept = default;
 
 void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
-    impl_->draw(view, materials, ByteStore(target));
+    impl_->draw(view, materials, ByteStore(target, view.width));
 }
 
 void Scanner::scan(const View& view, const std::function<void(int, const ColorRun&)>& take,
                    const MaterialFunction& materials) const {
-    impl_->draw(view, materials, [&](int row, int first, int end, const vec4& color) {
-        take(row, {first, end, color});
-    });
+    impl_->draw(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {
+                    take(row, {first, end, color});
+                }));
 }
 
 image::Raster Scanner::draw(const View& view, const MaterialFunction& materials) const {
     validate(view);
     image::Raster raster(view.width, view.height);
-    impl_->draw(view, materials, RasterStore(raster));
+    impl_->draw(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {
+                    for (int x = first; x < end; ++x)
+                        for (int c = 0; c < 4; ++c)
+                            raster.pixel(x, row)[c] = glm::clamp(color[c], 0.0f, 1.0f);
+                }));
     return raster;
 }
 

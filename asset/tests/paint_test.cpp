@@ -218,6 +218,27 @@ TEST(Paint, ImagesTrilinearAreBilinearWhereMagnified) {
                    imageAt(p, ImageFilter::Bilinear));
 }
 
+/// A footprint as narrow as a pixel and longer: the sum of pixels beside each other, of the last ones in
+/// part.
+TEST(Paint, ImagesTrilinearAreReadAlongOblongFootprints) {
+    const auto across = [](float x, float y) { return imageAt({x, y}, ImageFilter::Bilinear); };
+    const float all = 2 - 1.0f / 64, outer = 0.5f * (all - 1);
+    expectNear(imageAt({1.2f, 1.4f}, ImageFilter::Trilinear, mat2(0.1f, 0, 0, 2)),
+               (across(1.2f, 1.4f) + outer * (across(1.2f, 0.4f) + across(1.2f, 2.4f))) / all);
+    expectNear(imageAt({1.2f, 1.4f}, ImageFilter::Trilinear, mat2(0, 0.5f, -2, 0)),
+               (across(1.2f, 1.4f) + outer * (across(0.2f, 1.4f) + across(2.2f, 1.4f))) / all);
+    // Along a diagonal, to (1, 1) · 2 √2, which is 4 long.
+    const float longer = 4 - 1.0f / 64, ends = 0.5f * (longer - 3), d = 0.70710678f;
+    const vec2 p(2, 1.5f), side = vec2(2.8284271f);
+    vec4 sum = across(p.x, p.y) + across(p.x + d, p.y + d) + across(p.x - d, p.y - d);
+    sum += ends * (across(p.x + 2 * d, p.y + 2 * d) + across(p.x - 2 * d, p.y - 2 * d));
+    expectNear(imageAt(p, ImageFilter::Trilinear, mat2(side, vec2(-0.3f, 0.3f))), sum / longer);
+    // Hardly oblong is round: nothing is read beside it.
+    expectNear(imageAt({1.2f, 1.4f}, ImageFilter::Trilinear, mat2(1.01f, 0, 0, 1)), across(1.2f, 1.4f),
+               0.02f);
+    EXPECT_TRUE(std::isfinite(imageAt({1, 1}, ImageFilter::Trilinear, mat2(1e30f, 0, 0, 1)).a));
+}
+
 /// smallPicture() is 4 x 3 pixels: its levels have 2 x 2 and 1 x 1 texels.
 TEST(Paint, ImagesTrilinearAreMeansWhereMinified) {
     vec4 first(0), whole(0);
@@ -228,9 +249,7 @@ TEST(Paint, ImagesTrilinearAreMeansWhereMinified) {
         }
     constexpr float byte = 0.5f / 255 + 1e-5f;
     expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(2)), first, byte);
-    // Turned; and by the longer axis alone.
-    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(0, 2, -2, 0)), first, byte);
-    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(0.1f, 0, 0, 2)), first, byte);
+    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(0, 2, -2, 0)), first, byte);  // turned
     expectNear(imageAt({3, 2}, ImageFilter::Trilinear, mat2(4)), whole, byte);
     expectNear(imageAt({3, 2}, ImageFilter::Trilinear, mat2(1e9f)), whole, byte);
     expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(std::exp2(1.25f))),

@@ -50,30 +50,53 @@ vec4 filtered(ASSET_IN uvec4 level, vec2 p, int tapsLog2) {
     return sum;
 }
 
-// The larger singular value.
-float longerAxis(mat2 m) {
-    float a = dot(m[0], m[0]), b = dot(m[0], m[1]), c = dot(m[1], m[1]);
-    return sqrt(0.5 * (a + c) + length(vec2(0.5 * (a - c), b)));
+// Where a pixel's footprint is read (docs/scene.md, filters of images): at 2 side + 1 points along its longer axis, a
+// step apart, each for a square `width` wide. The outermost two count `outer`, and all of them `all`.
+struct Probes {
+    int side;
+    float width, outer, all;
+    vec2 step;
+};
+
+const float mostOblong = 16.0, nearlyRound = 1.0 / 64.0;
+
+// m: a pixel's sides in the image. Its singular values are the axes of the ellipse that it makes of a circle.
+Probes probesOf(mat2 m) {
+    float a = m[0].x * m[0].x + m[1].x * m[1].x, b = m[0].x * m[0].y + m[1].x * m[1].y;
+    float c = m[0].y * m[0].y + m[1].y * m[1].y;
+    float halved = 0.5 * (a - c), root = length(vec2(halved, b)), longer = sqrt(0.5 * (a + c) + root);
+    float shorter = abs(m[0].x * m[1].y - m[0].y * m[1].x) / max(longer, 1e-20);
+    vec2 along = halved > 0.0 ? vec2(halved + root, b) : vec2(b, root - halved);
+    float width = max(1.0, max(shorter, longer / mostOblong));
+    float all = clamp(longer / width - nearlyRound, 1.0, mostOblong);
+    int side = int(ceil(0.5 * (all - 1.0)));
+    return Probes(side, width, side == 0 ? 1.0 : 0.5 * (all - float(2 * side - 1)), all,
+                  along * (width / max(length(along), 1e-20)));
 }
 
 // Nearest and bilinear at the point. The others filter for a pixel, so they are asked at its centre, wherever in it the
-// point lies. One loop over the two levels, because compilers inline what is in it.
+// point lies. One loop over levels and points, because compilers inline what is in it.
 vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
     uvec4 a = texelAt(ASSET fill), b = texelAt(ASSET fill + 1u);
     uvec4 picture = texelAt(ASSET ASSET_PART(imageSection) + b.z);
     bool ofPixel = b.w >= filterTrilinear;
     vec2 p = applyMatrix(a, b, ofPixel ? pixel[2] : point);
     vec4 linear = uintBitsToFloat(a);
-    float lod = 0.0;
+    Probes probes = Probes(0, 1.0, 1.0, 1.0, vec2(0.0));
     if (ofPixel)
-        lod = clamp(log2(longerAxis(mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]))), 0.0, 30.0);
-    float share = fract(lod);
+        probes = probesOf(mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]));
+    float lod = min(log2(probes.width), 30.0), share = fract(lod);
     int tapsLog2 = b.w == filterNearest ? 0 : b.w == filterBicubic ? 2 : 1;
     vec4 sum = vec4(0.0);
-    uint levels = share > 0.0 ? 2u : 1u;
-    for (uint i = 0u; i < levels; ++i) {
-        uvec4 level = levelOf(picture, uint(lod) + i);
-        sum += (i == 0u ? 1.0 - share : share) * filtered(ASSET level, p, level.w == 0u ? tapsLog2 : 1);
+    int levels = share > 0.0 ? 2 : 1;
+    for (int i = levels * -probes.side; i < levels * (probes.side + 1); ++i) {
+        // The two levels take turns at each of the points.
+        bool coarser = levels == 2 && (i & 1) == 1;
+        int probe = levels == 2 ? i >> 1 : i;
+        uvec4 level = levelOf(picture, uint(lod) + (coarser ? 1u : 0u));
+        float weight = (abs(probe) == probes.side ? probes.outer : 1.0) / probes.all;
+        sum += weight * (coarser ? share : 1.0 - share) *
+               filtered(ASSET level, p + float(probe) * probes.step, level.w == 0u ? tapsLog2 : 1);
     }
     // Catmull-Rom overshoots beside edges.
     sum.a = clamp(sum.a, 0.0, 1.0);

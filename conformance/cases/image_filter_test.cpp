@@ -207,6 +207,27 @@ TEST_F(ImageFilters, MinifiedImagesAreNearTheirMeans) {
     }
 }
 
+/// Rows of colours under noise along them, which a squeeze along the rows evens out: the rows stay apart.
+TEST_F(ImageFilters, OblongFootprintsAreNotBlurredAcross) {
+    auto bitmap = std::make_shared<image::Bitmap>(*noise(211, 61, true));
+    for (int y = 0; y < bitmap->height; ++y)
+        for (int x = 0; x < bitmap->width * 4; ++x) {
+            std::uint8_t& byte = bitmap->rgba[std::size_t(y * bitmap->width * 4 + x)];
+            if (x % 4 != 3)
+                byte = std::uint8_t(byte / 4 + (std::sin(y) > 0 ? 190 : 0));
+        }
+    const scene::Scene scene = sceneOf(bitmap, ImageFilter::Trilinear);
+    const asset::Scanner scanner(compiler::compile(scene).asset);
+    for (const double squeeze : {2.5, 4.0, 8.0, 13.0})
+        for (const auto& [across, along] :
+             {std::pair{dvec2(1, 0), dvec2(0, 1)}, {dvec2(c, s), dvec2(-s, c)}}) {
+            SCOPED_TRACE(squeeze);
+            const dvec2 x = across / squeeze;
+            const Place place{"", {x.x, x.y, along.x, along.y}};
+            EXPECT_LE(rmsToFootprints(scanner, *bitmap, scene, place), 4);  // 37 and more, were it blurred
+        }
+}
+
 /// The brightness of a picture does not depend on how small it is shown.
 TEST_F(ImageFilters, TheMeanStays) {
     const auto bitmap = noise(64, 64, true);

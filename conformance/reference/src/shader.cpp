@@ -142,26 +142,41 @@ Colour Means::at(int l, Point p) const {
 
 ImageShader::ImageShader(const Affine& placement, const scene::ImagePaint& paint)
     : toPaint(placement), bitmap(paint.bitmap), filter(paint.filter) {
-    // The longest image of a unit vector: its square is the larger eigenvalue of JᵀJ.
+    // The longest image of a unit vector: its square is the larger eigenvalue of JᵀJ, and of JJᵀ.
     const Vector u = toPaint[0], v = toPaint[1];
     const double half = (dot(u, u) + dot(v, v)) / 2, area = u.x * v.y - u.y * v.x;
-    footprint = std::sqrt(half + std::sqrt(std::max(0.0, half * half - area * area)));
-    if (isOfAPixel() && footprint > 1)
-        means = std::make_shared<const Means>(*bitmap, footprint);
+    const double longer = std::sqrt(half + std::sqrt(std::max(0.0, half * half - area * area)));
+    const double angle =
+        std::atan2(2 * (u.x * u.y + v.x * v.y), u.x * u.x + v.x * v.x - u.y * u.y - v.y * v.y) / 2;
+    along = {std::cos(angle), std::sin(angle)};
+    width = std::max({1.0, std::abs(area) / longer, longer / 16});
+    ratio = std::max(1.0, longer / width - 1.0 / 64);
+    if (isOfAPixel() && width > 1)
+        means = std::make_shared<const Means>(*bitmap, width);
 }
 
 Colour ImageShader::at(Point p) const {
     const Point q = scene::apply(toPaint, p);
     if (filter == scene::ImageFilter::Nearest)
         return texel(*bitmap, q.x, q.y);
-    const double level = isOfAPixel() ? std::max(0.0, std::log2(footprint)) : 0;
+    if (!isOfAPixel())
+        return clamped(bilinear(*bitmap, q));
+    const double level = std::log2(width);
     const int finer = int(level);
-    const auto at = [&](int l) {
+    const auto at = [&](int l, Point place) {
         if (l > 0)
-            return means->at(l, q);
-        return filter == scene::ImageFilter::Bicubic ? bicubic(*bitmap, q) : bilinear(*bitmap, q);
+            return means->at(l, place);
+        return filter == scene::ImageFilter::Bicubic ? bicubic(*bitmap, place) : bilinear(*bitmap, place);
     };
-    return clamped(level > 0 ? at(finer) * (finer + 1 - level) + at(finer + 1) * (level - finer) : at(0));
+    const auto square = [&](Point place) {
+        return level > 0 ? at(finer, place) * (finer + 1 - level) + at(finer + 1, place) * (level - finer)
+                         : at(0, place);
+    };
+    // Squares side by side, of the outermost two what is left.
+    Colour sum = square(q);
+    for (double rest = (ratio - 1) / 2, i = 1; rest > 0; rest -= 1, i += 1)
+        sum = sum + (square(q + along * (i * width)) + square(q - along * (i * width))) * std::min(rest, 1.0);
+    return clamped(sum * (1 / ratio));
 }
 
 Point TileShader::wrapped(Point p) const {

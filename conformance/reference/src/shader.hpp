@@ -83,8 +83,10 @@ struct ImageShader {
     Affine toPaint;
     std::shared_ptr<const image::Bitmap> bitmap;
     scene::ImageFilter filter;
-    double footprint;                    ///< the longer axis of a pixel of the raster, in those of the bitmap
-    std::shared_ptr<const Means> means;  ///< where it is longer than one
+    double width;  ///< of the squares that a pixel of the raster is read in, in the bitmap
+    double ratio;  ///< of the pixel's longer axis to that, at least 1
+    Vector along;  ///< the longer axis' direction
+    std::shared_ptr<const Means> means;  ///< where they are wider than one
 };
 
 struct MaterialShader {

@@ -1,0 +1,22 @@
+/// \file
+/// Four floats that are added and multiplied at once: a colour in a register.
+#pragma once
+
+#include <bit>
+
+#include <glm/vec4.hpp>
+
+namespace vtm::asset {
+
+using Float4 = float __attribute__((vector_size(16)));
+
+inline Float4 float4(const glm::vec4& v) { return Float4{v.x, v.y, v.z, v.w}; }
+inline glm::vec4 toVec4(Float4 v) { return {v[0], v[1], v[2], v[3]}; }
+
+/// Of straight colours.
+inline Float4 premultiplied(Float4 c) { return c * Float4{c[3], c[3], c[3], 1}; }
+inline Float4 over(Float4 source, Float4 backdrop) {
+    return source + (1 - Float4{source[3], source[3], source[3], source[3]}) * backdrop;
+}
+
+}  // namespace vtm::asset
