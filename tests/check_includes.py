@@ -65,7 +65,7 @@ LIBRARIES = {
     r"X11/.*": {"examples"},
     r"Q[A-Z]\w+": {"bench"},
     r"potracelib\.h": {"trace"},
-    r"emmintrin\.h": {"asset"},
+    r"emmintrin\.h": {"asset", "compiler"},
     r"fnmatch\.h": {"conformance/runner"},
     r"unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }

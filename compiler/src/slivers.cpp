@@ -8,9 +8,9 @@ namespace {
 
 using Side = std::size_t;
 
-int distance(const std::array<std::uint16_t, 2>& p, Side side) {
-    const int across = side % 2 == 0 ? p[1] : p[0];
-    return side == 0 || side == 3 ? across : static_cast<int>(asset::leafExtent) - across;
+double distance(Pair p, Side side) {
+    const double across = side % 2 == 0 ? p[1] : p[0];
+    return side == 0 || side == 3 ? across : asset::leafExtent - across;
 }
 
 std::optional<Side> sideOf(const Square& square, LatticePoint p) {
@@ -27,25 +27,22 @@ std::optional<Side> sideOf(const Square& square, LatticePoint p) {
 /// lattice's resolution; the corners that the chain passes take the paint of its inner side.
 void Fitter::cutSlivers() {
     leaf_.slivers = false;
-    while (std::erase_if(chains_, [&](const Chain& c) { return isSliver(c); }) > 0)
+    while (std::erase_if(chains_.all, [&](const Chain& c) { return isSliver(c); }) > 0)
         leaf_.slivers = true;
 }
 
 /// Within twice the reach of a sliver from the border.
-bool Fitter::isNearBorder(LatticePoint p) const {
-    const auto margin = static_cast<Coord>(2 * sliverReach() / scale_) + 2;
-    return (p.x - square_.x0 <= margin) | (square_.x1() - p.x <= margin) | (p.y - square_.y0 <= margin) |
-           (square_.y1() - p.y <= margin);
+bool Fitter::isNearBorder(Pair u) const {
+    const double margin = 2 * (sliverReach() + scale_), most = asset::leafExtent - margin;
+    return (u[0] <= margin) | (u[0] >= most) | (u[1] <= margin) | (u[1] >= most);
 }
 
 bool Fitter::isSliver(const Chain& chain) {
-    if (!isNearBorder(points_[chain.first + chain.count / 2]))
+    const auto isInner = [](LatticePoint p) { return ((p.x | p.y) & 1) == 0; };
+    if (isInner(chain.start) || isInner(chain.end) || !isNearBorder(exact(chain.first + chain.count / 2)))
         return false;
-    const LatticePoint first = points_[chain.first], last = points_[chain.first + chain.count - 1];
-    if (!sideOf(square_, first) || !sideOf(square_, last))
-        return false;
-    return cutAlong(chain, first, last, chain.right, chain.left) ||
-           cutAlong(chain, last, first, chain.left, chain.right);
+    return cutAlong(chain, chain.start, chain.end, chain.right, chain.left) ||
+           cutAlong(chain, chain.end, chain.start, chain.left, chain.right);
 }
 
 /// Along the border counter-clockwise from one end of the chain to the other; the leaf's inside lies on the
@@ -54,7 +51,7 @@ bool Fitter::cutAlong(const Chain& chain, LatticePoint start, LatticePoint end, 
                       PaintId inner) {
     const Side from = *sideOf(square_, start), sides = (*sideOf(square_, end) + 4 - from) % 4;
     for (std::uint32_t i = 1; i < chain.count; ++i)
-        if (!hugs(round(points_[chain.first + i - 1]), round(points_[chain.first + i]), from, sides))
+        if (!hugs(rounded(chain, i - 1), rounded(chain, i), from, sides))
             return false;
     for (Side k = 1; k <= sides; ++k)
         if (leaf_.corners[(from + k) % 4] != outer)
@@ -81,19 +78,19 @@ bool Fitter::isBorderFree(LatticePoint from, LatticePoint to) const {
     const std::int64_t perimeter = 4 * std::int64_t{square_.side}, start = *along(from);
     const auto distanceTo = [&](std::int64_t place) { return (place - start + perimeter) % perimeter; };
     const std::int64_t end = distanceTo(*along(to));
-    return std::ranges::none_of(chains_, [&](const Chain& c) {
+    return std::ranges::none_of(chains_.all, [&](const Chain& c) {
         const auto isBetween = [&](LatticePoint p) {
             const auto place = along(p);
             return place && *place != start && distanceTo(*place) < end;
         };
-        return isBetween(points_[c.first]) || isBetween(points_[c.first + c.count - 1]);
+        return isBetween(c.start) || isBetween(c.end);
     });
 }
 
 /// Whether an edge runs within reach of one of the sides from `from` on. The first and the last
 /// side are met only near their corners, unless there is but one.
-bool Fitter::hugs(Steps p, Steps q, Side from, Side sides) const {
-    const int reach = sliverReach();
+bool Fitter::hugs(Pair p, Pair q, Side from, Side sides) const {
+    const double reach = sliverReach();
     const auto near = [&](Side side) { return distance(p, side) <= reach && distance(q, side) <= reach; };
     for (Side k = 0; k <= sides; ++k) {
         const Side side = (from + k) % 4;

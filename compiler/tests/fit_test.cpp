@@ -90,5 +90,63 @@ TEST(Fit, aShapeThatEndsOnTheBorderLeavesNoSliver) {
     EXPECT_EQ(fitted.leaf.corners, (std::array<PaintId, 4>{1, 1, 1, 1}));
 }
 
+/// Points 0 .. last of an arc over a chord of `length`, and one more that must not matter.
+struct Arc {
+    std::vector<double> x, y;
+
+    Arc(std::uint32_t last, double length) {
+        for (std::uint32_t i = 0; i <= last; ++i) {
+            const double s = double(i) / last;
+            x.push_back(100 + s * length), y.push_back(200 + 0.1 * length * s * (1 - s));
+        }
+        x.push_back(-1e6), y.push_back(1e6);
+    }
+    double fit(PieceFit& piece, double tolerance) const {
+        const std::size_t last = x.size() - 2;
+        return piece.run(x.data(), y.data(), static_cast<std::uint32_t>(last), Pair{x[0], y[0]},
+                         Pair{x[last], y[last]}, tolerance);
+    }
+};
+
+TEST(PieceFit, seesEveryPoint) {
+    constexpr double length = 10000, tolerance = 60;
+    PieceFit piece;
+    for (std::uint32_t last = 4; last <= LocalPoints::mostChords; ++last) {
+        const Arc arc(last, length);
+        EXPECT_LE(arc.fit(piece, tolerance), 1) << last;
+        for (std::uint32_t i = 1; i < last; ++i) {
+            Arc high = arc, back = arc;
+            high.y[i] += 5 * tolerance;
+            EXPECT_GT(high.fit(piece, tolerance), 1) << i << " of " << last;
+            back.x[i] = arc.x[i - 1];
+            EXPECT_GT(back.fit(piece, tolerance), 1) << i << " of " << last;
+        }
+    }
+}
+
+/// With few points the sag of the piece between them is what counts.
+TEST(PieceFit, keepsToTheToleranceBetweenPoints) {
+    constexpr double length = 10000;
+    PieceFit piece;
+    for (std::uint32_t last = 2; last <= LocalPoints::mostChords; ++last) {
+        const Arc arc(last, length);
+        double tolerance = 0.01;
+        while (arc.fit(piece, tolerance) > 1)
+            tolerance *= 1.1;
+        const double mA = piece.slopes().a / double{asset::slopeScale},
+                     mB = piece.slopes().b / double{asset::slopeScale};
+        double worst = 0;
+        for (int k = 0; k <= 1000; ++k) {
+            const double s = k / 1000.0, at = s * last;
+            const auto i = std::min(static_cast<std::uint32_t>(at), last - 1);
+            const double chain = arc.y[i] + (arc.y[i + 1] - arc.y[i]) * (at - i) - arc.y[0],
+                         curve = length * s * (1 - s) * (mA * (1 - s) - mB * s);
+            worst = std::max(worst, std::abs(chain - curve));
+        }
+        EXPECT_LE(worst, tolerance + 1e-6) << last;
+        EXPECT_GE(worst, tolerance / 2) << last;  // the bound is not idle
+    }
+}
+
 }  // namespace
 }  // namespace vtm::compiler
