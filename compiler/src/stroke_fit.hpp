@@ -17,6 +17,10 @@ struct Sample {
 /// each of the at most eight lobes that the error of such a fit has.
 using Samples = std::array<Sample, 17>;
 
+/// A fit is cut at least in two at each level. What is left at the last one, far below the tolerance, is a
+/// straight edge.
+inline constexpr int maxFitDepth = 20;
+
 struct Fit {
     Cubic cubic;
     double error;  ///< largest distance of a sample from the cubic; infinite if it runs astray
