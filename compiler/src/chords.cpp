@@ -16,8 +16,8 @@ double dot(scene::Point a, scene::Point b) { return a.x * b.x + a.y * b.y; }
 }  // namespace
 
 /// Whether across its chord d over a step h the curve strays no farther than the tolerance. With the
-/// accelerations p and q at the ends it strays by f(s) = h² s (1 - s) (d × p (2 - s) + d × q (1 + s)) / (6 |d|),
-/// so by h² (|d × p| + |d × q|) / (9 √3 |d|) at most.
+/// accelerations p and q at the ends it strays by f(s) = h² s (1 - s) (d × p (2 - s) + d × q (1 + s)) / (6
+/// |d|), so by h² (|d × p| + |d × q|) / (9 √3 |d|) at most.
 struct ChordCutter::Proof {
     double ax, ay, bx, by, most;
 
@@ -79,8 +79,8 @@ void ChordCutter::findVertices(int count, Point end) {
         x_[k] = end.x, y_[k] = end.y;
 }
 
-/// Whether no two velocities between point away from each other, so that along a chord the curve runs from one
-/// end to the other without turning back: so if it is the case for the velocity's Bernstein coefficients.
+/// Whether no two velocities between point away from each other, so that along a chord the curve runs from
+/// one end to the other without turning back: so if it is the case for the velocity's Bernstein coefficients.
 bool ChordCutter::runsForward(double t0, double t1) const {
     const auto& [a, b, c, start] = curve_;
     const auto velocity = [&](double t) { return (3.0 * a * t + 2.0 * b) * t + c; };
@@ -126,8 +126,7 @@ void ChordCutter::appendVertices(int first, int last) {
 }
 
 void ChordCutter::chord(const Vertex<double>& from, const Vertex<double>& to, int halvings) {
-    const bool isProven =
-        Proof(curve_, tolerance_)(from, to) && (runForward_ || runsForward(from.t, to.t));
+    const bool isProven = Proof(curve_, tolerance_)(from, to) && (runForward_ || runsForward(from.t, to.t));
     if (halvings > 0 && !isProven) {
         const auto [a, b, c, start] = curve_;
         const double t = (from.t + to.t) / 2;

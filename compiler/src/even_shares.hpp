@@ -30,7 +30,8 @@ public:
         return sums_[std::size_t(steps_)] * step_;
     }
 
-    /// Where the first `count` - 1 of `count` equal parts end. The density is taken to be linear in each step.
+    /// Where the first `count` - 1 of `count` equal parts end. The density is taken to be linear in each
+    /// step.
     void cut(int count, double* ends) const {
         const double share = sums_[std::size_t(steps_)] / count;
         double goal = share;

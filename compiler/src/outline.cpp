@@ -5,9 +5,12 @@
 #include <cmath>
 #include <span>
 
+#include <glm/common.hpp>
+
 #include "compiler/src/chords.hpp"
 #include "compiler/src/cubics.hpp"
 #include "compiler/src/error_budget.hpp"
+#include "compiler/src/stroke_chords.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -60,6 +63,8 @@ public:
     }
 
     void lines(std::span<const Point> to) {
+        if (beyond_ == 0 && !to.empty() && areInside(to))
+            return linesInside(to);
         for (const Point p : to)
             line(p);
     }
@@ -86,6 +91,7 @@ public:
         taken_ = taken;
         current_ = to.back();
     }
+    Point current() const { return current_; }
     /// Whether the line so far ends inside the box and all of the curve lies there.
     bool keepsInside(const Cubic& c) const {
         return beyond_ == 0 && (sidesBeyond(c[1]) | sidesBeyond(c[2]) | sidesBeyond(c[3])) == 0;
@@ -128,6 +134,13 @@ private:
         beyond_ = beyond;
     }
 
+    bool areInside(std::span<const Point> points) const {
+        Point min = points.front(), max = min;
+        for (const Point p : points)
+            min = glm::min(min, p), max = glm::max(max, p);
+        return (sidesBeyond(min) | sidesBeyond(max)) == 0;
+    }
+
     /// Where the segment meets the four lines of the box, ascending: between two cuts clamping is an
     /// affine map and keeps the segment straight.
     std::array<double, 6> boxCuts(Point a, Point b) const {
@@ -152,8 +165,8 @@ private:
         return {static_cast<Coord>((p.x + coarse) - coarse), static_cast<Coord>((p.y + coarse) - coarse)};
     }
 
-    /// All points from the last one emitted to the current one lie beyond one side: moved onto it, they are one
-    /// line.
+    /// All points from the last one emitted to the current one lie beyond one side: moved onto it, they are
+    /// one line.
     void emitHeld() {
         if (isHeld_)
             emit(quantise(current_));
@@ -237,7 +250,44 @@ private:
     ChordCutter cutter_;
 };
 
+/// Contours of strokes on their way to the lattice.
+class MappedContours : public ContourSink {
+public:
+    MappedContours(RunSink& sink, const Affine& map, double tolerance)
+        : sink_(sink), flattener_(sink, tolerance), map_(map) {}
+
+    void start(Point p) override { sink_.start(start_ = map(p)); }
+    void lines(std::span<const Point> to) override {
+        mapped_.resize(to.size());
+        std::transform(to.begin(), to.end(), mapped_.begin(), [m = map_](Point p) { return mapped(m, p); });
+        sink_.lines(mapped_);
+    }
+    void cubic(Point c1, Point c2, Point to) override {
+        flattener_.cubic({sink_.current(), map(c1), map(c2), map(to)});
+    }
+    void close() override { sink_.line(start_); }
+
+private:
+    static Point mapped(const Affine& m, Point p) { return m[0] * p.x + m[1] * p.y + m[2]; }
+    Point map(Point p) const { return mapped(map_, p); }
+
+    RunSink& sink_;
+    Flattener flattener_;
+    const Affine map_;
+    Point start_{};
+    std::vector<Point> mapped_;
+};
+
 }  // namespace
+
+void addStroke(Outlines& outlines, const scene::Path& path, const scene::StrokeStyle& style,
+               double strokeTolerance, double chordTolerance, const Affine& toSteps, double tolerance,
+               glm::dvec2 clampMin, glm::dvec2 clampMax) {
+    RunSink sink(outlines, clampMin, clampMax);
+    MappedContours contours(sink, withoutFarAway(toSteps), tolerance);
+    strokeContours(path, style, strokeTolerance, chordTolerance, contours);
+    sink.finish();
+}
 
 void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSteps, double tolerance,
                 glm::dvec2 clampMin, glm::dvec2 clampMax) {
