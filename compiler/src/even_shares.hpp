@@ -15,17 +15,17 @@ namespace vtm::compiler {
 /// Samples a density over an interval of a parameter and cuts that into parts of equal integrals.
 class EvenShares {
 public:
-    /// The integral of the density, which is given two parameters at once, over [from, to].
+    /// The integral of the density, which is given two parameters at once and counts parts, over [from, to].
     template <class Density>
     double integrate(double from, double to, const Density& density) {
         constexpr int few = 8;
-        constexpr double tame = 1.0 / 64;  // the share by which twice as many steps may change it
+        constexpr double tame = 0.0625;  // parts by which half as many steps may have changed the sum
         from_ = from;
         sample(few, (to - from) / few, density);
         double fewer = density_[0] + density_[few];
         for (std::size_t i = 2; i < few; i += 2)
             fewer += 2 * density_[i];
-        if (!(std::abs(sums_[few] - fewer) <= tame * fewer))
+        if (!(std::abs(sums_[few] - fewer) * step_ <= tame))
             sample(most, (to - from) / most, density);
         return sums_[std::size_t(steps_)] * step_;
     }

@@ -134,7 +134,9 @@ private:
         add({t, t1, endsGentle ? Bend::Gentle : bend});
     }
 
-    bool isGentleAt(double c, double q) const { return q > 0 && std::abs(c) * o_.radius <= cube(q) * o_.slack; }
+    bool isGentleAt(double c, double q) const {
+        return q > 0 && std::abs(c) * o_.radius <= cube(q) * o_.slack;
+    }
 
     /// Where |κ|r is between 1 and the slack, found as a root between the ends by the rule of false position
     /// (Illinois).
@@ -142,7 +144,9 @@ private:
         const Polynomial<3> c = powers(k.cross);
         const Polynomial<5> q = powers(k.speedSquared);
         const double middle = (1 + o_.slack) / 2, half = (o_.slack - 1) / 2;
-        const auto excess = [&](double cross, double limit) { return std::abs(cross) * o_.radius - middle * limit; };
+        const auto excess = [&](double cross, double limit) {
+            return std::abs(cross) * o_.radius - middle * limit;
+        };
         double low = 0, high = 1, atLow = excess(k.cross[0], cube(k.speedSquared[0])),
                atHigh = excess(k.cross[2], cube(k.speedSquared[4]));
         double s = 0.5;
@@ -233,8 +237,8 @@ Stops octants(const Cubic& c) {
     return stops;
 }
 
-/// Whether a span may be cut into pieces that turn by more than `smallTurn` each. It turns by no more than the
-/// coefficients of its velocity do.
+/// Whether a span may be cut into pieces that turn by more than `smallTurn` each. It turns by no more than
+/// the coefficients of its velocity do.
 bool mayBeCut(const Cubic& c, const Span& span, double smallTurn) {
     if (span.bend == Bend::Gentle || span.isFold)
         return false;

@@ -19,10 +19,31 @@ constexpr double mostDensity = 4096;
 /// Of these, so many are placed at once.
 constexpr int mostChords = 256;
 
+/// One coordinate of a curve and its velocity at two places.
+struct Coordinate {
+    Two a, b, c, start, a3, b2;
+
+    Coordinate(double cubed, double squared, double linear, double constant)
+        : a{cubed, cubed},
+          b{squared, squared},
+          c{linear, linear},
+          start{constant, constant},
+          a3(3 * a),
+          b2(2 * b) {}
+    Two at(Two t) const { return ((a * t + b) * t + c) * t + start; }
+    Two slope(Two t) const { return (a3 * t + b2) * t + c; }
+};
+
 class ChordOffset {
 public:
     ChordOffset(const Cubic& curve, double distance, double tolerance, Side& side)
-        : curve_(curve), powers_(curve), distance_(distance), tolerance_(tolerance), side_(side) {}
+        : curve_(curve),
+          powers_(curve),
+          xs_(powers_.cubed.x, powers_.squared.x, powers_.linear.x, powers_.start.x),
+          ys_(powers_.cubed.y, powers_.squared.y, powers_.linear.y, powers_.start.y),
+          distance_(distance),
+          tolerance_(tolerance),
+          side_(side) {}
 
     void run(double t0, double t1) {
         const std::array<double, 3> turns = curvature(curve_).cross;
@@ -56,26 +77,25 @@ private:
 
     /// Inside the curve.
     Vertices vertices(Two t) const {
-        const auto& [a, b, c, start] = powers_;
-        const Two x = (t * (3 * a.x) + 2 * b.x) * t + c.x, y = (t * (3 * a.y) + 2 * b.y) * t + c.y;
         constexpr double least = 1e-280;  // smaller squares lose digits; the vertex becomes infinite
-        const Two square = x * x + y * y, share = distance_ / squareRoot(square > least ? square : 0.0);
-        return {((t * a.x + b.x) * t + c.x) * t + start.x - y * share,
-                ((t * a.y + b.y) * t + c.y) * t + start.y + x * share, x, y};
+        const Two x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+        const Two share = distance_ / squareRoot(square > least ? square : 0.0);
+        return {xs_.at(t) - y * share, ys_.at(t) + x * share, x, y};
     }
 
     /// The number of chords in [from, to] if each of them has an equal share of it: divided by dt, a chord
     /// strays by a quarter of its length times half its turn, both of which grow with dt.
     double guess(double from, double to) {
-        constexpr double sure = 0.8;  // of the tolerance: the tangent strays a little farther than the curve
+        // Of the tolerance: the tangent strays a little farther than the curve, and a chord that reaches the
+        // limit costs pieces later.
+        constexpr double sure = 0.8;
         const auto& [a, b, c, start] = powers_;
-        const double ax = 3 * a.x, ay = 3 * a.y, bx = 2 * b.x, by = 2 * b.y, cx = c.x, cy = c.y;
         const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
-        const double per = 1 / (8 * sure * tolerance_), distance = distance_;
-        return shares_.integrate(from, to, [=](Two t) {
-            const Two x = (t * ax + bx) * t + cx, y = (t * ay + by) * t + cy, square = x * x + y * y;
+        const double per = 1 / (8 * sure * tolerance_);
+        return shares_.integrate(from, to, [=, this](Two t) {
+            const Two x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
             const Two turn = ((c2 * t + c1) * t + c0) / square;
-            const Two chords = squareRoot(per * magnitude((squareRoot(square) - distance * turn) * turn));
+            const Two chords = squareRoot(per * magnitude((squareRoot(square) - distance_ * turn) * turn));
             return chords < mostDensity ? chords : 0.0;
         });
     }
@@ -158,6 +178,7 @@ private:
 
     const Cubic& curve_;
     const PowerForm powers_;
+    const Coordinate xs_, ys_;
     const double distance_, tolerance_;
     Side& side_;
     EvenShares shares_;
