@@ -57,9 +57,8 @@ bool isMonotone(const Curvature& k) {
     const auto& [c, q] = k;
     constexpr double vanishing = 1e-12;
     const double least = vanishing * *std::max_element(q.begin(), q.end());
-    const auto isClear = [&](double end) { return end == 0 || end > least; };
     const auto [low, high] = std::minmax({c[0], c[1], c[2]});
-    if (!(isClear(q.front()) && isClear(q.back()) && (low >= 0 || high <= 0)))
+    if (!(q.front() > least && q.back() > least && (low >= 0 || high <= 0)))
         return false;
     constexpr std::array<double, 5> four{1, 4, 6, 4, 1};
     constexpr std::array<double, 4> three{1, 3, 3, 1};
@@ -81,7 +80,7 @@ bool isMonotone(const Curvature& k) {
 /// Beside a control point that coincides with its end the curvature grows without limit, while the
 /// curve turns less and less: what is left to turn there is soon too small to matter. Elsewhere, what a
 /// piece of so little turn is in its middle goes for all of it. Where κ is monotone, its values at the ends
-/// decide.
+/// decide, unless the curve is tight where it begins or ends.
 class BendSearch {
 public:
     explicit BendSearch(const BendOptions& options) : o_(options) {}
@@ -122,6 +121,12 @@ private:
         return glm::dot(a, b) >= 0 && std::abs(cross(a, b)) <= sine * lengths;
     }
 
+    /// There a little turn is to be gentle.
+    bool isTightAtAnEnd(const Curvature& k, double t0, double t1) const {
+        return (t0 == 0 && !isGentleAt(k.cross[0], k.speedSquared[0])) ||
+               (t1 == 1 && !isGentleAt(k.cross[2], k.speedSquared[4]));
+    }
+
     /// Gentle, tight, or both.
     void monotone(const Curvature& k, double t0, double t1) {
         const Bend bend = bernstein(k.cross, 0.5) > 0 ? Bend::Left : Bend::Right;
@@ -134,9 +139,7 @@ private:
         add({t, t1, endsGentle ? Bend::Gentle : bend});
     }
 
-    bool isGentleAt(double c, double q) const {
-        return q > 0 && std::abs(c) * o_.radius <= cube(q) * o_.slack;
-    }
+    bool isGentleAt(double c, double q) const { return std::abs(c) * o_.radius <= cube(q) * o_.slack; }
 
     /// Where |κ|r is between 1 and the slack, found as a root between the ends by the rule of false position
     /// (Illinois).
@@ -177,7 +180,7 @@ private:
             return add({t0, t1, Bend::Gentle});
         if (small || depth == maxSearchDepth || tight(k))
             return add({t0, t1, bernstein(k.cross, 0.5) > 0 ? Bend::Left : Bend::Right});
-        if (isMonotone(k))
+        if (!isTightAtAnEnd(k, t0, t1) && isMonotone(k))
             return monotone(k, t0, t1);
         const auto [velocityLeft, velocityRight] = halves(piece.velocity);
         const auto [crossLeft, crossRight] = halves(k.cross);
