@@ -82,9 +82,8 @@ void ChordCutter::findVertices(int count, Point end) {
 /// Whether no two velocities between point away from each other, so that along a chord the curve runs from
 /// one end to the other without turning back: so if it is the case for the velocity's Bernstein coefficients.
 bool ChordCutter::runsForward(double t0, double t1) const {
-    const auto& [a, b, c, start] = curve_;
-    const auto velocity = [&](double t) { return (3.0 * a * t + 2.0 * b) * t + c; };
-    const Point v = velocity(t0), w = velocity(t1), m = v + (3.0 * a * t0 + b) * (t1 - t0);
+    const Point v = curve_.velocity(t0), w = curve_.velocity(t1),
+                m = v + (3.0 * curve_.a * t0 + curve_.b) * (t1 - t0);
     return (dot(v, m) >= 0) & (dot(m, w) >= 0) & (dot(v, w) >= 0);
 }
 
@@ -128,9 +127,8 @@ void ChordCutter::appendVertices(int first, int last) {
 void ChordCutter::chord(const Vertex<double>& from, const Vertex<double>& to, int halvings) {
     const bool isProven = Proof(curve_, tolerance_)(from, to) && (runForward_ || runsForward(from.t, to.t));
     if (halvings > 0 && !isProven) {
-        const auto [a, b, c, start] = curve_;
         const double t = (from.t + to.t) / 2;
-        const Point at = ((a * t + b) * t + c) * t + start;
+        const Point at = curve_.at(t);
         chord(from, {t, at.x, at.y}, halvings - 1);
         chord({t, at.x, at.y}, to, halvings - 1);
     } else {

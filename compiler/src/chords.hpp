@@ -34,6 +34,9 @@ private:
     /// By powers of its parameter: P = ((a t + b) t + c) t + start.
     struct Curve {
         Point a, b, c, start;
+
+        Point at(double t) const { return ((a * t + b) * t + c) * t + start; }
+        Point velocity(double t) const { return (3.0 * a * t + 2.0 * b) * t + c; }
     };
     /// Of one number or of two at once.
     template <class Number>

@@ -314,23 +314,6 @@ void outline(const scene::Path& path, const scene::StrokeStyle& style, double to
     }
 }
 
-class ContourPath : public ContourSink {
-public:
-    void start(Point p) override { path.push_back(scene::MoveTo{at_ = p}); }
-    void lines(std::span<const Point> to) override {
-        for (const Point p : to)
-            if (p != at_)
-                path.push_back(scene::LineTo{at_ = p});
-    }
-    void cubic(Point c1, Point c2, Point to) override { path.push_back(scene::CubicTo{c1, c2, at_ = to}); }
-    void close() override { path.push_back(scene::Close{}); }
-
-    scene::Path path;
-
-private:
-    Point at_{0, 0};
-};
-
 scene::Path outlineAsPath(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                           double chords) {
     ContourPath contours;

@@ -2,24 +2,12 @@
 /// Offsets of curves as chords, for outlines that become chords anyway.
 #pragma once
 
-#include <span>
-
+#include "compiler/src/stroke_contours.hpp"
 #include "compiler/src/stroke_offset.hpp"
 #include "scene/path.hpp"
 #include "scene/stroke.hpp"
 
 namespace vtm::compiler {
-
-/// Receives closed contours: start, then lines and cubics, each from where the last one ended, then close,
-/// which draws the last line to the start unless the contour has come there.
-class ContourSink {
-public:
-    virtual ~ContourSink() = default;
-    virtual void start(scene::Point p) = 0;
-    virtual void lines(std::span<const scene::Point> to) = 0;
-    virtual void cubic(scene::Point c1, scene::Point c2, scene::Point to) = 0;
-    virtual void close() = 0;
-};
 
 /// As strokeOutline (compiler/stroke.hpp), but with chords within `tolerance` + `chordTolerance` of the
 /// offsets in place of most curves that are within `tolerance`. The curves that are left become chords within
