@@ -11,83 +11,129 @@ namespace {
 constexpr int maxHalvings = 40;
 
 double cross(scene::Point a, scene::Point b) { return a.x * b.y - a.y * b.x; }
+double dot(scene::Point a, scene::Point b) { return a.x * b.x + a.y * b.y; }
 
 }  // namespace
 
-std::span<const scene::Point> ChordCutter::cut(const Cubic& p, double most) {
-    a_ = p[3] - p[0] + 3.0 * (p[1] - p[2]);
-    b_ = 3.0 * (p[0] - 2.0 * p[1] + p[2]);
-    c_ = 3.0 * (p[1] - p[0]);
-    start_ = p[0];
-    ends_.clear();
-    const double needed = integrate();
-    if (!(needed <= most))
+/// Whether across its chord d over a step h the curve strays no farther than the tolerance. With the
+/// accelerations p and q at the ends it strays by f(s) = h² s (1 - s) (d × p (2 - s) + d × q (1 + s)) / (6
+/// |d|), so by h² (|d × p| + |d × q|) / (9 √3 |d|) at most.
+struct ChordCutter::Proof {
+    double ax, ay, bx, by, most;
+
+    Proof(const Curve& curve, double tolerance)
+        : ax(3 * curve.a.x),
+          ay(3 * curve.a.y),
+          bx(curve.b.x),
+          by(curve.b.y),
+          most(60.75 * tolerance * tolerance) {}
+
+    /// A truth value for each number.
+    template <class Number>
+    auto operator()(const Vertex<Number>& from, const Vertex<Number>& to) const {
+        const Number h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
+        const Number a = dx * ay - dy * ax, b = dx * by - dy * bx;  // d × P'' / 2 = a t + b
+        const Number across = h * h * (magnitude(a * from.t + b) + magnitude(a * to.t + b));
+        return across * across <= most * (dx * dx + dy * dy);
+    }
+};
+
+std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
+    curve_ = {p[3] - p[0] + 3.0 * (p[1] - p[2]), 3.0 * (p[0] - 2.0 * p[1] + p[2]), 3.0 * (p[1] - p[0]), p[0]};
+    const double needed = guess();
+    if (!(needed <= mostChords))
         return {};
     const int whole = static_cast<int>(needed), count = std::max(1, whole + (whole < needed));
-    const double share = needed / count;
-    std::size_t in = 0;
-    Vertex at{0, start_.x, start_.y};
-    for (int k = 1; k < count; ++k) {
-        // The density is taken to be linear in each step.
-        const double goal = share * k;
-        while (in + 1 < steps && sums_[in + 1] < goal)
-            ++in;
-        const double d0 = density_[in], d1 = density_[in + 1], area = (goal - sums_[in]) * steps;
-        const double root = std::sqrt(std::max(0.0, d0 * d0 + 2 * (d1 - d0) * area));
-        const Vertex next = vertex((double(in) + std::min(1.0, 2 * area / (d0 + root))) / steps);
-        chord(at, next, maxHalvings);
-        at = next;
-    }
-    chord(at, {1, p[3].x, p[3].y}, maxHalvings);
+    findVertices(count, p[3]);
+    runForward_ = runForward(0, count);
+    appendChords(count);
     return ends_;
 }
 
-/// The number of chords that is guessed to do.
-double ChordCutter::integrate() {
+/// The number of chords that will do if each of them has an equal share of it.
+double ChordCutter::guess() {
     constexpr double sure = 0.9;  // of the tolerance: steps are not small
     constexpr double leastSpeed = std::numeric_limits<double>::min();  // no division by zero
-    const double c0 = 2 * cross(c_, b_), c1 = 6 * cross(c_, a_), c2 = -6 * cross(a_, b_);  // P' × P''
+    const auto [a, b, c, start] = curve_;
+    const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
+    const double ax = 3 * a.x, ay = 3 * a.y, bx = 2 * b.x, by = 2 * b.y, cx = c.x, cy = c.y;
     const double per = 1 / (8 * sure * tolerance_);
-    for (std::size_t i = 0; i <= steps; ++i) {
-        const double t = double(i) / steps;
-        const double vx = (3 * t * a_.x + 2 * b_.x) * t + c_.x, vy = (3 * t * a_.y + 2 * b_.y) * t + c_.y;
-        const double speed = std::sqrt(vx * vx + vy * vy) + leastSpeed;
-        density_[i] = std::sqrt(per * std::abs((c2 * t + c1) * t + c0) / speed);
+    return shares_.integrate(0, 1, [=](Two t) {
+        const Two x = (t * ax + bx) * t + cx, y = (t * ay + by) * t + cy;
+        const Two speed = squareRoot(x * x + y * y) + leastSpeed;
+        return squareRoot(per * magnitude((c2 * t + c1) * t + c0) / speed);
+    });
+}
+
+void ChordCutter::findVertices(int count, Point end) {
+    const auto [a, b, c, start] = curve_;
+    t_[0] = 0;
+    shares_.cut(count, &t_[1]);
+    t_[std::size_t(count)] = t_[std::size_t(count) + 1] = 1;
+    for (std::size_t k = 0; k < std::size_t(count); k += 2) {
+        const Two t = loadTwo(&t_[k]);
+        storeTwo(((a.x * t + b.x) * t + c.x) * t + start.x, &x_[k]);
+        storeTwo(((a.y * t + b.y) * t + c.y) * t + start.y, &y_[k]);
     }
-    sums_[0] = 0;
-    for (std::size_t i = 0; i < steps; ++i)
-        sums_[i + 1] = sums_[i] + (density_[i] + density_[i + 1]) * (0.5 / steps);
-    return sums_[steps];
+    for (const std::size_t k : {std::size_t(count), std::size_t(count) + 1})
+        x_[k] = end.x, y_[k] = end.y;
 }
 
-ChordCutter::Vertex ChordCutter::vertex(double t) const {
-    return {t, ((a_.x * t + b_.x) * t + c_.x) * t + start_.x, ((a_.y * t + b_.y) * t + c_.y) * t + start_.y};
+/// Whether no two velocities between point away from each other, so that along a chord the curve runs from
+/// one end to the other without turning back: so if it is the case for the velocity's Bernstein coefficients.
+bool ChordCutter::runsForward(double t0, double t1) const {
+    const Point v = curve_.velocity(t0), w = curve_.velocity(t1),
+                m = v + (3.0 * curve_.a * t0 + curve_.b) * (t1 - t0);
+    return (dot(v, m) >= 0) & (dot(m, w) >= 0) & (dot(v, w) >= 0);
 }
 
-void ChordCutter::chord(const Vertex& from, const Vertex& to, int halvings) {
-    if (halvings > 0 && !isProven(from, to)) {
-        const Vertex middle = vertex((from.t + to.t) / 2);
-        chord(from, middle, halvings - 1);
-        chord(middle, to, halvings - 1);
+/// All chords between two vertices.
+bool ChordCutter::runForward(int first, int last) const {
+    if (runsForward(t_[std::size_t(first)], t_[std::size_t(last)]))
+        return true;
+    const int middle = (first + last) / 2;
+    return middle > first && runForward(first, middle) && runForward(middle, last);
+}
+
+void ChordCutter::appendChords(int count) {
+    const Proof isNear(curve_, tolerance_);
+    int appended = 0;
+    ends_.clear();
+    for (int k = 0; k < count; k += 2) {
+        const double *const t = &t_[std::size_t(k)], *const x = &x_[std::size_t(k)],
+                            *const y = &y_[std::size_t(k)];
+        const TwoMasks near = isNear(Vertex<Two>{loadTwo(t), loadTwo(x), loadTwo(y)},
+                                     Vertex<Two>{loadTwo(t + 1), loadTwo(x + 1), loadTwo(y + 1)});
+        if ((near[0] & near[1]) != 0 && runForward_)
+            continue;
+        appendVertices(appended + 1, k);
+        for (int i = 0; i < std::min(2, count - k); ++i)
+            chord({t[i], x[i], y[i]}, {t[i + 1], x[i + 1], y[i + 1]}, maxHalvings);
+        appended = k + 2;
+    }
+    appendVertices(appended + 1, count);
+}
+
+/// From the first to the last one.
+void ChordCutter::appendVertices(int first, int last) {
+    const std::size_t before = ends_.size(), count = std::size_t(std::max(0, last + 1 - first));
+    ends_.resize(before + count);
+    Point* const ends = ends_.data() + before;
+    const double *const x = x_.data() + first, *const y = y_.data() + first;
+    for (std::size_t k = 0; k < count; ++k)
+        ends[k] = {x[k], y[k]};
+}
+
+void ChordCutter::chord(const Vertex<double>& from, const Vertex<double>& to, int halvings) {
+    const bool isProven = Proof(curve_, tolerance_)(from, to) && (runForward_ || runsForward(from.t, to.t));
+    if (halvings > 0 && !isProven) {
+        const double t = (from.t + to.t) / 2;
+        const Point at = curve_.at(t);
+        chord(from, {t, at.x, at.y}, halvings - 1);
+        chord({t, at.x, at.y}, to, halvings - 1);
     } else {
         ends_.push_back({to.x, to.y});
     }
-}
-
-/// Whether the curve lies within the tolerance of its chord d over a step h, from velocity v and acceleration
-/// p to w and q. Along d it runs from one end to the other without turning back if the Bernstein coefficients
-/// of d · P', which are d · v, d · (v + h p / 2) and d · w, are not negative. Across d it strays by f(s) = h²
-/// s (1 - s) (d × p (2 - s) + d × q (1 + s)) / (6 |d|), so by h² (|d × p| + |d × q|) / (9 √3 |d|) at most.
-bool ChordCutter::isProven(const Vertex& from, const Vertex& to) const {
-    const double h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
-    // d · P' = (da t + db) t + dc.
-    const double da = 3 * (dx * a_.x + dy * a_.y), db = 2 * (dx * b_.x + dy * b_.y),
-                 dc = dx * c_.x + dy * c_.y;
-    const double slope = da * from.t + db, v = slope * from.t + dc, w = (da * to.t + db) * to.t + dc,
-                 between = v + h * (da * from.t + 0.5 * db);
-    const double ca = 6 * (dx * a_.y - dy * a_.x), cb = 2 * (dx * b_.y - dy * b_.x);  // d × P'' = ca t + cb
-    const double across = h * h * (std::abs(ca * from.t + cb) + std::abs(ca * to.t + cb));
-    return (v >= 0) & (w >= 0) & (between >= 0) & (across * across <= proof_ * (dx * dx + dy * dy));
 }
 
 }  // namespace vtm::compiler

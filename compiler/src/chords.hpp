@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/src/cubics.hpp"
+#include "compiler/src/even_shares.hpp"
 
 namespace vtm::compiler {
 
@@ -19,27 +20,46 @@ namespace vtm::compiler {
 /// integral make the fewest. What is guessed so is then proven, or halved.
 class ChordCutter {
 public:
-    explicit ChordCutter(double tolerance) : tolerance_(tolerance), proof_(243 * tolerance * tolerance) {}
+    /// Guessed for one cubic.
+    static constexpr int mostChords = 256;
 
-    /// The ends of chords within the tolerance, the last one that of the cubic. Empty if they would be more
-    /// than `most`, or the cubic is infinite. Valid until the next call.
-    std::span<const scene::Point> cut(const Cubic& cubic, double most);
+    explicit ChordCutter(double tolerance) : tolerance_(tolerance) {}
+
+    /// The ends of chords within the tolerance, the last one that of the cubic. Empty if they would be too
+    /// many, or the cubic is infinite. Valid until the next call.
+    std::span<const scene::Point> cut(const Cubic& cubic);
 
 private:
     using Point = scene::Point;
-    static constexpr std::size_t steps = 16;  ///< of the integral
-    struct Vertex {
-        double t, x, y;
+    /// By powers of its parameter: P = ((a t + b) t + c) t + start.
+    struct Curve {
+        Point a, b, c, start;
+
+        Point at(double t) const { return ((a * t + b) * t + c) * t + start; }
+        Point velocity(double t) const { return (3.0 * a * t + 2.0 * b) * t + c; }
     };
+    /// Of one number or of two at once.
+    template <class Number>
+    struct Vertex {
+        Number t, x, y;
+    };
+    /// The proof of a chord.
+    struct Proof;
 
-    double integrate();
-    Vertex vertex(double t) const;
-    bool isProven(const Vertex& from, const Vertex& to) const;
-    void chord(const Vertex& from, const Vertex& to, int halvings);
+    double guess();
+    void findVertices(int count, Point end);
+    bool runsForward(double t0, double t1) const;
+    bool runForward(int first, int last) const;
+    void appendChords(int count);
+    void appendVertices(int first, int last);
+    void chord(const Vertex<double>& from, const Vertex<double>& to, int halvings);
 
-    const double tolerance_, proof_;
-    Point a_, b_, c_, start_;  ///< P = ((a t + b) t + c) t + start
-    std::array<double, steps + 1> density_, sums_;
+    const double tolerance_;
+    Curve curve_;
+    EvenShares shares_;
+    /// Vertices, and one more for loops over two at once.
+    std::array<double, mostChords + 2> t_, x_, y_;
+    bool runForward_ = false;  ///< all chords, proven
     std::vector<Point> ends_;
 };
 

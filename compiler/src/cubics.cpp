@@ -47,12 +47,6 @@ constexpr double cubicArcAngle = std::numbers::pi / 16, cubicArcError = 1.1e-9;
 /// Arcs so much finer are near the limit of double precision.
 constexpr double finestArcAngle = cubicArcAngle / 64;
 
-Affine tame(Affine m) {
-    for (int c = 0; c < 3; ++c)
-        m[c] = glm::dvec2{std::clamp(m[c].x, -farAway, farAway), std::clamp(m[c].y, -farAway, farAway)};
-    return m;
-}
-
 /// Walks the commands with the current point in path space.
 class Walker {
 public:
@@ -136,8 +130,14 @@ private:
 
 }  // namespace
 
+scene::Affine withoutFarAway(scene::Affine m) {
+    for (int c = 0; c < 3; ++c)
+        m[c] = glm::dvec2{std::clamp(m[c].x, -farAway, farAway), std::clamp(m[c].y, -farAway, farAway)};
+    return m;
+}
+
 void walkCurves(const scene::Path& path, const Affine& map, CurveSink& sink, double arcTolerance) {
-    Walker walker(sink, tame(map), arcTolerance);
+    Walker walker(sink, withoutFarAway(map), arcTolerance);
     for (const scene::Command& command : path)
         std::visit(walker, command);
     walker.close();

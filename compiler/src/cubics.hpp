@@ -25,6 +25,7 @@ public:
 /// Coordinates of the map beyond this are pulled in to it, far outside any picture, so that
 /// differences and products stay finite.
 inline constexpr double farAway = 1e100;
+scene::Affine withoutFarAway(scene::Affine map);
 
 /// Walks `path` under `map`; open subpaths are closed by a line. Quadratics are raised to cubics,
 /// exactly; elliptical arcs become cubics of a 32nd of a turn at most, within 1.1e-9 of their radius and

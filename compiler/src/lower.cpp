@@ -10,7 +10,6 @@
 #include "compiler/src/outline_cache.hpp"
 #include "compiler/src/paints.hpp"
 #include "compiler/src/picture.hpp"
-#include "compiler/src/stroke_chords.hpp"
 #include "compiler/stroke.hpp"
 
 namespace vtm::compiler {
@@ -208,21 +207,20 @@ private:
     RunRange outline(const OutlineOrigin& origin) {
         const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
         if (!origin.stroke) {
-            outline(*origin.path, origin.transform, budget_.fillChords());
+            addOutline(picture_.outlines, *origin.path, toSteps(origin), budget_.fillChords(),
+                       lattice_.clampMin(), lattice_.clampMax());
         } else {
             const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
             if (stretch > 0 && std::isfinite(stretch))
-                outline(strokeOutlineOfChords(*origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
-                                              budget_.strokeChords() / stretch),
-                        origin.transform, budget_.strokeChords());
+                addStroke(picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
+                          budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
+                          lattice_.clampMin(), lattice_.clampMax());
         }
         return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
     }
 
-    /// `tolerance`, in steps, between curves and chords.
-    void outline(const Path& path, const Affine& transform, double tolerance) {
-        addOutline(picture_.outlines, path, compose(lattice_.toSteps(), transform), tolerance,
-                   lattice_.clampMin(), lattice_.clampMax());
+    Affine toSteps(const OutlineOrigin& origin) const {
+        return compose(lattice_.toSteps(), origin.transform);
     }
 
     void checkLimits() const {

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <span>
 
+#include <glm/common.hpp>
+
 #include "compiler/src/chords.hpp"
 #include "compiler/src/cubics.hpp"
 #include "compiler/src/error_budget.hpp"
+#include "compiler/src/stroke_chords.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -16,6 +19,24 @@ using scene::Affine;
 using scene::Point;
 
 Point lerp(Point a, Point b, double t) { return a + (b - a) * t; }
+
+/// The directions that a run takes, in x and in y.
+class Directions {
+public:
+    /// Goes on by a step, unless that turns back.
+    bool take(LatticePoint from, LatticePoint to) {
+        // By signs, without branches, whose outcome is random. Differences fit 31 bits.
+        const Coord x = to.x - from.x, y = to.y - from.y;
+        const Coord right = right_ | -x, left = left_ | x, up = up_ | -y, down = down_ | y;
+        if (((right & left) | (up & down)) < 0)
+            return false;
+        right_ = right, left_ = left, up_ = up, down_ = down;
+        return true;
+    }
+
+private:
+    Coord right_ = 0, left_ = 0, up_ = 0, down_ = 0;  ///< negative if taken
+};
 
 /// Takes points in steps, cuts the polyline at the box, appends runs of chords between even vertices.
 class RunSink {
@@ -26,49 +47,99 @@ public:
     void start(Point p) {
         finish();
         current_ = p;
-        inside_ = isInside(p);
+        beyond_ = sidesBeyond(p);
         points_.push_back(quantise(p));
         contourStart_ = runStart_ = static_cast<std::uint32_t>(points_.size() - 1);
         started_ = true;
     }
 
     void line(Point to) {
-        const bool inside = isInside(to);
-        if (!(inside && inside_))
-            for (double t : boxCuts(current_, to))
-                if (t > 0 && t < 1)
-                    emit(quantise(lerp(current_, to, t)));
-        emit(inside ? nearestEven(to) : quantise(to));
+        const unsigned beyond = sidesBeyond(to);
+        if ((beyond_ | beyond) == 0)
+            emit(nearestEven(to));
+        else
+            lineOutside(to, beyond);
         current_ = to;
-        inside_ = inside;
+    }
+
+    void lines(std::span<const Point> to) {
+        if (beyond_ == 0 && !to.empty() && areInside(to))
+            return linesInside(to);
+        for (const Point p : to)
+            line(p);
     }
 
     /// Where the line so far and its next points are known to be inside the box.
     void linesInside(std::span<const Point> to) {
-        for (const Point p : to)
-            emit(nearestEven(p));
+        const std::size_t before = points_.size();
+        points_.resize(before + to.size());
+        LatticePoint* const first = points_.data() + before;
+        std::transform(to.begin(), to.end(), first, nearestEven);
+        LatticePoint *kept = first, from = first[-1];
+        Directions taken = taken_;
+        for (const LatticePoint& next : std::span(first, to.size())) {
+            if (next == from)
+                continue;
+            if (!taken.take(from, next)) {
+                addRun(static_cast<std::uint32_t>(kept - points_.data() - 1));
+                taken = {};
+                taken.take(from, next);
+            }
+            from = *kept++ = next;
+        }
+        points_.resize(std::size_t(kept - points_.data()));
+        taken_ = taken;
         current_ = to.back();
     }
+    Point current() const { return current_; }
     /// Whether the line so far ends inside the box and all of the curve lies there.
     bool keepsInside(const Cubic& c) const {
-        return inside_ && isInside(c[1]) && isInside(c[2]) && isInside(c[3]);
+        return beyond_ == 0 && (sidesBeyond(c[1]) | sidesBeyond(c[2]) | sidesBeyond(c[3])) == 0;
+    }
+    /// Whether the line so far ends beyond a side of the box beyond which all of the curve lies.
+    bool keepsBeyond(const Cubic& c) const {
+        return (beyond_ & sidesBeyond(c[1]) & sidesBeyond(c[2]) & sidesBeyond(c[3])) != 0;
     }
 
     /// Ends the last contour.
     void finish() {
         if (!started_)
             return;
+        emitHeld();
         endRun();
         if (points_.size() - 1 == contourStart_)
             points_.pop_back();  // a point that nothing follows
         started_ = false;
     }
 
-    Point min() const { return min_; }
-    Point max() const { return max_; }
-
 private:
-    bool isInside(Point p) const { return p.x >= min_.x && p.x <= max_.x && p.y >= min_.y && p.y <= max_.y; }
+    /// One bit each.
+    unsigned sidesBeyond(Point p) const {
+        return unsigned(p.x < min_.x) | unsigned(p.x > max_.x) << 1 | unsigned(p.y < min_.y) << 2 |
+               unsigned(p.y > max_.y) << 3;
+    }
+
+    /// To a point beyond these sides, or from one.
+    void lineOutside(Point to, unsigned beyond) {
+        if ((beyond_ & beyond) != 0) {
+            beyond_ &= beyond;
+            isHeld_ = true;
+            return;
+        }
+        emitHeld();
+        for (const double t : boxCuts(current_, to))
+            if (t > 0 && t < 1)
+                emit(quantise(lerp(current_, to, t)));
+        emit(quantise(to));
+        beyond_ = beyond;
+    }
+
+    bool areInside(std::span<const Point> points) const {
+        Point min = points.front(), max = min;
+        for (const Point p : points)
+            min = glm::min(min, p), max = glm::max(max, p);
+        return (sidesBeyond(min) | sidesBeyond(max)) == 0;
+    }
 
     /// Where the segment meets the four lines of the box, ascending: between two cuts clamping is an
     /// affine map and keeps the segment straight.
@@ -88,57 +159,52 @@ private:
         return nearestEven({std::clamp(p.x, min_.x, max_.x), std::clamp(p.y, min_.y, max_.y)});
     }
 
-    /// Of a point in the box, which keeps it within Coord. Truncation and a correction: floor without a call.
+    /// Of a point in the box, which keeps it within Coord.
     static LatticePoint nearestEven(Point p) {
-        const auto even = [](double v) {
-            const double nearest = v / 2 + 0.5;
-            const auto whole = static_cast<Coord>(nearest);
-            return 2 * (whole - static_cast<Coord>(nearest < whole));
-        };
-        return {even(p.x), even(p.y)};
+        constexpr double coarse = 0x1.8p53;  // doubles of that size are two apart
+        return {static_cast<Coord>((p.x + coarse) - coarse), static_cast<Coord>((p.y + coarse) - coarse)};
+    }
+
+    /// All points from the last one emitted to the current one lie beyond one side: moved onto it, they are
+    /// one line.
+    void emitHeld() {
+        if (isHeld_)
+            emit(quantise(current_));
+        isHeld_ = false;
     }
 
     void emit(LatticePoint to) {
         const LatticePoint from = points_.back();
         if (to == from)
             return;
-        // Seen without branches, whose outcome is random: the directions taken, one bit each.
-        const unsigned steps = unsigned(to.x < from.x) | unsigned(to.x > from.x) << 1 |
-                               unsigned(to.y < from.y) << 2 | unsigned(to.y > from.y) << 3;
-        unsigned taken = taken_ | steps;
-        if ((taken & (taken >> 1) & 0b0101u) != 0) {
+        if (!taken_.take(from, to)) {
             endRun();
-            taken = steps;
+            taken_.take(from, to);
         }
-        taken_ = taken;
         points_.push_back(to);
     }
 
     void endRun() {
-        const auto last = static_cast<std::uint32_t>(points_.size() - 1);
+        addRun(static_cast<std::uint32_t>(points_.size() - 1));
+        taken_ = {};
+    }
+
+    void addRun(std::uint32_t last) {
         if (last > runStart_)
             runs_.push_back({runStart_, last});
         runStart_ = last;
-        taken_ = 0;
     }
 
     std::vector<LatticePoint>& points_;
     std::vector<Run>& runs_;
     const glm::dvec2 min_, max_;
     Point current_{};
-    bool inside_ = false, started_ = false;
+    unsigned beyond_ = 0;  ///< the sides beyond which all lies from the last point emitted to the current one
+    bool isHeld_ = false;  ///< whether these differ
+    bool started_ = false;
     std::uint32_t contourStart_ = 0, runStart_ = 0;
-    unsigned taken_ = 0;  ///< directions of the run so far, one bit each: -x, +x, -y, +y
+    Directions taken_;  ///< by the run so far
 };
-
-bool beyondOneSide(const Cubic& c, Point min, Point max) {
-    for (int axis = 0; axis < 2; ++axis) {
-        const auto [lo, hi] = std::minmax({c[0][axis], c[1][axis], c[2][axis], c[3][axis]});
-        if (hi < min[axis] || lo > max[axis])
-            return true;
-    }
-    return false;
-}
 
 std::array<Cubic, 2> halve(const Cubic& c) {
     const Point a = lerp(c[0], c[1], 0.5), b = lerp(c[1], c[2], 0.5), d = lerp(c[2], c[3], 0.5);
@@ -154,10 +220,6 @@ bool isFlat(const Cubic& c, double tolerance) {
            tolerance * tolerance;
 }
 
-/// Cubics that need more chords are halved first, so that their bends are seen.
-constexpr double chordsAtOnce = 256;
-/// Those that may leave the box sooner, so that parts outside it can be left out.
-constexpr double chordsAtBox = 8;
 /// Halving so often brings any curve below a lattice step.
 constexpr int maxHalvings = 400;
 
@@ -170,19 +232,16 @@ public:
 
 private:
     void flatten(const Cubic& c, int halvings) {
-        const bool isInside = sink_.keepsInside(c);
-        if (halvings == 0 || isFlat(c, tolerance_) ||
-            (!isInside && beyondOneSide(c, sink_.min(), sink_.max())))
+        if (halvings == 0 || isFlat(c, tolerance_) || sink_.keepsBeyond(c))
             return sink_.line(c[3]);
-        const std::span<const Point> ends = cutter_.cut(c, isInside ? chordsAtOnce : chordsAtBox);
+        const bool isInside = sink_.keepsInside(c);
+        const std::span<const Point> ends = cutter_.cut(c);
+        // Where there would be too many, halves are cut, so that their bends are seen.
         if (ends.empty()) {
             for (const Cubic& half : halve(c))
                 flatten(half, halvings - 1);
-        } else if (isInside) {
-            sink_.linesInside(ends);
         } else {
-            for (const Point p : ends)
-                sink_.line(p);
+            isInside ? sink_.linesInside(ends) : sink_.lines(ends);
         }
     }
 
@@ -191,7 +250,44 @@ private:
     ChordCutter cutter_;
 };
 
+/// Contours of strokes on their way to the lattice.
+class MappedContours : public ContourSink {
+public:
+    MappedContours(RunSink& sink, const Affine& map, double tolerance)
+        : sink_(sink), flattener_(sink, tolerance), map_(map) {}
+
+    void start(Point p) override { sink_.start(start_ = map(p)); }
+    void lines(std::span<const Point> to) override {
+        mapped_.resize(to.size());
+        std::transform(to.begin(), to.end(), mapped_.begin(), [m = map_](Point p) { return mapped(m, p); });
+        sink_.lines(mapped_);
+    }
+    void cubic(Point c1, Point c2, Point to) override {
+        flattener_.cubic({sink_.current(), map(c1), map(c2), map(to)});
+    }
+    void close() override { sink_.line(start_); }
+
+private:
+    static Point mapped(const Affine& m, Point p) { return m[0] * p.x + m[1] * p.y + m[2]; }
+    Point map(Point p) const { return mapped(map_, p); }
+
+    RunSink& sink_;
+    Flattener flattener_;
+    const Affine map_;
+    Point start_{};
+    std::vector<Point> mapped_;
+};
+
 }  // namespace
+
+void addStroke(Outlines& outlines, const scene::Path& path, const scene::StrokeStyle& style,
+               double strokeTolerance, double chordTolerance, const Affine& toSteps, double tolerance,
+               glm::dvec2 clampMin, glm::dvec2 clampMax) {
+    RunSink sink(outlines, clampMin, clampMax);
+    MappedContours contours(sink, withoutFarAway(toSteps), tolerance);
+    strokeContours(path, style, strokeTolerance, chordTolerance, contours);
+    sink.finish();
+}
 
 void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSteps, double tolerance,
                 glm::dvec2 clampMin, glm::dvec2 clampMax) {

@@ -7,6 +7,7 @@
 #include "compiler/src/lattice.hpp"
 #include "scene/affine.hpp"
 #include "scene/path.hpp"
+#include "scene/stroke.hpp"
 
 namespace vtm::compiler {
 
@@ -37,6 +38,12 @@ struct Outlines {
 /// inside it.
 void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine& toSteps, double tolerance,
                 glm::dvec2 clampMin, glm::dvec2 clampMax);
+
+/// So the outline of a stroke of `path`, within `strokeTolerance` and `chordTolerance` (strokeContours) in
+/// path space; `tolerance`, in steps, is for the curves that it leaves.
+void addStroke(Outlines& outlines, const scene::Path& path, const scene::StrokeStyle& style,
+               double strokeTolerance, double chordTolerance, const scene::Affine& toSteps, double tolerance,
+               glm::dvec2 clampMin, glm::dvec2 clampMax);
 
 /// Tolerance, as a share of the given one, in path space: how much `m` stretches at most.
 double largestStretch(const scene::Affine& m);

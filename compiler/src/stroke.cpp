@@ -57,7 +57,7 @@ Point endPoint(const Segment& s) { return s.curve.p3; }
 
 class Outliner {
 public:
-    Outliner(const StrokeStyle& style, double tolerance, double chords, scene::Path& out)
+    Outliner(const StrokeStyle& style, double tolerance, double chords, ContourSink& out)
         : style_(style),
           tolerance_(tolerance),
           chords_(chords),
@@ -77,15 +77,15 @@ private:
         if (style_.cap == Cap::Butt)
             return;
         const Point side = perp(subpath.direction) * radius_;
-        Side contour{subpath.at - side, {}};
+        Side contour{subpath.at - side, {}, {}};
         cap(contour, subpath.at, subpath.direction);
         cap(contour, subpath.at, -subpath.direction);
         emit(contour);
     }
 
     void ribbon(const Subpath& subpath) {
-        ribbon_.left.edges.clear();
-        ribbon_.right.edges.clear();
+        ribbon_.left.clear();
+        ribbon_.right.clear();
         ribbon_.beyond.clear();
         const auto& segments = subpath.segments;
         const Point first = segments.front().curve.p0,
@@ -106,8 +106,8 @@ private:
         if (segment.straight) {
             // Even where it is too short beside the radius to move the offset: joins may lengthen it.
             const Point side = perp(endTangent(segment.curve)) * radius_;
-            ribbon_.left.edges.push_back({true, {}, {}, endPoint(segment) + side});
-            ribbon_.right.edges.push_back({true, {}, {}, endPoint(segment) - side});
+            ribbon_.left.addLine(endPoint(segment) + side);
+            ribbon_.right.addLine(endPoint(segment) - side);
         } else if (segment.circle) {
             circularSides(segment.curve, *segment.circle);
         } else {
@@ -134,7 +134,7 @@ private:
     }
 
     Side sector(Point center, Point from, double angle) const {
-        Side contour{center, {}};
+        Side contour{center, {}, {}};
         go(contour, center + from);
         arc(contour, center, from, angle);
         go(contour, center);
@@ -159,7 +159,7 @@ private:
         cap(contour, to, ahead);
         const Side back = reversed(ribbon_.left);
         go(contour, back.start);
-        contour.edges.insert(contour.edges.end(), back.edges.begin(), back.edges.end());
+        contour.append(back);
         cap(contour, from, -startTangent(subpath.segments.front().curve));
         emit(contour);
     }
@@ -185,7 +185,7 @@ private:
     void innerJoin(Side& inner, const Segment& a, const Segment& b, double sign) const {
         const Point n0 = perp(endTangent(a.curve)) * sign, n1 = perp(startTangent(b.curve)) * sign;
         if (kiteFits(a, b)) {
-            inner.edges.back().to = endPoint(a) + crossing(n0, n1);
+            inner.ends.back() = endPoint(a) + crossing(n0, n1);
         } else {
             go(inner, endPoint(a));
             go(inner, endPoint(a) + n1 * radius_);
@@ -233,7 +233,7 @@ private:
     /// A line before the mitre goes on to its tip without a vertex in between.
     void extendTo(Side& outer, const Segment& a, Point from, Point tip) const {
         if (a.straight) {
-            outer.edges.back().to = tip;
+            outer.ends.back() = tip;
         } else {
             go(outer, from);
             go(outer, tip);
@@ -270,44 +270,39 @@ private:
 
     /// Close draws the last edge where that is a line; a rest that the tolerance hides is taken away.
     void emit(Side& contour) {
-        auto& edges = contour.edges;
-        if (!edges.empty() && glm::distance(contour.end(), contour.start) <= tolerance_ * joinShare)
-            edges.back().to = contour.start;
-        if (!edges.empty() && edges.back().straight && edges.back().to == contour.start)
-            edges.pop_back();
-        if (const std::size_t needed = out_.size() + edges.size() + 2; needed > out_.capacity())
-            out_.reserve(std::max(needed, 2 * out_.capacity()));
-        out_.push_back(scene::MoveTo{contour.start});
-        Point at = contour.start;
-        for (const Edge& e : edges) {
-            if (e.straight && e.to == at)
-                continue;
-            at = e.to;
-            if (e.straight)
-                out_.push_back(scene::LineTo{e.to});
-            else
-                out_.push_back(scene::CubicTo{e.c1, e.c2, e.to});
+        auto& ends = contour.ends;
+        if (!ends.empty() && glm::distance(contour.end(), contour.start) <= tolerance_ * joinShare)
+            ends.back() = contour.start;
+        if (contour.endsStraight() && ends.back() == contour.start)
+            ends.pop_back();
+        out_.start(contour.start);
+        const std::span<const Point> edges(ends);
+        std::size_t done = 0;
+        for (const Side::Curve& curve : contour.curves) {
+            out_.lines(edges.subspan(done, curve.edge - done));
+            out_.cubic(curve.c1, curve.c2, edges[curve.edge]);
+            done = curve.edge + 1;
         }
-        out_.push_back(scene::Close{});
+        out_.lines(edges.subspan(done));
+        out_.close();
     }
 
     const StrokeStyle& style_;
     double tolerance_, chords_, radius_, miterLimit_;
-    scene::Path& out_;
+    ContourSink& out_;
     Ribbon ribbon_;
 };
 
 /// `chords`: of OffsetOptions.
-scene::Path outlineOf(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
-                      double chords) {
+void outline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance, double chords,
+             ContourSink& contours) {
     const double size = largestCoordinate(path) + style.width;
     if (!(size <= largestSize))
         throw LimitError("stroke: coordinates or width beyond 1e48");
     tolerance = std::max(std::min(tolerance, hairlineShare * style.width), finestShare * size);
     if (chords > 0)
         chords = std::max(chords, finestShare * size);
-    scene::Path outline;
-    Outliner outliner(style, tolerance, chords, outline);
+    Outliner outliner(style, tolerance, chords, contours);
     std::size_t dashes = 0;
     for (const Subpath& subpath : subpaths(path, tolerance * arcShare)) {
         if (style.dashes.empty()) {
@@ -317,19 +312,30 @@ scene::Path outlineOf(const scene::Path& path, const scene::StrokeStyle& style, 
         for (const Subpath& piece : dash(subpath, style, dashes))
             outliner.add(piece);
     }
-    return outline;
+}
+
+scene::Path outlineAsPath(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                          double chords) {
+    ContourPath contours;
+    outline(path, style, tolerance, chords, contours);
+    return std::move(contours.path);
 }
 
 }  // namespace
 }  // namespace stroke
 
 scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance) {
-    return stroke::outlineOf(path, style, tolerance, 0);
+    return stroke::outlineAsPath(path, style, tolerance, 0);
 }
 
 scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                                   double chordTolerance) {
-    return stroke::outlineOf(path, style, tolerance, chordTolerance);
+    return stroke::outlineAsPath(path, style, tolerance, chordTolerance);
+}
+
+void strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                    double chordTolerance, ContourSink& contours) {
+    stroke::outline(path, style, tolerance, chordTolerance, contours);
 }
 
 bool hasSampledOffsets(const scene::Path& path) {

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "compiler/src/even_shares.hpp"
 #include "compiler/src/stroke_roots.hpp"
 
 namespace vtm::compiler::stroke {
@@ -13,84 +14,137 @@ namespace {
 
 /// Halvings of a chord that was guessed too long.
 constexpr int maxHalvings = 12;
-/// Chords of one convex part; where more are guessed, halving makes them.
-constexpr double mostChords = 4096;
+/// Chords of a curve; where more are guessed, halving makes them.
+constexpr double mostDensity = 4096;
+/// Of these, so many are placed at once.
+constexpr int mostChords = 256;
+
+/// One coordinate of a curve and its velocity at two places.
+struct Coordinate {
+    Two a, b, c, start, a3, b2;
+
+    Coordinate(double cubed, double squared, double linear, double constant)
+        : a{cubed, cubed},
+          b{squared, squared},
+          c{linear, linear},
+          start{constant, constant},
+          a3(3 * a),
+          b2(2 * b) {}
+    Two at(Two t) const { return ((a * t + b) * t + c) * t + start; }
+    Two slope(Two t) const { return (a3 * t + b2) * t + c; }
+};
 
 class ChordOffset {
 public:
     ChordOffset(const Cubic& curve, double distance, double tolerance, Side& side)
-        : curve_(curve), powers_(curve), distance_(distance), tolerance_(tolerance), side_(side) {}
+        : curve_(curve),
+          powers_(curve),
+          xs_(powers_.cubed.x, powers_.squared.x, powers_.linear.x, powers_.start.x),
+          ys_(powers_.cubed.y, powers_.squared.y, powers_.linear.y, powers_.start.y),
+          distance_(distance),
+          tolerance_(tolerance),
+          side_(side) {}
 
     void run(double t0, double t1) {
-        Vertex at = vertex(t0);
-        for (const double inflection : rootsInside(powers(curvature(curve_).cross)))
-            if (inflection > t0 && inflection < t1)
-                at = convex(at, inflection);
-        convex(at, t1);
+        const std::array<double, 3> turns = curvature(curve_).cross;
+        const auto [least, most] = std::minmax({turns[0], turns[1], turns[2]});
+        double from = t0;
+        if (least < 0 && most > 0)
+            for (const double inflection : rootsInside(powers(turns)))
+                if (inflection > t0 && inflection < t1) {
+                    convex(from, inflection);
+                    from = inflection;
+                }
+        convex(from, t1);
     }
 
 private:
     struct Vertex {
         double t;
-        Point at, along;  ///< unit
+        Point at, along;  ///< of any length
+    };
+    /// Two vertices.
+    struct Vertices {
+        Two x, y, alongX, alongY;
     };
 
     Vertex vertex(double t) const {
-        const double x = (3 * powers_.cubed.x * t + 2 * powers_.squared.x) * t + powers_.linear.x,
-                     y = (3 * powers_.cubed.y * t + 2 * powers_.squared.y) * t + powers_.linear.y;
-        const double square = x * x + y * y;
-        constexpr double least = 1e-280, most = 1e280;  // beyond, squares lose digits or overflow
-        if (!(t > 0 && t < 1 && square > least && square < most)) {
-            const Point along = tangentAt(curve_, t);
-            return {t, pointAt(curve_, t) + perp(along) * distance_, along};
-        }
-        const double share = 1 / std::sqrt(square), alongX = x * share, alongY = y * share;
-        return {t,
-                {((powers_.cubed.x * t + powers_.squared.x) * t + powers_.linear.x) * t + powers_.start.x -
-                     alongY * distance_,
-                 ((powers_.cubed.y * t + powers_.squared.y) * t + powers_.linear.y) * t + powers_.start.y +
-                     alongX * distance_},
-                {alongX, alongY}};
-    }
-
-    /// Chords for an equal part of [t, t + dt], divided by dt: a chord strays by a quarter of its length
-    /// times half its turn, both of which grow with dt.
-    double density(double t) const {
-        constexpr double sure = 0.95;  // of the tolerance: the tangent strays a little farther than the curve
         const Point velocity = powers_.velocity(t);
-        const double square = glm::dot(velocity, velocity);
-        const double turn = cross(velocity, powers_.acceleration(t)) / square;
-        const double speed = std::abs(std::sqrt(square) - distance_ * turn);
-        const double chords = std::sqrt(speed * std::abs(turn) / (8 * sure * tolerance_));
-        return chords < mostChords ? chords : 0;
+        const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
+        const Point along = isInside ? unit(velocity) : tangentAt(curve_, t);
+        return {t, (isInside ? powers_.at(t) : pointAt(curve_, t)) + perp(along) * distance_, along};
     }
 
-    /// Chords from a vertex to where t is `to`, between which the curve has no inflection, of equal shares by
-    /// density.
-    Vertex convex(Vertex at, double to) {
-        constexpr int steps = 8;
-        const double from = at.t, step = (to - from) / steps;
-        std::array<double, steps + 1> sums{};
-        double before = density(from);
-        for (int i = 1; i <= steps; ++i) {
-            const double here = density(from + step * i);
-            sums[std::size_t(i)] = sums[std::size_t(i - 1)] + step * (before + here) / 2;
-            before = here;
+    /// Inside the curve.
+    Vertices vertices(Two t) const {
+        constexpr double least = 1e-280;  // smaller squares lose digits; the vertex becomes infinite
+        const Two x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+        const Two share = distance_ / squareRoot(square > least ? square : 0.0);
+        return {xs_.at(t) - y * share, ys_.at(t) + x * share, x, y};
+    }
+
+    /// The number of chords in [from, to] if each of them has an equal share of it: divided by dt, a chord
+    /// strays by a quarter of its length times half its turn, both of which grow with dt.
+    double guess(double from, double to) {
+        // Of the tolerance: the tangent strays a little farther than the curve, and a chord that reaches the
+        // limit costs pieces later.
+        constexpr double sure = 0.8;
+        const auto& [a, b, c, start] = powers_;
+        const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
+        const double per = 1 / (8 * sure * tolerance_);
+        return shares_.integrate(from, to, [=, this](Two t) {
+            const Two x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+            const Two turn = ((c2 * t + c1) * t + c0) / square;
+            const Two chords = squareRoot(per * magnitude((squareRoot(square) - distance_ * turn) * turn));
+            return chords < mostDensity ? chords : 0.0;
+        });
+    }
+
+    /// Between which the curve has no inflection.
+    void convex(double from, double to) {
+        const double needed = guess(from, to);
+        if (needed > mostChords) {
+            const double middle = (from + to) / 2;
+            convex(from, middle);
+            convex(middle, to);
+            return;
         }
-        const int count = std::max(1, static_cast<int>(std::ceil(std::min(sums[steps], mostChords))));
-        std::size_t in = 0;
-        const double share = sums[steps] / count;
-        for (int k = 1; k <= count; ++k) {
-            const double goal = share * k;
-            while (in + 1 < steps && sums[in + 1] < goal)
-                ++in;
-            const double t =
-                k == count ? to : from + step * (double(in) + (goal - sums[in]) / (sums[in + 1] - sums[in]));
-            const Vertex next = vertex(t);
-            chord(at, next, maxHalvings);
-            at = next;
+        const int count = std::max(1, static_cast<int>(std::ceil(needed)));
+        findVertices(from, to, count);
+        appendChords(count);
+    }
+
+    void findVertices(double from, double to, int count) {
+        const std::size_t last = std::size_t(count);
+        t_[0] = from;
+        shares_.cut(count, &t_[1]);
+        t_[last] = t_[last + 1] = to;
+        for (std::size_t k = 0; k <= last; k += 2) {
+            const Vertices two = vertices(loadTwo(&t_[k]));
+            storeTwo(two.x, &x_[k]), storeTwo(two.y, &y_[k]);
         }
-        return at;
+        const Point first = vertex(from).at, end = vertex(to).at;
+        x_[0] = first.x, y_[0] = first.y;
+        x_[last] = x_[last + 1] = end.x, y_[last] = y_[last + 1] = end.y;
+    }
+
+    void appendChords(int count) {
+        int appended = 0;
+        for (int k = 0; k < count; k += 2) {
+            const double *const t = &t_[std::size_t(k)], *const x = &x_[std::size_t(k)],
+                                *const y = &y_[std::size_t(k)];
+            const TwoMasks near =
+                areNear(loadTwo(x), loadTwo(y), vertices(0.5 * (loadTwo(t) + loadTwo(t + 1))), loadTwo(x + 1),
+                        loadTwo(y + 1));
+            const int both = std::min(2, count - k);
+            if (near[0] != 0 && (near[1] != 0 || both == 1))
+                continue;
+            side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], k - appended);
+            for (int i = 0; i < both; ++i)
+                chord(vertex(t[i]), vertex(t[i + 1]), maxHalvings);
+            appended = k + both;
+        }
+        side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], count - appended);
     }
 
     void chord(const Vertex& a, const Vertex& b, int halvings) {
@@ -99,27 +153,37 @@ private:
             chord(a, middle, halvings - 1);
             chord(middle, b, halvings - 1);
         } else {
-            side_.edges.push_back({true, {}, {}, b.at});
+            side_.addLine(b.at);
         }
     }
 
-    /// Whether the tangent in m strays no farther than the tolerance from the chord over its ends; all
-    /// lengths times the chord's.
     bool isNear(const Vertex& a, const Vertex& m, const Vertex& b) const {
-        const double x = b.at.x - a.at.x, y = b.at.y - a.at.y, mx = m.at.x - a.at.x, my = m.at.y - a.at.y;
-        const double square = x * x + y * y, along = mx * x + my * y;
-        const double slope = std::abs((m.along.x * y - m.along.y * x) / (m.along.x * x + m.along.y * y));
-        const double most = std::abs(mx * y - my * x) + slope * std::max(along, square - along);
-        if (most <= tolerance_ * std::sqrt(square))
-            return true;
+        const auto twice = [](double v) { return Two{v, v}; };
+        const TwoMasks near = areNear(twice(a.at.x), twice(a.at.y),
+                                      {twice(m.at.x), twice(m.at.y), twice(m.along.x), twice(m.along.y)},
+                                      twice(b.at.x), twice(b.at.y));
         // So short that its direction is rounding.
-        return 2 * (glm::distance(a.at, m.at) + glm::distance(m.at, b.at)) <= tolerance_;
+        return near[0] != 0 || 2 * (glm::distance(a.at, m.at) + glm::distance(m.at, b.at)) <= tolerance_;
+    }
+
+    /// Whether the tangents in m stray less than the tolerance from the chords over their ends; all lengths
+    /// times the chords'. False for infinite vertices.
+    TwoMasks areNear(Two ax, Two ay, const Vertices& m, Two bx, Two by) const {
+        const Two x = bx - ax, y = by - ay, mx = m.x - ax, my = m.y - ay;
+        const Two square = x * x + y * y, along = mx * x + my * y, rest = square - along;
+        const Two slope = magnitude((m.alongX * y - m.alongY * x) / (m.alongX * x + m.alongY * y));
+        const Two most = magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
+        return most < tolerance_ * squareRoot(square);
     }
 
     const Cubic& curve_;
     const PowerForm powers_;
+    const Coordinate xs_, ys_;
     const double distance_, tolerance_;
     Side& side_;
+    EvenShares shares_;
+    /// Vertices, and one more for loops over two at once.
+    std::array<double, mostChords + 3> t_, x_, y_;
 };
 
 }  // namespace

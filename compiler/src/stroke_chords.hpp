@@ -2,6 +2,7 @@
 /// Offsets of curves as chords, for outlines that become chords anyway.
 #pragma once
 
+#include "compiler/src/stroke_contours.hpp"
 #include "compiler/src/stroke_offset.hpp"
 #include "scene/path.hpp"
 #include "scene/stroke.hpp"
@@ -11,6 +12,9 @@ namespace vtm::compiler {
 /// As strokeOutline (compiler/stroke.hpp), but with chords within `tolerance` + `chordTolerance` of the
 /// offsets in place of most curves that are within `tolerance`. The curves that are left become chords within
 /// `chordTolerance` later.
+void strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                    double chordTolerance, ContourSink& contours);
+/// As a path.
 scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                                   double chordTolerance);
 

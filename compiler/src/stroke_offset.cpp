@@ -39,16 +39,35 @@ namespace vtm::compiler::stroke {
 
 void Side::lineTo(Point to, double gap) {
     if (glm::distance(to, end()) > gap)
-        edges.push_back({true, {}, {}, to});
+        addLine(to);
+}
+
+void Side::addLines(const double* x, const double* y, int count) {
+    const std::size_t before = ends.size();
+    ends.resize(before + std::size_t(count));
+    Point* const points = ends.data() + before;
+    for (std::size_t i = 0; i < std::size_t(count); ++i)
+        points[i] = {x[i], y[i]};
+}
+
+void Side::cubicTo(Point c1, Point c2, Point to) {
+    curves.push_back({ends.size(), c1, c2});
+    ends.push_back(to);
+}
+
+void Side::append(const Side& next) {
+    for (const Curve& c : next.curves)
+        curves.push_back({ends.size() + c.edge, c.c1, c.c2});
+    ends.insert(ends.end(), next.ends.begin(), next.ends.end());
 }
 
 Side reversed(const Side& side) {
-    Side result{side.end(), {}};
-    result.edges.reserve(side.edges.size());
-    for (std::size_t i = side.edges.size(); i-- > 0;) {
-        const Edge& e = side.edges[i];
-        result.edges.push_back({e.straight, e.c2, e.c1, i > 0 ? side.edges[i - 1].to : side.start});
-    }
+    const std::size_t count = side.ends.size();
+    Side result{side.end(), std::vector<Point>(count), {}};
+    for (std::size_t i = 0; i < count; ++i)
+        result.ends[count - 1 - i] = i > 0 ? side.ends[i - 1] : side.start;
+    for (std::size_t i = side.curves.size(); i-- > 0;)
+        result.curves.push_back({count - 1 - side.curves[i].edge, side.curves[i].c2, side.curves[i].c1});
     return result;
 }
 
@@ -108,8 +127,7 @@ struct Beyond {
             return;
         Side contour = offset;
         contour.lineTo(evolute.end());
-        const Side back = reversed(evolute);
-        contour.edges.insert(contour.edges.end(), back.edges.begin(), back.edges.end());
+        contour.append(reversed(evolute));
         contours.push_back(bend == Bend::Left ? contour : reversed(contour));
         bend = Bend::Gentle;
     }
@@ -191,7 +209,7 @@ private:
 
     void sweepBeyond(const Stretch& stretch, const Evolute& evolute, Bend bend, double inner) {
         if (beyond_.bend != bend)
-            beyond_ = {bend, {evolute.at(0), {}}, {evolute.at(0), {}}};
+            beyond_ = {bend, {evolute.at(0), {}, {}}, {evolute.at(0), {}, {}}};
         fit(stretch, inner, true, beyond_.offset);
         evolute.append(beyond_.evolute);
     }

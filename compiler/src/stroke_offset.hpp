@@ -8,20 +8,29 @@
 
 namespace vtm::compiler::stroke {
 
-struct Edge {
-    bool straight;
-    Point c1, c2, to;  ///< c1 and c2 only if curved
-};
-
-/// A run of edges.
+/// A run of edges, straight but for some.
 struct Side {
+    struct Curve {
+        std::size_t edge;
+        Point c1, c2;
+    };
     Point start{0, 0};
-    std::vector<Edge> edges;
+    std::vector<Point> ends;    ///< of the edges
+    std::vector<Curve> curves;  ///< edges that are cubics, rising
 
-    Point end() const { return edges.empty() ? start : edges.back().to; }
+    Point end() const { return ends.empty() ? start : ends.back(); }
+    bool endsStraight() const {
+        return !ends.empty() && (curves.empty() || curves.back().edge + 1 < ends.size());
+    }
+    void clear() { ends.clear(), curves.clear(); }
     /// Adds nothing if the side is within `gap` of the point already.
     void lineTo(Point to, double gap = 0);
-    void cubicTo(Point c1, Point c2, Point to) { edges.push_back({false, c1, c2, to}); }
+    void addLine(Point to) { ends.push_back(to); }
+    /// To `count` points, given by coordinates.
+    void addLines(const double* x, const double* y, int count);
+    void cubicTo(Point c1, Point c2, Point to);
+    /// Goes on with the edges of a side that starts where this one ends.
+    void append(const Side& next);
 };
 
 Side reversed(const Side& side);

@@ -1,10 +1,13 @@
 #include "compiler/src/outline.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "compiler/src/even_shares.hpp"
 #include "compiler/src/strand.hpp"
+#include "compiler/src/stroke_chords.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -126,6 +129,52 @@ TEST(Outline, geometryBeyondTheBoxKeepsItsWindingsInside) {
     EXPECT_EQ(windingAt(outlines, {101, 101}), 1);
     EXPECT_EQ(windingAt(outlines, {901, 401}), 1);
     EXPECT_EQ(windingAt(outlines, {101, 601}), 0);
+}
+
+TEST(Outline, curvesThatLeaveTheBoxKeepTheirWindingsInside) {
+    const scene::Path leaves{scene::MoveTo{{500, 500}},
+                             scene::CubicTo{{3000, -2000}, {4000, 3000}, {400, 800}},
+                             scene::CubicTo{{-3000, 4000}, {-2500, -2500}, {300, 200}}, scene::Close{}};
+    Outlines whole;
+    addOutline(whole, leaves, scene::identity, 0.5, {-10000, -10000}, {10000, 10000});
+    const Outlines cut = outlineInBox(leaves);
+    EXPECT_LT(3 * cut.points.size(), 2 * whole.points.size());
+    for (Coord y = -9; y < 1000; y += 14)
+        for (Coord x = -9; x < 1000; x += 14) {
+            int winding = 0;
+            for (const auto& run : whole.runs)
+                winding += windingAlongX(whole.points, {run.first, run.last, 0}, y, -10001, x);
+            EXPECT_EQ(windingAt(cut, {x, y}), winding) << x << ", " << y;
+        }
+}
+
+TEST(Outline, ofAStrokeIsThatOfItsPath) {
+    const scene::Affine map{0.9, 0.1, -0.2, 1.1, 30, -40};
+    for (const auto join : {scene::Join::Miter, scene::Join::Round})
+        for (const double width : {3.0, 400.0}) {
+            scene::StrokeStyle style;
+            style.width = width;
+            style.join = join;
+            Outlines straight, byPath;
+            addStroke(straight, wave, style, 0.125, 0.375, map, 0.375, {-16, -16}, {1000, 1000});
+            addOutline(byPath, strokeOutlineOfChords(wave, style, 0.125, 0.375), map, 0.375, {-16, -16},
+                       {1000, 1000});
+            EXPECT_EQ(straight.points, byPath.points);
+            EXPECT_EQ(straight.runs.size(), byPath.runs.size());
+        }
+}
+
+TEST(EvenShares, cutWhereTheIntegralsAreEqual) {
+    // sqrt(t) from 1 to 4, times 3: the integral is 2 t^(3/2) - 2.
+    for (const double scale : {1.0, 20.0}) {  // with few steps and with many
+        EvenShares shares;
+        const double sum = shares.integrate(1, 4, [&](Two t) { return 3 * scale * squareRoot(t); });
+        EXPECT_NEAR(sum, 14 * scale, 0.02 * scale);
+        std::array<double, 6> ends;
+        shares.cut(7, ends.data());
+        for (int k = 1; k < 7; ++k)
+            EXPECT_NEAR(ends[std::size_t(k - 1)], std::pow(k + 1, 2.0 / 3), 2e-3);
+    }
 }
 
 TEST(Outline, radiiTooSmallForTheirChordGrow) {
