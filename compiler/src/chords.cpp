@@ -58,9 +58,9 @@ double ChordCutter::guess() {
     const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
     const double ax = 3 * a.x, ay = 3 * a.y, bx = 2 * b.x, by = 2 * b.y, cx = c.x, cy = c.y;
     const double per = 1 / (8 * sure * tolerance_);
-    return shares_.integrate(0, 1, [=](Two t) {
-        const Two x = (t * ax + bx) * t + cx, y = (t * ay + by) * t + cy;
-        const Two speed = squareRoot(x * x + y * y) + leastSpeed;
+    return shares_.integrate(0, 1, [=](Pair t) {
+        const Pair x = (t * ax + bx) * t + cx, y = (t * ay + by) * t + cy;
+        const Pair speed = squareRoot(x * x + y * y) + leastSpeed;
         return squareRoot(per * magnitude((c2 * t + c1) * t + c0) / speed);
     });
 }
@@ -71,9 +71,9 @@ void ChordCutter::findVertices(int count, Point end) {
     shares_.cut(count, &t_[1]);
     t_[std::size_t(count)] = t_[std::size_t(count) + 1] = 1;
     for (std::size_t k = 0; k < std::size_t(count); k += 2) {
-        const Two t = loadTwo(&t_[k]);
-        storeTwo(((a.x * t + b.x) * t + c.x) * t + start.x, &x_[k]);
-        storeTwo(((a.y * t + b.y) * t + c.y) * t + start.y, &y_[k]);
+        const Pair t = load(&t_[k]);
+        store(&x_[k], ((a.x * t + b.x) * t + c.x) * t + start.x);
+        store(&y_[k], ((a.y * t + b.y) * t + c.y) * t + start.y);
     }
     for (const std::size_t k : {std::size_t(count), std::size_t(count) + 1})
         x_[k] = end.x, y_[k] = end.y;
@@ -102,8 +102,8 @@ void ChordCutter::appendChords(int count) {
     for (int k = 0; k < count; k += 2) {
         const double *const t = &t_[std::size_t(k)], *const x = &x_[std::size_t(k)],
                             *const y = &y_[std::size_t(k)];
-        const TwoMasks near = isNear(Vertex<Two>{loadTwo(t), loadTwo(x), loadTwo(y)},
-                                     Vertex<Two>{loadTwo(t + 1), loadTwo(x + 1), loadTwo(y + 1)});
+        const PairMask near = isNear(Vertex<Pair>{load(t), load(x), load(y)},
+                                     Vertex<Pair>{load(t + 1), load(x + 1), load(y + 1)});
         if ((near[0] & near[1]) != 0 && runForward_)
             continue;
         appendVertices(appended + 1, k);

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "compiler/src/two.hpp"
+#include "compiler/src/pairs.hpp"
 
 namespace vtm::compiler {
 
@@ -55,9 +55,9 @@ private:
     void sample(int steps, double step, const Density& density) {
         steps_ = steps;
         step_ = step;
-        Two t = {from_, from_ + step};
+        Pair t = {from_, from_ + step};
         for (std::size_t i = 0; i <= std::size_t(steps); i += 2) {
-            storeTwo(density(t), &density_[i]);
+            store(&density_[i], density(t));
             t += 2 * step;
         }
         double sum = 0;

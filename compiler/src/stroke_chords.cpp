@@ -21,7 +21,7 @@ constexpr int mostChords = 256;
 
 /// One coordinate of a curve and its velocity at two places.
 struct Coordinate {
-    Two a, b, c, start, a3, b2;
+    Pair a, b, c, start, a3, b2;
 
     Coordinate(double cubed, double squared, double linear, double constant)
         : a{cubed, cubed},
@@ -30,8 +30,8 @@ struct Coordinate {
           start{constant, constant},
           a3(3 * a),
           b2(2 * b) {}
-    Two at(Two t) const { return ((a * t + b) * t + c) * t + start; }
-    Two slope(Two t) const { return (a3 * t + b2) * t + c; }
+    Pair at(Pair t) const { return ((a * t + b) * t + c) * t + start; }
+    Pair slope(Pair t) const { return (a3 * t + b2) * t + c; }
 };
 
 class ChordOffset {
@@ -65,7 +65,7 @@ private:
     };
     /// Two vertices.
     struct Vertices {
-        Two x, y, alongX, alongY;
+        Pair x, y, alongX, alongY;
     };
 
     Vertex vertex(double t) const {
@@ -76,10 +76,10 @@ private:
     }
 
     /// Inside the curve.
-    Vertices vertices(Two t) const {
+    Vertices vertices(Pair t) const {
         constexpr double least = 1e-280;  // smaller squares lose digits; the vertex becomes infinite
-        const Two x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
-        const Two share = distance_ / squareRoot(square > least ? square : 0.0);
+        const Pair x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+        const Pair share = distance_ / squareRoot(square > least ? square : 0.0);
         return {xs_.at(t) - y * share, ys_.at(t) + x * share, x, y};
     }
 
@@ -92,10 +92,10 @@ private:
         const auto& [a, b, c, start] = powers_;
         const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
         const double per = 1 / (8 * sure * tolerance_);
-        return shares_.integrate(from, to, [=, this](Two t) {
-            const Two x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
-            const Two turn = ((c2 * t + c1) * t + c0) / square;
-            const Two chords = squareRoot(per * magnitude((squareRoot(square) - distance_ * turn) * turn));
+        return shares_.integrate(from, to, [=, this](Pair t) {
+            const Pair x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+            const Pair turn = ((c2 * t + c1) * t + c0) / square;
+            const Pair chords = squareRoot(per * magnitude((squareRoot(square) - distance_ * turn) * turn));
             return chords < mostDensity ? chords : 0.0;
         });
     }
@@ -120,8 +120,8 @@ private:
         shares_.cut(count, &t_[1]);
         t_[last] = t_[last + 1] = to;
         for (std::size_t k = 0; k <= last; k += 2) {
-            const Vertices two = vertices(loadTwo(&t_[k]));
-            storeTwo(two.x, &x_[k]), storeTwo(two.y, &y_[k]);
+            const Vertices two = vertices(load(&t_[k]));
+            store(&x_[k], two.x), store(&y_[k], two.y);
         }
         const Point first = vertex(from).at, end = vertex(to).at;
         x_[0] = first.x, y_[0] = first.y;
@@ -133,16 +133,15 @@ private:
         for (int k = 0; k < count; k += 2) {
             const double *const t = &t_[std::size_t(k)], *const x = &x_[std::size_t(k)],
                                 *const y = &y_[std::size_t(k)];
-            const TwoMasks near =
-                areNear(loadTwo(x), loadTwo(y), vertices(0.5 * (loadTwo(t) + loadTwo(t + 1))), loadTwo(x + 1),
-                        loadTwo(y + 1));
-            const int both = std::min(2, count - k);
-            if (near[0] != 0 && (near[1] != 0 || both == 1))
+            const PairMask near =
+                areNear(load(x), load(y), vertices(0.5 * (load(t) + load(t + 1))), load(x + 1), load(y + 1));
+            const int many = std::min(2, count - k);
+            if (near[0] != 0 && (near[1] != 0 || many == 1))
                 continue;
             side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], k - appended);
-            for (int i = 0; i < both; ++i)
+            for (int i = 0; i < many; ++i)
                 chord(vertex(t[i]), vertex(t[i + 1]), maxHalvings);
-            appended = k + both;
+            appended = k + many;
         }
         side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], count - appended);
     }
@@ -158,21 +157,20 @@ private:
     }
 
     bool isNear(const Vertex& a, const Vertex& m, const Vertex& b) const {
-        const auto twice = [](double v) { return Two{v, v}; };
-        const TwoMasks near = areNear(twice(a.at.x), twice(a.at.y),
-                                      {twice(m.at.x), twice(m.at.y), twice(m.along.x), twice(m.along.y)},
-                                      twice(b.at.x), twice(b.at.y));
+        const PairMask near = areNear(both(a.at.x), both(a.at.y),
+                                      {both(m.at.x), both(m.at.y), both(m.along.x), both(m.along.y)},
+                                      both(b.at.x), both(b.at.y));
         // So short that its direction is rounding.
         return near[0] != 0 || 2 * (glm::distance(a.at, m.at) + glm::distance(m.at, b.at)) <= tolerance_;
     }
 
     /// Whether the tangents in m stray less than the tolerance from the chords over their ends; all lengths
     /// times the chords'. False for infinite vertices.
-    TwoMasks areNear(Two ax, Two ay, const Vertices& m, Two bx, Two by) const {
-        const Two x = bx - ax, y = by - ay, mx = m.x - ax, my = m.y - ay;
-        const Two square = x * x + y * y, along = mx * x + my * y, rest = square - along;
-        const Two slope = magnitude((m.alongX * y - m.alongY * x) / (m.alongX * x + m.alongY * y));
-        const Two most = magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
+    PairMask areNear(Pair ax, Pair ay, const Vertices& m, Pair bx, Pair by) const {
+        const Pair x = bx - ax, y = by - ay, mx = m.x - ax, my = m.y - ay;
+        const Pair square = x * x + y * y, along = mx * x + my * y, rest = square - along;
+        const Pair slope = magnitude((m.alongX * y - m.alongY * x) / (m.alongX * x + m.alongY * y));
+        const Pair most = magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
         return most < tolerance_ * squareRoot(square);
     }
 

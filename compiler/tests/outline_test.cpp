@@ -168,7 +168,7 @@ TEST(EvenShares, cutWhereTheIntegralsAreEqual) {
     // sqrt(t) from 1 to 4, times 3: the integral is 2 t^(3/2) - 2.
     for (const double scale : {1.0, 20.0}) {  // with few steps and with many
         EvenShares shares;
-        const double sum = shares.integrate(1, 4, [&](Two t) { return 3 * scale * squareRoot(t); });
+        const double sum = shares.integrate(1, 4, [&](Pair t) { return 3 * scale * squareRoot(t); });
         EXPECT_NEAR(sum, 14 * scale, 0.02 * scale);
         std::array<double, 6> ends;
         shares.cut(7, ends.data());
