@@ -32,6 +32,10 @@ struct Curve {
         const float r = 1 - s;
         return a + s * chord + s * r * (slopeA * r - slopeB * s) * normal;
     }
+    /// Off the curve by -h² t''(s) / 12, the mean of what a chord of that step h between its points misses.
+    glm::vec2 lifted(float s, float h) const {
+        return at(s) + h * h / 6 * (2 * slopeA + slopeB - 3 * s * (slopeA + slopeB)) * normal;
+    }
 };
 
 Curve curveOf(const LeafFrame& frame, const Piece& piece) {
@@ -72,8 +76,10 @@ float curveSum(const Curve& curve) {
         return seg(curve.a, curve.b);
     glm::vec2 last = curve.a;
     float sum = 0;
+    const float step = (range.to - range.from) / chordCount;
     for (int i = 0; i <= chordCount; ++i) {
-        const glm::vec2 next = curve.at(range.from + (range.to - range.from) * (float(i) / chordCount));
+        const glm::vec2 next =
+            curve.lifted(range.from + (range.to - range.from) * (float(i) / chordCount), step);
         sum += seg(last, next);
         last = next;
     }
