@@ -10,9 +10,6 @@ namespace vtm::asset {
 
 namespace {
 
-/// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
-constexpr float leastShare = 1e-5f;
-
 /// What one mask needs and the next uses again.
 struct Scratch {
     Bands bands;

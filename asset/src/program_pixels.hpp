@@ -13,9 +13,6 @@
 
 namespace vtm::asset {
 
-/// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
-inline constexpr float leastShare = 1e-5f;
-
 inline bool isNothing(Float4 color) {
     float most = 0;
     for (int c = 0; c < 4; ++c)

@@ -27,6 +27,9 @@ namespace vtm::asset {
 /// Rows that are summed at a time: their changes stay in the cache.
 inline constexpr int bandRows = 16;
 
+/// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
+inline constexpr float leastShare = 1e-5f;
+
 /// A chord is nowhere further from its curve, pixels: half a 255th of a pixel's area. Chords lie on both
 /// sides of the curve, so that what they miss cancels within a pixel where it holds more than one.
 inline constexpr double chordTolerance = 1.0 / 512;

@@ -109,8 +109,8 @@ std::uint32_t Fitter::reach(std::uint32_t from, std::uint32_t last) const {
             most = maxSlope * (n - 0.5), wholeX = load(x + to) - x[0], wholeY = load(y + to) - y[0],
             lastX = load(x + to) - load(x + to - 1), lastY = load(y + to) - load(y + to - 1),
             acrossFirst = wholeX * firstY - wholeY * firstX, acrossLast = wholeX * lastY - wholeY * lastX;
-        return (n * larger(acrossFirst, -acrossFirst) <= most * (wholeX * firstX + wholeY * firstY)) &
-               (n * larger(acrossLast, -acrossLast) <= most * (wholeX * lastX + wholeY * lastY));
+        return (n * magnitude(acrossFirst) <= most * (wholeX * firstX + wholeY * firstY)) &
+               (n * magnitude(acrossLast) <= most * (wholeX * lastX + wholeY * lastY));
     };
     last = std::min(last, LocalPoints::mostChords);
     if (areFlat(last)[0])
