@@ -1,7 +1,8 @@
-// How fast paints change.
+// How fast paints change, and what that is for: a part of a pixel has the colours of that part.
 
 #include "asset/steepness.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -9,8 +10,12 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include "asset/evaluate.hpp"
+#include "asset/scan.hpp"
 #include "asset/src/paint.hpp"
+#include "asset/src/row_sums.hpp"
 #include "asset/testing.hpp"
+#include "asset/testing_views.hpp"
 
 namespace vtm::asset::test {
 namespace {
@@ -131,6 +136,69 @@ TEST(Steepness, LeastIsThatOfAPixelsLongestStep) {
     EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.5, 0, 0, 0.25)), float(2 * leastSteepChange));
     EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.6, 0.8, -0.8, 0.6)), float(leastSteepChange));
 }
+
+// ---- Parts of pixels ------------------------------------------------------------------------------
+
+/// Triangles that reach beyond the picture, against 64 × 64 points a quarter: off by less than what a row of
+/// points is for each of three edges.
+TEST(Quarters, AreThoseOfDensePoints) {
+    constexpr int width = 7, height = 5, side = 64;
+    std::mt19937 random(23);
+    std::uniform_real_distribution<float> unit(0, 1);
+    Accumulator<Quarters> quarters;
+    quarters.resize(width);
+    for (int i = 0; i < 60; ++i) {
+        std::array<vec2, 3> p;
+        for (vec2& corner : p)
+            corner = vec2(-2, -2) + vec2(width + 4, height + 4) * vec2(unit(random), unit(random));
+        const auto side2 = [](vec2 a, vec2 b, vec2 q) {
+            return (b.x - a.x) * (q.y - a.y) - (b.y - a.y) * (q.x - a.x);
+        };
+        const float sign = side2(p[0], p[1], p[2]) > 0 ? 1.0f : -1.0f;
+        for (std::size_t k = 0; k < 3; ++k)
+            quarters.add({p[k], p[(k + 1) % 3], 1, 0}, 0, height, sign);
+        for (int y = 0; y < height; ++y)
+            quarters.resolve(std::size_t(y), [&](int first, int end, Float4 shares) {
+                for (int x = first; x < end; ++x)
+                    for (int q = 0; q < 4; ++q) {
+                        int within = 0;
+                        for (int n = 0; n < side * side; ++n) {
+                            const vec2 inQuarter = (vec2(n % side, n / side) + 0.5f) / float(side);
+                            const vec2 point = vec2(x, y) + 0.5f * (vec2(q % 2, q / 2) + inQuarter);
+                            within += sign * side2(p[0], p[1], point) > 0 &&
+                                      sign * side2(p[1], p[2], point) > 0 &&
+                                      sign * side2(p[2], p[0], point) > 0;
+                        }
+                        ASSERT_NEAR(shares[q], float(within) / (side * side), 1.5f / side) << x << ' ' << y;
+                    }
+            });
+    }
+}
+
+double worst(const image::Raster& a, const image::Raster& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        worst = std::max(worst, std::abs(double(a.rgba[i]) - double(b.rgba[i])));
+    return worst;
+}
+
+/// `change`: of shades over a pixel; `bound`: in 1/255.
+void expectPartsToHaveTheirColors(double change, double bound) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 24; ++i) {
+        const double zoom = std::exp2(1 + 5 * unit(random)), length = 1 / (change * zoom);
+        const View view = turnedView(24, 18, {29 + unit(random), 31 + unit(random)}, zoom,
+                                     6.28 * unit(random), i % 2 == 0 ? 0 : 0.4, i % 3 == 0);
+        const Asset asset = steepHalves(length);
+        const image::Raster points = steepHalvesByPoints(length, view);
+        EXPECT_LE(255 * worst(evaluate(asset, view), points), bound) << "evaluator, view " << i;
+        EXPECT_LE(255 * worst(Scanner(asset).draw(view), points), bound) << "scanner, view " << i;
+    }
+}
+
+TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSteep) { expectPartsToHaveTheirColors(0.25, 3); }
+TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSmall) { expectPartsToHaveTheirColors(0.8, 8); }
 
 }  // namespace
 }  // namespace vtm::asset::test

@@ -1,5 +1,10 @@
 #include "backend_gl/src/upload.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "asset/steepness.hpp"
 #include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/constants.hpp"
 
@@ -12,6 +17,17 @@ using asset::Texel;
 
 constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
 
+/// Programs with their steepness in the word that is free.
+std::vector<asset::Paint> paintTexels(const AssetView& asset) {
+    std::vector<asset::Paint> paints(asset.paints.begin(), asset.paints.end());
+    const std::vector<float> steepness = asset::steepnessOf(asset);
+    for (std::size_t i = 0; i < paints.size(); ++i)
+        if (asset::isProgram(paints[i]))
+            paints[i][2] =
+                std::bit_cast<std::uint32_t>(std::min(steepness[i], std::numeric_limits<float>::max()));
+    return paints;
+}
+
 /// The trees themselves stay behind: instances stand for them, and patches for the leaves of sums of maps.
 std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const Texel> imageList,
                                 Sections& sections) {
@@ -20,7 +36,7 @@ std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const Texel> i
         sections.leaves = appendTexels(texels, asset.leaves);
         sections.pieces = appendTexels(texels, asset.pieces);
     }
-    sections.paints = appendTexels(texels, asset.paints);
+    sections.paints = appendTexels<asset::Paint>(texels, paintTexels(asset));
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList);
     return texels;
