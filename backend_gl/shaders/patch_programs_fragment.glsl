@@ -1,14 +1,10 @@
 // A patch with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl, output.glsl.
 
-// Paints that change by more over a unit of the picture are steep (asset/steepness.hpp).
-uniform float leastSteep;
+uniform float leastSteep;  // the steepness from which on a paint is asked for quarters of pixels
 
 out vec4 color;
 
-bool isSteep(uint paint) {
-    uvec4 texel = paintAt(paint);
-    return isProgram(texel) && uintBitsToFloat(texel.z) > leastSteep;
-}
+bool isSteep(uint paint) { return isSteep(paint, leastSteep); }
 
 // Weights nearer to 0 are roundings. A piece whose weight is no whole number cuts the pixel.
 const float leastShare = 1e-5;

@@ -72,6 +72,16 @@ TEST_F(Gl, SteepGradients) {
     }
 }
 
+/// Drawn by leaves, as commands other than DrawMap want it.
+TEST_F(Gl, SteepGradientsInLayers) {
+    for (Asset asset : {steepHalves(1), everyPaint()}) {
+        for (const auto kind : {asset::Command::Kind::Push, asset::Command::Kind::Pop})
+            asset.commands.push_back({kind, {}, 1, 0, 0});
+        ASSERT_FALSE(asset::isSumOfMaps(asset));
+        expectTwins(*renderer, asset, 12);
+    }
+}
+
 TEST_F(Gl, EveryBlendMode) {
     for (unsigned mode = 0; mode <= unsigned(asset::Blend::PlusLighter); ++mode) {
         SCOPED_TRACE(mode);
