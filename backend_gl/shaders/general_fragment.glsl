@@ -12,9 +12,9 @@ uvec4 leafTexel() {
     return texelAt(sections.x + payload);
 }
 
-// The whole pixel, and what its quarters make of it where a paint is steep, as the evaluator does: what the leaf has of each,
-// less what it has of the whole, in the quarter's colours. One loop, so that the paint interpreter stands in the program
-// once.
+// The whole pixel, and what its quarters make of it where a paint is steep, as the evaluator does: what the leaf has of
+// each, less what it has of the whole, in the quarter's colours. One loop, so that the paint interpreter stands in the
+// program once.
 void main() {
     Frame frame = leafFrame();
     Overlap overlap = overlapOf(frame);

@@ -72,9 +72,9 @@ vec4 valueOf(Share share, Cell cell, bool quarters) {
 
 // First the whole pixel. Then, where a piece beside a steep paint cuts it, what its quarters make of that: steep paints
 // have other colours and other shares there. The last two paints, mostly the two sides of a chain of pieces, are kept
-// while they go on; one that is driven out is drawn, unless nothing is left of it. So the paint interpreter, which compilers
-// inline, stands in the program once, and beside the loop over pieces: some drivers run both sides of every branch, and
-// loops once after their end unless that is told at the bottom.
+// while they go on; one that is driven out is drawn, unless nothing is left of it. So the paint interpreter, which
+// compilers inline, stands in the program once, and beside the loop over pieces: some drivers run both sides of every
+// branch, and loops once after their end unless that is told at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     bool flatPatch = patchTexels.z != 0u, cut = false, quarters = false;
