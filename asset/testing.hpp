@@ -10,6 +10,8 @@
 #include <glm/vec4.hpp>
 
 #include "asset/asset.hpp"
+#include "asset/view.hpp"
+#include "image/bitmap.hpp"
 
 namespace vtm::asset::test {
 
@@ -103,6 +105,11 @@ Asset everyPaint();
 
 /// Blends `mode` of a translucent gradient over another, in one region.
 Asset blendAsset(Blend mode);
+
+/// A slanting edge between a linear and a radial gradient, each to and fro between black and a colour, in
+/// `length` units of the picture; and what that is by 32 × 32 points a pixel, where the map is.
+Asset steepHalves(double length);
+image::Raster steepHalvesByPoints(double length, const View& view);
 
 /// Every command of compat mode, with nested groups, masks and clips.
 Asset layers();

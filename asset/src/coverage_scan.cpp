@@ -13,7 +13,7 @@ namespace {
 /// What one mask needs and the next uses again.
 struct Scratch {
     Bands bands;
-    Accumulator<float> coverage;
+    Accumulator<Wholes<float>> coverage;
     std::vector<CoverageRun> runs;
     bool isWhole = true;  ///< false while sums may be half done
 };

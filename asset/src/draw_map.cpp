@@ -11,6 +11,7 @@
 
 #include "asset/coverage.hpp"
 #include "asset/src/paint.hpp"
+#include "asset/steepness.hpp"
 #include "asset/walk.hpp"
 
 namespace vtm::asset {
@@ -49,30 +50,58 @@ PlacedLeaf place(const View& view, dvec2 corner, double side) {
 /// The part of the leaf that the bounding box (in leaf coordinates) of the pixel's box meets.
 struct Overlap {
     vec2 min, max;
+    bool whole;  ///< the pixel lies inside the leaf
     bool empty() const { return min.x >= max.x || min.y >= max.y; }
 };
 
-/// The pixel's centre in leaf coordinates.
-vec2 centreIn(const PlacedLeaf& leaf, const LeafFrame& frame) {
-    return leaf.inverse * (vec2(0.5f) - frame.origin);
+/// A point of the pixel in leaf coordinates.
+vec2 pointIn(const PlacedLeaf& leaf, const LeafFrame& frame, vec2 point) {
+    return leaf.inverse * (point - frame.origin);
 }
 
 Overlap overlapOf(const PlacedLeaf& leaf, const LeafFrame& frame) {
-    const vec2 centre = centreIn(leaf, frame);
+    const vec2 centre = pointIn(leaf, frame, vec2(0.5f));
     const vec2 half = (glm::abs(leaf.inverse[0]) + glm::abs(leaf.inverse[1])) * 0.5f;
-    return {glm::max(centre - half, vec2(0)), glm::min(centre + half, vec2(leafExtent))};
+    const vec2 min = centre - half, max = centre + half;
+    return {glm::max(min, vec2(0)), glm::min(max, vec2(leafExtent)),
+            min.x >= 0 && min.y >= 0 && max.x <= leafExtent && max.y <= leafExtent};
 }
+
+PaintPlace placeOf(const PlacedLeaf& leaf, const LeafFrame& frame, vec2 point, float size) {
+    return {vec2(leaf.corner + leaf.step * dvec2(pointIn(leaf, frame, point))),
+            leaf.inverse * (size * float(leaf.step))};
+}
+
+/// What is drawn under one view.
+struct Drawn {
+    const Paints& paints;
+    PaintMeaning meaning;
+    const MaterialFunction& materials;
+    float leastSteep;
+
+    const AssetView& asset() const { return paints.asset(); }
+    bool isSteep(std::uint32_t paint) const {
+        return meaning == PaintMeaning::Color && paints.steepness()[paint] > leastSteep;
+    }
+    bool isSteep(Entry entry) const {
+        if (entry.kind() == Entry::Kind::Solid)
+            return isSteep(entry.payload());
+        const Leaf& leaf = asset().leaves[entry.payload()];
+        return std::ranges::any_of(leaf.corners, [&](std::uint32_t paint) { return isSteep(paint); }) ||
+               std::ranges::any_of(asset().pieces.subspan(leaf.firstPiece, leaf.pieceCount),
+                                   [&](const Piece& p) { return isSteep(p.left) || isSteep(p.right); });
+    }
+};
 
 /// Σ colour · weight, evaluating a paint only when it is not one of the last two: the two sides of
 /// a chain of pieces.
 class ColorSum {
 public:
-    ColorSum(const Paints& paints, PaintMeaning meaning, const MaterialFunction& materials,
-             const PaintPlace& place)
-        : paints_(paints), meaning_(meaning), materials_(materials), place_(place) {}
+    ColorSum(const Drawn& drawn, const PaintPlace& place, bool steepOnly = false)
+        : drawn_(drawn), place_(place), steepOnly_(steepOnly) {}
 
     void add(std::uint32_t paint, float weight) {
-        if (weight != 0)
+        if (weight != 0 && (!steepOnly_ || drawn_.isSteep(paint)))
             sum_ += weight * color(paint);
     }
     vec4 sum() const { return sum_; }
@@ -84,20 +113,19 @@ private:
     };
 
     vec4 color(std::uint32_t paint) {
-        if (meaning_ == PaintMeaning::Coverage)
+        if (drawn_.meaning == PaintMeaning::Coverage)
             return vec4(float(paint));
         if (recent_.paint != paint) {
             std::swap(recent_, older_);
             if (recent_.paint != paint)
-                recent_ = {paint, paints_.color(paint, place_, materials_)};
+                recent_ = {paint, drawn_.paints.color(paint, place_, drawn_.materials)};
         }
         return recent_.color;
     }
 
-    const Paints& paints_;
-    PaintMeaning meaning_;
-    const MaterialFunction& materials_;
+    const Drawn& drawn_;
     PaintPlace place_;
+    bool steepOnly_;
     Known recent_, older_;
     vec4 sum_{0};
 };
@@ -124,17 +152,54 @@ vec4 leafIntegral(const AssetView& asset, Entry entry, const PlacedLeaf& placed,
     return placed.sign * sum.sum();
 }
 
-void addLeaf(const Paints& paints, PaintMeaning meaning, const MaterialFunction& materials, Entry entry,
-             const PlacedLeaf& placed, const PixelBox& box, image::Raster& target) {
-    const glm::mat2 footprint = placed.inverse * float(placed.step);
+// ---- Quarters -------------------------------------------------------------------------------------
+
+/// Whether a piece may meet the pixel's box: the box around its ends grown by how far it is from its chord.
+bool mayMeetPixel(const LeafFrame& frame, const Piece& piece) {
+    const vec2 a = frame(vec2(piece.a[0], piece.a[1])), b = frame(vec2(piece.b[0], piece.b[1]));
+    const float bulge = 4.0f / 27 / slopeScale * float(std::abs(piece.slopeA) + std::abs(piece.slopeB));
+    const vec2 along = vec2(piece.b[0], piece.b[1]) - vec2(piece.a[0], piece.a[1]);
+    const vec2 margin = bulge * glm::abs(frame.linear * vec2(-along.y, along.x));
+    const vec2 min = glm::min(a, b) - margin, max = glm::max(a, b) + margin;
+    return min.x <= 1 && min.y <= 1 && max.x >= 0 && max.y >= 0;
+}
+
+bool isCut(const AssetView& asset, Entry entry, const Overlap& overlap, const LeafFrame& frame) {
+    if (!overlap.whole)
+        return true;
+    if (entry.kind() == Entry::Kind::Solid)
+        return false;
+    const Leaf& leaf = asset.leaves[entry.payload()];
+    return std::ranges::any_of(asset.pieces.subspan(leaf.firstPiece, leaf.pieceCount),
+                               [&](const Piece& piece) { return mayMeetPixel(frame, piece); });
+}
+
+/// What it means that steep paints are not the same in the quarters of a pixel, of which regions have other
+/// shares than of the whole: the sum over the quarters of (its share - the whole's) times its colour.
+vec4 quartersOf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame) {
+    vec4 sum(0);
+    for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
+        const LeafFrame quarter{2.0f * frame.linear, 2.0f * frame.origin - corner};
+        const PaintPlace place = placeOf(placed, frame, 0.25f + 0.5f * corner, 0.5f);
+        sum += leafIntegral(drawn.asset(), entry, placed, quarter, {drawn, place, true}) -
+               leafIntegral(drawn.asset(), entry, placed, frame, {drawn, place, true});
+    }
+    return 0.25f * sum;
+}
+
+void addLeaf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const PixelBox& box,
+             image::Raster& target) {
+    const bool isSteep = drawn.isSteep(entry);
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
             const LeafFrame frame{glm::mat2(placed.linear), vec2(placed.origin - dvec2(x, y))};
-            if (overlapOf(placed, frame).empty())
+            const Overlap overlap = overlapOf(placed, frame);
+            if (overlap.empty())
                 continue;
-            const vec2 samplePoint(placed.corner + placed.step * dvec2(centreIn(placed, frame)));
-            const vec4 color = leafIntegral(paints.asset(), entry, placed, frame,
-                                            {paints, meaning, materials, {samplePoint, footprint}});
+            const PaintPlace place = placeOf(placed, frame, vec2(0.5f), 1);
+            vec4 color = leafIntegral(drawn.asset(), entry, placed, frame, {drawn, place});
+            if (isSteep && isCut(drawn.asset(), entry, overlap, frame))
+                color += quartersOf(drawn, entry, placed, frame);
             float* pixel = target.pixel(x, y);
             for (int c = 0; c < 4; ++c)
                 pixel[c] += color[c];
@@ -171,6 +236,8 @@ View crop(const View& view, const PixelBox& box) {
 void addMap(const Paints& paints, const Map& map, const View& view, PaintMeaning meaning,
             const MaterialFunction& materials, image::Raster& target) {
     const AssetView& asset = paints.asset();
+    const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    const Drawn drawn{paints, meaning, materials, leastSteepness(pixel)};
     walk(asset, map.root, [&](Cell cell, Entry entry) {
         if (isTransparent(meaning, asset, entry))
             return;
@@ -178,7 +245,7 @@ void addMap(const Paints& paints, const Map& map, const View& view, PaintMeaning
         const dvec2 corner(map.x + cell.x * side, map.y + cell.y * side);
         const PixelBox box = pixelsOf(view, corner, side);
         if (!box.empty())
-            addLeaf(paints, meaning, materials, entry, place(view, corner, side), box, target);
+            addLeaf(drawn, entry, place(view, corner, side), box, target);
     });
 }
 

@@ -75,17 +75,22 @@ struct Range {
     std::size_t first, end;
 };
 
-/// The pixels of a row in a radial gradient's space.
-struct RadialRow {
-    vec2 first, change;  ///< from the focus
+/// Pixels in a radial gradient's space.
+struct RadialPixels {
     glm::mat2 sides;
     vec2 focus;
     float fr;
 
-    vec2 fromFocus(std::size_t i) const { return first + float(i) * change; }
+    RadialPixels(const Gradient& gradient, const glm::mat2& pixel)
+        : sides(linearOf(gradient) * pixel), focus(gradient.fx, gradient.fy), fr(gradient.fr) {}
 
-    Float4 color(std::size_t i, Spread spread, Ramp& ramp) const {
-        vec2 d = fromFocus(i);
+    static glm::mat2 linearOf(const Gradient& gradient) {
+        const std::array<float, 6>& m = gradient.matrix;
+        return {m[0], m[1], m[2], m[3]};
+    }
+
+    /// `d`: of the middle from the focus.
+    Float4 color(vec2 d, Spread spread, Ramp& ramp) const {
         const float atFocus = besideFocus * glm::length(sides[0]);
         if (glm::dot(d, d) < atFocus * atFocus)
             d = besideFocus * sides[0];
@@ -96,13 +101,31 @@ struct RadialRow {
         return ramp.over(spreadOffset(spread, spot.u), spot.sides);
     }
 
+    /// Pixels further from the focus are far from the tip.
+    float farSquared() const {
+        return farFromTip * (glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]));
+    }
+    /// Where circles lie within each other by `gap`, u changes by no more than this from a pixel's middle.
+    float reach(float gap) const { return 0.5f * (glm::length(sides[0]) + glm::length(sides[1])) / gap; }
+};
+
+/// Those of a row.
+struct RadialRow : RadialPixels {
+    vec2 first, change;  ///< from the focus
+
+    RadialRow(const Gradient& gradient, vec2 point, vec2 step, const glm::mat2& pixel)
+        : RadialPixels(gradient, pixel),
+          first(applyMatrix(gradient.matrix, point) - focus),
+          change(linearOf(gradient) * step) {}
+
+    vec2 fromFocus(std::size_t i) const { return first + float(i) * change; }
+
     /// Which of `count` pixels are not far from the tip.
     Range nearTip(std::size_t count) const {
-        const float far = farFromTip * (glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]));
         const float steps = glm::dot(change, change),
                     middle = steps > 0 ? -glm::dot(first, change) / steps : 0;
         const vec2 d = first + middle * change;
-        const float rest = far - glm::dot(d, d);
+        const float rest = farSquared() - glm::dot(d, d);
         if (!(rest >= 0))
             return {0, 0};
         const float half = steps > 0 ? std::sqrt(rest / steps) : 0, most = float(count);
@@ -116,7 +139,8 @@ struct RadialRow {
 /// single precision has them, without care for what cancels.
 constexpr float leastGap = 0.1f;
 
-/// u in such circles: along the row b and the discriminant are polynomials of the step.
+/// u in such circles: u = b + sqrt(b² + c), each of radialOffset()'s divided by a. Along the row b and the
+/// discriminant are polynomials of the step.
 void nestedOffsets(const RadialRow& row, std::span<float> offsets) {
     const vec2 f = row.focus, d = row.first, change = row.change;
     const float fr = row.fr, grow = 1 - fr, a = grow * grow - glm::dot(f, f), inverse = 1 / a;
@@ -136,49 +160,98 @@ void spreadOffsets(Spread spread, std::span<float> offsets) {
             u = spreadOffset(spread, u);
 }
 
-}  // namespace
+/// Anywhere; whether all are far from the tip.
+bool nestedOffsets(const RadialPixels& pixels, const std::array<float, 6>& m, std::span<const vec2> points,
+                   std::span<float> offsets) {
+    const vec2 f = pixels.focus, origin = vec2(m[4], m[5]) - f;
+    const float fr = pixels.fr, grow = 1 - fr, inverse = 1 / (grow * grow - glm::dot(f, f));
+    const float far = pixels.farSquared();
+    int near = 0;  // counted without a branch
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const float x = m[0] * points[i].x + m[2] * points[i].y + origin.x;
+        const float y = m[1] * points[i].x + m[3] * points[i].y + origin.y;
+        const float squared = x * x + y * y, b = (x * f.x + y * f.y - fr * grow) * inverse;
+        offsets[i] = b + std::sqrt(std::max(b * b + (squared - fr * fr) * inverse, 0.0f));
+        near += int(squared <= far);
+    }
+    return near == 0;
+}
 
-void linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
-                  std::span<Float4> colors) {
-    const std::array<float, 6>& m = view.gradient().matrix;
-    const vec2 row(m[0], m[2]), sides = row * pixel;
-    const float first = applyMatrix(m, point).x, change = glm::dot(row, step);
-    std::array<float, longestRow> offsets;
-    const std::span<float> places = std::span(offsets).first(colors.size());
-    for (std::size_t i = 0; i < places.size(); ++i)
-        places[i] = first + float(int(i)) * change;
+/// `places`: before they are spread.
+void fillLinear(const GradientView& view, std::span<float> places, vec2 sides, std::span<Float4> colors) {
     spreadOffsets(view.gradient().spread, places);
     Ramp ramp(view);
     const float reach = 0.5f * (std::abs(sides.x) + std::abs(sides.y));
     ramp.over(places, reach, colors, [&](std::size_t i) { return ramp.over(places[i], sides); });
 }
 
+}  // namespace
+
+void linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
+                  std::span<Float4> colors) {
+    const std::array<float, 6>& m = view.gradient().matrix;
+    const vec2 row(m[0], m[2]);
+    const float first = applyMatrix(m, point).x, change = glm::dot(row, step);
+    std::array<float, longestRow> offsets;
+    const std::span<float> places = std::span(offsets).first(colors.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+        places[i] = first + float(int(i)) * change;
+    fillLinear(view, places, row * pixel, colors);
+}
+
+void linearColors(const GradientView& view, std::span<const vec2> points, const glm::mat2& pixel,
+                  std::span<Float4> colors) {
+    const std::array<float, 6>& m = view.gradient().matrix;
+    std::array<float, longestRow> offsets;
+    const std::span<float> places = std::span(offsets).first(colors.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+        places[i] = applyMatrix(m, points[i]).x;
+    fillLinear(view, places, vec2(m[0], m[2]) * pixel, colors);
+}
+
 void radialColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
                   std::span<Float4> colors) {
     const Gradient& gradient = view.gradient();
-    const std::array<float, 6>& m = gradient.matrix;
-    const glm::mat2 linear(m[0], m[1], m[2], m[3]);
-    const vec2 focus(gradient.fx, gradient.fy);
-    const RadialRow row{applyMatrix(m, point) - focus, linear * step, linear * pixel, focus, gradient.fr};
+    const RadialRow row(gradient, point, step, pixel);
     Ramp ramp(view);
     const std::size_t count = colors.size();
-    const float gap = 1 - gradient.fr - glm::length(focus);
+    const float gap = 1 - gradient.fr - glm::length(row.focus);
     const Range near = gap < leastGap ? Range{0, count} : row.nearTip(count);
     for (std::size_t i = near.first; i < near.end; ++i)
-        colors[i] = row.color(i, gradient.spread, ramp);
+        colors[i] = row.color(row.fromFocus(i), gradient.spread, ramp);
     if (near.first == 0 && near.end == count)
         return;
     std::array<float, longestRow> offsets;
     const std::span<float> places = std::span(offsets).first(count);
     nestedOffsets(row, places);
     spreadOffsets(gradient.spread, places);
-    const float reach = 0.5f * (glm::length(row.sides[0]) + glm::length(row.sides[1])) / gap;
+    const float reach = row.reach(gap);
     const auto fill = [&](std::size_t first, std::size_t end) {
         ramp.over(places.subspan(first, end - first), reach, colors.subspan(first, end - first),
-                  [&](std::size_t i) { return row.color(first + i, gradient.spread, ramp); });
+                  [&](std::size_t i) { return row.color(row.fromFocus(first + i), gradient.spread, ramp); });
     };
     fill(0, near.first);
     fill(near.end, count);
+}
+
+void radialColors(const GradientView& view, std::span<const vec2> points, const glm::mat2& pixel,
+                  std::span<Float4> colors) {
+    const Gradient& gradient = view.gradient();
+    const RadialPixels pixels(gradient, pixel);
+    Ramp ramp(view);
+    const auto colorAt = [&](std::size_t i) {
+        return pixels.color(applyMatrix(gradient.matrix, points[i]) - pixels.focus, gradient.spread, ramp);
+    };
+    std::array<float, longestRow> offsets;
+    const std::span<float> places = std::span(offsets).first(colors.size());
+    const float gap = 1 - gradient.fr - glm::length(pixels.focus);
+    if (gap < leastGap || !nestedOffsets(pixels, gradient.matrix, points, places)) {
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = colorAt(i);
+        return;
+    }
+    spreadOffsets(gradient.spread, places);
+    ramp.over(places, pixels.reach(gap), colors, colorAt);
 }
 
 }  // namespace vtm::asset

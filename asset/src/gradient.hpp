@@ -27,5 +27,10 @@ void linearColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step,
                   std::span<Float4> colors);
 void radialColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
                   std::span<Float4> colors);
+/// The same over pixels whose middles are anywhere.
+void linearColors(const GradientView& gradient, std::span<const glm::vec2> points, const glm::mat2& pixel,
+                  std::span<Float4> colors);
+void radialColors(const GradientView& gradient, std::span<const glm::vec2> points, const glm::mat2& pixel,
+                  std::span<Float4> colors);
 
 }  // namespace vtm::asset

@@ -8,6 +8,7 @@
 
 #include "asset/src/blend.hpp"
 #include "asset/src/gradient.hpp"
+#include "asset/steepness.hpp"
 
 namespace vtm::asset {
 
@@ -35,32 +36,59 @@ struct Row {
     PaintPlace first;
     vec2 step;
 
+    const glm::mat2& pixel() const { return first.pixel; }
     vec2 point(std::size_t i) const { return first.point + float(i) * step; }
+    Row part(std::size_t from, std::size_t) const {
+        return {{first.point + float(from) * step, first.pixel}, step};
+    }
 };
 
+void linear(const GradientView& gradient, const Row& row, std::span<Float4> colors) {
+    linearColors(gradient, row.first.point, row.step, row.first.pixel, colors);
+}
+void radial(const GradientView& gradient, const Row& row, std::span<Float4> colors) {
+    radialColors(gradient, row.first.point, row.step, row.first.pixel, colors);
+}
+
+/// Places anywhere.
+struct Scattered {
+    std::span<const vec2> points;
+    glm::mat2 sides;
+
+    const glm::mat2& pixel() const { return sides; }
+    vec2 point(std::size_t i) const { return points[i]; }
+    Scattered part(std::size_t from, std::size_t count) const { return {points.subspan(from, count), sides}; }
+};
+
+void linear(const GradientView& gradient, const Scattered& places, std::span<Float4> colors) {
+    linearColors(gradient, places.points, places.sides, colors);
+}
+void radial(const GradientView& gradient, const Scattered& places, std::span<Float4> colors) {
+    radialColors(gradient, places.points, places.sides, colors);
+}
+
 /// Of a layer that is not solid.
-void layerColors(const Paints& paints, const Instruction& in, const Row& row,
+template <class Places>
+void layerColors(const Paints& paints, const Instruction& in, const Places& places,
                  const MaterialFunction& materials, std::span<Float4> colors) {
     const std::span<const Texel> data = paints.asset().data;
     const auto each = [&](auto&& color) {
         for (std::size_t i = 0; i < colors.size(); ++i)
-            colors[i] = float4(color(row.point(i)));
+            colors[i] = float4(color(places.point(i)));
     };
     switch (in.op) {
         case Op::Image: {
             const auto fill = recordAt<ImageFill>(data, in.argument);
-            return each([&](vec2 p) { return paints.images().color(fill, p, row.first.pixel); });
+            return each([&](vec2 p) { return paints.images().color(fill, p, places.pixel()); });
         }
         case Op::Material: {
             const auto fill = recordAt<MaterialFill>(data, in.argument);
             return each([&](vec2 p) { return materialColor(fill, p, materials); });
         }
         case Op::Linear:
-            return linearColors({data, paints.stopColors(), in.argument}, row.first.point, row.step,
-                                row.first.pixel, colors);
+            return linear({data, paints.stopColors(), in.argument}, places, colors);
         default:
-            return radialColors({data, paints.stopColors(), in.argument}, row.first.point, row.step,
-                                row.first.pixel, colors);
+            return radial({data, paints.stopColors(), in.argument}, places, colors);
     }
 }
 
@@ -116,14 +144,15 @@ void drawSolid(Float4 source, Stack& stack) {
             below = over(source, below);
 }
 
-void drawLayer(const Paints& paints, const Instruction& in, const Row& row, const MaterialFunction& materials,
-               Stack& stack) {
+template <class Places>
+void drawLayer(const Paints& paints, const Instruction& in, const Places& places,
+               const MaterialFunction& materials, Stack& stack) {
     if (in.op == Op::Solid)
         return drawSolid(floats(paints.asset().data[in.argument]) * in.opacity, stack);
     const std::span<Float4> below = stack.row(stack.top);
     const float opacity = in.opacity;
     if (stack.isOneColor[stack.top]) {
-        layerColors(paints, in, row, materials, below);
+        layerColors(paints, in, places, materials, below);
         stack.isOneColor[stack.top] = false;
         const Float4 ground = stack.color[stack.top];
         if (opacity != 1 || !isTransparent(ground))
@@ -133,13 +162,14 @@ void drawLayer(const Paints& paints, const Instruction& in, const Row& row, cons
     }
     std::array<Float4, longestRow> layer;
     const std::span<Float4> source = std::span(layer).first(below.size());
-    layerColors(paints, in, row, materials, source);
+    layerColors(paints, in, places, materials, source);
     for (std::size_t i = 0; i < below.size(); ++i)
         below[i] = over(source[i] * opacity, below[i]);
 }
 
-void execute(const Paints& paints, const Instruction& in, const Row& row, const MaterialFunction& materials,
-             Stack& stack) {
+template <class Places>
+void execute(const Paints& paints, const Instruction& in, const Places& places,
+             const MaterialFunction& materials, Stack& stack) {
     switch (in.op) {
         case Op::Push:
             ++stack.top;
@@ -150,7 +180,7 @@ void execute(const Paints& paints, const Instruction& in, const Row& row, const 
         case Op::PopMaskAlpha:
             return pop(in, stack);
         default:
-            return drawLayer(paints, in, row, materials, stack);
+            return drawLayer(paints, in, places, materials, stack);
     }
 }
 
@@ -166,7 +196,7 @@ bool hasGradients(const AssetView& asset) {
 
 }  // namespace
 
-Paints::Paints(const AssetView& asset) : asset_(asset), images_(asset) {
+Paints::Paints(const AssetView& asset) : asset_(asset), images_(asset), steepness_(steepnessOf(asset)) {
     if (!hasGradients(asset))
         return;
     // All texels as if they were stops: gradients of a hostile file may overlap as they like.
@@ -183,21 +213,35 @@ vec4 Paints::color(std::uint32_t paint, const PaintPlace& place, const MaterialF
     return toVec4(color);
 }
 
+template <class Places>
+void Paints::run(const Paint& program, Places places, std::span<Float4> colors,
+                 const MaterialFunction& materials) const {
+    for (std::size_t done = 0; done < colors.size(); done += longestRow) {
+        const std::size_t count = std::min(longestRow, colors.size() - done);
+        Stack stack(colors.subspan(done, count));
+        const Places part = places.part(done, count);
+        for (std::uint32_t i = program[0]; i < program[0] + program[1]; ++i)
+            execute(*this, recordAt<Instruction>(asset_.data, i), part, materials, stack);
+        stack.filledRow(0);
+    }
+}
+
 void Paints::colors(std::uint32_t paint, const PaintPlace& place, vec2 step, std::span<Float4> colors,
                     const MaterialFunction& materials) const {
     const Paint& p = asset_.paints[paint];
-    if (!isProgram(p)) {
+    if (isProgram(p))
+        run(p, Row{place, step}, colors, materials);
+    else
         std::ranges::fill(colors, floats(p));
-        return;
-    }
-    Row row{place, step};
-    for (std::size_t done = 0; done < colors.size(); done += longestRow) {
-        Stack stack(colors.subspan(done, std::min(longestRow, colors.size() - done)));
-        row.first.point = place.point + float(done) * step;
-        for (std::uint32_t i = p[0]; i < p[0] + p[1]; ++i)
-            execute(*this, recordAt<Instruction>(asset_.data, i), row, materials, stack);
-        stack.filledRow(0);
-    }
+}
+
+void Paints::colors(std::uint32_t paint, std::span<const vec2> points, const glm::mat2& pixel,
+                    std::span<Float4> colors, const MaterialFunction& materials) const {
+    const Paint& p = asset_.paints[paint];
+    if (isProgram(p))
+        run(p, Scattered{points, pixel}, colors, materials);
+    else
+        std::ranges::fill(colors, floats(p));
 }
 
 }  // namespace vtm::asset

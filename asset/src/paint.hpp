@@ -33,14 +33,25 @@ public:
     void colors(std::uint32_t paint, const PaintPlace& place, glm::vec2 step, std::span<Float4> colors,
                 const MaterialFunction& materials = {}) const;
 
+    /// At places anywhere, of pixels of one size.
+    void colors(std::uint32_t paint, std::span<const glm::vec2> points, const glm::mat2& pixel,
+                std::span<Float4> colors, const MaterialFunction& materials = {}) const;
+
     const AssetView& asset() const { return asset_; }
     const Images& images() const { return images_; }
+    /// By paint (asset/steepness.hpp).
+    std::span<const float> steepness() const { return steepness_; }
     /// Of gradients: by texel of the asset's data, straight, where a stop stands.
     std::span<const glm::vec4> stopColors() const { return stopColors_; }
 
 private:
+    template <class Places>
+    void run(const Paint& program, Places places, std::span<Float4> colors,
+             const MaterialFunction& materials) const;
+
     AssetView asset_;
     Images images_;
+    std::vector<float> steepness_;
     std::vector<glm::vec4> stopColors_;
 };
 

@@ -71,7 +71,8 @@ Float4 mean(const GradientView& gradient, float u, float width) {
 }
 
 /// Ramps narrower than this in a pixel are as good as straight there, but for stops: what interpolating
-/// straight colours bends them by is below width² / 12 = 1/3000.
+/// straight colours bends them by is below width² / 12 = 1/3000. Where alpha does not change they are
+/// straight.
 constexpr float straightWidth = 1.0f / 16;
 
 }  // namespace
@@ -105,12 +106,12 @@ void Ramp::find(float place) {
     high_ = isBehind ? (isPadded_ ? infinity : 1) : gradient_.offset(after);
     const bool isFlat = isBefore || isBehind;
     next_ = isBehind ? infinity : high_;
-    widest_ = isFlat ? infinity : 0.5f * straightWidth;
     color_ = float4(gradient_.color(before));
     start_ = isFlat ? 0 : low_;
     const float gap = high_ - low_;
     slope_ = isFlat || !(gap > 0) ? Float4{} : (float4(gradient_.color(after)) - color_) / gap;
     isPremultiplied_ = slope_[3] == 0;
+    widest_ = isPremultiplied_ ? infinity : 0.5f * straightWidth;
     if (isPremultiplied_) {
         slope_ *= color_[3];
         color_ = premultiplied(color_);

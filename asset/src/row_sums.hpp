@@ -146,9 +146,40 @@ private:
 
 // ---- Sums -----------------------------------------------------------------------------------------
 
-/// The changes of a band: `Value` is a Float4, or the coverage of one paint.
-template <class Value>
+/// How an amount is added to a pixel: `Value` is a Float4, or the coverage of one paint.
+template <class V>
+struct Wholes {
+    using Value = V;
+    using Amount = V;
+    static constexpr unsigned perSide = 1;
+
+    static void add(Value* row, unsigned, int column, Amount amount) { row[column] += amount; }
+};
+
+/// Coverage by quarters of pixels: left and right of the upper half, then of the lower one.
+struct Quarters {
+    using Value = Float4;
+    using Amount = float;
+    static constexpr unsigned perSide = 2;
+
+    /// `row`: of pixels, `half` of it; what changes in a right quarter changes the left one of the next
+    /// pixel.
+    static void add(Value* row, unsigned half, int column, Amount amount) {
+        static constexpr Float4 here[4]{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 0, 1}};
+        static constexpr Float4 next[4]{{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}};
+        const unsigned part = 2 * half + unsigned(column) % 2;
+        row[column / 2] += amount * here[part];
+        row[column / 2 + 1] += amount * next[part];
+    }
+};
+
+/// The changes of a band, summed on a grid of `perSide` rows and columns a pixel.
+template <class Grid>
 class Accumulator {
+    using Value = typename Grid::Value;
+    using Amount = typename Grid::Amount;
+    static constexpr unsigned perSide = Grid::perSide;
+
 public:
     /// All is zero between pictures, so that a row as wide as before costs nothing to prepare.
     void resize(int width) {
@@ -160,16 +191,16 @@ public:
 
     /// Adds what changes at a chord on the way along each row from left to right: `change` is the value on
     /// its left, going from a to b with y up, minus that on its right. `top`: the first row's y.
-    void add(const Chord& chord, float top, int rows, Value change) {
-        glm::vec2 a = chord.a, b = chord.b;
+    void add(const Chord& chord, float top, int rows, Amount change) {
+        glm::vec2 a = float(perSide) * chord.a, b = float(perSide) * chord.b;
         // ∫ (1 - clamp(x)) dy along the chord is what the pixel has of its right side.
         if (a.y > b.y)
             std::swap(a, b);
         else
             change = -change;
-        a.y -= top;
-        b.y -= top;
-        const float end = std::min(b.y, float(rows));
+        a.y -= float(perSide) * top;
+        b.y -= float(perSide) * top;
+        const float end = std::min(b.y, float(perSide) * float(rows));
         float y = std::max(a.y, 0.0f);
         if (!(y < end))
             return;
@@ -227,16 +258,16 @@ private:
     }
 
     /// A straight line from x0 to x1 >= x0; `amount`: the change times the height.
-    void addInRow(std::size_t row, float x0, float x1, Value amount) {
-        if (x0 >= 0 && x1 <= float(width_))
+    void addInRow(std::size_t row, float x0, float x1, Amount amount) {
+        if (x0 >= 0 && x1 <= float(perSide) * float(width_))
             addInside(row, x0, x1, amount);
         else
             addCut(row, x0, x1, amount);
     }
 
     /// What is left of the picture changes its first column, what is right nothing.
-    void addCut(std::size_t row, float x0, float x1, Value amount) {
-        const auto right = float(width_);
+    void addCut(std::size_t row, float x0, float x1, Amount amount) {
+        const auto right = float(perSide) * float(width_);
         if (x0 >= right)
             return;
         if (x1 <= 0)
@@ -248,29 +279,31 @@ private:
         addInside(row, from, to, amount * ((to - from) * inverse));
     }
 
-    void addInside(std::size_t row, float x0, float x1, Value amount) {
+    void addInside(std::size_t row, float x0, float x1, Amount amount) {
         const int first = int(x0), last = int(x1);
-        Value* changes = &changes_[row * stride()];
-        touch(row, unsigned(first), unsigned(last) + 1);
+        Value* changes = &changes_[row / perSide * stride()];
+        const auto add = [&](int column, Amount change) {
+            Grid::add(changes, unsigned(row % perSide), column, change);
+        };
+        touch(row / perSide, unsigned(first) / perSide, unsigned(last) / perSide + 1);
         if (first == last) {
-            const Value later = amount * ((x0 + x1) * 0.5f - float(first));
-            changes[first] += amount - later;
-            changes[first + 1] += later;
-            return;
+            const Amount later = amount * ((x0 + x1) * 0.5f - float(first));
+            add(first, amount - later);
+            return add(first + 1, later);
         }
-        // covered(i): what pixel i has of the amount, growing from 0 to 1.
+        // covered(i): what column i has of the amount, growing from 0 to 1.
         const float inverse = 1 / (x1 - x0), start = float(first + 1) - x0;
         float before = 0.5f * start * start * inverse;
-        changes[first] += amount * before;
+        add(first, amount * before);
         for (int i = first + 1; i < last; ++i) {
             const float covered = (float(i) - x0 + 0.5f) * inverse;
-            changes[i] += amount * (covered - before);
+            add(i, amount * (covered - before));
             before = covered;
         }
         const float rest = x1 - float(last);
         const float covered = 1 - 0.5f * rest * rest * inverse;
-        changes[last] += amount * (covered - before);
-        changes[last + 1] += amount * (1 - covered);
+        add(last, amount * (covered - before));
+        add(last + 1, amount * (1 - covered));
     }
 
     int width_ = 0;

@@ -15,40 +15,22 @@
 
 #include "asset/src/blend.hpp"
 #include "asset/src/paint.hpp"
-#include "asset/src/program_pixels.hpp"
 #include "asset/src/row_sums.hpp"
+#include "asset/src/scan_programs.hpp"
 #include "asset/src/scan_stores.hpp"
+#include "asset/steepness.hpp"
 
 namespace vtm::asset {
 
 namespace {
 
-using glm::dvec2;
-using glm::vec2;
 using glm::vec4;
-
-/// A chord and the change of coverage that it means to a program.
-struct Side {
-    const Chord* chord;
-    float change;
-};
-
-/// Pixels of a row up to `end`, of which a program has the same share.
-struct Share {
-    int end;
-    float share;
-};
 
 /// What one picture needs and the next uses again.
 struct Scratch {
     Bands bands;
-    Accumulator<Float4> colors;
-    Accumulator<float> coverage;
-    ProgramPixels pixels;
-    std::vector<std::vector<Side>> sides;  ///< by paint; those of programs in a band
-    std::vector<std::uint16_t> programs;   ///< in a band
-    std::vector<Share> shares;
-    std::vector<Float4> run;  ///< colours of a program
+    Accumulator<Wholes<Float4>> colors;
+    BandPrograms programs;
 };
 
 /// What is kept of an asset.
@@ -71,11 +53,7 @@ struct Picture {
 class Drawing {
 public:
     Drawing(const Picture& of, const View& view, const MaterialFunction& materials, Scratch& scratch)
-        : of_(of),
-          view_(view),
-          materials_(materials),
-          scratch_(scratch),
-          inverse_(glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]))) {
+        : of_(of), view_(view), scratch_(scratch), programs_(programView(of, view, materials)) {
         scratch_.bands.clear(view.height);
         for (const Picture::Drawn& drawn : of.drawn) {
             Chords chords(drawn.map, view, scratch_.bands);
@@ -83,100 +61,47 @@ public:
                 chords.add(boundary);
         }
         scratch_.colors.resize(view.width);
-        scratch_.coverage.resize(view.width);
-        scratch_.sides.resize(of.solid.size());
+        scratch_.programs.resize(of.solid.size(), view.width);
     }
 
     template <class Store>
     void drawBand(int band, const Store& store) {
-        top_ = band * bandRows;
-        rows_ = std::min(bandRows, view_.height - top_);
-        scratch_.programs.clear();
+        const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
+        BandPrograms& programs = scratch_.programs;
+        programs.clear();
         const std::uint8_t* isProgram = of_.isProgram.data();
         const Float4* solid = of_.solid.data();
-        const auto top = float(top_);
-        const int rows = rows_;
         for (const Chord& c : scratch_.bands.of(band)) {
-            if (const unsigned programs = isProgram[c.left] + isProgram[c.right]; programs != 0) {
-                addSides(c);
-                if (programs == 2)
+            if (isProgram[c.left] + isProgram[c.right] != 0) {
+                if (isProgram[c.left])
+                    programs.addSide(c, c.left, 1);
+                if (isProgram[c.right])
+                    programs.addSide(c, c.right, -1);
+                if (isProgram[c.left] && isProgram[c.right])
                     continue;
             }
-            scratch_.colors.add(c, top, rows, solid[c.left] - solid[c.right]);
+            scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
         }
-        if (!scratch_.programs.empty())
-            scratch_.pixels.resize(view_.width);
-        for (const std::uint16_t paint : scratch_.programs)
-            addProgram(paint);
-        for (int row = 0; row < rows_; ++row)
+        programs.draw(programs_, top, rows);
+        for (int row = 0; row < rows; ++row)
             scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
-                if (scratch_.programs.empty())
-                    store(top_ + row, first, end, color);
+                if (programs.empty())
+                    store(top + row, first, end, color);
                 else
-                    scratch_.pixels.finish(top_, row, first, end, color, store);
+                    programs.pixels().finish(top, row, first, end, color, store);
             });
     }
 
 private:
-    void addSides(const Chord& chord) {
-        addSide(chord, chord.left, 1);
-        addSide(chord, chord.right, -1);
-    }
-    void addSide(const Chord& chord, std::uint16_t paint, float change) {
-        if (!of_.isProgram[paint])
-            return;
-        std::vector<Side>& sides = scratch_.sides[paint];
-        if (sides.empty())
-            scratch_.programs.push_back(paint);
-        sides.push_back({&chord, change});
-    }
-
-    /// By its own coverage.
-    void addProgram(std::uint16_t paint) {
-        Accumulator<float>& coverage = scratch_.coverage;
-        for (const Side& side : scratch_.sides[paint])
-            coverage.add(*side.chord, float(top_), rows_, side.change);
-        scratch_.sides[paint].clear();
-        std::vector<Share>& shares = scratch_.shares;
-        for (int row = 0; row < rows_; ++row) {
-            int begin = 0;
-            coverage.resolve(std::size_t(row), [&](int first, int end, float share) {
-                if (std::abs(share) < leastShare)
-                    return addShares(paint, row, begin);
-                if (shares.empty())
-                    begin = first;
-                shares.push_back({end, share});
-            });
-            addShares(paint, row, begin);
-        }
-    }
-
-    /// Of a program, in the pixels of a row from `first` on.
-    void addShares(std::uint16_t paint, int row, int first) {
-        if (scratch_.shares.empty())
-            return;
-        const int end = scratch_.shares.back().end;
-        std::vector<Float4>& run = scratch_.run;
-        run.resize(std::size_t(end - first));
-        const dvec2 point = inverse_ * (dvec2(first + 0.5, top_ + row + 0.5) - view_.toPixels[2]);
-        of_.paints->colors(paint, {vec2(point), glm::mat2(inverse_)}, vec2(inverse_[0]), run, materials_);
-        if (of_.sums == Sums::Light)
-            for (Float4& color : run)
-                color = float4(light(toVec4(color)));
-        Float4* pixels = scratch_.pixels.use(row, first, end);
-        std::size_t i = 0;
-        for (const auto& [shareEnd, share] : scratch_.shares)
-            for (const auto last = std::size_t(shareEnd - first); i < last; ++i)
-                pixels[i] += share * run[i];
-        scratch_.shares.clear();
+    static ProgramView programView(const Picture& of, const View& view, const MaterialFunction& materials) {
+        const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+        return {*of.paints, of.sums, view, inverse, leastSteepness(inverse), materials};
     }
 
     const Picture& of_;
     const View& view_;
-    const MaterialFunction& materials_;
     Scratch& scratch_;
-    glm::dmat2 inverse_;
-    int top_ = 0, rows_ = 0;
+    ProgramView programs_;
 };
 
 }  // namespace

@@ -3,6 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 namespace vtm::asset::test {
 
 namespace {
@@ -125,6 +129,63 @@ Asset programAsset(const std::vector<Instruction>& program, const std::vector<Te
     asset.images = {smallPicture()};
     asset.maps[0].root = solidEntry(addProgram(asset, program));
     return asset;
+}
+
+// ---- Steep gradients ------------------------------------------------------------------------------
+
+namespace {
+
+constexpr Point steepBottom{20001, 0}, steepTop{40003, 65535};
+const glm::dvec2 steepWay(0.8, 0.6), steepMiddle(31, 29);
+const glm::dvec4 steepLeft(1, 0.5, 0, 1), steepRight(0, 0.75, 1, 1);
+
+glm::dvec2 inMap(Point p) { return glm::dvec2(p[0], p[1]) * (mapSide / leafExtent); }
+
+double toAndFro(double u) { return 1 - std::abs(1 - (u - 2 * std::floor(u / 2))); }
+
+glm::dvec4 steepColor(double length, glm::dvec2 p) {
+    const glm::dvec2 along = inMap(steepTop) - inMap(steepBottom), way = p - inMap(steepBottom);
+    const bool left = along.x * way.y - along.y * way.x > 0;
+    const double u = left ? glm::dot(p, steepWay) / length : glm::length(p - steepMiddle) / length;
+    return glm::mix(glm::dvec4(0, 0, 0, 1), left ? steepLeft : steepRight, toAndFro(u));
+}
+
+}  // namespace
+
+Asset steepHalves(double length) {
+    Asset asset = oneLeaf({5, 6, 6, 5}, {line(steepBottom, steepTop, 5, 6)});
+    const auto scale = float(1 / length);
+    Gradient gradient;
+    gradient.spread = Spread::Reflect;
+    gradient.stopCount = 2;
+    const auto stops = [](const glm::vec4& c) {
+        return std::vector{stop(0, 0, 0, 0, 1), stop(1, c.r, c.g, c.b, c.a)};
+    };
+    gradient.matrix = {scale * float(steepWay.x), 0, scale * float(steepWay.y), 0, 0, 0};
+    const std::uint32_t left = addGradient(asset.data, gradient, stops(steepLeft));
+    gradient.matrix = {scale, 0, 0, scale, -scale * float(steepMiddle.x), -scale * float(steepMiddle.y)};
+    const std::uint32_t right = addGradient(asset.data, gradient, stops(steepRight));
+    addProgram(asset, {layer(Op::Linear, left)});
+    addProgram(asset, {layer(Op::Radial, right)});
+    return asset;
+}
+
+image::Raster steepHalvesByPoints(double length, const View& view) {
+    constexpr int side = 32;
+    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    image::Raster raster(view.width, view.height);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            glm::dvec4 sum(0);
+            for (int i = 0; i < side * side; ++i) {
+                const glm::dvec2 within(i % side + 0.5, i / side + 0.5);
+                sum += steepColor(length,
+                                  inverse * (glm::dvec2(x, y) + within / double(side) - view.toPixels[2]));
+            }
+            for (int c = 0; c < 4; ++c)
+                raster.pixel(x, y)[c] = float(sum[c] / (side * side));
+        }
+    return raster;
 }
 
 Asset everyPaint() {

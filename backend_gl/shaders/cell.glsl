@@ -1,7 +1,7 @@
 // The cell that a pixel's centre lies in, and its pieces. The only branches are loops: some drivers run both sides of
 // every other, fetches and all.
 // Requires: fetch.glsl, shadow.glsl; patch_vertex.glsl's outputs; constants of src/patch.hpp.
-// Exports: patchOrigin, patchTexels, patchPicture, Cell, cellAt, firstReferences, referenceCount, referenceAt,
+// Exports: patchOrigin, patchTexels, patchPicture, Cell, patchPoint, cellAt, firstReferences, referenceCount, referenceAt,
 // patchTexel, unpackColor.
 
 uniform usampler2D patches;
@@ -22,11 +22,15 @@ struct Cell {
     vec2 way;  // from the reference point to it
 };
 
+// Off the steps on which end points lie, and off the diagonals and axes through them, so that O is no end point,
+// which has no direction to itself, and lies on few chords of upright views.
+vec2 patchPoint(vec2 pixel) {
+    return (floor(times(pixelToPatch, pixel - patchOrigin) / patchStep) + vec2(0.25, 0.625)) * patchStep;
+}
+
 Cell cellAt(vec2 pixel) {
     const float side = float(1u << patchCellsLog2);
-    // Off the steps on which end points lie, and off the diagonals and axes through them, so that O is no end point,
-    // which has no direction to itself, and lies on few chords of upright views.
-    vec2 o = (floor(times(pixelToPatch, pixel - patchOrigin) / patchStep) + vec2(0.25, 0.625)) * patchStep;
+    vec2 o = patchPoint(pixel);
     vec2 place = clamp(floor(o * side), 0.0, side - 1.0);
     uvec4 texel = patchTexel(patchTexels.y + (uint(place.y) << patchCellsLog2) + uint(place.x));
     uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;

@@ -75,7 +75,8 @@ vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float w
     return sum / width;
 }
 
-// Ramps narrower than this in a pixel are as good as straight there, but for stops.
+// Ramps narrower than this in a pixel are as good as straight there, but for stops. Where alpha does not change they are
+// straight, and so beyond the ends of padded ones.
 const float straightWidth = 1.0 / 16.0;
 
 // The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other one's box is
@@ -89,9 +90,9 @@ vec4 colorOver(ASSET_IN uint firstStop, uint count, uint spread, float u, vec2 s
     uint upTo = stopsUpTo(ASSET firstStop, count, unclamped);
     uvec4 before = texelAt(ASSET firstStop + (upTo == 0u ? 0u : upTo - 1u));
     uvec4 after = texelAt(ASSET firstStop + min(upTo, count - 1u));
+    bool isLine = high(before.z) == high(after.z);
     float low = upTo > 0u ? uintBitsToFloat(before.x) : 0.0, high = upTo < count ? uintBitsToFloat(after.x) : 1.0;
-    bool outer = padded && (upTo == 0u || upTo == count);
-    if ((width <= straightWidth || outer) && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
+    if ((width <= straightWidth || isLine) && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
         (padded && upTo == count || unclamped + 0.5 * width <= high))
         return colorBetween(before, after, v);
     vec4 sum = vec4(0.0);

@@ -1,6 +1,6 @@
 // Where this fragment's pixel lies in the leaf.
 // Requires: coverage.glsl, leaf_vertex.glsl's outputs. Twin of: asset/src/draw_map.cpp.
-// Exports: leafFrame, Overlap, overlapOf, picturePoint, picturePixel.
+// Exports: leafFrame, Overlap, overlapOf, picturePixel.
 
 flat in vec4 leafLinear;
 flat in vec4 leafInverse;
@@ -31,15 +31,9 @@ Overlap overlapOf(Frame frame) {
     return Overlap(least, most, any(greaterThanEqual(least, most)), whole);
 }
 
-// Where programs are evaluated: the centre of the overlap, which for a leaf smaller than the pixel
-// is the leaf's own centre.
-vec2 picturePoint(Overlap overlap) {
-    return leafPicture.xy + leafPicture.z * (overlap.least + overlap.most) * 0.5;
-}
-
-// The pixel's sides and centre.
-mat3x2 picturePixel(Frame frame) {
-    vec2 centre = mat2(leafInverse.xy, leafInverse.zw) * (vec2(0.5) - frame.origin);
-    return mat3x2(leafPicture.z * leafInverse.xy, leafPicture.z * leafInverse.zw,
-                  leafPicture.xy + leafPicture.z * centre);
+// The sides, in the picture, and the centre of a square of the pixel: the middle is a point of it in [0, 1]².
+mat3x2 picturePixel(Frame frame, vec2 middle, float side) {
+    vec2 centre = mat2(leafInverse.xy, leafInverse.zw) * (middle - frame.origin);
+    float scale = side * leafPicture.z;
+    return mat3x2(scale * leafInverse.xy, scale * leafInverse.zw, leafPicture.xy + leafPicture.z * centre);
 }

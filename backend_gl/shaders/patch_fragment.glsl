@@ -10,7 +10,8 @@ void main() {
         uint count = referenceCount(references);
         for (uint i = 0u; i < count; ++i) {
             uint reference = referenceAt(references, i), first = reference >> 2 << 1;
-            float weight = pieceWeight(patchPiece(patchTexel(first).xyz, cell.o), cell.way, reference);
+            PatchPiece piece = patchPiece(patchTexel(first).xyz, cell.o);
+            float weight = pieceWeight(piece, cell.way, reference, patchToBox);
             uvec4 colors = patchTexel(first + 1u);
             sum += weight * (regionValueIn(65535.0, unpackColor(colors.xy)) -
                              regionValueIn(65535.0, unpackColor(colors.zw)));

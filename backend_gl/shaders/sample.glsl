@@ -34,7 +34,8 @@ void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout Sum
     if (sum.cost > sum.allowed)
         return;
     Frame frame = Frame(tile.toBox * (side / float(leafExtent)), tile.toBox * (corner - tile.centre) + 0.5);
-    sum.color += tile.turn * leafIntegral(vtm, frame, leaf, picturePoint(vtm, 0.5 * (least + most)), tile.pixel);
+    vec2 point = picturePoint(vtm, 0.5 * (least + most));
+    sum.color += tile.turn * leafIntegral(vtm, frame, leaf, point, tile.pixel, -1.0);
 }
 
 // ---- The tree -----------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // What one piece changes in a pixel: the crossings on the way from a cell's reference point R to the pixel's
 // centre O, and the piece's shadow, seen from O, in the pixel's box (docs/coverage.md).
 // Requires: constants patchStep, patchSlopeScale, leftOfChordBit, leftOfCurveBit.
-// Exports: times, PatchPiece, patchPiece, pieceWeight.
+// Exports: times, PatchPiece, patchPiece, mayMeetPixel, pieceWeight, sidesOf.
 
 // Patch to pixel distances, by columns, mirrored if need be so that areas keep their sign; the box does not care.
 uniform vec4 patchToBox;
@@ -21,6 +21,13 @@ PatchPiece patchPiece(uvec3 bits, vec2 o) {
               1.0;
     vec2 slopes = vec2(ivec2(bits.zz << uvec2(12u, 0u)) >> 20) / patchSlopeScale;
     return PatchPiece(ab.xy - o, ab.zw - o, ab.zw - ab.xy, slopes.x, slopes.y);
+}
+
+// Whether it may have a shadow in the pixel: the box around its ends, grown by how far it is from its chord, meets it.
+bool mayMeetPixel(PatchPiece p) {
+    vec2 a = times(patchToBox, p.a), b = times(patchToBox, p.b), across = times(patchToBox, vec2(-p.chord.y, p.chord.x));
+    vec2 margin = 0.5 + 4.0 / 27.0 * (abs(p.slopeA) + abs(p.slopeB)) * abs(across);
+    return all(lessThanEqual(min(a, b), margin)) && all(greaterThanEqual(max(a, b), -margin));
 }
 
 // Where the ray from O through v leaves the box: the way along its border in sides, from the middle of the right
@@ -47,33 +54,52 @@ float shadowOf(vec2 middle, vec2 tangent, vec2 across, float bend, float third, 
     return w > 0.0 ? sweep - 0.5 * cross2(p0, p1) + lens : 0.0;
 }
 
-// The factor of c_left - c_right. way: O - R; bits: how R lies.
-float pieceWeight(PatchPiece p, vec2 way, uint bits) {
+// A point of a piece next to O, up to rounding the nearest: the place s of the curve, its height there and the slope.
+struct Foot {
+    float s;
+    float height, slope;
+    bool leftOfChord, leftOfCurve;  // so lies O
+    bool inside;                    // next to O it does not end
+};
+
+Foot footOf(PatchPiece p) {
     float length2 = dot(p.chord, p.chord);
-    float s = -dot(p.a, p.chord) / length2, t = -cross2(p.chord, p.a) / length2;
-    float foot = clamp(s, 0.0, 1.0), rest = 1.0 - foot;
-    // t(s) around the foot: height + slope u + bend u² + third u³.
-    float height = foot * rest * (p.slopeA * rest - p.slopeB * foot);
-    float slope = p.slopeA * rest * (1.0 - 3.0 * foot) - p.slopeB * foot * (2.0 - 3.0 * foot);
-    float third = p.slopeA + p.slopeB, bend = 3.0 * third * foot - 2.0 * p.slopeA - p.slopeB;
-    bool leftOfChord = t > 0.0;
-    bool leftOfCurve = foot == s ? t > height : leftOfChord;
+    float along = -dot(p.a, p.chord) / length2, t = -cross2(p.chord, p.a) / length2;
+    float s = clamp(along, 0.0, 1.0), rest = 1.0 - s;
+    float height = s * rest * (p.slopeA * rest - p.slopeB * s);
+    float slope = p.slopeA * rest * (1.0 - 3.0 * s) - p.slopeB * s * (2.0 - 3.0 * s);
+    return Foot(s, height, slope, t > 0.0, s == along ? t > height : t > 0.0, s == along);
+}
+
+// The factor of c_left - c_right. way: O - R; bits: how R lies; toBox: patchToBox, or that of a part of the pixel whose
+// middle O is.
+float pieceWeight(PatchPiece p, vec2 way, uint bits, vec4 toBox) {
+    Foot foot = footOf(p);
+    float rest = 1.0 - foot.s;
 
     // R sees a and b, relative to it, on both sides of its way to O.
     bool between = (cross2(way, p.a + way) > 0.0) != (cross2(way, p.b + way) > 0.0);
-    float chordO = leftOfChord ? 1.0 : 0.0, curveO = leftOfCurve ? 1.0 : 0.0;
+    float chordO = foot.leftOfChord ? 1.0 : 0.0, curveO = foot.leftOfCurve ? 1.0 : 0.0;
     float chordR = float(bits & leftOfChordBit), curveR = float(bits >> 1 & 1u);
     float crossings = (between ? chordO - chordR : 0.0) + (curveO - chordO) - (curveR - chordR);
 
-    // The part in the box, taken as the part of the tangent at the foot that is: u in [range.x, range.y].
+    // t(s) around the foot: height + slope u + bend u² + third u³. The part in the box, taken as the part of the tangent
+    // at the foot that is: u in [range.x, range.y].
+    float third = p.slopeA + p.slopeB, bend = 3.0 * third * foot.s - 2.0 * p.slopeA - p.slopeB;
     vec2 normal = vec2(-p.chord.y, p.chord.x);
-    vec2 middle = times(patchToBox, p.a + foot * p.chord + height * normal);
-    vec2 tangent = times(patchToBox, p.chord + slope * normal), across = times(patchToBox, normal);
+    vec2 middle = times(toBox, p.a + foot.s * p.chord + foot.height * normal);
+    vec2 tangent = times(toBox, p.chord + foot.slope * normal), across = times(toBox, normal);
     vec2 inverse = 1.0 / mix(tangent, vec2(1e-20), vec2(lessThan(abs(tangent), vec2(1e-20))));
     vec2 ends = (vec2(-0.5) - middle) * inverse, others = (vec2(0.5) - middle) * inverse;
     vec2 least = min(ends, others), most = max(ends, others);
     vec2 range = vec2(max(least.x, least.y), min(most.x, most.y));
-    float shadow = shadowOf(middle, tangent, across, bend, third, clamp(range, -foot, rest),
-                            foot != s ? 0.0 : leftOfCurve ? 1.0 : -1.0);
+    float shadow = shadowOf(middle, tangent, across, bend, third, clamp(range, -foot.s, rest),
+                            !foot.inside ? 0.0 : foot.leftOfCurve ? 1.0 : -1.0);
     return crossings - (range.x < range.y ? shadow : 0.0);
+}
+
+// How O lies, for ways from it.
+uint sidesOf(PatchPiece p) {
+    Foot foot = footOf(p);
+    return (foot.leftOfChord ? leftOfChordBit : 0u) | (foot.leftOfCurve ? leftOfCurveBit : 0u);
 }

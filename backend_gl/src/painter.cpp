@@ -6,6 +6,8 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include "asset/steepness.hpp"
+
 namespace vtm::gl {
 
 namespace {
@@ -52,6 +54,7 @@ Painter::Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& vi
     : workshop_(workshop),
       asset_(asset),
       view_(view),
+      leastSteep_(asset::leastSteepness(glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1])))),
       shelves_({view.width, view.height}),
       isPending_(asset.list.drawn.size()) {}
 
@@ -120,6 +123,8 @@ void Painter::drawInstances(const std::vector<std::uint32_t>& drawn, bool covera
             workshop_.programs.leaf(CostClass(cost), asset_.features, asset_.materialSet);
         use(program);
         glUniform1i(program.uniform("paintsAreCoverage"), coverage);
+        glUniform1f(program.uniform("leastSteep"), leastSteep_);
+        glUniform1f(program.uniform("steepest"), asset_.steepest);
         for (const Range& run : runs) {
             pointAttribute(0, GL_UNSIGNED_INT, sizeof(Instance), run.first * sizeof(Instance));
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(run.count));

@@ -61,6 +61,7 @@ private:
     Workshop& workshop_;
     UploadedAsset& asset_;
     asset::View view_;
+    float leastSteep_;
     std::vector<Target> stack_;
     Target coverage_;
     Shelves shelves_;

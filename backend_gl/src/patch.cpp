@@ -171,6 +171,18 @@ private:
     std::vector<Change> changes_;
 };
 
+/// With those between the same two paints one after the other, where shaders gain from it: what asks paint
+/// programs for colours keeps the last two (patch_programs_fragment.glsl).
+std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, const asset::AssetView& asset) {
+    const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset.paints[paint]); };
+    if (std::ranges::any_of(pieces,
+                            [&](const PlanarPiece& p) { return isProgram(p.left) || isProgram(p.right); }))
+        std::ranges::stable_sort(pieces, {}, [](const PlanarPiece& p) {
+            return std::minmax({p.left, p.right});
+        });
+    return pieces;
+}
+
 /// y is moved to the middle between two lattice rows, as paintAt wants it.
 dvec2 betweenRows(dvec2 lattice) { return {lattice.x, std::floor(lattice.y) + 0.5}; }
 
@@ -179,7 +191,7 @@ dvec2 betweenRows(dvec2 lattice) { return {lattice.x, std::floor(lattice.y) + 0.
 Patch buildPatch(const PatchSource& source, const PatchPlace& place, double margin,
                  std::span<const PlanarPiece* const> near) {
     const LocalPieces local(place, margin, near);
-    const std::vector<PlanarPiece>& pieces = local.pieces();
+    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), source.asset);
     const Lists lists = listsOf(pieces, margin);
     const auto paintIn = [&](dvec2 point) {
         return paintAt(source.asset, source.map, betweenRows(local.toLattice(point)), near);

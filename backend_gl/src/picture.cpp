@@ -8,6 +8,8 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include "asset/steepness.hpp"
+
 namespace vtm::gl {
 
 namespace {
@@ -156,6 +158,8 @@ void use(const Program& program, const UploadedAsset& asset, const asset::View& 
     const bool mirrored = glm::determinant(toPixels) < 0;
     setMatrix(program.uniform("patchToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
     setMatrix(program.uniform("pixelToPatch"), glm::inverse(toPixels));
+    const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    glUniform1f(program.uniform("leastSteep"), asset::leastSteepness(pixel));
 }
 
 void bindTexture(Unit unit, const TextureHandle& texture) {

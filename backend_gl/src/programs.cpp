@@ -95,8 +95,8 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
                         {finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
             return {"patch with programs",
                     {patch_vertex},
-                    {defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint,
-                     region_color, output, patch_programs_fragment, materials}};
+                    {defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint, output,
+                     patch_programs_fragment, materials}};
         case Kind::Fill:
             return {"fill",
                     {box_vertex},

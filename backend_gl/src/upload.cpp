@@ -1,5 +1,10 @@
 #include "backend_gl/src/upload.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "asset/steepness.hpp"
 #include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/constants.hpp"
 
@@ -12,15 +17,32 @@ using asset::Texel;
 
 constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
 
+/// All finite, as GLSL wants numbers.
+std::vector<float> finiteSteepness(const AssetView& asset) {
+    std::vector<float> steepness = asset::steepnessOf(asset);
+    for (float& s : steepness)
+        s = std::min(s, std::numeric_limits<float>::max());
+    return steepness;
+}
+
+/// Programs with their steepness in the word that is free.
+std::vector<asset::Paint> paintTexels(const AssetView& asset, std::span<const float> steepness) {
+    std::vector<asset::Paint> paints(asset.paints.begin(), asset.paints.end());
+    for (std::size_t i = 0; i < paints.size(); ++i)
+        if (asset::isProgram(paints[i]))
+            paints[i][2] = std::bit_cast<std::uint32_t>(steepness[i]);
+    return paints;
+}
+
 /// The trees themselves stay behind: instances stand for them, and patches for the leaves of sums of maps.
-std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const Texel> imageList,
-                                Sections& sections) {
+std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> steepness,
+                                std::span<const Texel> imageList, Sections& sections) {
     std::vector<Texel> texels;
     if (!isSumOfMaps(asset)) {
         sections.leaves = appendTexels(texels, asset.leaves);
         sections.pieces = appendTexels(texels, asset.pieces);
     }
-    sections.paints = appendTexels(texels, asset.paints);
+    sections.paints = appendTexels<asset::Paint>(texels, paintTexels(asset, steepness));
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList);
     return texels;
@@ -48,7 +70,9 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
         for (const asset::Command& command : asset.commands)
             atlases.emplace_back(asset, asset.maps[command.map]);
     ImageTexels pictures = imageTexels(asset);
-    texels = texelTexture(joinedTexels(asset, pictures.list, sections));
+    const std::vector<float> steepness = finiteSteepness(asset);
+    steepest = *std::ranges::max_element(steepness);
+    texels = texelTexture(joinedTexels(asset, steepness, pictures.list, sections));
     images = imageTexture(std::move(pictures.rgba));
     instances = uploadInstances(list.instances);
     list.instances = {};

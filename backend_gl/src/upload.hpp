@@ -29,6 +29,7 @@ struct UploadedAsset {
     InstanceList list;
     Features features;     ///< of the paint programs
     unsigned materialSet;  ///< of Programs
+    float steepest = 0;    ///< of asset/steepness.hpp, of all paints
     std::vector<asset::Paint> paints;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
     std::vector<PatchAtlas> atlases;        ///< exact: of each map drawn

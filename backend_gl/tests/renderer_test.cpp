@@ -60,6 +60,28 @@ TEST_F(Gl, TwoLevelTree) { expectTwins(*renderer, twoLevels()); }
 TEST_F(Gl, EveryPaint) { expectTwins(*renderer, everyPaint()); }
 TEST_F(Gl, CompatCommands) { expectTwins(*renderer, layers()); }
 
+/// Parts of pixels have their own colours (docs/coverage.md).
+TEST_F(Gl, SteepGradients) {
+    for (const double length : {4.0, 1.0, 0.25}) {
+        expectTwins(*renderer, steepHalves(length), 12);
+        // A quarter of all shades a pixel.
+        const View view = turnedView(24, 18, {29.5, 31.5}, 4 / length, 0.4);
+        const Worst w = worst(renderer->render(renderer->upload(steepHalves(length)), view),
+                              steepHalvesByPoints(length, view));
+        EXPECT_LE(w.difference, 4.0 / 255) << w.x << ", " << w.y;
+    }
+}
+
+/// Drawn by leaves, as commands other than DrawMap want it.
+TEST_F(Gl, SteepGradientsInLayers) {
+    for (Asset asset : {steepHalves(1), everyPaint()}) {
+        for (const auto kind : {asset::Command::Kind::Push, asset::Command::Kind::Pop})
+            asset.commands.push_back({kind, {}, 1, 0, 0});
+        ASSERT_FALSE(asset::isSumOfMaps(asset));
+        expectTwins(*renderer, asset, 12);
+    }
+}
+
 TEST_F(Gl, EveryBlendMode) {
     for (unsigned mode = 0; mode <= unsigned(asset::Blend::PlusLighter); ++mode) {
         SCOPED_TRACE(mode);

@@ -1,0 +1,137 @@
+#include "asset/steepness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "asset/src/records.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+using glm::dvec2;
+using glm::vec4;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Colours that differ by less are one: half a pixel against the whole is off by a quarter of it.
+constexpr double leastRange = 8.0 / 255;
+
+/// Circles nearer to touching than this have no useful bound: as in gradient.cpp.
+constexpr double leastGap = 0.1;
+
+/// The largest singular value.
+double stretchOf(const glm::dmat2& m) {
+    const double x = glm::dot(m[0], m[0]), y = glm::dot(m[1], m[1]);
+    return std::sqrt(0.5 * (x + y) + std::hypot(0.5 * (x - y), glm::dot(m[0], m[1])));
+}
+
+/// What premultiplied channels change by, at most, while straight colours go from one to another.
+double changeBetween(const vec4& a, const vec4& b) {
+    const double alpha = std::abs(a.a - b.a), mostAlpha = std::max(a.a, b.a);
+    double change = alpha;
+    for (int c = 0; c < 3; ++c)
+        change = std::max(change, mostAlpha * std::abs(a[c] - b[c]) + alpha * std::max(a[c], b[c]));
+    return change;
+}
+
+/// More stops are not looked at: gradients of a hostile file may overlap as they like.
+constexpr std::uint32_t mostStops = 256;
+
+/// Of a gradient's ramp: what premultiplied channels change by, at most, while u grows by 1.
+double rampSlope(const AssetView& asset, const Gradient& gradient, std::uint32_t firstStop) {
+    if (gradient.stopCount > mostStops)
+        return infinity;
+    const auto stop = [&](std::uint32_t i) { return recordAt<GradientStop>(asset.data, firstStop + i); };
+    const auto color = [&](std::uint32_t i) {
+        const GradientStop s = stop(i);
+        return vec4(s.rgba[0], s.rgba[1], s.rgba[2], s.rgba[3]) / 65535.0f;
+    };
+    double slope = 0, all = 0;
+    const auto add = [&](double change, double gap) {
+        all += change;
+        if (change > 0)
+            slope = std::max(slope, gap > 0 ? change / gap : infinity);
+    };
+    for (std::uint32_t i = 0; i + 1 < gradient.stopCount; ++i)
+        add(changeBetween(color(i), color(i + 1)), double(stop(i + 1).offset) - double(stop(i).offset));
+    if (gradient.spread == Spread::Repeat)
+        add(changeBetween(color(gradient.stopCount - 1), color(0)), 0);
+    return all < leastRange ? 0 : slope;
+}
+
+/// What u changes by, at most, over a unit of the picture.
+double offsetSlope(const Gradient& gradient, bool isRadial) {
+    const std::array<float, 6>& m = gradient.matrix;
+    if (!isRadial)
+        return glm::length(dvec2(m[0], m[2]));
+    const double gap = 1 - gradient.fr - glm::length(dvec2(gradient.fx, gradient.fy));
+    return gap < leastGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
+}
+
+/// Layers over each other change by no more than their changes' sum, and so do those under masks.
+class Slopes {
+public:
+    explicit Slopes(const AssetView& asset) : asset_(asset) {}
+
+    double ofProgram(const Paint& paint) {
+        double slope = 0;
+        for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
+            const auto in = recordAt<Instruction>(asset_.data, i);
+            const bool isMixed =
+                in.op == Op::PopMaskLinear || (in.op == Op::Pop && in.blend != Blend::Normal);
+            slope += isMixed ? (slope > 0 ? infinity : 0) : ofLayer(in);
+        }
+        return slope;
+    }
+
+private:
+    static constexpr double unknown = -1;
+
+    double ofLayer(const Instruction& in) {
+        switch (in.op) {
+            case Op::Linear:
+            case Op::Radial: {
+                const auto gradient = recordAt<Gradient>(asset_.data, in.argument);
+                const double ramp = ofRamp(gradient, in.argument);
+                const double offset = offsetSlope(gradient, in.op == Op::Radial);
+                return in.opacity > 0 && ramp > 0 && offset > 0 ? in.opacity * ramp * offset : 0;
+            }
+            case Op::Image:
+            case Op::Material:
+                return in.opacity > 0 ? infinity : 0;
+            default:
+                return 0;
+        }
+    }
+    double ofRamp(const Gradient& gradient, std::uint32_t texel) {
+        if (ramps_.empty())
+            ramps_.resize(asset_.data.size(), unknown);
+        double& slope = ramps_[texel];
+        if (slope == unknown)
+            slope = rampSlope(asset_, gradient, texel + std::uint32_t(GradientView::headTexels));
+        return slope;
+    }
+
+    const AssetView& asset_;
+    std::vector<double> ramps_;  ///< by texel: many programs may use one
+};
+
+}  // namespace
+
+std::vector<float> steepnessOf(const AssetView& asset) {
+    Slopes slopes(asset);
+    std::vector<float> steepness;
+    for (const Paint& paint : asset.paints)
+        steepness.push_back(isProgram(paint) ? float(slopes.ofProgram(paint)) : 0.0f);
+    return steepness;
+}
+
+float leastSteepness(const glm::dmat2& pixel) { return float(leastSteepChange / stretchOf(pixel)); }
+
+}  // namespace vtm::asset

@@ -1,0 +1,28 @@
+/// \file
+/// How fast paints change over the picture. Where a paint is steep within a pixel, the region's part of a
+/// pixel on an edge has not the mean that the whole pixel has, and engines ask for that of its quarters
+/// (docs/coverage.md).
+#pragma once
+
+#include <vector>
+
+#include <glm/mat2x2.hpp>
+
+#include "asset/asset.hpp"
+
+namespace vtm::asset {
+
+/// By paint: what a step of one picture unit changes a premultiplied channel by, at most, some 2/255 in all
+/// neglected. Solid paints: 0. Where nothing bounds it: infinity; so hard stops, images, materials, gradients
+/// whose circles are next to not within each other, blend modes of what is not solid.
+std::vector<float> steepnessOf(const AssetView& asset);
+
+/// A paint is steep that changes by more over a pixel. A part of a pixel is at most an eighth of a pixel's
+/// side, times its area, away from the middle (half a pixel is), so what remains of others is below 2/255.
+inline constexpr double leastSteepChange = 16.0 / 255;
+
+/// The steepness from which on a paint is steep. `pixel`: what a pixel's step in x and in y is in the
+/// picture.
+float leastSteepness(const glm::dmat2& pixel);
+
+}  // namespace vtm::asset
