@@ -32,7 +32,7 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
     set_.changes.clear();
     set_.bend = 0;
     clip(square, points, strands);
-    mergeEqual();
+    sortAndMerge();
     for (int round = 0; round < maxSnapRounds; ++round) {
         if (set_.edges.size() > maxLeafEdges || !meetAll())
             return nullptr;
@@ -40,10 +40,11 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
             return &set_;
         set_.bend += std::sqrt(bentSquare_);
         applySplits();
-        const bool isDone = !partsMeet();
-        mergeEqual();
-        if (isDone)
+        if (!partsMeet()) {
+            mergeParts();
             return &set_;
+        }
+        sortAndMerge();
     }
     return nullptr;
 }
@@ -277,14 +278,14 @@ void Snapper::meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std
         const LatticePoint x = crossing(a, b, m.atA, m.atB);
         bend(a, b, x);
         bend(c, d, x);
-        split(e, i, x, {c, d});
-        split(f, j, x, {a, b});
+        split(e, i, x, {c, d}, f);
+        split(f, j, x, {a, b}, e);
         return;
     }
     isNear_ = true;
     const auto touch = [&](LatticePoint at) {
-        split(e, i, at, {c, d});
-        split(f, j, at, {a, b});
+        split(e, i, at, {c, d}, f);
+        split(f, j, at, {a, b}, e);
     };
     if (m.atA == 0 && isOnChord(c, d, a))
         touch(a);
@@ -306,7 +307,8 @@ void Snapper::bend(LatticePoint a, LatticePoint b, LatticePoint to) {
 }
 
 /// Asks for a cut of the edge at a point of its chord, unless that is an end of the whole edge.
-void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by) {
+void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by,
+                    std::uint32_t byEdge) {
     const Edge& e = set_.edges[edge];
     if (at == e.a || at == e.b)
         return;
@@ -314,13 +316,13 @@ void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, co
         isDoubtful_[edge] = true;  // it may meet one that ends in that column
     const LatticePoint to = set_.vertex(e, chord + 1);
     if (at == to) {
-        splits_.push_back({edge, chord + 1, at, 0, by});
+        splits_.push_back({edge, chord + 1, at, 0, by, byEdge});
         return;
     }
     const LatticePoint from = set_.vertex(e, chord);
     const std::int64_t progress = (std::int64_t{to.x} - from.x) * (std::int64_t{at.x} - from.x) +
                                   (std::int64_t{to.y} - from.y) * (std::int64_t{at.y} - from.y);
-    splits_.push_back({edge, chord, at, progress, by});
+    splits_.push_back({edge, chord, at, progress, by, byEdge});
 }
 
 }  // namespace vtm::compiler
