@@ -103,7 +103,8 @@ private:
     void meet(std::uint32_t e, std::uint32_t f);
     void meetUpright(std::uint32_t e, const LatticePoint* p, std::uint32_t f, const LatticePoint* q);
     struct Meeting;
-    void meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
+    void meetChords(const Meeting& m, std::uint32_t e, const LatticePoint* p, std::uint32_t f,
+                    const LatticePoint* q);
     void bend(LatticePoint a, LatticePoint b, LatticePoint to);
     void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by,
                std::uint32_t byEdge);
