@@ -56,6 +56,8 @@ void Culler::run(Cell& cell) {
 
 void LeafRegions::enter(const Cell& cell, Palette& palette) {
     palette_ = &palette;
+    for (const std::uint32_t layer : layers)
+        inside_[layer] = false;
     listLayers(cell, layers);
     entered_.clear();
     auto known = cell.windings.begin();
@@ -81,10 +83,7 @@ PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
 PaintId LeafRegions::compute() {
     for (std::uint32_t i = 0; i < layers.size(); ++i)
         inside_[layers[i]] = isInside(i);
-    const PaintId result = painter_.paint(layers, inside_, *palette_);
-    for (std::uint32_t layer : layers)
-        inside_[layer] = false;
-    return result;
+    return painter_.paint(layers, inside_, *palette_);
 }
 
 // ---- build ------------------------------------------------------------------------------------

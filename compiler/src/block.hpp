@@ -62,7 +62,7 @@ private:
     const Picture& picture_;
     Painter& painter_;
     Palette* palette_ = nullptr;
-    std::vector<std::uint8_t> inside_;  ///< by layer
+    std::vector<std::uint8_t> inside_;  ///< by layer: false for all but those of the cell
     std::vector<Layer> entered_;
 };
 
