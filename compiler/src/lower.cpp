@@ -262,11 +262,10 @@ private:
         } else {
             const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
             if (stretch > 0 && std::isfinite(stretch)) {
-                const auto first =
-                    addStroke(picture_.outlines, *origin.path, *origin.stroke,
-                              budget_.strokeOutline() / stretch, budget_.strokeChords() / stretch,
-                              toSteps(origin), budget_.strokeChords(), lattice_.clampMin(),
-                              lattice_.clampMax());
+                const auto first = addStroke(
+                    picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
+                    budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
+                    lattice_.clampMin(), lattice_.clampMax());
                 if (sides)
                     *sides = first;
             }

@@ -288,9 +288,10 @@ private:
 
 }  // namespace
 
-std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path, const scene::StrokeStyle& style,
-               double strokeTolerance, double chordTolerance, const Affine& toSteps, double tolerance,
-               glm::dvec2 clampMin, glm::dvec2 clampMax) {
+std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
+                                       const scene::StrokeStyle& style, double strokeTolerance,
+                                       double chordTolerance, const Affine& toSteps, double tolerance,
+                                       glm::dvec2 clampMin, glm::dvec2 clampMax) {
     RunSink sink(outlines, clampMin, clampMax);
     MappedContours contours(sink, withoutFarAway(toSteps), tolerance);
     const std::size_t before = outlines.runs.size();

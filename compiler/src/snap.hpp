@@ -139,7 +139,7 @@ private:
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;
     std::vector<Place> order_, spareOrder_;
-    Slots slots_;                       ///< of unequal edges
+    Slots slots_;                           ///< of unequal edges
     std::vector<std::uint32_t> nextEqual_;  ///< by edge
 };
 

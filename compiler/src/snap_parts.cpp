@@ -126,7 +126,8 @@ bool Snapper::partsMeet() const {
                            return (pair.isNear | isDoubtful_[pair.e] | isDoubtful_[pair.f]) &&
                                   meet(pair.e, pair.f);
                        }) ||
-           std::any_of(doubts_.begin(), doubts_.end(), [&](const auto& pair) { return meet(pair.first, pair.second); });
+           std::any_of(doubts_.begin(), doubts_.end(),
+                       [&](const auto& pair) { return meet(pair.first, pair.second); });
 }
 
 /// Whether a new chord of a part of edge e, as it was, meets a part of edge f. The parts of both lie one
@@ -234,9 +235,8 @@ void Snapper::mergeParts() {
     nextEqual_.assign(edges.size(), Slots::none);
     bool areDifferent = true;
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-        std::uint32_t& last = slots_.find(sortKey(edges[i].a) + 3 * sortKey(edges[i].b), [&](std::uint32_t k) {
-            return compare(edges[k], edges[i]) == 0;
-        });
+        std::uint32_t& last = slots_.find(sortKey(edges[i].a) + 3 * sortKey(edges[i].b),
+                                          [&](std::uint32_t k) { return compare(edges[k], edges[i]) == 0; });
         if (last != Slots::none) {
             nextEqual_[last] = i;
             areDifferent = false;

@@ -14,8 +14,8 @@ namespace vtm::compiler {
 /// `chordTolerance` later. Returns whether all is rings: closed subpaths without dashes.
 ///
 /// The contours before ContourSink::sidesEnd are the rings' right sides, each in its subpath's direction. On
-/// the way from a subpath to its right side one crosses nothing but the stroke, so beside the stroke both have
-/// the same winding numbers.
+/// the way from a subpath to its right side one crosses nothing but the stroke, so beside the stroke both
+/// have the same winding numbers.
 bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                     double chordTolerance, ContourSink& contours);
 /// As a path.

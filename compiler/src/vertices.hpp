@@ -49,7 +49,7 @@ private:
     void listBorder(const EdgeSet& set);
 
     std::vector<Vertex> vertices_;
-    Slots slots_;  ///< of the vertices
+    Slots slots_;                                    ///< of the vertices
     std::vector<std::uint32_t> vertexOf_, placeOf_;  ///< by end; placeOf_: in ends_
     std::vector<EdgeEnd> ends_;
     std::array<std::vector<std::uint32_t>, 4> onSide_;  ///< vertices
