@@ -17,7 +17,7 @@ using asset::Entry;
 
 /// A cell with no more strands than this, or than this part of the picture's, or on this level, is a
 /// block: small enough to keep all processors busy, large enough to be worth a thread's while.
-constexpr std::size_t blockStrands = 64;
+constexpr std::size_t blockStrands = 256;
 constexpr std::size_t blockShare = 24;
 constexpr unsigned blockLevel = 3;
 
