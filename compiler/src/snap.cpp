@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compiler/src/chord_relations.hpp"
 #include "compiler/src/clip.hpp"
@@ -52,6 +53,11 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
 // ---- clip -------------------------------------------------------------------------------------
 
 void Snapper::clip(const Square& square, Points points, std::span<const Strand> strands) {
+    std::size_t most = 0;
+    for (const Strand& s : strands)
+        most += s.last + 1 - s.first;
+    set_.vertices.resize(most);
+    std::uint32_t first = 0;
     for (const Strand& s : strands) {
         const LatticePoint from = points[s.first], to = points[s.last];
         LatticePoint a = from, b = to;
@@ -61,28 +67,22 @@ void Snapper::clip(const Square& square, Points points, std::span<const Strand> 
             b = cutAtEntry(square, {to, points[s.last - 1]});
         if (a == b && s.last == s.first + 1)
             continue;
-        Edge e;
-        e.first = static_cast<std::uint32_t>(set_.vertices.size());
-        set_.vertices.insert(set_.vertices.end(), points.begin() + s.first, points.begin() + s.last + 1);
-        set_.vertices[e.first] = a;
-        set_.vertices.back() = b;
-        e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
-        e.changeCount = 1;
+        const std::uint32_t last = first + s.last - s.first;
         const bool reversed = b < a;
+        LatticePoint* const chain = set_.vertices.data() + first;
+        if (reversed) {
+            std::swap(a, b);
+            std::reverse_copy(points.begin() + s.first + 1, points.begin() + s.last, chain + 1);
+        } else {
+            std::copy(points.begin() + s.first + 1, points.begin() + s.last, chain + 1);
+        }
+        chain[0] = a;
+        chain[last - first] = b;
+        set_.edges.push_back({a, b, first, last, static_cast<std::uint32_t>(set_.changes.size()), 1});
         set_.changes.push_back({s.layer, reversed ? -1 : 1});
-        add(e, reversed);
+        first = last + 1;
     }
-}
-
-/// Adds an edge that has the vertices from e.first on, in the order from b to a if `reversed`.
-void Snapper::add(const Edge& edge, bool reversed) {
-    Edge e = edge;
-    e.last = static_cast<std::uint32_t>(set_.vertices.size() - 1);
-    if (reversed)
-        std::reverse(set_.vertices.begin() + e.first, set_.vertices.end());
-    e.a = set_.vertices[e.first];
-    e.b = set_.vertices[e.last];
-    set_.edges.push_back(e);
+    set_.vertices.resize(first);
 }
 
 // ---- meet -------------------------------------------------------------------------------------

@@ -92,7 +92,6 @@ private:
     };
 
     void clip(const Square& square, Points points, std::span<const Strand> strands);
-    void add(const Edge& edge, bool reversed);
     void findBoxes();
     Band bandOf(const Edge& e) const;
     bool areApart(std::uint32_t e, std::uint32_t f) const;

@@ -93,10 +93,12 @@ void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
         return;
     Edge e = whole;
     e.first = static_cast<std::uint32_t>(set_.vertices.size());
-    set_.vertices.push_back(a);
-    for (std::uint32_t v = first; v < first + between; ++v)
-        set_.vertices.push_back(set_.vertices[v]);
-    set_.vertices.push_back(b);
+    e.last = e.first + between + 1;
+    set_.vertices.resize(e.last + 1);
+    LatticePoint* const chain = set_.vertices.data() + e.first;
+    std::copy_n(set_.vertices.data() + first, between, chain + 1);
+    chain[0] = a;
+    chain[between + 1] = b;
     const bool reversed = b < a;
     const auto number = static_cast<std::uint32_t>(set_.edges.size());
     const bool newFirst = reversed ? newTo : newFrom, newLast = reversed ? newFrom : newTo;
@@ -105,13 +107,16 @@ void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
     if (newLast && between > 0)
         newChords_.push_back({number, e.first + between});
     if (reversed) {
+        std::reverse(chain, chain + between + 2);
         e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
         for (std::uint32_t k = 0; k < e.changeCount; ++k) {
             const Change c = set_.changes[whole.firstChange + k];
             set_.changes.push_back({c.layer, -c.winding});
         }
     }
-    add(e, reversed);
+    e.a = chain[0];
+    e.b = chain[between + 1];
+    set_.edges.push_back(e);
 }
 
 // ---- check ------------------------------------------------------------------------------------
