@@ -47,6 +47,10 @@ public:
           paints_(picture_) {
         if (cache_)
             picture_.outlines = cache_->take();
+        // So that most pictures' need not be moved while they grow. Memory that is not written to costs nothing.
+        constexpr std::size_t usualPoints = 1u << 17, usualRuns = 1u << 15;
+        picture_.outlines.points.reserve(usualPoints);
+        picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
         group(scene.root, scene::identity, openGroup(0));
     }
