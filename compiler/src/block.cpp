@@ -88,7 +88,8 @@ PaintId LeafRegions::compute() {
 
 // ---- build ------------------------------------------------------------------------------------
 
-Tree BlockBuilder::run(Cell cell) {
+Tree BlockBuilder::run(Cell cell, bool timed) {
+    timed_ = timed;
     const Clock::time_point start = lastLap_ = Clock::now();
     tree_ = {};
     constexpr std::size_t usualLeaves = 32, usualPieces = 256;
@@ -97,12 +98,15 @@ Tree BlockBuilder::run(Cell cell) {
     firstLevel_ = cell.level;
     regions_.forget();
     tree_.root = build(cell).entry;
-    times_.all += milliseconds(start, Clock::now());
+    if (timed)
+        times_.all += milliseconds(start, Clock::now());
     return std::move(tree_);
 }
 
 /// Adds the time since the last lap to a stage's.
 void BlockBuilder::lap(double& stage) {
+    if (!timed_)
+        return;
     const Clock::time_point now = Clock::now();
     stage += milliseconds(lastLap_, now);
     lastLap_ = now;

@@ -26,7 +26,7 @@ public:
 
     Tree run(Cell cell) {
         culler_.run(cell);
-        return builder_.run(std::move(cell));
+        return builder_.run(std::move(cell), true);
     }
     const TreeTimes& times() const { return builder_.times(); }
 
