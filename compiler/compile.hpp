@@ -21,7 +21,7 @@ struct Options {
     /// How large an asset may get for being drawn fast: the nanoseconds of drawing at 1024 pixels (of a
     /// software rasteriser, docs/regions.md) that are worth a byte. Cells are split or not, and lists of
     /// pieces long or short, as this makes cheapest. In [1, 1e6].
-    double nanosecondsPerByte = 400;
+    double nanosecondsPerByte = 700;
     /// A fixed rule instead, for comparison: a leaf with more pieces is split while the tree may grow
     /// deeper. In [1, 4096].
     std::optional<unsigned> piecesPerLeaf = std::nullopt;

@@ -18,7 +18,7 @@
 namespace vtm::compiler {
 
 struct CostModel {
-    double nanosecondsPerByte = 400;
+    double nanosecondsPerByte = 700;
 
     static constexpr double nominalPixels = 1024;
     static constexpr double perLeafFragment = 50, perPiece = 43, perSolidFragment = 5;

@@ -56,6 +56,8 @@ void Culler::run(Cell& cell) {
 
 void LeafRegions::enter(const Cell& cell, Palette& palette) {
     palette_ = &palette;
+    for (const std::uint32_t layer : layers)
+        inside_[layer] = false;
     listLayers(cell, layers);
     entered_.clear();
     auto known = cell.windings.begin();
@@ -81,15 +83,13 @@ PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
 PaintId LeafRegions::compute() {
     for (std::uint32_t i = 0; i < layers.size(); ++i)
         inside_[layers[i]] = isInside(i);
-    const PaintId result = painter_.paint(layers, inside_, *palette_);
-    for (std::uint32_t layer : layers)
-        inside_[layer] = false;
-    return result;
+    return painter_.paint(layers, inside_, *palette_);
 }
 
 // ---- build ------------------------------------------------------------------------------------
 
-Tree BlockBuilder::run(Cell cell) {
+Tree BlockBuilder::run(Cell cell, bool timed) {
+    timed_ = timed;
     const Clock::time_point start = lastLap_ = Clock::now();
     tree_ = {};
     constexpr std::size_t usualLeaves = 32, usualPieces = 256;
@@ -98,12 +98,15 @@ Tree BlockBuilder::run(Cell cell) {
     firstLevel_ = cell.level;
     regions_.forget();
     tree_.root = build(cell).entry;
-    times_.all += milliseconds(start, Clock::now());
+    if (timed)
+        times_.all += milliseconds(start, Clock::now());
     return std::move(tree_);
 }
 
 /// Adds the time since the last lap to a stage's.
 void BlockBuilder::lap(double& stage) {
+    if (!timed_)
+        return;
     const Clock::time_point now = Clock::now();
     stage += milliseconds(lastLap_, now);
     lastLap_ = now;

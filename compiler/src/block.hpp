@@ -62,7 +62,7 @@ private:
     const Picture& picture_;
     Painter& painter_;
     Palette* palette_ = nullptr;
-    std::vector<std::uint8_t> inside_;  ///< by layer
+    std::vector<std::uint8_t> inside_;  ///< by layer: false for all but those of the cell
     std::vector<Layer> entered_;
 };
 
@@ -77,7 +77,8 @@ public:
           culler_(picture, *painter_),
           regions_(picture, *painter_) {}
 
-    Tree run(Cell cell);
+    /// `timed`: adds to times().
+    Tree run(Cell cell, bool timed);
     const TreeTimes& times() const { return times_; }
 
 private:
@@ -131,6 +132,7 @@ private:
     unsigned firstLevel_ = 0;
     Tree tree_;
     TreeTimes times_;
+    bool timed_ = false;
     Clock::time_point lastLap_;
 };
 

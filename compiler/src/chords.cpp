@@ -52,7 +52,7 @@ std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
 
 /// The number of chords that will do if each of them has an equal share of it.
 double ChordCutter::guess() {
-    constexpr double sure = 0.9;  // of the tolerance: steps are not small
+    constexpr double sure = 0.95;  // of the tolerance: steps are not small
     constexpr double leastSpeed = std::numeric_limits<double>::min();  // no division by zero
     const auto [a, b, c, start] = curve_;
     const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
@@ -107,8 +107,13 @@ void ChordCutter::appendChords(int count) {
         if ((near[0] & near[1]) != 0 && runForward_)
             continue;
         appendVertices(appended + 1, k);
-        for (int i = 0; i < std::min(2, count - k); ++i)
-            chord({t[i], x[i], y[i]}, {t[i + 1], x[i + 1], y[i + 1]}, maxHalvings);
+        for (int i = 0; i < std::min(2, count - k); ++i) {
+            const Vertex<double> from{t[i], x[i], y[i]}, to{t[i + 1], x[i + 1], y[i + 1]};
+            if (near[i] != 0 && (runForward_ || runsForward(from.t, to.t)))
+                ends_.push_back({to.x, to.y});
+            else
+                halves(from, to, maxHalvings);
+        }
         appended = k + 2;
     }
     appendVertices(appended + 1, count);
@@ -126,14 +131,17 @@ void ChordCutter::appendVertices(int first, int last) {
 
 void ChordCutter::chord(const Vertex<double>& from, const Vertex<double>& to, int halvings) {
     const bool isProven = Proof(curve_, tolerance_)(from, to) && (runForward_ || runsForward(from.t, to.t));
-    if (halvings > 0 && !isProven) {
-        const double t = (from.t + to.t) / 2;
-        const Point at = curve_.at(t);
-        chord(from, {t, at.x, at.y}, halvings - 1);
-        chord({t, at.x, at.y}, to, halvings - 1);
-    } else {
+    if (halvings > 0 && !isProven)
+        halves(from, to, halvings);
+    else
         ends_.push_back({to.x, to.y});
-    }
+}
+
+void ChordCutter::halves(const Vertex<double>& from, const Vertex<double>& to, int halvings) {
+    const double t = (from.t + to.t) / 2;
+    const Point at = curve_.at(t);
+    chord(from, {t, at.x, at.y}, halvings - 1);
+    chord({t, at.x, at.y}, to, halvings - 1);
 }
 
 }  // namespace vtm::compiler

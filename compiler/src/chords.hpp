@@ -53,6 +53,7 @@ private:
     void appendChords(int count);
     void appendVertices(int first, int last);
     void chord(const Vertex<double>& from, const Vertex<double>& to, int halvings);
+    void halves(const Vertex<double>& from, const Vertex<double>& to, int halvings);
 
     const double tolerance_;
     Curve curve_;

@@ -178,7 +178,9 @@ Result compile(const scene::Scene& scene, const Options& options) {
 
     const auto start = Clock::now();
     const Lattice lattice(scene.width, scene.height, latticeBits(options));
-    Picture picture = lower(scene, lattice, errorBudget(options));
+    // Where coverage is a factor, fills end where they are told to.
+    const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
+    Picture picture = lower(scene, lattice, errorBudget(options), sharing);
     const auto lowered = Clock::now();
 
     Result result;

@@ -26,7 +26,7 @@ public:
 
     Tree run(Cell cell) {
         culler_.run(cell);
-        return builder_.run(std::move(cell));
+        return builder_.run(std::move(cell), true);
     }
     const TreeTimes& times() const { return builder_.times(); }
 
@@ -44,7 +44,7 @@ public:
     Update run(const scene::Scene& scene) {
         const auto start = Clock::now();
         kept_.cache.put(std::move(kept_.picture.outlines));
-        picture_ = lower(scene, kept_.lattice, treeOptions_.budget, &kept_.cache);
+        picture_ = lower(scene, kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
         const auto lowered = Clock::now();
         Update update;
         update.anew = !kept_.partition;

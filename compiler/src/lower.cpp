@@ -37,15 +37,20 @@ Box mapped(const Box& b, const Affine& m) {
 
 class Lowering {
 public:
-    Lowering(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget,
+    Lowering(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget, Sharing sharing,
              OutlineCache* cache)
         : lattice_(lattice),
           budget_(budget),
+          sharing_(sharing),
           frame_{{0, 0}, {scene.width, scene.height}},
           cache_(cache),
           paints_(picture_) {
         if (cache_)
             picture_.outlines = cache_->take();
+        // So that most pictures' need not be moved while they grow. Memory that is not written to costs nothing.
+        constexpr std::size_t usualPoints = 1u << 17, usualRuns = 1u << 15;
+        picture_.outlines.points.reserve(usualPoints);
+        picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
         group(scene.root, scene::identity, openGroup(0));
     }
@@ -54,13 +59,22 @@ public:
 
 private:
     void children(const scene::Group& g, const Affine& outer, std::uint32_t into) {
-        for (const scene::Node& node : g.children) {
-            if (const auto* item = std::get_if<scene::Item>(&node.value))
-                this->item(*item, outer, into);
-            else if (const auto* chosen = std::get_if<scene::Select>(&node.value))
+        for (std::size_t i = 0; i < g.children.size(); ++i) {
+            const scene::Node& node = g.children[i];
+            if (const auto* item = std::get_if<scene::Item>(&node.value)) {
+                const auto* next =
+                    i + 1 < g.children.size() ? std::get_if<scene::Item>(&g.children[i + 1].value) : nullptr;
+                if (sharing_ == Sharing::Outlines && next && mayHideOutline(*item, *next)) {
+                    fillBelowStroke(*item, *next, outer, into);
+                    ++i;
+                } else {
+                    this->item(*item, outer, into);
+                }
+            } else if (const auto* chosen = std::get_if<scene::Select>(&node.value)) {
                 select(*chosen, outer, into);
-            else
+            } else {
                 group(std::get<scene::Group>(node.value), outer, openGroup(into));
+            }
         }
     }
 
@@ -131,6 +145,38 @@ private:
         return static_cast<std::uint32_t>(picture_.clips.size() - 1);
     }
 
+    /// Whether the stroke of a fill's outline, which lies right above it, may hide where the fill ends.
+    static bool mayHideOutline(const scene::Item& fill, const scene::Item& stroke) {
+        const auto* style = std::get_if<scene::StrokeStyle>(&stroke.geometry);
+        return std::holds_alternative<scene::FillRule>(fill.geometry) && style && style->dashes.empty() &&
+               style->width > 0 && fill.path == stroke.path && fill.transform == stroke.transform &&
+               stroke.opacity >= 1 && !std::holds_alternative<scene::Pattern>(fill.paint) &&
+               !std::holds_alternative<scene::Pattern>(stroke.paint);
+    }
+
+    /// Two items. The fill gets outlines of the stroke's where these will do.
+    void fillBelowStroke(const scene::Item& fill, const scene::Item& stroke, const Affine& outer,
+                         std::uint32_t into) {
+        const Affine transform = compose(outer, fill.transform);
+        const auto fillSource = paints_.add(fill.paint, transform),
+                   strokeSource = paints_.add(stroke.paint, transform);
+        const OutlineOrigin fillOrigin{fill.path, transform},
+            strokeOrigin{stroke.path, transform, &std::get<scene::StrokeStyle>(stroke.geometry)};
+        const bool isHidden = strokeSource && picture_.sources[*strokeSource].opaque;
+        std::optional<std::uint32_t> shared;
+        RunRange strokeRuns, fillRuns;
+        if (strokeSource) {
+            picture_.sampledStrokes += hasSampledOffsets(*stroke.path);
+            strokeRuns = outline(strokeOrigin, &shared);
+        }
+        if (fillSource) {
+            fillRuns = isHidden && shared ? RunRange{strokeRuns.first, *shared} : outline(fillOrigin);
+            paint(addLayer(fillRuns, std::get<scene::FillRule>(fill.geometry)), fill, *fillSource, into);
+        }
+        if (strokeSource)
+            paint(addLayer(strokeRuns, scene::FillRule::NonZero), stroke, *strokeSource, into);
+    }
+
     void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
         const Affine transform = outer == scene::identity ? item.transform : compose(outer, item.transform);
         if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
@@ -140,9 +186,12 @@ private:
         const auto source = paints_.add(item.paint, transform);
         if (!source)
             return;
-        const std::uint32_t layer = geometryLayer(item, transform);
+        paint(geometryLayer(item, transform), item, *source, into);
+    }
+
+    void paint(std::uint32_t layer, const scene::Item& item, std::uint32_t source, std::uint32_t into) {
         picture_.itemOfLayer[layer] = static_cast<std::uint32_t>(picture_.items.size());
-        picture_.items.push_back({layer, *source, item.opacity, into});
+        picture_.items.push_back({layer, source, item.opacity, into});
     }
 
     /// A group of tiles, clipped by the item's own outline.
@@ -198,23 +247,32 @@ private:
         if (cache_ && !known)
             cache_->add(origin, runs,
                         static_cast<std::uint32_t>(picture_.outlines.points.size() - pointsBefore));
+        return addLayer(runs, rule);
+    }
+
+    std::uint32_t addLayer(RunRange runs, scene::FillRule rule) {
         picture_.layers.push_back({rule, runs.first, runs.count});
         checkLimits();
         picture_.itemOfLayer.push_back(none);
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
     }
 
-    RunRange outline(const OutlineOrigin& origin) {
+    /// `sides`: of a stroke, what addStroke returns.
+    RunRange outline(const OutlineOrigin& origin, std::optional<std::uint32_t>* sides = nullptr) {
         const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
         if (!origin.stroke) {
             addOutline(picture_.outlines, *origin.path, toSteps(origin), budget_.fillChords(),
                        lattice_.clampMin(), lattice_.clampMax());
         } else {
             const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
-            if (stretch > 0 && std::isfinite(stretch))
-                addStroke(picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
-                          budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
-                          lattice_.clampMin(), lattice_.clampMax());
+            if (stretch > 0 && std::isfinite(stretch)) {
+                const auto first = addStroke(
+                    picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
+                    budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
+                    lattice_.clampMin(), lattice_.clampMax());
+                if (sides)
+                    *sides = first;
+            }
         }
         return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
     }
@@ -242,6 +300,7 @@ private:
 
     const Lattice& lattice_;
     const ErrorBudget& budget_;
+    const Sharing sharing_;
     const Box frame_;
     OutlineCache* const cache_;
     Picture picture_;
@@ -250,9 +309,9 @@ private:
 
 }  // namespace
 
-Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget,
+Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget, Sharing sharing,
               OutlineCache* cache) {
-    return Lowering(scene, lattice, budget, cache).take();
+    return Lowering(scene, lattice, budget, sharing, cache).take();
 }
 
 }  // namespace vtm::compiler

@@ -92,6 +92,7 @@ public:
         current_ = to.back();
     }
     Point current() const { return current_; }
+    std::size_t runCount() const { return runs_.size(); }
     /// Whether the line so far ends inside the box and all of the curve lies there.
     bool keepsInside(const Cubic& c) const {
         return beyond_ == 0 && (sidesBeyond(c[1]) | sidesBeyond(c[2]) | sidesBeyond(c[3])) == 0;
@@ -266,6 +267,12 @@ public:
         flattener_.cubic({sink_.current(), map(c1), map(c2), map(to)});
     }
     void close() override { sink_.line(start_); }
+    void sidesEnd() override {
+        sink_.finish();
+        sideRuns_ = sink_.runCount();
+    }
+    /// Those of the rings' right sides.
+    std::size_t sideRuns() const { return sideRuns_; }
 
 private:
     static Point mapped(const Affine& m, Point p) { return m[0] * p.x + m[1] * p.y + m[2]; }
@@ -276,17 +283,23 @@ private:
     const Affine map_;
     Point start_{};
     std::vector<Point> mapped_;
+    std::size_t sideRuns_ = 0;
 };
 
 }  // namespace
 
-void addStroke(Outlines& outlines, const scene::Path& path, const scene::StrokeStyle& style,
-               double strokeTolerance, double chordTolerance, const Affine& toSteps, double tolerance,
-               glm::dvec2 clampMin, glm::dvec2 clampMax) {
+std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
+                                       const scene::StrokeStyle& style, double strokeTolerance,
+                                       double chordTolerance, const Affine& toSteps, double tolerance,
+                                       glm::dvec2 clampMin, glm::dvec2 clampMax) {
     RunSink sink(outlines, clampMin, clampMax);
     MappedContours contours(sink, withoutFarAway(toSteps), tolerance);
-    strokeContours(path, style, strokeTolerance, chordTolerance, contours);
+    const std::size_t before = outlines.runs.size();
+    const bool isRings = strokeContours(path, style, strokeTolerance, chordTolerance, contours);
     sink.finish();
+    if (!isRings)
+        return std::nullopt;
+    return static_cast<std::uint32_t>(contours.sideRuns() - before);
 }
 
 void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSteps, double tolerance,

@@ -2,6 +2,8 @@
 /// Curves to chords on the lattice, gathered into monotone runs.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compiler/src/lattice.hpp"
@@ -40,10 +42,13 @@ void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine
                 glm::dvec2 clampMin, glm::dvec2 clampMax);
 
 /// So the outline of a stroke of `path`, within `strokeTolerance` and `chordTolerance` (strokeContours) in
-/// path space; `tolerance`, in steps, is for the curves that it leaves.
-void addStroke(Outlines& outlines, const scene::Path& path, const scene::StrokeStyle& style,
-               double strokeTolerance, double chordTolerance, const scene::Affine& toSteps, double tolerance,
-               glm::dvec2 clampMin, glm::dvec2 clampMax);
+/// path space; `tolerance`, in steps, is for the curves that it leaves. If all subpaths are closed and
+/// without dashes, returns how many of the runs, the first ones, may stand for the outline of `path` itself:
+/// beside the stroke they have the same winding numbers.
+std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
+                                       const scene::StrokeStyle& style, double strokeTolerance,
+                                       double chordTolerance, const scene::Affine& toSteps, double tolerance,
+                                       glm::dvec2 clampMin, glm::dvec2 clampMax);
 
 /// Tolerance, as a share of the given one, in path space: how much `m` stretches at most.
 double largestStretch(const scene::Affine& m);

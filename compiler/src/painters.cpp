@@ -5,9 +5,19 @@
 namespace vtm::compiler {
 
 PicturePainter::PicturePainter(const Picture& picture)
-    : picture_(picture), plain_(picture.groups.size()), wanted_(picture.layers.size()) {
+    : picture_(picture),
+      plain_(picture.groups.size()),
+      shades_(picture.layers.size()),
+      wanted_(picture.layers.size()) {
     for (std::uint32_t g = 0; g < plain_.size(); ++g)  // parents come first
         plain_[g] = isPlain(g);
+    for (const PictureItem& item : picture.items) {
+        const Source& source = picture.sources[item.source];
+        Shade& shade = shades_[item.layer];
+        shade.kind = plain_[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
+        for (std::size_t c = 0; c < 4; ++c)
+            shade.color[c] = source.color[c] * item.opacity;
+    }
 }
 
 std::unique_ptr<Painter> PicturePainter::clone() const { return std::make_unique<PicturePainter>(*this); }
@@ -32,30 +42,20 @@ PaintId PicturePainter::paint(std::span<const std::uint32_t> layers, const std::
 /// The usual case: what shows is solid colours in groups that change nothing.
 bool PicturePainter::stackSolids(std::span<const std::uint32_t> layers,
                                  const std::vector<std::uint8_t>& inside, Color& color) const {
-    const auto colorOf = [](const PictureItem& item, const Source& source) {
-        Color c = source.color;
-        for (float& v : c)
-            v *= item.opacity;
-        return c;
-    };
     std::size_t bottom = layers.size();  // down to the first that hides the rest
     for (bool hidden = false; bottom > 0 && !hidden;) {
         const std::uint32_t layer = layers[--bottom];
-        if (!inside[layer] || picture_.itemOfLayer[layer] == none)
+        const Shade& shade = shades_[layer];
+        if (!inside[layer] || shade.kind == Shade::None)
             continue;
-        const PictureItem& item = picture_.items[picture_.itemOfLayer[layer]];
-        const Source& source = picture_.sources[item.source];
-        if (!plain_[item.group] || source.op != asset::Op::Solid)
+        if (shade.kind == Shade::Other)
             return false;
-        hidden = colorOf(item, source)[3] >= 1;
+        hidden = shade.color[3] >= 1;
     }
     color = {};
-    for (std::size_t i = bottom; i < layers.size(); ++i) {
-        if (!inside[layers[i]] || picture_.itemOfLayer[layers[i]] == none)
-            continue;
-        const PictureItem& item = picture_.items[picture_.itemOfLayer[layers[i]]];
-        color = over(colorOf(item, picture_.sources[item.source]), color);
-    }
+    for (std::size_t i = bottom; i < layers.size(); ++i)
+        if (inside[layers[i]] && shades_[layers[i]].kind == Shade::Solid)
+            color = over(shades_[layers[i]].color, color);
     return true;
 }
 

@@ -29,8 +29,15 @@ private:
     void markClips(std::uint32_t group);
     void markClip(std::uint32_t clip);
 
+    /// What a layer paints by itself.
+    struct Shade {
+        enum : std::uint8_t { None, Solid, Other } kind = None;  ///< Solid: in groups that change nothing
+        Color color{};                                           ///< of Solid
+    };
+
     const Picture& picture_;
     std::vector<std::uint8_t> plain_;    ///< by group: it and all round it change nothing
+    std::vector<Shade> shades_;          ///< by layer
     std::vector<std::uint8_t> wanted_;   ///< by layer
     std::vector<std::uint32_t> marked_;  ///< the wanted ones, perhaps more than once
     std::vector<std::uint32_t> items_;

@@ -98,8 +98,10 @@ inline constexpr std::size_t maxLayers = 4'000'000;
 inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
 
 /// Chords lie as far from their curves as the budget allows. With a `cache`, outlines that it holds are taken
-/// from it and others added to it; its store of outlines becomes the picture's.
-Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget,
+/// from it and others added to it; its store of outlines becomes the picture's. `sharing`: fills end
+/// somewhere below the stroke of their own outline that hides where.
+enum class Sharing : std::uint8_t { None, Outlines };
+Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget, Sharing sharing,
               OutlineCache* cache = nullptr);
 
 }  // namespace vtm::compiler

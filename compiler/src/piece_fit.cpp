@@ -17,19 +17,19 @@ std::int16_t stored(double slope) {
 /// Places points 0 .. last; whether the points rise along the chord.
 bool place(LocalPoints& points, const double* x, const double* y, std::uint32_t last, Pair a, Pair along) {
     const Pair ax = both(a[0]), ay = both(a[1]), alongX = both(along[0]), alongY = both(along[1]);
+    PairMask rises{-1, -1};
+    Pair before{};
     for (std::uint32_t i = 1; i < last; i += 2) {
-        const Pair dx = load(x + i) - ax, dy = load(y + i) - ay;
-        store(&points.along[i], dx * alongX + dy * alongY);
+        const Pair dx = load(x + i) - ax, dy = load(y + i) - ay, s = dx * alongX + dy * alongY;
+        store(&points.along[i], s);
         store(&points.across[i], alongX * dy - dx * alongY);
+        rises &= previous(before, s) < s;
+        before = s;
     }
     points.along[0] = points.across[0] = 0;
-    points.along[last] = 1, points.across[last] = 0;
-    points.along[last + 1] = 2, points.across[last + 1] = 0;
-    PairMask rises{-1, -1};
-    for (std::uint32_t i = 0; i < last; i += 2)
-        rises &= load(&points.along[i]) < load(&points.along[i + 1]);
-    points.along[last + 1] = 1;  // a step of no length
-    return (rises[0] & rises[1]) != 0;
+    points.along[last] = points.along[last + 1] = 1;  // then a step of no length
+    points.across[last] = points.across[last + 1] = 0;
+    return (rises[0] & rises[1]) != 0 && points.along[last - 1] < 1;
 }
 
 /// The slopes that come closest to the means of the chords by some of the points 1 .. last - 1: chords lie on

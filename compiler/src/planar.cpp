@@ -1,5 +1,6 @@
 #include "compiler/src/planar.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vtm::compiler {
@@ -230,9 +231,10 @@ bool Planariser::labelFromBorder() {
 
 /// Of each edge: mixed(left) - mixed(right), as seen going from a to b.
 void Planariser::findFlows() {
-    flows_.clear();
-    for (const Sides& sides : leaf_.sides)
-        flows_.push_back(mixed(sides.left) - mixed(sides.right));
+    flows_.resize(leaf_.sides.size());
+    std::transform(leaf_.sides.begin(), leaf_.sides.end(), flows_.begin(), [](const Sides& sides) {
+        return sides.left == sides.right ? 0 : mixed(sides.left) - mixed(sides.right);
+    });
 }
 
 /// As seen going to the vertex.

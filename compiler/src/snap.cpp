@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compiler/src/chord_relations.hpp"
 #include "compiler/src/clip.hpp"
@@ -32,7 +33,7 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
     set_.changes.clear();
     set_.bend = 0;
     clip(square, points, strands);
-    mergeEqual();
+    sortAndMerge();
     for (int round = 0; round < maxSnapRounds; ++round) {
         if (set_.edges.size() > maxLeafEdges || !meetAll())
             return nullptr;
@@ -40,10 +41,11 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
             return &set_;
         set_.bend += std::sqrt(bentSquare_);
         applySplits();
-        const bool isDone = !partsMeet();
-        mergeEqual();
-        if (isDone)
+        if (!partsMeet()) {
+            mergeParts();
             return &set_;
+        }
+        sortAndMerge();
     }
     return nullptr;
 }
@@ -51,6 +53,11 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
 // ---- clip -------------------------------------------------------------------------------------
 
 void Snapper::clip(const Square& square, Points points, std::span<const Strand> strands) {
+    std::size_t most = 0;
+    for (const Strand& s : strands)
+        most += s.last + 1 - s.first;
+    set_.vertices.resize(most);
+    std::uint32_t first = 0;
     for (const Strand& s : strands) {
         const LatticePoint from = points[s.first], to = points[s.last];
         LatticePoint a = from, b = to;
@@ -60,28 +67,22 @@ void Snapper::clip(const Square& square, Points points, std::span<const Strand> 
             b = cutAtEntry(square, {to, points[s.last - 1]});
         if (a == b && s.last == s.first + 1)
             continue;
-        Edge e;
-        e.first = static_cast<std::uint32_t>(set_.vertices.size());
-        set_.vertices.insert(set_.vertices.end(), points.begin() + s.first, points.begin() + s.last + 1);
-        set_.vertices[e.first] = a;
-        set_.vertices.back() = b;
-        e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
-        e.changeCount = 1;
+        const std::uint32_t last = first + s.last - s.first;
         const bool reversed = b < a;
+        LatticePoint* const chain = set_.vertices.data() + first;
+        if (reversed) {
+            std::swap(a, b);
+            std::reverse_copy(points.begin() + s.first + 1, points.begin() + s.last, chain + 1);
+        } else {
+            std::copy(points.begin() + s.first + 1, points.begin() + s.last, chain + 1);
+        }
+        chain[0] = a;
+        chain[last - first] = b;
+        set_.edges.push_back({a, b, first, last, static_cast<std::uint32_t>(set_.changes.size()), 1});
         set_.changes.push_back({s.layer, reversed ? -1 : 1});
-        add(e, reversed);
+        first = last + 1;
     }
-}
-
-/// Adds an edge that has the vertices from e.first on, in the order from b to a if `reversed`.
-void Snapper::add(const Edge& edge, bool reversed) {
-    Edge e = edge;
-    e.last = static_cast<std::uint32_t>(set_.vertices.size() - 1);
-    if (reversed)
-        std::reverse(set_.vertices.begin() + e.first, set_.vertices.end());
-    e.a = set_.vertices[e.first];
-    e.b = set_.vertices[e.last];
-    set_.edges.push_back(e);
+    set_.vertices.resize(first);
 }
 
 // ---- meet -------------------------------------------------------------------------------------
@@ -173,8 +174,10 @@ bool Snapper::meetAll() {
     close_.clear();
     isDoubtful_.assign(set_.edges.size(), false);
     bentSquare_ = 0;
-    findBoxes();
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
+    if (edges.size() < 2)
+        return true;
+    findBoxes();
     bands_.clear();
     for (const Edge& e : edges)
         bands_.push_back(bandOf(e));
@@ -201,14 +204,12 @@ bool Snapper::meetAll() {
 
 /// How the chords a→b and c→d lie to each other: on which side of one the ends of the other are.
 struct Snapper::Meeting {
-    LatticePoint a, b, c, d;
     std::int64_t atC, atD;  ///< orient(a, b, ·)
     std::int64_t atA, atB;  ///< orient(c, d, ·)
     std::int64_t nearAB, nearCD;
 
     /// orient(a, b, d) - orient(a, b, c) = (b - a) × (d - c) = orient(c, d, a) - orient(c, d, b).
-    Meeting(LatticePoint fromA, LatticePoint toB, LatticePoint fromC, LatticePoint toD)
-        : a(fromA), b(toB), c(fromC), d(toD) {
+    Meeting(LatticePoint a, LatticePoint b, LatticePoint c, LatticePoint d) {
         const std::int64_t abX = std::int64_t{b.x} - a.x, abY = std::int64_t{b.y} - a.y,
                            cdX = std::int64_t{d.x} - c.x, cdY = std::int64_t{d.y} - c.y,
                            acX = std::int64_t{c.x} - a.x, acY = std::int64_t{c.y} - a.y;
@@ -227,24 +228,29 @@ struct Snapper::Meeting {
 /// with the other's. (Chords that only begin where another ends share a vertex with one that is looked at.)
 void Snapper::meet(std::uint32_t e, std::uint32_t f) {
     const Edge &s = set_.edges[e], &t = set_.edges[f];
-    const Coord right = std::min(s.b.x, t.b.x), left = std::max(s.a.x, t.a.x);
+    const Coord left = std::max(s.a.x, t.a.x);
     const LatticePoint* const vertices = set_.vertices.data();
     const LatticePoint *pEnd = vertices + s.last, *qEnd = vertices + t.last;
     const LatticePoint *p = firstNotBelow(vertices + s.first + 1, pEnd, left),
                        *q = firstNotBelow(vertices + t.first + 1, qEnd, left);
+    // Where a chord that ends in p, or q, has its lower end.
+    const std::ptrdiff_t pLow = s.a.y < s.b.y ? -1 : 0, qLow = t.a.y < t.b.y ? -1 : 0;
     Coord column = left - 1;
     for (;;) {  // p and q end the chords at hand
-        if (overlap(p[-1].y, p->y, q[-1].y, q->y) & (p[-1].x <= q->x) & (q[-1].x <= p->x))
+        if ((p[pLow].y <= q[~qLow].y) & (q[qLow].y <= p[~pLow].y) & (p[-1].x <= q->x) & (q[-1].x <= p->x))
             if (const Meeting m(p[-1], *p, q[-1], *q); !m.isFar())
-                meetChords(m, e, static_cast<std::uint32_t>(p - vertices) - 1 - s.first, f,
-                           static_cast<std::uint32_t>(q - vertices) - 1 - t.first);
-        if ((p->x == q->x) & (p->x != column)) {
+                meetChords(m, e, p, f, q);
+        if (p->x == q->x && p->x != column) {
             column = p->x;
             meetUpright(e, p, f, q);
         }
-        const bool moves = (q == qEnd) | ((p != pEnd) & (p->x <= q->x));
-        if (moves ? (p == pEnd) | (p->x > right) : q->x > right)
-            return;
+        const bool moves = p->x <= q->x;
+        if (moves ? p == pEnd : q == qEnd) {
+            if (q == qEnd || p->x != q->x)
+                return;
+            ++q;  // it may stand upright where e ends
+            continue;
+        }
         p += moves;
         q += !moves;
     }
@@ -259,15 +265,17 @@ void Snapper::meetUpright(std::uint32_t e, const LatticePoint* p, std::uint32_t 
     for (const LatticePoint* i = p; i <= vertices + s.last && i->x == x; ++i)
         for (const LatticePoint* j = q; i[-1].x == x && j <= vertices + t.last && j->x == x; ++j)
             if (j[-1].x == x && !(i == p && j == q) && overlap(i[-1].y, i->y, j[-1].y, j->y))
-                meetChords(Meeting(i[-1], *i, j[-1], *j), e,
-                           static_cast<std::uint32_t>(i - vertices) - 1 - s.first, f,
-                           static_cast<std::uint32_t>(j - vertices) - 1 - t.first);
+                meetChords(Meeting(i[-1], *i, j[-1], *j), e, i, f, j);
 }
 
-/// Chords that are not far from each other.
-void Snapper::meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std::uint32_t f,
-                         std::uint32_t j) {
-    const LatticePoint a = m.a, b = m.b, c = m.c, d = m.d;
+/// Chords that are not far from each other, which end in p and q.
+void Snapper::meetChords(const Meeting& m, std::uint32_t e, const LatticePoint* p, std::uint32_t f,
+                         const LatticePoint* q) {
+    const LatticePoint a = p[-1], b = *p, c = q[-1], d = *q;
+    const auto number = [this](const LatticePoint* end, std::uint32_t edge) {
+        return static_cast<std::uint32_t>(end - set_.vertices.data()) - 1 - set_.edges[edge].first;
+    };
+    const std::uint32_t i = number(p, e), j = number(q, f);
     if (areBeyond(m.atC, m.atD, 0) | areBeyond(m.atA, m.atB, 0)) {
         isNear_ = true;
         return;
@@ -277,14 +285,14 @@ void Snapper::meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std
         const LatticePoint x = crossing(a, b, m.atA, m.atB);
         bend(a, b, x);
         bend(c, d, x);
-        split(e, i, x, {c, d});
-        split(f, j, x, {a, b});
+        split(e, i, x, {c, d}, f);
+        split(f, j, x, {a, b}, e);
         return;
     }
     isNear_ = true;
     const auto touch = [&](LatticePoint at) {
-        split(e, i, at, {c, d});
-        split(f, j, at, {a, b});
+        split(e, i, at, {c, d}, f);
+        split(f, j, at, {a, b}, e);
     };
     if (m.atA == 0 && isOnChord(c, d, a))
         touch(a);
@@ -306,7 +314,8 @@ void Snapper::bend(LatticePoint a, LatticePoint b, LatticePoint to) {
 }
 
 /// Asks for a cut of the edge at a point of its chord, unless that is an end of the whole edge.
-void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by) {
+void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by,
+                    std::uint32_t byEdge) {
     const Edge& e = set_.edges[edge];
     if (at == e.a || at == e.b)
         return;
@@ -314,13 +323,13 @@ void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, co
         isDoubtful_[edge] = true;  // it may meet one that ends in that column
     const LatticePoint to = set_.vertex(e, chord + 1);
     if (at == to) {
-        splits_.push_back({edge, chord + 1, at, 0, by});
+        splits_.push_back({edge, chord + 1, at, 0, by, byEdge});
         return;
     }
     const LatticePoint from = set_.vertex(e, chord);
     const std::int64_t progress = (std::int64_t{to.x} - from.x) * (std::int64_t{at.x} - from.x) +
                                   (std::int64_t{to.y} - from.y) * (std::int64_t{at.y} - from.y);
-    splits_.push_back({edge, chord, at, progress, by});
+    splits_.push_back({edge, chord, at, progress, by, byEdge});
 }
 
 }  // namespace vtm::compiler

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "compiler/src/slots.hpp"
 #include "compiler/src/strand.hpp"
 
 namespace vtm::compiler {
@@ -65,6 +66,7 @@ private:
         LatticePoint at;
         std::int64_t progress;  ///< along the chord
         Chord by;               ///< the other one that meets it there
+        std::uint32_t byEdge;
     };
 
     /// The line a→b of an edge, and how far the chain strays from it, as orient(a, b, ·) of its vertices.
@@ -90,7 +92,6 @@ private:
     };
 
     void clip(const Square& square, Points points, std::span<const Strand> strands);
-    void add(const Edge& edge, bool reversed);
     void findBoxes();
     Band bandOf(const Edge& e) const;
     bool areApart(std::uint32_t e, std::uint32_t f) const;
@@ -101,20 +102,24 @@ private:
     void meet(std::uint32_t e, std::uint32_t f);
     void meetUpright(std::uint32_t e, const LatticePoint* p, std::uint32_t f, const LatticePoint* q);
     struct Meeting;
-    void meetChords(const Meeting& m, std::uint32_t e, std::uint32_t i, std::uint32_t f, std::uint32_t j);
+    void meetChords(const Meeting& m, std::uint32_t e, const LatticePoint* p, std::uint32_t f,
+                    const LatticePoint* q);
     void bend(LatticePoint a, LatticePoint b, LatticePoint to);
-    void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by);
+    void split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by,
+               std::uint32_t byEdge);
     void sortSplits();
     void applySplits();
-    static bool areClear(const Split& p, const Split& q);
+    void doubt(std::span<const Split> cuts);
     void beginParts();
     void part(const Edge& whole, const Split* from, const Split* to);
     bool partsMeet() const;
     bool newMeet(std::uint32_t e, std::uint32_t f) const;
     bool meetsPart(const Edge& e, std::uint32_t v, const Edge& f) const;
-    void mergeEqual();
+    void sortAndMerge();
+    void mergeParts();
     int compare(const Edge& e, const Edge& f) const;
-    void addChanges(Edge& into, std::span<const Place> equal);
+    void collect(const Edge& edge);
+    void sumChanges(Edge& into);
 
     EdgeSet set_;
     double bentSquare_ = 0;                         ///< the largest bend of this round, squared
@@ -123,8 +128,9 @@ private:
     std::vector<std::uint32_t> found_;
     std::vector<Pair> close_;  ///< edges that meet, or nearly so
     bool isNear_ = false;      ///< Pair::isNear of the pair at hand
-    std::vector<std::uint8_t>
-        isDoubtful_;  ///< by edge: its parts may meet others though its chords were not near theirs
+    /// By edge: its parts may meet others though its chords were not near theirs.
+    std::vector<std::uint8_t> isDoubtful_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> doubts_;  ///< so of two edges
     std::vector<Split> splits_, nextSplits_;
     std::vector<std::uint32_t> firstSplits_;  ///< by edge
     std::vector<Parts> parts_;                ///< by edge as it was, and the end of all
@@ -132,6 +138,8 @@ private:
     std::vector<Change> sum_;
     std::vector<Edge> nextEdges_;
     std::vector<Place> order_, spareOrder_;
+    Slots slots_;                           ///< of unequal edges
+    std::vector<std::uint32_t> nextEqual_;  ///< by edge
 };
 
 }  // namespace vtm::compiler

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "compiler/src/chord_relations.hpp"
 #include "compiler/src/small_sort.hpp"
@@ -35,6 +36,7 @@ void Snapper::applySplits() {
     nextEdges_.swap(set_.edges);
     parts_.clear();
     newChords_.clear();
+    doubts_.clear();
     const Split* s = splits_.data();
     const Split* const end = s + splits_.size();
     for (std::uint32_t i = 0; i < nextEdges_.size(); ++i) {
@@ -43,24 +45,34 @@ void Snapper::applySplits() {
             set_.edges.push_back(nextEdges_[i]);
             continue;
         }
-        const Split* from = nullptr;
-        for (; s != end && s->edge == i; from = s++) {
-            if (from && from->chord == s->chord && from->at != s->at && !areClear(*from, *s))
-                isDoubtful_[i] = true;
+        const Split *const first = s, *from = nullptr;
+        for (; s != end && s->edge == i; from = s++)
             part(nextEdges_[i], from, s);
-        }
         part(nextEdges_[i], from, nullptr);
+        doubt({first, s});
     }
     beginParts();
 }
 
-/// Whether neither of two neighbouring cuts of a chord is near the chord that makes the other one: else a
-/// third may be bent over one. The farther from its crossing, the farther are chords from each other.
-bool Snapper::areClear(const Split& p, const Split& q) {
-    const auto isClear = [](const Chord& c, LatticePoint at) {
-        return std::abs(orient(c.a, c.b, at)) > 2 * near(c.a, c.b);
+/// Doubts an edge that cuts another one near a neighbouring cut of the same chord: that one may bend the
+/// chord over it. The farther from their crossing, the farther are two chords from each other.
+void Snapper::doubt(std::span<const Split> cuts) {
+    const auto isAt = [](const Split& p, const Split& q) { return p.chord == q.chord && p.at == q.at; };
+    const auto check = [&](const Split& cut, LatticePoint at) {
+        if (std::abs(orient(cut.by.a, cut.by.b, at)) <= 2 * near(cut.by.a, cut.by.b))
+            doubts_.push_back({cut.edge, cut.byEdge});
     };
-    return isClear(p.by, q.at) && isClear(q.by, p.at);
+    std::size_t before = 0;  // the first of those in the place before
+    for (std::size_t here = 0, next; here < cuts.size(); before = here, here = next) {
+        for (next = here + 1; next < cuts.size() && isAt(cuts[next], cuts[here]);)
+            ++next;
+        if (here == 0 || cuts[here].chord != cuts[before].chord)
+            continue;
+        for (std::size_t k = before; k < here; ++k)
+            check(cuts[k], cuts[here].at);
+        for (std::size_t k = here; k < next; ++k)
+            check(cuts[k], cuts[before].at);
+    }
 }
 
 void Snapper::beginParts() {
@@ -81,10 +93,12 @@ void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
         return;
     Edge e = whole;
     e.first = static_cast<std::uint32_t>(set_.vertices.size());
-    set_.vertices.push_back(a);
-    for (std::uint32_t v = first; v < first + between; ++v)
-        set_.vertices.push_back(set_.vertices[v]);
-    set_.vertices.push_back(b);
+    e.last = e.first + between + 1;
+    set_.vertices.resize(e.last + 1);
+    LatticePoint* const chain = set_.vertices.data() + e.first;
+    std::copy_n(set_.vertices.data() + first, between, chain + 1);
+    chain[0] = a;
+    chain[between + 1] = b;
     const bool reversed = b < a;
     const auto number = static_cast<std::uint32_t>(set_.edges.size());
     const bool newFirst = reversed ? newTo : newFrom, newLast = reversed ? newFrom : newTo;
@@ -93,13 +107,16 @@ void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
     if (newLast && between > 0)
         newChords_.push_back({number, e.first + between});
     if (reversed) {
+        std::reverse(chain, chain + between + 2);
         e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
         for (std::uint32_t k = 0; k < e.changeCount; ++k) {
             const Change c = set_.changes[whole.firstChange + k];
             set_.changes.push_back({c.layer, -c.winding});
         }
     }
-    add(e, reversed);
+    e.a = chain[0];
+    e.b = chain[between + 1];
+    set_.edges.push_back(e);
 }
 
 // ---- check ------------------------------------------------------------------------------------
@@ -108,10 +125,14 @@ void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
 /// only edges that were close can; most of these have been seen to stay clear of each other but where they
 /// cross.
 bool Snapper::partsMeet() const {
-    return std::any_of(close_.begin(), close_.end(), [&](const Pair& pair) {
-        return (pair.isNear | isDoubtful_[pair.e] | isDoubtful_[pair.f]) &&
-               (newMeet(pair.e, pair.f) || newMeet(pair.f, pair.e));
-    });
+    const auto meet = [&](std::uint32_t e, std::uint32_t f) { return newMeet(e, f) || newMeet(f, e); };
+    return std::any_of(close_.begin(), close_.end(),
+                       [&](const Pair& pair) {
+                           return (pair.isNear | isDoubtful_[pair.e] | isDoubtful_[pair.f]) &&
+                                  meet(pair.e, pair.f);
+                       }) ||
+           std::any_of(doubts_.begin(), doubts_.end(),
+                       [&](const auto& pair) { return meet(pair.first, pair.second); });
 }
 
 /// Whether a new chord of a part of edge e, as it was, meets a part of edge f. The parts of both lie one
@@ -177,7 +198,7 @@ int Snapper::compare(const Edge& e, const Edge& f) const {
 
 /// Sorts the edges; equal ones become one with their changes added, and those without any change
 /// vanish.
-void Snapper::mergeEqual() {
+void Snapper::sortAndMerge() {
     order_.resize(set_.edges.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i)
         order_[i] = {sortKey(set_.edges[i].a), i};
@@ -198,8 +219,12 @@ void Snapper::mergeEqual() {
             const std::size_t first = i++;
             while (i < end && compare(set_.edges[order_[i].edge], e) == 0)
                 ++i;
-            if (i > first + 1)
-                addChanges(e, {order_.data() + first, i - first});
+            if (i > first + 1) {
+                sum_.clear();
+                for (std::size_t k = first; k < i; ++k)
+                    collect(set_.edges[order_[k].edge]);
+                sumChanges(e);
+            }
             if (e.changeCount > 0)
                 nextEdges_.push_back(e);
         }
@@ -207,12 +232,50 @@ void Snapper::mergeEqual() {
     set_.edges.swap(nextEdges_);
 }
 
-void Snapper::addChanges(Edge& into, std::span<const Place> equal) {
-    sum_.clear();
-    for (const Place& place : equal) {
-        const auto changes = set_.of(set_.edges[place.edge]);
-        sum_.insert(sum_.end(), changes.begin(), changes.end());
+/// The same, but leaves the edges in the order in which they stand.
+void Snapper::mergeParts() {
+    constexpr std::uint32_t taken = Slots::none - 1;
+    const std::vector<Edge>& edges = set_.edges;
+    slots_.reset(edges.size());
+    nextEqual_.assign(edges.size(), Slots::none);
+    bool areDifferent = true;
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        std::uint32_t& last = slots_.find(sortKey(edges[i].a) + 3 * sortKey(edges[i].b),
+                                          [&](std::uint32_t k) { return compare(edges[k], edges[i]) == 0; });
+        if (last != Slots::none) {
+            nextEqual_[last] = i;
+            areDifferent = false;
+        }
+        last = i;
     }
+    if (areDifferent)
+        return;
+    nextEdges_.clear();
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        if (nextEqual_[i] == taken)
+            continue;
+        Edge e = edges[i];
+        if (nextEqual_[i] != Slots::none) {
+            sum_.clear();
+            for (std::uint32_t k = i; k != Slots::none;) {
+                collect(edges[k]);
+                k = std::exchange(nextEqual_[k], taken);
+            }
+            sumChanges(e);
+        }
+        if (e.changeCount > 0)
+            nextEdges_.push_back(e);
+    }
+    set_.edges.swap(nextEdges_);
+}
+
+void Snapper::collect(const Edge& edge) {
+    const auto changes = set_.of(edge);
+    sum_.insert(sum_.end(), changes.begin(), changes.end());
+}
+
+/// Gives the edge the sum of what has been collected.
+void Snapper::sumChanges(Edge& into) {
     std::sort(sum_.begin(), sum_.end(), [](const Change& p, const Change& q) { return p.layer < q.layer; });
     into.firstChange = static_cast<std::uint32_t>(set_.changes.size());
     for (std::size_t i = 0; i < sum_.size();) {

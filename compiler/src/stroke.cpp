@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -72,6 +73,13 @@ public:
             ribbon(subpath);
     }
 
+    /// Emits all but the right sides of rings.
+    void finish() {
+        out_.sidesEnd();
+        for (Side& contour : later_)
+            emit(contour);
+    }
+
 private:
     void dot(const Subpath& subpath) {
         if (style_.cap == Cap::Butt)
@@ -80,7 +88,7 @@ private:
         Side contour{subpath.at - side, {}, {}};
         cap(contour, subpath.at, subpath.direction);
         cap(contour, subpath.at, -subpath.direction);
-        emit(contour);
+        later_.push_back(std::move(contour));
     }
 
     void ribbon(const Subpath& subpath) {
@@ -98,8 +106,7 @@ private:
             sides(segments[i]);
         }
         subpath.closed ? closeRing(subpath) : closeEnds(subpath);
-        for (Side& contour : ribbon_.beyond)
-            emit(contour);
+        std::move(ribbon_.beyond.begin(), ribbon_.beyond.end(), std::back_inserter(later_));
     }
 
     void sides(const Segment& segment) {
@@ -147,8 +154,7 @@ private:
         ribbon_.left.start = ribbon_.left.end();
         ribbon_.right.start = ribbon_.right.end();
         emit(ribbon_.right);
-        Side left = reversed(ribbon_.left);
-        emit(left);
+        later_.push_back(reversed(ribbon_.left));
     }
 
     void closeEnds(const Subpath& subpath) {
@@ -161,7 +167,7 @@ private:
         go(contour, back.start);
         contour.append(back);
         cap(contour, from, -startTangent(subpath.segments.front().curve));
-        emit(contour);
+        later_.push_back(contour);
     }
 
     // --- joins ---------------------------------------------------------------------------------
@@ -291,10 +297,11 @@ private:
     double tolerance_, chords_, radius_, miterLimit_;
     ContourSink& out_;
     Ribbon ribbon_;
+    std::vector<Side> later_;
 };
 
-/// `chords`: of OffsetOptions.
-void outline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance, double chords,
+/// `chords`: of OffsetOptions. Whether all is rings.
+bool outline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance, double chords,
              ContourSink& contours) {
     const double size = largestCoordinate(path) + style.width;
     if (!(size <= largestSize))
@@ -304,14 +311,18 @@ void outline(const scene::Path& path, const scene::StrokeStyle& style, double to
         chords = std::max(chords, finestShare * size);
     Outliner outliner(style, tolerance, chords, contours);
     std::size_t dashes = 0;
+    bool isRings = style.dashes.empty();
     for (const Subpath& subpath : subpaths(path, tolerance * arcShare)) {
         if (style.dashes.empty()) {
+            isRings &= subpath.closed;
             outliner.add(subpath);
             continue;
         }
         for (const Subpath& piece : dash(subpath, style, dashes))
             outliner.add(piece);
     }
+    outliner.finish();
+    return isRings;
 }
 
 scene::Path outlineAsPath(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
@@ -333,9 +344,9 @@ scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeSt
     return stroke::outlineAsPath(path, style, tolerance, chordTolerance);
 }
 
-void strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                     double chordTolerance, ContourSink& contours) {
-    stroke::outline(path, style, tolerance, chordTolerance, contours);
+    return stroke::outline(path, style, tolerance, chordTolerance, contours);
 }
 
 bool hasSampledOffsets(const scene::Path& path) {

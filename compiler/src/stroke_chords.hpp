@@ -11,8 +11,12 @@ namespace vtm::compiler {
 
 /// As strokeOutline (compiler/stroke.hpp), but with chords within `tolerance` + `chordTolerance` of the
 /// offsets in place of most curves that are within `tolerance`. The curves that are left become chords within
-/// `chordTolerance` later.
-void strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+/// `chordTolerance` later. Returns whether all is rings: closed subpaths without dashes.
+///
+/// The contours before ContourSink::sidesEnd are the rings' right sides, each in its subpath's direction. On
+/// the way from a subpath to its right side one crosses nothing but the stroke, so beside the stroke both
+/// have the same winding numbers.
+bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                     double chordTolerance, ContourSink& contours);
 /// As a path.
 scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,

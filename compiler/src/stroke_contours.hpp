@@ -17,6 +17,8 @@ public:
     virtual void lines(std::span<const scene::Point> to) = 0;
     virtual void cubic(scene::Point c1, scene::Point c2, scene::Point to) = 0;
     virtual void close() = 0;
+    /// Between the right sides of rings and all other contours.
+    virtual void sidesEnd() {}
 };
 
 /// As commands; lines that go nowhere are left out.

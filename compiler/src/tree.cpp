@@ -17,9 +17,12 @@ using asset::Entry;
 
 /// A cell with no more strands than this, or than this part of the picture's, or on this level, is a
 /// block: small enough to keep all processors busy, large enough to be worth a thread's while.
-constexpr std::size_t blockStrands = 64;
+constexpr std::size_t blockStrands = 256;
 constexpr std::size_t blockShare = 24;
 constexpr unsigned blockLevel = 3;
+
+/// One of so many blocks is timed: enough to tell the stages' shares, and clocks are not free.
+constexpr std::size_t timedBlocks = 8;
 
 /// A cell with more strands hands them to its children's cells on all processors.
 constexpr std::size_t strandsForAll = 4096;
@@ -171,7 +174,9 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
         [&] { return BlockBuilder(picture, painter, options, work); });
     const auto pushed = Clock::now();
     tbb::parallel_for(std::size_t{0}, blocks.size(),
-                      [&](std::size_t i) { blocks[i] = builders.local().run(std::move(cells[i])); });
+                      [&](std::size_t i) {
+                          blocks[i] = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
+                      });
     const double wall = milliseconds(pushed, Clock::now());
     TreeTimes sum;
     for (const BlockBuilder& b : builders)

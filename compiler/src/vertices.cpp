@@ -1,14 +1,11 @@
 #include "compiler/src/vertices.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "compiler/src/small_sort.hpp"
 
 namespace vtm::compiler {
 namespace {
-
-constexpr std::uint32_t noVertex = 0xFFFFFFFFu;
 
 /// The vertex after the end's own on its edge.
 LatticePoint next(const EdgeSet& set, EdgeEnd end) {
@@ -40,9 +37,7 @@ void Vertices::collect(const EdgeSet& set, const Square& square) {
 
 void Vertices::findVertices(const EdgeSet& set) {
     const std::size_t count = 2 * set.edges.size();
-    const std::size_t slots = std::bit_ceil(2 * count + 1);
-    slots_.assign(slots, noVertex);
-    slotShift_ = 64 - static_cast<unsigned>(std::countr_zero(slots));
+    slots_.reset(count);
     vertices_.clear();
     vertexOf_.resize(count);
     for (std::uint32_t e = 0; e < set.edges.size(); ++e) {
@@ -53,16 +48,13 @@ void Vertices::findVertices(const EdgeSet& set) {
 
 /// The vertex at a point, and one end more for it.
 std::uint32_t Vertices::numberOf(LatticePoint at) {
-    constexpr std::uint64_t golden = 0x9E3779B97F4A7C15u;  // Fibonacci hashing (Knuth, TAOCP 3, 6.4)
-    std::size_t slot = sortKey(at) * golden >> slotShift_;
-    while (slots_[slot] != noVertex && vertices_[slots_[slot]].at != at)
-        slot = (slot + 1) & (slots_.size() - 1);
-    if (slots_[slot] == noVertex) {
-        slots_[slot] = static_cast<std::uint32_t>(vertices_.size());
+    std::uint32_t& number = slots_.find(sortKey(at), [&](std::uint32_t i) { return vertices_[i].at == at; });
+    if (number == Slots::none) {
+        number = static_cast<std::uint32_t>(vertices_.size());
         vertices_.push_back({at, 0, 0});
     }
-    ++vertices_[slots_[slot]].count;
-    return slots_[slot];
+    ++vertices_[number].count;
+    return number;
 }
 
 void Vertices::groupEnds() {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/src/slots.hpp"
 #include "compiler/src/snap.hpp"
 
 namespace vtm::compiler {
@@ -48,8 +49,7 @@ private:
     void listBorder(const EdgeSet& set);
 
     std::vector<Vertex> vertices_;
-    std::vector<std::uint32_t> slots_;  ///< a hash table of the vertices
-    unsigned slotShift_ = 0;
+    Slots slots_;                                    ///< of the vertices
     std::vector<std::uint32_t> vertexOf_, placeOf_;  ///< by end; placeOf_: in ends_
     std::vector<EdgeEnd> ends_;
     std::array<std::vector<std::uint32_t>, 4> onSide_;  ///< vertices
