@@ -19,8 +19,9 @@ namespace vtm::asset {
 
 struct PrefilterOptions {
     /// Squares that a footprint may meet on average, where it meets a leaf with pieces at all, and still
-    /// be drawn from the tree: 2 × 2 as the finest footprint that a leaf's size allows for.
-    double squaresPerFootprint = 4;
+    /// be drawn from the tree: somewhat fewer than the 2 × 2 that a footprint as large as a leaf may meet,
+    /// since leaves have many pieces.
+    double squaresPerFootprint = 3.6;
     /// Upper limit of a side, texels; at most maxPyramidSide.
     std::uint32_t largestSide = 512;
     /// 0: as many as there are cores. The result does not depend on it.

@@ -13,8 +13,9 @@
 namespace vtm::asset {
 
 /// By paint: what a step of one picture unit changes a premultiplied channel by, at most, some 2/255 in all
-/// neglected. Solid paints: 0. Where nothing bounds it: infinity; so hard stops, images, materials, gradients
-/// whose circles are next to not within each other, blend modes of what is not solid.
+/// neglected. Solid paints and programs with images, whose filters are for whole pixels: 0. Where nothing
+/// bounds it: infinity; so hard stops, materials, gradients whose circles are next to not within each other,
+/// blend modes of what is not solid.
 std::vector<float> steepnessOf(const AssetView& asset);
 
 /// A paint is steep that changes by more over a pixel. A part of a pixel is at most an eighth of a pixel's

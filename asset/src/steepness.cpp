@@ -74,7 +74,8 @@ double offsetSlope(const Gradient& gradient, bool isRadial) {
     return gap < leastGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
 }
 
-/// Layers over each other change by no more than their changes' sum, and so do those under masks.
+/// Layers over each other change by no more than their changes' sum, and so do those under masks. Filters of
+/// images are those of whole pixels, by definition: programs with images are not asked for quarters.
 class Slopes {
 public:
     explicit Slopes(const AssetView& asset) : asset_(asset) {}
@@ -83,6 +84,8 @@ public:
         double slope = 0;
         for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
             const auto in = recordAt<Instruction>(asset_.data, i);
+            if (in.op == Op::Image && in.opacity > 0)
+                return 0;
             const bool isMixed =
                 in.op == Op::PopMaskLinear || (in.op == Op::Pop && in.blend != Blend::Normal);
             slope += isMixed ? (slope > 0 ? infinity : 0) : ofLayer(in);
@@ -102,7 +105,6 @@ private:
                 const double offset = offsetSlope(gradient, in.op == Op::Radial);
                 return in.opacity > 0 && ramp > 0 && offset > 0 ? in.opacity * ramp * offset : 0;
             }
-            case Op::Image:
             case Op::Material:
                 return in.opacity > 0 ? infinity : 0;
             default:

@@ -52,7 +52,7 @@ std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
 
 /// The number of chords that will do if each of them has an equal share of it.
 double ChordCutter::guess() {
-    constexpr double sure = 0.95;  // of the tolerance: steps are not small
+    constexpr double sure = 0.9;  // of the tolerance: steps are not small
     constexpr double leastSpeed = std::numeric_limits<double>::min();  // no division by zero
     const auto [a, b, c, start] = curve_;
     const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''

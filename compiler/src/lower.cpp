@@ -47,7 +47,8 @@ public:
           paints_(picture_) {
         if (cache_)
             picture_.outlines = cache_->take();
-        // So that most pictures' need not be moved while they grow. Memory that is not written to costs nothing.
+        // So that most pictures' need not be moved while they grow. Memory that is not written to costs
+        // nothing.
         constexpr std::size_t usualPoints = 1u << 17, usualRuns = 1u << 15;
         picture_.outlines.points.reserve(usualPoints);
         picture_.outlines.runs.reserve(usualRuns);

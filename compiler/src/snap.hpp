@@ -26,7 +26,7 @@ struct Edge {
     std::uint32_t chordCount() const { return last - first; }
 };
 
-/// Workspace of a leaf: edges by (a, b), and what they refer to.
+/// Workspace of a leaf: unequal edges, and what they refer to.
 struct EdgeSet {
     std::vector<LatticePoint> vertices;
     std::vector<Edge> edges;

@@ -173,10 +173,9 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
     tbb::enumerable_thread_specific<BlockBuilder> builders(
         [&] { return BlockBuilder(picture, painter, options, work); });
     const auto pushed = Clock::now();
-    tbb::parallel_for(std::size_t{0}, blocks.size(),
-                      [&](std::size_t i) {
-                          blocks[i] = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
-                      });
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+        blocks[i] = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
+    });
     const double wall = milliseconds(pushed, Clock::now());
     TreeTimes sum;
     for (const BlockBuilder& b : builders)
