@@ -71,7 +71,8 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
             atlases.emplace_back(asset, asset.maps[command.map]);
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);
-    steepest = *std::ranges::max_element(steepness);
+    for (const float s : steepness)
+        steepest = std::max(steepest, s);
     texels = texelTexture(joinedTexels(asset, steepness, pictures.list, sections));
     images = imageTexture(std::move(pictures.rgba));
     instances = uploadInstances(list.instances);
