@@ -99,7 +99,8 @@ CAPTION = ("Times as ratios to VTM's on the CPU (CPU time of all threads, paired
 
 
 def quick_of(reports):
-    return " A quick run: some of the files, few rounds." if any(r.get("quick") for r in reports.values()) else ""
+    quick = [name for name, report in reports.items() if report.get("quick")]
+    return f" Quick runs, of some of the files in few rounds: {', '.join(quick)}." if quick else ""
 
 
 def section(name, report):
