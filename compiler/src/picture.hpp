@@ -97,10 +97,12 @@ inline constexpr std::size_t maxChords = 50'000'000;
 inline constexpr std::size_t maxLayers = 4'000'000;
 inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
 
-/// Chords lie as far from their curves as the budget allows. With a `cache`, outlines that it holds are taken
-/// from it and others added to it; its store of outlines becomes the picture's. `sharing`: fills end
-/// somewhere below the stroke of their own outline that hides where.
+/// Outlines: a fill right below an opaque stroke of its own path may take an outline of the stroke's for its
+/// own, where that hides the difference (docs/regions.md).
 enum class Sharing : std::uint8_t { None, Outlines };
+
+/// Chords lie as far from their curves as the budget allows. With a `cache`, outlines that it holds are taken
+/// from it and others added to it; its store of outlines becomes the picture's; then nothing is shared.
 Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget, Sharing sharing,
               OutlineCache* cache = nullptr);
 
