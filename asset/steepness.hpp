@@ -18,6 +18,23 @@ namespace vtm::asset {
 /// blend modes of what is not solid.
 std::vector<float> steepnessOf(const AssetView& asset);
 
+/// What a step of one picture unit changes a paint's channels by. Solid paints and programs with images: 0.
+struct PaintChange {
+    float steepness = 0;  ///< as above
+    /// The same with every ramp as if it changed evenly from its first stop to its last: hard stops count by
+    /// what they change.
+    float variation = 0;
+    /// Of programs whose colour over a pixel is only about the mean, since layers are averaged one by one
+    /// and radial ramps as if the pixel were small beside them: of several layers the steepness, of a radial
+    /// gradient alone the variation. Others: 0.
+    float roughness = 0;
+};
+/// By paint.
+std::vector<PaintChange> changesOf(const AssetView& asset);
+
+/// Two layers that each change by c over a pixel are off by c² / 12 at most, some 2/255 here.
+inline constexpr double leastRoughChange = 80.0 / 255;
+
 /// A paint is steep that changes by more over a pixel. A part of a pixel is at most an eighth of a pixel's
 /// side, times its area, away from the middle (half a pixel is), so what remains of others is below 2/255.
 inline constexpr double leastSteepChange = 16.0 / 255;

@@ -1,16 +1,22 @@
 #include "asset/src/draw_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
 #include "asset/coverage.hpp"
 #include "asset/src/paint.hpp"
+#include "asset/src/rough.hpp"
+#include "asset/src/row_sums.hpp"
 #include "asset/steepness.hpp"
 #include "asset/walk.hpp"
 
@@ -72,24 +78,43 @@ PaintPlace placeOf(const PlacedLeaf& leaf, const LeafFrame& frame, vec2 point, f
             leaf.inverse * (size * float(leaf.step))};
 }
 
+/// What a paint index of a map stands for.
+enum class PaintMeaning {
+    Color,    ///< Asset::paints
+    Coverage  ///< the index itself, 0 or 1
+};
+
 /// What is drawn under one view.
 struct Drawn {
     const Paints& paints;
     PaintMeaning meaning;
     const MaterialFunction& materials;
     float leastSteep;
+    RoughBounds rough;
 
     const AssetView& asset() const { return paints.asset(); }
     bool isSteep(std::uint32_t paint) const {
-        return meaning == PaintMeaning::Color && paints.steepness()[paint] > leastSteep;
+        return meaning == PaintMeaning::Color && paints.changes()[paint].steepness > leastSteep;
     }
-    bool isSteep(Entry entry) const {
-        if (entry.kind() == Entry::Kind::Solid)
-            return isSteep(entry.payload());
+    bool mayBeRough(std::uint32_t paint) const { return rough.mayBeRough(paints.changes()[paint]); }
+    /// Those of a square.
+    std::vector<std::uint32_t> steepPaints(Entry entry) const {
+        std::vector<std::uint32_t> steep;
+        const auto add = [&](std::uint32_t paint) {
+            if (isSteep(paint) && std::ranges::find(steep, paint) == steep.end())
+                steep.push_back(paint);
+        };
+        if (entry.kind() == Entry::Kind::Solid) {
+            add(entry.payload());
+            return steep;
+        }
         const Leaf& leaf = asset().leaves[entry.payload()];
-        return std::ranges::any_of(leaf.corners, [&](std::uint32_t paint) { return isSteep(paint); }) ||
-               std::ranges::any_of(asset().pieces.subspan(leaf.firstPiece, leaf.pieceCount),
-                                   [&](const Piece& p) { return isSteep(p.left) || isSteep(p.right); });
+        std::ranges::for_each(leaf.corners, add);
+        for (const Piece& piece : asset().pieces.subspan(leaf.firstPiece, leaf.pieceCount)) {
+            add(piece.left);
+            add(piece.right);
+        }
+        return steep;
     }
 };
 
@@ -130,25 +155,30 @@ private:
     vec4 sum_{0};
 };
 
-vec4 leafIntegral(const AssetView& asset, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame,
-                  ColorSum sum) {
+/// Calls add(paint, weight) for everything that adds up to the pixel's shares of a square's paints.
+template <class Add>
+void addShares(const AssetView& asset, Entry entry, const LeafFrame& frame, Add&& add) {
     const Corners corners = cornersOf(frame);
     if (entry.kind() == Entry::Kind::Solid) {
         float area = 0;
         for (std::size_t k = 0; k < 4; ++k)
             area += seg(corners[k], corners[k + 1]);
-        sum.add(entry.payload(), area);
-        return placed.sign * sum.sum();
+        return add(entry.payload(), area);
     }
     const Leaf& leaf = asset.leaves[entry.payload()];
     for (std::size_t k = 0; k < 4; ++k)
-        sum.add(leaf.corners[k], seg(corners[k], corners[k + 1]));
+        add(leaf.corners[k], seg(corners[k], corners[k + 1]));
     for (std::uint32_t i = 0; i < leaf.pieceCount; ++i) {
         const Piece& piece = asset.pieces[leaf.firstPiece + i];
         const float weight = pieceSum(frame, corners, piece);
-        sum.add(piece.left, weight);
-        sum.add(piece.right, -weight);
+        add(piece.left, weight);
+        add(piece.right, -weight);
     }
+}
+
+vec4 leafIntegral(const AssetView& asset, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame,
+                  ColorSum sum) {
+    addShares(asset, entry, frame, [&](std::uint32_t paint, float weight) { sum.add(paint, weight); });
     return placed.sign * sum.sum();
 }
 
@@ -187,9 +217,76 @@ vec4 quartersOf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const
     return 0.25f * sum;
 }
 
+/// Whether a pixel with a part of this steep paint wants to be drawn finer.
+bool isRough(const Drawn& drawn, std::uint32_t paint, bool isCut, const PlacedLeaf& placed,
+             const LeafFrame& frame) {
+    const PaintChange& change = drawn.paints.changes()[paint];
+    const auto colorAt = [&](vec2 point, float size) {
+        return float4(drawn.paints.color(paint, placeOf(placed, frame, point, size), drawn.materials));
+    };
+    const std::array<Float4, 4> quarters{colorAt({0.25f, 0.25f}, 0.5f), colorAt({0.75f, 0.25f}, 0.5f),
+                                         colorAt({0.25f, 0.75f}, 0.5f), colorAt({0.75f, 0.75f}, 0.5f)};
+    return (isCut && drawn.rough.isRoughCut(change, quarters)) ||
+           (drawn.mayBeRough(paint) && drawn.rough.isRoughWhole(change, quarters, colorAt(vec2(0.5f), 1)));
+}
+
+/// Whether a pixel wants to be drawn finer for any of a square's steep paints.
+bool isRough(const Drawn& drawn, Entry entry, std::span<const std::uint32_t> steep, bool isCut,
+             const PlacedLeaf& placed, const LeafFrame& frame) {
+    const auto mayBe = [&](std::uint32_t paint) { return isCut || drawn.mayBeRough(paint); };
+    if (std::ranges::none_of(steep, mayBe))
+        return false;
+    std::vector<float> shares(steep.size());
+    addShares(drawn.asset(), entry, frame, [&](std::uint32_t paint, float weight) {
+        if (const auto at = std::ranges::find(steep, paint); at != steep.end())
+            shares[std::size_t(at - steep.begin())] += weight;
+    });
+    for (std::size_t i = 0; i < steep.size(); ++i)
+        if (std::abs(shares[i]) > leastShare && mayBe(steep[i]) &&
+            isRough(drawn, steep[i], isCut, placed, frame))
+            return true;
+    return false;
+}
+
+/// Pixels of a raster that want to be drawn finer.
+class RoughPixels {
+public:
+    explicit RoughPixels(const View& view)
+        : width_(view.width), height_(view.height), isRough_(std::size_t(width_) * std::size_t(height_)) {}
+
+    void mark(int x, int y) { isRough_[index(x, y)] = true; }
+    bool at(int x, int y) const { return isRough_[index(x, y)]; }
+    /// Calls visit(box) for boxes around all of them, none larger than a tile, disjoint.
+    template <class Visit>
+    void forEachBox(Visit&& visit) const {
+        for (int y = 0; y < height_; y += tile)
+            for (int x = 0; x < width_; x += tile)
+                if (const PixelBox box = boxIn(x, y); !box.empty())
+                    visit(box);
+    }
+
+private:
+    static constexpr int tile = 32;
+
+    std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_) + std::size_t(x); }
+    PixelBox boxIn(int left, int top) const {
+        PixelBox box{glm::ivec2(left + tile, top + tile), glm::ivec2(left, top)};
+        for (int y = top; y < std::min(top + tile, height_); ++y)
+            for (int x = left; x < std::min(left + tile, width_); ++x)
+                if (at(x, y)) {
+                    box.min = glm::min(box.min, glm::ivec2(x, y));
+                    box.max = glm::max(box.max, glm::ivec2(x + 1, y + 1));
+                }
+        return box;
+    }
+
+    int width_, height_;
+    std::vector<bool> isRough_;
+};
+
 void addLeaf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const PixelBox& box,
-             image::Raster& target) {
-    const bool isSteep = drawn.isSteep(entry);
+             image::Raster& target, RoughPixels& rough) {
+    const std::vector<std::uint32_t> steep = drawn.steepPaints(entry);
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
             const LeafFrame frame{glm::mat2(placed.linear), vec2(placed.origin - dvec2(x, y))};
@@ -198,8 +295,11 @@ void addLeaf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const Pi
                 continue;
             const PaintPlace place = placeOf(placed, frame, vec2(0.5f), 1);
             vec4 color = leafIntegral(drawn.asset(), entry, placed, frame, {drawn, place});
-            if (isSteep && isCut(drawn.asset(), entry, overlap, frame))
+            const bool cut = !steep.empty() && isCut(drawn.asset(), entry, overlap, frame);
+            if (cut)
                 color += quartersOf(drawn, entry, placed, frame);
+            if (!steep.empty() && !rough.at(x, y) && isRough(drawn, entry, steep, cut, placed, frame))
+                rough.mark(x, y);
             float* pixel = target.pixel(x, y);
             for (int c = 0; c < 4; ++c)
                 pixel[c] += color[c];
@@ -233,20 +333,75 @@ View crop(const View& view, const PixelBox& box) {
     return cropped;
 }
 
-void addMap(const Paints& paints, const Map& map, const View& view, PaintMeaning meaning,
-            const MaterialFunction& materials, image::Raster& target) {
-    const AssetView& asset = paints.asset();
-    const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    const Drawn drawn{paints, meaning, materials, leastSteepness(pixel)};
+namespace {
+
+/// Returns the pixels that want to be drawn finer.
+RoughPixels addMap(const Drawn& drawn, const Map& map, const View& view, image::Raster& target) {
+    const AssetView& asset = drawn.asset();
+    RoughPixels rough(view);
     walk(asset, map.root, [&](Cell cell, Entry entry) {
-        if (isTransparent(meaning, asset, entry))
+        if (isTransparent(drawn.meaning, asset, entry))
             return;
         const double side = std::ldexp(map.side, -2 * int(cell.level));
         const dvec2 corner(map.x + cell.x * side, map.y + cell.y * side);
         const PixelBox box = pixelsOf(view, corner, side);
         if (!box.empty())
-            addLeaf(drawn, entry, place(view, corner, side), box, target);
+            addLeaf(drawn, entry, place(view, corner, side), box, target, rough);
     });
+    return rough;
+}
+
+View finerView(const View& view, const PixelBox& box) {
+    View finer = crop(view, box);
+    finer.width *= finerSide;
+    finer.height *= finerSide;
+    for (int i = 0; i < 3; ++i)
+        finer.toPixels[i] *= double(finerSide);
+    return finer;
+}
+
+vec4 meanOfFiner(const image::Raster& finer, int x, int y) {
+    vec4 sum(0);
+    for (int row = 0; row < finerSide; ++row)
+        for (int column = 0; column < finerSide; ++column)
+            sum += glm::make_vec4(finer.pixel(x * finerSide + column, y * finerSide + row));
+    return sum / float(finerSide * finerSide);
+}
+
+/// `levels`: how many times over rough pixels are drawn finer. `colors` is transparent.
+void drawColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
+                int levels, float roughness, image::Raster& colors) {
+    const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    const float leastSteep = leastSteepness(pixel);
+    const Drawn drawn{paints, PaintMeaning::Color, materials, leastSteep, roughBounds(leastSteep, roughness)};
+    const RoughPixels rough = addMap(drawn, map, view, colors);
+    if (levels == 0)
+        return;
+    rough.forEachBox([&](const PixelBox& box) {
+        const View fine = finerView(view, box);
+        image::Raster finer(fine.width, fine.height);
+        drawColors(paints, map, fine, materials, levels - 1, finerTolerance * roughness, finer);
+        for (int y = box.min.y; y < box.max.y; ++y)
+            for (int x = box.min.x; x < box.max.x; ++x)
+                if (rough.at(x, y)) {
+                    const vec4 mean = meanOfFiner(finer, x - box.min.x, y - box.min.y);
+                    std::copy_n(glm::value_ptr(mean), 4, colors.pixel(x, y));
+                }
+    });
+}
+
+}  // namespace
+
+void addCoverage(const Paints& paints, const Map& map, const View& view, image::Raster& target) {
+    addMap({paints, PaintMeaning::Coverage, {}, 0, {}}, map, view, target);
+}
+
+void addColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
+               image::Raster& target) {
+    image::Raster colors(view.width, view.height);
+    drawColors(paints, map, view, materials, finerLevels(view), 1, colors);
+    for (std::size_t i = 0; i < colors.rgba.size(); ++i)
+        target.rgba[i] += colors.rgba[i];
 }
 
 }  // namespace vtm::asset

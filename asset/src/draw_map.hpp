@@ -21,14 +21,11 @@ PixelBox pixelsOf(const View& view, glm::dvec2 corner, double side);
 /// The view that sees only `box` of `view`.
 View crop(const View& view, const PixelBox& box);
 
-/// What a paint index of a map stands for.
-enum class PaintMeaning {
-    Color,    ///< Asset::paints
-    Coverage  ///< the index itself, 0 or 1
-};
+/// target += coverage of each pixel's box, of a map with the paints 0 and 1.
+void addCoverage(const Paints& paints, const Map& map, const View& view, image::Raster& target);
 
 /// target += ∫ colour over each pixel's box.
-void addMap(const Paints& paints, const Map& map, const View& view, PaintMeaning meaning,
-            const MaterialFunction& materials, image::Raster& target);
+void addColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
+               image::Raster& target);
 
 }  // namespace vtm::asset

@@ -40,7 +40,7 @@ Mask coverageOf(const Paints& paints, const Map& map, const View& view) {
     const PixelBox box = pixelsOf(view, {map.x, map.y}, map.side);
     const View cropped = crop(view, box);
     Mask mask{box, Raster(cropped.width, cropped.height)};
-    addMap(paints, map, cropped, PaintMeaning::Coverage, {}, mask.coverage);
+    addCoverage(paints, map, cropped, mask.coverage);
     return mask;
 }
 
@@ -117,8 +117,7 @@ void execute(const Paints& paints, const Command& command, const View& view,
              const MaterialFunction& materials, std::vector<Raster>& stack) {
     switch (command.kind) {
         case Command::Kind::DrawMap:
-            return addMap(paints, paints.asset().maps[command.map], view, PaintMeaning::Color, materials,
-                          stack.back());
+            return addColors(paints, paints.asset().maps[command.map], view, materials, stack.back());
         case Command::Kind::FillMask:
             return fillMask(paints, command, view, materials, stack.back());
         case Command::Kind::ClipMask:

@@ -2,7 +2,9 @@
 /// Four floats that are added and multiplied at once: a colour in a register.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include <glm/vec4.hpp>
 
@@ -12,6 +14,14 @@ using Float4 = float __attribute__((vector_size(16)));
 
 inline Float4 float4(const glm::vec4& v) { return Float4{v.x, v.y, v.z, v.w}; }
 inline glm::vec4 toVec4(Float4 v) { return {v[0], v[1], v[2], v[3]}; }
+
+/// The largest magnitude of a channel.
+inline float largest(Float4 v) {
+    float max = 0;
+    for (int c = 0; c < 4; ++c)
+        max = std::max(max, std::abs(v[c]));
+    return max;
+}
 
 /// Of straight colours.
 inline Float4 premultiplied(Float4 c) { return c * Float4{c[3], c[3], c[3], 1}; }

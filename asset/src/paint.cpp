@@ -8,7 +8,6 @@
 
 #include "asset/src/blend.hpp"
 #include "asset/src/gradient.hpp"
-#include "asset/steepness.hpp"
 
 namespace vtm::asset {
 
@@ -196,7 +195,7 @@ bool hasGradients(const AssetView& asset) {
 
 }  // namespace
 
-Paints::Paints(const AssetView& asset) : asset_(asset), images_(asset), steepness_(steepnessOf(asset)) {
+Paints::Paints(const AssetView& asset) : asset_(asset), images_(asset), changes_(changesOf(asset)) {
     if (!hasGradients(asset))
         return;
     // All texels as if they were stops: gradients of a hostile file may overlap as they like.

@@ -12,6 +12,7 @@
 #include "asset/evaluate.hpp"
 #include "asset/src/float4.hpp"
 #include "asset/src/image_fill.hpp"
+#include "asset/steepness.hpp"
 
 namespace vtm::asset {
 
@@ -40,7 +41,7 @@ public:
     const AssetView& asset() const { return asset_; }
     const Images& images() const { return images_; }
     /// By paint (asset/steepness.hpp).
-    std::span<const float> steepness() const { return steepness_; }
+    std::span<const PaintChange> changes() const { return changes_; }
     /// Of gradients: by texel of the asset's data, straight, where a stop stands.
     std::span<const glm::vec4> stopColors() const { return stopColors_; }
 
@@ -51,7 +52,7 @@ private:
 
     AssetView asset_;
     Images images_;
-    std::vector<float> steepness_;
+    std::vector<PaintChange> changes_;
     std::vector<glm::vec4> stopColors_;
 };
 

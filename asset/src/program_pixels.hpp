@@ -13,12 +13,7 @@
 
 namespace vtm::asset {
 
-inline bool isNothing(Float4 color) {
-    float most = 0;
-    for (int c = 0; c < 4; ++c)
-        most = std::max(most, std::abs(color[c]));
-    return most < leastShare;
-}
+inline bool isNothing(Float4 color) { return largest(color) < leastShare; }
 
 /// What programs have in a band. Pixels are in blocks; all of those that no program touches are zero.
 class ProgramPixels {
@@ -39,9 +34,12 @@ public:
         return at(row, first);
     }
 
+    /// The pixel, which is used, becomes `color` instead of a sum. Rows in order, from the left in each.
+    void replace(int row, int x, Float4 color) { replaced_.push_back({row, x, color}); }
+
     /// Stores a row, to which runs of colours come from the left, and leaves zeros. `top`: the band's.
     template <class Store>
-    void finish(int top, int row, int first, int end, Float4 color, const Store& store) {
+    void finish(int top, int row, int first, int end, Float4 color, Store& store) {
         while (first < end) {
             const int block = first / blockWidth;
             int to = std::min((block + 1) * blockWidth, width_);
@@ -59,6 +57,7 @@ public:
                 if (to == blockEnd) {
                     const int start = block * blockWidth;
                     const std::span<Float4> pixels(at(row, start), std::size_t(to - start));
+                    putReplaced(row, start, pixels);
                     store(top + row, start, pixels);
                     std::ranges::fill(pixels, Float4{});
                     used_[std::size_t(row * blocks_ + block)] = 0;
@@ -69,12 +68,30 @@ public:
     }
 
 private:
+    struct Replaced {
+        int row, x;
+        Float4 color;
+    };
+
+    void putReplaced(int row, int start, std::span<Float4> pixels) {
+        for (; next_ < replaced_.size() && replaced_[next_].row == row &&
+               replaced_[next_].x < start + int(pixels.size());
+             ++next_)
+            pixels[std::size_t(replaced_[next_].x - start)] = replaced_[next_].color;
+        if (next_ == replaced_.size()) {
+            replaced_.clear();
+            next_ = 0;
+        }
+    }
+
     Float4* at(int row, int x) { return pixels_.data() + std::ptrdiff_t(row) * width_ + x; }
     bool isUsed(int row, int block) const { return used_[std::size_t(row * blocks_ + block)] != 0; }
 
     int width_ = 0, blocks_ = 0;
     std::vector<Float4> pixels_;
     std::vector<std::uint8_t> used_;
+    std::vector<Replaced> replaced_;
+    std::size_t next_ = 0;  ///< of `replaced_`
 };
 
 }  // namespace vtm::asset

@@ -63,10 +63,13 @@ public:
         for (std::vector<Chord>& band : chords_)
             band.clear();
     }
-    /// Rows from y = `top` to `bottom`, within the picture.
-    void add(const Chord& chord, float top, float bottom) {
-        for (unsigned band = unsigned(top) / bandRows, last = unsigned(bottom) / bandRows; band <= last;
-             ++band)
+    /// Nothing if the chord changes no pixel of a picture of that size.
+    void add(const Chord& chord, float width, float height) {
+        const float top = std::min(chord.a.y, chord.b.y), bottom = std::max(chord.a.y, chord.b.y);
+        if (top == bottom || bottom <= 0 || top >= height || std::min(chord.a.x, chord.b.x) >= width)
+            return;
+        const auto last = unsigned(std::min(bottom, height - 1)) / bandRows;
+        for (unsigned band = unsigned(std::max(top, 0.0f)) / bandRows; band <= last; ++band)
             chords_[band].push_back(chord);
     }
     std::span<const Chord> of(int band) const { return chords_[std::size_t(band)]; }
@@ -128,12 +131,9 @@ private:
     }
 
     void addChord(glm::vec2 a, glm::vec2 b, const PlanarPiece& piece) {
-        const float top = std::min(a.y, b.y), bottom = std::max(a.y, b.y);
-        if (top == bottom || bottom <= 0 || top >= height_ || std::min(a.x, b.x) >= width_)
-            return;
         const auto left = std::uint16_t(mirrored_ ? piece.right : piece.left),
                    right = std::uint16_t(mirrored_ ? piece.left : piece.right);
-        bands_.add({a, b, left, right}, std::max(top, 0.0f), std::min(bottom, height_ - 1));
+        bands_.add({a, b, left, right}, width_, height_);
     }
 
     float width_, height_;

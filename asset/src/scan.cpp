@@ -15,6 +15,7 @@
 
 #include "asset/src/blend.hpp"
 #include "asset/src/paint.hpp"
+#include "asset/src/rough.hpp"
 #include "asset/src/row_sums.hpp"
 #include "asset/src/scan_programs.hpp"
 #include "asset/src/scan_stores.hpp"
@@ -31,6 +32,7 @@ struct Scratch {
     Bands bands;
     Accumulator<Wholes<Float4>> colors;
     BandPrograms programs;
+    std::unique_ptr<Scratch> finer;  ///< for what is drawn finer
 };
 
 /// What is kept of an asset.
@@ -49,23 +51,91 @@ struct Picture {
     vec4 added(vec4 color) const { return sums == Sums::Light ? light(color) : color; }
 };
 
-/// A picture under a view, band by band.
+/// Rough pixels in a row are drawn together across gaps of fewer columns.
+constexpr int maxFinerGap = 4;
+
+/// Pixels first to end - 1 of rows top to bottom - 1 of a band.
+struct BandBox {
+    int first, end, top, bottom;
+
+    int width() const { return end - first; }
+    int height() const { return bottom - top; }
+};
+
+/// Boxes around all of the pixels, which are sorted by column, disjoint and from left to right.
+std::vector<BandBox> boxesAround(std::span<const BandPixel> pixels) {
+    std::vector<BandBox> boxes;
+    for (const BandPixel& p : pixels) {
+        if (boxes.empty() || p.x >= boxes.back().end + maxFinerGap)
+            boxes.push_back({p.x, p.x + 1, p.row, p.row + 1});
+        BandBox& box = boxes.back();
+        box = {box.first, p.x + 1, std::min(box.top, p.row), std::max(box.bottom, p.row + 1)};
+    }
+    return boxes;
+}
+
+/// Adds up colours that are finer: the mean over each pixel of a box.
+class MeanStore {
+public:
+    explicit MeanStore(const BandBox& box)
+        : box_(box), means_(std::size_t(box.width()) * std::size_t(box.height())) {}
+
+    void operator()(int row, int first, int end, Float4 color) {
+        while (first < end) {
+            const int next = std::min(end, (first / finerSide + 1) * finerSide);
+            mean(first / finerSide, row / finerSide) += float(next - first) * share * color;
+            first = next;
+        }
+    }
+    void operator()(int row, int first, std::span<const Float4> colors) {
+        for (const Float4& color : colors)
+            mean(first++ / finerSide, row / finerSide) += share * color;
+    }
+    /// In the band.
+    Float4 at(const BandPixel& p) { return mean(p.x - box_.first, p.row - box_.top); }
+
+private:
+    static constexpr float share = 1.0f / (finerSide * finerSide);
+
+    Float4& mean(int x, int y) { return means_[std::size_t(y) * std::size_t(box_.width()) + std::size_t(x)]; }
+
+    BandBox box_;
+    std::vector<Float4> means_;
+};
+
+/// The chords of a picture under a view, band by band.
 class Drawing {
 public:
-    Drawing(const Picture& of, const View& view, const MaterialFunction& materials, Scratch& scratch)
-        : of_(of), view_(view), scratch_(scratch), programs_(programView(of, view, materials)) {
+    Drawing(const Picture& of, const View& view, const MaterialFunction& materials, Scratch& scratch,
+            int finerLevels, float roughness = 1)
+        : of_(of),
+          view_(view),
+          scratch_(scratch),
+          programs_(programView(of, view_, materials, roughness)),
+          finerLevels_(finerLevels) {
         scratch_.bands.clear(view.height);
-        for (const Picture::Drawn& drawn : of.drawn) {
-            Chords chords(drawn.map, view, scratch_.bands);
-            for (const Boundary& boundary : drawn.boundaries)
-                chords.add(boundary);
-        }
         scratch_.colors.resize(view.width);
         scratch_.programs.resize(of.solid.size(), view.width);
     }
 
+    void addPicture() {
+        for (const Picture::Drawn& drawn : of_.drawn) {
+            Chords chords(drawn.map, view_, scratch_.bands);
+            for (const Boundary& boundary : drawn.boundaries)
+                chords.add(boundary);
+        }
+    }
+    void addChord(const Chord& chord) { scratch_.bands.add(chord, float(view_.width), float(view_.height)); }
+
     template <class Store>
-    void drawBand(int band, const Store& store) {
+    void draw(Store& store) {
+        for (int band = 0; band * bandRows < view_.height; ++band)
+            drawBand(band, store);
+    }
+
+private:
+    template <class Store>
+    void drawBand(int band, Store& store) {
         const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
         BandPrograms& programs = scratch_.programs;
         programs.clear();
@@ -83,6 +153,8 @@ public:
             scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
         }
         programs.draw(programs_, top, rows);
+        if (!programs.rough().empty() && finerLevels_ > 0)
+            drawFiner(band);
         for (int row = 0; row < rows; ++row)
             scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
                 if (programs.empty())
@@ -92,16 +164,57 @@ public:
             });
     }
 
-private:
-    static ProgramView programView(const Picture& of, const View& view, const MaterialFunction& materials) {
+    // ---- Rough pixels ----
+
+    void drawFiner(int band) {
+        std::vector<BandPixel>& rough = scratch_.programs.rough();
+        std::ranges::sort(rough, {}, &BandPixel::x);
+        std::vector<std::pair<BandPixel, Float4>> colors;
+        auto next = rough.begin();
+        for (const BandBox& box : boxesAround(rough)) {
+            MeanStore means = drawBox(band, box);
+            for (; next != rough.end() && next->x < box.end; ++next)
+                colors.emplace_back(*next, means.at(*next));
+        }
+        std::ranges::sort(colors, {}, [](const auto& c) { return c.first; });
+        const auto again = std::ranges::unique(colors, {}, [](const auto& c) { return c.first; });
+        colors.erase(again.begin(), again.end());
+        for (const auto& [pixel, color] : colors)
+            scratch_.programs.pixels().replace(pixel.row, pixel.x, color);
+    }
+
+    /// Chords are within chordTolerance of a pixel of their curves here, and finer pixels need no finer ones.
+    MeanStore drawBox(int band, const BandBox& box) {
+        const glm::dvec2 corner(box.first, band * bandRows + box.top);
+        View finer{box.width() * finerSide, box.height() * finerSide, view_.toPixels};
+        finer.toPixels[2] -= corner;
+        for (int i = 0; i < 3; ++i)
+            finer.toPixels[i] *= double(finerSide);
+        if (!scratch_.finer)
+            scratch_.finer = std::make_unique<Scratch>();
+        Drawing drawing(of_, finer, programs_.materials, *scratch_.finer, finerLevels_ - 1,
+                        finerTolerance * programs_.rough.times);
+        for (const Chord& c : scratch_.bands.of(band))
+            drawing.addChord({float(finerSide) * (c.a - glm::vec2(corner)),
+                              float(finerSide) * (c.b - glm::vec2(corner)), c.left, c.right});
+        MeanStore means(box);
+        drawing.draw(means);
+        return means;
+    }
+
+    static ProgramView programView(const Picture& of, const View& view, const MaterialFunction& materials,
+                                   float roughness) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-        return {*of.paints, of.sums, view, inverse, leastSteepness(inverse), materials};
+        const float leastSteep = leastSteepness(inverse);
+        return {
+            *of.paints, of.sums, view, inverse, leastSteep, materials, roughBounds(leastSteep, roughness)};
     }
 
     const Picture& of_;
-    const View& view_;
+    const View view_;
     Scratch& scratch_;
     ProgramView programs_;
+    int finerLevels_;
 };
 
 }  // namespace
@@ -139,9 +252,9 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     }
     // An exception loses the scratch, whose sums may be half done.
     std::unique_ptr<Scratch> scratch = takeScratch();
-    Drawing drawing(*this, view, materials, *scratch);
-    for (int band = 0; band * bandRows < view.height; ++band)
-        drawing.drawBand(band, store);
+    Drawing drawing(*this, view, materials, *scratch, finerLevels(view));
+    drawing.addPicture();
+    drawing.draw(store);
     giveBack(std::move(scratch));
 }
 

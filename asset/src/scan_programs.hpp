@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,7 @@
 #include "asset/src/blend.hpp"
 #include "asset/src/paint.hpp"
 #include "asset/src/program_pixels.hpp"
+#include "asset/src/rough.hpp"
 #include "asset/src/row_sums.hpp"
 #include "asset/steepness.hpp"
 
@@ -30,8 +32,16 @@ struct ProgramView {
     glm::dmat2 inverse;  ///< pixels to the picture
     float leastSteep;    ///< of asset/steepness.hpp
     const MaterialFunction& materials;
+    RoughBounds rough;
 
     glm::vec2 point(glm::dvec2 pixel) const { return {inverse * (pixel - view.toPixels[2])}; }
+};
+
+/// A pixel of a band.
+struct BandPixel {
+    int row, x;
+
+    auto operator<=>(const BandPixel&) const = default;
 };
 
 /// What is not made better where quarters differ: a tenth of a step of 8 bits.
@@ -48,9 +58,14 @@ public:
     }
 
     bool empty() const { return programs_.empty(); }
+    /// Pixels that want to be drawn finer; some more than once.
+    std::vector<BandPixel>& rough() { return rough_; }
     ProgramPixels& pixels() { return pixels_; }
 
-    void clear() { programs_.clear(); }
+    void clear() {
+        programs_.clear();
+        rough_.clear();
+    }
     /// A chord at which a program has `change` more on its left. It must stay until the band is drawn.
     void addSide(const Chord& chord, std::uint16_t paint, float change) {
         std::vector<Side>& sides = sides_[paint];
@@ -67,7 +82,7 @@ public:
         rows_ = rows;
         pixels_.resize(width_);
         for (const std::uint16_t paint : programs_) {
-            if (of.paints.steepness()[paint] > of.leastSteep)
+            if (of.paints.changes()[paint].steepness > of.leastSteep)
                 drawSteep(of, paint);
             else
                 drawWholes(of, paint, coverage_, [](int, int, int, float share) { return share; });
@@ -89,7 +104,9 @@ private:
     /// A pixel and what its quarters add to a fourth of the program's share of the whole.
     struct Cut {
         int row, x;
-        Float4 more;
+        Float4 more;  ///< zero where no edge cuts it
+
+        bool isCut() const { return largest(more) > 0; }
     };
 
     /// Each pixel by the mean colour over it, times shareOf(row, first column, end, what was summed).
@@ -121,7 +138,7 @@ private:
         const glm::mat2 pixel(of.inverse);
         of.paints.colors(paint, {of.point({first + 0.5, top_ + row + 0.5}), pixel}, pixel[0], colors_,
                          of.materials);
-        toSums(of);
+        toSums(of, colors_);
         Float4* pixels = pixels_.use(row, first, end);
         std::size_t i = 0;
         for (const auto& [shareEnd, share] : shares_)
@@ -130,47 +147,72 @@ private:
         shares_.clear();
     }
 
-    void toSums(const ProgramView& of) {
+    static void toSums(const ProgramView& of, std::span<Float4> colors) {
         if (of.sums == Sums::Light)
-            for (Float4& color : colors_)
+            for (Float4& color : colors)
                 color = float4(light(toVec4(color)));
     }
 
     void drawSteep(const ProgramView& of, std::uint16_t paint) {
         // The first moment of the program's part, times what the colour changes by over a pixel, is about
         // what the quarters make better.
-        const float change = float(leastSteepChange) / of.leastSteep * of.paints.steepness()[paint];
+        const float change = float(leastSteepChange) / of.leastSteep * of.paints.changes()[paint].steepness;
         const float leastMoment = std::max(leastPart / change, leastShare);
+        const bool mayBeRough = of.rough.mayBeRough(of.paints.changes()[paint]);
         drawWholes(of, paint, quarters_, [&](int row, int first, int end, Float4 q) {
             const float share = 0.25f * (q[0] + q[1] + q[2] + q[3]);
             const float momentX = (q[1] + q[3] - q[0] - q[2]) / 16,
                         momentY = (q[2] + q[3] - q[0] - q[1]) / 16;
-            if (momentX * momentX + momentY * momentY > leastMoment * leastMoment)
+            const bool isCut = momentX * momentX + momentY * momentY > leastMoment * leastMoment;
+            if (isCut || (mayBeRough && std::abs(share) > leastShare))
                 for (int x = first; x < end; ++x)
-                    cuts_.push_back({row, x, 0.25f * (q - share)});
+                    cuts_.push_back({row, x, isCut ? 0.25f * (q - share) : Float4{}});
             return share;
         });
-        addCuts(of, paint);
+        addCuts(of, paint, mayBeRough);
     }
 
-    void addCuts(const ProgramView& of, std::uint16_t paint) {
+    void addCuts(const ProgramView& of, std::uint16_t paint, bool mayBeRough) {
         const glm::mat2 quarter(0.5 * of.inverse);
         const glm::vec2 right = 0.5f * quarter[0], down = 0.5f * quarter[1];
         points_.clear();
         for (const Cut& cut : cuts_) {
-            const glm::vec2 middle = of.point({cut.x + 0.5, top_ + cut.row + 0.5});
+            const glm::vec2 middle = middleOf(of, cut);
             for (const glm::vec2 way : {-right - down, right - down, down - right, right + down})
                 points_.push_back(middle + way);
         }
         colors_.resize(points_.size());
         of.paints.colors(paint, points_, quarter, colors_, of.materials);
-        toSums(of);
+        toSums(of, colors_);
         for (std::size_t i = 0; i < cuts_.size(); ++i) {
             Float4& pixel = *pixels_.use(cuts_[i].row, cuts_[i].x, cuts_[i].x + 1);
             for (std::size_t k = 0; k < 4; ++k)
                 pixel += cuts_[i].more[k] * colors_[4 * i + k];
+            if (cuts_[i].isCut() && of.rough.isRoughCut(of.paints.changes()[paint], quartersAt(i)))
+                rough_.push_back({cuts_[i].row, cuts_[i].x});
         }
+        if (mayBeRough)
+            findUncutRough(of, paint);
         cuts_.clear();
+    }
+
+    /// colors_ are those of the cuts' quarters.
+    void findUncutRough(const ProgramView& of, std::uint16_t paint) {
+        points_.clear();
+        for (const Cut& cut : cuts_)
+            points_.push_back(middleOf(of, cut));
+        wholes_.resize(points_.size());
+        of.paints.colors(paint, points_, glm::mat2(of.inverse), wholes_, of.materials);
+        toSums(of, wholes_);
+        for (std::size_t i = 0; i < cuts_.size(); ++i)
+            if (of.rough.isRoughWhole(of.paints.changes()[paint], quartersAt(i), wholes_[i]))
+                rough_.push_back({cuts_[i].row, cuts_[i].x});
+    }
+
+    /// While colors_ are those of the cuts' quarters.
+    QuarterColors quartersAt(std::size_t cut) const { return QuarterColors(&colors_[4 * cut], 4); }
+    glm::vec2 middleOf(const ProgramView& of, const Cut& cut) const {
+        return of.point({cut.x + 0.5, top_ + cut.row + 0.5});
     }
 
     int width_ = 0, top_ = 0, rows_ = 0;
@@ -180,8 +222,9 @@ private:
     Accumulator<Quarters> quarters_;
     std::vector<Share> shares_;
     std::vector<Cut> cuts_;
+    std::vector<BandPixel> rough_;
     std::vector<glm::vec2> points_;
-    std::vector<Float4> colors_;
+    std::vector<Float4> colors_, wholes_;
     ProgramPixels pixels_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -43,10 +44,15 @@ double changeBetween(const vec4& a, const vec4& b) {
 /// More stops are not looked at: gradients of a hostile file may overlap as they like.
 constexpr std::uint32_t mostStops = 256;
 
-/// Of a gradient's ramp: what premultiplied channels change by, at most, while u grows by 1.
-double rampSlope(const AssetView& asset, const Gradient& gradient, std::uint32_t firstStop) {
+/// What premultiplied channels change by, at most, along a gradient's ramp.
+struct Ramp {
+    double slope = 0;  ///< while u grows by 1, where it is steepest
+    double all = 0;    ///< from the first stop to the last, all changes added
+};
+
+Ramp rampOf(const AssetView& asset, const Gradient& gradient, std::uint32_t firstStop) {
     if (gradient.stopCount > mostStops)
-        return infinity;
+        return {infinity, infinity};
     const auto stop = [&](std::uint32_t i) { return recordAt<GradientStop>(asset.data, firstStop + i); };
     const auto color = [&](std::uint32_t i) {
         const GradientStop s = stop(i);
@@ -62,7 +68,7 @@ double rampSlope(const AssetView& asset, const Gradient& gradient, std::uint32_t
         add(changeBetween(color(i), color(i + 1)), double(stop(i + 1).offset) - double(stop(i).offset));
     if (gradient.spread == Spread::Repeat)
         add(changeBetween(color(gradient.stopCount - 1), color(0)), 0);
-    return all < leastRange ? 0 : slope;
+    return all < leastRange ? Ramp{} : Ramp{slope, all};
 }
 
 /// What u changes by, at most, over a unit of the picture.
@@ -74,63 +80,91 @@ double offsetSlope(const Gradient& gradient, bool isRadial) {
     return gap < leastGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
 }
 
+/// Of one paint, in doubles.
+struct Change {
+    double slope = 0, variation = 0, roughness = 0;  ///< PaintChange
+};
+
 /// Layers over each other change by no more than their changes' sum, and so do those under masks. Filters of
 /// images are those of whole pixels, by definition: programs with images are not asked for quarters.
-class Slopes {
+class Changes {
 public:
-    explicit Slopes(const AssetView& asset) : asset_(asset) {}
+    explicit Changes(const AssetView& asset) : asset_(asset) {}
 
-    double ofProgram(const Paint& paint) {
-        double slope = 0;
+    Change ofProgram(const Paint& paint) {
+        Change all;
+        int layers = 0;
         for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
             const auto in = recordAt<Instruction>(asset_.data, i);
             if (in.op == Op::Image && in.opacity > 0)
-                return 0;
+                return {};
             const bool isMixed =
                 in.op == Op::PopMaskLinear || (in.op == Op::Pop && in.blend != Blend::Normal);
-            slope += isMixed ? (slope > 0 ? infinity : 0) : ofLayer(in);
+            const Change layer = isMixed ? mixed(all) : ofLayer(in);
+            layers += layer.slope > 0;
+            all.slope += layer.slope;
+            all.variation += layer.variation;
+            all.roughness += layer.roughness;
         }
-        return slope;
+        if (layers > 1)
+            all.roughness = all.slope;
+        return all;
     }
 
 private:
-    static constexpr double unknown = -1;
-
-    double ofLayer(const Instruction& in) {
+    /// Modes may make anything of a change, but not of none.
+    static Change mixed(const Change& below) {
+        return below.slope > 0 ? Change{infinity, 0, infinity} : Change{};
+    }
+    Change ofLayer(const Instruction& in) {
+        if (in.opacity <= 0)
+            return {};
         switch (in.op) {
             case Op::Linear:
             case Op::Radial: {
                 const auto gradient = recordAt<Gradient>(asset_.data, in.argument);
-                const double ramp = ofRamp(gradient, in.argument);
+                const Ramp ramp = ofRamp(gradient, in.argument);
                 const double offset = offsetSlope(gradient, in.op == Op::Radial);
-                return in.opacity > 0 && ramp > 0 && offset > 0 ? in.opacity * ramp * offset : 0;
+                if (ramp.slope == 0 || offset == 0)
+                    return {};
+                const double variation = in.opacity * ramp.all * offset;
+                return {in.opacity * ramp.slope * offset, variation, in.op == Op::Radial ? variation : 0};
             }
             case Op::Material:
-                return in.opacity > 0 ? infinity : 0;
+                return {infinity, 0, 0};
             default:
-                return 0;
+                return {};
         }
     }
-    double ofRamp(const Gradient& gradient, std::uint32_t texel) {
+    Ramp ofRamp(const Gradient& gradient, std::uint32_t texel) {
         if (ramps_.empty())
-            ramps_.resize(asset_.data.size(), unknown);
-        double& slope = ramps_[texel];
-        if (slope == unknown)
-            slope = rampSlope(asset_, gradient, texel + std::uint32_t(GradientView::headTexels));
-        return slope;
+            ramps_.resize(asset_.data.size());
+        std::optional<Ramp>& ramp = ramps_[texel];
+        if (!ramp)
+            ramp = rampOf(asset_, gradient, texel + std::uint32_t(GradientView::headTexels));
+        return *ramp;
     }
 
     const AssetView& asset_;
-    std::vector<double> ramps_;  ///< by texel: many programs may use one
+    std::vector<std::optional<Ramp>> ramps_;  ///< by texel: many programs may use one
 };
 
 }  // namespace
 
+std::vector<PaintChange> changesOf(const AssetView& asset) {
+    Changes changes(asset);
+    std::vector<PaintChange> byPaint;
+    for (const Paint& paint : asset.paints) {
+        const Change change = isProgram(paint) ? changes.ofProgram(paint) : Change{};
+        byPaint.push_back({float(change.slope), float(change.variation), float(change.roughness)});
+    }
+    return byPaint;
+}
+
 std::vector<float> steepnessOf(const AssetView& asset) {
-    Slopes slopes(asset);
     std::vector<float> steepness;
-    for (const Paint& paint : asset.paints)
-        steepness.push_back(isProgram(paint) ? float(slopes.ofProgram(paint)) : 0.0f);
+    for (const PaintChange& change : changesOf(asset))
+        steepness.push_back(change.steepness);
     return steepness;
 }
 

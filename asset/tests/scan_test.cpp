@@ -46,7 +46,10 @@ TEST(Scan, Strip) { expectSame(strip(), straight); }
 TEST(Scan, ThreeRegions) { expectSame(threeRegions(), straight); }
 TEST(Scan, TwoLevelTree) { expectSame(twoLevels(), straight); }
 TEST(Scan, Arcs) { expectSame(disc(), curved); }
-TEST(Scan, EveryPaint) { expectSame(everyPaint(), straight); }
+/// Where one draws a pixel finer and the other, which cannot tell a leaf's border from an edge or has another
+/// bound for a share, does not.
+constexpr double rough = 3.5 / 255;
+TEST(Scan, EveryPaint) { expectSame(everyPaint(), rough); }
 
 TEST(Scan, EveryBlendMode) {
     for (unsigned mode = 0; mode <= unsigned(Blend::PlusLighter); ++mode)

@@ -207,7 +207,54 @@ void expectPartsToHaveTheirColors(double change, double bound) {
 }
 
 TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSteep) { expectPartsToHaveTheirColors(0.25, 3); }
-TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSmall) { expectPartsToHaveTheirColors(0.8, 8); }
+TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSmall) { expectPartsToHaveTheirColors(0.8, 3); }
+TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsAsSmallAsAPixel) { expectPartsToHaveTheirColors(1, 4); }
+
+// ---- Rough pixels ---------------------------------------------------------------------------------
+
+constexpr int truthSide = 32;
+
+/// Every pixel the mean of truthSide² of the scanner's, which are so fine that nothing is rough in them.
+image::Raster meanOfFinePicture(const Scanner& scanner, const View& view) {
+    View fine = view;
+    fine.width *= truthSide;
+    fine.height *= truthSide;
+    for (int i = 0; i < 3; ++i)
+        fine.toPixels[i] *= double(truthSide);
+    const image::Raster points = scanner.draw(fine);
+    image::Raster mean(view.width, view.height);
+    for (int y = 0; y < fine.height; ++y)
+        for (int x = 0; x < fine.width; ++x)
+            for (int c = 0; c < 4; ++c)
+                mean.pixel(x / truthSide, y / truthSide)[c] +=
+                    points.pixel(x, y)[c] / float(truthSide * truthSide);
+    return mean;
+}
+
+/// Layers of gradients that change together, and blend modes, in pixels that hold much of them.
+void expectMeans(const Asset& asset, double bound) {
+    const Scanner scanner(asset);
+    std::mt19937 random(29);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 12; ++i) {
+        const View view =
+            turnedView(12, 9, {29 + unit(random), 31 + unit(random)}, std::exp2(-2 + 3 * unit(random)),
+                       6.28 * unit(random), i % 2 == 0 ? 0 : 0.4, i % 3 == 0);
+        const image::Raster truth = meanOfFinePicture(scanner, view);
+        EXPECT_LE(255 * worst(scanner.draw(view), truth), bound) << "scanner, view " << i;
+        EXPECT_LE(255 * worst(evaluate(asset, view), truth), bound) << "evaluator, view " << i;
+    }
+}
+
+TEST(Rough, BlendedLayersAreTheirMean) {
+    for (const Blend mode : {Blend::Normal, Blend::Multiply, Blend::ColorDodge, Blend::Difference}) {
+        SCOPED_TRACE(unsigned(mode));
+        expectMeans(blendAsset(mode), 4);
+    }
+}
+/// Its colour jumps where what is below is nearly grey, which no four points need show.
+TEST(Rough, HueIsNearlyItsMean) { expectMeans(blendAsset(Blend::Hue), 8); }
+TEST(Rough, LayersUnderAnEdgeAreTheirMean) { expectMeans(steepHalves(8), 4); }
 
 }  // namespace
 }  // namespace vtm::asset::test
