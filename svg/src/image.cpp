@@ -55,7 +55,7 @@ struct Converter::NestedDocument {
 void Converter::convertImage(const Element& element, const Scope& scope, Nodes& out) {
     const auto href = hrefOf(element);
     if (!href || href->empty()) {
-        reporter_.warn(element, "has no href");
+        reporter_.warn(Kind::Reference, element, "has no href");
         return;
     }
     const ImageContent content = imageContent(*href, element);
@@ -98,7 +98,7 @@ Converter::ImageContent Converter::imageContent(std::string_view href, const Ele
         content = loadImage(href);
     } catch (const std::runtime_error& error) {
         const bool data = isDataUrl(href);
-        reporter_.warn(element,
+        reporter_.warn(Kind::Reference, element,
                        fmt::format("the image {}cannot be drawn: {}",
                                    data ? "" : fmt::format("\"{}\" ", href.substr(0, 200)), error.what()));
     }

@@ -43,12 +43,14 @@ Json figures(const compiler::PaperResult& paper);
 Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels);
 
 /// One `key: value` a line; nested objects indented.
-void printText(const Json& object, int indent = 0);
+std::string toText(const Json& object, int indent = 0);
 
-/// On stderr, over a progress bar if there is one.
-void printWarning(const std::string& message);
+/// A line on standard error, over a progress bar if there is one. If it cannot be written, nobody can be
+/// told.
+void say(const std::string& message);
 
-/// `path: what`, for the exception being handled; `what` alone where it names the path itself.
+/// `path: what`, for the exception being handled; `what` alone where it names the path itself. A
+/// StandardOutputError is thrown on.
 std::string describeError(const std::string& path);
 
 }  // namespace vtm::tools
