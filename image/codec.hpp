@@ -30,7 +30,7 @@ std::vector<std::uint8_t> encodePng(const Bitmap& bitmap);
 std::vector<std::uint8_t> readFile(const std::string& path);
 /// The same of an open descriptor, which `name` stands for in errors.
 std::vector<std::uint8_t> readStream(int descriptor, const std::string& name);
-inline constexpr std::size_t maxStreamBytes = 1u << 30;
+inline constexpr std::size_t maxStreamBytes = 256u << 20;  ///< as long as an SVG file may be
 
 /// Writes a regular file whole or not at all: into a new file beside it (".vtm-tmp-PID-N"), which is flushed
 /// to the disk and then takes its place. After an error, or however the process ends, the file is what it was

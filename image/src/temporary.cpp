@@ -91,13 +91,16 @@ Temporary::~Temporary() {
     strike(slot_);
 }
 
-void Temporary::takeOver(const struct stat& old) {
+void Temporary::takeOver(const struct stat& old) noexcept {
     const int file = file_.number();
+    struct stat own {};
+    fstat(file, &own);
     mode_t mode = old.st_mode & 0777;
-    if (fchown(file, old.st_uid, old.st_gid) != 0 && fchown(file, uid_t(-1), old.st_gid) != 0)
+    const bool sameOwner = own.st_uid == old.st_uid && own.st_gid == old.st_gid;
+    if (!sameOwner && fchown(file, old.st_uid, old.st_gid) != 0 && fchown(file, uid_t(-1), old.st_gid) != 0)
         mode = (mode & ~mode_t(070)) | (mode & 07) << 3;  // another group gets no more than all others
-    if (fchmod(file, mode) != 0)
-        fail("its permissions cannot be kept", errno);
+    if ((own.st_mode & 0777) != mode)
+        (void)!fchmod(file, mode);  // where that fails, the file system has no permissions of its own
 }
 
 void Temporary::write(std::span<const std::uint8_t> bytes) {

@@ -21,7 +21,7 @@ public:
     Temporary& operator=(const Temporary&) = delete;
 
     /// Permissions, and as far as this process may, owner and group.
-    void takeOver(const struct stat& old);
+    void takeOver(const struct stat& old) noexcept;
     void write(std::span<const std::uint8_t> bytes);
     /// Onto the disk, then under the target's name.
     void takePlace();

@@ -39,7 +39,7 @@ int compile(const CompileOptions& options) {
         report.update(source.proof);
         report["stages_ms"] = toJson(source.stages);
         if (options.json)
-            print(report.dump(2) + "\n");
+            print(jsonText(report));
     } catch (...) {
         say(describeError(nameOf(options.input)));
         return badInput;

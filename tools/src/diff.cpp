@@ -53,7 +53,7 @@ int diff(const DiffOptions& options) {
         reading = options.output;
         if (!options.output.empty())
             writePicture(a, b, options.output);
-        print(options.json ? figures.dump(2) + "\n" : toText(figures));
+        print(options.json ? jsonText(figures) : toText(figures));
     } catch (...) {
         say(describeError(reading));
         return badInput;

@@ -49,7 +49,7 @@ std::string textOf(const std::vector<asset::SectionInfo>& sections) {
 void printReport(Json report, const std::vector<asset::SectionInfo>& sections, bool json) {
     if (json && !sections.empty())
         report["sections"] = listOf(sections);
-    print(json ? report.dump(2) + "\n" : toText(report) + (sections.empty() ? "" : textOf(sections)));
+    print(json ? jsonText(report) : toText(report) + (sections.empty() ? "" : textOf(sections)));
 }
 
 const char* modeOf(const Source& source) {

@@ -45,7 +45,7 @@ std::optional<Identity> identityOf(const std::string& path) {
     if (stat(path.c_str(), &status) == 0)
         return identityOf(status);
     std::error_code unknown;
-    return Identity{0, 0, fs::weakly_canonical(path, unknown).string()};
+    return Identity{0, 0, fs::weakly_canonical(fs::absolute(path), unknown).string()};
 }
 
 std::optional<Identity> identityOfInput(const std::string& input) {

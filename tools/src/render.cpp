@@ -53,7 +53,7 @@ void printReport(const Job& job, const Source& source, const asset::View& view, 
     if (source.cost)
         report["lookups"] = perPixel(*source.cost, std::uint64_t(view.width) * std::uint64_t(view.height));
     report["stages_ms"] = toJson(source.stages);
-    print(report.dump() + "\n");
+    print(jsonLine(report));
 }
 
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {

@@ -18,6 +18,10 @@ std::string withPath(const std::string& path, const std::string& what) {
     return what.find(path) != std::string::npos ? what : path + ": " + what;
 }
 
+std::string dumped(const Json& object, int indent) {
+    return object.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string numberText(double number) {
     constexpr double small = 0.01;  // two decimals would not show it
     return number != 0 && std::abs(number) < small ? fmt::format("{:.3g}", number)
@@ -27,7 +31,7 @@ std::string numberText(double number) {
 std::string valueText(const Json& value) {
     if (value.is_number_float())
         return numberText(value.get<double>());
-    return value.is_string() ? value.get<std::string>() : value.dump();
+    return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -86,6 +90,9 @@ Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels) {
             {"mips", share(cost.mips)},
             {"paints", share(cost.paints)}};
 }
+
+std::string jsonLine(const Json& object) { return dumped(object, -1); }
+std::string jsonText(const Json& object) { return dumped(object, 2); }
 
 std::string toText(const Json& object, int indent) {
     std::string text;

@@ -42,6 +42,10 @@ Json figures(const compiler::PaperResult& paper);
 /// What a pixel's lookup touched, on the mean.
 Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels);
 
+/// As JSON with a line end: on one line, or indented. What is no UTF-8, in names of files, is replaced.
+std::string jsonLine(const Json& object);
+std::string jsonText(const Json& object);
+
 /// One `key: value` a line; nested objects indented.
 std::string toText(const Json& object, int indent = 0);
 

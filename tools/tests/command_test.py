@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """The vtm command as its users run it. command_test.py VTM"""
 import json
+import os
 import pathlib
 import struct
+import subprocess
 import zlib
 
 from PIL import Image, ImageStat
@@ -109,6 +111,14 @@ class Render(Drawing):
         self.assertEqual((report["width"], report["height"]), (40, 20))
         for stage in ("read", "parse", "compile", "lower", "start", "upload", "render", "write"):
             self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
+
+    def test_json_of_a_name_that_is_no_utf8(self):
+        name = b"\xff.svg"
+        (self.folder / os.fsdecode(name)).write_text(SQUARE)
+        done = subprocess.run([os.fsencode(self.program), b"render", name, b"-o", b"out.png", b"--json"],
+                              capture_output=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["input"], "\ufffd.svg")
 
     def test_warnings_name_their_place(self):
         path = self.write("warned.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">\n'

@@ -54,7 +54,8 @@ class Command(unittest.TestCase):
         return done
 
     def picture(self, name):
-        image = Image.open(self.folder / name)
+        with Image.open(self.folder / name) as image:
+            image.load()
         self.assertEqual(image.mode, "RGBA")
         return image
 
