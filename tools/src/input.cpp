@@ -6,6 +6,7 @@
 
 #include "asset/container.hpp"
 #include "image/codec.hpp"
+#include "tools/src/output.hpp"
 
 namespace vtm::tools {
 
@@ -32,15 +33,15 @@ std::string nameOf(const std::string& input) { return input == standardStream ? 
 bool Input::isAsset() const {
     if (asset::isContainer(bytes))
         return true;
-    return fs::path(name).extension() == ".vtm" &&
-           !mayBeSvg({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return suffixOf(name) == ".vtm" && !mayBeSvg({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Input readInput(const std::string& path) {
     Input input;
     input.name = nameOf(path);
     // Of "-" that is the current folder.
-    input.folder = fs::absolute(path).parent_path().string();
+    std::error_code none;
+    input.folder = fs::absolute(path, none).parent_path().string();
     input.bytes = timed(input.stages, "read", [&] { return bytesOf(path); });
     return input;
 }

@@ -45,7 +45,7 @@ std::optional<Identity> identityOf(const std::string& path) {
     if (stat(path.c_str(), &status) == 0)
         return identityOf(status);
     std::error_code unknown;
-    return Identity{0, 0, fs::weakly_canonical(fs::absolute(path), unknown).string()};
+    return Identity{0, 0, fs::weakly_canonical(fs::absolute(path, unknown), unknown).string()};
 }
 
 std::optional<Identity> identityOfInput(const std::string& input) {
@@ -61,20 +61,21 @@ bool isDeviceOrPipe(const std::string& path) {
     return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-std::string lowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](char c) { return 'A' <= c && c <= 'Z' ? char(c + 32) : c; });
-    return text;
-}
-
 }  // namespace
 
 bool isStandardOutput(const std::string& output) {
     return output == standardStream || output == "/dev/stdout";
 }
 
+std::string suffixOf(const std::string& path) {
+    std::string suffix = fs::path(path).extension().string();
+    std::ranges::transform(suffix, suffix.begin(),
+                           [](char c) { return 'A' <= c && c <= 'Z' ? char(c + 32) : c; });
+    return suffix;
+}
+
 void requireSuffix(const std::string& output, std::initializer_list<std::string_view> suffixes) {
-    const std::string suffix = lowerCase(fs::path(output).extension().string());
+    const std::string suffix = suffixOf(output);
     if (suffix.empty() || std::ranges::find(suffixes, suffix) != suffixes.end() || isDeviceOrPipe(output))
         return;
     throw UsageError(fmt::format("-o: {} does not end in {}", output, fmt::join(suffixes, " or ")));
@@ -89,6 +90,8 @@ void refuseLoss(const std::vector<std::string>& inputs, const std::vector<std::s
             read.emplace(*identity, nameOf(input));
     if (std::ranges::count_if(outputs, isStandardOutput) > 1)
         throw UsageError("-o: more than one result would go to standard output");
+    if (std::ranges::count(outputs, "") > 0)
+        throw UsageError("-o: the name is empty");
     for (const std::string& output : outputs) {
         if (isStandardOutput(output) && standardOutputIsTerminal())
             throw UsageError("-o: standard output is a terminal");

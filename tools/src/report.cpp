@@ -31,7 +31,8 @@ std::string numberText(double number) {
 std::string valueText(const Json& value) {
     if (value.is_number_float())
         return numberText(value.get<double>());
-    return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return value.is_string() ? value.get<std::string>()
+                             : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "trace/trace.hpp"
 
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -23,7 +22,7 @@ struct TraceOptions {
 };
 
 /// By its name; what has none of the suffixes is SVG.
-bool isAsset(const std::string& output) { return std::filesystem::path(output).extension() == ".vtm"; }
+bool isAsset(const std::string& output) { return suffixOf(output) == ".vtm"; }
 
 std::vector<std::uint8_t> svgOf(const scene::Scene& scene) {
     const std::string text = svg::write(scene);

@@ -364,9 +364,11 @@ class Trace(Command):
 
     def test_asset_draws_what_was_traced(self):
         self.require_potrace()
-        self.vtm("trace", "in.png", "-o", "out.vtm", "--colors", "2", "--speckle", "0", "--smooth", "0")
-        self.vtm("render", "out.vtm", "-o", "out.png", "--engine", "asset")
-        self.assertEqual(self.picture("out.png").getpixel((25, 20)), (200, 30, 40, 255))
+        for name in ("out.vtm", "OUT.VTM"):
+            self.vtm("trace", "in.png", "-o", name, "--colors", "2", "--speckle", "0", "--smooth", "0")
+            self.assertTrue((self.folder / name).read_bytes().startswith(b"VTM"))
+            self.vtm("render", name, "-o", "out.png", "--engine", "asset")
+            self.assertEqual(self.picture("out.png").getpixel((25, 20)), (200, 30, 40, 255))
 
     def test_bad_input_and_usage(self):
         self.require_potrace()

@@ -23,6 +23,11 @@ class Suffixes(Command):
         self.assertIn("b.jpg", self.vtm("render", "--batch", batch, expect=2).stderr)
         self.assertFalse((self.folder / "b.png").exists())
 
+    def test_empty_names_are_errors(self):
+        for arguments, code in ((("render", self.svg, "-o", ""), 2), (("compile", self.svg, "-o", ""), 2),
+                                (("info", ""), 1)):
+            self.assertNotIn("filesystem error", self.vtm(*arguments, expect=code).stderr)
+
     def test_upper_case_and_none_are_taken(self):
         for name in ("a.PNG", "picture"):
             self.vtm("render", self.svg, "-o", name)
