@@ -19,6 +19,9 @@ class FormatError : public std::runtime_error {
 
 std::vector<std::uint8_t> write(const AssetView& asset);
 
+/// Whether they begin as a `.vtm` file does, whole or not.
+bool isContainer(std::span<const std::uint8_t> bytes);
+
 /// Reads and validates hostile bytes: whatever they are, a valid asset or a FormatError. Copies every
 /// record; asset/mapped_asset.hpp copies none.
 Asset read(std::span<const std::uint8_t> bytes);

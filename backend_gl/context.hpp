@@ -23,6 +23,17 @@ class ContextLost : public GlError {
     using GlError::GlError;
 };
 
+/// What EGL has to offer.
+enum class Driver {
+    None,       ///< no device: every Context would fail
+    Software,   ///< shaders run on the CPU
+    PerhapsGpu  ///< a context will tell
+};
+
+/// From EGL's list of devices, in a millisecond or two and without a context, which takes Mesa's software
+/// driver some fifty. LIBGL_ALWAYS_SOFTWARE is respected.
+Driver likelyDriver();
+
 class Context;
 
 struct ContextOptions {
@@ -47,6 +58,7 @@ public:
 
     const std::string& renderer() const;  ///< GL_RENDERER
     const std::string& version() const;   ///< GL_VERSION
+    bool isSoftware() const;              ///< shaders run on the CPU, as far as GL_RENDERER is known
 
 private:
     struct Impl;

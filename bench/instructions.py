@@ -5,8 +5,8 @@ instructions.py PROGRAM KEY [--record] [--only NAME]: bench_encode on some drawi
 than BAND away from bench/instructions.json, either way: a number that has become too kind would hide the next loss.
 instructions.py PROGRAM KEY --self-test: a program that does its work twice, and a lowered number, must both fail.
 
-KEY names compiler and flags, which numbers depend on. Exit code 77, skipped: valgrind is absent, or nothing is recorded
-for the key. Counted are instructions inside compiler::compile, on one processor, so that no scheduling counts.
+KEY names compiler and flags, which numbers depend on. Exit code 77, skipped: valgrind is absent or cannot start (it needs
+/proc), or nothing is recorded for the key. Counted are instructions inside compiler::compile, on one processor, so that no scheduling counts.
 """
 import argparse
 import json
@@ -29,6 +29,17 @@ def drawings():
     files = [ROOT / "examples" / f"{name}.svg" for name in ("lighthouse", "rose_window", "gauge")]
     files.append(shared / "corpus" / "tiger.svg")
     return files
+
+
+def why_not():
+    """What keeps valgrind from running any program at all, or None."""
+    if not shutil.which("valgrind"):
+        return "valgrind is not installed"
+    run = subprocess.run(["valgrind", "--tool=none", "true"], capture_output=True, text=True)
+    if run.returncode == 0:
+        return None
+    lines = run.stderr.splitlines() or [f"exit code {run.returncode}"]
+    return f"valgrind cannot start: {next((line for line in lines if 'FATAL' in line), lines[-1])}"
 
 
 def one_processor():
@@ -91,8 +102,9 @@ def main():
     parser.add_argument("--self-test", action="store_true")
     parser.add_argument("--only", help="this drawing")
     a = parser.parse_args()
-    if not shutil.which("valgrind"):
-        print("skipped: valgrind is not installed")
+    obstacle = why_not()
+    if obstacle:
+        print(f"skipped: {obstacle}")
         return SKIPPED
     if not a.record and not a.self_test and a.key not in recorded_numbers():
         print(f"skipped: nothing is recorded for '{a.key}'")

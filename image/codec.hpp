@@ -25,8 +25,27 @@ Bitmap decode(std::span<const std::uint8_t> bytes);
 
 std::vector<std::uint8_t> encodePng(const Bitmap& bitmap);
 
-/// Whole files. Errors name the path.
+/// A file, or what a pipe or device gives until it ends, at most maxStreamBytes of that. Errors name the
+/// path.
 std::vector<std::uint8_t> readFile(const std::string& path);
+/// The same of an open descriptor, which `name` stands for in errors.
+std::vector<std::uint8_t> readStream(int descriptor, const std::string& name);
+inline constexpr std::size_t maxStreamBytes = 256u << 20;  ///< as long as an SVG file may be
+
+/// Writes a regular file whole or not at all: into a new file beside it (".vtm-tmp-PID-N"), which is flushed
+/// to the disk and then takes its place. After an error, or however the process ends, the file is what it was
+/// or what it should become. Permissions are kept, owner and group where that is allowed; a new file has 0666
+/// less the umask. Symbolic links are followed and stay. Other hard links keep the old content. What is no
+/// regular file (devices, pipes) is written through. The folder must be writable: a file that could only be
+/// overwritten in place is an error. Errors name the path. Where files may be too large for the process,
+/// ignore SIGXFSZ to get an error.
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
+
+/// All of them into an open descriptor; 0, or errno.
+[[nodiscard]] int writeStream(int descriptor, std::span<const std::uint8_t> bytes) noexcept;
+
+/// Removes the new files of writeFile calls that have not ended, which then fail. For handlers of signals
+/// that end the process: async-signal-safe.
+void removeTemporaries() noexcept;
 
 }  // namespace vtm::image

@@ -32,8 +32,18 @@ private:
 /// Something that was left out or repaired; names the element, and the attribute or property if its value is
 /// not one of its own. The picture is drawn without it.
 struct Warning {
+    enum class Kind {
+        Text,       ///< not drawn yet; one warning for all of a document and its images, at the first
+        Filter,     ///< the same of elements with filters, which are drawn without
+        Element,    ///< another element that is not drawn
+        Value,      ///< an attribute, a property or path data that cannot be read or drawn
+        Reference,  ///< to nothing, to the wrong thing, in a circle; an image that cannot be drawn
+        Limit       ///< what is beyond a limit of the importer
+    };
+    Kind kind = Kind::Element;
     Location where;
     std::string message;
+    std::size_t count = 1;  ///< places that it speaks of
 };
 
 struct Options {

@@ -66,6 +66,7 @@ LIBRARIES = {
     r"Q[A-Z]\w+": {"bench"},
     r"potracelib\.h": {"trace"},
     r"emmintrin\.h": {"asset", "compiler"},
+    r"linux/magic\.h": {"image"},
     r"fnmatch\.h": {"conformance/runner"},
     r"unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }

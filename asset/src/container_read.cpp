@@ -1,5 +1,6 @@
 #include "asset/src/container_read.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
 
@@ -170,6 +171,11 @@ Asset read(Bytes bytes) {
     asset.images = std::move(contents.images);
     asset.materials = std::move(contents.materials);
     return asset;
+}
+
+bool isContainer(Bytes bytes) {
+    return bytes.size() >= telltaleBytes &&
+           std::equal(fileMagic.begin(), fileMagic.begin() + telltaleBytes, bytes.begin());
 }
 
 std::vector<SectionInfo> sectionsOf(Bytes bytes) {

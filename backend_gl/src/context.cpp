@@ -10,6 +10,8 @@
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 
+#include "backend_gl/src/requirements.hpp"
+
 namespace vtm::gl {
 
 namespace {
@@ -39,20 +41,27 @@ bool softwareWanted() {
            std::string_view(value) != "false";
 }
 
-/// EGL's devices, software ones left out.
-std::vector<EGLDeviceEXT> hardwareDevices() {
+/// Nothing where EGL cannot list them.
+std::optional<std::vector<EGLDeviceEXT>> devices() {
     const auto query = extensionFunction<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    const auto text = extensionFunction<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
     constexpr EGLint most = 32;
-    std::vector<EGLDeviceEXT> devices(most);
+    std::vector<EGLDeviceEXT> list(most);
     EGLint count = 0;
-    if (query == nullptr || text == nullptr || !query(most, devices.data(), &count))
-        return {};
-    devices.resize(std::size_t(count));
-    std::erase_if(devices, [&](EGLDeviceEXT device) {
-        return listed(text(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
-    });
-    return devices;
+    if (query == nullptr || !query(most, list.data(), &count))
+        return std::nullopt;
+    list.resize(std::size_t(count));
+    return list;
+}
+
+bool isSoftwareDevice(EGLDeviceEXT device) {
+    const auto text = extensionFunction<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    return text != nullptr && listed(text(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
+std::vector<EGLDeviceEXT> hardwareDevices() {
+    std::vector<EGLDeviceEXT> list = devices().value_or(std::vector<EGLDeviceEXT>());
+    std::erase_if(list, isSoftwareDevice);
+    return list;
 }
 
 /// Best first. EGL_PLATFORM, read by EGL itself, decides alone where it is set.
@@ -70,6 +79,15 @@ std::vector<EGLDisplay> candidateDisplays() {
 }
 
 }  // namespace
+
+Driver likelyDriver() {
+    const auto all = devices();
+    if (!all)
+        return Driver::PerhapsGpu;
+    if (all->empty())
+        return Driver::None;
+    return softwareWanted() || hardwareDevices().empty() ? Driver::Software : Driver::PerhapsGpu;
+}
 
 struct Context::Impl {
     EGLDisplay display = EGL_NO_DISPLAY;
@@ -166,5 +184,6 @@ void Context::makeCurrent() const {
 
 const std::string& Context::renderer() const { return impl_->renderer; }
 const std::string& Context::version() const { return impl_->version; }
+bool Context::isSoftware() const { return runsOnCpu(impl_->renderer); }
 
 }  // namespace vtm::gl

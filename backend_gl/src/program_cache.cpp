@@ -1,7 +1,5 @@
 #include "backend_gl/src/program_cache.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -11,6 +9,8 @@
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "image/codec.hpp"
 
 namespace vtm::gl {
 
@@ -110,20 +110,16 @@ void ProgramCache::store(std::string_view text, const ProgramHandle& program) co
     header.checksum = hash(binary);
     header.format = format;
 
+    std::vector<std::uint8_t> file(sizeof(header) + binary.size());
+    std::memcpy(file.data(), &header, sizeof(header));
+    std::memcpy(file.data() + sizeof(header), binary.data(), binary.size());
     std::error_code ignored;
     fs::create_directories(directory_, ignored);
-    const std::string path = pathOf(text), beside = fmt::format("{}.{}", path, getpid());
-    {
-        std::ofstream file(beside, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(&header), sizeof(header));
-        file.write(binary.data(), std::streamsize(binary.size()));
-        file.close();
-        if (!file) {
-            fs::remove(beside, ignored);
-            return;
-        }
+    try {
+        image::writeFile(pathOf(text), file);
+    } catch (const image::CodecError&) {
+        // The program is compiled again next time.
     }
-    fs::rename(beside, path, ignored);
 }
 
 }  // namespace vtm::gl

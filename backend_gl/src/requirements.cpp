@@ -48,10 +48,12 @@ void requireContext() {
 
 bool isSoftwareDriver() {
     const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    if (name == nullptr)
-        return false;
+    return name != nullptr && runsOnCpu(name);
+}
+
+bool runsOnCpu(std::string_view renderer) {
     return std::ranges::any_of(softwareDrivers, [&](std::string_view driver) {
-        return std::string_view(name).find(driver) != std::string_view::npos;
+        return renderer.find(driver) != std::string_view::npos;
     });
 }
 

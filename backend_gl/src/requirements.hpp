@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 #include "backend_gl/src/gl.hpp"
 
@@ -15,7 +16,8 @@ void requireContext();
 /// nothing.
 std::function<unsigned()> driversResetStatus();
 
-/// Whether the driver's "GPU" is this machine's CPU.
+/// Whether the driver's "GPU" is this machine's CPU: of the current context, or by its GL_RENDERER.
 bool isSoftwareDriver();
+bool runsOnCpu(std::string_view renderer);
 
 }  // namespace vtm::gl

@@ -1,11 +1,13 @@
 // vtm-bench [REPORT...] [OPTIONS]: docs/benchmarks.md.
 
+#include <sys/auxv.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -67,10 +69,8 @@ struct Arguments {
 Arguments parse(int argc, char** argv) {
     Arguments a;
     Options& o = a.options;
-    o.program = "/proc/self/exe";
-    char path[4096];
-    if (const ssize_t length = readlink("/proc/self/exe", path, sizeof path); length > 0)
-        o.program.assign(path, std::size_t(length));
+    // As the kernel was asked for it: /proc/self/exe is not everywhere.
+    o.program = std::filesystem::absolute(reinterpret_cast<const char*>(getauxval(AT_EXECFN))).string();
     if (const char* folder = std::getenv("VTM_BENCH_NODE"))
         o.nodeModules = folder;
     for (int i = 1; i < argc; ++i) {

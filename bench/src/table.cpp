@@ -1,11 +1,9 @@
 #include "bench/src/table.hpp"
 
-#include <fstream>
-#include <stdexcept>
-
 #include <fmt/core.h>
 
 #include "bench/src/machine.hpp"
+#include "image/codec.hpp"
 
 namespace vtm::bench {
 namespace {
@@ -42,10 +40,7 @@ std::string markdown(const Report& report) {
 }
 
 void writeText(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream file(path);
-    file << text;
-    if (!file.flush())
-        throw std::runtime_error(path.string() + ": cannot be written");
+    image::writeFile(path.string(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace

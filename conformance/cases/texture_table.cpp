@@ -6,7 +6,6 @@
 #include <cmath>
 #include <ctime>
 #include <exception>
-#include <fstream>
 #include <functional>
 
 #include <fmt/core.h>
@@ -16,6 +15,7 @@
 #include "conformance/cases/measure.hpp"
 #include "conformance/cases/texture_views.hpp"
 #include "conformance/compare/compare.hpp"
+#include "image/codec.hpp"
 
 namespace {
 
@@ -88,23 +88,23 @@ void printRow(const CorpusFile& file, Gl& gl) {
 double rounded(double v) { return std::round(v * 1e4) / 1e4; }
 
 void writeZoom(const std::string& path, const std::vector<CorpusFile>& files, Gl& gl) {
-    std::ofstream out(path);
-    out << "{\"rows\": [";
+    std::string text = "{\"rows\": [";
     const char* separator = "\n";
     for (const CorpusFile& file : files) {
         Case picture(file.name, gl);
         for (const ZoomFrame& frame : zoomed(
                  picture.size(), [&](const asset::View& view) { return picture.texture.draw(view); },
                  [&](const asset::View& view) { return picture.exact(view); })) {
-            out << separator
-                << nlohmann::json{{"file", file.name},
-                                  {"px", rounded(frame.pixels)},
-                                  {"error", rounded(frame.error)},
-                                  {"change", rounded(frame.change)}};
+            const nlohmann::json row = {{"file", file.name},
+                                        {"px", rounded(frame.pixels)},
+                                        {"error", rounded(frame.error)},
+                                        {"change", rounded(frame.change)}};
+            text += separator + row.dump();
             separator = ",\n";
         }
     }
-    out << "\n]}\n";
+    text += "\n]}\n";
+    image::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 /// How far two pictures are apart.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "image/bitmap.hpp"
@@ -30,5 +32,7 @@ image::Bitmap differencePicture(const image::Raster& a, const image::Raster& b, 
 /// path, where the file cannot be read, is no PNG, is a 16-bit one without RGBA, or has more pixels
 /// than image::maxDecodedPixels.
 image::Raster readPng(const std::string& path);
+/// The same of a file that was read; `name` stands for it in errors.
+image::Raster readPng(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace vtm::compare

@@ -146,7 +146,8 @@ void cascade(Tree& tree, Reporter& reporter) {
         if (element.tag != Tag::CharacterData)
             addAll(element, index.match(element, steps), tree, reporter);
     if (steps <= 0)
-        reporter.warn(*tree.root, "the style sheets are too expensive to match; some rules are left out");
+        reporter.warn(Warning::Kind::Limit, *tree.root,
+                      "the style sheets are too expensive to match; some rules are left out");
 }
 
 }  // namespace vtm::svg

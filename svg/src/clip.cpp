@@ -25,7 +25,7 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
                                                    const Box& box) {
     const Expansion expansion(active_, clipPath);
     if (!expansion || !spend()) {
-        reporter_.warn(clipPath, "refers to itself in a circle");
+        reporter_.warn(Kind::Reference, clipPath, "refers to itself in a circle");
         return nullptr;
     }
     Scope inner = scope;
@@ -47,7 +47,7 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
 
 void Converter::addClipChild(const Element& child, const Scope& parent, scene::Clip& clip) {
     if (child.tag == Tag::Text)
-        reporter_.warn(child, "is not supported in a clipPath yet; it is left out");
+        reporter_.warn(Kind::Text, child, "is not supported in a clipPath yet; it is left out");
     if (isShape(child.tag))
         addClipShape(child, parent, nullptr, clip);
     if (child.tag != Tag::Use)

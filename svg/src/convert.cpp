@@ -89,13 +89,15 @@ void Converter::convertContent(const Element& element, const Scope& scope, Nodes
 }
 
 void Converter::warnUnsupported(const Element& element) {
-    reporter_.warn(element, element.tag == Tag::Unknown ? "is not an SVG element; it is left out"
-                                                        : "is not supported yet; it is left out");
+    const Kind kind = element.tag == Tag::Text ? Kind::Text : Kind::Element;
+    reporter_.warn(kind, element,
+                   element.tag == Tag::Unknown ? "is not an SVG element; it is left out"
+                                               : "is not supported yet; it is left out");
 }
 
 bool Converter::spend(std::size_t visits) {
     if (budget_.visits < visits) {
-        reporter_.warn(*tree_.root,
+        reporter_.warn(Kind::Limit, *tree_.root,
                        fmt::format("more than {} elements to draw; the rest is left out", Limits::maxNodes));
         budget_.visits = 0;
         return false;
@@ -113,7 +115,7 @@ bool Converter::passesConditions(const Element& element) const {
 
 std::optional<Scope> Converter::enter(const Element& element, const Scope& parent) {
     if (parent.depth >= Limits::maxDepth) {
-        reporter_.warn(element, "elements are nested too deep here; it is left out");
+        reporter_.warn(Kind::Limit, element, "elements are nested too deep here; it is left out");
         return std::nullopt;
     }
     if (!passesConditions(element))
@@ -131,7 +133,7 @@ std::optional<Scope> Converter::enter(const Element& element, const Scope& paren
         scope.transform = scene::compose(scope.transform, shift);
     }
     if (!scene::inverse(scope.transform)) {
-        reporter_.warn(element, "the transform flattens it; it is left out");
+        reporter_.warn(Kind::Value, element, "the transform flattens it; it is left out");
         return std::nullopt;
     }
     return scope;

@@ -203,6 +203,7 @@ private:
     Box outlineBox(std::size_t first, const scene::Affine& userToPicture) const;
 
     const Tree& tree_;
+    using Kind = Warning::Kind;
     Reporter& reporter_;
     const Options& options_;
     Budget& budget_;

@@ -31,7 +31,12 @@ Bytes readResource(std::string_view href, const std::string& directory) {
     const std::string path = percentDecoded(href.substr(0, href.find_first_of("#?")));
     if (path.empty() || directory.empty() || path.find(':') != path.npos || path.front() == '/')
         throw image::CodecError("is not a file that may be read");
-    return image::readFile((std::filesystem::path(directory) / path).string());
+    const std::filesystem::path file = std::filesystem::path(directory) / path;
+    std::error_code none;
+    // Reading a pipe or a device may never end.
+    if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))
+        throw image::CodecError("is no regular file");
+    return image::readFile(file.string());
 }
 
 }  // namespace
@@ -50,7 +55,7 @@ struct Converter::NestedDocument {
 void Converter::convertImage(const Element& element, const Scope& scope, Nodes& out) {
     const auto href = hrefOf(element);
     if (!href || href->empty()) {
-        reporter_.warn(element, "has no href");
+        reporter_.warn(Kind::Reference, element, "has no href");
         return;
     }
     const ImageContent content = imageContent(*href, element);
@@ -93,7 +98,7 @@ Converter::ImageContent Converter::imageContent(std::string_view href, const Ele
         content = loadImage(href);
     } catch (const std::runtime_error& error) {
         const bool data = isDataUrl(href);
-        reporter_.warn(element,
+        reporter_.warn(Kind::Reference, element,
                        fmt::format("the image {}cannot be drawn: {}",
                                    data ? "" : fmt::format("\"{}\" ", href.substr(0, 200)), error.what()));
     }

@@ -75,7 +75,7 @@ Converter::ServerResult Converter::server(std::string_view href, const Element& 
         return gradient(*server, scope, box);
     if (tag == Tag::Pattern)
         return pattern(*server, scope, box);
-    reporter_.warn(element, fmt::format("\"{}\" is not a paint server", href));
+    reporter_.warn(Kind::Reference, element, fmt::format("\"{}\" is not a paint server", href));
     return Invalid{};
 }
 
@@ -87,7 +87,7 @@ std::vector<const Element*> Converter::templateChain(const Element& server) {
         const bool fits = isPattern ? next->tag == Tag::Pattern
                                     : next->tag == Tag::LinearGradient || next->tag == Tag::RadialGradient;
         if (!fits || !seen.insert(next).second) {
-            reporter_.warn(server,
+            reporter_.warn(Kind::Reference, server,
                            fits ? "refers to itself in a circle" : "refers to an element of another kind");
             break;
         }
@@ -95,7 +95,8 @@ std::vector<const Element*> Converter::templateChain(const Element& server) {
         const auto href = hrefOf(*next);
         next = href ? tree_.byHref(*href) : nullptr;
         if (href && !next)
-            reporter_.warn(server, fmt::format("refers to \"{}\", which is not here", *href));
+            reporter_.warn(Kind::Reference, server,
+                           fmt::format("refers to \"{}\", which is not here", *href));
     }
     return chain;
 }

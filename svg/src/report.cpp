@@ -8,6 +8,12 @@
 
 namespace vtm::svg {
 
+namespace {
+
+constexpr const char* moreAreLeftOut = "more warnings are left out";
+
+}  // namespace
+
 ParseError::ParseError(Location where, const std::string& what)
     : std::runtime_error(fmt::format("{}:{}:{}: {}", where.file, where.line, where.column, what)),
       where_(std::move(where)) {}
@@ -47,18 +53,35 @@ std::string quoted(std::string_view text) {
 }
 
 void Reporter::warnInvalid(const Element& element, std::string_view attribute, std::string_view value) {
-    warn(element, fmt::format("{}={} is not valid; it is ignored", attribute, quoted(value)));
+    warn(Warning::Kind::Value, element,
+         fmt::format("{}={} is not valid; it is ignored", attribute, quoted(value)));
 }
 
-void Reporter::warn(const Element& element, const std::string& what) {
-    if (warnings_.size() >= maxWarnings)
-        return;
+bool Reporter::wasSeen(const Element& element, const std::string& message) {
+    return !seen_.insert(fmt::format("{} {}", element.offset, message)).second;
+}
+
+bool Reporter::isFull() const { return !warnings_.empty() && warnings_.back().message == moreAreLeftOut; }
+
+void Reporter::warn(Warning::Kind kind, const Element& element, const std::string& what) {
     const std::string message = fmt::format("<{}>: {}", element.name, what);
-    if (!seen_.insert(fmt::format("{} {}", element.offset, message)).second)
+    const bool counted = kind == Warning::Kind::Text || kind == Warning::Kind::Filter;
+    if ((!counted && isFull()) || wasSeen(element, message))
         return;
-    warnings_.push_back({map_.at(element.offset), message});
-    if (warnings_.size() == maxWarnings)
-        warnings_.back().message = "more warnings are left out";
+    if (counted)
+        return count({kind, map_.at(element.offset), message});
+    warnings_.push_back({kind, map_.at(element.offset), message});
+    if (warnings_.size() >= maxWarnings)
+        warnings_.back() = {Warning::Kind::Limit, warnings_.back().where, moreAreLeftOut};
+}
+
+void Reporter::count(Warning warning) {
+    // At the front, for the last one says whether there are too many.
+    const auto found = std::ranges::find(warnings_, warning.kind, &Warning::kind);
+    if (found == warnings_.end())
+        warnings_.insert(warnings_.begin(), std::move(warning));
+    else
+        ++found->count;
 }
 
 }  // namespace vtm::svg

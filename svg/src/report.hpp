@@ -41,7 +41,8 @@ private:
 /// `"text"` on one line, cut short if it is long.
 std::string quoted(std::string_view text);
 
-/// Collects warnings, each once a place, up to a limit.
+/// Collects warnings, each once a place, up to a limit. Text and filters are counted in one warning each,
+/// before all others.
 class Reporter {
 public:
     static constexpr std::size_t maxWarnings = 1000;
@@ -49,12 +50,17 @@ public:
     Reporter(const SourceMap& map, std::vector<Warning>& warnings) : map_(map), warnings_(warnings) {}
 
     /// `<name>: what`
-    void warn(const Element& element, const std::string& what);
+    void warn(Warning::Kind kind, const Element& element, const std::string& what);
     /// `<name>: attribute="value" is not valid; it is ignored`
     void warnInvalid(const Element& element, std::string_view attribute, std::string_view value);
     std::vector<Warning>& warnings() const { return warnings_; }
 
 private:
+    bool wasSeen(const Element& element, const std::string& message);
+    bool isFull() const;
+    /// In the warning of its kind, if there is one.
+    void count(Warning warning);
+
     const SourceMap& map_;
     std::vector<Warning>& warnings_;
     std::unordered_set<std::string> seen_;

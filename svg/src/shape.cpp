@@ -18,9 +18,9 @@ Converter::CachedShape* Converter::shapeOf(const Element& element, const Scope& 
     if (!fresh) {
         Shape shape = makeShape(lengths(element, scope));
         if (!shape.problem.empty())
-            reporter_.warn(element, shape.problem);
+            reporter_.warn(Kind::Value, element, shape.problem);
         if (!isDrawable(shape.path, scene::identity)) {
-            reporter_.warn(element, "a coordinate is too large; it is left out");
+            reporter_.warn(Kind::Limit, element, "a coordinate is too large; it is left out");
             shape.path.clear();
         }
         cached = {scope.viewport,
@@ -43,7 +43,7 @@ void Converter::convertShape(const Element& element, const Scope& scope, Nodes& 
     if (!shape)
         return;
     if (!isWithinReach(mapBox(scope.transform, boxOf(*shape)))) {
-        reporter_.warn(element, "lies too far away; it is left out");
+        reporter_.warn(Kind::Limit, element, "lies too far away; it is left out");
         return;
     }
     if (outlineListeners_ > 0)

@@ -77,11 +77,11 @@ void Converter::fillBackground(const Scope& scope, const Rect& canvas, Nodes& ou
 void Converter::convertViewport(const Element& element, const Rect& viewport, const Scope& scope,
                                 Nodes& out) {
     if (!(viewport.width > 0 && viewport.height > 0)) {
-        reporter_.warn(element, "width and height must be positive; it is left out");
+        reporter_.warn(Kind::Value, element, "width and height must be positive; it is left out");
         return;
     }
     if (isEmptyViewBox(element.get("viewBox"))) {
-        reporter_.warn(element,
+        reporter_.warn(Kind::Value, element,
                        "viewBox=" + quoted(element.get("viewBox")) + " is empty; nothing of it is drawn");
         return;
     }
@@ -124,13 +124,14 @@ void Converter::convertUse(const Element& element, const Scope& scope, Nodes& ou
     const std::string_view href = hrefOf(element).value_or(std::string_view{});
     const Element* target = tree_.byHref(href);
     if (!target) {
-        reporter_.warn(element, href.empty() ? "refers to nothing"
-                                             : "refers to \"" + std::string(href) + "\", which is not here");
+        reporter_.warn(Kind::Reference, element,
+                       href.empty() ? "refers to nothing"
+                                    : "refers to \"" + std::string(href) + "\", which is not here");
         return;
     }
     const Expansion expansion(active_, *target);
     if (!expansion || isAncestorOf(*target, element)) {
-        reporter_.warn(element, "refers to itself in a circle; it is left out");
+        reporter_.warn(Kind::Reference, element, "refers to itself in a circle; it is left out");
         return;
     }
     const ContextElement context{element, scope, {}};

@@ -1,6 +1,9 @@
 #include "image/codec.hpp"
 
+#include <filesystem>
 #include <fstream>
+
+#include <sys/stat.h>
 
 #include "svg/src/data_url.hpp"
 #include "svg/src/path_geometry.hpp"
@@ -134,6 +137,12 @@ TEST_F(ImageFiles, AreNotReadByAbsolutePaths) {
     EXPECT_TRUE(itemsOf(load("<image href='" + (folder_ / "a b.svg").string() + "'/>")).empty());
     EXPECT_TRUE(itemsOf(load("<image href='file://" + (folder_ / "a b.svg").string() + "'/>")).empty());
 }
+TEST_F(ImageFiles, PipesAndDevicesAreWarnings) {
+    ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    std::filesystem::create_symlink("/dev/zero", folder_ / "zeros");
+    EXPECT_EQ(load("<image href='pipe'/><image href='zeros'/>").warnings.size(), 2u);
+}
+
 TEST_F(ImageFiles, DirectoriesAndMissingFilesAreWarnings) {
     EXPECT_EQ(load("<image href='.'/><image href='none.png'/>").warnings.size(), 2u);
 }

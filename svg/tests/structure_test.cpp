@@ -173,6 +173,20 @@ TEST(Unsupported, TextIsNamed) {
     EXPECT_NE(loaded.warnings[0].message.find("<text>"), std::string::npos);
     EXPECT_NE(loaded.warnings[1].message.find("<foreignObject>"), std::string::npos);
 }
+TEST(Unsupported, TextAndFiltersAreCountedOnce) {
+    const Document loaded = loadBody(
+        "<filter id='f'/><text id='t' y='9'>a</text><use href='#t'/><g filter='url(#f) "
+        "blur(2px)'><text>b</text>"
+        "</g><clipPath id='c'><text>c</text></clipPath><rect width='1' height='1' clip-path='url(#c)'/>"
+        "<rect width='1' height='1' filter='url(#f)'/><foreignObject/>");
+    ASSERT_EQ(loaded.warnings.size(), 3u);
+    EXPECT_EQ(loaded.warnings[0].kind, Warning::Kind::Filter);
+    EXPECT_EQ(loaded.warnings[0].count, 2u);
+    EXPECT_EQ(loaded.warnings[1].kind, Warning::Kind::Text);
+    EXPECT_EQ(loaded.warnings[1].count, 3u);
+    EXPECT_EQ(loaded.warnings[2].kind, Warning::Kind::Element);
+    EXPECT_EQ(loaded.warnings[2].count, 1u);
+}
 TEST(Unsupported, FilteredElementsAreDrawnWithout) {
     const Document loaded = loadBody("<filter id='f'/><rect width='1' height='1' filter='url(#f)'/>");
     EXPECT_EQ(itemsOf(loaded).size(), 1u);

@@ -1,12 +1,11 @@
 #include <memory>
 
-#include <fmt/core.h>
-
 #include "asset/container.hpp"
 #include "asset/prefilter.hpp"
-#include "image/codec.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/output.hpp"
 #include "tools/src/source.hpp"
+#include "tools/src/standard_output.hpp"
 
 namespace vtm::tools {
 
@@ -21,14 +20,18 @@ struct CompileOptions {
 int compile(const CompileOptions& options) {
     if (options.source.paper)
         throw UsageError("compile: a .vtm file holds no paper mode; see render and info --mode paper");
+    requireSuffix(options.output, {".vtm"});
+    if (options.json)
+        refuseMixture(options.output, "the figures of --json");
+    refuseLoss({options.input}, {options.output});
     try {
-        Source source = loadSource(options.input, options.source);
+        Source source = loadSource(readInput(options.input), options.source);
         if (options.prefilter)
             source.asset->prefilter =
                 timed(source.stages, "prefilter", [&] { return asset::buildPrefilter(*source.asset); });
         const std::size_t fileBytes = timed(source.stages, "write", [&] {
             const auto bytes = asset::write(*source.asset);
-            image::writeFile(options.output, bytes);
+            writeOutput(options.output, bytes);
             return bytes.size();
         });
         Json report = {{"input", options.input}, {"output", options.output}, {"file_bytes", fileBytes}};
@@ -36,9 +39,9 @@ int compile(const CompileOptions& options) {
         report.update(source.proof);
         report["stages_ms"] = toJson(source.stages);
         if (options.json)
-            fmt::print("{}\n", report.dump(2));
+            print(jsonText(report));
     } catch (...) {
-        fmt::print(stderr, "{}\n", describeError(options.input));
+        say(describeError(nameOf(options.input)));
         return badInput;
     }
     return done;
@@ -49,8 +52,9 @@ int compile(const CompileOptions& options) {
 void addCompile(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<CompileOptions>();
     CLI::App* command = app.add_subcommand("compile", "Make a .vtm file of an SVG file");
-    command->add_option("IN", options->input, "SVG file")->required();
-    command->add_option("-o,--output", options->output, "The .vtm file")->required();
+    command->add_option("IN", options->input, "SVG file, or - for standard input")->required();
+    command->add_option("-o,--output", options->output, "The .vtm file, or - for standard output")
+        ->required();
     command->add_flag("--prefilter", options->prefilter,
                       "Add a pyramid of means for textures that are seen from afar");
     command->add_flag("--json", options->json, "Print figures and times");

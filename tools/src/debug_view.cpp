@@ -235,7 +235,7 @@ void prepare(Source& source, DebugView view) {
     if (view == DebugView::None)
         return;
     if (!source.asset || source.asset->mode != asset::Mode::Exact)
-        throw UsageError("--debug-view: shows exact pictures that are drawn by --engine gl or asset");
+        throw UsageError("--debug-view: shows exact pictures that are drawn from their assets");
     if (view == DebugView::Fallback && !source.unproven)
         throw UsageError("--debug-view fallback: wants an SVG file; a compiled one does not say where");
     if (view == DebugView::Depth)

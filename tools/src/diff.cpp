@@ -1,11 +1,14 @@
 #include <memory>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "conformance/compare/compare.hpp"
 #include "image/codec.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/input.hpp"
+#include "tools/src/output.hpp"
 #include "tools/src/report.hpp"
+#include "tools/src/standard_output.hpp"
 
 namespace vtm::tools {
 
@@ -23,29 +26,36 @@ Json report(const compare::Difference& difference) {
             {"worst_y", difference.worstY}};
 }
 
+image::Raster readPicture(const std::string& path) {
+    const Input input = readInput(path);
+    return compare::readPng(input.bytes, input.name);
+}
+
 void writePicture(const image::Raster& a, const image::Raster& b, const std::string& path) {
-    image::writeFile(path, image::encodePng(compare::differencePicture(a, b)));
+    writeOutput(path, image::encodePng(compare::differencePicture(a, b)));
 }
 
 int diff(const DiffOptions& options) {
-    std::string reading = options.first;
+    if (!options.output.empty()) {
+        requireSuffix(options.output, {".png"});
+        refuseMixture(options.output, "the figures");
+        refuseLoss({options.first, options.second}, {options.output});
+    }
+    std::string reading = nameOf(options.first);
     try {
-        const image::Raster a = compare::readPng(options.first);
-        reading = options.second;
-        const image::Raster b = compare::readPng(options.second);
+        const image::Raster a = readPicture(options.first);
+        reading = nameOf(options.second);
+        const image::Raster b = readPicture(options.second);
         if (a.width != b.width || a.height != b.height)
             throw std::invalid_argument(fmt::format("is {} x {} pixels, {} is {} x {}", b.width, b.height,
                                                     options.first, a.width, a.height));
         const Json figures = report(compare::compare(a, b, options.threshold));
-        if (options.json)
-            fmt::print("{}\n", figures.dump(2));
-        else
-            printText(figures);
         reading = options.output;
         if (!options.output.empty())
             writePicture(a, b, options.output);
+        print(options.json ? jsonText(figures) : toText(figures));
     } catch (...) {
-        fmt::print(stderr, "{}\n", describeError(reading));
+        say(describeError(reading));
         return badInput;
     }
     return done;
@@ -57,8 +67,8 @@ void addDiff(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<DiffOptions>();
     CLI::App* command =
         app.add_subcommand("diff", "Say how far two PNG files are apart, in 1/255 of a channel");
-    command->add_option("A", options->first, "PNG file")->required();
-    command->add_option("B", options->second, "PNG file")->required();
+    command->add_option("A", options->first, "PNG file, or - for standard input")->required();
+    command->add_option("B", options->second, "PNG file, or -")->required();
     command->add_option("-o,--output", options->output, "Write the differences as a picture");
     command->add_option("--threshold", options->threshold, "'over' counts pixels beyond this")
         ->capture_default_str();

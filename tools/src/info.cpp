@@ -1,12 +1,11 @@
-#include <filesystem>
 #include <memory>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "asset/container.hpp"
-#include "image/codec.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/source.hpp"
+#include "tools/src/standard_output.hpp"
 
 namespace vtm::tools {
 
@@ -20,10 +19,8 @@ struct InfoOptions {
 
 /// A file's section table; empty for what is no .vtm file. It is read before the asset, so that a
 /// damaged file still shows which of its sections are whole.
-std::vector<asset::SectionInfo> sectionsOf(const std::string& path) {
-    if (std::filesystem::path(path).extension() != ".vtm")
-        return {};
-    return asset::sectionsOf(image::readFile(path));
+std::vector<asset::SectionInfo> sectionsOf(const Input& input) {
+    return input.isAsset() ? asset::sectionsOf(input.bytes) : std::vector<asset::SectionInfo>();
 }
 
 Json listOf(const std::vector<asset::SectionInfo>& sections) {
@@ -39,25 +36,20 @@ Json listOf(const std::vector<asset::SectionInfo>& sections) {
     return list;
 }
 
-void printSections(const std::vector<asset::SectionInfo>& sections) {
-    fmt::print("{:<12}{:>10}{:>12}{:>14}{:>12}  checksum\n", "section", "offset", "bytes", "records",
-               "bytes each");
+std::string textOf(const std::vector<asset::SectionInfo>& sections) {
+    std::string text = fmt::format("{:<12}{:>10}{:>12}{:>14}{:>12}  checksum\n", "section", "offset", "bytes",
+                                   "records", "bytes each");
     for (const asset::SectionInfo& section : sections)
-        fmt::print("{:<12}{:>10}{:>12}{:>14}{:>12}  {:08x} {}\n", section.name, section.offset,
-                   section.bytes(), section.count, section.recordBytes, section.checksum,
-                   section.intact() ? "ok" : fmt::format("DAMAGED: is {:08x}", section.found));
+        text += fmt::format("{:<12}{:>10}{:>12}{:>14}{:>12}  {:08x} {}\n", section.name, section.offset,
+                            section.bytes(), section.count, section.recordBytes, section.checksum,
+                            section.intact() ? "ok" : fmt::format("DAMAGED: is {:08x}", section.found));
+    return text;
 }
 
-void print(Json report, const std::vector<asset::SectionInfo>& sections, bool json) {
-    if (json) {
-        if (!sections.empty())
-            report["sections"] = listOf(sections);
-        fmt::print("{}\n", report.dump(2));
-        return;
-    }
-    printText(report);
-    if (!sections.empty())
-        printSections(sections);
+void printReport(Json report, const std::vector<asset::SectionInfo>& sections, bool json) {
+    if (json && !sections.empty())
+        report["sections"] = listOf(sections);
+    print(json ? jsonText(report) : toText(report) + (sections.empty() ? "" : textOf(sections)));
 }
 
 const char* modeOf(const Source& source) {
@@ -70,19 +62,20 @@ int info(const InfoOptions& options) {
     Json report = {{"input", options.input}};
     std::vector<asset::SectionInfo> sections;
     try {
-        sections = sectionsOf(options.input);
-        const Source source = loadSource(options.input, options.source);
+        Input input = readInput(options.input);
+        sections = sectionsOf(input);
+        const Source source = loadSource(std::move(input), options.source);
         report["width"] = source.width;
         report["height"] = source.height;
         report["mode"] = modeOf(source);
         report.update(source.paper ? figures(*source.paper) : figures(*source.asset));
         report.update(source.proof);
         report["stages_ms"] = toJson(source.stages);
-        print(report, sections, options.json);
+        printReport(report, sections, options.json);
     } catch (...) {
         if (!sections.empty())
-            print(report, sections, options.json);
-        fmt::print(stderr, "{}\n", describeError(options.input));
+            printReport(report, sections, options.json);
+        say(describeError(nameOf(options.input)));
         return badInput;
     }
     return done;
@@ -94,7 +87,7 @@ void addInfo(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
         app.add_subcommand("info", "Say what a file holds, compiled (an SVG is compiled first)");
-    command->add_option("FILE", options->input, "SVG or .vtm file")->required();
+    command->add_option("FILE", options->input, "SVG or .vtm file, or - for standard input")->required();
     command->add_flag("--json", options->json, "As JSON");
     addSourceOptions(*command, options->source);
     command->callback([options, &exitCode] { exitCode = info(*options); });

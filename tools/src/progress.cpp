@@ -1,5 +1,6 @@
 #include "tools/src/progress.hpp"
 
+#include <cstdio>
 #include <string>
 
 #include <fmt/core.h>
@@ -22,13 +23,14 @@ void showProgress(std::size_t finished, std::size_t total) {
     if (!onTerminal() || total < 2)
         return;
     const std::size_t filled = barWidth * finished / total;
-    fmt::print(stderr, "\r[{}{}] {}/{}", std::string(filled, '#'), std::string(barWidth - filled, ' '),
-               finished, total);
+    const std::string bar = fmt::format("\r[{}{}] {}/{}", std::string(filled, '#'),
+                                        std::string(barWidth - filled, ' '), finished, total);
+    std::fputs(bar.c_str(), stderr);
 }
 
 void clearProgress() {
     if (onTerminal())
-        fmt::print(stderr, "\r\x1b[K");
+        std::fputs("\r\x1b[K", stderr);
 }
 
 }  // namespace vtm::tools

@@ -1,9 +1,7 @@
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <set>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "image/codec.hpp"
 #include "tools/src/color.hpp"
@@ -11,8 +9,12 @@
 #include "tools/src/debug_view.hpp"
 #include "tools/src/engine.hpp"
 #include "tools/src/framing.hpp"
+#include "tools/src/jobs.hpp"
+#include "tools/src/left_out.hpp"
+#include "tools/src/output.hpp"
 #include "tools/src/progress.hpp"
 #include "tools/src/source.hpp"
+#include "tools/src/standard_output.hpp"
 
 namespace vtm::tools {
 
@@ -23,71 +25,27 @@ namespace fs = std::filesystem;
 struct RenderOptions {
     std::vector<std::string> inputs;
     std::string output, batch;
-    std::string engine = "gl", background = "transparent", programCache, debugView;
+    std::string engine = "auto", background = "transparent", programCache, debugView;
     SourceOptions source;
     Framing framing;
     bool json = false;
 };
 
-struct Job {
-    std::string input, output;
-};
-
-/// Lines IN<TAB>OUT; empty ones do not count.
-std::vector<Job> readBatch(const std::string& path) {
-    std::ifstream file(path);
-    if (!file)
-        throw std::runtime_error(path + ": cannot be read");
-    std::vector<Job> jobs;
-    std::string line;
-    for (int number = 1; std::getline(file, line); ++number) {
-        if (line.empty())
-            continue;
-        const std::size_t tab = line.find('\t');
-        if (tab == std::string::npos || tab == 0 || tab + 1 == line.size())
-            throw std::runtime_error(fmt::format("{}:{}:1: wants IN<TAB>OUT", path, number));
-        jobs.push_back({line.substr(0, tab), line.substr(tab + 1)});
-    }
-    return jobs;
-}
-
-bool meansDirectory(const std::string& output) { return output.ends_with('/') || fs::is_directory(output); }
-
-std::vector<Job> jobsOf(const RenderOptions& options) {
-    if (!options.batch.empty())
-        return readBatch(options.batch);
-    if (options.inputs.empty() || options.output.empty())
-        throw UsageError("render: wants IN... and -o OUT, or --batch LIST");
-    const bool directory = meansDirectory(options.output);
-    if (!directory && options.inputs.size() > 1 && fs::path(options.output).has_extension())
-        throw UsageError("-o: many inputs want a directory, not " + options.output);
-    if (!directory && options.inputs.size() == 1)
-        return {{options.inputs[0], options.output}};
-    std::vector<Job> jobs;
-    for (const std::string& input : options.inputs)
-        jobs.push_back({input, (fs::path(options.output) / fs::path(input).stem()).string() + ".png"});
-    return jobs;
-}
-
-void refuseClashes(const std::vector<Job>& jobs) {
-    std::set<std::string> outputs;
-    for (const Job& job : jobs) {
-        if (!outputs.insert(job.output).second)
-            throw UsageError(job.output + ": more than one input would be written there");
-    }
-}
-
-bool writePng(const image::Bitmap& bitmap, const std::string& path) {
-    const fs::path directory = fs::path(path).parent_path();
+/// Into a folder that may have to be made.
+bool writePng(const image::Bitmap& bitmap, const std::string& output) {
+    const fs::path directory = fs::path(output).parent_path();
     if (!directory.empty())
         fs::create_directories(directory);
-    image::writeFile(path, image::encodePng(bitmap));
+    writeOutput(output, image::encodePng(bitmap));
     return true;
 }
 
-void printReport(const Job& job, const Source& source, const asset::View& view) {
-    Json report = {
-        {"input", job.input}, {"output", job.output}, {"width", view.width}, {"height", view.height}};
+void printReport(const Job& job, const Source& source, const asset::View& view, const Engine& engine) {
+    Json report = {{"input", job.input},
+                   {"output", job.output},
+                   {"width", view.width},
+                   {"height", view.height},
+                   {"engine", engine.name()}};
     if (source.asset)
         report.update(figures(*source.asset));
     if (source.paper)
@@ -95,19 +53,21 @@ void printReport(const Job& job, const Source& source, const asset::View& view) 
     if (source.cost)
         report["lookups"] = perPixel(*source.cost, std::uint64_t(view.width) * std::uint64_t(view.height));
     report["stages_ms"] = toJson(source.stages);
-    fmt::print("{}\n", report.dump());
+    print(jsonLine(report));
 }
 
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
-    Source source = loadSource(job.input, options.source, engine.needsAsset());
+    Source source = loadSource(readInput(job.input), options.source, engine.needsAsset());
     const asset::View view = frame(options.framing, source.width, source.height);
     const DebugView debug = parseDebugView(options.debugView);
     prepare(source, debug);
     image::Bitmap bitmap = engine.draw(source, view, ground);
     layLines(bitmap, debug, source, view);
+    if (options.source.strict)
+        refuseLeftOut(source);
     timed(source.stages, "write", [&] { return writePng(bitmap, job.output); });
     if (options.json)
-        printReport(job, source, view);
+        printReport(job, source, view, engine);
 }
 
 bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
@@ -115,17 +75,26 @@ bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& 
         renderOne(job, options, ground, engine);
         return true;
     } catch (...) {
-        printWarning(describeError(job.input));
+        say(describeError(nameOf(job.input)));
         return false;
     }
+}
+
+std::vector<Job> checkedJobs(const RenderOptions& options) {
+    const std::vector<Job> jobs =
+        options.batch.empty() ? jobsOf(options.inputs, options.output) : readBatch(options.batch);
+    if (options.json)
+        for (const Job& job : jobs)
+            refuseMixture(job.output, "the figures of --json");
+    refuseLoss(jobs, options.batch);
+    return jobs;
 }
 
 int render(const RenderOptions& options) {
     parseDebugView(options.debugView);
     const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
     const scene::Color ground = parseColor(options.background);
-    const std::vector<Job> jobs = jobsOf(options);
-    refuseClashes(jobs);
+    const std::vector<Job> jobs = checkedJobs(options);
     std::size_t failed = 0;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         showProgress(i, jobs.size());
@@ -133,7 +102,7 @@ int render(const RenderOptions& options) {
     }
     clearProgress();
     if (jobs.size() > 1 || !options.batch.empty())
-        fmt::print(stderr, "{} of {} drawn, {} failed\n", jobs.size() - failed, jobs.size(), failed);
+        say(fmt::format("{} of {} drawn, {} failed", jobs.size() - failed, jobs.size(), failed));
     return failed == 0 ? done : badInput;
 }
 
@@ -142,17 +111,19 @@ int render(const RenderOptions& options) {
 void addRender(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "Draw SVG or .vtm files as PNG");
-    auto* inputs = command->add_option("IN", options->inputs, "SVG or .vtm files");
-    auto* output = command->add_option("-o,--output", options->output, "PNG file, or a directory");
-    command->add_option("--batch", options->batch, "A file of lines IN<TAB>OUT")
+    auto* inputs = command->add_option("IN", options->inputs, "SVG or .vtm files, or - for standard input");
+    auto* output = command->add_option("-o,--output", options->output,
+                                       "PNG file, a directory, or - for standard output");
+    command->add_option("--batch", options->batch, "A file of lines IN<TAB>OUT, or - for standard input")
         ->excludes(inputs)
         ->excludes(output);
     addFramingOptions(*command, options->framing);
     command->add_option("--background", options->background, "The ground's colour")->capture_default_str();
     command
         ->add_option("--engine", options->engine,
-                     "gl, cpu (fast without a GPU, exact mode), asset (the shaders' twin, slow) or reference "
-                     "(exact, slower)")
+                     "auto (gl where there is a GPU, else cpu for all that it can draw), gl (shaders), cpu "
+                     "(fast without "
+                     "a GPU, exact mode), asset (the shaders' twin, slow) or reference (exact, slower)")
         ->capture_default_str();
     command->add_option("--program-cache", options->programCache,
                         "A directory that keeps the GL driver's programs from run to run");

@@ -1,12 +1,14 @@
 #include "tools/src/report.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <new>
 
 #include <fmt/core.h>
 
 #include "tools/src/progress.hpp"
+#include "tools/src/standard_output.hpp"
 
 namespace vtm::tools {
 
@@ -14,6 +16,23 @@ namespace {
 
 std::string withPath(const std::string& path, const std::string& what) {
     return what.find(path) != std::string::npos ? what : path + ": " + what;
+}
+
+std::string dumped(const Json& object, int indent) {
+    return object.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string numberText(double number) {
+    constexpr double small = 0.01;  // two decimals would not show it
+    return number != 0 && std::abs(number) < small ? fmt::format("{:.3g}", number)
+                                                   : fmt::format("{:.2f}", number);
+}
+
+std::string valueText(const Json& value) {
+    if (value.is_number_float())
+        return numberText(value.get<double>());
+    return value.is_string() ? value.get<std::string>()
+                             : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -73,32 +92,30 @@ Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels) {
             {"paints", share(cost.paints)}};
 }
 
-void printText(const Json& object, int indent) {
+std::string jsonLine(const Json& object) { return dumped(object, -1); }
+std::string jsonText(const Json& object) { return dumped(object, 2); }
+
+std::string toText(const Json& object, int indent) {
+    std::string text;
     for (const auto& [key, value] : object.items()) {
-        if (value.is_object()) {
-            fmt::print("{:{}}{}:\n", "", indent, key);
-            printText(value, indent + 2);
-        } else if (value.is_number_float()) {
-            const double number = value.get<double>();
-            constexpr double small = 0.01;  // two decimals would not show it
-            if (number != 0 && std::abs(number) < small)
-                fmt::print("{:{}}{}: {:.3g}\n", "", indent, key, number);
-            else
-                fmt::print("{:{}}{}: {:.2f}\n", "", indent, key, number);
-        } else {
-            fmt::print("{:{}}{}: {}\n", "", indent, key,
-                       value.is_string() ? value.get<std::string>() : value.dump());
-        }
+        const std::string line = fmt::format("{:{}}{}:", "", indent, key);
+        if (value.is_object())
+            text += line + "\n" + toText(value, indent + 2);
+        else
+            text += fmt::format("{} {}\n", line, valueText(value));
     }
+    return text;
 }
 
-void printWarning(const std::string& message) {
+void say(const std::string& message) {
     clearProgress();
-    fmt::print(stderr, "{}\n", message);
+    std::fputs((message + "\n").c_str(), stderr);
 }
 
 std::string describeError(const std::string& path) {
     try {
+        throw;
+    } catch (const StandardOutputError&) {
         throw;
     } catch (const std::bad_alloc&) {
         return path + ": not enough memory";

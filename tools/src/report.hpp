@@ -42,13 +42,19 @@ Json figures(const compiler::PaperResult& paper);
 /// What a pixel's lookup touched, on the mean.
 Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels);
 
+/// As JSON with a line end: on one line, or indented. What is no UTF-8, in names of files, is replaced.
+std::string jsonLine(const Json& object);
+std::string jsonText(const Json& object);
+
 /// One `key: value` a line; nested objects indented.
-void printText(const Json& object, int indent = 0);
+std::string toText(const Json& object, int indent = 0);
 
-/// On stderr, over a progress bar if there is one.
-void printWarning(const std::string& message);
+/// A line on standard error, over a progress bar if there is one. If it cannot be written, nobody can be
+/// told.
+void say(const std::string& message);
 
-/// `path: what`, for the exception being handled; `what` alone where it names the path itself.
+/// `path: what`, for the exception being handled; `what` alone where it names the path itself. A
+/// StandardOutputError is thrown on.
 std::string describeError(const std::string& path);
 
 }  // namespace vtm::tools

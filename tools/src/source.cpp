@@ -1,14 +1,14 @@
 #include "tools/src/source.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include <fmt/core.h>
 
 #include "asset/container.hpp"
-#include "image/codec.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/left_out.hpp"
+#include "tools/src/text_options.hpp"
 
 namespace vtm::tools {
 
@@ -28,70 +28,43 @@ void chooseMode(SourceOptions& options, const std::string& name) {
     options.compiler.mode = mode->second;
 }
 
-void addFontOptions(CLI::App& command, svg::Options& svg) {
-    const std::string group = "Text";
-    command.add_option("--font-dir", svg.fontDirectories, "Take fonts from here too")->group(group);
-    command.add_flag("!--no-system-fonts", svg.systemFonts, "Do without the system's fonts")->group(group);
-    command.add_option("--serif-family", svg.serifFamily, "What 'serif' means")->group(group);
-    command.add_option("--sans-serif-family", svg.sansSerifFamily, "What 'sans-serif' means")->group(group);
-    command.add_option("--cursive-family", svg.cursiveFamily, "What 'cursive' means")->group(group);
-    command.add_option("--fantasy-family", svg.fantasyFamily, "What 'fantasy' means")->group(group);
-    command.add_option("--monospace-family", svg.monospaceFamily, "What 'monospace' means")->group(group);
-    command.add_option("--default-family", svg.defaultFamily, "Where none is named")->group(group);
-    command.add_option("--default-font-size", svg.defaultFontSize, "In px, where none is given")
-        ->check(CLI::PositiveNumber)
-        ->group(group);
-    command.add_option("--language", svg.language, "For systemLanguage, such as en or de-AT")->group(group);
-}
-
-std::vector<std::uint8_t> readBytes(const std::string& path, Stages& stages) {
-    return timed(stages, "read", [&] { return image::readFile(path); });
-}
-
-void loadAsset(Source& source, const std::string& path, const SourceOptions& options) {
+void loadAsset(Source& source, const Input& input, const SourceOptions& options) {
     if (options.paper)
         throw std::runtime_error("is compiled; paper mode draws SVG files only");
-    const auto bytes = readBytes(path, source.stages);
-    source.asset = timed(source.stages, "parse", [&] { return asset::read(bytes); });
+    source.asset = timed(source.stages, "parse", [&] { return asset::read(input.bytes); });
     if (options.mode && *options.mode != source.asset->mode)
         throw std::runtime_error("was compiled in the other mode than --mode asks for");
     source.width = source.asset->width;
     source.height = source.asset->height;
 }
 
-void parseSvg(Source& source, const std::string& path, svg::Options options) {
-    options.fileName = path;
-    options.resourceDirectory = std::filesystem::absolute(path).parent_path().string();
-    const auto bytes = readBytes(path, source.stages);
-    svg::Document document = timed(source.stages, "parse", [&] { return svg::load(bytes, options); });
-    for (const svg::Warning& warning : document.warnings)
-        printWarning(fmt::format("{}:{}:{}: warning: {}", warning.where.file, warning.where.line,
-                                 warning.where.column, warning.message));
+void parseSvg(Source& source, const Input& input, svg::Options options) {
+    options.fileName = input.name;
+    options.resourceDirectory = input.folder;
+    svg::Document document = timed(source.stages, "parse", [&] { return svg::load(input.bytes, options); });
+    warnOf(source, document.warnings);
     source.width = document.scene.width;
     source.height = document.scene.height;
     source.scene = std::move(document.scene);
 }
 
-void printWarnings(const std::string& path, const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-        printWarning(fmt::format("{}: warning: {}", path, warning));
-}
-
-void compilePaper(Source& source, const std::string& path, const compiler::Options& options) {
+void compilePaper(Source& source, const compiler::Options& options) {
     compiler::PaperOptions paper;
     paper.tolerance = options.tolerance;
     compiler::PaperResult result =
         timed(source.stages, "compile", [&] { return compiler::compilePaper(*source.scene, paper); });
-    printWarnings(path, result.warnings);
+    for (const std::string& warning : result.warnings)
+        warnOf(source, fmt::format("{}: warning: {}", source.name, warning));
     source.paper = std::move(result);
 }
 
-void compileScene(Source& source, const std::string& path, const compiler::Options& options) {
+void compileScene(Source& source, const compiler::Options& options) {
     compiler::Result result =
         timed(source.stages, "compile", [&] { return compiler::compile(*source.scene, options); });
     for (const auto& [stage, milliseconds] : result.stages)
         source.stages.emplace_back(stage, milliseconds);
-    printWarnings(path, result.warnings);
+    for (const std::string& warning : result.warnings)
+        say(fmt::format("{}: warning: {}", source.name, warning));
     source.proof = figures(result);
     source.unproven = std::move(result.unproven);
     source.asset = std::move(result.asset);
@@ -113,19 +86,26 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
     command.add_option("--dpi", options.svg.dpi, "Pixels an inch")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    addFontOptions(command, options.svg);
+    command.add_flag("--strict", options.strict,
+                     "What is left out or repaired is an error: exit code 1, and nothing is written");
+    addTextOptions(command, options.svg);
 }
 
-Source loadSource(const std::string& path, const SourceOptions& options, bool compile) {
+Source loadSource(Input input, const SourceOptions& options, bool compile) {
     Source source;
-    if (std::filesystem::path(path).extension() == ".vtm") {
-        loadAsset(source, path, options);
-    } else {
-        parseSvg(source, path, options.svg);
-        if (compile && options.paper)
-            compilePaper(source, path, options.compiler);
-        else if (compile)
-            compileScene(source, path, options.compiler);
+    source.name = input.name;
+    source.stages = std::move(input.stages);
+    if (input.isAsset())
+        loadAsset(source, input, options);
+    else
+        parseSvg(source, input, options.svg);
+    input.bytes = {};
+    if (options.strict)
+        refuseLeftOut(source);
+    if (source.scene && compile) {
+        options.paper ? compilePaper(source, options.compiler) : compileScene(source, options.compiler);
+        if (options.strict)
+            refuseLeftOut(source);
     }
     return source;
 }

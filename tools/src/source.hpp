@@ -12,6 +12,7 @@
 #include "compiler/paper.hpp"
 #include "scene/scene.hpp"
 #include "svg/load.hpp"
+#include "tools/src/input.hpp"
 #include "tools/src/report.hpp"
 
 namespace vtm::tools {
@@ -21,13 +22,16 @@ struct SourceOptions {
     compiler::Options compiler;
     /// As typed; an asset has its own mode, which must not contradict it.
     std::optional<asset::Mode> mode;
-    bool paper = false;  ///< --mode paper, for SVG files only
+    bool paper = false;   ///< --mode paper, for SVG files only
+    bool strict = false;  ///< --strict: what was left out is an error
 };
 
-/// --mode, --tolerance and what the importer needs: fonts, dpi, language.
+/// --mode, --tolerance, --strict and what the importer needs: fonts, dpi, language.
 void addSourceOptions(CLI::App& command, SourceOptions& options);
 
 struct Source {
+    std::string name;                   ///< for messages
+    std::size_t leftOut = 0;            ///< warnings of left_out.hpp
     double width = 0, height = 0;       ///< user units
     std::optional<scene::Scene> scene;  ///< not where the file is an asset
     std::optional<asset::Asset> asset;
@@ -38,8 +42,8 @@ struct Source {
     Stages stages;
 };
 
-/// Reads `.vtm` files as assets and all others as SVG; warnings go to stderr. An SVG is compiled only
-/// if `compile`. Throws the modules' exceptions.
-Source loadSource(const std::string& path, const SourceOptions& options, bool compile = true);
+/// Whether it is SVG or an asset, its bytes say; warnings go to stderr. An SVG is compiled only if `compile`.
+/// Throws the modules' exceptions, and std::runtime_error where --strict forbids what was left out.
+Source loadSource(Input input, const SourceOptions& options, bool compile = true);
 
 }  // namespace vtm::tools

@@ -2,12 +2,13 @@
 
 #include <memory>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "asset/container.hpp"
 #include "image/codec.hpp"
 #include "svg/write.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/output.hpp"
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {
@@ -20,9 +21,19 @@ struct TraceOptions {
     compiler::Options compiler;
 };
 
-bool endsWith(const std::string& path, const std::string& suffix) {
-    return path.size() >= suffix.size() &&
-           path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0;
+/// By its name; what has none of the suffixes is SVG.
+bool isAsset(const std::string& output) { return suffixOf(output) == ".vtm"; }
+
+std::vector<std::uint8_t> svgOf(const scene::Scene& scene) {
+    const std::string text = svg::write(scene);
+    return {text.begin(), text.end()};
+}
+
+std::vector<std::uint8_t> assetOf(const scene::Scene& scene, const TraceOptions& options) {
+    const compiler::Result result = compiler::compile(scene, options.compiler);
+    for (const std::string& warning : result.warnings)
+        say(fmt::format("{}: warning: {}", nameOf(options.input), warning));
+    return asset::write(result.asset);
 }
 
 int run(const TraceOptions& options) {
@@ -30,20 +41,13 @@ int run(const TraceOptions& options) {
         throw UsageError(
             "trace: this vtm was built without potrace; configure with -DVTM_WITH_POTRACE=ON "
             "(libpotrace-dev)");
-    const bool isSvg = endsWith(options.output, ".svg");
-    if (!isSvg && !endsWith(options.output, ".vtm"))
-        throw UsageError("trace: " + options.output + " ends neither in .svg nor in .vtm");
+    requireSuffix(options.output, {".svg", ".vtm"});
+    refuseLoss({options.input}, {options.output});
     try {
-        const scene::Scene scene = trace::trace(image::decode(image::readFile(options.input)), options.trace);
-        if (isSvg) {
-            const std::string text = svg::write(scene);
-            image::writeFile(options.output,
-                             {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-        } else {
-            image::writeFile(options.output, asset::write(compiler::compile(scene, options.compiler).asset));
-        }
+        const scene::Scene scene = trace::trace(image::decode(readInput(options.input).bytes), options.trace);
+        writeOutput(options.output, isAsset(options.output) ? assetOf(scene, options) : svgOf(scene));
     } catch (...) {
-        fmt::print(stderr, "{}\n", describeError(options.input));
+        say(describeError(nameOf(options.input)));
         return badInput;
     }
     return done;
@@ -54,8 +58,11 @@ int run(const TraceOptions& options) {
 void addTrace(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<TraceOptions>();
     CLI::App* command = app.add_subcommand("trace", "Turn a bitmap into an SVG or a .vtm file");
-    command->add_option("IN", options->input, "PNG, JPEG, WebP or GIF file")->required();
-    command->add_option("-o,--output", options->output, "The .svg or .vtm file")->required();
+    command->add_option("IN", options->input, "PNG, JPEG, WebP or GIF file, or - for standard input")
+        ->required();
+    command
+        ->add_option("-o,--output", options->output, "The .svg or .vtm file, or - for SVG on standard output")
+        ->required();
     command->add_option("--colors", options->trace.colors, "Colours at most")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();

@@ -5,53 +5,20 @@ import os
 import pathlib
 import struct
 import subprocess
-import sys
-import tempfile
-import unittest
 import zlib
 
 from PIL import Image, ImageStat
 
-VTM = ""  # the program under test
-
-SQUARE = """<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20">
-  <rect width="20" height="20" fill="#ff0000"/>
-  <rect x="20" width="10" height="20" fill="#0000ff" fill-opacity="0.4"/>
-</svg>
-"""
-RED, PALE_BLUE, NOTHING = (255, 0, 0, 255), (0, 0, 255, 102), (0, 0, 0, 0)
+from support import NOTHING, PALE_BLUE, RED, SQUARE, Command, main
 
 
-class Command(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-        self.svg = self.write("square.svg", SQUARE)
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def vtm(self, *arguments, expect=0):
-        """Runs the command in the test's folder and checks its exit code."""
-        done = subprocess.run([VTM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder,
-                              stdin=subprocess.DEVNULL, timeout=120)
-        self.assertEqual(done.returncode, expect, f"{arguments}\n{done.stdout}\n{done.stderr}")
-        return done
-
-    def picture(self, name):
-        image = Image.open(self.folder / name)
-        self.assertEqual(image.mode, "RGBA")
-        return image
-
+class Drawing(Command):
     def draw(self, *arguments, engine="asset"):
         self.vtm("render", self.svg, "-o", "out.png", "--engine", engine, *arguments)
         return self.picture("out.png")
 
 
-class Render(Command):
+class Render(Drawing):
     def test_default_size_and_colours(self):
         for engine in ("gl", "asset", "reference"):
             with self.subTest(engine=engine):
@@ -145,6 +112,14 @@ class Render(Command):
         for stage in ("read", "parse", "compile", "lower", "start", "upload", "render", "write"):
             self.assertGreaterEqual(report["stages_ms"][stage], 0, stage)
 
+    def test_json_of_a_name_that_is_no_utf8(self):
+        name = b"\xff.svg"
+        (self.folder / os.fsdecode(name)).write_text(SQUARE)
+        done = subprocess.run([os.fsencode(self.program), b"render", name, b"-o", b"out.png", b"--json"],
+                              capture_output=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["input"], "\ufffd.svg")
+
     def test_warnings_name_their_place(self):
         path = self.write("warned.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">\n'
                           '  <rect width="9" height="9" filter="url(#absent)"/>\n'
@@ -153,7 +128,7 @@ class Render(Command):
         self.assertRegex(done.stderr, r"warned\.svg:3:\d+: warning: ")
 
 
-class BadInput(Command):
+class BadInput(Drawing):
     def test_parse_errors_name_their_place(self):
         for name, text in (("empty.svg", ""), ("cut.svg", SQUARE[:100]), ("other.svg", "<html/>")):
             path = self.write(name, text)
@@ -185,17 +160,14 @@ class BadInput(Command):
 
     def test_not_enough_memory(self):
         """Within 1 GiB of address space a picture of 2 GiB is an error, not a crash."""
-        if os.environ.get("ASAN_OPTIONS") is not None or b"__asan_init" in pathlib.Path(VTM).read_bytes():
-            self.skipTest("AddressSanitizer needs the address space itself")
+        self.skip_with_sanitizers()
         shell = 'ulimit -v 1048576 && exec "$0" "$@"'
-        done = subprocess.run(["bash", "-c", shell, VTM, "render", self.svg, "-o", "out.png", "--engine", "asset",
-                               "--width", "16000", "--height", "8000"], capture_output=True, text=True,
-                              cwd=self.folder, timeout=120)
-        self.assertEqual(done.returncode, 1, done.stderr)
+        done = self.shell(shell, "render", self.svg, "-o", "out.png", "--engine", "asset", "--width", "16000",
+                          "--height", "8000", expect=1)
         self.assertIn("square.svg: not enough memory", done.stderr)
 
 
-class BadUsage(Command):
+class BadUsage(Drawing):
     def test_exit_code_is_two(self):
         for arguments in ([], ["gone"], ["render"], ["render", self.svg], ["render", self.svg, "-o"],
                           ["render", self.svg, "-o", "o.png", "--width", "0"],
@@ -230,7 +202,7 @@ class BadUsage(Command):
         self.assertRegex(self.vtm("--version").stdout, r"vtm \d+\.\d+\.\d+")
 
 
-class CompileAndInfo(Command):
+class CompileAndInfo(Drawing):
     KEYS = ("bytes", "prefilter_bytes", "leaves", "pieces", "fallback_leaves", "regions", "max_depth")
 
     def check_figures(self, report):
@@ -367,8 +339,7 @@ class Trace(Command):
         picture = Image.new("RGBA", (60, 40), (255, 255, 255, 255))
         picture.paste((200, 30, 40, 255), (10, 10, 40, 30))
         picture.save(self.folder / "in.png")
-        done = subprocess.run([VTM, "trace", "in.png", "-o", "out.svg"], capture_output=True, text=True,
-                              cwd=self.folder, timeout=120)
+        done = self.run_vtm("trace", "in.png", "-o", "out.svg")
         self.potrace = done.returncode == 0
         self.message = done.stderr
 
@@ -393,9 +364,11 @@ class Trace(Command):
 
     def test_asset_draws_what_was_traced(self):
         self.require_potrace()
-        self.vtm("trace", "in.png", "-o", "out.vtm", "--colors", "2", "--speckle", "0", "--smooth", "0")
-        self.vtm("render", "out.vtm", "-o", "out.png", "--engine", "asset")
-        self.assertEqual(self.picture("out.png").getpixel((25, 20)), (200, 30, 40, 255))
+        for name in ("out.vtm", "OUT.VTM"):
+            self.vtm("trace", "in.png", "-o", name, "--colors", "2", "--speckle", "0", "--smooth", "0")
+            self.assertTrue((self.folder / name).read_bytes().startswith(b"VTM"))
+            self.vtm("render", name, "-o", "out.png", "--engine", "asset")
+            self.assertEqual(self.picture("out.png").getpixel((25, 20)), (200, 30, 40, 255))
 
     def test_bad_input_and_usage(self):
         self.require_potrace()
@@ -417,5 +390,4 @@ def write_png16(path, pixel):
 
 
 if __name__ == "__main__":
-    VTM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

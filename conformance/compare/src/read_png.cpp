@@ -1,8 +1,7 @@
 #include <png.h>
 
 #include <csetjmp>
-#include <cstdio>
-#include <memory>
+#include <cstring>
 #include <stdexcept>
 
 #include "conformance/compare/compare.hpp"
@@ -19,6 +18,7 @@ struct Decoded {
 
 /// libpng's view of a picture that is being read. The error hook must not return: it jumps.
 struct Reader {
+    std::span<const std::uint8_t> rest;  ///< not read yet
     png_structp png = nullptr;
     png_infop info = nullptr;
     std::string error;
@@ -36,6 +36,13 @@ struct Reader {
         png_longjmp(png, 1);
     }
     static void ignoreWarning(png_structp, png_const_charp) {}
+    static void take(png_structp png, png_bytep to, std::size_t count) {
+        auto& rest = static_cast<Reader*>(png_get_io_ptr(png))->rest;
+        if (rest.size() < count)
+            png_error(png, "the file ends too early");
+        std::memcpy(to, rest.data(), count);
+        rest = rest.subspan(count);
+    }
 };
 
 /// Asks libpng to turn every colour type of up to 8 bits into RGBA.
@@ -70,26 +77,24 @@ void readRows(Reader& reader, Decoded& picture) {
 
 /// Fills `picture`; false with `reader.error` set otherwise. Holds no object with a destructor, since
 /// libpng jumps out of it.
-bool read(Reader& reader, std::FILE* file, Decoded& picture) {
+bool read(Reader& reader, Decoded& picture) {
     if (setjmp(png_jmpbuf(reader.png)) != 0)
         return false;
-    png_init_io(reader.png, file);
+    png_set_read_fn(reader.png, &reader, Reader::take);
     readHeader(reader, picture);
     expandToRgba(reader);
     readRows(reader, picture);
     return true;
 }
 
-Decoded decode(const std::string& path) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!file)
-        throw std::runtime_error(path + ": cannot be opened");
+Decoded decode(std::span<const std::uint8_t> bytes, const std::string& name) {
     Reader reader;
     if (!reader.info)
-        throw std::runtime_error(path + ": libpng cannot start");
+        throw std::runtime_error(name + ": libpng cannot start");
+    reader.rest = bytes;
     Decoded picture;
-    if (!read(reader, file.get(), picture))
-        throw std::runtime_error(path + ": " + reader.error);
+    if (!read(reader, picture))
+        throw std::runtime_error(name + ": " + reader.error);
     return picture;
 }
 
@@ -102,8 +107,10 @@ image::Raster fromPremultiplied16(const Decoded& picture) {
 
 }  // namespace
 
-image::Raster readPng(const std::string& path) {
-    Decoded picture = decode(path);
+image::Raster readPng(const std::string& path) { return readPng(image::readFile(path), path); }
+
+image::Raster readPng(std::span<const std::uint8_t> bytes, const std::string& name) {
+    Decoded picture = decode(bytes, name);
     if (picture.deep)
         return fromPremultiplied16(picture);
     return image::toRaster({picture.width, picture.height, std::move(picture.rgba)});

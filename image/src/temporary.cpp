@@ -1,0 +1,127 @@
+#include "image/src/temporary.hpp"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "image/codec.hpp"
+
+namespace vtm::image {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Paths of the temporaries that there are, where a signal handler may read them. One more than there are
+/// places is left behind by a signal.
+struct Slot {
+    std::atomic_flag taken;
+    std::atomic<bool> filled = false;
+    std::array<char, PATH_MAX> path{};
+};
+std::array<Slot, 16> slots;
+
+int enlist(const std::string& path) {
+    for (std::size_t i = 0; path.size() < PATH_MAX && i < slots.size(); ++i)
+        if (!slots[i].taken.test_and_set()) {
+            std::strcpy(slots[i].path.data(), path.c_str());
+            slots[i].filled = true;
+            return int(i);
+        }
+    return -1;
+}
+
+void strike(int slot) {
+    if (slot < 0)
+        return;
+    slots[std::size_t(slot)].filled = false;
+    slots[std::size_t(slot)].taken.clear();
+}
+
+[[noreturn]] void fail(const char* what, int error) {
+    throw std::system_error(error, std::generic_category(), what);
+}
+
+void require(int error, const char* what) {
+    if (error != 0)
+        fail(what, error);
+}
+
+/// 0, or errno. Some file systems and devices know no fsync.
+int flushed(const Descriptor& file) {
+    return fsync(file.number()) == 0 || errno == EINVAL || errno == ENOSYS || errno == EROFS ? 0 : errno;
+}
+
+fs::path folderOf(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// The file's name says whose it is: nobody else's may be removed.
+std::string freshName() {
+    static std::atomic<unsigned> count = 0;
+    return ".vtm-tmp-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+}
+
+/// A file of that name may be left from a process that was killed.
+Descriptor create(const fs::path& folder, mode_t mode, fs::path& path) {
+    for (;;) {
+        path = folder / freshName();
+        Descriptor file(path.string(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
+        if (file)
+            return file;
+        if (errno != EEXIST)
+            fail("no new file can be made beside it", errno);
+    }
+}
+
+}  // namespace
+
+Temporary::Temporary(const fs::path& target, mode_t mode)
+    : target_(target), file_(create(folderOf(target), mode, path_)), slot_(enlist(path_.string())) {}
+
+Temporary::~Temporary() {
+    if (!path_.empty())
+        unlink(path_.c_str());
+    strike(slot_);
+}
+
+void Temporary::takeOver(const struct stat& old) noexcept {
+    const int file = file_.number();
+    struct stat own {};
+    fstat(file, &own);
+    mode_t mode = old.st_mode & 0777;
+    const bool sameOwner = own.st_uid == old.st_uid && own.st_gid == old.st_gid;
+    if (!sameOwner && fchown(file, old.st_uid, old.st_gid) != 0 && fchown(file, uid_t(-1), old.st_gid) != 0)
+        mode = (mode & ~mode_t(070)) | (mode & 07) << 3;  // another group gets no more than all others
+    if ((own.st_mode & 0777) != mode)
+        (void)!fchmod(file, mode);  // where that fails, the file system has no permissions of its own
+}
+
+void Temporary::write(std::span<const std::uint8_t> bytes) {
+    require(writeStream(file_.number(), bytes), "writing failed");
+}
+
+void Temporary::takePlace() {
+    require(flushed(file_), "writing failed");
+    require(file_.close(), "writing failed");
+    if (rename(path_.c_str(), target_.c_str()) != 0)
+        fail("it cannot be replaced", errno);
+    path_.clear();
+    // A folder that cannot be read is not flushed; the file is whole.
+    if (const Descriptor folder(folderOf(target_).string(), O_RDONLY | O_DIRECTORY); folder)
+        require(flushed(folder), "its folder cannot be flushed");
+}
+
+void removeTemporaries() noexcept {
+    for (const Slot& slot : slots)
+        if (slot.filled)
+            unlink(slot.path.data());
+}
+
+}  // namespace vtm::image

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""What vtm says of what it leaves out: text, filters, anything else; --strict. left_out_test.py VTM"""
+from support import SQUARE, Command, main
+
+TEXT = "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='20'>\n"
+
+
+class LeftOut(Command):
+    def test_text_and_filters_are_counted_in_one_line(self):
+        text = "<text>a</text>" * 12
+        self.write("a.svg", f"{TEXT} <filter id='f'/>{text}<rect filter='url(#f)' width='9' height='9'/>"
+                   "<g filter='url(#f)'><rect width='9' height='9'/></g></svg>")
+        said = "a.svg:2:19: warning: 12 text elements and 2 filters are not drawn yet\n"
+        self.vtm("compile", "a.svg", "-o", "a.vtm")
+        for arguments in (("render", "a.svg", "-o", "o.png"), ("compile", "a.svg", "-o", "o.vtm"), ("info", "a.svg")):
+            self.assertEqual(self.vtm(*arguments).stderr, said)
+
+    def test_text_alone(self):
+        self.write("a.svg", TEXT + "<text>a</text></svg>")
+        self.assertEqual(self.vtm("render", "a.svg", "-o", "o.png").stderr,
+                         "a.svg:2:2: warning: 1 text element is not drawn yet\n")
+
+    def test_filters_alone(self):
+        self.write("a.svg", TEXT + "<rect style='filter: blur(2px)' width='9' height='9'/></svg>")
+        self.assertEqual(self.vtm("render", "a.svg", "-o", "o.png").stderr,
+                         "a.svg:2:2: warning: 1 filter is not drawn yet\n")
+
+    def test_once_a_file_of_a_batch(self):
+        for name in ("a", "b"):
+            self.write(f"{name}.svg", TEXT + "<text/><text/></svg>")
+        said = self.vtm("render", "a.svg", "b.svg", "-o", "pictures").stderr
+        self.assertEqual(said.count("2 text elements are not drawn yet"), 2)
+
+    def test_text_that_is_not_shown_is_no_loss(self):
+        self.write("a.svg", TEXT + "<text display='none'/><defs><text/></defs></svg>")
+        self.assertEqual(self.vtm("render", "a.svg", "-o", "o.png", "--strict").stderr, "")
+
+
+class Strict(Command):
+    LOSSES = {"text": "<text>a</text>", "filter": "<rect style='filter:blur(2px)' width='9' height='9'/>",
+              "element": "<foreignObject/>", "value": "<rect width='9' height='9' fill='octarine'/>",
+              "reference": "<use href='#none'/>", "image": "<image href='none.png' width='9' height='9'/>"}
+
+    def test_what_is_left_out_is_an_error(self):
+        for name, body in self.LOSSES.items():
+            with self.subTest(name=name):
+                self.write("a.svg", TEXT + body + "</svg>")
+                for arguments in (("render", "a.svg", "-o", "o.png"), ("compile", "a.svg", "-o", "o.vtm"),
+                                  ("info", "a.svg")):
+                    said = self.vtm(*arguments, "--strict", expect=1).stderr
+                    self.assertRegex(said, r"^a\.svg:2:2: warning: .*\na\.svg: --strict: .*\n$")
+                self.assertEqual(self.names(), ["a.svg", "square.svg"])
+                self.vtm("render", "a.svg", "-o", "o.png")
+                (self.folder / "o.png").unlink()
+
+    def test_the_old_picture_stays(self):
+        self.write("a.svg", TEXT + "<text/></svg>")
+        old = self.write("o.png", "old")
+        self.vtm("render", "a.svg", "-o", "o.png", "--strict", expect=1)
+        self.assertEqual(old.read_text(), "old")
+
+    def test_whole_pictures_are_drawn(self):
+        self.assertEqual(self.vtm("render", self.svg, "-o", "o.png", "--strict").stderr, "")
+        self.assert_square("o.png")
+
+    def test_a_batch_goes_on(self):
+        self.write("a.svg", TEXT + "<text/></svg>")
+        said = self.vtm("render", "a.svg", self.svg, "-o", "pictures", "--strict", expect=1).stderr
+        self.assertIn("1 of 2 drawn, 1 failed", said)
+        self.assert_square("pictures/square.png")
+
+    def test_what_the_papers_model_lacks(self):
+        self.write("a.svg", SQUARE.replace("<rect x", "<rect style='mix-blend-mode: multiply' x"))
+        said = self.vtm("render", "a.svg", "-o", "o.png", "--mode", "paper").stderr
+        self.assertIn("the paper's model", said)
+        self.vtm("render", "a.svg", "-o", "o.png", "--mode", "paper", "--strict", expect=1)
+
+
+class FontOptions(Command):
+    OPTIONS = ("--font-dir", "--serif-family", "--sans-serif-family", "--cursive-family", "--fantasy-family",
+               "--monospace-family", "--default-family")
+
+    def test_each_is_accepted_and_warned_of(self):
+        (self.folder / "fonts").mkdir()
+        given = [word for option in self.OPTIONS for word in (option, "fonts")] + ["--no-system-fonts"]
+        said = self.vtm("render", self.svg, "-o", "o.png", "--strict", *given).stderr
+        self.assertEqual(len(said.splitlines()), 1, said)
+        for option in (*self.OPTIONS, "--no-system-fonts"):
+            self.assertIn(option, said)
+
+    def test_none_given_none_warned_of(self):
+        self.assertEqual(self.vtm("render", self.svg, "-o", "o.png", "--language", "de").stderr, "")
+
+    def test_the_help_says_not_yet(self):
+        text = self.vtm("render", "--help").stdout
+        for option in (*self.OPTIONS, "--no-system-fonts"):
+            self.assertRegex(text, rf"{option}\b.*\(not yet\)")
+
+    def test_a_folder_that_does_not_exist_is_bad_usage(self):
+        self.assertIn("absent", self.vtm("render", self.svg, "-o", "o.png", "--font-dir", "absent", expect=2).stderr)
+
+
+if __name__ == "__main__":
+    main()
