@@ -131,6 +131,16 @@ TEST(Outline, geometryBeyondTheBoxKeepsItsWindingsInside) {
     EXPECT_EQ(windingAt(outlines, {101, 601}), 0);
 }
 
+/// Near the box such a curve is the rounding of numbers that cancel each other, and no chord of it can be
+/// proven.
+TEST(Outline, curvesTooLargeForDoublesEnd) {
+    for (const double far : {1e18, 1e30, 1e42}) {
+        const scene::Path huge{scene::MoveTo{{248, 520}}, scene::CubicTo{{-far, -far}, {664, -45}, {68, 870}},
+                               scene::CubicTo{{885, 1038}, {-76, -far}, {442, 748}}, scene::Close{}};
+        EXPECT_LT(outlineInBox(huge).points.size(), 5000u) << far;
+    }
+}
+
 TEST(Outline, curvesThatLeaveTheBoxKeepTheirWindingsInside) {
     const scene::Path leaves{scene::MoveTo{{500, 500}},
                              scene::CubicTo{{3000, -2000}, {4000, 3000}, {400, 800}},
