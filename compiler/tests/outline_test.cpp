@@ -134,10 +134,13 @@ TEST(Outline, geometryBeyondTheBoxKeepsItsWindingsInside) {
 /// Near the box such a curve is the rounding of numbers that cancel each other, and no chord of it can be
 /// proven.
 TEST(Outline, curvesTooLargeForDoublesEnd) {
-    for (const double far : {1e18, 1e30, 1e42}) {
-        const scene::Path huge{scene::MoveTo{{248, 520}}, scene::CubicTo{{-far, -far}, {664, -45}, {68, 870}},
-                               scene::CubicTo{{885, 1038}, {-76, -far}, {442, 748}}, scene::Close{}};
-        EXPECT_LT(outlineInBox(huge).points.size(), 5000u) << far;
+    const scene::Affine lean{-1.265625, 0, 1.828, 0.5156, 491, 341};
+    for (const double far : {1e20, 1e33, 1e48}) {
+        const scene::Path huge{scene::MoveTo{{845, 139}},
+                               scene::CubicTo{{-far, -far}, {124, 368}, {263, 313}}, scene::Close{}};
+        Outlines outlines;
+        addOutline(outlines, huge, lean, 0.5, {-100, -100}, {1100, 1100});
+        EXPECT_LT(outlines.points.size(), 5000u) << far;
     }
 }
 
