@@ -220,6 +220,7 @@ private:
         const Point size{std::max(least, in_.coordinate(side_)), std::max(least, in_.coordinate(side_))};
         if (!(min.x + size.x > min.x && min.y + size.y > min.y))
             return color();
+        result_.isSteady = false;
         return Pattern{min, min + size, content(levels), identity};
     }
 

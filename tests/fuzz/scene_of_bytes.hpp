@@ -11,8 +11,9 @@ namespace vtm::fuzz {
 
 struct ByteScene {
     scene::Scene scene;  ///< valid
-    /// Rounding changes it little: it has no blend mode that jumps (dodge, burn, those that sort channels),
-    /// no arc that reaches far and nothing that is further away than doubles resolve.
+    /// Rounding changes it little, and the reference integrates it: it has no blend mode that jumps (dodge,
+    /// burn, those that sort channels), no arc that reaches far, nothing that is further away than doubles
+    /// resolve, and no pattern.
     bool isSteady = true;
 };
 
