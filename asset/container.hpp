@@ -17,6 +17,7 @@ class FormatError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Throws FormatError where read() would refuse the file: write() validates first, by the same rules.
 std::vector<std::uint8_t> write(const AssetView& asset);
 
 /// Whether they begin as a `.vtm` file does, whole or not.

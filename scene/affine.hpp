@@ -20,7 +20,8 @@ glm::dvec2 applyVector(const Affine& m, glm::dvec2 v);
 /// First `inner`, then `outer`.
 Affine compose(const Affine& outer, const Affine& inner);
 double determinant(const Affine& m);
-/// Nothing where the map flattens the plane (determinant zero or not finite).
+/// Nothing where the map flattens the plane (determinant zero or not finite) or the inverse has a number that
+/// is not finite.
 std::optional<Affine> inverse(const Affine& m);
 Affine translation(double x, double y);
 Affine scaling(double x, double y);

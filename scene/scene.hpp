@@ -108,10 +108,14 @@ struct Node {
     std::variant<Item, Group, Select> value;
 };
 
+/// Limits on a picture's sides, user units: those of the asset's format, so that what can be drawn can be
+/// written.
+inline constexpr double minSide = 0x1p-40, maxSide = 0x1p40;
+
 /// A picture of `width` by `height` user units, its top left corner at the origin. What lies outside
 /// is cut off.
 struct Scene {
-    double width = 0, height = 0;  ///< finite, > 0
+    double width = 0, height = 0;  ///< in [minSide, maxSide]
     Group root;
 };
 

@@ -48,7 +48,7 @@ ANYWHERE = None
 LIBRARIES = {
     r"glm/.*": ANYWHERE,
     r"fmt/.*": ANYWHERE,
-    r"tbb/.*": {"compiler", "bench"},
+    r"tbb/.*": {"compiler", "bench", "tests"},
     r"gtest/.*|gmock/.*": ANYWHERE,
     r"pugixml\.hpp": {"svg"},
     r"zlib\.h": {"svg", "asset", "image"},

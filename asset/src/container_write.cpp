@@ -48,6 +48,7 @@ std::vector<std::uint8_t> assemble(std::vector<Pending>& sections) {
 }  // namespace
 
 std::vector<std::uint8_t> write(const AssetView& asset) {
+    validate(asset);
     const PictureRecord picture{asset.width, asset.height, asset.mode, asset.fallbackLeaves,
                                 asset.prefilter.size};
     const CodedImages images = encodeImages(asset.images);

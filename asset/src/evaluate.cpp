@@ -10,6 +10,7 @@
 
 #include "asset/src/blend.hpp"
 #include "asset/src/draw_map.hpp"
+#include "asset/src/float4.hpp"
 #include "asset/src/paint.hpp"
 
 namespace vtm::asset {
@@ -23,10 +24,6 @@ using image::Raster;
 vec4 load(const float* pixel) { return glm::make_vec4(pixel); }
 
 void store(float* pixel, vec4 color) { std::copy_n(glm::value_ptr(color), 4, pixel); }
-
-/// Rounding leaves sums some 1e-7 outside; and what a view stretches beyond single precision is not a
-/// number.
-float unit(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
 
 /// Share of each pixel of a box that a map covers.
 struct Mask {

@@ -23,6 +23,10 @@ inline float largest(Float4 v) {
     return max;
 }
 
+/// In [0, 1]: rounding leaves sums some 1e-7 outside. NaN, which a view or a paint's matrix beyond single
+/// precision makes, becomes 0.
+inline float unit(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
+
 /// Of straight colours.
 inline Float4 premultiplied(Float4 c) { return c * Float4{c[3], c[3], c[3], 1}; }
 inline Float4 over(Float4 source, Float4 backdrop) {

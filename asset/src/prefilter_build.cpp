@@ -103,7 +103,10 @@ Means coarser(const Means& fine) {
     return means;
 }
 
-std::uint8_t rounded(double mean) { return std::uint8_t(std::lround(std::clamp(mean, 0.0, 1.0) * 255)); }
+/// NaN becomes 0.
+std::uint8_t rounded(double mean) {
+    return std::uint8_t(std::lround(mean > 0 ? std::min(mean, 1.0) * 255 : 0));
+}
 
 /// Every level from unrounded means of the level before, so no rounding is carried on.
 template <class Take>

@@ -300,7 +300,7 @@ image::Raster Scanner::draw(const View& view, const MaterialFunction& materials)
     impl_->draw(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {
                     for (int x = first; x < end; ++x)
                         for (int c = 0; c < 4; ++c)
-                            raster.pixel(x, row)[c] = glm::clamp(color[c], 0.0f, 1.0f);
+                            raster.pixel(x, row)[c] = unit(color[c]);
                 }));
     return raster;
 }

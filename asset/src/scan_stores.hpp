@@ -49,7 +49,7 @@ inline std::uint32_t packed(Float4 color) {
     std::uint32_t word;
     std::uint8_t bytes[4];
     for (int c = 0; c < 4; ++c)
-        bytes[c] = std::uint8_t(glm::clamp(color[c], 0.0f, 1.0f) * 255.0f + 0.5f);
+        bytes[c] = std::uint8_t(unit(color[c]) * 255.0f + 0.5f);
     std::memcpy(&word, bytes, 4);
     return word;
 }

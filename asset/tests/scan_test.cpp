@@ -3,7 +3,9 @@
 #include "asset/scan.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 
@@ -12,6 +14,7 @@
 
 #include "asset/container.hpp"
 #include "asset/evaluate.hpp"
+#include "asset/prefilter.hpp"
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 
@@ -138,6 +141,30 @@ TEST(Scan, SumsOfLight) {
         for (std::size_t i = c; i < pixels.rgba.size(); i += 4)
             sum += double(pixels.rgba[i]);
         EXPECT_NEAR(double(pixel.rgba[c]), sum / (256 * 256), 1e-3);
+    }
+}
+
+/// Of a valid file numbers are finite, no more: what overflows on the way is some colour.
+TEST(Scan, NumbersAtTheEndsOfSinglePrecisionMakeColours) {
+    const float most = std::numeric_limits<float>::max();
+    std::mt19937 random(11);
+    for (int i = 0; i < 60; ++i) {
+        Asset asset = everyPaint();
+        // Of gradients and fills the first six numbers are their matrices.
+        for (const Paint& paint : asset.paints)
+            for (std::uint32_t k = 0; isProgram(paint) && k < paint[1]; ++k)
+                if (const auto in = std::bit_cast<Instruction>(asset.data[paint[0] + k]); in.op > Op::Solid)
+                    for (std::size_t m = 0; m < 6; ++m) {
+                        constexpr float scales[] = {1, -1, 1e-30f, 1e-8f, -1e-20f, 0};
+                        asset.data[in.argument + m / 4][m % 4] =
+                            std::bit_cast<std::uint32_t>(most * scales[random() % 6]);
+                    }
+        ASSERT_NO_THROW(validate(asset));
+        const View view = randomView(random);
+        for (const image::Raster& raster : {evaluate(asset, view), Scanner(asset).draw(view)})
+            for (const float value : raster.rgba)
+                ASSERT_TRUE(value >= 0 && value <= 1) << value << " in picture " << i;
+        buildPrefilter(asset, PyramidSize{4, 4}, 1);
     }
 }
 

@@ -151,6 +151,20 @@ TEST(Validate, NamesEveryBreach) {
     }
 }
 
+/// So that no file is made which the reader refuses.
+TEST(Validate, WhatIsWrittenIsValidated) {
+    for (const Breach& breach : breaches) {
+        Asset asset = breach.make();
+        breach.change(asset);
+        try {
+            write(asset);
+            ADD_FAILURE() << "written: " << breach.message;
+        } catch (const FormatError& error) {
+            EXPECT_STREQ(error.what(), breach.message);
+        }
+    }
+}
+
 /// Gradients and image fills, in an asset of one instruction.
 std::string refusal(Op op, const std::vector<Texel>& data) {
     try {

@@ -41,13 +41,23 @@ struct ChordCutter::Proof {
 std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
     curve_ = {p[3] - p[0] + 3.0 * (p[1] - p[2]), 3.0 * (p[0] - 2.0 * p[1] + p[2]), 3.0 * (p[1] - p[0]), p[0]};
     const double needed = guess();
-    if (!(needed <= mostChords))
+    if (!(needed <= mostChords) || !isResolved())
         return {};
     const int whole = static_cast<int>(needed), count = std::max(1, whole + (whole < needed));
     findVertices(count, p[3]);
     runForward_ = runForward(0, count);
     appendChords(count);
     return ends_;
+}
+
+/// Whether points of the curve are rounded by less than the tolerance. Beyond, chords between them are noise,
+/// which no number of halvings proves.
+bool ChordCutter::isResolved() const {
+    constexpr double rounding = 0x1p-50;  // of the largest of four terms, twice at most in each of three sums
+    double largest = 0;
+    for (const Point p : {curve_.a, curve_.b, curve_.c, curve_.start})
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    return rounding * largest <= tolerance_;
 }
 
 /// The number of chords that will do if each of them has an equal share of it.

@@ -26,7 +26,8 @@ public:
     explicit ChordCutter(double tolerance) : tolerance_(tolerance) {}
 
     /// The ends of chords within the tolerance, the last one that of the cubic. Empty if they would be too
-    /// many, or the cubic is infinite. Valid until the next call.
+    /// many, or the cubic is infinite, or so large that doubles do not resolve the tolerance. Valid until the
+    /// next call.
     std::span<const scene::Point> cut(const Cubic& cubic);
 
 private:
@@ -47,6 +48,7 @@ private:
     struct Proof;
 
     double guess();
+    bool isResolved() const;
     void findVertices(int count, Point end);
     bool runsForward(double t0, double t1) const;
     bool runForward(int first, int last) const;

@@ -33,6 +33,7 @@ public:
         asset::Asset& asset = result_.asset;
         const asset::Entry root = encodeTree(tree, paints, asset);
         asset.maps.push_back({0, 0, std::max(asset.width, asset.height), root});
+        checkDrawn(asset.maps.size(), asset.nodes.size(), asset.pieces.size());
         certify(tree, options_.budget, result_);
         return static_cast<std::uint32_t>(asset.maps.size() - 1);
     }
@@ -117,6 +118,9 @@ public:
 
 private:
     Command& emit(Command::Kind kind) {
+        if (asset_.commands.size() >= asset::maxCommands)
+            throw LimitError("the picture takes more than " + std::to_string(asset::maxCommands) +
+                             " commands in compat mode");
         Command command;
         command.kind = kind;
         asset_.commands.push_back(command);

@@ -7,6 +7,7 @@
 
 #include "compiler/src/clock.hpp"
 #include "compiler/src/editable.hpp"
+#include "compiler/src/encode.hpp"
 #include "compiler/src/join.hpp"
 #include "compiler/src/settings.hpp"
 
@@ -159,6 +160,8 @@ private:
             isJoined ? joinBlocks(*kept_.partition, kept_.paints.indices(), moved ? nullptr : &last, next)
                      : last.maps[0].root;
         next.maps = {{0, 0, std::max(kept_.width, kept_.height), root}};
+        if (isJoined)
+            checkDrawn(next.maps.size(), next.nodes.size(), next.pieces.size());
         next.commands = {asset::Command{}};
         next.materials = picture_.materials;
         const bool newImages = update.anew || picture_.images != kept_.picture.images;

@@ -1,5 +1,9 @@
 #include "compiler/src/encode.hpp"
 
+#include <string>
+
+#include "compiler/compile.hpp"
+
 namespace vtm::compiler {
 
 using asset::Entry;
@@ -36,6 +40,12 @@ asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints,
         asset.pieces.push_back({p.a, p.b, p.slopeA, p.slopeB, paints[p.left], paints[p.right]});
     asset.fallbackLeaves += static_cast<std::uint32_t>(tree.unproven.size());
     return entry(tree.root);
+}
+
+void checkDrawn(std::size_t maps, std::size_t nodes, std::size_t pieces) {
+    if (maps + 16 * nodes + pieces > asset::maxDrawn)
+        throw LimitError("the picture takes more than " + std::to_string(asset::maxDrawn) +
+                         " squares and pieces; a larger tolerance takes fewer");
 }
 
 }  // namespace vtm::compiler

@@ -12,4 +12,8 @@ namespace vtm::compiler {
 /// root.
 asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints, asset::Asset& asset);
 
+/// Throws LimitError if so many records are more squares and pieces than asset::maxDrawn: each map is drawn
+/// once, and trees share nothing.
+void checkDrawn(std::size_t maps, std::size_t nodes, std::size_t pieces);
+
 }  // namespace vtm::compiler

@@ -44,7 +44,7 @@ public:
           sharing_(sharing),
           frame_{{0, 0}, {scene.width, scene.height}},
           cache_(cache),
-          paints_(picture_) {
+          paints_(picture_, std::max(scene.width, scene.height)) {
         if (cache_)
             picture_.outlines = cache_->take();
         // So that most pictures' need not be moved while they grow. Memory that is not written to costs

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "compiler/compile.hpp"
+#include "image/codec.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -14,10 +15,13 @@ using scene::Color;
 using scene::compose;
 using scene::GradientStop;
 
-std::array<float, 6> floats(const Affine& m) {
-    const auto f = [](double v) { return static_cast<float>(v); };
-    return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
-}
+/// No point of the picture has a coordinate beyond three times this in a paint's space, so that engines can
+/// square coordinates in single precision. A gradient that is shorter than this part of the picture shows its
+/// last stop, or the mean of its stops, whether it is enlarged to that length or not.
+constexpr double largestPlace = 0x1p60;
+
+/// The largest number below 1, which a focal radius may not reach.
+constexpr float belowOne = 0x1.fffffep-1f;
 
 std::array<float, 4> premultiplied(const Color& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
 
@@ -59,6 +63,16 @@ std::optional<std::uint32_t> PaintTable::add(const scene::Paint& paint, const Af
     return std::nullopt;
 }
 
+std::array<float, 6> PaintTable::numbers(const Affine& m) const {
+    double largest = 0;
+    for (int row = 0; row < 2; ++row)
+        largest = std::max(
+            {largest, side_ * std::abs(m[0][row]), side_ * std::abs(m[1][row]), std::abs(m[2][row])});
+    const double scale = std::min(1.0, largestPlace / largest);
+    const auto f = [scale](double v) { return static_cast<float>(scale * v); };
+    return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
+}
+
 std::uint32_t PaintTable::push(Source source) {
     picture_.sources.push_back(source);
     return static_cast<std::uint32_t>(picture_.sources.size() - 1);
@@ -85,7 +99,7 @@ std::optional<std::uint32_t> PaintTable::linear(const scene::LinearGradient& g, 
     if (!inverse)
         return std::nullopt;
     asset::Gradient gradient;
-    gradient.matrix = floats(*inverse);
+    gradient.matrix = numbers(*inverse);
     gradient.spread = static_cast<asset::Spread>(g.spread);
     return push({asset::Op::Linear, {}, record(gradient, g.stops), allOpaque(g.stops)});
 }
@@ -96,11 +110,11 @@ std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, 
     if (!inverse)
         return std::nullopt;
     asset::Gradient gradient;
-    gradient.matrix = floats(*inverse);
+    gradient.matrix = numbers(*inverse);
     gradient.spread = static_cast<asset::Spread>(g.spread);
     gradient.fx = static_cast<float>((g.focus.x - g.center.x) / g.radius);
     gradient.fy = static_cast<float>((g.focus.y - g.center.y) / g.radius);
-    gradient.fr = static_cast<float>(g.focalRadius / g.radius);
+    gradient.fr = std::min(belowOne, static_cast<float>(g.focalRadius / g.radius));
     return push({asset::Op::Radial, {}, record(gradient, g.stops), allOpaque(g.stops)});
 }
 
@@ -110,14 +124,20 @@ std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, 
         return std::nullopt;
     const auto [found, isNew] =
         images_.try_emplace(image.bitmap.get(), static_cast<std::uint32_t>(picture_.images.size()));
-    if (isNew)
+    if (isNew) {
         picture_.images.push_back(image.bitmap);
+        imagePixels_ += std::int64_t{image.bitmap->width} * image.bitmap->height;
+    }
+    if (imagePixels_ > image::maxDecodedPixels)
+        throw LimitError("the picture's images have more than " + std::to_string(image::maxDecodedPixels) +
+                         " pixels together");
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
     append(picture_.data,
-           asset::ImageFill{floats(*inverse), found->second, static_cast<asset::ImageFilter>(image.filter)});
+           asset::ImageFill{numbers(*inverse), found->second, static_cast<asset::ImageFilter>(image.filter)});
     return push({asset::Op::Image, {}, at, false});
 }
 
+static_assert(scene::maxSide == asset::largestLength && scene::minSide == 1 / asset::largestLength);
 static_assert(scene::maxMaterialName == asset::maxMaterialName &&
               scene::maxMaterialText == asset::maxMaterialText);
 
@@ -132,7 +152,8 @@ std::optional<std::uint32_t> PaintTable::material(const scene::Material& m, cons
     if (isNew)
         picture_.materials.push_back({m.name, m.glsl});
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
-    append(picture_.data, asset::MaterialFill{floats(*inverse), found->second, 0, premultiplied(m.fallback)});
+    append(picture_.data,
+           asset::MaterialFill{numbers(*inverse), found->second, 0, premultiplied(m.fallback)});
     return push({asset::Op::Material, {}, at, false});
 }
 

@@ -10,10 +10,11 @@
 namespace vtm::compiler {
 
 /// Appends sources to a picture, each distinct bitmap and material once. More than asset::maxMaterials are a
-/// LimitError.
+/// LimitError, and so are bitmaps of more than image::maxDecodedPixels together.
 class PaintTable {
 public:
-    explicit PaintTable(Picture& picture) : picture_(picture) {}
+    /// `side`: the longer one of the picture, user units.
+    PaintTable(Picture& picture, double side) : picture_(picture), side_(side) {}
 
     /// The index of a new source; nothing if the paint's space is flat, so that nothing can be
     /// painted. Patterns are not paints here: lowering expands them.
@@ -29,8 +30,12 @@ private:
     std::optional<std::uint32_t> bitmap(const scene::ImagePaint& image, const scene::Affine& toPicture);
     std::optional<std::uint32_t> material(const scene::Material& material, const scene::Affine& toPicture);
     std::uint32_t record(asset::Gradient gradient, const std::vector<scene::GradientStop>& stops);
+    /// In single precision; `toPaint`: the picture's space to the paint's.
+    std::array<float, 6> numbers(const scene::Affine& toPaint) const;
 
     Picture& picture_;
+    const double side_;
+    std::int64_t imagePixels_ = 0;
     std::map<const image::Bitmap*, std::uint32_t> images_;
     std::map<std::string, std::uint32_t> materials_;  ///< by name: a valid scene has one text for each
 };

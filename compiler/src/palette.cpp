@@ -20,7 +20,10 @@ std::string keyOf(const PaintProgram& program) {
     return key;
 }
 
-void checkStack(const PaintProgram& steps) {
+void checkLimits(const PaintProgram& steps) {
+    if (steps.size() > asset::maxInstructions)
+        throw LimitError("at a point of the picture more than " + std::to_string(asset::maxInstructions) +
+                         " layers and groups that cannot be folded lie over each other");
     unsigned depth = 1;
     for (const PaintStep& step : steps) {
         const Op op = step.instruction.op;
@@ -35,7 +38,7 @@ void checkStack(const PaintProgram& steps) {
 asset::Paint solidPaint(const Color& c) { return std::bit_cast<asset::Paint>(c); }
 
 asset::Paint programPaint(const PaintProgram& steps, std::vector<asset::Texel>& data) {
-    checkStack(steps);
+    checkLimits(steps);
     const auto first = static_cast<std::uint32_t>(data.size());
     const auto count = static_cast<std::uint32_t>(steps.size());
     data.resize(first + count);

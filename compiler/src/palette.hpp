@@ -63,7 +63,7 @@ private:
 };
 
 /// One paint; a program, and the colours it uses, are appended to `data`. Throws LimitError if its groups are
-/// nested deeper than asset::maxStack.
+/// nested deeper than asset::maxStack, or it has more steps than asset::maxInstructions.
 asset::Paint encodePaint(const PaintProgram& program, std::vector<asset::Texel>& data);
 
 /// More paints than this the format cannot name.
@@ -72,8 +72,7 @@ inline constexpr std::size_t mostPaints = 0x10000;
 /// Writes the palette as the asset's paints, programs to its data. Solid colours beyond the 65536
 /// paints that the format can name are merged, each with the nearest of a coarser grid of colours;
 /// returns each paint's index and, in `error`, by how much a component may have changed. Throws
-/// LimitError if programs alone are too many, or a program's groups are nested deeper than
-/// asset::maxStack.
+/// LimitError if programs alone are too many, and as encodePaint().
 std::vector<std::uint16_t> encodePalette(const Palette& palette, asset::Asset& asset, float& error);
 
 }  // namespace vtm::compiler

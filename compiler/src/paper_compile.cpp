@@ -32,7 +32,9 @@ paper::MaskOptions maskOptions(const asset::PaperAsset& asset, const PaperOption
 /// The scene's paints as the palette of an asset.
 class PaperPalette {
 public:
-    explicit PaperPalette(asset::Asset& palette) : palette_(palette) { palette_.paints.push_back({}); }
+    PaperPalette(asset::Asset& palette, double side) : palette_(palette), table_(picture_, side) {
+        palette_.paints.push_back({});
+    }
 
     /// 0 where nothing can be painted.
     std::uint32_t add(const scene::Paint& paint, const scene::Affine& transform) {
@@ -63,7 +65,7 @@ public:
 private:
     asset::Asset& palette_;
     Picture picture_;
-    PaintTable table_{picture_};
+    PaintTable table_;
     std::vector<std::pair<std::uint32_t, Source>> programs_;
 };
 
@@ -76,7 +78,9 @@ struct Missing {
 /// Each function returns the node that shows something over `rest`, or `rest` where nothing is to show.
 class Folding {
 public:
-    explicit Folding(PaperResult& result) : result_(result), palette_(result.asset.palette) {}
+    explicit Folding(PaperResult& result)
+        : result_(result),
+          palette_(result.asset.palette, std::max(result.asset.width, result.asset.height)) {}
 
     void run(const scene::Scene& scene) {
         result_.asset.root = group(scene.root, noPaperIndex);

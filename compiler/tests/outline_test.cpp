@@ -131,6 +131,19 @@ TEST(Outline, geometryBeyondTheBoxKeepsItsWindingsInside) {
     EXPECT_EQ(windingAt(outlines, {101, 601}), 0);
 }
 
+/// Near the box such a curve is the rounding of numbers that cancel each other, and no chord of it can be
+/// proven.
+TEST(Outline, curvesTooLargeForDoublesEnd) {
+    const scene::Affine lean{-1.265625, 0, 1.828, 0.5156, 491, 341};
+    for (const double far : {1e20, 1e33, 1e48}) {
+        const scene::Path huge{scene::MoveTo{{845, 139}},
+                               scene::CubicTo{{-far, -far}, {124, 368}, {263, 313}}, scene::Close{}};
+        Outlines outlines;
+        addOutline(outlines, huge, lean, 0.5, {-100, -100}, {1100, 1100});
+        EXPECT_LT(outlines.points.size(), 5000u) << far;
+    }
+}
+
 TEST(Outline, curvesThatLeaveTheBoxKeepTheirWindingsInside) {
     const scene::Path leaves{scene::MoveTo{{500, 500}},
                              scene::CubicTo{{3000, -2000}, {4000, 3000}, {400, 800}},

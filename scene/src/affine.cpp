@@ -20,7 +20,11 @@ std::optional<Affine> inverse(const Affine& m) {
         return std::nullopt;
     const glm::dvec2 x{m[1].y / det, -m[0].y / det};
     const glm::dvec2 y{-m[1].x / det, m[0].x / det};
-    return Affine{x, y, -(x * m[2].x + y * m[2].y)};
+    const Affine inverse{x, y, -(x * m[2].x + y * m[2].y)};
+    for (int column = 0; column < 3; ++column)
+        if (!std::isfinite(inverse[column].x) || !std::isfinite(inverse[column].y))
+            return std::nullopt;
+    return inverse;
 }
 
 Affine translation(double x, double y) { return {1, 0, 0, 1, x, y}; }

@@ -80,9 +80,12 @@ std::string gradientFault(const Gradient& g) {
 }  // namespace
 
 std::string fault(const Scene& s) {
-    if (!positive(s.width))
-        return fmt::format("width is {}, not > 0", s.width);
-    return positive(s.height) ? "" : fmt::format("height is {}, not > 0", s.height);
+    const auto sideFault = [](const char* name, double side) {
+        return side >= minSide && side <= maxSide ? ""
+                                                  : fmt::format("{} is {}, not in [2^-40, 2^40]", name, side);
+    };
+    const std::string wrong = sideFault("width", s.width);
+    return wrong.empty() ? sideFault("height", s.height) : wrong;
 }
 
 std::string fault(const Path& path) {

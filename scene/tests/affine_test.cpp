@@ -33,6 +33,7 @@ TEST(Affine, FlatMapsHaveNoInverse) {
     EXPECT_FALSE(inverse(scaling(1, 0)));
     EXPECT_FALSE(inverse({1, 2, 2, 4, 0, 0}));
     EXPECT_FALSE(inverse(scaling(1e-200, 1e-200)));
+    EXPECT_FALSE(inverse({1e-200, 0, 0, 1e-100, 1e300, 0})) << "its shift is beyond doubles";
 }
 
 TEST(Path, RectangleIsClosed) {

@@ -60,13 +60,17 @@ TEST(Validate, AcceptsWhatIsInOrder) {
 
 TEST(Validate, Size) {
     Scene s = sceneOf(redSquare());
-    for (const double bad : {0.0, -1.0, nan, infinity}) {
+    for (const double side : {minSide, maxSide}) {
+        s.width = s.height = side;
+        EXPECT_EQ(complaint(s), "") << side;
+    }
+    for (const double bad : {0.0, -1.0, nan, infinity, 1e-38, 0.999 * minSide, 1.001 * maxSide}) {
         s.width = bad;
         EXPECT_NE(complaint(s), "") << bad;
     }
     s.width = 1;
     s.height = -2;
-    EXPECT_EQ(complaint(s), "scene: height is -2, not > 0");
+    EXPECT_EQ(complaint(s), "scene: height is -2, not in [2^-40, 2^40]");
 }
 
 TEST(Validate, NamesTheNode) {

@@ -1,6 +1,6 @@
 #include "svg/src/document.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
 
 #include "svg/src/attributes.hpp"
 #include "svg/src/cascade.hpp"
@@ -14,7 +14,15 @@ namespace {
 /// Largest side of a picture, user units: what doubles resolve to a thousandth with room to spare.
 constexpr double maxSide = 1e9;
 
-bool isSide(double side) { return side > 0 && side <= maxSide; }
+/// Throws ParseError unless a picture can have such a side.
+void checkSide(const ParsedDocument& document, const char* name, double side) {
+    const Element& root = *document.tree->root;
+    if (!(side >= scene::minSide && side <= maxSide))
+        throw ParseError(
+            document.map.at(root.offset),
+            fmt::format("<svg>: a {} of {} user units cannot be drawn: it must lie in [2^-40, 1e9]", name,
+                        side));
+}
 
 }  // namespace
 
@@ -36,9 +44,8 @@ Document load(std::span<const std::uint8_t> bytes, const Options& options) {
     Budget budget;
     Converter converter(*document->tree, document->reporter, options, budget);
     const Viewport size = converter.rootSize();
-    if (!isSide(size.width) || !isSide(size.height))
-        throw ParseError(document->map.at(document->tree->root->offset),
-                         "the picture has no size that can be drawn");
+    checkSide(*document, "width", size.width);
+    checkSide(*document, "height", size.height);
     result.scene.width = size.width;
     result.scene.height = size.height;
     converter.convertRoot(scene::identity, result.scene.root.children);

@@ -20,9 +20,8 @@ ParseError::ParseError(Location where, const std::string& what)
 
 SourceMap::SourceMap(std::string fileName, std::string_view source)
     : fileName_(std::move(fileName)), lineStarts_{0} {
-    for (std::size_t i = 0; i < source.size(); ++i)
-        if (source[i] == '\n')
-            lineStarts_.push_back(i + 1);
+    for (std::size_t i = source.find('\n'); i != source.npos; i = source.find('\n', i + 1))
+        lineStarts_.push_back(i + 1);
 }
 
 Location SourceMap::atSource(std::size_t sourceOffset) const {

@@ -34,6 +34,16 @@ TEST(Root, WithoutASizeIsAnError) {
     EXPECT_THROW(sizeOf("width='0' height='5'"), ParseError);
     EXPECT_THROW(sizeOf("width='-1' height='5'"), ParseError);
     EXPECT_THROW(sizeOf("width='1e20' height='5'"), ParseError);
+    try {
+        sizeOf("width='5' height='1e-38'");
+        ADD_FAILURE() << "an asset cannot be so small";
+    } catch (const ParseError& error) {
+        EXPECT_NE(
+            std::string(error.what())
+                .find("<svg>: a height of 1e-38 user units cannot be drawn: it must lie in [2^-40, 1e9]"),
+            std::string::npos)
+            << error.what();
+    }
 }
 TEST(Root, ViewBoxIsFitted) {
     const auto items =

@@ -1,22 +1,52 @@
+#include <stdexcept>
+
 #include "asset/container.hpp"
 #include "asset/evaluate.hpp"
+#include "asset/prefilter.hpp"
+#include "asset/scan.hpp"
 #include "asset/testing_files.hpp"
 
 namespace {
 
+using namespace vtm::asset;
+
 constexpr int side = 16;
 
+void require(bool holds, const char* what) {
+    if (!holds)
+        throw std::logic_error(what);
 }
+
+void checkColors(const vtm::image::Raster& raster) {
+    for (const float value : raster.rgba)
+        require(value >= 0 && value <= 1, "a channel is not in [0, 1]");
+}
+
+/// Whatever a valid asset holds, engines make colours of it.
+void use(const Asset& asset) {
+    const View view{side, side, {side / asset.width, 0, 0, side / asset.height, 0, 0}};
+    checkColors(evaluate(asset, view));
+    if (isSumOfMaps(asset))
+        checkColors(Scanner(asset).draw(view));
+    summarize(asset);
+    samplePrefilter(asset, {0.4f, 0.7f}, glm::mat2(0.2f));
+}
+
+}  // namespace
 
 /// The checksums are put right first: they would stop nearly every mutation at the door.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    vtm::asset::test::Bytes file(data, data + size);
-    if (file.size() >= vtm::asset::test::headerBytes)
-        vtm::asset::test::fixChecksums(file);
+    test::Bytes file(data, data + size);
+    if (file.size() >= test::headerBytes)
+        test::fixChecksums(file);
+    Asset asset;
     try {
-        const vtm::asset::Asset asset = vtm::asset::read(file);
-        vtm::asset::evaluate(asset, {side, side, {side / asset.width, 0, 0, side / asset.height, 0, 0}});
-    } catch (const vtm::asset::FormatError&) {
+        asset = read(file);
+    } catch (const FormatError&) {
+        return 0;
     }
+    const test::Bytes written = write(asset);
+    require(write(read(written)) == written, "what was read is written as other bytes");
+    use(asset);
     return 0;
 }
