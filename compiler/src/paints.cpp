@@ -84,10 +84,16 @@ std::optional<std::uint32_t> PaintTable::linear(const scene::LinearGradient& g, 
     const auto inverse = scene::inverse(compose(toPicture, gradientFrame(g)));
     if (!inverse)
         return std::nullopt;
+    return ramp({*inverse, g.stops, g.spread});
+}
+
+std::uint32_t PaintTable::ramp(const Ramp& whole) {
+    const std::optional<Ramp> part = isPart_ ? narrowed(whole, size_) : std::nullopt;
+    const Ramp& ramp = part ? *part : whole;
     asset::Gradient gradient;
-    gradient.matrix = floats(*inverse);
-    gradient.spread = static_cast<asset::Spread>(g.spread);
-    return push({asset::Op::Linear, {}, record(gradient, g.stops), allOpaque(g.stops)});
+    gradient.matrix = floats(ramp.toRamp);
+    gradient.spread = static_cast<asset::Spread>(ramp.spread);
+    return push({asset::Op::Linear, {}, record(gradient, ramp.stops), allOpaque(ramp.stops)});
 }
 
 std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, const Affine& toPicture) {
@@ -95,6 +101,8 @@ std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, 
         scene::inverse(compose(toPicture, Affine{g.radius, 0, 0, g.radius, g.center.x, g.center.y}));
     if (!inverse)
         return std::nullopt;
+    if (const auto straight = isPart_ ? straightened(g, *inverse, size_) : std::nullopt)
+        return ramp(*straight);
     asset::Gradient gradient;
     gradient.matrix = floats(*inverse);
     gradient.spread = static_cast<asset::Spread>(g.spread);

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "compiler/src/narrow_gradient.hpp"
 #include "compiler/src/picture.hpp"
 
 namespace vtm::compiler {
@@ -13,7 +14,8 @@ namespace vtm::compiler {
 /// LimitError.
 class PaintTable {
 public:
-    explicit PaintTable(Picture& picture) : picture_(picture) {}
+    explicit PaintTable(Picture& picture, const Excerpt& excerpt = {})
+        : picture_(picture), size_(excerpt.width, excerpt.height), isPart_(excerpt.isPart) {}
 
     /// The index of a new source; nothing if the paint's space is flat, so that nothing can be
     /// painted. Patterns are not paints here: lowering expands them.
@@ -30,7 +32,11 @@ private:
     std::optional<std::uint32_t> material(const scene::Material& material, const scene::Affine& toPicture);
     std::uint32_t record(asset::Gradient gradient, const std::vector<scene::GradientStop>& stops);
 
+    std::uint32_t ramp(const Ramp& ramp);
+
     Picture& picture_;
+    const glm::dvec2 size_;
+    const bool isPart_;
     std::map<const image::Bitmap*, std::uint32_t> images_;
     std::map<std::string, std::uint32_t> materials_;  ///< by name: a valid scene has one text for each
 };

@@ -89,12 +89,7 @@ void compilePaper(Source& source, const std::string& path, const compiler::Optio
 void compileScene(Source& source, const std::string& path, const compiler::Options& options) {
     compiler::Result result =
         timed(source.stages, "compile", [&] { return compiler::compile(*source.scene, options); });
-    for (const auto& [stage, milliseconds] : result.stages)
-        source.stages.emplace_back(stage, milliseconds);
-    printWarnings(path, result.warnings);
-    source.proof = figures(result);
-    source.unproven = std::move(result.unproven);
-    source.asset = std::move(result.asset);
+    take(source, path, std::move(result));
 }
 
 }  // namespace
@@ -107,7 +102,9 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
     // The compiler's own range (compiler::Options::tolerance).
     command
         .add_option("--tolerance", options.compiler.tolerance,
-                    "How far a boundary may be off, as a share of the longer side")
+                    "How far a boundary may be off, as a share of the longer side; render chooses one that fits "
+                    "the view unless it is given")
+        ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
         ->capture_default_str();
     command.add_option("--dpi", options.svg.dpi, "Pixels an inch")
@@ -122,12 +119,23 @@ Source loadSource(const std::string& path, const SourceOptions& options, bool co
         loadAsset(source, path, options);
     } else {
         parseSvg(source, path, options.svg);
-        if (compile && options.paper)
-            compilePaper(source, path, options.compiler);
-        else if (compile)
-            compileScene(source, path, options.compiler);
+        if (compile)
+            compileSource(source, path, options);
     }
     return source;
+}
+
+void compileSource(Source& source, const std::string& path, const SourceOptions& options) {
+    options.paper ? compilePaper(source, path, options.compiler) : compileScene(source, path, options.compiler);
+}
+
+void take(Source& source, const std::string& path, compiler::Result result) {
+    for (const auto& [stage, milliseconds] : result.stages)
+        source.stages.emplace_back(stage, milliseconds);
+    printWarnings(path, result.warnings);
+    source.proof = figures(result);
+    source.unproven = std::move(result.unproven);
+    source.asset = std::move(result.asset);
 }
 
 }  // namespace vtm::tools

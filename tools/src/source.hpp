@@ -22,6 +22,7 @@ struct SourceOptions {
     /// As typed; an asset has its own mode, which must not contradict it.
     std::optional<asset::Mode> mode;
     bool paper = false;  ///< --mode paper, for SVG files only
+    bool hasTolerance = false;  ///< given by the user
 };
 
 /// --mode, --tolerance and what the importer needs: fonts, dpi, language.
@@ -41,5 +42,10 @@ struct Source {
 /// Reads `.vtm` files as assets and all others as SVG; warnings go to stderr. An SVG is compiled only
 /// if `compile`. Throws the modules' exceptions.
 Source loadSource(const std::string& path, const SourceOptions& options, bool compile = true);
+
+/// Compiles a source that was only parsed.
+void compileSource(Source& source, const std::string& path, const SourceOptions& options);
+/// What came of compiling it.
+void take(Source& source, const std::string& path, compiler::Result result);
 
 }  // namespace vtm::tools
