@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -264,9 +265,16 @@ struct Asset {
     std::vector<Texel> data;  ///< programs, gradients, image and material fills
     std::vector<image::Bitmap> images;
     std::vector<Material> materials;
-    std::uint32_t fallbackLeaves = 0;  ///< leaves averaged from samples because no certificate held
+    std::uint32_t fallbackLeaves = 0;  ///< averaged from samples and too large for the tolerance
     Prefilter prefilter;               ///< for minification, optional (asset/prefilter.hpp)
+    /// How far it may be magnified: the side, in user units, of the smallest pixels for which no drawn boundary
+    /// lies farther than a sixteenth of one from the scene's. 0: of any size. Nothing where it is unknown,
+    /// as in files that were written before it was stored. Images and gradients have limits of their own.
+    std::optional<double> finestPixel;
 };
+
+/// What finestPixel promises, in pixels.
+inline constexpr double finestShare = 1.0 / 16;
 
 /// The same, as what every function reads: spans over an Asset, or over a file mapped into memory
 /// (asset/mapped_asset.hpp). Valid as long as what they point into.
@@ -284,6 +292,7 @@ struct AssetView {
     std::span<const Material> materials;
     std::uint32_t fallbackLeaves = 0;
     PrefilterView prefilter;
+    std::optional<double> finestPixel;
 
     AssetView() = default;
     AssetView(const Asset& a)  // NOLINT(google-explicit-constructor): an asset is passed as it is
@@ -300,7 +309,8 @@ struct AssetView {
           images(a.images),
           materials(a.materials),
           fallbackLeaves(a.fallbackLeaves),
-          prefilter{a.prefilter.size, a.prefilter.texels} {}
+          prefilter{a.prefilter.size, a.prefilter.texels},
+          finestPixel(a.finestPixel) {}
 };
 
 /// For each image, whether a paint program reads its levels: fills it trilinear or bicubic.

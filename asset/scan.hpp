@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include <glm/vec4.hpp>
 
@@ -45,6 +46,9 @@ public:
     ~Scanner();
     Scanner(Scanner&&) noexcept;
     Scanner& operator=(Scanner&&) noexcept;
+
+    /// How far the asset may be magnified: Asset::finestPixel.
+    std::optional<double> finestPixel() const;
 
     /// Replaces every pixel, rounded to nearest. Throws std::length_error if the view is beyond its limits.
     void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "asset/asset.hpp"
@@ -22,6 +23,9 @@ public:
     ~Texture();
     Texture(Texture&&) noexcept;
     Texture& operator=(Texture&&) noexcept;
+
+    /// How far the picture may be magnified: asset::Asset::finestPixel.
+    std::optional<double> finestPixel() const;
 
 private:
     friend class Renderer;

@@ -25,8 +25,9 @@ struct Options {
     /// A fixed rule instead, for comparison: a leaf with more pieces is split while the tree may grow
     /// deeper. In [1, 4096].
     std::optional<unsigned> piecesPerLeaf = std::nullopt;
-    /// Levels of the 16-tree. In [0, asset::maxLevel]; cells finer than the tolerance allows are not made.
-    unsigned maxDepth = 8;
+    /// Levels of the 16-tree, at most. In [0, asset::maxLevel]. Below level 8 there are only leaves that were
+    /// not proven to be within the tolerance where they were larger.
+    unsigned maxDepth = asset::maxLevel;
     /// Pairs of chords looked at before the picture is a LimitError: a minute or so.
     std::size_t maxWork = 20'000'000'000;
 };
@@ -46,9 +47,11 @@ struct Result {
     asset::Asset asset;
     /// No drawn boundary lies farther from the scene's than this share of the picture's longer side: what
     /// is farther from every outline that shows has its true colour. docs/regions.md says what is
-    /// proven and how. 0 where nothing is drawn but whole squares.
+    /// proven and how. 0 where nothing is drawn but whole squares. Beyond the tolerance only where the warnings
+    /// say so: it is finer than can be proven, or outlines are too tangled for leaves that may be made.
     double provenError = 0;
-    /// Where it is not: leaves filled with the mean of samples (Asset::fallbackLeaves).
+    /// Leaves filled with the mean of samples (Asset::fallbackLeaves) that are too large for the tolerance: no
+    /// boundary is told apart within them.
     std::vector<UnprovenSquare> unproven;
     /// Strokes along curves other than circles. Where such a curve is tighter than half the stroke's width,
     /// that its offset curves lie within the tolerance is tested at fifteen points of every piece, not proven

@@ -52,7 +52,8 @@ Asset toAsset(const AssetView& view) {
             .images = copied(view.images),
             .materials = copied(view.materials),
             .fallbackLeaves = view.fallbackLeaves,
-            .prefilter = {view.prefilter.size, copied(view.prefilter.texels)}};
+            .prefilter = {view.prefilter.size, copied(view.prefilter.texels)},
+            .finestPixel = view.finestPixel};
 }
 
 }  // namespace vtm::asset

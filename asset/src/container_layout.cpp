@@ -14,6 +14,8 @@ constexpr std::array<const char*, 13> names{
 }  // namespace
 
 std::string nameOf(SectionKind kind) {
+    if (kind == SectionKind::Accuracy)
+        return "accuracy";
     const auto index = std::size_t(kind);
     return index < names.size() ? names[index] : fmt::format("{:#x}", index);
 }

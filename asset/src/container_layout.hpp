@@ -47,7 +47,8 @@ enum class SectionKind : std::uint32_t {
     ImageBytes,
     Prefilter,
     Materials,
-    MaterialBytes
+    MaterialBytes,
+    Accuracy = 0x80000000u  ///< a reader may do without it
 };
 /// Sections up to this one stand in every file, empty or not; those after it only where they are not
 /// empty.
@@ -78,6 +79,12 @@ struct PictureRecord {
     PyramidSize prefilter;
 };
 static_assert(sizeof(PictureRecord) == 32);
+
+struct AccuracyRecord {
+    double finestPixel = 0;
+    std::uint64_t unused = 0;
+};
+static_assert(sizeof(AccuracyRecord) == 16);
 
 constexpr std::uint64_t alignedOffset(std::uint64_t offset) {
     return (offset + sectionAlignment - 1) / sectionAlignment * sectionAlignment;

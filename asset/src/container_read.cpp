@@ -131,6 +131,15 @@ void readPicture(const Sections& sections, AssetView& view) {
     view.prefilter.size = records[0].prefilter;
 }
 
+void readAccuracy(const Sections& sections, AssetView& view) {
+    const auto records = sections.take<AccuracyRecord>(SectionKind::Accuracy);
+    if (records.empty())
+        return;
+    asset::require(records.size() == 1, "accuracy", records.size(), "must be one record");
+    asset::require(records[0].unused == 0, "accuracy", 0, "unused word is not zero");
+    view.finestPixel = records[0].finestPixel;
+}
+
 }  // namespace
 
 Contents openContents(Bytes bytes) {
@@ -152,6 +161,7 @@ Contents openContents(Bytes bytes) {
     contents.materials = decodeMaterials(sections.take<MaterialRecord>(SectionKind::Materials),
                                          sections.take<std::uint8_t>(SectionKind::MaterialBytes));
     view.materials = contents.materials;
+    readAccuracy(sections, view);
     validate(view);
     return contents;
 }

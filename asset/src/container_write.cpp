@@ -69,6 +69,9 @@ std::vector<std::uint8_t> write(const AssetView& asset) {
         sections.push_back(section(SectionKind::Materials, std::span(materials.table)));
         sections.push_back(section(SectionKind::MaterialBytes, std::span(materials.bytes)));
     }
+    const AccuracyRecord accuracy{asset.finestPixel.value_or(0)};
+    if (asset.finestPixel)
+        sections.push_back(section(SectionKind::Accuracy, std::span(&accuracy, 1)));
     return assemble(sections);
 }
 

@@ -271,6 +271,7 @@ Scanner::Scanner(const AssetView& asset, Sums sums) : impl_(std::make_unique<Imp
     kept.data.assign(asset.data.begin(), asset.data.end());
     kept.images.assign(asset.images.begin(), asset.images.end());
     kept.materials.assign(asset.materials.begin(), asset.materials.end());
+    kept.finestPixel = asset.finestPixel;
     impl_->paints.emplace(kept);
     for (const Paint& paint : kept.paints) {
         impl_->isProgram.push_back(asset::isProgram(paint));
@@ -282,6 +283,8 @@ Scanner::Scanner(const AssetView& asset, Sums sums) : impl_(std::make_unique<Imp
 Scanner::~Scanner() = default;
 Scanner::Scanner(Scanner&&) noexcept = default;
 Scanner& Scanner::operator=(Scanner&&) noexcept = default;
+
+std::optional<double> Scanner::finestPixel() const { return impl_->asset.finestPixel; }
 
 void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
     impl_->draw(view, materials, ByteStore(target, view.width));

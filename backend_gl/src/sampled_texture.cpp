@@ -123,6 +123,7 @@ struct SampledTexture::Impl {
     Impl(const AssetView& asset, const asset::PrefilterView& pyramid, ImageTexels pictures)
         : width(asset.width),
           height(asset.height),
+          finestPixel(asset.finestPixel),
           map(onlyMap(asset)),
           features(featuresOf(asset)),
           prefilterSize(pyramid.size),
@@ -131,6 +132,7 @@ struct SampledTexture::Impl {
           images(features.has(Features::Image) ? imageTexture(std::move(pictures.rgba)) : TextureHandle()) {}
 
     double width, height;
+    std::optional<double> finestPixel;
     asset::Map map;
     Features features;
     asset::PyramidSize prefilterSize;
@@ -185,6 +187,8 @@ SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOpt
 SampledTexture::~SampledTexture() = default;
 SampledTexture::SampledTexture(SampledTexture&&) noexcept = default;
 SampledTexture& SampledTexture::operator=(SampledTexture&&) noexcept = default;
+
+std::optional<double> SampledTexture::finestPixel() const { return impl_->finestPixel; }
 
 unsigned SampledTexture::units() const { return impl_->images.get() != 0 ? 3 : 2; }
 

@@ -65,7 +65,8 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
       list(isSumOfMaps(asset) ? InstanceList{} : makeInstances(asset)),
       features(featuresOf(asset)),
       materialSet(materials),
-      paints(asset.paints.begin(), asset.paints.end()) {
+      paints(asset.paints.begin(), asset.paints.end()),
+      finestPixel(asset.finestPixel) {
     if (isSumOfMaps(asset))
         for (const asset::Command& command : asset.commands)
             atlases.emplace_back(asset, asset.maps[command.map]);
@@ -90,6 +91,7 @@ void UploadedAsset::uploadPlacements(std::uint32_t first, std::uint32_t last) {
 
 Texture::Texture(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Texture::~Texture() = default;
+std::optional<double> Texture::finestPixel() const { return impl_->finestPixel; }
 Texture::Texture(Texture&&) noexcept = default;
 Texture& Texture::operator=(Texture&&) noexcept = default;
 

@@ -31,6 +31,7 @@ struct UploadedAsset {
     unsigned materialSet;  ///< of Programs
     float steepest = 0;    ///< of asset/steepness.hpp, of all paints
     std::vector<asset::Paint> paints;
+    std::optional<double> finestPixel;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
     std::vector<PatchAtlas> atlases;        ///< exact: of each map drawn
     Sections sections;

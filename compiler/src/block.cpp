@@ -125,10 +125,15 @@ BlockBuilder::Built BlockBuilder::build(Cell& cell) {
 }
 
 BlockBuilder::Built BlockBuilder::buildLast(Cell& cell) {
-    if (distinctChords(cell, maxChordsInLastLeaf) > maxChordsInLastLeaf)
-        return emitMean(cell);
-    const Made made = makeLeaf(cell);
-    return made ? emit(made, cell.level) : emitMean(cell);
+    const ErrorBudget& budget = options_.budget;
+    const bool isTooMany = distinctChords(cell, maxChordsInLastLeaf) > maxChordsInLastLeaf;
+    const Made made = isTooMany ? Made{} : makeLeaf(cell);
+    if (made && (budget.holds(made.error) || !budget.canHold()))
+        return emit(made, cell.level);
+    const double mean = budget.mean(cell.level);
+    if (!budget.holds(mean) && cell.level < options_.lastDepth)
+        return buildNode(cell, push(cell));
+    return made && made.error <= mean ? emit(made, cell.level) : emitMean(cell);
 }
 
 BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
@@ -299,7 +304,10 @@ BlockBuilder::Built BlockBuilder::emit(const Made& made, unsigned level) {
 
 /// The fallback: the mean over 4 × 4 points, each classified by winding (after Ganacim et al. 2014).
 BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
-    tree_.unproven.push_back(cell.square);
+    const double error = options_.budget.mean(cell.level);
+    tree_.error = std::max(tree_.error, error);
+    if (!options_.budget.holds(error))
+        tree_.unproven.push_back(cell.square);
     work_.spend(16 * cell.strands.size() * visitWork);
     regions_.enter(cell, tree_.palette);
     std::vector<PaintId> paints;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/src/clock.hpp"
+#include "compiler/src/compile_excerpt.hpp"
 #include "compiler/src/encode.hpp"
 #include "compiler/src/painters.hpp"
 #include "compiler/src/settings.hpp"
@@ -179,19 +180,22 @@ private:
 Result compile(const scene::Scene& scene, const Options& options) {
     checkOptions(options);
     scene::validate(scene);
+    return compileExcerpt(scene, wholeOf(scene), options);
+}
 
+Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
     const auto start = Clock::now();
-    const Lattice lattice(scene.width, scene.height, latticeBits(options));
+    const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
     // Where coverage is a factor, fills end where they are told to.
     const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
-    Picture picture = lower(scene, lattice, errorBudget(options), sharing);
+    Picture picture = lower(scene, excerpt, lattice, errorBudget(options), sharing);
     const auto lowered = Clock::now();
 
     Result result;
     result.sampledStrokes = picture.sampledStrokes;
     asset::Asset& asset = result.asset;
-    asset.width = scene.width;
-    asset.height = scene.height;
+    asset.width = excerpt.width;
+    asset.height = excerpt.height;
     asset.mode = options.mode;
     asset.data = std::move(picture.data);
     asset.images = bitmapsOf(picture);
@@ -203,6 +207,7 @@ Result compile(const scene::Scene& scene, const Options& options) {
     else
         error = CompatCompiler(picture, maps, asset).run();
 
+    asset.finestPixel = finestPixel(result);
     const TreeTimes& t = maps.times();
     const double built = milliseconds(lowered, Clock::now());
     result.stages = stageTimes(milliseconds(start, lowered), built, t);

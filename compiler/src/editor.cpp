@@ -45,7 +45,7 @@ public:
     Update run(const scene::Scene& scene) {
         const auto start = Clock::now();
         kept_.cache.put(std::move(kept_.picture.outlines));
-        picture_ = lower(scene, kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
+        picture_ = lower(scene, wholeOf(scene), kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
         const auto lowered = Clock::now();
         Update update;
         update.anew = !kept_.partition;
@@ -175,6 +175,7 @@ private:
         report.sampledStrokes = picture_.sampledStrokes;
         for (const Partition::Block& block : kept_.partition->blocks())
             certify(block.tree, treeOptions_.budget, report);
+        next.finestPixel = finestPixel(report);
         report.warnings = warningsOf(report, options_, colourError_);
         report.stages = stageTimes(milliseconds(start, lowered), milliseconds(lowered, Clock::now()), times_);
 

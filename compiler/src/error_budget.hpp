@@ -47,6 +47,11 @@ public:
         return outlineShare * tolerance_ + lattice(bend) +
                (slivers ? std::max(fitted, sliver(level)) : fitted);
     }
+    /// Of a leaf that is filled with one colour: an outline runs through it, so all of it is within its diagonal
+    /// of that.
+    double mean(unsigned level) const {
+        return outlineShare * tolerance_ + lattice(0) + diagonal * leafSteps(level);
+    }
     bool holds(double error) const { return error <= tolerance_; }
     /// Whether leaves can be made small enough for the bound to hold.
     bool canHold() const { return holds(outlineShare * tolerance_ + lattice(0) + fit()); }

@@ -37,14 +37,15 @@ Box mapped(const Box& b, const Affine& m) {
 
 class Lowering {
 public:
-    Lowering(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget, Sharing sharing,
-             OutlineCache* cache)
+    Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice, const ErrorBudget& budget,
+             Sharing sharing, OutlineCache* cache)
         : lattice_(lattice),
           budget_(budget),
           sharing_(sharing),
-          frame_{{0, 0}, {scene.width, scene.height}},
+          frame_{{0, 0}, {excerpt.width, excerpt.height}},
+          isPart_(excerpt.isPart),
           cache_(cache),
-          paints_(picture_, std::max(scene.width, scene.height)) {
+          paints_(picture_, excerpt) {
         if (cache_)
             picture_.outlines = cache_->take();
         // So that most pictures' need not be moved while they grow. Memory that is not written to costs
@@ -53,7 +54,7 @@ public:
         picture_.outlines.points.reserve(usualPoints);
         picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
-        group(scene.root, scene::identity, openGroup(0));
+        group(scene.root, excerpt.fromScene, openGroup(0));
     }
 
     Picture take() { return std::move(picture_); }
@@ -270,12 +271,21 @@ private:
                 const auto first = addStroke(
                     picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
                     budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
-                    lattice_.clampMin(), lattice_.clampMax());
+                    lattice_.clampMin(), lattice_.clampMax(), nearFrame(origin.transform));
                 if (sides)
                     *sides = first;
             }
         }
         return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
+    }
+
+    /// What of a path's space a stroke must be right in; everywhere if nothing is said.
+    std::optional<PathBox> nearFrame(const Affine& transform) const {
+        const auto toPath = isPart_ ? scene::inverse(transform) : std::nullopt;
+        if (!toPath)
+            return std::nullopt;
+        const Box box = mapped(frame_, *toPath);
+        return PathBox{box.min, box.max};
     }
 
     Affine toSteps(const OutlineOrigin& origin) const {
@@ -303,6 +313,7 @@ private:
     const ErrorBudget& budget_;
     const Sharing sharing_;
     const Box frame_;
+    const bool isPart_;
     OutlineCache* const cache_;
     Picture picture_;
     PaintTable paints_;
@@ -310,9 +321,9 @@ private:
 
 }  // namespace
 
-Picture lower(const scene::Scene& scene, const Lattice& lattice, const ErrorBudget& budget, Sharing sharing,
-              OutlineCache* cache) {
-    return Lowering(scene, lattice, budget, sharing, cache).take();
+Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice, const ErrorBudget& budget,
+              Sharing sharing, OutlineCache* cache) {
+    return Lowering(scene, excerpt, lattice, budget, sharing, cache).take();
 }
 
 }  // namespace vtm::compiler

@@ -11,6 +11,7 @@
 #include "compiler/src/cubics.hpp"
 #include "compiler/src/error_budget.hpp"
 #include "compiler/src/stroke_chords.hpp"
+#include "compiler/src/stroke_near.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -291,11 +292,18 @@ private:
 std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
                                        const scene::StrokeStyle& style, double strokeTolerance,
                                        double chordTolerance, const Affine& toSteps, double tolerance,
-                                       glm::dvec2 clampMin, glm::dvec2 clampMax) {
+                                       glm::dvec2 clampMin, glm::dvec2 clampMax,
+                                       const std::optional<PathBox>& near) {
     RunSink sink(outlines, clampMin, clampMax);
-    MappedContours contours(sink, withoutFarAway(toSteps), tolerance);
+    // Near the box numbers are small, and so are their roundings.
+    const Point origin = near ? (near->min + near->max) / 2.0 : Point{0, 0};
+    const Affine fromOrigin = near ? scene::compose(toSteps, scene::translation(origin.x, origin.y)) : toSteps;
+    MappedContours contours(sink, withoutFarAway(fromOrigin), tolerance);
     const std::size_t before = outlines.runs.size();
-    const bool isRings = strokeContours(path, style, strokeTolerance, chordTolerance, contours);
+    const bool isRings =
+        near ? strokeContoursNear({near->min - origin, near->max - origin}, stroke::moved(path, -origin), style,
+                                  strokeTolerance, chordTolerance, contours)
+             : strokeContours(path, style, strokeTolerance, chordTolerance, contours);
     sink.finish();
     if (!isRings)
         return std::nullopt;

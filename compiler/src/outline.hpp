@@ -41,14 +41,20 @@ struct Outlines {
 void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine& toSteps, double tolerance,
                 glm::dvec2 clampMin, glm::dvec2 clampMax);
 
+/// A box in a path's space.
+struct PathBox {
+    scene::Point min, max;
+};
+
 /// So the outline of a stroke of `path`, within `strokeTolerance` and `chordTolerance` (strokeContours) in
 /// path space; `tolerance`, in steps, is for the curves that it leaves. If all subpaths are closed and
 /// without dashes, returns how many of the runs, the first ones, may stand for the outline of `path` itself:
-/// beside the stroke they have the same winding numbers.
+/// beside the stroke they have the same winding numbers. With `near` the outline is right in that box only.
 std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
                                        const scene::StrokeStyle& style, double strokeTolerance,
                                        double chordTolerance, const scene::Affine& toSteps, double tolerance,
-                                       glm::dvec2 clampMin, glm::dvec2 clampMax);
+                                       glm::dvec2 clampMin, glm::dvec2 clampMax,
+                                       const std::optional<PathBox>& near = std::nullopt);
 
 /// Tolerance, as a share of the given one, in path space: how much `m` stretches at most.
 double largestStretch(const scene::Affine& m);

@@ -64,10 +64,11 @@ std::optional<std::uint32_t> PaintTable::add(const scene::Paint& paint, const Af
 }
 
 std::array<float, 6> PaintTable::numbers(const Affine& m) const {
+    const double side = std::max(size_.x, size_.y);
     double largest = 0;
     for (int row = 0; row < 2; ++row)
-        largest = std::max(
-            {largest, side_ * std::abs(m[0][row]), side_ * std::abs(m[1][row]), std::abs(m[2][row])});
+        largest =
+            std::max({largest, side * std::abs(m[0][row]), side * std::abs(m[1][row]), std::abs(m[2][row])});
     const double scale = std::min(1.0, largestPlace / largest);
     const auto f = [scale](double v) { return static_cast<float>(scale * v); };
     return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
@@ -98,10 +99,16 @@ std::optional<std::uint32_t> PaintTable::linear(const scene::LinearGradient& g, 
     const auto inverse = scene::inverse(compose(toPicture, gradientFrame(g)));
     if (!inverse)
         return std::nullopt;
+    return ramp({*inverse, g.stops, g.spread});
+}
+
+std::uint32_t PaintTable::ramp(const Ramp& whole) {
+    const std::optional<Ramp> part = isPart_ ? narrowed(whole, size_) : std::nullopt;
+    const Ramp& ramp = part ? *part : whole;
     asset::Gradient gradient;
-    gradient.matrix = numbers(*inverse);
-    gradient.spread = static_cast<asset::Spread>(g.spread);
-    return push({asset::Op::Linear, {}, record(gradient, g.stops), allOpaque(g.stops)});
+    gradient.matrix = numbers(ramp.toRamp);
+    gradient.spread = static_cast<asset::Spread>(ramp.spread);
+    return push({asset::Op::Linear, {}, record(gradient, ramp.stops), allOpaque(ramp.stops)});
 }
 
 std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, const Affine& toPicture) {
@@ -109,6 +116,8 @@ std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, 
         scene::inverse(compose(toPicture, Affine{g.radius, 0, 0, g.radius, g.center.x, g.center.y}));
     if (!inverse)
         return std::nullopt;
+    if (const auto straight = isPart_ ? straightened(g, *inverse, size_) : std::nullopt)
+        return ramp(*straight);
     asset::Gradient gradient;
     gradient.matrix = numbers(*inverse);
     gradient.spread = static_cast<asset::Spread>(g.spread);

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "compiler/src/narrow_gradient.hpp"
 #include "compiler/src/picture.hpp"
 
 namespace vtm::compiler {
@@ -13,8 +14,8 @@ namespace vtm::compiler {
 /// LimitError, and so are bitmaps of more than image::maxDecodedPixels together.
 class PaintTable {
 public:
-    /// `side`: the longer one of the picture, user units.
-    PaintTable(Picture& picture, double side) : picture_(picture), side_(side) {}
+    PaintTable(Picture& picture, const Excerpt& excerpt)
+        : picture_(picture), size_(excerpt.width, excerpt.height), isPart_(excerpt.isPart) {}
 
     /// The index of a new source; nothing if the paint's space is flat, so that nothing can be
     /// painted. Patterns are not paints here: lowering expands them.
@@ -33,8 +34,11 @@ private:
     /// In single precision; `toPaint`: the picture's space to the paint's.
     std::array<float, 6> numbers(const scene::Affine& toPaint) const;
 
+    std::uint32_t ramp(const Ramp& ramp);
+
     Picture& picture_;
-    const double side_;
+    const glm::dvec2 size_;
+    const bool isPart_;
     std::int64_t imagePixels_ = 0;
     std::map<const image::Bitmap*, std::uint32_t> images_;
     std::map<std::string, std::uint32_t> materials_;  ///< by name: a valid scene has one text for each

@@ -9,8 +9,13 @@ namespace {
 
 /// A lattice step is this many bits finer than the tolerance: snapping moves points by a step or two.
 constexpr int stepBits = 6;
-/// Cells of the last level still have this many steps a side.
+/// Deeper levels save no drawing.
+constexpr unsigned usualDepth = 8;
+/// Cells of that level still have this many steps a side.
 constexpr int lastCellBits = 4;
+/// So have those that are split because they are not proven: an eighth of the tolerance or a quarter, whose
+/// diagonal fits into the budget (ErrorBudget::mean). Means are of 4 × 4 points, which take two steps each.
+constexpr int smallestCellBits = 3;
 
 }  // namespace
 
@@ -36,8 +41,10 @@ TreeOptions treeOptions(const Options& o) {
     t.maxWork = o.maxWork;
     t.cost.nanosecondsPerByte = o.nanosecondsPerByte;
     t.piecesPerLeaf = o.piecesPerLeaf;
-    t.maxDepth = std::min(o.maxDepth, static_cast<unsigned>(latticeBits(o) - lastCellBits) / 2);
+    t.maxDepth = std::min({o.maxDepth, usualDepth, static_cast<unsigned>(latticeBits(o) - lastCellBits) / 2});
     t.minDepth = std::min(t.maxDepth, t.budget.coarsestLevel());
+    const auto finest = static_cast<unsigned>(latticeBits(o) - smallestCellBits) / 2;
+    t.lastDepth = std::max(t.maxDepth, std::min(o.maxDepth, finest));
     return t;
 }
 
@@ -57,11 +64,15 @@ void certify(const Tree& tree, const ErrorBudget& budget, Result& result) {
         result.unproven.push_back({picture(s.x0), picture(s.y0), longer * budget.share(s.side)});
 }
 
+double finestPixel(const Result& result) {
+    return result.provenError * std::max(result.asset.width, result.asset.height) / asset::finestShare;
+}
+
 std::vector<std::string> warningsOf(const Result& result, const Options& options, float colourError) {
     std::vector<std::string> warnings;
     if (!result.unproven.empty())
         warnings.push_back(std::to_string(result.unproven.size()) +
-                           " leaves could not be certified and are filled with the mean of samples");
+                           " leaves could not be told apart and are filled with the mean of samples");
     if (result.provenError > options.tolerance)
         warnings.push_back("boundaries are proven to lie within " +
                            std::to_string(result.provenError / options.tolerance) + " tolerances only");

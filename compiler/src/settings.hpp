@@ -17,6 +17,8 @@ TreeOptions treeOptions(const Options& options);
 std::vector<StageTime> stageTimes(double lowered, double built, const TreeTimes& times);
 /// Adds to Result::provenError and Result::unproven what is known of a tree over the root square.
 void certify(const Tree& tree, const ErrorBudget& budget, Result& result);
+/// Asset::finestPixel of what has been certified.
+double finestPixel(const Result& result);
 /// Result::warnings; `colourError`: of encodePalette.
 std::vector<std::string> warningsOf(const Result& result, const Options& options, float colourError);
 

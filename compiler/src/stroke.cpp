@@ -22,6 +22,7 @@
 
 #include "compiler/compile.hpp"
 #include "compiler/src/stroke_chords.hpp"
+#include "compiler/src/stroke_near.hpp"
 #include "compiler/src/stroke_offset.hpp"
 #include "compiler/src/stroke_subpath.hpp"
 
@@ -50,6 +51,8 @@ constexpr double largestSize = 1e48;
 
 /// Tolerances are raised to this share of the coordinates: finer fits would chase rounding errors.
 constexpr double finestShare = 1e-11;
+/// Near a box, where coordinates are no larger than the stroke is wide: a thousand roundings.
+constexpr double finestShareNear = 1e-13;
 
 /// Hairlines are as exact as this share of their width, so that they keep their coverage to a sixteenth.
 constexpr double hairlineShare = 1.0 / 32;
@@ -325,6 +328,47 @@ bool outline(const scene::Path& path, const scene::StrokeStyle& style, double to
     return isRings;
 }
 
+/// The strokes' subpaths, dashes if it has any; of these what reaches the box.
+std::vector<Subpath> subpathsNear(const PathBox& box, const scene::Path& path, const StrokeStyle& style,
+                                  double tolerance, bool& isRings) {
+    std::vector<Subpath> near;
+    std::size_t dashes = 0;
+    const auto add = [&](const Subpath& subpath) {
+        isRings &= subpath.closed;
+        if (!nearParts(subpath, style, box, tolerance, near))
+            isRings = false;
+    };
+    for (const Subpath& subpath : subpaths(path, tolerance * arcShare)) {
+        if (style.dashes.empty()) {
+            add(subpath);
+            continue;
+        }
+        isRings = false;
+        for (const Subpath& piece : dash(subpath, style, dashes, DashPrecision::Finest))
+            add(piece);
+    }
+    return near;
+}
+
+bool outlineNear(const PathBox& box, const scene::Path& path, const StrokeStyle& style, double tolerance,
+                 double chords, ContourSink& contours) {
+    if (!(largestCoordinate(path) + style.width <= largestSize))
+        throw LimitError("stroke: coordinates or width beyond 1e48");
+    bool isRings = true;
+    tolerance = std::min(tolerance, hairlineShare * style.width);
+    const std::vector<Subpath> near = subpathsNear(box, path, style, tolerance, isRings);
+    double size = style.width;
+    for (const Subpath& subpath : near)
+        size = std::max(size, style.width + largestCoordinate(subpath));
+    const double finest = finestShareNear * size;
+    Outliner outliner(style, std::max(tolerance, finest), chords > 0 ? std::max(chords, finest) : chords,
+                      contours);
+    for (const Subpath& subpath : near)
+        outliner.add(subpath);
+    outliner.finish();
+    return isRings;
+}
+
 scene::Path outlineAsPath(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                           double chords) {
     ContourPath contours;
@@ -347,6 +391,11 @@ scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeSt
 bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                     double chordTolerance, ContourSink& contours) {
     return stroke::outline(path, style, tolerance, chordTolerance, contours);
+}
+
+bool strokeContoursNear(const PathBox& box, const scene::Path& path, const scene::StrokeStyle& style,
+                        double tolerance, double chordTolerance, ContourSink& contours) {
+    return stroke::outlineNear(box, path, style, tolerance, chordTolerance, contours);
 }
 
 bool hasSampledOffsets(const scene::Path& path) {

@@ -35,7 +35,8 @@ double gaussLength(const Cubic& c, double t0, double t1) {
 double adaptiveLength(const Cubic& c, double t0, double t1, double whole, double tolerance, int depth) {
     const double mid = (t0 + t1) / 2;
     const double left = gaussLength(c, t0, mid), right = gaussLength(c, mid, t1);
-    if (depth == 0 || std::abs(left + right - whole) <= tolerance)
+    constexpr double roundings = 1e-15;  // of a sum of sixteen: closer it does not come
+    if (depth == 0 || std::abs(left + right - whole) <= std::max(tolerance, roundings * whole))
         return left + right;
     return adaptiveLength(c, t0, mid, left, tolerance / 2, depth - 1) +
            adaptiveLength(c, mid, t1, right, tolerance / 2, depth - 1);
@@ -89,16 +90,15 @@ Curvature curvature(const Cubic& c) {
              glm::dot(d, d)}};
 }
 
-double arcLength(const Cubic& c, double t0, double t1) {
-    constexpr double relativeError = 1e-9;
+double arcLength(const Cubic& c, double t0, double t1, double relativeError) {
     constexpr int maxDepth = 24;  // a cusp halves the step once a level; 2^-24 of a curve is negligible
     const double polygon = glm::distance(c.p0, c.p1) + glm::distance(c.p1, c.p2) + glm::distance(c.p2, c.p3);
     return adaptiveLength(c, t0, t1, gaussLength(c, t0, t1), relativeError * polygon, maxDepth);
 }
 
-double parameterAtLength(const Cubic& c, double t0, double length) {
+double parameterAtLength(const Cubic& c, double t0, double length, double relativeError) {
     double low = t0, high = 1, t = t0, reached = 0;
-    const double close = 1e-10 * extent(c);
+    const double close = relativeError / 10 * extent(c);
     constexpr int maxSteps = 60;
     for (int i = 0; i < maxSteps; ++i) {
         const double missing = length - reached;
@@ -112,7 +112,7 @@ double parameterAtLength(const Cubic& c, double t0, double length) {
         if (next == t)
             break;
         t = next;
-        reached = arcLength(c, t0, t);
+        reached = arcLength(c, t0, t, relativeError);
     }
     return t;
 }

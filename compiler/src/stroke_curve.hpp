@@ -86,10 +86,12 @@ double bernstein(std::array<double, N> b, double t) {
     return b[0];
 }
 
-/// Arc length over [t0, t1], relative error below 1e-9 of the control polygon's length.
-double arcLength(const Cubic& c, double t0, double t1);
+/// Of lengths, as a share of the control polygon's.
+inline constexpr double usualLengthError = 1e-9;
+/// Arc length over [t0, t1].
+double arcLength(const Cubic& c, double t0, double t1, double relativeError = usualLengthError);
 /// The t >= t0 at which arcLength(c, t0, t) is `length`, at most 1.
-double parameterAtLength(const Cubic& c, double t0, double length);
+double parameterAtLength(const Cubic& c, double t0, double length, double relativeError = usualLengthError);
 
 /// Largest angle that one cubic may span on a circle of `radius` so that it stays within
 /// `tolerance`; at most a quarter turn.

@@ -16,13 +16,17 @@ namespace {
 /// A dash that ends within this share of the subpath's length from a vertex ends at the vertex:
 /// rounding must not carry it round a corner.
 constexpr double vertexSnap = 1e-9;
+/// So where lengths are as exact as doubles can be, of which many have been added up.
+constexpr double finestVertexSnap = 1e-13;
+/// Of a quadrature that sums up doubles.
+constexpr double finestLengthError = 1e-14;
 
-double segmentLength(const Segment& s) {
-    return s.straight ? glm::distance(s.curve.p0, s.curve.p3) : arcLength(s.curve, 0, 1);
+double segmentLength(const Segment& s, double error) {
+    return s.straight ? glm::distance(s.curve.p0, s.curve.p3) : arcLength(s.curve, 0, 1, error);
 }
 
-double cutAt(const Segment& s, double from, double length, double whole) {
-    return s.straight ? std::min(1.0, from + length / whole) : parameterAtLength(s.curve, from, length);
+double cutAt(const Segment& s, double from, double length, double whole, double error) {
+    return s.straight ? std::min(1.0, from + length / whole) : parameterAtLength(s.curve, from, length, error);
 }
 
 /// Where in the pattern the pen is.
@@ -56,8 +60,8 @@ private:
 
 class Dasher {
 public:
-    Dasher(const Subpath& subpath, const scene::StrokeStyle& style, double length)
-        : subpath_(subpath), pattern_(style.dashes, style.dashPhase), snap_(vertexSnap * length) {}
+    Dasher(const Subpath& subpath, const scene::StrokeStyle& style, double snap, double error)
+        : subpath_(subpath), pattern_(style.dashes, style.dashPhase), snap_(snap), error_(error) {}
 
     std::vector<Subpath> run(const std::vector<double>& lengths) {
         const bool startsDrawing = pattern_.drawing();
@@ -73,7 +77,7 @@ private:
         double t = 0, rest = length;
         while (pattern_.left() <= rest + snap_) {
             const bool atEnd = pattern_.left() >= rest - snap_;
-            const double cut = atEnd ? 1 : cutAt(segment, t, pattern_.left(), length);
+            const double cut = atEnd ? 1 : cutAt(segment, t, pattern_.left(), length, error_);
             draw(segment, t, cut);
             endDash(segment, cut);
             rest -= pattern_.left();
@@ -116,7 +120,7 @@ private:
 
     const Subpath& subpath_;
     Pattern pattern_;
-    double snap_;
+    double snap_, error_;
     std::vector<Segment> dash_;
     std::vector<Subpath> result_;
     bool cut_ = false;
@@ -139,15 +143,19 @@ void checkCount(std::size_t& count, double length, const std::vector<double>& da
 
 }  // namespace
 
-std::vector<Subpath> dash(const Subpath& subpath, const scene::StrokeStyle& style, std::size_t& count) {
+std::vector<Subpath> dash(const Subpath& subpath, const scene::StrokeStyle& style, std::size_t& count,
+                          DashPrecision precision) {
     if (subpath.segments.empty() || hasNoGap(style.dashes))
         return {subpath};
     std::vector<double> lengths;
+    const bool isFinest = precision == DashPrecision::Finest;
+    const double error = isFinest ? finestLengthError : usualLengthError;
     std::transform(subpath.segments.begin(), subpath.segments.end(), std::back_inserter(lengths),
-                   segmentLength);
+                   [&](const Segment& s) { return segmentLength(s, error); });
     const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
     checkCount(count, length, style.dashes);
-    return Dasher(subpath, style, length).run(lengths);
+    const double snap = (isFinest ? finestVertexSnap : vertexSnap) * length;
+    return Dasher(subpath, style, snap, error).run(lengths);
 }
 
 }  // namespace vtm::compiler::stroke

@@ -142,6 +142,16 @@ double largestCoordinate(const scene::Path& path) {
     return largest;
 }
 
+double largestCoordinate(const Subpath& subpath) {
+    double largest = std::max(std::abs(subpath.at.x), std::abs(subpath.at.y));
+    if (!subpath.segments.empty())
+        largest = 0;
+    for (const Segment& s : subpath.segments)
+        for (const Point p : {s.curve.p0, s.curve.p1, s.curve.p2, s.curve.p3})
+            largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    return largest;
+}
+
 std::vector<Subpath> subpaths(const scene::Path& path, double tolerance) {
     Builder builder(tolerance, coincidence * largestCoordinate(path));
     for (const scene::Command& command : path)

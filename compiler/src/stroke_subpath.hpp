@@ -32,7 +32,13 @@ double largestCoordinate(const scene::Path& path);
 /// Arcs become cubics within `tolerance`; a lone MoveTo gives nothing (SVG 2 section 13.5.5).
 std::vector<Subpath> subpaths(const scene::Path& path, double tolerance);
 
+double largestCoordinate(const Subpath& subpath);
+
+/// Where dashes end: to 1e-9 of the path's length, or as well as doubles can tell.
+enum class DashPrecision { Usual, Finest };
+
 /// The drawn parts of a subpath. Adds their number to `count` and throws LimitError beyond maxDashes.
-std::vector<Subpath> dash(const Subpath& subpath, const scene::StrokeStyle& style, std::size_t& count);
+std::vector<Subpath> dash(const Subpath& subpath, const scene::StrokeStyle& style, std::size_t& count,
+                          DashPrecision precision = DashPrecision::Usual);
 
 }  // namespace vtm::compiler::stroke

@@ -44,6 +44,7 @@ struct TreeOptions {
     std::optional<unsigned> piecesPerLeaf;
     unsigned minDepth = 2;  ///< of leaves with pieces: keeps their quantisation below the tolerance
     unsigned maxDepth = 8;
+    unsigned lastDepth = 8;  ///< of leaves that would not be within the tolerance on maxDepth
     std::size_t maxWork = 0;  ///< pairs of chords
 };
 
@@ -80,8 +81,8 @@ struct Tree {
     std::vector<Leaf> leaves;
     std::vector<Piece> pieces;
     Palette palette;
-    double error = 0;              ///< the largest ErrorBudget::leaf of the leaves
-    std::vector<Square> unproven;  ///< leaves that are means of samples
+    double error = 0;              ///< the largest ErrorBudget::leaf or mean of the leaves
+    std::vector<Square> unproven;  ///< leaves that are means of samples and too large for the tolerance
 };
 
 /// Builds the tree over `root` for the given layers (ascending), on all processors; the result does not

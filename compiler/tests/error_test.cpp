@@ -331,6 +331,46 @@ TEST(Error, leavesThatAreGivenUpAreNamed) {
     EXPECT_EQ(result.unproven[0].side, 1);
 }
 
+/// Outlines of many curves, each a little beside the one before.
+scene::Scene nearlyCoincident(int count) {
+    scene::Scene scene{64, 64, {}};
+    for (int i = 0; i < count; ++i) {
+        const double off = 3e-6 * i;
+        const Path path{scene::MoveTo{{5 + off, 9}}, scene::CubicTo{{20, 60 - off}, {44, -12 + off}, {59, 50}},
+                        scene::LineTo{{30 + off, 61}}, scene::Close{}};
+        scene.root.children.push_back(
+            {scene::Item{std::make_shared<const Path>(path), scene::identity, scene::FillRule::EvenOdd,
+                         scene::Color{float(i % 7) / 7, 0.5f, 0, 0.3f}}});
+    }
+    return scene;
+}
+
+/// Thin triangles through one point.
+scene::Scene rays(int count) {
+    scene::Scene scene{64, 64, {}};
+    for (int i = 0; i < count; ++i) {
+        const double angle = 3.14159 * i / count;
+        const Point along{30 * std::cos(angle), 30 * std::sin(angle)}, side{-along.y / 6000, along.x / 6000},
+            middle{32.17, 31.89};
+        scene.root.children.push_back(
+            {scene::Item{std::make_shared<const Path>(
+                             scene::polygon({middle - along, middle + along + side, middle + along - side})),
+                         scene::identity, scene::FillRule::NonZero, scene::Color{float(i % 5) / 5, 0, 0.5f, 1}}});
+    }
+    return scene;
+}
+
+void expectProven(const Result& result) {
+    EXPECT_LE(result.provenError, Options().tolerance);
+    EXPECT_EQ(result.asset.fallbackLeaves, 0u);
+    EXPECT_TRUE(result.unproven.empty());
+    EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(Error, isProvenForManyNearlyCoincidentOutlines) { expectProven(compile(nearlyCoincident(300))); }
+
+TEST(Error, isProvenWhereManyOutlinesMeet) { expectProven(compile(rays(3000))); }
+
 TEST(Error, strokesAlongCurvesAreCounted) {
     scene::StrokeStyle line;
     line.width = 3;

@@ -112,8 +112,9 @@ TEST(SharedOutline, takesTheFirstRunsOfAStroke) {
     const auto layersOf = [](Path path) {
         const auto shape = std::make_shared<const Path>(std::move(path));
         const Lattice lattice(size, size, 20);
-        return lower(sceneOf({{filled(shape, FillRule::NonZero)}, {stroked(shape, {}, {0, 0, 0, 1})}}),
-                     lattice, ErrorBudget(1.0 / 4096, 20), Sharing::Outlines)
+        const scene::Scene scene =
+            sceneOf({{filled(shape, FillRule::NonZero)}, {stroked(shape, {}, {0, 0, 0, 1})}});
+        return lower(scene, wholeOf(scene), lattice, ErrorBudget(1.0 / 4096, 20), Sharing::Outlines)
             .layers;
     };
     Path ring{scene::MoveTo{{20, 20}}, scene::CubicTo{{40, 10}, {90, 50}, {80, 80}}, scene::LineTo{{30, 70}},

@@ -15,6 +15,7 @@
 #include "tools/src/progress.hpp"
 #include "tools/src/source.hpp"
 #include "tools/src/standard_output.hpp"
+#include "tools/src/zoom.hpp"
 
 namespace vtm::tools {
 
@@ -57,8 +58,8 @@ void printReport(const Job& job, const Source& source, const asset::View& view, 
 }
 
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
-    Source source = loadSource(readInput(job.input), options.source, engine.needsAsset());
-    const asset::View view = frame(options.framing, source.width, source.height);
+    Source source = loadSource(readInput(job.input), options.source, false);
+    const asset::View view = prepareView(source, options.source, options.framing, engine.needsAsset());
     const DebugView debug = parseDebugView(options.debugView);
     prepare(source, debug);
     image::Bitmap bitmap = engine.draw(source, view, ground);

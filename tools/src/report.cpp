@@ -56,7 +56,8 @@ Json figures(const asset::Asset& asset) {
             {"pieces", summary.pieces},
             {"fallback_leaves", asset.fallbackLeaves},
             {"regions", summary.regions},
-            {"max_depth", summary.maxDepth}};
+            {"max_depth", summary.maxDepth},
+            {"finest_pixel", asset.finestPixel ? Json(*asset.finestPixel) : Json()}};
 }
 
 Json figures(const compiler::Result& result) {

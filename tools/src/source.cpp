@@ -61,13 +61,7 @@ void compilePaper(Source& source, const compiler::Options& options) {
 void compileScene(Source& source, const compiler::Options& options) {
     compiler::Result result =
         timed(source.stages, "compile", [&] { return compiler::compile(*source.scene, options); });
-    for (const auto& [stage, milliseconds] : result.stages)
-        source.stages.emplace_back(stage, milliseconds);
-    for (const std::string& warning : result.warnings)
-        say(fmt::format("{}: warning: {}", source.name, warning));
-    source.proof = figures(result);
-    source.unproven = std::move(result.unproven);
-    source.asset = std::move(result.asset);
+    take(source, std::move(result));
 }
 
 }  // namespace
@@ -79,8 +73,11 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
         "2005, to compare with");
     // The compiler's own range (compiler::Options::tolerance).
     command
-        .add_option("--tolerance", options.compiler.tolerance,
-                    "How far a boundary may be off, as a share of the longer side")
+        .add_option(
+            "--tolerance", options.compiler.tolerance,
+            "How far a boundary may be off, as a share of the longer side; render chooses one that fits "
+            "the view unless it is given")
+        ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
         ->capture_default_str();
     command.add_option("--dpi", options.svg.dpi, "Pixels an inch")
@@ -102,12 +99,25 @@ Source loadSource(Input input, const SourceOptions& options, bool compile) {
     input.bytes = {};
     if (options.strict)
         refuseLeftOut(source);
-    if (source.scene && compile) {
-        options.paper ? compilePaper(source, options.compiler) : compileScene(source, options.compiler);
-        if (options.strict)
-            refuseLeftOut(source);
-    }
+    if (source.scene && compile)
+        compileSource(source, options);
     return source;
+}
+
+void compileSource(Source& source, const SourceOptions& options) {
+    options.paper ? compilePaper(source, options.compiler) : compileScene(source, options.compiler);
+    if (options.strict)
+        refuseLeftOut(source);
+}
+
+void take(Source& source, compiler::Result result) {
+    for (const auto& [stage, milliseconds] : result.stages)
+        source.stages.emplace_back(stage, milliseconds);
+    for (const std::string& warning : result.warnings)
+        say(fmt::format("{}: warning: {}", source.name, warning));
+    source.proof = figures(result);
+    source.unproven = std::move(result.unproven);
+    source.asset = std::move(result.asset);
 }
 
 }  // namespace vtm::tools

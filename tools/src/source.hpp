@@ -22,8 +22,9 @@ struct SourceOptions {
     compiler::Options compiler;
     /// As typed; an asset has its own mode, which must not contradict it.
     std::optional<asset::Mode> mode;
-    bool paper = false;   ///< --mode paper, for SVG files only
-    bool strict = false;  ///< --strict: what was left out is an error
+    bool paper = false;         ///< --mode paper, for SVG files only
+    bool hasTolerance = false;  ///< given by the user
+    bool strict = false;        ///< --strict: what was left out is an error
 };
 
 /// --mode, --tolerance, --strict and what the importer needs: fonts, dpi, language.
@@ -45,5 +46,10 @@ struct Source {
 /// Whether it is SVG or an asset, its bytes say; warnings go to stderr. An SVG is compiled only if `compile`.
 /// Throws the modules' exceptions, and std::runtime_error where --strict forbids what was left out.
 Source loadSource(Input input, const SourceOptions& options, bool compile = true);
+
+/// Compiles a source that was only parsed.
+void compileSource(Source& source, const SourceOptions& options);
+/// What came of compiling it.
+void take(Source& source, compiler::Result result);
 
 }  // namespace vtm::tools
