@@ -56,7 +56,7 @@ def main():
     if target == "asset":
         subprocess.run([program[0], str(out)], check=True)
         return
-    seeds = {"svg": drawings, "image": pictures, "openvg": lambda: noise(40, 4096),
+    seeds = {"svg": drawings, "image": pictures, "openvg": lambda: noise(40, 1024),
              "pipeline": lambda: drawings() | noise(200, 512)}[target]()
     for name, data in seeds.items():
         (out / name).write_bytes(data)
