@@ -17,7 +17,8 @@ static_assert(std::endian::native == std::endian::little);
 
 /// A carriage return, a line feed and DOS's end of file: transfers as text damage it visibly.
 inline constexpr std::array<std::uint8_t, 8> fileMagic{'V', 'T', 'M', 0xB6, '\r', '\n', 0x1A, '\n'};
-/// What tells a `.vtm` file, even one whose line ends were changed on the way: what begins like text, and is none.
+/// What tells a `.vtm` file, even one whose line ends were changed on the way: what begins like text, and is
+/// none.
 inline constexpr std::size_t telltaleBytes = 4;
 inline constexpr std::uint32_t fileVersion = 2;
 inline constexpr std::uint32_t endianMark = 0x01020304;

@@ -3,7 +3,9 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <climits>
+#include <cstdint>
 #include <cstring>
 #include <system_error>
 
@@ -62,28 +64,26 @@ fs::path folderOf(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// The file's name says whose it is: nobody else's may be removed.
+/// A name that nobody had before: by process and moment.
 std::string freshName() {
-    static std::atomic<unsigned> count = 0;
-    return ".vtm-tmp-" + std::to_string(getpid()) + "-" + std::to_string(count++);
-}
-
-/// A file of that name may be left from a process that was killed.
-Descriptor create(const fs::path& folder, mode_t mode, fs::path& path) {
-    for (;;) {
-        path = folder / freshName();
-        Descriptor file(path.string(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
-        if (file)
-            return file;
-        if (errno != EEXIST)
-            fail("no new file can be made beside it", errno);
-    }
+    static std::atomic<std::int64_t> moment = std::chrono::system_clock::now().time_since_epoch().count();
+    return ".vtm-tmp-" + std::to_string(getpid()) + "-" + std::to_string(moment++);
 }
 
 }  // namespace
 
 Temporary::Temporary(const fs::path& target, mode_t mode)
-    : target_(target), file_(create(folderOf(target), mode, path_)), slot_(enlist(path_.string())) {}
+    // Listed before it is there, or a signal in between would leave it behind.
+    : target_(target),
+      path_(folderOf(target) / freshName()),
+      slot_(enlist(path_.string())),
+      file_(path_.string(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode) {
+    if (file_)
+        return;
+    const int error = errno;
+    strike(slot_);
+    fail("no new file can be made beside it", error);
+}
 
 Temporary::~Temporary() {
     if (!path_.empty())

@@ -28,8 +28,8 @@ public:
 
 private:
     std::filesystem::path target_, path_;
-    Descriptor file_;
     int slot_;  ///< in the list that removeTemporaries() goes through, or -1
+    Descriptor file_;
 };
 
 }  // namespace vtm::image

@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include <fcntl.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include "image/codec.hpp"
