@@ -77,7 +77,7 @@ vec4 valueOf(Share share, Cell cell, bool quarters) {
 // branch, and loops once after their end unless that is told at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
-    bool flatPatch = patchTexels.z != 0u, cut = false, quarters = false;
+    bool flatPatch = patchTexels.z != 0u, cut = false, quarters = false, complete = true, atEnd = false;
     vec4 sum = vec4(0.0);
     for (;;) {
         List list = List(flatPatch ? uvec4(0u) : firstReferences(cell), 0u, false);
@@ -131,9 +131,11 @@ void main() {
             if (list.atEnd && side == 1u)
                 break;
         }
-        if (quarters || !cut)
+        complete = complete && list.atEnd && side == 1u;
+        atEnd = quarters || !cut;
+        if (atEnd)
             break;
         quarters = true;
     }
-    color = outputColor(sum);
+    color = outputColor(finishedSum(cell, sum, complete && atEnd));
 }

@@ -39,6 +39,7 @@ std::string layout() {
 std::string patches() {
     return constant("leftOfChordBit", leftOfChordBit) + constant("leftOfCurveBit", leftOfCurveBit) +
            constant("moreBit", moreBit) + constant("wideBit", wideBit) +
+           constant("crowdedBit", crowdedBit) +
            constant("patchCellsLog2", patchCellsLog2) +
            fmt::format("const float patchStep = {:.17g};\nconst float patchSlopeScale = {:.1f};\n",
                        std::ldexp(1.0, -int(patchStepLog2)), patchSlopeScale);

@@ -68,11 +68,7 @@ Texel colorTexel(const asset::Paint& left, const asset::Paint& right) {
 Texel CellWriter::write(const Reference& reference, std::span<const std::uint32_t> list) {
     const bool wide = !list.empty() && list.back() >= narrowNumbers;
     const std::size_t room = wide ? 1 : 2;
-    Packer packer;
-    packer.add(reference.paint, 16);
-    packer.add(reference.place, 16);
-    addColor(packer, paints_[reference.paint]);
-    Texel cell = packer.words();
+    Texel cell = withoutReferences(reference);
     if (list.size() > room) {
         cell[0] |= moreBit;
         cell[3] = append(reference.point, list, wide);
@@ -82,6 +78,20 @@ Texel CellWriter::write(const Reference& reference, std::span<const std::uint32_
     for (std::size_t i = 0; i < list.size(); ++i)
         cell[3] |= referenceWord(list[i], reference.point) << (i * 16);
     return cell;
+}
+
+Texel CellWriter::writeCrowded(const Reference& reference) const {
+    Texel cell = withoutReferences(reference);
+    cell[0] |= crowdedBit;
+    return cell;
+}
+
+Texel CellWriter::withoutReferences(const Reference& reference) const {
+    Packer packer;
+    packer.add(reference.paint, 16);
+    packer.add(reference.place, 16);
+    addColor(packer, paints_[reference.paint]);
+    return packer.words();
 }
 
 /// Returns the first texel.

@@ -1,8 +1,10 @@
 #include "backend_gl/src/picture.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
@@ -65,18 +67,34 @@ public:
 
     /// Whether a square can show.
     bool visible(i64vec2 at) const {
-        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
-        for (const i64vec2 corner : {i64vec2(0, 0), i64vec2(1, 0), i64vec2(0, 1), i64vec2(1, 1)}) {
-            const dvec2 p = pixel(at.x + corner.x, at.y + corner.y);
-            least = glm::min(least, p);
-            most = glm::max(most, p);
-        }
+        const auto [least, most] = bounds(dvec2(at), 1);
         return most.x > box_.min.x && most.y > box_.min.y && least.x < box_.max.x && least.y < box_.max.y;
+    }
+
+    /// Pixels of the box that a square's cell can show in.
+    PixelBox pixelsOfCell(i64vec2 at, unsigned cell) const {
+        constexpr unsigned cells = 1u << patchCellsLog2;
+        const dvec2 corner = dvec2(at) + dvec2(cell % cells, cell / cells) / double(cells);
+        const auto [least, most] = bounds(corner, 1.0 / cells);
+        const dvec2 first(box_.min), end(box_.max);
+        return {glm::ivec2(glm::clamp(glm::floor(least), first, end)),
+                glm::ivec2(glm::clamp(glm::ceil(most), first, end))};
     }
 
     i64vec2 min, max;
 
 private:
+    /// The least and the largest pixel coordinates of a square, whose corner and side are in patches.
+    std::pair<dvec2, dvec2> bounds(dvec2 corner, double side) const {
+        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        for (const dvec2 to : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}) {
+            const dvec2 p = view_.toPixels * glm::dvec3(corner_ + (corner + to * side) * side_, 1);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        return {least, most};
+    }
+
     double side_;
     dvec2 corner_;
     const asset::View& view_;
@@ -97,8 +115,17 @@ void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at
 
 struct Geometry {
     std::vector<FlatVertex> flat;
-    std::vector<PatchVertex> solid, programs;
+    /// By their kind.
+    std::array<std::vector<PatchVertex>, 4> patches;
+    PixelBox crowded;  ///< holds the pixels of crowded cells
 };
+
+/// Of patches: bits of an index.
+constexpr std::size_t withPrograms = 1, withCrowdedCells = 2;
+
+std::size_t kindOf(const Placed& patch) {
+    return (patch.programs ? withPrograms : 0) | (patch.crowded.empty() ? 0 : withCrowdedCells);
+}
 
 FlatVertex flatVertex(const asset::Paint& paint) {
     FlatVertex vertex{};
@@ -126,8 +153,10 @@ Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
             const Placed& patch = **next++;
             if (!squares.visible({x, y}))
                 continue;
+            for (const std::uint8_t cell : patch.crowded)
+                geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, cell));
             if (!patch.flat || patch.programs)
-                addSquare(patch.programs ? geometry.programs : geometry.solid, squares, {x, y},
+                addSquare(geometry.patches[kindOf(patch)], squares, {x, y},
                           patchVertex(squares, patch, x, y));
             else if (patch.paint != 0)
                 addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[patch.paint]));
@@ -187,7 +216,7 @@ PictureBuffers::PictureBuffers()
 }
 
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
-                 const PixelBox& box, Finish finish) {
+                 const PixelBox& box, Finish finish, bool markOverruns) {
     // The first map stands on what is there, the others add to it.
     for (PatchAtlas& atlas : asset.atlases) {
         if (&atlas != &asset.atlases.front()) {
@@ -198,6 +227,11 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
         const Squares squares(atlas.map(), view, box, level);
         const std::vector<const Placed*> patches = atlas.prepare(level, squares.min, squares.max);
         const Geometry geometry = geometryOf(asset, squares, patches);
+        if (!geometry.crowded.empty()) {
+            const bool light = finish.has(Finish::LinearLight);
+            atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);
+            bindTexture(Unit::Layer, atlas.scanned().texture());
+        }
         bindTexture(Unit::Texels, asset.texels);
         bindTexture(Unit::Images, asset.images);
         bindTexture(Unit::Patches, atlas.texture());
@@ -205,13 +239,17 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
             use(programs.flat(finish), asset, view, squares.side());
             draw(buffers.flatArray, buffers.flat, geometry.flat);
         }
-        if (!geometry.solid.empty()) {
-            use(programs.patch({}, 0, finish), asset, view, squares.side());
-            draw(buffers.patchArray, buffers.patch, geometry.solid);
-        }
-        if (!geometry.programs.empty()) {
-            use(programs.patch(asset.features, asset.materialSet, finish), asset, view, squares.side());
-            draw(buffers.patchArray, buffers.patch, geometry.programs);
+        for (std::size_t kind = 0; kind < geometry.patches.size(); ++kind) {
+            if (geometry.patches[kind].empty())
+                continue;
+            const bool crowded = (kind & withCrowdedCells) != 0;
+            const Program& program = (kind & withPrograms) != 0
+                                         ? programs.patch(asset.features, asset.materialSet, finish, crowded)
+                                         : programs.patch({}, 0, finish, crowded);
+            use(program, asset, view, squares.side());
+            glUniform1i(program.uniform("markOverruns"), markOverruns);
+            glUniform2i(program.uniform("scannedCorner"), geometry.crowded.min.x, geometry.crowded.min.y);
+            draw(buffers.patchArray, buffers.patch, geometry.patches[kind]);
         }
     }
     if (asset.atlases.size() > 1)

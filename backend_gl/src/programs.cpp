@@ -44,8 +44,8 @@ const Program& Programs::leaf(CostClass cost, Features features, unsigned materi
 }
 
 const Program& Programs::flat(Finish finish) { return get(Kind::Flat, {}, 0, finish); }
-const Program& Programs::patch(Features features, unsigned materialSet, Finish finish) {
-    return get(Kind::Patch, features, materialSet, finish);
+const Program& Programs::patch(Features features, unsigned materialSet, Finish finish, bool crowded) {
+    return get(crowded ? Kind::CrowdedPatch : Kind::Patch, features, materialSet, finish);
 }
 const Program& Programs::fill(Features features, unsigned materialSet) {
     return get(Kind::Fill, features, materialSet);
@@ -75,6 +75,8 @@ const Program& Programs::get(Kind kind, Features features, unsigned materialSet,
 ProgramSource Programs::source(Kind kind, Features features, Finish finish, std::string_view materials) {
     using namespace shaders;
     const std::string defines = features.defines(), finishes = finish.defines();
+    const std::string_view crowded =
+        kind == Kind::CrowdedPatch ? "#define CROWDED 1\n" : "#define CROWDED 0\n";
     const std::string_view finishBlend = finish.flags() == 0 ? std::string_view("") : shaders::blend;
     switch (kind) {
         case Kind::Solid:
@@ -89,13 +91,14 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
         case Kind::Flat:
             return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
         case Kind::Patch:
+        case Kind::CrowdedPatch:
             if (features.flags() == 0)
                 return {"patch",
                         {patch_vertex},
-                        {finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
+                        {crowded, finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
             return {"patch with programs",
                     {patch_vertex},
-                    {defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint, output,
+                    {crowded, defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint, output,
                      patch_programs_fragment, materials}};
         case Kind::Fill:
             return {"fill",
@@ -148,6 +151,7 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::General, features, 0);
         add(Kind::Fill, features, 0);
         add(Kind::Patch, features, 0);
+        add(Kind::CrowdedPatch, features, 0);
         add(Kind::Patch, features, allFinishes);
         sources.push_back(
             paperSource(Features(features), Features(features).has(Features::Material) ? materials : ""));
@@ -162,6 +166,7 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Compose, 0, finish);
         add(Kind::Patch, 0, finish);
         add(Kind::Patch, allFeatures, finish);
+        add(Kind::CrowdedPatch, 0, finish);
     }
     return sources;
 }

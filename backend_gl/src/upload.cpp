@@ -59,16 +59,18 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 
 }  // namespace
 
-UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
+UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::uint32_t maxTurns)
     : maps(asset.maps.begin(), asset.maps.end()),
       commands(asset.commands.begin(), asset.commands.end()),
       list(isSumOfMaps(asset) ? InstanceList{} : makeInstances(asset)),
       features(featuresOf(asset)),
       materialSet(materials),
       paints(asset.paints.begin(), asset.paints.end()) {
-    if (isSumOfMaps(asset))
+    if (isSumOfMaps(asset)) {
+        kept = keptOf(asset);
         for (const asset::Command& command : asset.commands)
-            atlases.emplace_back(asset, asset.maps[command.map]);
+            atlases.emplace_back(kept, asset.maps[command.map], maxTurns);
+    }
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);
     for (const float s : steepness)

@@ -2,7 +2,6 @@
 /// An asset's data on the GPU.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "asset/scan.hpp"
@@ -22,7 +21,11 @@ struct Sections {
 };
 
 struct UploadedAsset {
-    UploadedAsset(const asset::AssetView& asset, unsigned materialSet);
+    /// `maxTurns`: of a pixel (turns.hpp).
+    UploadedAsset(const asset::AssetView& asset, unsigned materialSet,
+                  std::uint32_t maxTurns = turnsPerPixel);
+    UploadedAsset(const UploadedAsset&) = delete;  // atlases point into it
+    UploadedAsset& operator=(const UploadedAsset&) = delete;
 
     std::vector<asset::Map> maps;
     std::vector<asset::Command> commands;
@@ -32,6 +35,7 @@ struct UploadedAsset {
     float steepest = 0;    ///< of asset/steepness.hpp, of all paints
     std::vector<asset::Paint> paints;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
+    KeptAsset kept;                         ///< of a sum of maps
     std::vector<PatchAtlas> atlases;        ///< exact: of each map drawn
     Sections sections;
     TextureHandle texels, images;
