@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
 
+#include "asset/steepness.hpp"
 #include "backend_gl/src/patch_pieces.hpp"
 #include "backend_gl/src/patch_texels.hpp"
 #include "backend_gl/src/patch_turns.hpp"
@@ -191,12 +193,19 @@ bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* con
         near, [&](const PlanarPiece* p) { return isProgram(p->left) || isProgram(p->right); });
 }
 
+/// Corners of a pixel are no further from its centre than `margin`, so it stretches what it maps by no more than
+/// twice that.
+PaintCosts costsOf(const PatchSource& source, const PatchPlace& place, double margin) {
+    const double stretch = 2 * margin * std::ldexp(source.map.side, -place.level);
+    return {source.programTurns, source.steepness, asset::leastSteepness(glm::dmat2(stretch))};
+}
+
 /// Of one paint: nothing but that, unless it takes too many turns.
-Patch flatPatch(const PatchSource& source, std::uint32_t paint) {
+Patch flatPatch(const PatchSource& source, const PaintCosts& costs, std::uint32_t paint) {
     Patch patch;
     patch.paint = paint;
     patch.programs = asset::isProgram(source.asset.paints[paint]);
-    if (!patch.programs || turnsWithPrograms(source.programTurns, paint, {}, {}) <= source.maxTurns)
+    if (!patch.programs || turnsWithPrograms(costs, paint, {}, {}) <= source.maxTurns)
         return patch;
     const std::vector<PlanarPiece> none;
     const CellWriter writer(source.asset.paints, none, patch.texels);
@@ -211,6 +220,7 @@ Patch flatPatch(const PatchSource& source, std::uint32_t paint) {
 Patch buildPatch(const PatchSource& source, const PatchPlace& place, double margin,
                  std::span<const PlanarPiece* const> near) {
     const LocalPieces local(place, margin, near);
+    const PaintCosts costs = costsOf(source, place, margin);
     const bool programs = hasPrograms(source.asset, near);
     const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
     const Lists lists = listsOf(pieces, margin);
@@ -218,9 +228,9 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
         return paintAt(source.asset, source.map, betweenRows(local.toLattice(point)), near);
     };
     if (lists.numbers.empty())
-        return flatPatch(source, paintIn(dvec2(0.5)));
+        return flatPatch(source, costs, paintIn(dvec2(0.5)));
     const auto isCrowded = [&](std::uint32_t paint, std::span<const std::uint32_t> list) {
-        return (programs ? turnsWithPrograms(source.programTurns, paint, pieces, list) : solidTurns(list.size())) >
+        return (programs ? turnsWithPrograms(costs, paint, pieces, list) : solidTurns(list.size())) >
                source.maxTurns;
     };
     Patch patch;

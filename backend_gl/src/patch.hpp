@@ -73,8 +73,9 @@ struct Patch {
 struct PatchSource {
     asset::AssetView asset;
     asset::Map map;
-    std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
-    std::uint32_t maxTurns = turnsPerPixel;        ///< of a pixel
+    std::span<const std::uint32_t> programTurns;    ///< by paint (turns.hpp)
+    std::span<const float> steepness;               ///< by paint (asset/steepness.hpp)
+    std::uint32_t maxTurns = turnsPerPixel;
 };
 
 /// `margin`: the largest distance from a pixel's centre to its corners, in patch sides, at most 1/4. `near`:

@@ -62,8 +62,8 @@ std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, g
 }
 
 PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const PlanarPiece* const> near) {
-    Patch patch =
-        buildPatch({asset_->asset, map_, asset_->programTurns, maxTurns_}, place, patchMargin(), near);
+    const PatchSource source{asset_->asset, map_, asset_->programTurns, asset_->steepness, maxTurns_};
+    Patch patch = buildPatch(source, place, patchMargin(), near);
     if (patch.texels.empty())
         return {true, patch.programs, patch.paint, 0, 0, {}};
     Placed placed{false,           patch.programs, 0, std::uint32_t(texels_.size()),

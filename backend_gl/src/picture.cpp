@@ -1,6 +1,5 @@
 #include "backend_gl/src/picture.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -115,17 +114,9 @@ void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at
 
 struct Geometry {
     std::vector<FlatVertex> flat;
-    /// By their kind.
-    std::array<std::vector<PatchVertex>, 4> patches;
+    std::vector<PatchVertex> solid, programs;
     PixelBox crowded;  ///< holds the pixels of crowded cells
 };
-
-/// Of patches: bits of an index.
-constexpr std::size_t withPrograms = 1, withCrowdedCells = 2;
-
-std::size_t kindOf(const Placed& patch) {
-    return (patch.programs ? withPrograms : 0) | (patch.crowded.empty() ? 0 : withCrowdedCells);
-}
 
 FlatVertex flatVertex(const asset::Paint& paint) {
     FlatVertex vertex{};
@@ -145,9 +136,9 @@ PatchVertex patchVertex(const Squares& squares, const Placed& patch, std::int64_
 /// Each patch by itself: a longer rectangle would have corners of its neighbours on its edges, where rounding
 /// leaves gaps.
 Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
-                    const std::vector<const Placed*>& patches) {
+                    const std::vector<const Placed*>& placed) {
     Geometry geometry;
-    auto next = patches.begin();
+    auto next = placed.begin();
     for (std::int64_t y = squares.min.y; y < squares.max.y; ++y)
         for (std::int64_t x = squares.min.x; x < squares.max.x; ++x) {
             const Placed& patch = **next++;
@@ -156,7 +147,7 @@ Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
             for (const std::uint8_t cell : patch.crowded)
                 geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, cell));
             if (!patch.flat || patch.programs)
-                addSquare(geometry.patches[kindOf(patch)], squares, {x, y},
+                addSquare(patch.programs ? geometry.programs : geometry.solid, squares, {x, y},
                           patchVertex(squares, patch, x, y));
             else if (patch.paint != 0)
                 addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[patch.paint]));
@@ -239,18 +230,18 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
             use(programs.flat(finish), asset, view, squares.side());
             draw(buffers.flatArray, buffers.flat, geometry.flat);
         }
-        for (std::size_t kind = 0; kind < geometry.patches.size(); ++kind) {
-            if (geometry.patches[kind].empty())
-                continue;
-            const bool crowded = (kind & withCrowdedCells) != 0;
-            const Program& program = (kind & withPrograms) != 0
-                                         ? programs.patch(asset.features, asset.materialSet, finish, crowded)
-                                         : programs.patch({}, 0, finish, crowded);
+        const bool crowded = !geometry.crowded.empty();
+        const auto drawPatches = [&](const Program& program, const std::vector<PatchVertex>& vertices) {
             use(program, asset, view, squares.side());
             glUniform1i(program.uniform("markOverruns"), markOverruns);
             glUniform2i(program.uniform("scannedCorner"), geometry.crowded.min.x, geometry.crowded.min.y);
-            draw(buffers.patchArray, buffers.patch, geometry.patches[kind]);
-        }
+            draw(buffers.patchArray, buffers.patch, vertices);
+        };
+        if (!geometry.solid.empty())
+            drawPatches(programs.patch({}, 0, finish, crowded), geometry.solid);
+        if (!geometry.programs.empty())
+            drawPatches(programs.patch(asset.features, asset.materialSet, finish, crowded),
+                        geometry.programs);
     }
     if (asset.atlases.size() > 1)
         glDisable(GL_BLEND);

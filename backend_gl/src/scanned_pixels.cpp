@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 
+#include "asset/steepness.hpp"
 #include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
@@ -37,6 +38,7 @@ KeptAsset keptOf(const asset::AssetView& asset) {
     copy(asset.images, kept.asset.images);
     copy(asset.materials, kept.asset.materials);
     kept.programTurns = programTurns(asset);
+    kept.steepness = asset::steepnessOf(asset);
     return kept;
 }
 

@@ -18,7 +18,8 @@ namespace vtm::gl {
 /// What stays in main memory of a sum of maps.
 struct KeptAsset {
     asset::Asset asset;  ///< without commands and prefilter
-    std::vector<std::uint32_t> programTurns;
+    std::vector<std::uint32_t> programTurns;  ///< by paint (turns.hpp)
+    std::vector<float> steepness;             ///< by paint (asset/steepness.hpp)
 };
 KeptAsset keptOf(const asset::AssetView& asset);
 
