@@ -9,6 +9,7 @@
 #include "asset/coverage.hpp"
 #include "asset/paper.hpp"
 #include "backend_gl/src/patch.hpp"
+#include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
 
@@ -27,7 +28,7 @@ std::string constant(std::string_view name, Value value) {
 std::string layout() {
     return constant("texelColumnsLog2", texelColumnsLog2) + constant("imageColumnsLog2", imageColumnsLog2) +
            constant("placementColumns", placementColumns) + constant("maxLevel", asset::maxLevel) +
-           constant("leafExtent", asset::leafExtent) + constant("programTag", asset::programTag) +
+           constant("leafExtent", asset::leafExtent) + constant("programTag", asset::programTag) + constant("longRamp", longRamp) +
            constant("kindSolid", asset::Entry::Kind::Solid) +
            fmt::format("const int maxStack = {};\nconst float slopeScale = {:.1f};\n", asset::maxStack,
                        asset::slopeScale) +

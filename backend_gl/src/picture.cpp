@@ -175,6 +175,7 @@ void use(const Program& program, const UploadedAsset& asset, const asset::View& 
     glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
     glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
     glUniform1ui(program.uniform("imageSection"), s.images);
+    glUniform1ui(program.uniform("rampSums"), s.rampSums);
     const bool mirrored = glm::determinant(toPixels) < 0;
     setMatrix(program.uniform("patchToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
     setMatrix(program.uniform("pixelToPatch"), glm::inverse(toPixels));

@@ -7,6 +7,7 @@
 #include "asset/steepness.hpp"
 #include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/constants.hpp"
+#include "backend_gl/src/ramp_sums.hpp"
 
 namespace vtm::gl {
 
@@ -45,6 +46,7 @@ std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> s
     sections.paints = appendTexels<asset::Paint>(texels, paintTexels(asset, steepness));
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList);
+    sections.rampSums = appendTexels<Texel>(texels, rampSums(asset));
     return texels;
 }
 

@@ -86,14 +86,14 @@ std::string fansInARow() {
 // ---- Rays and stars -----------------------------------------------------------------------------------
 
 std::string rays() {
-    std::string d = repeat(700, [](unsigned i) {
-        return "M" + text(onCircle(i / 700.0, 0.001)) + "L" + text(onCircle(i / 700.0, reach));
+    std::string d = repeat(600, [](unsigned i) {
+        return "M" + text(onCircle(i / 600.0, 2)) + "L" + text(onCircle(i / 600.0, reach));
     });
-    return document("<path d=\"" + d + "\" stroke=\"#024\" stroke-width=\".05\"/>");
+    return document("<path d=\"" + d + "\" stroke=\"#024\" stroke-width=\".01\"/>");
 }
 std::string raysThroughAPoint() {
-    std::string d = repeat(400, [](unsigned i) {
-        return "M" + text(onCircle(i / 800.0, reach)) + "L" + text(onCircle(i / 800.0 + 0.5, reach));
+    std::string d = repeat(90, [](unsigned i) {
+        return "M" + text(onCircle(i / 180.0, reach)) + "L" + text(onCircle(i / 180.0 + 0.5, reach));
     });
     return document("<path d=\"" + d + "\" stroke=\"#a31\" stroke-width=\".1\"/>");
 }
@@ -255,8 +255,8 @@ constexpr CrowdedScene scenes[] = {
      fanTranslucent},
     {"fan.curves", "900 curved petals with a common corner.", false, fanCurves},
     {"fan.row", "Four fans of 600 triangles.", false, fansInARow},
-    {"rays.from-a-point", "700 hairlines from a point.", false, rays},
-    {"rays.through-a-point", "400 hairlines through a point.", false, raysThroughAPoint},
+    {"rays.from-a-point", "600 hairlines, nearly from a point.", false, rays},
+    {"rays.through-a-point", "90 hairlines through a point.", false, raysThroughAPoint},
     {"star.even-odd", "A star of 201 points that crosses itself 19 899 times, even-odd.", false, starEvenOdd},
     {"star.nonzero", "A star of 151 points, nonzero.", false, starNonzero},
     {"star.nested", "60 stars in each other.", false, starsNested},
