@@ -2,7 +2,8 @@
 // every other, fetches and all.
 // Requires: fetch.glsl, shadow.glsl; patch_vertex.glsl's outputs; constants of src/patch.hpp; CROWDED defined as 1 where the
 // patch has crowded cells, else 0.
-// Exports: patchOrigin, patchTexels, patchPicture, Cell, patchPoint, cellAt, firstReferences, referenceCount, referenceAt,
+// Exports: patchOrigin, patchTexels, patchPicture, Cell, patchPoint, cellAt, firstReferences, referenceCount,
+// referencesFrom, referenceAt,
 // patchTexel, unpackColor, finishedSum.
 
 uniform usampler2D patches;
@@ -39,8 +40,12 @@ Cell cellAt(vec2 pixel) {
 }
 
 // References, as a texel of them.
-uvec4 firstReferences(Cell cell) { return uvec4(cell.texel.x, cell.texel.w, 0u, cell.texel.w); }
+uvec4 firstReferences(Cell cell) { return uvec4(cell.texel.x & ~referencesMask, cell.texel.w, 0u, cell.texel.w); }
 uint referenceCount(uvec4 references) { return references.x >> 20 & 7u; }
+
+// How many there are of the first texel on. That all were met has to be counted: compilers take it for granted that a
+// loop ends where the program says.
+uint referencesFrom(uvec4 references) { return max(references.x & referencesMask, referenceCount(references)); }
 
 // Number of the i-th piece << 2 | bits.
 uint referenceAt(uvec4 references, uint i) {

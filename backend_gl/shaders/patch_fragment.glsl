@@ -6,7 +6,7 @@ void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     uvec4 references = firstReferences(cell);
     vec4 sum = regionValueIn(65535.0, unpackColor(cell.texel.yz));
-    bool complete = false;
+    uint met = 0u, all = referencesFrom(references);
     for (;;) {
         uint count = referenceCount(references), i = 0u;
         for (; i < count; ++i) {
@@ -17,10 +17,11 @@ void main() {
             sum += weight * (regionValueIn(65535.0, unpackColor(colors.xy)) -
                              regionValueIn(65535.0, unpackColor(colors.zw)));
         }
-        complete = i == count && (references.x & moreBit) == 0u;
-        if (complete)
+        met += i;
+        if ((references.x & moreBit) == 0u)
             break;
         references = patchTexel(references.w);
+        all = max(all, referencesFrom(references));
     }
-    color = outputColor(finishedSum(cell, sum / 65535.0, complete));
+    color = outputColor(finishedSum(cell, sum / 65535.0, met == all));
 }

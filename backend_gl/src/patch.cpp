@@ -193,8 +193,8 @@ bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* con
         near, [&](const PlanarPiece* p) { return isProgram(p->left) || isProgram(p->right); });
 }
 
-/// Corners of a pixel are no further from its centre than `margin`, so it stretches what it maps by no more than
-/// twice that.
+/// Corners of a pixel are no further from its centre than `margin`, so it stretches what it maps by no more
+/// than twice that.
 PaintCosts costsOf(const PatchSource& source, const PatchPlace& place, double margin) {
     const double stretch = 2 * margin * std::ldexp(source.map.side, -place.level);
     return {source.programTurns, source.steepness, asset::leastSteepness(glm::dmat2(stretch))};

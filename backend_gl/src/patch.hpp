@@ -43,9 +43,11 @@ inline constexpr unsigned patchStepLog2 = 16, patchCoordinateBits = 18;
 inline constexpr double patchSlopeScale = 2047;
 /// Sides of the reference point that go with each piece.
 inline constexpr std::uint32_t leftOfChordBit = 1, leftOfCurveBit = 2;
-/// Bits of the first word of a texel of references: more texels follow; references are whole words. Of a cell:
-/// its pixels are made elsewhere.
+/// Bits of the first word of a texel of references: more texels follow; references are whole words. Of a
+/// cell: its pixels are made elsewhere.
 inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24, crowdedBit = 1u << 25;
+/// ... and how many references there are from that texel on.
+inline constexpr std::uint32_t referencesMask = (1u << 20) - 1;
 
 /// `texels` holds the pieces, the rest of the longer lists and, from `firstCell`, the cells row by row;
 /// nothing if the patch has one paint. Fields are packed from the lowest bit of the first word on.
@@ -54,7 +56,8 @@ inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24, crowdedBi
 ///   left | right << 16. Second: the colours on the left and on the right, premultiplied 16-bit unorm red,
 ///   green, blue, alpha, of solid paints.
 /// - Reference, to a piece: its number << 2 | leftOfCurveBit | leftOfChordBit, as the reference point lies.
-/// - References, one texel: n << 20 | moreBit | wideBit; then n of them in half words, six at most; with
+/// - References, one texel: references from here on | n << 20 | moreBit | wideBit; then n of them in half
+/// words, six at most; with
 ///   moreBit four at most, the last word being the texel with the next ones. With wideBit they are words:
 ///   three, or two with moreBit.
 /// - Cell, one texel: paint at the reference point | place of that point << 16 | as above; the paint's colour
@@ -73,8 +76,8 @@ struct Patch {
 struct PatchSource {
     asset::AssetView asset;
     asset::Map map;
-    std::span<const std::uint32_t> programTurns;    ///< by paint (turns.hpp)
-    std::span<const float> steepness;               ///< by paint (asset/steepness.hpp)
+    std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
+    std::span<const float> steepness;             ///< by paint (asset/steepness.hpp)
     std::uint32_t maxTurns = turnsPerPixel;
 };
 

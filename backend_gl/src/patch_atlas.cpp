@@ -66,7 +66,7 @@ PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const Pl
     Patch patch = buildPatch(source, place, patchMargin(), near);
     if (patch.texels.empty())
         return {true, patch.programs, patch.paint, 0, 0, {}};
-    Placed placed{false,           patch.programs, 0, std::uint32_t(texels_.size()),
+    Placed placed{false,           patch.programs,          0, std::uint32_t(texels_.size()),
                   patch.firstCell, std::move(patch.crowded)};
     texels_.insert(texels_.end(), patch.texels.begin(), patch.texels.end());
     return placed;

@@ -1,5 +1,6 @@
 #include "backend_gl/src/patch_texels.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -101,7 +102,8 @@ std::uint32_t CellWriter::append(glm::dvec2 point, std::span<const std::uint32_t
     while (!list.empty()) {
         const bool more = list.size() > all;
         const std::size_t count = more ? some : list.size();
-        Texel texel{countBits(count, wide) | (more ? moreBit : 0), 0, 0, 0};
+        const auto left = std::uint32_t(std::min<std::size_t>(list.size(), referencesMask));
+        Texel texel{countBits(count, wide) | (more ? moreBit : 0) | left, 0, 0, 0};
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t word = referenceWord(list[i], point);
             if (wide)

@@ -98,8 +98,8 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
                         {crowded, finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
             return {"patch with programs",
                     {patch_vertex},
-                    {crowded, defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint, output,
-                     patch_programs_fragment, materials}};
+                    {crowded, defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint,
+                     output, patch_programs_fragment, materials}};
         case Kind::Fill:
             return {"fill",
                     {box_vertex},
@@ -147,11 +147,14 @@ std::vector<ProgramSource> Programs::everySource() {
     constexpr unsigned allFeatures = Features::combinations - 1, allFinishes = Finish::combinations - 1;
     for (const Kind kind : {Kind::Solid, Kind::Pieces, Kind::Layer, Kind::Blend})
         add(kind, 0, 0);
-    for (unsigned features = 0; features <= allFeatures; ++features) {
+    // Of long ramps, which only gradients know, those without and with everything else.
+    std::vector<unsigned> featureSets{Features::Linear | Features::LongRamps, allFeatures};
+    for (unsigned features = 0; features < Features::LongRamps; ++features)
+        featureSets.push_back(features);
+    for (const unsigned features : featureSets) {
         add(Kind::General, features, 0);
         add(Kind::Fill, features, 0);
         add(Kind::Patch, features, 0);
-        add(Kind::CrowdedPatch, features, 0);
         add(Kind::Patch, features, allFinishes);
         sources.push_back(
             paperSource(Features(features), Features(features).has(Features::Material) ? materials : ""));
@@ -167,6 +170,7 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Patch, 0, finish);
         add(Kind::Patch, allFeatures, finish);
         add(Kind::CrowdedPatch, 0, finish);
+        add(Kind::CrowdedPatch, allFeatures, finish);
     }
     return sources;
 }

@@ -64,7 +64,18 @@ public:
     static std::vector<ProgramSource> everySource();
 
 private:
-    enum class Kind : unsigned { Solid, Pieces, General, Flat, Patch, CrowdedPatch, Fill, Layer, Blend, Compose };
+    enum class Kind : unsigned {
+        Solid,
+        Pieces,
+        General,
+        Flat,
+        Patch,
+        CrowdedPatch,
+        Fill,
+        Layer,
+        Blend,
+        Compose
+    };
     const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
     static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
 

@@ -242,8 +242,8 @@ Renderer::~Renderer() = default;
 Texture Renderer::upload(const asset::AssetView& asset) {
     return impl_->call([&](const StateGuard&) {
         Programs& programs = impl_->workshop.programs;
-        auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials),
-                                                       impl_->maxTurns());
+        auto texture =
+            std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials), impl_->maxTurns());
         if (impl_->scans && asset::isSumOfMaps(asset) && asset.materials.empty())
             texture->scanner.emplace(asset);
         // Users' errors come at once, not with the first picture.

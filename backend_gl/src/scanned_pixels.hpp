@@ -17,7 +17,7 @@ namespace vtm::gl {
 
 /// What stays in main memory of a sum of maps.
 struct KeptAsset {
-    asset::Asset asset;  ///< without commands and prefilter
+    asset::Asset asset;                       ///< without commands and prefilter
     std::vector<std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::vector<float> steepness;             ///< by paint (asset/steepness.hpp)
 };

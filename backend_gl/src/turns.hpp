@@ -19,8 +19,8 @@ inline constexpr std::uint32_t vectorPixels = 16;
 /// What a pixel may take on every driver, whatever its neighbours do.
 inline constexpr std::uint32_t turnsPerPixel = driverTurns / vectorPixels;
 
-/// Ramps of more stops are integrated by sums from stop to stop (src/ramp_sums.hpp) instead of a loop over the
-/// stops.
+/// Ramps of more stops are integrated by sums from stop to stop (src/ramp_sums.hpp) instead of a loop over
+/// the stops.
 inline constexpr std::uint32_t longRamp = 16;
 
 /// The turns that paint.glsl takes for one colour of a paint at most, by paint: 0 for solid colours. Loops in

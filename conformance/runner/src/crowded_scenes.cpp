@@ -13,8 +13,8 @@ namespace {
 constexpr double side = 64, middle = side / 2, reach = 30;
 
 std::string document(const std::string& content) {
-    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{0}\">{1}</svg>", side,
-                       content);
+    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{0}\">{1}</svg>",
+                       side, content);
 }
 
 std::string color(unsigned i) { return fmt::format("#{:06x}", i * 2654435761u >> 8); }
@@ -56,8 +56,8 @@ private:
 std::string fan(unsigned n, double widths, const char* style) {
     return document(repeat(n, [&](unsigned i) {
         return fmt::format("<path d=\"M{} {} L{}L{}Z\" fill=\"{}\" {}/>", middle, middle,
-                           text(onCircle(double(i) / n, reach)), text(onCircle((i + widths) / n, reach)), color(i),
-                           style);
+                           text(onCircle(double(i) / n, reach)), text(onCircle((i + widths) / n, reach)),
+                           color(i), style);
     }));
 }
 std::string fanTriangles() { return fan(1200, 1, ""); }
@@ -109,7 +109,8 @@ std::string starsNested() {
     return document(repeat(60, [](unsigned k) {
         const double radius = reach * std::pow(0.93, k);
         const std::string d = repeat(24, [&](unsigned i) {
-            return (i == 0 ? "M" : "L") + text(onCircle(i / 24.0 + k * 0.013, i % 2 == 0 ? radius : radius * 0.4));
+            return (i == 0 ? "M" : "L") +
+                   text(onCircle(i / 24.0 + k * 0.013, i % 2 == 0 ? radius : radius * 0.4));
         });
         return fmt::format("<path d=\"{}Z\" fill=\"{}\"/>", d, color(k));
     }));
@@ -139,9 +140,11 @@ std::string mesh() {
 }
 std::string hatching() {
     return document(repeat(3, [](unsigned k) {
-        const std::string d = repeat(120, [](unsigned i) { return fmt::format("M-20 {0}L84 {0}", -20 + i * 0.9); });
-        return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\".2\" transform=\"rotate({} 32 32)\"/>", d,
-                           color(k + 1), 11 + 53 * k);
+        const std::string d =
+            repeat(120, [](unsigned i) { return fmt::format("M-20 {0}L84 {0}", -20 + i * 0.9); });
+        return fmt::format(
+            "<path d=\"{}\" stroke=\"{}\" stroke-width=\".2\" transform=\"rotate({} 32 32)\"/>", d,
+            color(k + 1), 11 + 53 * k);
     }));
 }
 
@@ -154,16 +157,20 @@ std::string rings() {
     }));
 }
 std::string ringsSmall() {
-    return document("<g transform=\"translate(31 31) scale(.03)\">" + repeat(300, [](unsigned i) {
-                        return fmt::format("<circle cx=\"32\" cy=\"32\" r=\"{:.4f}\" fill=\"{}\"/>",
-                                           31 - i * 0.1, color(i));
-                    }) + "</g>");
+    return document("<g transform=\"translate(31 31) scale(.03)\">" +
+                    repeat(300,
+                           [](unsigned i) {
+                               return fmt::format("<circle cx=\"32\" cy=\"32\" r=\"{:.4f}\" fill=\"{}\"/>",
+                                                  31 - i * 0.1, color(i));
+                           }) +
+                    "</g>");
 }
 std::string ringsDashed() {
     return document(repeat(40, [](unsigned i) {
-        return fmt::format("<circle cx=\"32\" cy=\"32\" r=\"{:.3f}\" fill=\"none\" stroke=\"{}\" "
-                           "stroke-width=\".3\" stroke-dasharray=\".4 .3\"/>",
-                           1 + i * 0.7, color(i));
+        return fmt::format(
+            "<circle cx=\"32\" cy=\"32\" r=\"{:.3f}\" fill=\"none\" stroke=\"{}\" "
+            "stroke-width=\".3\" stroke-dasharray=\".4 .3\"/>",
+            1 + i * 0.7, color(i));
     }));
 }
 
@@ -173,19 +180,24 @@ std::string glyphs() {
     Random random(11);
     return document(repeat(1500, [&](unsigned i) {
         const Point p = random.point();
-        return fmt::format("<path transform=\"translate({:.4f} {:.4f}) scale(.12)\" fill=\"{}\" d=\"M0 0h5v1H1.2v2"
-                           "C4 2 6 4 5.5 6S2 9 0 7.5L.4 6.6C2 8 4.6 7.5 4.6 5.5S2.4 3.6 0 4.2Z\"/>",
-                           p.x, p.y, i % 3 == 0 ? "#a02" : "#111");
+        return fmt::format(
+            "<path transform=\"translate({:.4f} {:.4f}) scale(.12)\" fill=\"{}\" d=\"M0 0h5v1H1.2v2"
+            "C4 2 6 4 5.5 6S2 9 0 7.5L.4 6.6C2 8 4.6 7.5 4.6 5.5S2.4 3.6 0 4.2Z\"/>",
+            p.x, p.y, i % 3 == 0 ? "#a02" : "#111");
     }));
 }
 std::string glyphsInACorner() {
     Random random(12);
-    return document("<g transform=\"translate(20 20) scale(.04)\">" + repeat(1200, [&](unsigned i) {
-                        const Point p = random.point();
-                        return fmt::format("<path transform=\"translate({:.4f} {:.4f}) scale(.3)\" fill=\"{}\" "
-                                           "d=\"M0 0h5v1H1.2v2C4 2 6 4 5.5 6S2 9 0 7.5Z\"/>",
-                                           p.x, p.y, color(i));
-                    }) + "</g>");
+    return document("<g transform=\"translate(20 20) scale(.04)\">" +
+                    repeat(1200,
+                           [&](unsigned i) {
+                               const Point p = random.point();
+                               return fmt::format(
+                                   "<path transform=\"translate({:.4f} {:.4f}) scale(.3)\" fill=\"{}\" "
+                                   "d=\"M0 0h5v1H1.2v2C4 2 6 4 5.5 6S2 9 0 7.5Z\"/>",
+                                   p.x, p.y, color(i));
+                           }) +
+                    "</g>");
 }
 std::string scribble() {
     Random random(13);
@@ -197,16 +209,16 @@ std::string slivers() {
     Random random(14);
     return document(repeat(700, [&](unsigned i) {
         const double y = random() * 60, lean = random() * 0.8;
-        return fmt::format("<path d=\"M1 {:.5f}L63 {:.5f}L63 {:.5f}Z\" fill=\"{}\"/>", y, y + lean, y + lean + 0.02,
-                           color(i));
+        return fmt::format("<path d=\"M1 {:.5f}L63 {:.5f}L63 {:.5f}Z\" fill=\"{}\"/>", y, y + lean,
+                           y + lean + 0.02, color(i));
     }));
 }
 std::string discsTranslucent() {
     Random random(15);
     return document(repeat(24, [&](unsigned i) {
         const Point p = random.point();
-        return fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.3f}\" fill=\"{}\" opacity=\".3\"/>", p.x,
-                           p.y, 8 + 10 * random(), color(i));
+        return fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.3f}\" fill=\"{}\" opacity=\".3\"/>",
+                           p.x, p.y, 8 + 10 * random(), color(i));
     }));
 }
 
@@ -222,20 +234,22 @@ std::string discsWithGradients() {
     Random random(16);
     return document(repeat(18, [&](unsigned i) {
         const Point p = random.point();
-        return fmt::format("<linearGradient id=\"g{0}\" gradientUnits=\"userSpaceOnUse\" x1=\"-400\" x2=\"400\" "
-                           "y2=\"{1}\"><stop stop-color=\"{2}\"/><stop offset=\"1\" stop-color=\"{3}\"/>"
-                           "</linearGradient><circle cx=\"{4:.3f}\" cy=\"{5:.3f}\" r=\"{6:.3f}\" "
-                           "fill=\"url(#g{0})\" opacity=\".5\"/>",
-                           i, 40 * i, color(i), color(i + 1), p.x, p.y, 8 + 12 * random());
+        return fmt::format(
+            "<linearGradient id=\"g{0}\" gradientUnits=\"userSpaceOnUse\" x1=\"-400\" x2=\"400\" "
+            "y2=\"{1}\"><stop stop-color=\"{2}\"/><stop offset=\"1\" stop-color=\"{3}\"/>"
+            "</linearGradient><circle cx=\"{4:.3f}\" cy=\"{5:.3f}\" r=\"{6:.3f}\" "
+            "fill=\"url(#g{0})\" opacity=\".5\"/>",
+            i, 40 * i, color(i), color(i + 1), p.x, p.y, 8 + 12 * random());
     }));
 }
 std::string fanOfGradients() {
     return document(repeat(120, [](unsigned i) {
-        return fmt::format("<linearGradient id=\"g{0}\" gradientUnits=\"userSpaceOnUse\" x1=\"-400\" x2=\"400\" "
-                           "y2=\"{1}\"><stop stop-color=\"{2}\"/><stop offset=\"1\" stop-color=\"{3}\"/>"
-                           "</linearGradient><path d=\"M32 32L{4}L{5}Z\" fill=\"url(#g{0})\"/>",
-                           i, 10 * i, color(i), color(i + 1), text(onCircle(i / 120.0, reach)),
-                           text(onCircle((i + 1) / 120.0, reach)));
+        return fmt::format(
+            "<linearGradient id=\"g{0}\" gradientUnits=\"userSpaceOnUse\" x1=\"-400\" x2=\"400\" "
+            "y2=\"{1}\"><stop stop-color=\"{2}\"/><stop offset=\"1\" stop-color=\"{3}\"/>"
+            "</linearGradient><path d=\"M32 32L{4}L{5}Z\" fill=\"url(#g{0})\"/>",
+            i, 10 * i, color(i), color(i + 1), text(onCircle(i / 120.0, reach)),
+            text(onCircle((i + 1) / 120.0, reach)));
     }));
 }
 std::string manyStops() {
