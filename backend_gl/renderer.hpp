@@ -58,6 +58,13 @@ struct RendererOptions {
     /// Keeps the driver's binaries of programs in this directory, if it has formats for them, and loads them
     /// from there; made if missing. Empty: no files. Only the user may be able to write there.
     std::string programCache;
+    /// Paints pixels magenta whose shader was stopped by the driver before its end, which is a fault of ours;
+    /// else they are opaque, in about the colour of the place (docs/backend.md).
+    bool markOverruns = false;
+    /// Turns of loops that a pixel may take before the CPU makes it; 0: what every driver allows. Others are
+    /// for tests.
+    unsigned maxTurns = 0;
+
     /// Returns GL's graphics reset status, 0 for none; empty: the driver's own, where it has one.
     std::function<unsigned()> resetStatus;
 };

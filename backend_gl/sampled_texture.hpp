@@ -38,9 +38,9 @@ struct Wrapping {
 class SampledTexture {
 public:
     /// `asset` must be valid (asset::validate) and is not needed afterwards; without a prefilter, one is
-    /// built. Leaves GL's state as it was. Throws GlError: for an asset of compat mode, where a texture would
-    /// be larger than the driver allows, and for errors of GL (earlier ones that nobody asked for among
-    /// them).
+    /// built. Leaves GL's state as it was. Throws GlError: without a current context, for an asset of compat
+    /// mode, where a texture would be larger than the driver allows, and for errors of GL (earlier ones that
+    /// nobody asked for among them).
     explicit SampledTexture(const asset::AssetView& asset, const asset::PrefilterOptions& options = {});
     ~SampledTexture();
     SampledTexture(SampledTexture&&) noexcept;

@@ -1,8 +1,10 @@
 // The cell that a pixel's centre lies in, and its pieces. The only branches are loops: some drivers run both sides of
 // every other, fetches and all.
-// Requires: fetch.glsl, shadow.glsl; patch_vertex.glsl's outputs; constants of src/patch.hpp.
-// Exports: patchOrigin, patchTexels, patchPicture, Cell, patchPoint, cellAt, firstReferences, referenceCount, referenceAt,
-// patchTexel, unpackColor.
+// Requires: fetch.glsl, shadow.glsl; patch_vertex.glsl's outputs; constants of src/patch.hpp; CROWDED defined as 1 where the
+// patch has crowded cells, else 0.
+// Exports: patchOrigin, patchTexels, patchPicture, Cell, patchPoint, cellAt, firstReferences, referenceCount,
+// referencesFrom, referenceAt,
+// patchTexel, unpackColor, finishedSum.
 
 uniform usampler2D patches;
 uniform vec4 pixelToPatch;  // distances, by columns
@@ -38,8 +40,12 @@ Cell cellAt(vec2 pixel) {
 }
 
 // References, as a texel of them.
-uvec4 firstReferences(Cell cell) { return uvec4(cell.texel.x, cell.texel.w, 0u, cell.texel.w); }
+uvec4 firstReferences(Cell cell) { return uvec4(cell.texel.x & ~referencesMask, cell.texel.w, 0u, cell.texel.w); }
 uint referenceCount(uvec4 references) { return references.x >> 20 & 7u; }
+
+// How many there are of the first texel on. That all were met has to be counted: compilers take it for granted that a
+// loop ends where the program says.
+uint referencesFrom(uvec4 references) { return max(references.x & referencesMask, referenceCount(references)); }
 
 // Number of the i-th piece << 2 | bits.
 uint referenceAt(uvec4 references, uint i) {
@@ -47,4 +53,25 @@ uint referenceAt(uvec4 references, uint i) {
     uint halves = wide ? i * 2u : i;
     uint word = halves < 2u ? references.y : halves < 4u ? references.z : references.w;
     return wide ? word : word >> (halves << 4 & 16u) & 0xFFFFu;
+}
+
+// ---- Pixels that were too much ----------------------------------------------------------------------
+
+#if CROWDED
+uniform sampler2D layer;  // pixels of crowded cells (src/scanned_pixels.hpp)
+uniform ivec2 scannedCorner;
+#endif
+
+uniform bool markOverruns;
+
+// What a pixel shows: the sum over its cell's pieces; where the cell is crowded, which has none, the scanned pixel; and
+// where the driver ended the loops before the last piece, magenta, or the colour at the reference point, made opaque.
+vec4 finishedSum(Cell cell, vec4 sum, bool complete) {
+    vec4 near = unpackColor(cell.texel.yz) / 65535.0;
+    vec4 overrun = markOverruns ? vec4(1.0, 0.0, 1.0, 1.0) : vec4(near.rgb + 0.5 * (1.0 - near.a), 1.0);
+#if CROWDED
+    if ((cell.texel.x & crowdedBit) != 0u)
+        return texelFetch(layer, ivec2(gl_FragCoord.xy) - scannedCorner, 0);
+#endif
+    return complete ? sum : overrun;
 }

@@ -1,6 +1,6 @@
 // The asset's texels, addressed by one index.
 // Requires: constants texelColumnsLog2, programTag. Twin of: asset/src/records.hpp.
-// Exports: texelAt, low, high, sections, isProgram, isSteep, solidColor; ASSET_IN, ASSET, ASSET_PART.
+// Exports: spend, texelAt, low, high, sections, isProgram, isSteep, solidColor; ASSET_IN, ASSET, ASSET_PART.
 
 // Which asset? One a program, whose parts are uniforms; or, in the include, one of several, a parameter of every
 // function that reads texels: ASSET_IN declares it, ASSET hands it on.
@@ -12,6 +12,9 @@
 uniform usampler2D texels;
 // First texels of the leaves, pieces, paints and data.
 uniform uvec4 sections;
+
+// Pictures' loops are counted before they are drawn (src/turns.hpp).
+bool spend(float turns) { return true; }
 #endif
 
 ivec2 texelPlace(uint index) {

@@ -1,5 +1,6 @@
 // Gradients of paint programs.
-// Requires: fetch.glsl; constants spread*, maxStopsLog2. Twin of: asset/src/gradient.cpp.
+// Requires: fetch.glsl; constants spread*, longRamp; LONG_RAMPS defined as 1 where a gradient has more stops than longRamp, else 0.
+// Twin of: asset/src/gradient.cpp.
 // Exports: applyMatrix, gradientColor.
 
 // Columns (a.xy), (a.zw), (b.xy), applied to a picture point.
@@ -41,6 +42,18 @@ vec4 colorBetween(uvec4 before, uvec4 after, float u) {
 
 // ---- Means over pixels
 
+#if LONG_RAMPS
+#ifdef ONE_ASSET
+// First texel of the integrals from stop to stop (src/ramp_sums.hpp).
+uniform uint rampSums;
+#endif
+
+vec4 integralBetween(ASSET_IN uint from, uint to) {
+    uint sums = ASSET_PART(rampSums) - ASSET_PART(sections).w;
+    return vec4(texelAt(ASSET sums + to) - texelAt(ASSET sums + from)) * exp2(-31.0);
+}
+#endif
+
 // The padded ramp's integral from a to b. Between stops it is a quadratic, which Simpson's rule integrates exactly; at
 // the same time that serves what lies before the first stop and behind the last.
 vec4 rampIntegral(ASSET_IN uint firstStop, uint count, float a, float b) {
@@ -53,6 +66,15 @@ vec4 rampIntegral(ASSET_IN uint firstStop, uint count, float a, float b) {
         sum += (colorBetween(before, after, from) + 4.0 * colorBetween(before, after, 0.5 * (from + to)) +
                 colorBetween(before, after, to)) * ((to - from) / 6.0);
         from = to;
+#if LONG_RAMPS
+        // On to the last stop, instead of from stop to stop.
+        uint last = stopsUpTo(ASSET firstStop, from < b && count > longRamp ? count : 0u, b);
+        if (last > next + 1u) {
+            sum += integralBetween(ASSET firstStop + next, firstStop + last - 1u);
+            next = last - 1u;
+            from = uintBitsToFloat(texelAt(ASSET firstStop + next).x);
+        }
+#endif
     }
     return sum;
 }

@@ -78,7 +78,10 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
 vec4 paintColor(ASSET_IN uint paint, vec2 point, mat3x2 pixel) {
     uvec4 texel = paintAt(ASSET paint);
 #if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
-    return isProgram(texel) ? runProgram(ASSET texel.x, texel.y, point, pixel) : uintBitsToFloat(texel);
+    // Where turns are counted while they are taken, a program's stand in its free word.
+    if (isProgram(texel))
+        return spend(float(texel.z)) ? runProgram(ASSET texel.x, texel.y, point, pixel) : vec4(0.0);
+    return uintBitsToFloat(texel);
 #else
     return uintBitsToFloat(texel);
 #endif

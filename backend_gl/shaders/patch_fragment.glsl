@@ -6,9 +6,10 @@ void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     uvec4 references = firstReferences(cell);
     vec4 sum = regionValueIn(65535.0, unpackColor(cell.texel.yz));
+    uint met = 0u, all = referencesFrom(references);
     for (;;) {
-        uint count = referenceCount(references);
-        for (uint i = 0u; i < count; ++i) {
+        uint count = referenceCount(references), i = 0u;
+        for (; i < count; ++i) {
             uint reference = referenceAt(references, i), first = reference >> 2 << 1;
             PatchPiece piece = patchPiece(patchTexel(first).xyz, cell.o);
             float weight = pieceWeight(piece, cell.way, reference, patchToBox);
@@ -16,9 +17,11 @@ void main() {
             sum += weight * (regionValueIn(65535.0, unpackColor(colors.xy)) -
                              regionValueIn(65535.0, unpackColor(colors.zw)));
         }
+        met += i;
         if ((references.x & moreBit) == 0u)
             break;
         references = patchTexel(references.w);
+        all = max(all, referencesFrom(references));
     }
-    color = outputColor(sum / 65535.0);
+    color = outputColor(finishedSum(cell, sum / 65535.0, met == all));
 }

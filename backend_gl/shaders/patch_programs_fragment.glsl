@@ -33,6 +33,7 @@ struct List {
     uvec4 references;
     uint i;
     bool atEnd;
+    uint met, all;
 };
 
 // 0 at the end.
@@ -40,8 +41,10 @@ uint nextReference(inout List list) {
     if (list.i == referenceCount(list.references) && (list.references.x & moreBit) != 0u) {
         list.references = patchTexel(list.references.w);
         list.i = 0u;
+        list.all = max(list.all, referencesFrom(list.references));
     }
     list.atEnd = list.i == referenceCount(list.references);
+    list.met += list.atEnd ? 0u : 1u;
     return list.atEnd ? 0u : referenceAt(list.references, list.i++);
 }
 
@@ -78,9 +81,11 @@ vec4 valueOf(Share share, Cell cell, bool quarters) {
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     bool flatPatch = patchTexels.z != 0u, cut = false, quarters = false;
+    uint passes = 0u;
     vec4 sum = vec4(0.0);
     for (;;) {
-        List list = List(flatPatch ? uvec4(0u) : firstReferences(cell), 0u, false);
+        List list = List(flatPatch ? uvec4(0u) : firstReferences(cell), 0u, false, 0u, 0u);
+        list.all = referencesFrom(list.references);
         Share recent = Share(flatPatch ? patchTexels.z - 1u : low(cell.texel.x), vec4(quarters ? 0.0 : 1.0));
         Share older = Share(noPaint, vec4(0.0));
         uvec2 paints = uvec2(noPaint);
@@ -131,9 +136,10 @@ void main() {
             if (list.atEnd && side == 1u)
                 break;
         }
+        passes += list.met == list.all ? 1u : 0u;
         if (quarters || !cut)
             break;
         quarters = true;
     }
-    color = outputColor(sum);
+    color = outputColor(finishedSum(cell, sum, passes == (cut ? 2u : 1u)));
 }

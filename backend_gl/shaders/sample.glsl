@@ -1,6 +1,6 @@
 // An asset as a texture: the mean colour over a parallelogram of the picture. docs/texture.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, sample_prefilter.glsl; constants kind*, wrap*, maxLevel,
-// walkBudget, FEATURES.
+// turnsPerPixel, prefilterTurns, FEATURES, VTM_SAMPLES.
 // Exports: vtm_sample, vtm_sample_proj, vtm_sample_grad.
 
 // ---- One square of the tree -------------------------------------------------------------------------
@@ -14,28 +14,19 @@ struct Tile {
     float turn;            // -1 if that mirrors
 };
 
-struct Sum {
-    vec4 color;
-    float cost;     // squares and pieces met so far
-    float allowed;  // ... at most
-};
-
 vec2 picturePoint(Vtm vtm, vec2 p) { return vtm.square.xy + p * vtm.square.z; }
 
 // Paints are evaluated in the middle of what the footprint's box has of the square.
-void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout Sum sum) {
+void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout vec4 sum) {
     vec2 corner = vec2(cell) * side;
     vec2 least = max(tile.centre - tile.halfBox, corner), most = min(tile.centre + tile.halfBox, corner + side);
     uint payload = entry >> 2;
     uvec4 leaf = uvec4(0u, 0u, uvec2(payload | payload << 16));
     if ((entry & 3u) != kindSolid)
         leaf = texelAt(vtm, vtm.sections.x + payload);
-    sum.cost += 1.0 + float(low(leaf.y));
-    if (sum.cost > sum.allowed)
-        return;
     Frame frame = Frame(tile.toBox * (side / float(leafExtent)), tile.toBox * (corner - tile.centre) + 0.5);
     vec2 point = picturePoint(vtm, 0.5 * (least + most));
-    sum.color += tile.turn * leafIntegral(vtm, frame, leaf, point, tile.pixel, -1.0);
+    sum += tile.turn * leafIntegral(vtm, frame, leaf, point, tile.pixel, -1.0);
 }
 
 // ---- The tree -----------------------------------------------------------------------------------------
@@ -50,7 +41,7 @@ uint childAt(Vtm vtm, uint node, ivec2 cell) {
 // The node that holds `cell`, from the root.
 uint nodeAround(Vtm vtm, ivec2 cell, int level) {
     uint node = vtm.root >> 2;
-    for (int l = 1; l < level; ++l)
+    for (int l = 1; l < level && spend(1.0); ++l)
         node = childAt(vtm, node, cell >> (2 * (level - l))) >> 2;
     return node;
 }
@@ -67,11 +58,11 @@ bool meets(Tile tile, ivec2 cell, float side) {
 
 // Squares in the order of the tree, with neither recursion nor a stack: a place in the tree is a cell, its level and
 // the node that holds it. First down to the smallest square that holds the whole box, which most often is a leaf.
-void addTile(Vtm vtm, Tile tile, inout Sum sum) {
+void addTile(Vtm vtm, Tile tile, inout vec4 sum) {
     int level = 0;
     ivec2 cell = ivec2(0);
     uint entry = vtm.root, parent = 0u;
-    while ((entry & 3u) == kindNode) {
+    while ((entry & 3u) == kindNode && spend(1.0)) {
         float side = sideAt(level + 1);
         ivec2 child = firstCell(tile, side);
         if (child != lastCell(tile, side))
@@ -85,11 +76,11 @@ void addTile(Vtm vtm, Tile tile, inout Sum sum) {
     bool rising = false;
     // Two loops, the inner one only to find the next square: lanes of a processor that find theirs at different
     // times add them together.
-    while (level >= top && sum.cost <= sum.allowed) {
+    while (level >= top && spend(1.0)) {
         ivec2 found = ivec2(-1);
         float foundSide = 0.0;
         uint foundEntry = 0u;
-        while (level >= top && found.x < 0) {
+        while (level >= top && found.x < 0 && spend(1.0)) {
             float side = sideAt(level);
             if (!rising && meets(tile, cell, side)) {
                 if ((entry & 3u) == kindNode) {
@@ -97,7 +88,6 @@ void addTile(Vtm vtm, Tile tile, inout Sum sum) {
                     ++level;
                     cell = max(cell * 4, firstCell(tile, side * 0.25));
                     entry = childAt(vtm, parent, cell);
-                    sum.cost += 0.25;
                     continue;
                 }
                 found = cell;
@@ -117,7 +107,6 @@ void addTile(Vtm vtm, Tile tile, inout Sum sum) {
                 cell >>= 2;
             }
             rising = !onward;
-            sum.cost += 0.25;
         }
         if (found.x >= 0)
             addSquare(vtm, tile, found, foundSide, foundEntry, sum);
@@ -138,15 +127,15 @@ bool isMirrored(int wrapping, float copy) {
     return wrapping == wrapMirror && abs(copy - 2.0 * floor(copy * 0.5)) > 0.5;
 }
 
-// Adds what the tree has of the footprint; over `allowed`, gives up.
-void addFootprint(Vtm vtm, Footprint footprint, inout Sum sum) {
+// Adds what the tree has of the footprint; gives up where no turns are left.
+void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
     vec2 scale = vtm.size / vtm.square.z, offset = -vtm.square.xy / vtm.square.z;
     mat2 toBox = inverse(footprint.sides) * vtm.square.z;
     vec2 halfBox = 0.5 * (abs(footprint.sides[0]) + abs(footprint.sides[1])) / vtm.size;
     vec2 s = copies(vtm.wrapping.x, footprint.st.x, halfBox.x);
     vec2 t = copies(vtm.wrapping.y, footprint.st.y, halfBox.y);
-    for (float y = t.x; y <= t.y && sum.cost <= sum.allowed; ++y)
-        for (float x = s.x; x <= s.y && sum.cost <= sum.allowed; ++x) {
+    for (float y = t.x; y <= t.y && spend(1.0); ++y)
+        for (float x = s.x; x <= s.y && spend(1.0); ++x) {
             bvec2 mirrored = bvec2(isMirrored(vtm.wrapping.x, x), isMirrored(vtm.wrapping.y, y));
             vec2 st = footprint.st - vec2(x, y);
             st = mix(st, 1.0 - st, mirrored);
@@ -162,23 +151,30 @@ void addFootprint(Vtm vtm, Footprint footprint, inout Sum sum) {
         }
 }
 
-vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
+// A share of what a pixel may take. The prefilter's own turns are set aside; what was begun and not finished is not
+// shown, so nothing is ever missing.
+vec4 sampled(Vtm vtm, vec2 st, vec2 dx, vec2 dy, float turns) {
     if ((vtm.features & ~FEATURES) != 0u)
         return vec4(1.0, 0.0, 1.0, 1.0);  // the include was made for other assets
     Footprint footprint = footprintOf(vtm, st, dx, dy);
     float share = prefilterShare(footprint);
     vec4 color = vec4(0.0);
     if (share < 1.0) {
-        float freedom = max(1.0, fadeTo / footprint.longer);
-        Sum sum = Sum(vec4(0.0), 0.0, walkBudget * freedom * freedom);
-        addFootprint(vtm, footprint, sum);
-        color = clamp(sum.color, 0.0, 1.0);
-        share = max(share, clamp(2.0 * sum.cost / sum.allowed - 1.0, 0.0, 1.0));
+        float allowed = turns - prefilterTurns;
+        turnsLeft = allowed;
+        addFootprint(vtm, footprint, color);
+        color = clamp(color, 0.0, 1.0);
+        share = max(share, clamp(1.0 - 2.0 * turnsLeft / allowed, 0.0, 1.0));
     }
     if (share > 0.0)
         color = mix(color, prefiltered(vtm, footprint), share);
     return color;
 }
+
+// Shared by all strips, and by all samples that a pixel of the user's takes.
+const float turnsOfSample = float(turnsPerPixel) / float(VTM_SAMPLES);
+
+vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy) { return sampled(vtm, st, dx, dy, turnsOfSample); }
 
 // ---- Perspective ----------------------------------------------------------------------------------------
 
@@ -199,7 +195,7 @@ vec4 vtm_sample_proj(Vtm vtm, vec3 stq) {
         vec2 away = sides[axis] * (p * scale);
         mat2 strip = mat2(sides[0] - away * g.x, sides[1] - away * g.y) * scale;
         strip[axis] /= float(count);
-        sum += vtm_sample_grad(vtm, st + away, strip[0], strip[1]);
+        sum += sampled(vtm, st + away, strip[0], strip[1], turnsOfSample / float(count));
     }
     return sum / float(count);
 }

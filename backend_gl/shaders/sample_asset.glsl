@@ -1,5 +1,5 @@
 // An asset as a uniform: `uniform Vtm sign;`. src/sampled_texture.cpp binds it.
-// Requires: IMAGE. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART for fetch.glsl.
+// Requires: IMAGE. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART, spend for fetch.glsl; turnsLeft.
 
 struct Vtm {
     usampler2D texels;     // all records
@@ -9,6 +9,7 @@ struct Vtm {
 #endif
     uvec4 sections;        // first texels of the leaves, pieces, paints and data
     uint imageSection;     // first texel of the list of pictures
+    uint rampSums;         // first texel of the integrals of ramps
     uint nodes;            // first texel of the nodes
     uint root;             // entry of the tree
     uint features;         // of the paint programs, one bit each
@@ -21,3 +22,11 @@ struct Vtm {
 #define ASSET_IN Vtm vtm,
 #define ASSET vtm,
 #define ASSET_PART(name) vtm.name
+
+// Turns of loops that a pixel may still take (src/turns.hpp). What would take more is not done: spend() says so.
+float turnsLeft = 0.0;
+
+bool spend(float turns) {
+    turnsLeft -= turns;
+    return turnsLeft >= 0.0;
+}

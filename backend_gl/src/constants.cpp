@@ -9,6 +9,7 @@
 #include "asset/coverage.hpp"
 #include "asset/paper.hpp"
 #include "backend_gl/src/patch.hpp"
+#include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
 
@@ -28,7 +29,7 @@ std::string layout() {
     return constant("texelColumnsLog2", texelColumnsLog2) + constant("imageColumnsLog2", imageColumnsLog2) +
            constant("placementColumns", placementColumns) + constant("maxLevel", asset::maxLevel) +
            constant("leafExtent", asset::leafExtent) + constant("programTag", asset::programTag) +
-           constant("kindSolid", asset::Entry::Kind::Solid) +
+           constant("longRamp", longRamp) + constant("kindSolid", asset::Entry::Kind::Solid) +
            fmt::format("const int maxStack = {};\nconst float slopeScale = {:.1f};\n", asset::maxStack,
                        asset::slopeScale) +
 
@@ -38,8 +39,8 @@ std::string layout() {
 
 std::string patches() {
     return constant("leftOfChordBit", leftOfChordBit) + constant("leftOfCurveBit", leftOfCurveBit) +
-           constant("moreBit", moreBit) + constant("wideBit", wideBit) +
-           constant("patchCellsLog2", patchCellsLog2) +
+           constant("moreBit", moreBit) + constant("wideBit", wideBit) + constant("crowdedBit", crowdedBit) +
+           constant("referencesMask", referencesMask) + constant("patchCellsLog2", patchCellsLog2) +
            fmt::format("const float patchStep = {:.17g};\nconst float patchSlopeScale = {:.1f};\n",
                        std::ldexp(1.0, -int(patchStepLog2)), patchSlopeScale);
 }

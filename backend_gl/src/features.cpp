@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "backend_gl/src/ramp_sums.hpp"
+
 namespace vtm::gl {
 
 namespace {
@@ -40,13 +42,14 @@ std::string Features::defines() const {
                                      {Image, "IMAGE"},
                                      {Groups, "GROUPS"},
                                      {Mixing, "MIXING"},
-                                     {Material, "MATERIAL"}})
+                                     {Material, "MATERIAL"},
+                                     {LongRamps, "LONG_RAMPS"}})
         text += fmt::format("#define {} {}\n", name, (flags_ & flag) != 0 ? 1 : 0);
     return text;
 }
 
 Features featuresOf(const asset::AssetView& asset) {
-    unsigned flags = 0;
+    unsigned flags = hasLongRamps(asset) ? unsigned(Features::LongRamps) : 0;
     for (const asset::Paint& paint : asset.paints) {
         if (!asset::isProgram(paint))
             continue;

@@ -11,8 +11,16 @@ namespace vtm::gl {
 /// A set of flags; the names are the macros of paint.glsl.
 class Features {
 public:
-    enum Flag : unsigned { Linear = 1, Radial = 2, Image = 4, Groups = 8, Mixing = 16, Material = 32 };
-    static constexpr unsigned combinations = 64;
+    enum Flag : unsigned {
+        Linear = 1,
+        Radial = 2,
+        Image = 4,
+        Groups = 8,
+        Mixing = 16,
+        Material = 32,
+        LongRamps = 64  ///< gradients with many stops (src/ramp_sums.hpp)
+    };
+    static constexpr unsigned combinations = 128;
 
     Features() = default;
     explicit Features(unsigned flags) : flags_(flags) {}

@@ -269,6 +269,7 @@ void Painter::use(const Program& program) const {
     glUniform2f(program.uniform("targetSize"), float(view_.width), float(view_.height));
     glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
     glUniform1ui(program.uniform("imageSection"), s.images);
+    glUniform1ui(program.uniform("rampSums"), s.rampSums);
 }
 
 void Painter::useFill() {

@@ -120,6 +120,7 @@ struct PaperRenderer::Impl {
         glUniform1i(p.uniform("images"), int(Unit::Images));
         glUniform4ui(p.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
         glUniform1ui(p.uniform("imageSection"), s.images);
+        glUniform1ui(p.uniform("rampSums"), s.rampSums);
         glUniform2ui(p.uniform("paperSections"), texture.sections.masks, texture.sections.nodes);
         glUniform2f(p.uniform("pictureSize"), float(texture.width), float(texture.height));
         glUniform1ui(p.uniform("rootNode"), texture.root);

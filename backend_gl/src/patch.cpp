@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
 
+#include "asset/steepness.hpp"
 #include "backend_gl/src/patch_pieces.hpp"
 #include "backend_gl/src/patch_texels.hpp"
+#include "backend_gl/src/patch_turns.hpp"
 
 namespace vtm::gl {
 
@@ -173,10 +176,8 @@ private:
 
 /// With those between the same two paints one after the other, where shaders gain from it: what asks paint
 /// programs for colours keeps the last two (patch_programs_fragment.glsl).
-std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, const asset::AssetView& asset) {
-    const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset.paints[paint]); };
-    if (std::ranges::any_of(pieces,
-                            [&](const PlanarPiece& p) { return isProgram(p.left) || isProgram(p.right); }))
+std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, bool programs) {
+    if (programs)
         std::ranges::stable_sort(pieces, {}, [](const PlanarPiece& p) {
             return std::minmax({p.left, p.right});
         });
@@ -186,21 +187,54 @@ std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, const asset::A
 /// y is moved to the middle between two lattice rows, as paintAt wants it.
 dvec2 betweenRows(dvec2 lattice) { return {lattice.x, std::floor(lattice.y) + 0.5}; }
 
+bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* const> near) {
+    const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset.paints[paint]); };
+    return std::ranges::any_of(
+        near, [&](const PlanarPiece* p) { return isProgram(p->left) || isProgram(p->right); });
+}
+
+/// Corners of a pixel are no further from its centre than `margin`, so it stretches what it maps by no more
+/// than twice that.
+PaintCosts costsOf(const PatchSource& source, const PatchPlace& place, double margin) {
+    const double stretch = 2 * margin * std::ldexp(source.map.side, -place.level);
+    return {source.programTurns, source.steepness, asset::leastSteepness(glm::dmat2(stretch))};
+}
+
+/// Of one paint: nothing but that, unless it takes too many turns.
+Patch flatPatch(const PatchSource& source, const PaintCosts& costs, std::uint32_t paint) {
+    Patch patch;
+    patch.paint = paint;
+    patch.programs = asset::isProgram(source.asset.paints[paint]);
+    if (!patch.programs || turnsWithPrograms(costs, paint, {}, {}) <= source.maxTurns)
+        return patch;
+    const std::vector<PlanarPiece> none;
+    const CellWriter writer(source.asset.paints, none, patch.texels);
+    for (int cell = 0; cell < cellCount * cellCount; ++cell)
+        patch.crowded.push_back(std::uint8_t(cell));
+    patch.texels.assign(patch.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, paint}));
+    return patch;
+}
+
 }  // namespace
 
 Patch buildPatch(const PatchSource& source, const PatchPlace& place, double margin,
                  std::span<const PlanarPiece* const> near) {
     const LocalPieces local(place, margin, near);
-    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), source.asset);
+    const PaintCosts costs = costsOf(source, place, margin);
+    const bool programs = hasPrograms(source.asset, near);
+    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
     const Lists lists = listsOf(pieces, margin);
     const auto paintIn = [&](dvec2 point) {
         return paintAt(source.asset, source.map, betweenRows(local.toLattice(point)), near);
     };
+    if (lists.numbers.empty())
+        return flatPatch(source, costs, paintIn(dvec2(0.5)));
+    const auto isCrowded = [&](std::uint32_t paint, std::span<const std::uint32_t> list) {
+        return (programs ? turnsWithPrograms(costs, paint, pieces, list) : solidTurns(list.size())) >
+               source.maxTurns;
+    };
     Patch patch;
-    if (lists.numbers.empty()) {
-        patch.paint = paintIn(dvec2(0.5));
-        return patch;
-    }
+    patch.programs = programs;
     for (const PlanarPiece& piece : pieces) {
         patch.texels.push_back(geometryTexel(piece));
         patch.texels.push_back(colorTexel(source.asset.paints[piece.left], source.asset.paints[piece.right]));
@@ -220,7 +254,10 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
                 here.paint = walk.paintAt(here.point, rowStart, lists.of(i - cellCount), lists.of(i));
             else
                 here.paint = walk.paintAt(here.point, last, lists.of(i - 1), lists.of(i));
-            cells.push_back(writer.write(here, lists.of(i)));
+            const bool crowded = isCrowded(here.paint, lists.of(i));
+            cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
+            if (crowded)
+                patch.crowded.push_back(std::uint8_t(i));
             last = here;
             if (column == 0)
                 rowStart = here;

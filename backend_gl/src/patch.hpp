@@ -15,6 +15,7 @@
 
 #include "asset/asset.hpp"
 #include "asset/planar_map.hpp"
+#include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
 
@@ -42,8 +43,11 @@ inline constexpr unsigned patchStepLog2 = 16, patchCoordinateBits = 18;
 inline constexpr double patchSlopeScale = 2047;
 /// Sides of the reference point that go with each piece.
 inline constexpr std::uint32_t leftOfChordBit = 1, leftOfCurveBit = 2;
-/// Bits of the first word of a texel of references: more texels follow; references are whole words.
-inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24;
+/// Bits of the first word of a texel of references: more texels follow; references are whole words. Of a
+/// cell: its pixels are made elsewhere.
+inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24, crowdedBit = 1u << 25;
+/// ... and how many references there are from that texel on.
+inline constexpr std::uint32_t referencesMask = (1u << 20) - 1;
 
 /// `texels` holds the pieces, the rest of the longer lists and, from `firstCell`, the cells row by row;
 /// nothing if the patch has one paint. Fields are packed from the lowest bit of the first word on.
@@ -52,23 +56,29 @@ inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24;
 ///   left | right << 16. Second: the colours on the left and on the right, premultiplied 16-bit unorm red,
 ///   green, blue, alpha, of solid paints.
 /// - Reference, to a piece: its number << 2 | leftOfCurveBit | leftOfChordBit, as the reference point lies.
-/// - References, one texel: n << 20 | moreBit | wideBit; then n of them in half words, six at most; with
+/// - References, one texel: references from here on | n << 20 | moreBit | wideBit; then n of them in half
+/// words, six at most; with
 ///   moreBit four at most, the last word being the texel with the next ones. With wideBit they are words:
 ///   three, or two with moreBit.
 /// - Cell, one texel: paint at the reference point | place of that point << 16 | as above; the paint's colour
-/// as
-///   in a piece; then two references in half words at most, or one word with wideBit, or with moreBit, n
-///   being 0, the texel with the first ones.
+///   as in a piece; then two references in half words at most, or one word with wideBit, or with moreBit, n
+///   being 0, the texel with the first ones. With crowdedBit it has none: its list would take more turns of
+///   loops than a pixel may.
 struct Patch {
     std::uint32_t paint = 0;  ///< of a patch without texels
     std::vector<asset::Texel> texels;
     std::uint32_t firstCell = 0;
+    bool programs = false;              ///< of the paints near it one is a program
+    std::vector<std::uint8_t> crowded;  ///< numbers of such cells, ascending
 };
 
 /// What patches are cut from.
 struct PatchSource {
     asset::AssetView asset;
     asset::Map map;
+    std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
+    std::span<const float> steepness;             ///< by paint (asset/steepness.hpp)
+    std::uint32_t maxTurns = turnsPerPixel;
 };
 
 /// `margin`: the largest distance from a pixel's centre to its corners, in patch sides, at most 1/4. `near`:

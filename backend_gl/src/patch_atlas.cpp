@@ -37,14 +37,8 @@ int patchLevelFor(const asset::Map& map, const asset::View& view) {
 
 double patchMargin() { return std::ldexp(1 / cellsPerRadius, -int(patchCellsLog2)); }
 
-PatchAtlas::PatchAtlas(const asset::AssetView& asset, const asset::Map& map) : map_(map) {
-    asset::Asset kept;
-    kept.nodes.assign(asset.nodes.begin(), asset.nodes.end());
-    kept.leaves.assign(asset.leaves.begin(), asset.leaves.end());
-    kept.pieces.assign(asset.pieces.begin(), asset.pieces.end());
-    kept.paints.assign(asset.paints.begin(), asset.paints.end());
-    asset_ = std::make_shared<const asset::Asset>(std::move(kept));
-}
+PatchAtlas::PatchAtlas(const KeptAsset& asset, const asset::Map& map, std::uint32_t maxTurns)
+    : map_(map), asset_(&asset), maxTurns_(maxTurns), scanned_(asset.asset, map) {}
 
 /// By square, row by row.
 std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, glm::i64vec2 min,
@@ -68,13 +62,12 @@ std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, g
 }
 
 PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const PlanarPiece* const> near) {
-    const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset_->paints[paint]); };
-    const Patch patch = buildPatch({*asset_, map_}, place, patchMargin(), near);
+    const PatchSource source{asset_->asset, map_, asset_->programTurns, asset_->steepness, maxTurns_};
+    Patch patch = buildPatch(source, place, patchMargin(), near);
     if (patch.texels.empty())
-        return {true, isProgram(patch.paint), patch.paint, 0, 0};
-    const bool programs = std::ranges::any_of(
-        near, [&](const PlanarPiece* piece) { return isProgram(piece->left) || isProgram(piece->right); });
-    const Placed placed{false, programs, 0, std::uint32_t(texels_.size()), patch.firstCell};
+        return {true, patch.programs, patch.paint, 0, 0, {}};
+    Placed placed{false,           patch.programs,          0, std::uint32_t(texels_.size()),
+                  patch.firstCell, std::move(patch.crowded)};
     texels_.insert(texels_.end(), patch.texels.begin(), patch.texels.end());
     return placed;
 }
@@ -86,7 +79,7 @@ std::vector<const PatchAtlas::Placed*> PatchAtlas::prepare(int level, glm::i64ve
         uploaded_ = 0;
     }
     if (!pieces_)
-        pieces_ = planarPieces(*asset_, map_);
+        pieces_ = planarPieces(asset_->asset, map_);
     std::vector<std::vector<const PlanarPiece*>> near;
     std::vector<const Placed*> patches;
     for (std::int64_t y = min.y; y < max.y; ++y)

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "asset/view.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/patch.hpp"
+#include "backend_gl/src/scanned_pixels.hpp"
 
 namespace vtm::gl {
 
@@ -22,8 +22,8 @@ double patchMargin();
 
 class PatchAtlas {
 public:
-    /// Copies what it needs of the asset.
-    PatchAtlas(const asset::AssetView& asset, const asset::Map& map);
+    /// `asset` must outlive it. A cell that would take more than `maxTurns` is crowded.
+    PatchAtlas(const KeptAsset& asset, const asset::Map& map, std::uint32_t maxTurns);
 
     /// What is kept of a Patch.
     struct Placed {
@@ -31,12 +31,14 @@ public:
         bool programs = false;  ///< of its paints one is a program
         std::uint32_t paint = 0;
         std::uint32_t firstTexel = 0, firstCell = 0;
+        std::vector<std::uint8_t> crowded;  ///< cells whose pixels are scanned
     };
     /// All squares of a level that meet [min, max], in patches, row by row. May move the texture.
     std::vector<const Placed*> prepare(int level, glm::i64vec2 min, glm::i64vec2 max);
 
     const asset::Map& map() const { return map_; }
     const TextureHandle& texture() const { return texture_; }
+    ScannedPixels& scanned() { return scanned_; }
 
 private:
     Placed place(const PatchPlace& place, std::span<const PlanarPiece* const> near);
@@ -45,7 +47,9 @@ private:
     void upload();
 
     asset::Map map_;
-    std::shared_ptr<const asset::Asset> asset_;       ///< without commands, pictures and the like
+    const KeptAsset* asset_;
+    std::uint32_t maxTurns_;
+    ScannedPixels scanned_;                           ///< of crowded cells
     std::optional<std::vector<PlanarPiece>> pieces_;  ///< once a view has asked
 
     std::map<PatchPlace, Placed> placed_;

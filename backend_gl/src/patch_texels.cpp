@@ -1,5 +1,6 @@
 #include "backend_gl/src/patch_texels.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -68,11 +69,7 @@ Texel colorTexel(const asset::Paint& left, const asset::Paint& right) {
 Texel CellWriter::write(const Reference& reference, std::span<const std::uint32_t> list) {
     const bool wide = !list.empty() && list.back() >= narrowNumbers;
     const std::size_t room = wide ? 1 : 2;
-    Packer packer;
-    packer.add(reference.paint, 16);
-    packer.add(reference.place, 16);
-    addColor(packer, paints_[reference.paint]);
-    Texel cell = packer.words();
+    Texel cell = withoutReferences(reference);
     if (list.size() > room) {
         cell[0] |= moreBit;
         cell[3] = append(reference.point, list, wide);
@@ -84,6 +81,20 @@ Texel CellWriter::write(const Reference& reference, std::span<const std::uint32_
     return cell;
 }
 
+Texel CellWriter::writeCrowded(const Reference& reference) const {
+    Texel cell = withoutReferences(reference);
+    cell[0] |= crowdedBit;
+    return cell;
+}
+
+Texel CellWriter::withoutReferences(const Reference& reference) const {
+    Packer packer;
+    packer.add(reference.paint, 16);
+    packer.add(reference.place, 16);
+    addColor(packer, paints_[reference.paint]);
+    return packer.words();
+}
+
 /// Returns the first texel.
 std::uint32_t CellWriter::append(glm::dvec2 point, std::span<const std::uint32_t> list, bool wide) {
     const std::size_t all = wide ? 3 : 6, some = wide ? 2 : 4;
@@ -91,7 +102,8 @@ std::uint32_t CellWriter::append(glm::dvec2 point, std::span<const std::uint32_t
     while (!list.empty()) {
         const bool more = list.size() > all;
         const std::size_t count = more ? some : list.size();
-        Texel texel{countBits(count, wide) | (more ? moreBit : 0), 0, 0, 0};
+        const auto left = std::uint32_t(std::min<std::size_t>(list.size(), referencesMask));
+        Texel texel{countBits(count, wide) | (more ? moreBit : 0) | left, 0, 0, 0};
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t word = referenceWord(list[i], point);
             if (wide)

@@ -29,8 +29,10 @@ public:
         : paints_(paints), pieces_(pieces), texels_(texels) {}
 
     Texel write(const Reference& reference, std::span<const std::uint32_t> list);
+    Texel writeCrowded(const Reference& reference) const;
 
 private:
+    Texel withoutReferences(const Reference& reference) const;
     std::uint32_t append(glm::dvec2 point, std::span<const std::uint32_t> list, bool wide);
     std::uint32_t referenceWord(std::uint32_t number, glm::dvec2 point) const;
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
@@ -65,18 +66,34 @@ public:
 
     /// Whether a square can show.
     bool visible(i64vec2 at) const {
-        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
-        for (const i64vec2 corner : {i64vec2(0, 0), i64vec2(1, 0), i64vec2(0, 1), i64vec2(1, 1)}) {
-            const dvec2 p = pixel(at.x + corner.x, at.y + corner.y);
-            least = glm::min(least, p);
-            most = glm::max(most, p);
-        }
+        const auto [least, most] = bounds(dvec2(at), 1);
         return most.x > box_.min.x && most.y > box_.min.y && least.x < box_.max.x && least.y < box_.max.y;
+    }
+
+    /// Pixels of the box that a square's cell can show in.
+    PixelBox pixelsOfCell(i64vec2 at, unsigned cell) const {
+        constexpr unsigned cells = 1u << patchCellsLog2;
+        const dvec2 corner = dvec2(at) + dvec2(cell % cells, cell / cells) / double(cells);
+        const auto [least, most] = bounds(corner, 1.0 / cells);
+        const dvec2 first(box_.min), end(box_.max);
+        return {glm::ivec2(glm::clamp(glm::floor(least), first, end)),
+                glm::ivec2(glm::clamp(glm::ceil(most), first, end))};
     }
 
     i64vec2 min, max;
 
 private:
+    /// The least and the largest pixel coordinates of a square, whose corner and side are in patches.
+    std::pair<dvec2, dvec2> bounds(dvec2 corner, double side) const {
+        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        for (const dvec2 to : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}) {
+            const dvec2 p = view_.toPixels * glm::dvec3(corner_ + (corner + to * side) * side_, 1);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        return {least, most};
+    }
+
     double side_;
     dvec2 corner_;
     const asset::View& view_;
@@ -98,6 +115,7 @@ void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at
 struct Geometry {
     std::vector<FlatVertex> flat;
     std::vector<PatchVertex> solid, programs;
+    PixelBox crowded;  ///< holds the pixels of crowded cells
 };
 
 FlatVertex flatVertex(const asset::Paint& paint) {
@@ -118,14 +136,16 @@ PatchVertex patchVertex(const Squares& squares, const Placed& patch, std::int64_
 /// Each patch by itself: a longer rectangle would have corners of its neighbours on its edges, where rounding
 /// leaves gaps.
 Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
-                    const std::vector<const Placed*>& patches) {
+                    const std::vector<const Placed*>& placed) {
     Geometry geometry;
-    auto next = patches.begin();
+    auto next = placed.begin();
     for (std::int64_t y = squares.min.y; y < squares.max.y; ++y)
         for (std::int64_t x = squares.min.x; x < squares.max.x; ++x) {
             const Placed& patch = **next++;
             if (!squares.visible({x, y}))
                 continue;
+            for (const std::uint8_t cell : patch.crowded)
+                geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, cell));
             if (!patch.flat || patch.programs)
                 addSquare(patch.programs ? geometry.programs : geometry.solid, squares, {x, y},
                           patchVertex(squares, patch, x, y));
@@ -155,6 +175,7 @@ void use(const Program& program, const UploadedAsset& asset, const asset::View& 
     glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
     glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
     glUniform1ui(program.uniform("imageSection"), s.images);
+    glUniform1ui(program.uniform("rampSums"), s.rampSums);
     const bool mirrored = glm::determinant(toPixels) < 0;
     setMatrix(program.uniform("patchToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
     setMatrix(program.uniform("pixelToPatch"), glm::inverse(toPixels));
@@ -187,7 +208,7 @@ PictureBuffers::PictureBuffers()
 }
 
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
-                 const PixelBox& box, Finish finish) {
+                 const PixelBox& box, Finish finish, bool markOverruns) {
     // The first map stands on what is there, the others add to it.
     for (PatchAtlas& atlas : asset.atlases) {
         if (&atlas != &asset.atlases.front()) {
@@ -198,6 +219,11 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
         const Squares squares(atlas.map(), view, box, level);
         const std::vector<const Placed*> patches = atlas.prepare(level, squares.min, squares.max);
         const Geometry geometry = geometryOf(asset, squares, patches);
+        if (!geometry.crowded.empty()) {
+            const bool light = finish.has(Finish::LinearLight);
+            atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);
+            bindTexture(Unit::Layer, atlas.scanned().texture());
+        }
         bindTexture(Unit::Texels, asset.texels);
         bindTexture(Unit::Images, asset.images);
         bindTexture(Unit::Patches, atlas.texture());
@@ -205,14 +231,18 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
             use(programs.flat(finish), asset, view, squares.side());
             draw(buffers.flatArray, buffers.flat, geometry.flat);
         }
-        if (!geometry.solid.empty()) {
-            use(programs.patch({}, 0, finish), asset, view, squares.side());
-            draw(buffers.patchArray, buffers.patch, geometry.solid);
-        }
-        if (!geometry.programs.empty()) {
-            use(programs.patch(asset.features, asset.materialSet, finish), asset, view, squares.side());
-            draw(buffers.patchArray, buffers.patch, geometry.programs);
-        }
+        const bool crowded = !geometry.crowded.empty();
+        const auto drawPatches = [&](const Program& program, const std::vector<PatchVertex>& vertices) {
+            use(program, asset, view, squares.side());
+            glUniform1i(program.uniform("markOverruns"), markOverruns);
+            glUniform2i(program.uniform("scannedCorner"), geometry.crowded.min.x, geometry.crowded.min.y);
+            draw(buffers.patchArray, buffers.patch, vertices);
+        };
+        if (!geometry.solid.empty())
+            drawPatches(programs.patch({}, 0, finish, crowded), geometry.solid);
+        if (!geometry.programs.empty())
+            drawPatches(programs.patch(asset.features, asset.materialSet, finish, crowded),
+                        geometry.programs);
     }
     if (asset.atlases.size() > 1)
         glDisable(GL_BLEND);

@@ -19,7 +19,8 @@ struct PictureBuffers {
 /// Draws into the bound framebuffer, `view` fitting the viewport, on what stands there if blending is on: all
 /// pixels of `box` that are not transparent, and others, too, unless the scissor keeps them. The view is
 /// invertible; GL is in the state of StateGuard.
+/// `markOverruns`: of RendererOptions.
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
-                 const PixelBox& box, Finish finish);
+                 const PixelBox& box, Finish finish, bool markOverruns);
 
 }  // namespace vtm::gl

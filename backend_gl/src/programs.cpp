@@ -44,8 +44,8 @@ const Program& Programs::leaf(CostClass cost, Features features, unsigned materi
 }
 
 const Program& Programs::flat(Finish finish) { return get(Kind::Flat, {}, 0, finish); }
-const Program& Programs::patch(Features features, unsigned materialSet, Finish finish) {
-    return get(Kind::Patch, features, materialSet, finish);
+const Program& Programs::patch(Features features, unsigned materialSet, Finish finish, bool crowded) {
+    return get(crowded ? Kind::CrowdedPatch : Kind::Patch, features, materialSet, finish);
 }
 const Program& Programs::fill(Features features, unsigned materialSet) {
     return get(Kind::Fill, features, materialSet);
@@ -75,6 +75,8 @@ const Program& Programs::get(Kind kind, Features features, unsigned materialSet,
 ProgramSource Programs::source(Kind kind, Features features, Finish finish, std::string_view materials) {
     using namespace shaders;
     const std::string defines = features.defines(), finishes = finish.defines();
+    const std::string_view crowded =
+        kind == Kind::CrowdedPatch ? "#define CROWDED 1\n" : "#define CROWDED 0\n";
     const std::string_view finishBlend = finish.flags() == 0 ? std::string_view("") : shaders::blend;
     switch (kind) {
         case Kind::Solid:
@@ -89,14 +91,15 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
         case Kind::Flat:
             return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
         case Kind::Patch:
+        case Kind::CrowdedPatch:
             if (features.flags() == 0)
                 return {"patch",
                         {patch_vertex},
-                        {finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
+                        {crowded, finishes, fetch, shadow, cell, finishBlend, output, patch_fragment}};
             return {"patch with programs",
                     {patch_vertex},
-                    {defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint, output,
-                     patch_programs_fragment, materials}};
+                    {crowded, defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint,
+                     output, patch_programs_fragment, materials}};
         case Kind::Fill:
             return {"fill",
                     {box_vertex},
@@ -144,7 +147,11 @@ std::vector<ProgramSource> Programs::everySource() {
     constexpr unsigned allFeatures = Features::combinations - 1, allFinishes = Finish::combinations - 1;
     for (const Kind kind : {Kind::Solid, Kind::Pieces, Kind::Layer, Kind::Blend})
         add(kind, 0, 0);
-    for (unsigned features = 0; features <= allFeatures; ++features) {
+    // Of long ramps, which only gradients know, those without and with everything else.
+    std::vector<unsigned> featureSets{Features::Linear | Features::LongRamps, allFeatures};
+    for (unsigned features = 0; features < Features::LongRamps; ++features)
+        featureSets.push_back(features);
+    for (const unsigned features : featureSets) {
         add(Kind::General, features, 0);
         add(Kind::Fill, features, 0);
         add(Kind::Patch, features, 0);
@@ -162,6 +169,8 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Compose, 0, finish);
         add(Kind::Patch, 0, finish);
         add(Kind::Patch, allFeatures, finish);
+        add(Kind::CrowdedPatch, 0, finish);
+        add(Kind::CrowdedPatch, allFeatures, finish);
     }
     return sources;
 }

@@ -49,7 +49,8 @@ public:
     const Program& leaf(CostClass cost, Features features, unsigned materialSet = 0);
     /// Of a picture: patches of one colour, and others.
     const Program& flat(Finish finish);
-    const Program& patch(Features features, unsigned materialSet, Finish finish);
+    /// `crowded`: some cells' pixels come from a texture.
+    const Program& patch(Features features, unsigned materialSet, Finish finish, bool crowded = false);
     const Program& fill(Features features, unsigned materialSet = 0);
     const Program& layer();
     const Program& blend();
@@ -63,7 +64,18 @@ public:
     static std::vector<ProgramSource> everySource();
 
 private:
-    enum class Kind : unsigned { Solid, Pieces, General, Flat, Patch, Fill, Layer, Blend, Compose };
+    enum class Kind : unsigned {
+        Solid,
+        Pieces,
+        General,
+        Flat,
+        Patch,
+        CrowdedPatch,
+        Fill,
+        Layer,
+        Blend,
+        Compose
+    };
     const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
     static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
 

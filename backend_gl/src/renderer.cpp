@@ -74,6 +74,8 @@ struct Renderer::Impl {
         options.pixels == Pixels::Scanned || (options.pixels == Pixels::Automatic && isSoftwareDriver());
     PictureBuffers picture;
 
+    std::uint32_t maxTurns() const { return options.maxTurns == 0 ? turnsPerPixel : options.maxTurns; }
+
     void checkLost() {
         if (!lost && reset && reset() != GL_NO_ERROR)
             lost = true;
@@ -117,7 +119,7 @@ struct Renderer::Impl {
         target.bind();
         target.touched = wholeOf(view);
         glViewport(0, 0, view.width, view.height);
-        drawPicture(workshop.programs, picture, asset, view, wholeOf(view), finish);
+        drawPicture(workshop.programs, picture, asset, view, wholeOf(view), finish, options.markOverruns);
         return target;
     }
 
@@ -152,7 +154,7 @@ struct Renderer::Impl {
     void drawDirectly(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
         begin(d, box);
         if (isInvertible(d.view))
-            drawPicture(workshop.programs, picture, asset, d.view, box, d.finish);
+            drawPicture(workshop.programs, picture, asset, d.view, box, d.finish, options.markOverruns);
         end();
     }
 
@@ -240,7 +242,8 @@ Renderer::~Renderer() = default;
 Texture Renderer::upload(const asset::AssetView& asset) {
     return impl_->call([&](const StateGuard&) {
         Programs& programs = impl_->workshop.programs;
-        auto texture = std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials));
+        auto texture =
+            std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials), impl_->maxTurns());
         if (impl_->scans && asset::isSumOfMaps(asset) && asset.materials.empty())
             texture->scanner.emplace(asset);
         // Users' errors come at once, not with the first picture.

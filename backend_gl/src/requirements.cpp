@@ -33,10 +33,14 @@ constexpr std::string_view softwareDrivers[] = {"llvmpipe", "softpipe", "SwiftSh
 
 }  // namespace
 
-void requireContext() {
-    const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-    if (version == nullptr)
+void requireCurrentContext() {
+    if (glGetString(GL_VERSION) == nullptr)
         throw GlError("no GL context is current");
+}
+
+void requireContext() {
+    requireCurrentContext();
+    const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
     int major = 0;
     if (std::sscanf(version, "OpenGL ES %d", &major) != 1 || major < 3)
         throw GlError(fmt::format("the current context is '{}': OpenGL ES 3.0 or later is needed", version));

@@ -11,6 +11,7 @@
 #include "backend_gl/src/materials.hpp"
 #include "backend_gl/src/prefixed.hpp"
 #include "backend_gl/src/shader_text.hpp"
+#include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
 
@@ -23,15 +24,18 @@ constexpr const char* head =
 //     vec4 vtm_sample(Vtm vtm, vec2 st)
 //     vec4 vtm_sample_proj(Vtm vtm, vec3 stq)
 //     vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy)
+// A fragment that takes many samples defines VTM_SAMPLES as their number before this.
+#ifndef VTM_SAMPLES
+#define VTM_SAMPLES 1
+#endif
 precision highp float;
 precision highp int;
 precision highp sampler2D;
 precision highp usampler2D;
 )";
 
-/// Squares and pieces of one footprint that are drawn before the prefilter takes over; it begins to at half
-/// of them. docs/texture.md has the measurements.
-constexpr float walkBudget = 256;
+/// Of the loops over taps in sample_prefilter.glsl: at most 4 rows of 16, for a footprint of 4 : 1.
+constexpr float prefilterTurns = 4 * (16 + 2) + 1;
 /// Footprints are widened to this share of their length.
 constexpr float largestAnisotropy = 16;
 /// In pictures: smaller ones lose their digits, of larger ones the mean is all that is left.
@@ -47,7 +51,8 @@ std::string constants() {
     const auto addWrap = [&](const char* name, asset::Wrap wrap) {
         text += fmt::format("const int {} = {};\n", name, int(wrap));
     };
-    add("walkBudget", walkBudget);
+    add("turnsPerPixel", float(turnsPerPixel));
+    add("prefilterTurns", prefilterTurns);
     add("largestAnisotropy", largestAnisotropy);
     add("smallestFootprint", smallestFootprint);
     add("largestFootprint", largestFootprint);

@@ -12,8 +12,11 @@
 #include "backend_gl/src/constants.hpp"
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/gl.hpp"
+#include "backend_gl/src/ramp_sums.hpp"
+#include "backend_gl/src/requirements.hpp"
 #include "backend_gl/src/sample_include.hpp"
 #include "backend_gl/src/state_guard.hpp"
+#include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
 
@@ -25,7 +28,7 @@ using asset::Wrap;
 
 /// First texels of the parts of the one texture that holds all records.
 struct Parts {
-    GLuint nodes = 0, leaves = 0, pieces = 0, paints = 0, data = 0, images = 0;
+    GLuint nodes = 0, leaves = 0, pieces = 0, paints = 0, data = 0, images = 0, rampSums = 0;
 };
 
 /// Fills of materials name them by their key, since a program may know those of several assets.
@@ -40,15 +43,26 @@ std::vector<Texel> dataOf(const AssetView& asset) {
     return data;
 }
 
+/// Programs with their turns in the word that is free.
+std::vector<asset::Paint> paintsOf(const AssetView& asset) {
+    std::vector<asset::Paint> paints(asset.paints.begin(), asset.paints.end());
+    const std::vector<std::uint32_t> turns = programTurns(asset);
+    for (std::size_t i = 0; i < paints.size(); ++i)
+        if (asset::isProgram(paints[i]))
+            paints[i][2] = turns[i];
+    return paints;
+}
+
 std::vector<Texel> joined(const AssetView& asset, std::span<const Texel> imageList, Parts& parts) {
     std::vector<Texel> texels;
     const std::vector<Texel> data = dataOf(asset);
     parts.nodes = appendTexels(texels, asset.nodes);
     parts.leaves = appendTexels(texels, asset.leaves);
     parts.pieces = appendTexels(texels, asset.pieces);
-    parts.paints = appendTexels(texels, asset.paints);
+    parts.paints = appendTexels<asset::Paint>(texels, paintsOf(asset));
     parts.data = appendTexels<Texel>(texels, data);
     parts.images = appendTexels<Texel>(texels, imageList);
+    parts.rampSums = appendTexels<Texel>(texels, rampSums(asset));
     return texels;
 }
 
@@ -153,6 +167,7 @@ struct SampledTexture::Impl {
         };
         glUniform4ui(at("sections"), parts.leaves, parts.pieces, parts.paints, parts.data);
         glUniform1ui(at("imageSection"), parts.images);
+        glUniform1ui(at("rampSums"), parts.rampSums);
         glUniform1ui(at("nodes"), parts.nodes);
         glUniform1ui(at("root"), map.root.bits);
         glUniform1ui(at("features"), features.flags());
@@ -173,6 +188,7 @@ struct SampledTexture::Impl {
 
 SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOptions& options) {
     onlyMap(asset);
+    requireCurrentContext();
     asset::Prefilter made;
     asset::PrefilterView pyramid = asset.prefilter;
     if (pyramid.size.empty()) {

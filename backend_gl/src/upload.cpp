@@ -7,6 +7,7 @@
 #include "asset/steepness.hpp"
 #include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/constants.hpp"
+#include "backend_gl/src/ramp_sums.hpp"
 
 namespace vtm::gl {
 
@@ -45,6 +46,7 @@ std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> s
     sections.paints = appendTexels<asset::Paint>(texels, paintTexels(asset, steepness));
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList);
+    sections.rampSums = appendTexels<Texel>(texels, rampSums(asset));
     return texels;
 }
 
@@ -59,7 +61,7 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 
 }  // namespace
 
-UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
+UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::uint32_t maxTurns)
     : maps(asset.maps.begin(), asset.maps.end()),
       commands(asset.commands.begin(), asset.commands.end()),
       list(isSumOfMaps(asset) ? InstanceList{} : makeInstances(asset)),
@@ -67,9 +69,11 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials)
       materialSet(materials),
       paints(asset.paints.begin(), asset.paints.end()),
       finestPixel(asset.finestPixel) {
-    if (isSumOfMaps(asset))
+    if (isSumOfMaps(asset)) {
+        kept = keptOf(asset);
         for (const asset::Command& command : asset.commands)
-            atlases.emplace_back(asset, asset.maps[command.map]);
+            atlases.emplace_back(kept, asset.maps[command.map], maxTurns);
+    }
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);
     for (const float s : steepness)

@@ -2,7 +2,6 @@
 /// An asset's data on the GPU.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "asset/scan.hpp"
@@ -18,11 +17,16 @@ namespace vtm::gl {
 /// First texels of the parts of the one texture that holds them all.
 struct Sections {
     GLuint leaves = 0, pieces = 0, paints = 0, data = 0;
-    GLuint images = 0;  ///< a texel a picture: first pixel, width, height
+    GLuint images = 0;    ///< a texel a picture: first pixel, width, height
+    GLuint rampSums = 0;  ///< beside the data (ramp_sums.hpp)
 };
 
 struct UploadedAsset {
-    UploadedAsset(const asset::AssetView& asset, unsigned materialSet);
+    /// `maxTurns`: of a pixel (turns.hpp).
+    UploadedAsset(const asset::AssetView& asset, unsigned materialSet,
+                  std::uint32_t maxTurns = turnsPerPixel);
+    UploadedAsset(const UploadedAsset&) = delete;  // atlases point into it
+    UploadedAsset& operator=(const UploadedAsset&) = delete;
 
     std::vector<asset::Map> maps;
     std::vector<asset::Command> commands;
@@ -33,6 +37,7 @@ struct UploadedAsset {
     std::vector<asset::Paint> paints;
     std::optional<double> finestPixel;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
+    KeptAsset kept;                         ///< of a sum of maps
     std::vector<PatchAtlas> atlases;        ///< exact: of each map drawn
     Sections sections;
     TextureHandle texels, images;

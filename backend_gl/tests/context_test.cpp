@@ -6,6 +6,7 @@
 
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
+#include "backend_gl/sampled_texture.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/requirements.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
@@ -52,6 +53,12 @@ TEST_F(Contexts, WithoutOneThereIsNoRenderer) {
     std::optional<Context> gone(std::in_place);
     gone.reset();
     EXPECT_EQ(refusalOf([] { Renderer(); }), "no GL context is current");
+}
+
+TEST_F(Contexts, WithoutOneThereIsNoSampledTexture) {
+    std::optional<Context> gone(std::in_place);
+    gone.reset();
+    EXPECT_EQ(refusalOf([] { const SampledTexture made(halfPlane()); }), "no GL context is current");
 }
 
 TEST_F(Contexts, OlderOnesAreRefusedByName) {

@@ -66,7 +66,7 @@ TEST_F(Gl, TheIncludeLeavesAllNamesToTheUser) {
 struct Frame { float a; };
 struct Curve { float b; };
 struct Footprint { float c; };
-const float leafExtent = 1.0, chordCount = 2.0, walkBudget = 3.0;
+const float leafExtent = 1.0, chordCount = 2.0, turnsPerPixel = 3.0;
 uniform sampler2D texels, images;
 uniform vec4 sections;
 float low(float x) { return x; }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -175,6 +176,52 @@ TEST_P(Texture, ZoomsWithoutAJump) {
     for (const ZoomFrame& frame : frames) {
         EXPECT_LE(frame.change, 2) << frame.pixels << " px";
         EXPECT_LE(frame.error, 2) << frame.pixels << " px";
+    }
+}
+
+// ---- Below the horizon --------------------------------------------------------------------------------
+
+/// The mean of an opaque picture over a pixel of a floor of copies, by a lattice of points in it.
+glm::dvec3 meanOnFloor(const Raster& picture, const glm::dmat3& toPicture, int x, int y) {
+    constexpr int samples = 24;
+    glm::dvec3 sum(0);
+    for (int i = 0; i < samples * samples; ++i) {
+        const glm::dvec3 p =
+            toPicture * glm::dvec3(x + (i % samples + 0.5) / samples, y + (i / samples + 0.5) / samples, 1);
+        const dvec2 st = dvec2(p) / p.z, place = (st - glm::floor(st)) * dvec2(picture.width, picture.height);
+        const float* pixel = picture.pixel(std::min(int(place.x), picture.width - 1),
+                                           std::min(int(place.y), picture.height - 1));
+        sum += glm::dvec3(pixel[0], pixel[1], pixel[2]);
+    }
+    return sum / double(samples * samples);
+}
+
+/// Copies of an opaque picture up to four pixels below the horizon, where a pixel meets so many squares,
+/// strips and copies that loops have to be counted: nothing shines through.
+TEST(FloorOfTheLighthouse, IsOpaqueUpToTheHorizon) {
+    const scene::Scene scene = loadScene(examplesDirectory() / "lighthouse.svg");
+    const asset::Asset asset = compiler::compile(scene).asset;
+    const Gl gl;
+    gl::test::TextureCanvas texture(asset);
+    const Raster picture = asset::evaluate(asset, wholePicture(scene, 1024));
+    constexpr double blurred = 16;  // longer footprints are widened
+    for (const Floor& floor : {Floor{192, 64, 40, 4}, Floor{192, 64, 16, 8}, Floor{192, 64, 120, 1.5}}) {
+        const glm::dmat3 toPicture = floor.toPicture(1);
+        const Raster drawn =
+            texture.draw(toPicture, floor.width, floor.height, {asset::Wrap::Repeat, asset::Wrap::Repeat});
+        double squares = 0, count = 0;
+        for (int y = 0; y < floor.height; ++y)
+            for (int x = 0; x < floor.width; ++x) {
+                const float* pixel = drawn.pixel(x, y);
+                ASSERT_GE(pixel[3], 254.5f / 255) << floor.ratio << ": " << x << ", " << y;
+                if (floor.ratio * floor.horizon > blurred * (floor.horizon + y) || x % 4 != 0)
+                    continue;
+                const glm::dvec3 off =
+                    glm::dvec3(pixel[0], pixel[1], pixel[2]) - meanOnFloor(picture, toPicture, x, y);
+                squares += glm::dot(off, off) / 3;
+                ++count;
+            }
+        EXPECT_LE(255 * std::sqrt(squares / count), 3) << floor.ratio;
     }
 }
 

@@ -90,6 +90,20 @@ SceneSettings twinsOnly(SceneSettings settings) {
     return settings;
 }
 
+/// Pixels a side.
+constexpr int thumbnails[] = {8, 16, 32};
+
+/// Files whose gradients go through many shades within such a pixel.
+bool isShaded(const CorpusFile& file) { return file.name == "gallardo" || file.name == "fluent_prince"; }
+
+/// Where a pixel holds very much, the largest difference is what matters, and the evaluator's chords are no
+/// yardstick.
+SceneSettings crowded(SceneSettings settings) {
+    settings.bounds = {.max = settings.bounds.max};
+    settings.engines = {Engine::Gl, Engine::Scan};
+    return settings;
+}
+
 /// Layer by layer, which the scanner does not do.
 SceneSettings inLayers(SceneSettings settings) {
     settings.compile.mode = asset::Mode::Compat;
@@ -121,12 +135,27 @@ std::vector<Case> corpusCases(const Folder& folder) {
             [=](const Setting& setting) {
                 return againstReference(file.name, twinsOnly(at(settings, 64)), setting);
             });
+        for (const int size : thumbnails)
+            add(fmt::format("thumbnails.{}.{}px", file.name, size),
+                "A real file made very small: every engine against the exact reference.",
+                [=](const Setting& setting) {
+                    const SceneSettings small = at(settings, size);
+                    return againstReference(file.name, isShaded(file) ? twinsOnly(small) : crowded(small),
+                                            setting);
+                });
     }
     for (const std::string& icon : drawingsIn(vtm::cases::sharedDirectory() / "corpus/icons"))
         add("icons." + icon, "A real icon at 64 pixels: every engine against the exact reference.",
             [=](const Setting& setting) {
                 return againstReference("icons/" + icon, at(settings, 64), setting);
             });
+    for (const std::string& icon : drawingsIn(vtm::cases::sharedDirectory() / "corpus/icons"))
+        for (const int size : thumbnails)
+            add(fmt::format("thumbnails.icons.{}.{}px", icon, size),
+                "A real icon made very small: every engine against the exact reference.",
+                [=](const Setting& setting) {
+                    return againstReference("icons/" + icon, crowded(at(settings, size)), setting);
+                });
     const fs::path own = vtm::cases::examplesDirectory();
     for (const std::string& name : drawingsIn(own))
         for (const bool layers : {false, true})

@@ -11,7 +11,8 @@ struct Kind {
 constexpr Kind kinds[] = {{"scene", sceneCases},           {"texture", textureCases},
                           {"random", randomCases},         {"paper", paperCases},
                           {"robustness", robustnessCases}, {"corpus", corpusCases},
-                          {"svg-suite", svgSuiteCases},    {"openvg", openvgCases}};
+                          {"svg-suite", svgSuiteCases},    {"openvg", openvgCases},
+                          {"crowded", crowdedCases}};
 
 }  // namespace
 

@@ -1,0 +1,41 @@
+// Drawings that put very much into few pixels, made small: where shaders run out of what a driver allows.
+
+#include <fmt/core.h>
+
+#include "conformance/runner/src/crowded_scenes.hpp"
+#include "conformance/runner/src/kinds.hpp"
+#include "conformance/runner/src/scene_subject.hpp"
+#include "svg/load.hpp"
+
+namespace vtm::conformance {
+namespace {
+
+Outcome run(const CrowdedScene& crowded, SceneSettings settings, int size, const Setting& setting) {
+    const std::string text = crowded.svg();
+    const scene::Scene scene =
+        svg::load({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}).scene;
+    settings.views.way = ViewPlan::Way::Whole;
+    settings.views.raster = size;
+    // Of very many curves in a pixel the evaluator's chords are no yardstick.
+    if (crowded.varies)
+        settings.bounds = {.twin = settings.bounds.twin};
+    else
+        settings.bounds.twin = Bounds::any;
+    SceneSubject subject(scene, settings, viewsOf(settings.views, scene, ""), setting.fault);
+    return judge(subject, setting);
+}
+
+}  // namespace
+
+std::vector<Case> crowdedCases(const Folder& folder) {
+    const SceneSettings settings = sceneSettings(folder.settings);
+    std::vector<Case> cases;
+    for (const CrowdedScene& crowded : crowdedScenes())
+        for (const int size : folder.settings.at("sizes").get<std::vector<int>>())
+            cases.push_back({fmt::format("{}.{}.{}px", folder.name, crowded.name, size),
+                             (folder.path / "suite.json").string(), crowded.about,
+                             [=](const Setting& setting) { return run(crowded, settings, size, setting); }});
+    return cases;
+}
+
+}  // namespace vtm::conformance

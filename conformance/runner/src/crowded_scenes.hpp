@@ -1,0 +1,21 @@
+/// \file
+/// Drawings that put very much into few pixels, made by formula.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace vtm::conformance {
+
+struct CrowdedScene {
+    const char* name;
+    const char* about;
+    /// Gradients that go through many shades within a pixel: all engines read paints once for a pixel or its
+    /// quarters, which the reference does not, so they are compared with each other.
+    bool varies;
+    std::string (*svg)();
+};
+
+std::span<const CrowdedScene> crowdedScenes();
+
+}  // namespace vtm::conformance
