@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include <glm/geometric.hpp>
+
 #include "conformance/reference/reference.hpp"
 
 namespace vtm::reference {
@@ -203,6 +205,10 @@ TEST(StrokeCoverage, CoincidentPointsChangeNothing) {
     // Control points upon the ends: the direction comes from the next one.
     const Path curve{MoveTo{{10, 40}}, CubicTo{{10, 40}, {40, 40}, {40, 40}}};
     EXPECT_NEAR(area(curve, styleOf(5, Cap::Square)), 30 * 5 + 25, rounding);
+    // Decimals whose thirds are rounded.
+    const Point a{18.6472, 29.1723}, b{40, 48};
+    for (const Point control : {a, b})
+        EXPECT_NEAR(area({MoveTo{a}, QuadTo{control, b}}, styleOf(1)), glm::distance(a, b), rounding);
 }
 
 TEST(StrokeCoverage, RoundingAtTheClosingPointMakesNoJoin) {
@@ -288,6 +294,14 @@ TEST(StrokeCoverage, DashesThatEndAtAClosedStartHaveTheirCaps) {
     EXPECT_NEAR(area(dashedSquare(), dashedWide({10, 25}, 0, Join::Miter)), 3 * 40 - 4, rounding);
     // All the way round, but no further.
     EXPECT_NEAR(area(dashedSquare(), dashedWide({80, 5}, 0, Join::Miter)), 24 * 24 - 16 * 16 - 4, rounding);
+}
+
+TEST(StrokeCoverage, DashesThatEndAtAVertexDoNotTurn) {
+    const Path path{MoveTo{{10, 40}}, LineTo{{30, 40}}, LineTo{{30, 20}}};
+    EXPECT_NEAR(area(path, dashed({20, 5})), 20 * 2 + 15 * 2, rounding);
+    // On [0, 0] and [70, 80], both at the start.
+    const Path square = rectangle({20, 20}, {40, 40});
+    EXPECT_NEAR(area(square, dashed({0, 70, 10, 90})), 10 * 2, rounding);
 }
 
 TEST(StrokeCoverage, DashesThatEndAtTheStartLeaveNoCapThere) {
