@@ -192,9 +192,8 @@ private:
 
     /// SVG 2 section 13.5.4: cut across at miterLimit · width / 2 from the corner.
     void clippedMiter(Point p, Vector a, Vector b, Vector d0, Vector d1) {
-        const Vector middle = a + b;
-        const double l = length(middle);
-        const Vector out = l > 0 ? middle / l : d0;
+        // Along a + b, of which nothing but rounding is left where the line turns back.
+        const Vector out = (d0 - d1) / length(d0 - d1);
         const double further = (style_.miterLimit * half_ - dot(a, out)) / dot(d0, out);
         polygon({{p, p + a, p + a + further * d0, p + b - further * d1, p + b}});
     }

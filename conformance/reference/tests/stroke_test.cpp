@@ -107,6 +107,15 @@ TEST(StrokeCoverage, TurningBack) {
     EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::MiterClip, 3)), 80 + 6 * 4, rounding);
 }
 
+/// Where rounding turns the line by a little more or less than half a turn.
+TEST(StrokeCoverage, TurningBackWithinRounding) {
+    for (int i = 0; i < 200; ++i) {
+        const Point a{32.1, 31.7}, b = a + 17.3 * Point(std::cos(0.1 * i), std::sin(0.1 * i));
+        const Path path{MoveTo{a}, LineTo{b}, LineTo{b + 0.3 * (a - b)}};
+        EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::MiterClip, 3)), 4 * 17.3 + 6 * 4, 1e-6) << i;
+    }
+}
+
 TEST(StrokeCoverage, ClosedAndOpenSquares) {
     Path path = rectangle({20, 20}, {40, 40});
     EXPECT_NEAR(area(path, styleOf(4)), 24 * 24 - 16 * 16, rounding);
