@@ -113,6 +113,9 @@ TEST(StrokeCoverage, TurningBackWithinRounding) {
         const Point a{32.1, 31.7}, b = a + 17.3 * Point(std::cos(0.1 * i), std::sin(0.1 * i));
         const Path path{MoveTo{a}, LineTo{b}, LineTo{b + 0.3 * (a - b)}};
         EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::MiterClip, 3)), 4 * 17.3 + 6 * 4, 1e-6) << i;
+        // The clipped mitre leaves the view: half the line.
+        const double all = area({MoveTo{a + 1e3 * (b - a)}, LineTo{a}}, styleOf(4));
+        EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::MiterClip, 2e9)), all, 1e-3) << i;
     }
 }
 
