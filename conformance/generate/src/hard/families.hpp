@@ -36,6 +36,8 @@ scene::Scene nestedClips(std::uint64_t seed);  ///< clips of clips, of shapes th
 scene::Scene blends(std::uint64_t seed);       ///< groups in groups with opacity and every blend mode
 scene::Scene crowds(std::uint64_t seed);       ///< many translucent layers over each other
 scene::Scene selections(std::uint64_t seed);   ///< one of two groups at every point
+scene::Scene masks(std::uint64_t seed);        ///< groups under masks of groups, of both kinds
+scene::Scene patterns(std::uint64_t seed);     ///< tiles that abut, turned and sheared
 scene::Scene hardStops(std::uint64_t seed);    ///< gradients with jumps
 scene::Scene ramps(std::uint64_t seed);        ///< smooth gradients
 

@@ -139,6 +139,32 @@ Scene selections(std::uint64_t seed) {
     return s.scene;
 }
 
+Scene masks(std::uint64_t seed) {
+    Sketch s(seed);
+    for (int i = s.random.integer(1, 3); i > 0; --i) {
+        auto content = std::make_shared<Group>(group(s, 1, BlendMode::Normal));
+        Group masked = group(s, 1, BlendMode::Normal);
+        const auto kind = s.random.any(MaskKind::Alpha);
+        masked.mask = std::make_shared<Mask>(Mask{std::move(content), kind, s.random.chance(0.5)});
+        s.scene.root.children.push_back({std::move(masked)});
+    }
+    return s.scene;
+}
+
+Scene patterns(std::uint64_t seed) {
+    Sketch s(seed);
+    for (int i = s.random.integer(1, 2); i > 0; --i) {
+        // The tile is a part of what is drawn over the whole picture.
+        const auto content = std::make_shared<Group>(group(s, 0, BlendMode::Normal));
+        const Point min = s.inside(0.1), max = min + s.random.point(0.1, 0.6) * s.size();
+        const double turn = s.random.chance(0.4) ? 0 : s.random.uniform(0, 2 * pi);
+        const double width = s.random.chance(0.3) ? 1 : s.random.uniform(0.3, 2);
+        const Affine there = about({32, 32}, turn, width, s.random.uniform(0.3, 2));
+        paint(s, Pattern{min, max, content, there});
+    }
+    return s.scene;
+}
+
 Scene hardStops(std::uint64_t seed) {
     Sketch s(seed);
     for (int i = s.random.integer(1, 3); i > 0; --i)
