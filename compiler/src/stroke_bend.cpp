@@ -245,8 +245,7 @@ Stops octants(const Cubic& c) {
 bool mayBeCut(const Cubic& c, const Span& span, double smallTurn) {
     if (span.bend == Bend::Gentle || span.isFold)
         return false;
-    const Cubic piece = part(c, span.t0, span.t1);
-    const Point from = piece.p1 - piece.p0, between = piece.p2 - piece.p1, to = piece.p3 - piece.p2;
+    const auto [from, between, to] = velocityOver(c, span.t0, span.t1);
     const double turn = std::abs(angleBetween(from, between)) + std::abs(angleBetween(between, to));
     return std::max(turn, std::abs(angleBetween(from, to))) > 2 * smallTurn;  // `between` may vanish
 }

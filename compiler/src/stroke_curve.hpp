@@ -43,6 +43,14 @@ inline Point derivativeAt(const Cubic& c, double t) {
     const double s = 1 - t;
     return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
 }
+/// γ' over [t0, t1] as a Bernstein polynomial. Not from the piece's control points: those of a short one
+/// beside a cusp lie closer together than the digits of their coordinates tell apart.
+inline std::array<Point, 3> velocityOver(const Cubic& c, double t0, double t1) {
+    const double s0 = 1 - t0, s1 = 1 - t1;
+    const Point between =
+        3.0 * ((c.p1 - c.p0) * (s0 * s1) + (c.p2 - c.p1) * (s0 * t1 + t0 * s1) + (c.p3 - c.p2) * (t0 * t1));
+    return {derivativeAt(c, t0), between, derivativeAt(c, t1)};
+}
 /// A cubic by powers of its parameter.
 struct PowerForm {
     Point cubed, squared, linear, start;

@@ -50,11 +50,10 @@ private:
     /// γ' × direction is quadratic and changes its sign once: with Bernstein coefficients a, b, c over
     /// the stretch, x = t / (1 - t) is the positive root of c x² + 2b x + a.
     double whereTangent(Point direction) const {
-        const Cubic piece = part(c_, span_.t0, span_.t1);
+        const auto velocity = velocityOver(c_, span_.t0, span_.t1);
         const double sign = turn_ > 0 ? -1 : 1;  // so that a < 0 < c
-        const double a = sign * cross(piece.p1 - piece.p0, direction),
-                     b = sign * cross(piece.p2 - piece.p1, direction),
-                     c = sign * cross(piece.p3 - piece.p2, direction);
+        const double a = sign * cross(velocity[0], direction), b = sign * cross(velocity[1], direction),
+                     c = sign * cross(velocity[2], direction);
         const double root = std::sqrt(std::max(0.0, b * b - a * c));
         const double share = b > 0 ? -a / (-a + b + root) : (root - b) / (root - b + c);
         return span_.t0 + (span_.t1 - span_.t0) * std::clamp(share, 0.0, 1.0);

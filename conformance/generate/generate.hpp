@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "scene/scene.hpp"
 
@@ -15,6 +16,13 @@ namespace vtm::generate {
 /// rays at one vertex; cut by clips, in groups with opacity and blend modes, painted with colours and
 /// gradients. Some reach far out of the picture.
 scene::Scene randomScene(std::uint64_t seed);
+
+/// Scenes of one kind of difficulty (src/hard/families.hpp has the list).
+struct Family {
+    const char* name;                          ///< lower case, with hyphens
+    scene::Scene (*make)(std::uint64_t seed);  ///< valid, the same for a seed on every machine
+};
+std::span<const Family> hardFamilies();
 
 /// A smaller scene for which `fails` still holds: parts are taken away and numbers made round as long as it
 /// does. `fails(scene)` must hold and must not throw; it is called for valid scenes only, `trials` times at

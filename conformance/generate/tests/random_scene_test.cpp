@@ -21,6 +21,19 @@ TEST(RandomScene, DependsOnItsSeedOnly) {
     EXPECT_EQ(all.size(), 100u);
 }
 
+TEST(HardScenes, AreValidAndDependOnTheirSeedOnly) {
+    std::set<std::string> names, all;
+    for (const Family& family : hardFamilies()) {
+        EXPECT_TRUE(names.insert(family.name).second) << family.name;
+        for (std::uint64_t seed = 0; seed < 100; ++seed) {
+            ASSERT_NO_THROW(scene::validate(family.make(seed))) << family.name << " " << seed;
+            EXPECT_EQ(scene::dump(family.make(seed)), scene::dump(family.make(seed)));
+            all.insert(scene::dump(family.make(seed)));
+        }
+    }
+    EXPECT_EQ(all.size(), 100 * names.size());
+}
+
 /// What a scene's text mentions, counted over a thousand scenes.
 TEST(RandomScene, HasEveryKindOfPart) {
     for (const char* part :

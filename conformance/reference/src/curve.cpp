@@ -43,8 +43,10 @@ Curve curveOf(Point from, const scene::CubicTo& cubic) {
     return Cubic{{from, cubic.control1, cubic.control2, cubic.to}};
 }
 
+/// Written so that a control point upon an end stays there: what rounding moved would be a tangent.
 Curve curveOf(Point from, const scene::QuadTo& quad) {
-    return Cubic{{from, (from + 2.0 * quad.control) / 3.0, (2.0 * quad.control + quad.to) / 3.0, quad.to}};
+    const auto towardsControl = [&](Point end) { return end + (quad.control - end) * (2.0 / 3); };
+    return Cubic{{from, towardsControl(from), towardsControl(quad.to), quad.to}};
 }
 
 class Splitter {

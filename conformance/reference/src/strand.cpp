@@ -142,7 +142,8 @@ private:
     void finish() {
         if (current_.runs.empty())
             return;
-        if (current_.runs.size() > 1 && current_.runs.back().size() < 2)
+        // A dash that ends at a vertex ends before it, without a join.
+        if (current_.runs.size() > 1 && current_.runs.back().front().at == current_.runs.back().back().at)
             current_.runs.pop_back();
         if (current_.runs.back().size() < 2)
             current_.runs.back().push_back(current_.runs.back().front());
@@ -158,7 +159,8 @@ private:
         }
         Strand last = std::move(dashes_.back());
         dashes_.pop_back();
-        std::move(dashes_[first].runs.begin(), dashes_[first].runs.end(), std::back_inserter(last.runs));
+        if (!isDot(dashes_[first]))
+            std::move(dashes_[first].runs.begin(), dashes_[first].runs.end(), std::back_inserter(last.runs));
         dashes_[first] = std::move(last);
     }
 

@@ -178,7 +178,8 @@ private:
             return;
         const double outside = turn >= 0 ? -half_ : half_;
         const Vector a = outside * normalOf(d0), b = outside * normalOf(d1);
-        const double halfAngleSine = std::sqrt(std::max(0.0, (1 + dot(d0, d1)) / 2));
+        // Of a sum that rounding of the directions moves by 1e-16; 1 + cosine would lose half its digits.
+        const double halfAngleSine = length(d0 + d1) / 2;
         const bool sharp = style_.miterLimit * halfAngleSine * (1 + miterSlack) < 1;
         if (style_.join == scene::Join::Round)
             fan(p, a, turn >= 0 ? angleBetween(d0, d1) : -angleBetween(d0, d1));
@@ -187,14 +188,13 @@ private:
         else if (sharp)
             clippedMiter(p, a, b, d0, d1);
         else
-            polygon({{p, p + a, p + (a + b) / (1 + dot(d0, d1)), p + b}});
+            polygon({{p, p + a, p + (a + b) / (2 * halfAngleSine * halfAngleSine), p + b}});
     }
 
     /// SVG 2 section 13.5.4: cut across at miterLimit · width / 2 from the corner.
     void clippedMiter(Point p, Vector a, Vector b, Vector d0, Vector d1) {
-        const Vector middle = a + b;
-        const double l = length(middle);
-        const Vector out = l > 0 ? middle / l : d0;
+        // Along a + b, of which nothing but rounding is left where the line turns back.
+        const Vector out = (d0 - d1) / length(d0 - d1);
         const double further = (style_.miterLimit * half_ - dot(a, out)) / dot(d0, out);
         polygon({{p, p + a, p + a + further * d0, p + b - further * d1, p + b}});
     }

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include <glm/geometric.hpp>
+
 #include "conformance/reference/reference.hpp"
 
 namespace vtm::reference {
@@ -103,6 +105,18 @@ TEST(StrokeCoverage, TurningBack) {
     EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::Bevel)), 80, rounding);
     EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::Round)), 80 + 2 * pi, roundness);
     EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::MiterClip, 3)), 80 + 6 * 4, rounding);
+}
+
+/// Where rounding turns the line by a little more or less than half a turn.
+TEST(StrokeCoverage, TurningBackWithinRounding) {
+    for (int i = 0; i < 200; ++i) {
+        const Point a{32.1, 31.7}, b = a + 17.3 * Point(std::cos(0.1 * i), std::sin(0.1 * i));
+        const Path path{MoveTo{a}, LineTo{b}, LineTo{b + 0.3 * (a - b)}};
+        EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::MiterClip, 3)), 4 * 17.3 + 6 * 4, 1e-6) << i;
+        // The clipped mitre leaves the view: half the line.
+        const double all = area({MoveTo{a + 1e3 * (b - a)}, LineTo{a}}, styleOf(4));
+        EXPECT_NEAR(area(path, styleOf(4, Cap::Butt, Join::MiterClip, 2e9)), all, 1e-3) << i;
+    }
 }
 
 TEST(StrokeCoverage, ClosedAndOpenSquares) {
@@ -203,6 +217,10 @@ TEST(StrokeCoverage, CoincidentPointsChangeNothing) {
     // Control points upon the ends: the direction comes from the next one.
     const Path curve{MoveTo{{10, 40}}, CubicTo{{10, 40}, {40, 40}, {40, 40}}};
     EXPECT_NEAR(area(curve, styleOf(5, Cap::Square)), 30 * 5 + 25, rounding);
+    // Decimals whose thirds are rounded.
+    const Point a{18.6472, 29.1723}, b{40, 48};
+    for (const Point control : {a, b})
+        EXPECT_NEAR(area({MoveTo{a}, QuadTo{control, b}}, styleOf(1)), glm::distance(a, b), rounding);
 }
 
 TEST(StrokeCoverage, RoundingAtTheClosingPointMakesNoJoin) {
@@ -288,6 +306,14 @@ TEST(StrokeCoverage, DashesThatEndAtAClosedStartHaveTheirCaps) {
     EXPECT_NEAR(area(dashedSquare(), dashedWide({10, 25}, 0, Join::Miter)), 3 * 40 - 4, rounding);
     // All the way round, but no further.
     EXPECT_NEAR(area(dashedSquare(), dashedWide({80, 5}, 0, Join::Miter)), 24 * 24 - 16 * 16 - 4, rounding);
+}
+
+TEST(StrokeCoverage, DashesThatEndAtAVertexDoNotTurn) {
+    const Path path{MoveTo{{10, 40}}, LineTo{{30, 40}}, LineTo{{30, 20}}};
+    EXPECT_NEAR(area(path, dashed({20, 5})), 20 * 2 + 15 * 2, rounding);
+    // On [0, 0] and [70, 80], both at the start.
+    const Path square = rectangle({20, 20}, {40, 40});
+    EXPECT_NEAR(area(square, dashed({0, 70, 10, 90})), 10 * 2, rounding);
 }
 
 TEST(StrokeCoverage, DashesThatEndAtTheStartLeaveNoCapThere) {

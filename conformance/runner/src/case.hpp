@@ -28,6 +28,7 @@ struct Setting {
     std::vector<Engine> engines{std::begin(allEngines), std::end(allEngines)};  ///< those that may be asked
     Fault fault = Fault::None;                                                  ///< injected on purpose
     bool keepPictures = false;                                                  ///< of cases that pass, too
+    bool shrink = true;                                                         ///< scenes that fail
 };
 
 /// The worst that an engine did in a case.

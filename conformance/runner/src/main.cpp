@@ -21,7 +21,7 @@ struct Arguments {
     fs::path suites = fs::path(VTM_SOURCE_DIR) / "conformance/suites";
     fs::path json, junit, report;
     unsigned jobs = std::max(1u, std::thread::hardware_concurrency()), every = 1;
-    bool list = false, all = false, quiet = false, expectations = false;
+    bool list = false, all = false, quiet = false, expectations = false, full = false, asItIs = false;
 };
 
 void addOptions(CLI::App& app, Arguments& a) {
@@ -34,6 +34,8 @@ void addOptions(CLI::App& app, Arguments& a) {
     app.add_option("--junit", a.junit, "Write JUnit XML");
     app.add_option("--report", a.report, "Write a page with pictures of what failed into this folder");
     app.add_flag("--all", a.all, "... of every case");
+    app.add_flag("--full", a.full, "All cases of the suites that have more than run every day");
+    app.add_flag("--no-shrink", a.asItIs, "Do not look for the smallest scene that fails");
     app.add_flag("--list", a.list, "Print names and run nothing");
     app.add_flag("--quiet,-q", a.quiet, "Print failures, what was skipped and the summary only");
     app.add_flag("--expectations", a.expectations,
@@ -49,7 +51,7 @@ bool any(const std::string& name, const std::vector<std::string>& patterns) {
 }
 
 std::vector<Case> selected(const Arguments& a) {
-    std::vector<Case> all = loadSuites(a.suites), chosen;
+    std::vector<Case> all = loadSuites(a.suites, a.full ? Extent::Full : Extent::Daily), chosen;
     std::size_t count = 0;
     for (Case& one : all)
         if ((a.patterns.empty() || any(one.name, a.patterns)) && !any(one.name, a.excluded) &&
@@ -77,6 +79,7 @@ Setting settingOf(const Arguments& a) {
         for (const std::string& name : a.engines)
             setting.engines.push_back(engineOf(name));
     }
+    setting.shrink = !a.asItIs;
     setting.keepPictures = a.all && !a.report.empty();
     return setting;
 }

@@ -37,21 +37,37 @@ bool failsStill(const scene::Scene& scene, const SceneSettings& settings, const 
     }
 }
 
-Outcome run(std::uint64_t seed, const SceneSettings& settings, const Setting& setting) {
-    const scene::Scene scene = generate::randomScene(seed);
-    const std::string salt = std::to_string(seed);
+Outcome run(const scene::Scene& scene, const std::string& salt, const SceneSettings& settings,
+            const Setting& setting) {
     Outcome outcome;
     try {
         outcome = look(scene, settings, salt, setting);
     } catch (const std::exception& error) {
         outcome = Outcome::failed(std::string("threw: ") + error.what());
     }
-    if (outcome.status != Outcome::Status::Failed || setting.fault != Fault::None)
+    if (outcome.status != Outcome::Status::Failed || setting.fault != Fault::None || !setting.shrink)
         return outcome;
     const scene::Scene small = generate::shrink(
         scene, [&](const scene::Scene& s) { return failsStill(s, settings, salt, setting); }, trials);
     outcome.message += "\nthe smallest scene that fails:\n" + asText(small);
     return outcome;
+}
+
+/// Who makes a scene of a seed. `name` stands in the case's name and in the views' salt; it is empty for the
+/// plain generator.
+struct Source {
+    std::string name, about;
+    scene::Scene (*make)(std::uint64_t seed);
+};
+
+std::vector<Source> sources(const Settings& settings) {
+    if (!settings.value("hard", false))
+        return {{"", "A scene of the generator.", generate::randomScene}};
+    std::vector<Source> all;
+    for (const generate::Family& family : generate::hardFamilies())
+        all.push_back(
+            {std::string(family.name) + ".", fmt::format("A hard scene: {}.", family.name), family.make});
+    return all;
 }
 
 }  // namespace
@@ -61,10 +77,13 @@ std::vector<Case> randomCases(const Folder& folder) {
     const auto from = folder.settings.at("from").get<std::uint64_t>(),
                count = folder.settings.at("count").get<std::uint64_t>();
     std::vector<Case> cases;
-    for (std::uint64_t seed = from; seed < from + count; ++seed)
-        cases.push_back({fmt::format("{}.seed{:04}", folder.name, seed),
-                         (folder.path / "suite.json").string(), "A scene of the generator.",
-                         [=](const Setting& setting) { return run(seed, settings, setting); }});
+    for (const Source& source : sources(folder.settings))
+        for (std::uint64_t seed = from; seed < from + count; ++seed)
+            cases.push_back(
+                {fmt::format("{}.{}seed{:04}", folder.name, source.name, seed),
+                 (folder.path / "suite.json").string(), source.about, [=](const Setting& setting) {
+                     return run(source.make(seed), source.name + std::to_string(seed), settings, setting);
+                 }});
     return cases;
 }
 

@@ -39,6 +39,8 @@ compiler::Options compileOptions(const Settings& json) {
     for (const auto& [key, value] : json.items()) {
         if (key == "tolerance-bits")
             options.tolerance = std::exp2(-value.get<double>());
+        else if (key == "tolerance-pixels")
+            continue;
         else if (key == "pieces-per-leaf")
             options.piecesPerLeaf = value.get<unsigned>();
         else if (key == "mode")
@@ -55,6 +57,28 @@ compiler::Options withFault(compiler::Options options, Fault fault) {
     return options;
 }
 
+/// The largest factor by which a map stretches any direction, its larger singular value.
+double stretch(const scene::Affine& m) {
+    const double sum = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]), det = scene::determinant(m);
+    return std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4 * det * det))) / 2);
+}
+
+/// Below 2^-24 nothing is proven (docs/regions.md).
+constexpr double finestTolerance = 1.0 / (1 << 24);
+
+compiler::Options compileFor(const SceneSettings& settings, const scene::Scene& scene,
+                             const std::vector<LabelledView>& views) {
+    compiler::Options options = settings.compile;
+    if (!settings.tolerancePixels)
+        return options;
+    for (const LabelledView& view : views) {
+        const double picture = stretch(view.view.toPixels) * std::max(scene.width, scene.height);
+        options.tolerance = std::min(options.tolerance, *settings.tolerancePixels / picture);
+    }
+    options.tolerance = std::max(options.tolerance, finestTolerance);
+    return options;
+}
+
 }  // namespace
 
 SceneSettings sceneSettings(const Settings& settings) {
@@ -63,7 +87,10 @@ SceneSettings sceneSettings(const Settings& settings) {
         result.engines.push_back(engineOf(name.get<std::string>()));
     result.bounds = boundsOf(settings.at("bounds"));
     result.views = viewPlan(nlohmann::json(settings.value("views", Settings::object())));
-    result.compile = compileOptions(settings.value("compile", Settings::object()));
+    const Settings compile = settings.value("compile", Settings::object());
+    result.compile = compileOptions(compile);
+    if (compile.contains("tolerance-pixels"))
+        result.tolerancePixels = compile.at("tolerance-pixels").get<double>();
     return result;
 }
 
@@ -78,7 +105,8 @@ SceneSubject::SceneSubject(scene::Scene scene, SceneSettings settings, std::vect
       settings_(std::move(settings)),
       views_(std::move(views)),
       fault_(fault),
-      asset_(damaged(compiler::compile(scene_, withFault(settings_.compile, fault)).asset, fault)) {
+      asset_(damaged(compiler::compile(scene_, withFault(compileFor(settings_, scene_, views_), fault)).asset,
+                     fault)) {
     if (fault_ == Fault::HalfDistance || fault_ == Fault::Layers)
         settings_.engines = {Engine::Asset};
 }

@@ -21,6 +21,8 @@ struct SceneSettings {
     Bounds bounds;
     ViewPlan views;
     compiler::Options compile;
+    /// The tolerance is at most so many pixels of any view, where the format can.
+    std::optional<double> tolerancePixels;
 };
 /// Throws std::runtime_error where a member is unknown or wrong.
 SceneSettings sceneSettings(const Settings& settings);

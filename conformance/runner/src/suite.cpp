@@ -76,9 +76,12 @@ std::vector<Variant> variantsOf(const Settings& settings) {
     return all;
 }
 
-std::vector<Folder> foldersOf(const fs::path& suite) {
+std::vector<Folder> foldersOf(const fs::path& suite, Extent extent) {
     std::vector<Folder> folders;
     collect(suite, suite.filename().string(), Settings::object(), folders);
+    if (extent == Extent::Full)
+        for (Folder& folder : folders)
+            folder.settings.merge_patch(folder.settings.value("full", Settings::object()));
     return folders;
 }
 
@@ -100,9 +103,9 @@ std::string aboutOf(const fs::path& file, const std::string& text) {
     return about;
 }
 
-std::vector<Case> loadSuite(const fs::path& suite) {
+std::vector<Case> loadSuite(const fs::path& suite, Extent extent) {
     std::vector<Case> cases;
-    for (const Folder& folder : foldersOf(suite)) {
+    for (const Folder& folder : foldersOf(suite, extent)) {
         try {
             const std::vector<Case> more = casesOf(folder);
             cases.insert(cases.end(), more.begin(), more.end());
@@ -119,11 +122,11 @@ std::vector<Case> loadSuite(const fs::path& suite) {
     return cases;
 }
 
-std::vector<Case> loadSuites(const fs::path& suites) {
+std::vector<Case> loadSuites(const fs::path& suites, Extent extent) {
     std::vector<Case> cases;
     for (const fs::path& suite : sorted(suites))
         if (fs::is_directory(suite)) {
-            const std::vector<Case> more = loadSuite(suite);
+            const std::vector<Case> more = loadSuite(suite, extent);
             cases.insert(cases.end(), more.begin(), more.end());
         }
     return cases;

@@ -40,16 +40,20 @@ struct Variant {
 /// itself.
 std::vector<Variant> variantsOf(const Settings& settings);
 
+/// How many of a folder's cases there are: those for every day, or with the settings' member "full" merged
+/// over them.
+enum class Extent { Daily, Full };
+
 /// All folders with a suite.json, the root first, by name.
-std::vector<Folder> foldersOf(const std::filesystem::path& suite);
+std::vector<Folder> foldersOf(const std::filesystem::path& suite, Extent extent = Extent::Daily);
 
 /// A text's first comment in SVG or lines that begin with #: what the file is about. SuiteError without one.
 std::string aboutOf(const std::filesystem::path& file, const std::string& text);
 
 /// The cases of a suite's folder, of all kinds.
-std::vector<Case> loadSuite(const std::filesystem::path& suite);
+std::vector<Case> loadSuite(const std::filesystem::path& suite, Extent extent = Extent::Daily);
 /// Those of every folder in `suites`, by suite.
-std::vector<Case> loadSuites(const std::filesystem::path& suites);
+std::vector<Case> loadSuites(const std::filesystem::path& suites, Extent extent = Extent::Daily);
 
 std::string readText(const std::filesystem::path& file);
 

@@ -87,11 +87,38 @@ LabelledView floorView(const ViewPlan& plan, Random& random) {
             floor.toPicture(1)};
 }
 
+/// The longer side is `size` pixels, the other one the nearest number that is none too few.
+LabelledView wholeView(const scene::Scene& scene, int size) {
+    const double longer = std::max(scene.width, scene.height);
+    const auto pixels = [&](double side) { return std::max(1, int(std::lround(side / longer * size))); };
+    const int width = pixels(scene.width), height = pixels(scene.height);
+    return {{width, height, {width / scene.width, 0, 0, height / scene.height, 0, 0}},
+            fmt::format("{} px", size),
+            {}};
+}
+
+/// Whole pictures, and turned parts of the same rasters magnified up to `most` pixels.
+std::vector<LabelledView> viewsAtSizes(const ViewPlan& plan, const scene::Scene& scene,
+                                       const std::vector<Point>& focuses, Random& random) {
+    std::vector<LabelledView> views;
+    for (const int size : plan.sizes) {
+        views.push_back(wholeView(scene, size));
+        ViewPlan part = plan;
+        part.raster = size;
+        part.fewest = size;
+        views.push_back(affineView(part, scene, focuses, random));
+        views.back().label = fmt::format("part at {} px ({})", size, views.back().label);
+    }
+    return views;
+}
+
 ViewPlan::Way wayOf(const std::string& name) {
     if (name == "affine")
         return ViewPlan::Way::Affine;
     if (name == "whole")
         return ViewPlan::Way::Whole;
+    if (name == "sizes")
+        return ViewPlan::Way::Sizes;
     if (name == "perspective")
         return ViewPlan::Way::Perspective;
     throw std::runtime_error("views: there is no way '" + name + "'");
@@ -110,6 +137,8 @@ ViewPlan viewPlan(const nlohmann::json& json) {
             plan.raster = value.get<int>();
         else if (key == "pixels")
             plan.fewest = value.at(0).get<double>(), plan.most = value.at(1).get<double>();
+        else if (key == "sizes")
+            plan.sizes = value.get<std::vector<int>>();
         else if (key == "shear")
             plan.shear = value.get<double>();
         else if (key == "ratio")
@@ -136,6 +165,8 @@ std::vector<LabelledView> viewsOf(const ViewPlan& plan, const scene::Scene& scen
         return {{cases::wholePicture(scene, plan.raster), fmt::format("{} px", plan.raster), {}}};
     const std::vector<Point> points = focuses(scene);
     Random random(plan.seed ^ seedOf(salt));
+    if (plan.way == ViewPlan::Way::Sizes)
+        return viewsAtSizes(plan, scene, points, random);
     std::vector<LabelledView> views;
     for (int i = 0; i < plan.count; ++i) {
         views.push_back(plan.way == ViewPlan::Way::Affine ? affineView(plan, scene, points, random)

@@ -20,6 +20,7 @@ struct ViewPlan {
     enum class Way {
         Affine,      ///< turned, sheared, sometimes mirrored, on or beside corners and ends of the outlines
         Whole,       ///< the picture fills the raster
+        Sizes,       ///< at every size the whole picture, and a part of it as under Affine
         Perspective  ///< a floor of copies up to the horizon
     };
     Way way = Way::Affine;
@@ -27,6 +28,7 @@ struct ViewPlan {
     int raster = 96;                  ///< pixels a side; Whole: of the picture's width
     double fewest = 48, most = 1448;  ///< pixels that the picture's longer side takes, log-uniform
     double shear = 0.3;               ///< radians by which the axes lean at most
+    std::vector<int> sizes;           ///< Sizes: pixels of the picture's longer side, and a side of the part
     double ratio = 4;                 ///< Perspective: of the longest footprint's sides
     std::uint64_t seed = 2005;
 };

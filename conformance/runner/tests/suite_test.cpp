@@ -1,4 +1,5 @@
 #include "conformance/runner/src/suite.hpp"
+#include "conformance/runner/src/views.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,28 @@ protected:
         "<!-- A square.\n  No curves. --><svg xmlns=\"http://www.w3.org/2000/svg\" width=\"64\" "
         "height=\"64\"><path id=\"subject\" d=\"M9,9H50V50H9Z\"/></svg>";
 };
+
+TEST_F(SuiteFolder, HasMoreCasesInFull) {
+    write("suite.json", R"({"kind": "random", "hard": true, "from": 1, "count": 1, "full": {"count": 3},
+                            "bounds": {"max": 4}})");
+    const std::size_t daily = loadSuite(folder_).size();
+    EXPECT_EQ(loadSuite(folder_, Extent::Full).size(), 3 * daily);
+    EXPECT_EQ(loadSuite(folder_).front().name, "mine.slivers.seed0001");
+}
+
+TEST_F(SuiteFolder, LooksAtSizesWholeAndInPart) {
+    const scene::Scene scene{100, 1, {}};
+    const ViewPlan plan =
+        viewPlan(nlohmann::json::parse(R"({"way": "sizes", "sizes": [8, 64], "pixels": [8, 128]})"));
+    const auto views = viewsOf(plan, scene, "salt");
+    ASSERT_EQ(views.size(), 4u);
+    EXPECT_EQ(views[2].view.width, 64);
+    EXPECT_EQ(views[2].view.height, 1);
+    EXPECT_DOUBLE_EQ(views[2].view.toPixels[0].x, 0.64);
+    EXPECT_DOUBLE_EQ(views[2].view.toPixels[1].y, 1);
+    EXPECT_EQ(views[3].view.width, 64);
+    EXPECT_EQ(views[3].view.height, 64);
+}
 
 TEST_F(SuiteFolder, NeedsNoMoreThanFiles) {
     write("suite.json", R"({"kind": "scene", "bounds": {"max": 4}, "views": {"count": 2},
