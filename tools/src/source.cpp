@@ -101,9 +101,10 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
         "2005, to compare with");
     // The compiler's own range (compiler::Options::tolerance).
     command
-        .add_option("--tolerance", options.compiler.tolerance,
-                    "How far a boundary may be off, as a share of the longer side; render chooses one that fits "
-                    "the view unless it is given")
+        .add_option(
+            "--tolerance", options.compiler.tolerance,
+            "How far a boundary may be off, as a share of the longer side; render chooses one that fits "
+            "the view unless it is given")
         ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
         ->capture_default_str();
@@ -126,7 +127,8 @@ Source loadSource(const std::string& path, const SourceOptions& options, bool co
 }
 
 void compileSource(Source& source, const std::string& path, const SourceOptions& options) {
-    options.paper ? compilePaper(source, path, options.compiler) : compileScene(source, path, options.compiler);
+    options.paper ? compilePaper(source, path, options.compiler)
+                  : compileScene(source, path, options.compiler);
 }
 
 void take(Source& source, const std::string& path, compiler::Result result) {

@@ -21,7 +21,7 @@ struct SourceOptions {
     compiler::Options compiler;
     /// As typed; an asset has its own mode, which must not contradict it.
     std::optional<asset::Mode> mode;
-    bool paper = false;  ///< --mode paper, for SVG files only
+    bool paper = false;         ///< --mode paper, for SVG files only
     bool hasTolerance = false;  ///< given by the user
 };
 

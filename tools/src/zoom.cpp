@@ -31,7 +31,8 @@ double pixelOf(const asset::View& view) {
     return 1 / std::max(glm::length(view.toPixels[0]), glm::length(view.toPixels[1]));
 }
 
-/// The finest pixels of what was compiled; before files told, nearly all were compiled with the usual tolerance.
+/// The finest pixels of what was compiled; before files told, nearly all were compiled with the usual
+/// tolerance.
 double finestPixel(const Source& source, const SourceOptions& options) {
     const double tolerance = source.paper ? options.compiler.tolerance : compiler::Options().tolerance;
     const double usual = tolerance * std::max(source.width, source.height) / asset::finestShare;
