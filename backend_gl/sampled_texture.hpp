@@ -47,8 +47,8 @@ public:
     SampledTexture& operator=(SampledTexture&&) noexcept;
 
     /// How far the picture may be magnified: asset::Asset::finestPixel, in user units. A fragment whose
-    /// footprint is narrower (the derivatives of st times the picture's width and height) sees boundaries that
-    /// may be off by more than a sixteenth of it.
+    /// footprint is narrower (the derivatives of st times the picture's width and height) sees boundaries
+    /// that may be off by more than a sixteenth of it.
     std::optional<double> finestPixel() const;
 
     /// Texture units that bind takes: two, three for an asset with images.

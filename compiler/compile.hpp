@@ -47,11 +47,12 @@ struct Result {
     asset::Asset asset;
     /// No drawn boundary lies farther from the scene's than this share of the picture's longer side: what
     /// is farther from every outline that shows has its true colour. docs/regions.md says what is
-    /// proven and how. 0 where nothing is drawn but whole squares. Beyond the tolerance only where the warnings
-    /// say so: it is finer than can be proven, or outlines are too tangled for leaves that may be made.
+    /// proven and how. 0 where nothing is drawn but whole squares. Beyond the tolerance only where the
+    /// warnings say so: it is finer than can be proven, or outlines are too tangled for leaves that may be
+    /// made.
     double provenError = 0;
-    /// Leaves filled with the mean of samples (Asset::fallbackLeaves) that are too large for the tolerance: no
-    /// boundary is told apart within them.
+    /// Leaves filled with the mean of samples (Asset::fallbackLeaves) that are too large for the tolerance:
+    /// no boundary is told apart within them.
     std::vector<UnprovenSquare> unproven;
     /// Strokes along curves other than circles. Where such a curve is tighter than half the stroke's width,
     /// that its offset curves lie within the tolerance is tested at fifteen points of every piece, not proven

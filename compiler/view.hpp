@@ -1,9 +1,10 @@
 /// \file
 /// Compiling for a raster: boundaries within a sixteenth of a pixel, at any zoom.
 ///
-/// An asset is as fine as a share of its longer side (Options::tolerance), of which 2^-24 can be proven. Where a view
-/// wants more than the whole picture is compiled with, the part that it shows is compiled for itself: scenes
-/// are doubles, so the part is moved to the origin, enlarged and cut out before anything is rounded.
+/// An asset is as fine as a share of its longer side (Options::tolerance), of which 2^-24 can be proven.
+/// Where a view wants more than the whole picture is compiled with, the part that it shows is compiled for
+/// itself: scenes are doubles, so the part is moved to the origin, enlarged and cut out before anything is
+/// rounded.
 #pragma once
 
 #include "asset/view.hpp"
@@ -19,22 +20,22 @@ struct Part {
 };
 
 struct ViewResult {
-    /// Of the whole picture, or of what the view shows of it and a little more. Lengths and places in it are those
-    /// of the asset's space.
+    /// Of the whole picture, or of what the view shows of it and a little more. Lengths and places in it are
+    /// those of the asset's space.
     Result result;
     /// Draws the part into the raster from this asset.
     asset::View view;
-    /// From the scene to the asset's space: scales by powers of two and moves. The identity for whole pictures.
+    /// From the scene to the asset's space: scales by powers of two and moves. The identity for whole
+    /// pictures.
     scene::Affine fromScene = scene::identity;
 };
 
-/// The asset for a raster of `width` by `height` pixels that `part` fills. Options::tolerance is the coarsest that is
-/// used; where that is not a sixteenth of a pixel's shorter side, it is made so. Asset::finestPixel says what
-/// was reached, and result.warnings where it was not: beyond some 10^11 times, when roundings of the scene's own
-/// doubles show.
-/// Not made finer by it: images with ImageFilter::Nearest and materials, which are drawn from single precision.
-/// Throws as compile does; std::length_error where the raster is beyond asset::maxViewSide or maxViewPixels,
-/// std::invalid_argument where it is empty or `part` is not as above.
+/// The asset for a raster of `width` by `height` pixels that `part` fills. Options::tolerance is the coarsest
+/// that is used; where that is not a sixteenth of a pixel's shorter side, it is made so. Asset::finestPixel
+/// says what was reached, and result.warnings where it was not: beyond some 10^11 times, when roundings of
+/// the scene's own doubles show. Not made finer by it: images with ImageFilter::Nearest and materials, which
+/// are drawn from single precision. Throws as compile does; std::length_error where the raster is beyond
+/// asset::maxViewSide or maxViewPixels, std::invalid_argument where it is empty or `part` is not as above.
 ViewResult compileView(const scene::Scene& scene, const Part& part, int width, int height,
                        const Options& options = {});
 

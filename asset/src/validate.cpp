@@ -141,8 +141,8 @@ void validatePrefilter(const PrefilterView& prefilter) {
 void validate(const AssetView& asset) {
     require(isLength(asset.width) && isLength(asset.height), "picture", 0, "size is out of range");
     require(asset.mode <= Mode::Compat, "picture", 0, "mode is unknown");
-    require(!asset.finestPixel || (*asset.finestPixel >= 0 && std::isfinite(*asset.finestPixel)), "accuracy", 0,
-            "finest pixel is out of range");
+    require(!asset.finestPixel || (*asset.finestPixel >= 0 && std::isfinite(*asset.finestPixel)), "accuracy",
+            0, "finest pixel is out of range");
     validatePaints(asset);
     validatePieces(asset);
     const Trees trees(asset);

@@ -45,7 +45,8 @@ public:
     Update run(const scene::Scene& scene) {
         const auto start = Clock::now();
         kept_.cache.put(std::move(kept_.picture.outlines));
-        picture_ = lower(scene, wholeOf(scene), kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
+        picture_ =
+            lower(scene, wholeOf(scene), kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
         const auto lowered = Clock::now();
         Update update;
         update.anew = !kept_.partition;

@@ -47,8 +47,8 @@ public:
         return outlineShare * tolerance_ + lattice(bend) +
                (slivers ? std::max(fitted, sliver(level)) : fitted);
     }
-    /// Of a leaf that is filled with one colour: an outline runs through it, so all of it is within its diagonal
-    /// of that.
+    /// Of a leaf that is filled with one colour: an outline runs through it, so all of it is within its
+    /// diagonal of that.
     double mean(unsigned level) const {
         return outlineShare * tolerance_ + lattice(0) + diagonal * leafSteps(level);
     }

@@ -37,8 +37,8 @@ Box mapped(const Box& b, const Affine& m) {
 
 class Lowering {
 public:
-    Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice, const ErrorBudget& budget,
-             Sharing sharing, OutlineCache* cache)
+    Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+             const ErrorBudget& budget, Sharing sharing, OutlineCache* cache)
         : lattice_(lattice),
           budget_(budget),
           sharing_(sharing),
@@ -321,8 +321,8 @@ private:
 
 }  // namespace
 
-Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice, const ErrorBudget& budget,
-              Sharing sharing, OutlineCache* cache) {
+Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache) {
     return Lowering(scene, excerpt, lattice, budget, sharing, cache).take();
 }
 

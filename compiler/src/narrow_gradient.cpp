@@ -132,7 +132,8 @@ std::optional<Ramp> narrowed(const Ramp& ramp, glm::dvec2 size) {
 
 std::optional<Ramp> straightened(const scene::RadialGradient& gradient, const Affine& toUnit,
                                  glm::dvec2 size) {
-    const Point middle = scene::apply(toUnit, size / 2.0), f = (gradient.focus - gradient.center) / gradient.radius;
+    const Point middle = scene::apply(toUnit, size / 2.0),
+                f = (gradient.focus - gradient.center) / gradient.radius;
     double extent = 0;
     for (const Point corner : corners(size))
         extent = std::max(extent, glm::distance(scene::apply(toUnit, corner), middle));

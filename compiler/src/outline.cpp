@@ -297,12 +297,13 @@ std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& pa
     RunSink sink(outlines, clampMin, clampMax);
     // Near the box numbers are small, and so are their roundings.
     const Point origin = near ? (near->min + near->max) / 2.0 : Point{0, 0};
-    const Affine fromOrigin = near ? scene::compose(toSteps, scene::translation(origin.x, origin.y)) : toSteps;
+    const Affine fromOrigin =
+        near ? scene::compose(toSteps, scene::translation(origin.x, origin.y)) : toSteps;
     MappedContours contours(sink, withoutFarAway(fromOrigin), tolerance);
     const std::size_t before = outlines.runs.size();
     const bool isRings =
-        near ? strokeContoursNear({near->min - origin, near->max - origin}, stroke::moved(path, -origin), style,
-                                  strokeTolerance, chordTolerance, contours)
+        near ? strokeContoursNear({near->min - origin, near->max - origin}, stroke::moved(path, -origin),
+                                  style, strokeTolerance, chordTolerance, contours)
              : strokeContours(path, style, strokeTolerance, chordTolerance, contours);
     sink.finish();
     if (!isRings)

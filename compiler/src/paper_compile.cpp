@@ -32,7 +32,8 @@ paper::MaskOptions maskOptions(const asset::PaperAsset& asset, const PaperOption
 /// The scene's paints as the palette of an asset.
 class PaperPalette {
 public:
-    PaperPalette(asset::Asset& palette, double side) : palette_(palette), table_(picture_, {scene::identity, side, side, false}) {
+    PaperPalette(asset::Asset& palette, double side)
+        : palette_(palette), table_(picture_, {scene::identity, side, side, false}) {
         palette_.paints.push_back({});
     }
 

@@ -28,7 +28,9 @@ struct Excerpt {
     /// A small part of the scene: strokes are cut down to what is near, and gradients to the colours in it.
     bool isPart = false;
 };
-inline Excerpt wholeOf(const scene::Scene& scene) { return {scene::identity, scene.width, scene.height, false}; }
+inline Excerpt wholeOf(const scene::Scene& scene) {
+    return {scene::identity, scene.width, scene.height, false};
+}
 
 inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 
@@ -110,9 +112,10 @@ inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
 /// own, where that hides the difference (docs/regions.md).
 enum class Sharing : std::uint8_t { None, Outlines };
 
-/// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a `cache`, outlines that it holds are taken
-/// from it and others added to it; its store of outlines becomes the picture's; then nothing is shared.
-Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice, const ErrorBudget& budget,
-              Sharing sharing, OutlineCache* cache = nullptr);
+/// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a
+/// `cache`, outlines that it holds are taken from it and others added to it; its store of outlines becomes
+/// the picture's; then nothing is shared.
+Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr);
 
 }  // namespace vtm::compiler

@@ -19,8 +19,8 @@ namespace vtm::compiler {
 /// have the same winding numbers.
 bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
                     double chordTolerance, ContourSink& contours);
-/// The same, right within a box: parts of the path that cannot reach it are left out, so that what is left is small
-/// beside the tolerance. The path lies about the origin, as the box does.
+/// The same, right within a box: parts of the path that cannot reach it are left out, so that what is left is
+/// small beside the tolerance. The path lies about the origin, as the box does.
 bool strokeContoursNear(const PathBox& box, const scene::Path& path, const scene::StrokeStyle& style,
                         double tolerance, double chordTolerance, ContourSink& contours);
 /// As a path.

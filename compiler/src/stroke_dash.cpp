@@ -26,7 +26,8 @@ double segmentLength(const Segment& s, double error) {
 }
 
 double cutAt(const Segment& s, double from, double length, double whole, double error) {
-    return s.straight ? std::min(1.0, from + length / whole) : parameterAtLength(s.curve, from, length, error);
+    return s.straight ? std::min(1.0, from + length / whole)
+                      : parameterAtLength(s.curve, from, length, error);
 }
 
 /// Where in the pattern the pen is.

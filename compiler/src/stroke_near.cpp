@@ -12,10 +12,11 @@ namespace vtm::compiler::stroke {
 
 namespace {
 
-/// A curve is cut down to pieces of this share of the stroke's reach, or of the box, if that is more: then what
-/// is kept is little longer than what reaches the box.
+/// A curve is cut down to pieces of this share of the stroke's reach, or of the box, if that is more: then
+/// what is kept is little longer than what reaches the box.
 constexpr double pieceShare = 1.0 / 1024, boxShare = 1.0 / 4;
-/// Beyond it a piece is kept, however long: halves of a finite curve are smaller by then than doubles can tell.
+/// Beyond it a piece is kept, however long: halves of a finite curve are smaller by then than doubles can
+/// tell.
 constexpr int maxHalvings = 60;
 /// For roundings.
 constexpr double sureReach = 1 + 1e-6;

@@ -44,7 +44,7 @@ struct TreeOptions {
     std::optional<unsigned> piecesPerLeaf;
     unsigned minDepth = 2;  ///< of leaves with pieces: keeps their quantisation below the tolerance
     unsigned maxDepth = 8;
-    unsigned lastDepth = 8;  ///< of leaves that would not be within the tolerance on maxDepth
+    unsigned lastDepth = 8;   ///< of leaves that would not be within the tolerance on maxDepth
     std::size_t maxWork = 0;  ///< pairs of chords
 };
 

@@ -35,8 +35,8 @@ Span seen(double from, double size, double pixel, double picture) {
 }
 
 void check(const Part& part, int width, int height) {
-    const bool isFinite = std::isfinite(part.x) && std::isfinite(part.y) && std::isfinite(part.x + part.width) &&
-                          std::isfinite(part.y + part.height);
+    const bool isFinite = std::isfinite(part.x) && std::isfinite(part.y) &&
+                          std::isfinite(part.x + part.width) && std::isfinite(part.y + part.height);
     if (!(isFinite && part.width > 0 && part.height > 0))
         throw std::invalid_argument("part must be finite and not empty");
     if (width < 1 || height < 1)
@@ -95,12 +95,13 @@ private:
         const scene::Point scale{roundedScale(1 / pixel_.width), roundedScale(1 / pixel_.height)},
             origin{x_.from, y_.from};
         Excerpt excerpt{{scale.x, 0, 0, scale.y, -scale.x * origin.x, -scale.y * origin.y},
-                    x_.size() * scale.x,
-                    y_.size() * scale.y,
-                    true};
+                        x_.size() * scale.x,
+                        y_.size() * scale.y,
+                        true};
         const double pixel = std::min(pixel_.width * scale.x, pixel_.height * scale.y);
-        ViewResult made{compileExcerpt(scene_, excerpt, optionsFor(needed(excerpt.width, excerpt.height, pixel))),
-                        viewFrom(origin, scale), excerpt.fromScene};
+        ViewResult made{
+            compileExcerpt(scene_, excerpt, optionsFor(needed(excerpt.width, excerpt.height, pixel))),
+            viewFrom(origin, scale), excerpt.fromScene};
         addRoundings(made.result, scale, pixel);
         return made;
     }
@@ -109,7 +110,8 @@ private:
     asset::View viewFrom(scene::Point origin, scene::Point scale) const {
         asset::View view = view_;
         const double sx = 1 / pixel_.width, sy = 1 / pixel_.height;
-        view.toPixels = {sx / scale.x, 0, 0, sy / scale.y, (origin.x - part_.x) * sx, (origin.y - part_.y) * sy};
+        view.toPixels = {
+            sx / scale.x, 0, 0, sy / scale.y, (origin.x - part_.x) * sx, (origin.y - part_.y) * sy};
         return view;
     }
 

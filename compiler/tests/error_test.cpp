@@ -1,6 +1,7 @@
 // The error that the compiler claims to prove.
 
 #include <cmath>
+#include <numbers>
 
 #include "asset/coverage.hpp"
 #include "asset/walk.hpp"
@@ -336,7 +337,8 @@ scene::Scene nearlyCoincident(int count) {
     scene::Scene scene{64, 64, {}};
     for (int i = 0; i < count; ++i) {
         const double off = 3e-6 * i;
-        const Path path{scene::MoveTo{{5 + off, 9}}, scene::CubicTo{{20, 60 - off}, {44, -12 + off}, {59, 50}},
+        const Path path{scene::MoveTo{{5 + off, 9}},
+                        scene::CubicTo{{20, 60 - off}, {44, -12 + off}, {59, 50}},
                         scene::LineTo{{30 + off, 61}}, scene::Close{}};
         scene.root.children.push_back(
             {scene::Item{std::make_shared<const Path>(path), scene::identity, scene::FillRule::EvenOdd,
@@ -345,19 +347,17 @@ scene::Scene nearlyCoincident(int count) {
     return scene;
 }
 
-/// Thin triangles through one point.
+/// Thin triangles with a corner in one point.
 scene::Scene rays(int count) {
-    scene::Scene scene{64, 64, {}};
+    const Point middle{32.17, 31.89};
+    Path path;
     for (int i = 0; i < count; ++i) {
-        const double angle = 3.14159 * i / count;
-        const Point along{30 * std::cos(angle), 30 * std::sin(angle)}, side{-along.y / 6000, along.x / 6000},
-            middle{32.17, 31.89};
-        scene.root.children.push_back(
-            {scene::Item{std::make_shared<const Path>(
-                             scene::polygon({middle - along, middle + along + side, middle + along - side})),
-                         scene::identity, scene::FillRule::NonZero, scene::Color{float(i % 5) / 5, 0, 0.5f, 1}}});
+        const double angle = 2 * std::numbers::pi * i / count;
+        const Point along{30 * std::cos(angle), 30 * std::sin(angle)}, aside{-along.y / 9000, along.x / 9000};
+        path.insert(path.end(), {scene::MoveTo{middle}, scene::LineTo{middle + along},
+                                 scene::LineTo{middle + along + aside}, scene::Close{}});
     }
-    return scene;
+    return sceneOf(path, scene::FillRule::EvenOdd);
 }
 
 void expectProven(const Result& result) {

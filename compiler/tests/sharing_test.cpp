@@ -114,8 +114,7 @@ TEST(SharedOutline, takesTheFirstRunsOfAStroke) {
         const Lattice lattice(size, size, 20);
         const scene::Scene scene =
             sceneOf({{filled(shape, FillRule::NonZero)}, {stroked(shape, {}, {0, 0, 0, 1})}});
-        return lower(scene, wholeOf(scene), lattice, ErrorBudget(1.0 / 4096, 20), Sharing::Outlines)
-            .layers;
+        return lower(scene, wholeOf(scene), lattice, ErrorBudget(1.0 / 4096, 20), Sharing::Outlines).layers;
     };
     Path ring{scene::MoveTo{{20, 20}}, scene::CubicTo{{40, 10}, {90, 50}, {80, 80}}, scene::LineTo{{30, 70}},
               scene::Close{}};

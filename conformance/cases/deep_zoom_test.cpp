@@ -27,15 +27,16 @@ using scene::Point;
 using Real = long double;
 
 constexpr double side = 512;
-constexpr int pixels = 40;
+constexpr int pixels = 24;
 const double zooms[] = {1, 1e3, 1e4, 65536, 1e6, 1e9};
 
 struct Case {
     std::string name;
     scene::Scene scene;
-    Point at;                                ///< on an edge
-    std::function<bool(Real x, Real y)> inside;  ///< where the picture is white; elsewhere it is black or transparent
-    double worst = 4;                        ///< 255ths
+    Point at;  ///< on an edge
+    std::function<bool(Real x, Real y)>
+        inside;        ///< where the picture is white; elsewhere it is black or transparent
+    double worst = 4;  ///< 255ths
 };
 
 const scene::Color white{1, 1, 1, 1}, black{0, 0, 0, 1};
@@ -47,7 +48,8 @@ scene::Scene pictureOf(std::vector<scene::Node> nodes) {
 }
 
 Item filled(Path path, scene::Paint paint = white) {
-    return {std::make_shared<const Path>(std::move(path)), scene::identity, FillRule::NonZero, std::move(paint), 1};
+    return {std::make_shared<const Path>(std::move(path)), scene::identity, FillRule::NonZero,
+            std::move(paint), 1};
 }
 
 Item stroked(Path path, scene::StrokeStyle style) {
@@ -98,15 +100,18 @@ Case circleCase() {
 }
 
 Case parabolaCase() {
-    return {"parabola", pictureOf({{filled(parabola())}}), {97.3, double(parabolaAt(97.3L))},
-            [](Real x, Real y) { return y > parabolaAt(x); }};
+    return {
+        "parabola", pictureOf({{filled(parabola())}}), {97.3, double(parabolaAt(97.3L))}, [](Real x, Real y) {
+            return y > parabolaAt(x);
+        }};
 }
 
 /// Two triangles that abut: what shines through would be seen.
 Case seamCase() {
     const Point a{3.1, 7.7}, b{508.9, 499.3}, c{500.1, 2.3}, d{9.9, 505.5};
     Path one = scene::polygon({a, b, c}), other = scene::polygon({b, a, d});
-    return {"seam", pictureOf({{filled(one)}, {filled(other)}}), a + (b - a) * 0.37, [](Real, Real) { return true; }};
+    return {"seam", pictureOf({{filled(one)}, {filled(other)}}), a + (b - a) * 0.37,
+            [](Real, Real) { return true; }};
 }
 
 Case lineCase() {
@@ -121,7 +126,8 @@ Case circleStrokeCase(double sideOf) {
     constexpr double width = 6.4;
     const auto inside = [](Real x, Real y) { return std::abs(fromMiddle(x, y) - radius) < width / 2; };
     return {sideOf > 0 ? "circle-stroke-outside" : "circle-stroke-inside",
-            pictureOf({{stroked(circle(), styleOf(width))}}), onCircle(2.2, radius + sideOf * width / 2), inside};
+            pictureOf({{stroked(circle(), styleOf(width))}}), onCircle(2.2, radius + sideOf * width / 2),
+            inside};
 }
 
 Case parabolaStrokeCase(double sideOf) {
@@ -133,13 +139,16 @@ Case parabolaStrokeCase(double sideOf) {
     };
     return {sideOf > 0 ? "parabola-stroke-below" : "parabola-stroke-above",
             pictureOf({{stroked(parabola(), styleOf(double(width)))}}),
-            {double(foot - slope * share), double(parabolaAt(foot) + share)}, inside};
+            {double(foot - slope * share), double(parabolaAt(foot) + share)},
+            inside};
 }
 
 /// Deep inside of a stroke nothing of it is seen.
 Case coveredCase() {
     const Real foot = 97.3L;
-    return {"covered", pictureOf({{stroked(parabola(), styleOf(6.4))}}), {double(foot) + 0.6, double(parabolaAt(foot))},
+    return {"covered",
+            pictureOf({{stroked(parabola(), styleOf(6.4))}}),
+            {double(foot) + 0.6, double(parabolaAt(foot))},
             [](Real x, Real y) {
                 const Real f = footOnParabola(x, y, 97.3L);
                 return std::hypot(x - f, y - parabolaAt(f)) < 3.2L;
@@ -150,11 +159,14 @@ Case dashedLineCase() {
     scene::StrokeStyle style = styleOf(11.3);
     style.dashes = {7.3, 3.1};
     style.dashPhase = 1.7;
-    const auto inside = [](Real x, Real) { return std::fmod(x - 3.7L + 1.7L, 10.4L) < 7.3L; };
+    const auto inside = [](Real x, Real y) {
+        return std::fmod(x - 3.7L + 1.7L, 10.4L) < 7.3L && std::abs(y - 200.3L) < 11.3L / 2;
+    };
     // The 31st dash's end.
     return {"dashed-line",
             pictureOf({{stroked({scene::MoveTo{{3.7, 200.3}}, scene::LineTo{{509.1, 200.3}}}, style)}}),
-            {3.7 - 1.7 + 30 * 10.4 + 7.3, 201.4}, inside};
+            {3.7 - 1.7 + 30 * 10.4 + 7.3, 201.4},
+            inside};
 }
 
 Case dashedParabolaCase() {
@@ -167,7 +179,9 @@ Case dashedParabolaCase() {
     for (int i = 0; i < 50; ++i)
         foot -= (lengthOfParabola(foot) - lengthOfParabola(0) - (19 * 10.4L + 7.3L)) /
                 std::sqrt(1 + (foot - 256) * (foot - 256) / (128 * 128));
-    return {"dashed-parabola", pictureOf({{stroked(parabola(), style)}}), {double(foot), double(parabolaAt(foot))},
+    return {"dashed-parabola",
+            pictureOf({{stroked(parabola(), style)}}),
+            {double(foot), double(parabolaAt(foot))},
             [along](Real x, Real y) { return std::fmod(along(x, y), 10.4L) < 7.3L; }};
 }
 
@@ -186,8 +200,10 @@ Case miterCase() {
 Case roundCapCase() {
     scene::StrokeStyle style = styleOf(8);
     style.cap = scene::Cap::Round;
-    return {"round-cap", pictureOf({{stroked({scene::MoveTo{{100.1, 99.3}}, scene::LineTo{{300, 99.3}}}, style)}}),
-            {100.1 - 4 * 0.6, 99.3 + 4 * 0.8}, [](Real x, Real y) {
+    return {"round-cap",
+            pictureOf({{stroked({scene::MoveTo{{100.1, 99.3}}, scene::LineTo{{300, 99.3}}}, style)}}),
+            {100.1 - 4 * 0.6, 99.3 + 4 * 0.8},
+            [](Real x, Real y) {
                 return x < Real(100.1) ? std::hypot(x - Real(100.1), y - Real(99.3)) < 4
                                        : std::abs(y - Real(99.3)) < 4;
             }};
@@ -196,10 +212,12 @@ Case roundCapCase() {
 Case clipCase() {
     scene::Group group;
     auto clip = std::make_shared<scene::Clip>();
-    clip->shapes.push_back({std::make_shared<const Path>(circle()), scene::identity, FillRule::NonZero, nullptr});
+    clip->shapes.push_back(
+        {std::make_shared<const Path>(circle()), scene::identity, FillRule::NonZero, nullptr});
     group.clip = clip;
     group.children.push_back({filled(all())});
-    return {"clip", pictureOf({{group}}), onCircle(4.1), [](Real x, Real y) { return fromMiddle(x, y) < radius; }};
+    return {"clip", pictureOf({{group}}), onCircle(4.1),
+            [](Real x, Real y) { return fromMiddle(x, y) < radius; }};
 }
 
 Case maskCase() {
@@ -208,7 +226,8 @@ Case maskCase() {
     scene::Group group;
     group.mask = std::make_shared<const scene::Mask>(scene::Mask{content, scene::MaskKind::Luminance, false});
     group.children.push_back({filled(all())});
-    return {"mask", pictureOf({{group}}), onCircle(5.6), [](Real x, Real y) { return fromMiddle(x, y) < radius; }};
+    return {"mask", pictureOf({{group}}), onCircle(5.6),
+            [](Real x, Real y) { return fromMiddle(x, y) < radius; }};
 }
 
 Case patternCase() {
@@ -220,7 +239,9 @@ Case patternCase() {
 }
 
 /// Black up to an offset, white beyond.
-std::vector<scene::GradientStop> sharp() { return {{0, black}, {0.375f, black}, {0.375f, white}, {1, white}}; }
+std::vector<scene::GradientStop> sharp() {
+    return {{0, black}, {0.375f, black}, {0.375f, white}, {1, white}};
+}
 
 Case linearCase(scene::Spread spread) {
     const Point start{11.3, 17.9}, end{400.7, 333.1};
@@ -253,7 +274,9 @@ Case radialCase() {
 Case transformedCase() {
     Item item = filled(scene::polygon({{-1e-3, -1e-3}, {1e-3, -1e-3}, {1e-3, 1e-3}, {-1e-3, 1e-3}}));
     item.transform = {8e4, 6e4, -6e4, 8e4, 256.1, 250.7};
-    return {"transformed", pictureOf({{item}}), {256.1 + 80 + 0.3 * 60, 250.7 + 60 - 0.3 * 80},
+    return {"transformed",
+            pictureOf({{item}}),
+            {256.1 + 80 + 0.3 * 60, 250.7 + 60 - 0.3 * 80},
             [](Real x, Real y) {
                 const Real dx = x - Real(256.1), dy = y - Real(250.7);
                 return std::abs(0.8L * dx + 0.6L * dy) < 100 && std::abs(-0.6L * dx + 0.8L * dy) < 100;
@@ -262,18 +285,34 @@ Case transformedCase() {
 
 /// The picture's own corner.
 Case borderCase() {
-    return {"border", pictureOf({{filled(scene::rectangle({-100, -100}, {600, 600}))}}), {side, side},
+    return {"border",
+            pictureOf({{filled(scene::rectangle({-100, -100}, {600, 600}))}}),
+            {side, side},
             [](Real x, Real y) { return x < Real(side) && y < Real(side); }};
 }
 
 std::vector<Case> cases() {
-    return {circleCase(),         parabolaCase(),        seamCase(),
-            lineCase(),           circleStrokeCase(1),   circleStrokeCase(-1),
-            parabolaStrokeCase(1), parabolaStrokeCase(-1), coveredCase(),
-            dashedLineCase(),     dashedParabolaCase(),  miterCase(),
-            roundCapCase(),       clipCase(),            maskCase(),
-            patternCase(),        linearCase(scene::Spread::Pad), linearCase(scene::Spread::Repeat),
-            radialCase(),         transformedCase(),     borderCase()};
+    return {circleCase(),
+            parabolaCase(),
+            seamCase(),
+            lineCase(),
+            circleStrokeCase(1),
+            circleStrokeCase(-1),
+            parabolaStrokeCase(1),
+            parabolaStrokeCase(-1),
+            coveredCase(),
+            dashedLineCase(),
+            dashedParabolaCase(),
+            miterCase(),
+            roundCapCase(),
+            clipCase(),
+            maskCase(),
+            patternCase(),
+            linearCase(scene::Spread::Pad),
+            linearCase(scene::Spread::Repeat),
+            radialCase(),
+            transformedCase(),
+            borderCase()};
 }
 
 compiler::Part partAt(Point at, double zoom) {
@@ -283,7 +322,7 @@ compiler::Part partAt(Point at, double zoom) {
 
 /// The share of each pixel that is inside, from points in it.
 double shareInside(const Case& c, const compiler::Part& part, int x, int y) {
-    constexpr int parts = 48;
+    constexpr int parts = 40;
     const Real px = Real(part.width) / pixels / parts, py = Real(part.height) / pixels / parts;
     int count = 0;
     for (int j = 0; j < parts; ++j)
@@ -313,12 +352,14 @@ image::Raster scanned(const compiler::ViewResult& made) {
     return asset::Scanner(made.result.asset).draw(made.view);
 }
 
-class DeepZoom : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Edge, DeepZoom, testing::ValuesIn(cases()), [](const auto& info) {
-    std::string name = info.param.name;
+std::string nameOf(const testing::TestParamInfo<Case>& tested) {
+    std::string name = tested.param.name;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
-});
+}
+
+class DeepZoom : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Edge, DeepZoom, testing::ValuesIn(cases()), nameOf);
 
 TEST_P(DeepZoom, isAsExactAsNone) {
     const Case& c = GetParam();
@@ -328,8 +369,8 @@ TEST_P(DeepZoom, isAsExactAsNone) {
         EXPECT_TRUE(made.result.warnings.empty()) << made.result.warnings.front();
         const Seen seen = look(c, part, scanned(made));
         EXPECT_LE(seen.worst, c.worst) << c.name << " at " << zoom;
-        if (c.name != "seam" && c.name != "covered")
-            EXPECT_GE(seen.edges, pixels / 2) << c.name << " at " << zoom;
+        const bool isEdge = c.name != "seam" && c.name != "covered";
+        EXPECT_TRUE(!isEdge || zoom == 1 || seen.edges >= pixels / 2) << c.name << " at " << zoom;
         RecordProperty(fmt::format("worst_{}", zoom), std::to_string(seen.worst));
     }
 }

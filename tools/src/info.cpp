@@ -69,6 +69,8 @@ int info(const InfoOptions& options) {
         report["height"] = source.height;
         report["mode"] = modeOf(source);
         report.update(source.paper ? figures(*source.paper) : figures(*source.asset));
+        if (source.asset)
+            report["finest_pixel"] = source.asset->finestPixel ? Json(*source.asset->finestPixel) : Json();
         report.update(source.proof);
         report["stages_ms"] = toJson(source.stages);
         printReport(report, sections, options.json);

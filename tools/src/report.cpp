@@ -56,8 +56,7 @@ Json figures(const asset::Asset& asset) {
             {"pieces", summary.pieces},
             {"fallback_leaves", asset.fallbackLeaves},
             {"regions", summary.regions},
-            {"max_depth", summary.maxDepth},
-            {"finest_pixel", asset.finestPixel ? Json(*asset.finestPixel) : Json()}};
+            {"max_depth", summary.maxDepth}};
 }
 
 Json figures(const compiler::Result& result) {
