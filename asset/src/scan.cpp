@@ -19,6 +19,7 @@
 #include "asset/src/scan_programs.hpp"
 #include "asset/src/scan_stores.hpp"
 #include "asset/steepness.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::asset {
 
@@ -57,8 +58,10 @@ public:
         scratch_.bands.clear(view.height);
         for (const Picture::Drawn& drawn : of.drawn) {
             Chords chords(drawn.map, view, scratch_.bands);
-            for (const Boundary& boundary : drawn.boundaries)
+            for (const Boundary& boundary : drawn.boundaries) {
+                limits::check();
                 chords.add(boundary);
+            }
         }
         scratch_.colors.resize(view.width);
         scratch_.programs.resize(of.solid.size(), view.width);
@@ -66,12 +69,14 @@ public:
 
     template <class Store>
     void drawBand(int band, const Store& store) {
+        limits::check();
         const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
         BandPrograms& programs = scratch_.programs;
         programs.clear();
         const std::uint8_t* isProgram = of_.isProgram.data();
         const Float4* solid = of_.solid.data();
         for (const Chord& c : scratch_.bands.of(band)) {
+            limits::check();
             if (isProgram[c.left] + isProgram[c.right] != 0) {
                 if (isProgram[c.left])
                     programs.addSide(c, c.left, 1);
@@ -140,6 +145,7 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     // An exception loses the scratch, whose sums may be half done.
     std::unique_ptr<Scratch> scratch = takeScratch();
     Drawing drawing(*this, view, materials, *scratch);
+    const limits::Stage stage("scanning");
     for (int band = 0; band * bandRows < view.height; ++band)
         drawing.drawBand(band, store);
     giveBack(std::move(scratch));

@@ -32,6 +32,9 @@ Cell rootCell(const Picture& picture, const Square& square, std::span<const std:
 void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children);
 
 /// Replaces `layers` by the cell's layers, ascending.
+/// Where the layer with the most chords in the cell comes from.
+limits::Place largestIn(const Picture& picture, const Cell& cell);
+
 void listLayers(const Cell& cell, std::vector<std::uint32_t>& layers);
 
 }  // namespace vtm::compiler

@@ -174,6 +174,7 @@ private:
 
 Result compile(const scene::Scene& scene, const Options& options) {
     checkOptions(options);
+    const limits::Stage stage("compiling");
     scene::validate(scene);
 
     const auto start = Clock::now();

@@ -61,6 +61,7 @@ public:
 private:
     void children(const scene::Group& g, const Affine& outer, std::uint32_t into) {
         for (std::size_t i = 0; i < g.children.size(); ++i) {
+            limits::check();
             const scene::Node& node = g.children[i];
             if (const auto* item = std::get_if<scene::Item>(&node.value)) {
                 const auto* next =
@@ -131,6 +132,7 @@ private:
         ClipExpression expression;
         for (const scene::ClipShape& shape : c.shapes) {
             ClipExpression::Term term;
+            place_ = shape.place;
             term.layer = layer({shape.path, compose(outer, shape.transform)}, shape.rule);
             if (shape.clip)
                 term.clip = clip(*shape.clip, outer);
@@ -158,6 +160,7 @@ private:
     /// Two items. The fill gets outlines of the stroke's where these will do.
     void fillBelowStroke(const scene::Item& fill, const scene::Item& stroke, const Affine& outer,
                          std::uint32_t into) {
+        place_ = fill.place;
         const Affine transform = compose(outer, fill.transform);
         const auto fillSource = paints_.add(fill.paint, transform),
                    strokeSource = paints_.add(stroke.paint, transform);
@@ -179,6 +182,7 @@ private:
     }
 
     void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
+        place_ = item.place;
         const Affine transform = outer == scene::identity ? item.transform : compose(outer, item.transform);
         if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
             patternItem(item, *pattern, transform, into);
@@ -225,6 +229,7 @@ private:
 
     void tile(const scene::Pattern& pattern, const std::shared_ptr<const Path>& border,
               const Affine& toPicture, std::uint32_t into) {
+        limits::check();
         const std::uint32_t index = openGroup(into);
         const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
         picture_.groups[index].clip = push({{{cut, none, false}}, none});
@@ -252,7 +257,7 @@ private:
     }
 
     std::uint32_t addLayer(RunRange runs, scene::FillRule rule) {
-        picture_.layers.push_back({rule, runs.first, runs.count});
+        picture_.layers.push_back({rule, runs.first, runs.count, place_});
         checkLimits();
         picture_.itemOfLayer.push_back(none);
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
@@ -260,6 +265,7 @@ private:
 
     /// `sides`: of a stroke, what addStroke returns.
     RunRange outline(const OutlineOrigin& origin, std::optional<std::uint32_t>* sides = nullptr) {
+        const limits::Stage stage(origin.stroke ? "stroking" : "flattening", place_);
         const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
         if (!origin.stroke) {
             addOutline(picture_.outlines, *origin.path, toSteps(origin), budget_.fillChords(),
@@ -304,6 +310,7 @@ private:
     const Sharing sharing_;
     const Box frame_;
     OutlineCache* const cache_;
+    limits::Place place_;  ///< of what is being lowered
     Picture picture_;
     PaintTable paints_;
 };

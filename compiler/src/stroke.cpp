@@ -24,6 +24,7 @@
 #include "compiler/src/stroke_chords.hpp"
 #include "compiler/src/stroke_offset.hpp"
 #include "compiler/src/stroke_subpath.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 
@@ -101,6 +102,7 @@ private:
         ribbon_.left.start = first + side;
         ribbon_.right.start = first - side;
         for (std::size_t i = 0; i < segments.size(); ++i) {
+            limits::check();
             if (i > 0)
                 joinSegments(segments[i - 1], segments[i]);
             sides(segments[i]);
@@ -276,6 +278,7 @@ private:
 
     /// Close draws the last edge where that is a line; a rest that the tolerance hides is taken away.
     void emit(Side& contour) {
+        limits::check();
         auto& ends = contour.ends;
         if (!ends.empty() && glm::distance(contour.end(), contour.start) <= tolerance_ * joinShare)
             ends.back() = contour.start;

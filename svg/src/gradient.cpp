@@ -80,6 +80,7 @@ std::vector<scene::GradientStop> Converter::gradientStops(const Chain& chain) {
     float last = 0;
     for (const Element* gradient : chain) {
         for (const Element* child : gradient->children) {
+            limits::check();
             if (child->tag != Tag::Stop)
                 continue;
             const double offset = parseFraction(child->get("offset")).value_or(0);

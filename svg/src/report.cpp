@@ -50,6 +50,11 @@ void Reporter::warnInvalid(const Element& element, std::string_view attribute, s
     warn(element, fmt::format("{}={} is not valid; it is ignored", attribute, quoted(value)));
 }
 
+limits::Place Reporter::placeOf(const Element& element) const {
+    const Location at = map_.at(element.offset);
+    return {static_cast<std::uint32_t>(at.line), static_cast<std::uint32_t>(at.column), nameOf(element.tag)};
+}
+
 void Reporter::warn(const Element& element, const std::string& what) {
     if (warnings_.size() >= maxWarnings)
         return;

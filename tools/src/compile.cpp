@@ -6,6 +6,7 @@
 #include "asset/prefilter.hpp"
 #include "image/codec.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {
@@ -21,6 +22,7 @@ struct CompileOptions {
 int compile(const CompileOptions& options) {
     if (options.source.paper)
         throw UsageError("compile: a .vtm file holds no paper mode; see render and info --mode paper");
+    const PictureLimits limits(options.input, true);
     try {
         Source source = loadSource(options.input, options.source);
         if (options.prefilter)

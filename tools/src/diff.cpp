@@ -5,6 +5,7 @@
 #include "conformance/compare/compare.hpp"
 #include "image/codec.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/report.hpp"
 
 namespace vtm::tools {
@@ -29,6 +30,7 @@ void writePicture(const image::Raster& a, const image::Raster& b, const std::str
 
 int diff(const DiffOptions& options) {
     std::string reading = options.first;
+    const PictureLimits limits(options.first, true);
     try {
         const image::Raster a = compare::readPng(options.first);
         reading = options.second;

@@ -6,6 +6,7 @@
 #include "asset/container.hpp"
 #include "image/codec.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {
@@ -69,6 +70,7 @@ const char* modeOf(const Source& source) {
 int info(const InfoOptions& options) {
     Json report = {{"input", options.input}};
     std::vector<asset::SectionInfo> sections;
+    const PictureLimits limits(options.input, true);
     try {
         sections = sectionsOf(options.input);
         const Source source = loadSource(options.input, options.source);

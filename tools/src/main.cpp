@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/report.hpp"
 
 namespace {
@@ -19,6 +20,8 @@ int run(int argc, char** argv) {
     addInfo(app, exitCode);
     addDiff(app, exitCode);
     addTrace(app, exitCode);
+    for (CLI::App* command : app.get_subcommands({}))
+        addLimitOptions(*command);
     try {
         app.parse(argc, argv);
         return exitCode;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -11,6 +13,7 @@
 #include "tools/src/debug_view.hpp"
 #include "tools/src/engine.hpp"
 #include "tools/src/framing.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/progress.hpp"
 #include "tools/src/source.hpp"
 
@@ -98,8 +101,20 @@ void printReport(const Job& job, const Source& source, const asset::View& view) 
     fmt::print("{}\n", report.dump());
 }
 
+/// What a raster still does not show, a sixteenth of a pixel, as a share of the picture's longer side.
+double hiddenTolerance(const asset::View& view, double width, double height) {
+    constexpr double pixels = 1.0 / 16;
+    const auto& m = view.toPixels;
+    const double scale = std::max(std::hypot(m[0].x, m[0].y), std::hypot(m[1].x, m[1].y));
+    return pixels / (scale * std::max(width, height));
+}
+
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
-    Source source = loadSource(job.input, options.source, engine.needsAsset());
+    SourceOptions loading = options.source;
+    loading.coarserTolerance = [&](double width, double height) {
+        return hiddenTolerance(frame(options.framing, width, height), width, height);
+    };
+    Source source = loadSource(job.input, loading, engine.needsAsset());
     const asset::View view = frame(options.framing, source.width, source.height);
     const DebugView debug = parseDebugView(options.debugView);
     prepare(source, debug);
@@ -110,7 +125,9 @@ void renderOne(const Job& job, const RenderOptions& options, const scene::Color&
         printReport(job, source, view);
 }
 
-bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
+bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine,
+              bool alone) {
+    const PictureLimits limits(job.input, alone);
     try {
         renderOne(job, options, ground, engine);
         return true;
@@ -129,7 +146,7 @@ int render(const RenderOptions& options) {
     std::size_t failed = 0;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         showProgress(i, jobs.size());
-        failed += succeeds(jobs[i], options, ground, *engine) ? 0 : 1;
+        failed += succeeds(jobs[i], options, ground, *engine, jobs.size() == 1) ? 0 : 1;
     }
     clearProgress();
     if (jobs.size() > 1 || !options.batch.empty())

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "tools/src/limits.hpp"
 #include "tools/src/progress.hpp"
 
 namespace vtm::tools {
@@ -100,6 +101,8 @@ void printWarning(const std::string& message) {
 std::string describeError(const std::string& path) {
     try {
         throw;
+    } catch (const limits::Exceeded& exceeded) {
+        return describe(path, exceeded);
     } catch (const std::bad_alloc&) {
         return path + ": not enough memory";
     } catch (const std::exception& error) {

@@ -1,5 +1,6 @@
 #include "tools/src/source.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -9,6 +10,7 @@
 #include "asset/container.hpp"
 #include "image/codec.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 
 namespace vtm::tools {
 
@@ -86,9 +88,37 @@ void compilePaper(Source& source, const std::string& path, const compiler::Optio
     source.paper = std::move(result);
 }
 
-void compileScene(Source& source, const std::string& path, const compiler::Options& options) {
-    compiler::Result result =
-        timed(source.stages, "compile", [&] { return compiler::compile(*source.scene, options); });
+/// With the tolerance asked for, as long as that takes no more than a third of the limit; then with a coarser
+/// one that the raster hides.
+compiler::Result compileInTime(const Source& source, const std::string& path, compiler::Options options,
+                               double coarser) {
+    const double seconds = secondsForFirstTry();
+    if (coarser < 2 * options.tolerance || seconds <= 0)
+        return compiler::compile(*source.scene, options);
+    try {
+        limits::Limits limits = limits::current().budget->limits();
+        limits.seconds = seconds;
+        limits.overrunHandler = {};
+        limits::Budget budget(limits);
+        const limits::Scope scope(budget);
+        return compiler::compile(*source.scene, options);
+    } catch (const limits::Exceeded& exceeded) {
+        if (exceeded.limit() == limits::Limit::Cancelled)
+            throw;
+    }
+    options.tolerance = coarser;
+    compiler::Result result = compiler::compile(*source.scene, options);
+    printWarning(path + ": warning: takes long; edges may be off by a sixteenth of a pixel");
+    return result;
+}
+
+void compileScene(Source& source, const std::string& path, const SourceOptions& options) {
+    constexpr double coarsest = 0x1p-6;  // compiler::Options::tolerance
+    const double coarser =
+        options.coarserTolerance ? options.coarserTolerance(source.width, source.height) : 0;
+    compiler::Result result = timed(source.stages, "compile", [&] {
+        return compileInTime(source, path, options.compiler, std::min(coarser, coarsest));
+    });
     for (const auto& [stage, milliseconds] : result.stages)
         source.stages.emplace_back(stage, milliseconds);
     printWarnings(path, result.warnings);
@@ -125,7 +155,7 @@ Source loadSource(const std::string& path, const SourceOptions& options, bool co
         if (compile && options.paper)
             compilePaper(source, path, options.compiler);
         else if (compile)
-            compileScene(source, path, options.compiler);
+            compileScene(source, path, options);
     }
     return source;
 }

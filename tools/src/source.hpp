@@ -2,6 +2,7 @@
 /// Input files: SVG, parsed and compiled here, or an asset that was compiled before.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,9 @@ struct SourceOptions {
     /// As typed; an asset has its own mode, which must not contradict it.
     std::optional<asset::Mode> mode;
     bool paper = false;  ///< --mode paper, for SVG files only
+    /// Of a picture's width and height: the tolerance to compile with when the one asked for takes too long;
+    /// empty: there is none.
+    std::function<double(double, double)> coarserTolerance = {};
 };
 
 /// --mode, --tolerance and what the importer needs: fonts, dpi, language.

@@ -8,6 +8,7 @@
 #include "image/codec.hpp"
 #include "svg/write.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {
@@ -33,6 +34,7 @@ int run(const TraceOptions& options) {
     const bool isSvg = endsWith(options.output, ".svg");
     if (!isSvg && !endsWith(options.output, ".vtm"))
         throw UsageError("trace: " + options.output + " ends neither in .svg nor in .vtm");
+    const PictureLimits limits(options.input, true);
     try {
         const scene::Scene scene = trace::trace(image::decode(image::readFile(options.input)), options.trace);
         if (isSvg) {
