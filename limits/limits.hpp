@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -108,7 +109,8 @@ private:
     mutable std::atomic<double> done_{0};
     double lastCall_ = 0;
     bool overrun_ = false;
-    mutable std::atomic<bool> isThrown_{false};
+    mutable std::mutex thrownMutex_;
+    mutable std::optional<Exceeded> thrown_;  ///< the first
     std::mutex mutex_;
     std::condition_variable ended_;
     bool isEnding_ = false;

@@ -69,7 +69,7 @@ LIBRARIES = {
     r"emmintrin\.h": {"asset", "compiler"},
     r"malloc\.h": {"limits", "tools"},
     r"fnmatch\.h": {"conformance/runner"},
-    r"unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
+    r"pthread\.h|unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }
 GENERATED = {"vg_constants.inc", "vg_functions.inc"}  # made by a module for itself when it is built
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder

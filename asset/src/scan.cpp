@@ -76,7 +76,6 @@ public:
         const std::uint8_t* isProgram = of_.isProgram.data();
         const Float4* solid = of_.solid.data();
         for (const Chord& c : scratch_.bands.of(band)) {
-            limits::check();
             if (isProgram[c.left] + isProgram[c.right] != 0) {
                 if (isProgram[c.left])
                     programs.addSide(c, c.left, 1);

@@ -87,17 +87,6 @@ PaintId LeafRegions::compute() {
     return painter_.paint(layers, inside_, *palette_);
 }
 
-/// For messages: the element with the most chords in a cell.
-struct BlockBuilder::AtCell {
-    const BlockBuilder& builder;
-    const Cell& cell;
-
-    static limits::Place place(const void* of) {
-        const auto& [builder, cell] = *static_cast<const AtCell*>(of);
-        return largestIn(builder.picture_, cell);
-    }
-};
-
 // ---- build ------------------------------------------------------------------------------------
 
 Tree BlockBuilder::run(Cell cell, bool timed) {
@@ -126,8 +115,7 @@ void BlockBuilder::lap(double& stage) {
 
 /// `cell` is culled already if it has strands.
 BlockBuilder::Built BlockBuilder::build(Cell& cell) {
-    const AtCell at{*this, cell};
-    const limits::Stage stage("planarising", AtCell::place, &at);
+    const AtCell at("planarising", picture_, cell);
     limits::check();
     work_.spend(cell.strands.size() * visitWork);
     if (cell.strands.empty())

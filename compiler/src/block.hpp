@@ -95,7 +95,6 @@ private:
         int leaves = 0, visits = 0;
     };
 
-    struct AtCell;
     void lap(double& stage);
     Built build(Cell& cell);
     Built buildFixed(Cell& cell);

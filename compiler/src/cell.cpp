@@ -185,7 +185,8 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
     copyKnown(none);
 }
 
-limits::Place largestIn(const Picture& picture, const Cell& cell) {
+limits::Place AtCell::place(const void* self) {
+    const auto& [picture, cell, stage] = *static_cast<const AtCell*>(self);
     std::uint32_t largest = none;
     std::size_t most = 0, count = 0;
     for (std::size_t i = 0; i < cell.strands.size(); ++i) {

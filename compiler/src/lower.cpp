@@ -93,6 +93,7 @@ private:
 
     /// Two groups in one, clipped by the same layer and by its complement.
     void select(const scene::Select& s, const Affine& outer, std::uint32_t into) {
+        place_ = {};
         const std::uint32_t both = openGroup(into);
         const std::uint32_t mask = geometryLayer(s.mask, compose(outer, s.mask.transform));
         side(s.inside, {mask, none, false}, outer, both);

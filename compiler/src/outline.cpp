@@ -185,7 +185,6 @@ private:
             endRun();
             taken_.take(from, to);
         }
-        limits::check();
         askFor(1);
         points_.push_back(to);
     }

@@ -38,12 +38,14 @@ struct Top {
 class TopBuilder {
 public:
     TopBuilder(const Picture& picture, const Painter& painter, unsigned maxDepth, std::size_t strands)
-        : points_(picture.outlines.points),
+        : picture_(picture),
+          points_(picture.outlines.points),
           cullers_([&] { return CullerOfThread(picture, painter); }),
           most_(std::max(blockStrands, strands / blockShare)),
           deepest_(std::min(blockLevel, maxDepth)) {}
 
     Top run(Cell cell) {
+        const AtCell at("dividing the picture", picture_, cell);
         limits::check();
         Top top;
         if (!cell.strands.empty())
@@ -77,6 +79,7 @@ private:
         Culler culler;
     };
 
+    const Picture& picture_;
     const Points points_;
     tbb::enumerable_thread_specific<CullerOfThread> cullers_;
     const std::size_t most_;

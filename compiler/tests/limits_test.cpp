@@ -5,34 +5,35 @@
 
 #include <cmath>
 
-#include <pthread.h>
-
 #include "compiler/compile.hpp"
 #include "compiler/paper.hpp"
 #include "compiler/pick.hpp"
 #include "compiler/session.hpp"
+#include "limits/testing.hpp"
 
 namespace vtm::compiler {
 namespace {
 
 using limits::Budget;
 using limits::Exceeded;
+using limits::testing::onSmallStack;
 using scene::Path;
 using scene::Point;
 using scene::Scene;
 
 std::shared_ptr<const Path> circle(Point centre, double radius) {
     const Point left(centre.x - radius, centre.y), right(centre.x + radius, centre.y);
-    return std::make_shared<const Path>(Path{scene::MoveTo{left}, scene::ArcTo{{radius, radius}, 0, false, true, right},
-                                             scene::ArcTo{{radius, radius}, 0, false, true, left}, scene::Close{}});
+    return std::make_shared<const Path>(
+        Path{scene::MoveTo{left}, scene::ArcTo{{radius, radius}, 0, false, true, right},
+             scene::ArcTo{{radius, radius}, 0, false, true, left}, scene::Close{}});
 }
 
 /// Translucent circles, so many that compiling them takes many seconds.
 Scene crowd() {
     Scene scene{100, 100, {}};
     for (std::uint32_t i = 0; i < 20'000; ++i) {
-        scene::Item item{circle({i * 37 % 101, i * 53 % 103}, 20 + i % 7), scene::identity, scene::FillRule::NonZero,
-                         scene::Color{1, 0, 0, 0.1f}};
+        scene::Item item{circle({i * 37 % 101, i * 53 % 103}, 20 + i % 7), scene::identity,
+                         scene::FillRule::NonZero, scene::Color{1, 0, 0, 0.1f}};
         item.place = {i + 1, 7, "circle"};
         scene.root.children.push_back({std::move(item)});
     }
@@ -71,8 +72,8 @@ TEST(CompilerLimits, Memory) {
 
 TEST(CompilerLimits, TheCallbackCancels) {
     const Scene scene = crowd();
-    const auto exceeded =
-        exceededBy({.proceed = [](const limits::Progress& p) { return p.seconds < 0.1; }}, [&] { compile(scene); });
+    const auto exceeded = exceededBy({.proceed = [](const limits::Progress& p) { return p.seconds < 0.1; }},
+                                     [&] { compile(scene); });
     ASSERT_TRUE(exceeded);
     EXPECT_EQ(exceeded->limit(), limits::Limit::Cancelled);
 }
@@ -101,8 +102,8 @@ TEST(CompilerLimits, DashesAreLimitedWhereTheyAreMade) {
 
 TEST(CompilerLimits, WhatWasStoppedCanBeDoneAgain) {
     Scene small{10, 10, {}};
-    small.root.children.push_back(
-        {scene::Item{circle({5, 5}, 4), scene::identity, scene::FillRule::NonZero, scene::Color{1, 0, 0, 1}}});
+    small.root.children.push_back({scene::Item{circle({5, 5}, 4), scene::identity, scene::FillRule::NonZero,
+                                               scene::Color{1, 0, 0, 1}}});
     Session session(small);
     const std::size_t leaves = session.result().asset.leaves.size();
     const Scene scene = crowd();
@@ -112,25 +113,10 @@ TEST(CompilerLimits, WhatWasStoppedCanBeDoneAgain) {
     EXPECT_EQ(session.result().asset.leaves.size(), leaves);
 }
 
-template <class Function>
-void onSmallStack(Function function) {
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, std::size_t{1} << 20);
-    pthread_t thread{};
-    const auto run = [](void* of) -> void* {
-        (*static_cast<Function*>(of))();
-        return nullptr;
-    };
-    ASSERT_EQ(pthread_create(&thread, &attributes, run, &function), 0);
-    pthread_join(thread, nullptr);
-    pthread_attr_destroy(&attributes);
-}
-
 Scene nested(int levels) {
     Scene scene{10, 10, {}};
-    scene.root.children.push_back(
-        {scene::Item{circle({5, 5}, 4), scene::identity, scene::FillRule::NonZero, scene::Color{1, 0, 0, 1}}});
+    scene.root.children.push_back({scene::Item{circle({5, 5}, 4), scene::identity, scene::FillRule::NonZero,
+                                               scene::Color{1, 0, 0, 1}}});
     for (int i = 0; i < levels; ++i) {
         scene::Group outer;
         outer.opacity = 0.999f;

@@ -111,8 +111,10 @@ Exceeded Budget::exceeded() const {
 void Budget::throwIfExceeded() const {
     if (!isExceeded())
         return;
-    isThrown_ = true;
-    throw exceeded();
+    const std::lock_guard lock(thrownMutex_);
+    if (!thrown_)
+        thrown_ = exceeded();
+    throw *thrown_;
 }
 
 void Budget::stop(Limit limit) {
@@ -130,6 +132,8 @@ void Budget::need(std::size_t bytes) {
 }
 
 void Budget::begin(const char* stage) const {
+    if (stage_.load(std::memory_order_relaxed) == stage)
+        return;  // another thread's, or the next part of it
     stage_.store(stage, std::memory_order_relaxed);
     done_.store(0, std::memory_order_relaxed);
 }
@@ -164,8 +168,10 @@ void Budget::measureOverrun() {
         limits_.memoryBytes > 0 &&
         static_cast<double>(residentBytes()) > Limits::overrun * static_cast<double>(limits_.memoryBytes);
     overrun_ = late || large;
-    if (overrun_)
-        limits_.overrunHandler(exceeded(), isThrown_);
+    if (!overrun_)
+        return;
+    const std::lock_guard lock(thrownMutex_);
+    limits_.overrunHandler(thrown_.value_or(exceeded()), thrown_.has_value());
 }
 
 Context current() { return context; }

@@ -1,7 +1,6 @@
 #include "scene/nested.hpp"
 
 #include <algorithm>
-#include <new>
 
 #include "scene/scene.hpp"
 
@@ -56,7 +55,7 @@ void release(std::shared_ptr<const void> part) noexcept {
             pile->push_back(std::move(part));
         else
             destroyAll(std::move(part));
-    } catch (const std::bad_alloc&) {
+    } catch (...) {
     }
 }
 
@@ -71,7 +70,7 @@ NodeList::~NodeList() {
         return;
     try {
         detail::release(std::make_shared<const std::vector<Node>>(std::move(*this)));
-    } catch (const std::bad_alloc&) {
+    } catch (...) {
     }
 }
 

@@ -140,7 +140,8 @@ private:
     ServerResult server(std::string_view href, const Element& element, const Scope& scope, const Box& box);
     std::vector<const Element*> templateChain(const Element& server);
     ServerResult gradient(const Element& server, const Scope& scope, const Box& box);
-    std::vector<scene::GradientStop> gradientStops(const std::vector<const Element*>& chain);
+    const std::vector<scene::GradientStop>& gradientStops(const std::vector<const Element*>& chain);
+    std::vector<scene::GradientStop> stopsIn(const Element& gradient);
     ServerResult pattern(const Element& server, const Scope& scope, const Box& box);
     /// A pattern's content and how many visits it stands for, patterns within patterns expanded.
     struct PatternContent {
@@ -234,6 +235,7 @@ private:
     std::unordered_map<const Element*, Style> styles_;
     std::unordered_map<const Element*, CachedShape> shapes_;
     std::unordered_map<const Element*, PatternContent> patterns_;
+    std::unordered_map<const Element*, std::vector<scene::GradientStop>> stops_;  ///< by their gradient
     std::unordered_map<std::string_view, ImageContent> images_;
     std::unordered_set<const Element*> active_;
     std::vector<Outline> outlines_;

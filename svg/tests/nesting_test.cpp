@@ -1,31 +1,16 @@
 // Chains and nests a million long: warnings and errors that name the place, and a flat stack.
 #include <algorithm>
 
-#include <pthread.h>
-
+#include "limits/testing.hpp"
 #include "svg/tests/support.hpp"
 #include "svg/write.hpp"
 
 namespace vtm::svg {
 namespace {
 
-constexpr int links = 1'000'000;
+using limits::testing::onSmallStack;
 
-/// On a thread whose stack is as small as those of some systems' workers.
-template <class Function>
-void onSmallStack(Function function) {
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, std::size_t{1} << 20);
-    pthread_t thread{};
-    const auto run = [](void* of) -> void* {
-        (*static_cast<Function*>(of))();
-        return nullptr;
-    };
-    ASSERT_EQ(pthread_create(&thread, &attributes, run, &function), 0);
-    pthread_join(thread, nullptr);
-    pthread_attr_destroy(&attributes);
-}
+constexpr int links = 1'000'000;
 
 /// `link` many times, each @ replaced by its number and each ~ by the next one's.
 std::string chain(std::string_view link, int count = links) {
@@ -91,9 +76,10 @@ TEST(Nesting, MaskedShapes) {
 }
 
 TEST(Nesting, Patterns) {
-    expectWarning(chain("<pattern id='p@' width='1' height='1'><path d='M0 0h9v9' fill='url(#p~)'/></pattern>") +
-                      std::string(square) + "fill='url(#p0)'/>",
-                  tooDeep);
+    expectWarning(
+        chain("<pattern id='p@' width='1' height='1'><path d='M0 0h9v9' fill='url(#p~)'/></pattern>") +
+            std::string(square) + "fill='url(#p0)'/>",
+        tooDeep);
 }
 
 /// Levels inside of one pattern count for the next one.
@@ -117,8 +103,8 @@ TEST(Nesting, Markers) {
 TEST(Nesting, GradientsAreFollowedToTheEnd) {
     onSmallStack([] {
         const std::string last = std::to_string(links);
-        const auto item = itemOf(chain("<linearGradient id='g@' href='#g~'/>") + "<linearGradient id='g" + last +
-                                 "'><stop stop-color='#f00'/></linearGradient>" + std::string(square) +
+        const auto item = itemOf(chain("<linearGradient id='g@' href='#g~'/>") + "<linearGradient id='g" +
+                                 last + "'><stop stop-color='#f00'/></linearGradient>" + std::string(square) +
                                  "fill='url(#g0)'/>");
         EXPECT_EQ(std::get<scene::Color>(item.paint), (scene::Color{1, 0, 0, 1}));
     });
@@ -135,8 +121,9 @@ TEST(Nesting, Entities) {
 TEST(Nesting, Selectors) {
     onSmallStack([] {
         const std::string many = chain("g+"), some = chain("g+", 200);
-        const auto items = itemsOf(loadBody("<style>" + many + "path{fill:#f00}" + some + "path{fill:#00f}</style>" +
-                                            chain("<g/>", 300) + "<path d='M0 0h9v9'/>"));
+        const auto items =
+            itemsOf(loadBody("<style>" + many + "path{fill:#f00}" + some + "path{fill:#00f}</style>" +
+                             chain("<g/>", 300) + "<path d='M0 0h9v9'/>"));
         ASSERT_EQ(items.size(), 1u);
         EXPECT_EQ(std::get<scene::Color>(items[0].paint), (scene::Color{0, 0, 1, 1}));
     });

@@ -1,7 +1,7 @@
 #include "tools/src/limits.hpp"
 
+#include <cstdio>
 #include <cstdlib>
-#include <mutex>
 
 #include <malloc.h>
 #include <unistd.h>
@@ -18,9 +18,6 @@ struct Allowance {
     double megabytes = 4096;
 };
 Allowance allowance;
-
-std::mutex temporaryMutex;
-std::string temporaryFile;
 
 double parseLimit(const char* option, const std::string& text) {
     if (text == "none")
@@ -40,12 +37,9 @@ std::string optionOf(const limits::Exceeded& exceeded) {
 
 /// Ends the process at once: nothing is freed, no other thread is waited for.
 [[noreturn]] void giveUp(const std::string& message) {
-    const std::lock_guard lock(temporaryMutex);
-    if (!temporaryFile.empty())
-        unlink(temporaryFile.c_str());
     const std::string line = message + "\n";
-    const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
-    _exit(written < 0 ? badInput : badInput);
+    std::fwrite(line.data(), 1, line.size(), stderr);  // unbuffered
+    _exit(badInput);
 }
 
 limits::Limits limitsOf(const std::string& path, bool alone) {
@@ -93,11 +87,6 @@ std::string describe(const std::string& path, const limits::Exceeded& exceeded) 
     if (exceeded.limit() == limits::Limit::Cancelled)
         return fmt::format("{}: cancelled{}", where, exceeded.during());
     return fmt::format("{}: {}: exceeded{}", where, optionOf(exceeded), exceeded.during());
-}
-
-void setTemporaryFile(const std::string& path) {
-    const std::lock_guard lock(temporaryMutex);
-    temporaryFile = path;
 }
 
 }  // namespace vtm::tools

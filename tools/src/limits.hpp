@@ -35,7 +35,4 @@ double secondsForFirstTry();
 /// `a.svg:3:5: --max-seconds 4: exceeded while stroking <path>`
 std::string describe(const std::string& path, const limits::Exceeded& exceeded);
 
-/// A file to be removed if the process is ended by the limits; empty: none.
-void setTemporaryFile(const std::string& path);
-
 }  // namespace vtm::tools
