@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <optional>
 
 #include "compiler/compile.hpp"
 #include "compiler/paper.hpp"

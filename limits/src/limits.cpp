@@ -28,6 +28,19 @@ double cpuSeconds() { return secondsOf(CLOCK_PROCESS_CPUTIME_ID); }
 
 thread_local constinit Context context;
 
+/// The process's CPU time when the budget was found to be exceeded. A budget's watcher has a thread of its
+/// own.
+thread_local constinit double cpuAtStop = 0;
+
+/// Beyond the limit, and after the work has had time on a processor to see it: where many wait for one, it
+/// may have had none.
+bool isLate(double used, double limit) {
+    constexpr double toSee = 0.05;   // seconds
+    constexpr double starved = 1.2;  // times the limit
+    return limit > 0 && used > Limits::overrun * limit &&
+           (cpuSeconds() - cpuAtStop > toSee || used > starved * limit);
+}
+
 Place placeItself(const void* place) { return *static_cast<const Place*>(place); }
 
 Place placeOf(const Work& work) { return work.place ? work.place(work.of) : Place{}; }
@@ -141,8 +154,10 @@ void Budget::begin(const char* stage) const {
 void Budget::watch() {
     std::unique_lock lock(mutex_);
     while (!ended_.wait_for(lock, interval, [this] { return isEnding_; })) {
-        if (!isExceeded())
+        if (!isExceeded()) {
             measure();
+            cpuAtStop = cpuSeconds();
+        }
         measureOverrun();
     }
 }
@@ -163,11 +178,10 @@ void Budget::measure() {
 void Budget::measureOverrun() {
     if (!limits_.overrunHandler || overrun_ || !isExceeded())
         return;
-    const bool late = limits_.seconds > 0 && seconds() > Limits::overrun * limits_.seconds;
     const bool large =
         limits_.memoryBytes > 0 &&
         static_cast<double>(residentBytes()) > Limits::overrun * static_cast<double>(limits_.memoryBytes);
-    overrun_ = late || large;
+    overrun_ = isLate(seconds(), limits_.seconds) || large;
     if (!overrun_)
         return;
     const std::lock_guard lock(thrownMutex_);
