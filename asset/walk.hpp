@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "asset/asset.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::asset {
 
@@ -14,6 +15,7 @@ namespace vtm::asset {
 template <class Visit>
 void walk(const AssetView& asset, Entry entry, Visit&& visit, Cell cell = {}) {
     if (entry.kind() != Entry::Kind::Node) {
+        limits::check();
         visit(cell, entry);
         return;
     }

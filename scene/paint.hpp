@@ -10,6 +10,7 @@
 
 #include "image/bitmap.hpp"
 #include "scene/affine.hpp"
+#include "scene/nested.hpp"
 #include "scene/path.hpp"
 
 namespace vtm::scene {
@@ -53,8 +54,8 @@ struct RadialGradient {
 
 /// A group repeated with the period of a rectangle, clipped to it in each tile.
 struct Pattern {
-    Point min, max;                        ///< the tile, in pattern space; max > min in both axes
-    std::shared_ptr<const Group> content;  ///< absolute in pattern space
+    Point min, max;       ///< the tile, in pattern space; max > min in both axes
+    Link<Group> content;  ///< absolute in pattern space
     Affine transform = identity;
 };
 

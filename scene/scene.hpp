@@ -12,7 +12,9 @@
 #include <variant>
 #include <vector>
 
+#include "limits/limits.hpp"
 #include "scene/affine.hpp"
+#include "scene/nested.hpp"
 #include "scene/paint.hpp"
 #include "scene/path.hpp"
 #include "scene/stroke.hpp"
@@ -54,7 +56,8 @@ struct Item {
     Affine transform = identity;       ///< path space to picture
     std::variant<FillRule, StrokeStyle> geometry;
     Paint paint;
-    float opacity = 1;  ///< multiplies the paint's alpha, in [0, 1]
+    float opacity = 1;      ///< multiplies the paint's alpha, in [0, 1]
+    limits::Place place{};  ///< in the file it comes from, for messages; no part of the picture
 };
 
 struct ClipShape;
@@ -63,14 +66,15 @@ struct ClipShape;
 /// everything away.
 struct Clip {
     std::vector<ClipShape> shapes;
-    std::shared_ptr<const Clip> clip;  ///< may be null
+    Link<Clip> clip;  ///< may be null
 };
 
 struct ClipShape {
     std::shared_ptr<const Path> path;
     Affine transform = identity;
     FillRule rule = FillRule::NonZero;
-    std::shared_ptr<const Clip> clip;  ///< may be null
+    Link<Clip> clip;        ///< may be null
+    limits::Place place{};  ///< as an item's
 };
 
 enum class MaskKind { Luminance, Alpha };
@@ -79,21 +83,34 @@ enum class MaskKind { Luminance, Alpha };
 /// Luminance: 0.2126 R + 0.7152 G + 0.0722 B of the group's premultiplied colour, on sRGB bytes or,
 /// with `linear`, on linear light.
 struct Mask {
-    std::shared_ptr<const Group> content;
+    Link<Group> content;
     MaskKind kind = MaskKind::Luminance;
     bool linear = false;
 };
 
 struct Node;
 
+/// A vector of nodes that may be groups. Copying one that is nested beyond 2 maxNesting throws InvalidScene.
+class NodeList : public std::vector<Node> {
+public:
+    using std::vector<Node>::vector;
+    NodeList() = default;
+    NodeList(std::vector<Node> nodes) noexcept : std::vector<Node>(std::move(nodes)) {}
+    NodeList(const NodeList& other);
+    NodeList(NodeList&&) noexcept = default;
+    NodeList& operator=(const NodeList& other);
+    NodeList& operator=(NodeList&&) noexcept = default;
+    ~NodeList();
+};
+
 /// An isolated group: its children are composited on transparent black; the result is cut by `clip`,
 /// multiplied by `mask` and `opacity`, and blended with what lies below.
 struct Group {
-    std::vector<Node> children;
+    NodeList children;
     float opacity = 1;
     BlendMode blend = BlendMode::Normal;
-    std::shared_ptr<const Clip> clip;  ///< may be null
-    std::shared_ptr<const Mask> mask;  ///< may be null
+    Link<Clip> clip;  ///< may be null
+    Link<Mask> mask;  ///< may be null
 };
 
 /// One of two pictures at every point: `inside` where the mask is inside, `outside` elsewhere. It is a
@@ -101,7 +118,7 @@ struct Group {
 /// was chosen lies over what is below. Source: Ray et al. 2005, the shader algebra b·c1 + (1-b)·c2.
 struct Select {
     Shape mask;
-    std::shared_ptr<const Group> inside, outside;  ///< null: nothing
+    Link<Group> inside, outside;  ///< null: nothing
 };
 
 struct Node {
@@ -127,7 +144,7 @@ class InvalidScene : public std::runtime_error {
 /// Levels of groups, selections and clips inside each other, those of masks and patterns included.
 inline constexpr int maxNesting = 1024;
 
-/// Throws InvalidScene unless every rule of docs/scene.md holds.
+/// Throws InvalidScene unless every rule of docs/scene.md holds, and limits::Exceeded under a budget.
 void validate(const Scene& scene);
 
 /// The same, but for paths that `isKnown` to be valid.

@@ -64,7 +64,9 @@ struct Options {
 /// Limits for hostile files, all of them errors or warnings, never silence.
 struct Limits {
     static constexpr std::size_t maxBytes = 256u << 20;
-    static constexpr int maxDepth = 256;                ///< nesting of elements
+    /// Nesting of elements, `use`, clipPath, mask, pattern, marker and image followed.
+    static constexpr int maxDepth = 256;
+    static constexpr std::size_t maxCompounds = 256;    ///< of one selector: `a b > c` has three
     static constexpr std::size_t maxNodes = 1'000'000;  ///< elements visited, `use` expanded
 };
 
@@ -73,7 +75,8 @@ struct Document {
     std::vector<Warning> warnings;
 };
 
-/// Throws ParseError. `bytes` may be gzip-compressed (SVGZ).
+/// Throws ParseError, and limits::Exceeded under a budget (limits/limits.hpp). `bytes` may be gzip-compressed
+/// (SVGZ).
 Document load(std::span<const std::uint8_t> bytes, const Options& options = {});
 
 }  // namespace vtm::svg

@@ -20,21 +20,22 @@ import sys
 import tempfile
 
 MODULES = {
-    "image": set(),
-    "scene": {"image"},
-    "svg": {"scene", "image"},
-    "asset": {"image"},
-    "compiler": {"scene", "asset", "image"},
-    "api": {"scene", "compiler", "asset", "image"},
-    "api/openvg": {"scene", "compiler", "asset", "image"},
+    "limits": set(),
+    "image": {"limits"},
+    "scene": {"image", "limits"},
+    "svg": {"scene", "image", "limits"},
+    "asset": {"image", "limits"},
+    "compiler": {"scene", "asset", "image", "limits"},
+    "api": {"scene", "compiler", "asset", "image", "limits"},
+    "api/openvg": {"scene", "compiler", "asset", "image", "limits"},
     "api/egl": set(),
     "api/gles": {"asset", "image", "backend_gl"},
-    "backend_gl": {"asset", "image"},
-    "trace": {"scene", "image"},
-    "conformance/generate": {"scene", "image"},
-    "conformance/reference": {"scene", "image"},
-    "conformance/compare": {"image"},
-    "conformance/vgscript": {"svg", "scene", "image"},
+    "backend_gl": {"asset", "image", "limits"},
+    "trace": {"scene", "image", "limits"},
+    "conformance/generate": {"scene", "image", "limits"},
+    "conformance/reference": {"scene", "image", "limits"},
+    "conformance/compare": {"image", "limits"},
+    "conformance/vgscript": {"svg", "scene", "image", "limits"},
 }
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
@@ -67,8 +68,9 @@ LIBRARIES = {
     r"potracelib\.h": {"trace"},
     r"emmintrin\.h": {"asset", "compiler"},
     r"linux/magic\.h": {"image"},
+    r"malloc\.h": {"limits", "tools"},
     r"fnmatch\.h": {"conformance/runner"},
-    r"unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
+    r"pthread\.h|unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }
 GENERATED = {"vg_constants.inc", "vg_functions.inc"}  # made by a module for itself when it is built
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder

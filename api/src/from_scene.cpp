@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "api/src/level.hpp"
 #include "api/vtm.hpp"
 
 namespace vtm {
@@ -16,6 +17,7 @@ public:
 
 private:
     Vtm children(const scene::Group& group) {
+        const Level level(depth_);
         Vtm below;
         for (const scene::Node& node : group.children)
             below = std::visit([&](const auto& value) { return lay(value, std::move(below)); }, node.value);
@@ -46,6 +48,7 @@ private:
     }
 
     std::map<const scene::Group*, Vtm> sides_;
+    int depth_ = 0;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <array>
 #include <map>
 
+#include "api/src/level.hpp"
 #include "api/src/place.hpp"
 #include "api/vtm.hpp"
 
@@ -81,11 +82,10 @@ public:
 private:
     /// In painter's order. Goes down a chain from the top without recursion.
     Nodes nodes(const Vtm& vtm, const Affine& at) {
-        if (++depth_ > scene::maxNesting)
-            throw scene::InvalidScene("selections and layers nest more than " +
-                                      std::to_string(scene::maxNesting) + " levels deep");
+        const Level level(depth_);
         std::vector<Nodes> fromTop;
         for (Found next = found(vtm, at); next.node != nullptr;) {
+            limits::check();
             const auto [node, place] = next;
             next = {nullptr, place};
             if (const auto* paint = as<PaintNode>(node)) {
@@ -106,7 +106,6 @@ private:
                 }
             }
         }
-        --depth_;
         Nodes all;
         for (auto part = fromTop.rbegin(); part != fromTop.rend(); ++part)
             std::move(part->begin(), part->end(), std::back_inserter(all));

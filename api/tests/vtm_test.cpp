@@ -126,6 +126,50 @@ TEST(Vtm, NestingBeyondTheScenesLimitIsAnError) {
     EXPECT_THROW(part.toScene(side, side), scene::InvalidScene);
 }
 
+constexpr int million = 1'000'000;
+
+TEST(Vtm, AMillionSelectionsInEachOther) {
+    const Mask mask = box({0, 0}, {1, 1});
+    const Vtm paint = Vtm::paint(blue);
+    Vtm inside = Vtm::paint(red), outside = inside, placed = inside, layers = inside;
+    for (int i = 0; i < million; ++i) {
+        inside = Vtm::select(mask, inside, paint);
+        outside = Vtm::select(mask, paint, outside);
+        placed = placed.placed(scene::translation(1, 0));
+        layers = Vtm::layer(layers, paint, {0.5f});
+    }
+    EXPECT_THROW(inside.toScene(side, side), scene::InvalidScene);
+    EXPECT_THROW(outside.toScene(side, side), scene::InvalidScene);
+    EXPECT_THROW(layers.toScene(side, side), scene::InvalidScene);
+    EXPECT_EQ(placed.toScene(side, side).root.children.size(), 1u);
+}
+
+TEST(Vtm, AMillionLayersOverEachOther) {
+    const Mask mask = box({0, 0}, {1, 1});
+    Vtm chain = Vtm::paint(red);
+    for (int i = 0; i < million; ++i)
+        chain = Vtm::select(mask, Vtm::over(Vtm::paint(blue), chain), chain);
+    EXPECT_EQ(chain.toScene(side, side).root.children.size(), std::size_t{million} + 1);
+}
+
+TEST(Vtm, AMillionGroupsClipsOrMasksInEachOther) {
+    scene::Scene deep{1, 1, {}};
+    Compositing clipped, masked;
+    for (int i = 0; i < million; ++i) {
+        scene::Group outer, hidden;
+        outer.children.push_back({std::move(deep.root)});
+        deep.root = std::move(outer);
+        clipped.clip = std::make_shared<const scene::Clip>(scene::Clip{{}, clipped.clip});
+        hidden.mask = masked.mask;
+        masked.mask = std::make_shared<const scene::Mask>(
+            scene::Mask{std::make_shared<const scene::Group>(std::move(hidden))});
+    }
+    EXPECT_THROW(Vtm::fromScene(deep), scene::InvalidScene);
+    const auto at = scene::translation(1, 0);
+    for (const Compositing& how : {clipped, masked})
+        EXPECT_THROW(Vtm::layer(Vtm::paint(red), {}, how).placed(at).toScene(side, side), scene::InvalidScene);
+}
+
 TEST(Vtm, MaterialsAndImagesReachTheAsset) {
     const Vtm vtm = Vtm::select(box({0, 0}, {32, 64}),
                                 Vtm::material("plain", "vec4 plain(vec2 p) { return vec4(1.0); }", green),

@@ -19,6 +19,7 @@
 #include "asset/src/row_sums.hpp"
 #include "asset/steepness.hpp"
 #include "asset/walk.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::asset {
 
@@ -289,6 +290,7 @@ void addLeaf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const Pi
     const std::vector<std::uint32_t> steep = drawn.steepPaints(entry);
     for (int y = box.min.y; y < box.max.y; ++y)
         for (int x = box.min.x; x < box.max.x; ++x) {
+            limits::check();
             const LeafFrame frame{glm::mat2(placed.linear), vec2(placed.origin - dvec2(x, y))};
             const Overlap overlap = overlapOf(placed, frame);
             if (overlap.empty())

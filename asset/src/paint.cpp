@@ -8,6 +8,7 @@
 
 #include "asset/src/blend.hpp"
 #include "asset/src/gradient.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::asset {
 
@@ -219,8 +220,10 @@ void Paints::run(const Paint& program, Places places, std::span<Float4> colors,
         const std::size_t count = std::min(longestRow, colors.size() - done);
         Stack stack(colors.subspan(done, count));
         const Places part = places.part(done, count);
-        for (std::uint32_t i = program[0]; i < program[0] + program[1]; ++i)
+        for (std::uint32_t i = program[0]; i < program[0] + program[1]; ++i) {
+            limits::check();
             execute(*this, recordAt<Instruction>(asset_.data, i), part, materials, stack);
+        }
         stack.filledRow(0);
     }
 }

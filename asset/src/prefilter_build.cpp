@@ -9,6 +9,7 @@
 #include "asset/evaluate.hpp"
 #include "asset/prefilter.hpp"
 #include "asset/src/paint.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::asset {
 
@@ -57,7 +58,8 @@ void inParallel(std::uint32_t count, unsigned threads, Work&& work) {
     std::atomic<std::uint32_t> next = 0;
     std::exception_ptr failure;
     std::mutex failureLock;
-    const auto run = [&] {
+    const auto run = [&, holding = limits::current()] {
+        const limits::Scope scope(holding);
         try {
             for (std::uint32_t i = next++; i < count; i = next++)
                 work(i);

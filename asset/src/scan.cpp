@@ -20,6 +20,7 @@
 #include "asset/src/scan_programs.hpp"
 #include "asset/src/scan_stores.hpp"
 #include "asset/steepness.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::asset {
 
@@ -121,8 +122,10 @@ public:
     void addPicture() {
         for (const Picture::Drawn& drawn : of_.drawn) {
             Chords chords(drawn.map, view_, scratch_.bands);
-            for (const Boundary& boundary : drawn.boundaries)
+            for (const Boundary& boundary : drawn.boundaries) {
+                limits::check();
                 chords.add(boundary);
+            }
         }
     }
     void addChord(const Chord& chord) { scratch_.bands.add(chord, float(view_.width), float(view_.height)); }
@@ -136,6 +139,7 @@ public:
 private:
     template <class Store>
     void drawBand(int band, Store& store) {
+        limits::check();
         const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
         BandPrograms& programs = scratch_.programs;
         programs.clear();
@@ -252,6 +256,7 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     }
     // An exception loses the scratch, whose sums may be half done.
     std::unique_ptr<Scratch> scratch = takeScratch();
+    const limits::Stage stage("scanning");
     Drawing drawing(*this, view, materials, *scratch, finerLevels(view));
     drawing.addPicture();
     drawing.draw(store);

@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include "asset/src/records.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::asset {
 
@@ -95,6 +96,7 @@ public:
         Change all;
         int layers = 0;
         for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
+            limits::check();
             const auto in = recordAt<Instruction>(asset_.data, i);
             if (in.op == Op::Image && in.opacity > 0)
                 return {};

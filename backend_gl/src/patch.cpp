@@ -11,6 +11,7 @@
 #include "backend_gl/src/patch_pieces.hpp"
 #include "backend_gl/src/patch_texels.hpp"
 #include "backend_gl/src/patch_turns.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::gl {
 
@@ -236,6 +237,7 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
     Patch patch;
     patch.programs = programs;
     for (const PlanarPiece& piece : pieces) {
+        limits::check();
         patch.texels.push_back(geometryTexel(piece));
         patch.texels.push_back(colorTexel(source.asset.paints[piece.left], source.asset.paints[piece.right]));
     }

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "backend_gl/src/constants.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::gl {
 
@@ -47,6 +48,7 @@ std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, g
     std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
     const double side = std::ldexp(double(latticeExtent), -level);
     for (const PlanarPiece& piece : *pieces_) {
+        limits::check();
         const double reach = patchMargin() + piece.bulge() / side;
         const dvec2 least = glm::floor(glm::min(piece.a, piece.b) / side - reach),
                     most = glm::floor(glm::max(piece.a, piece.b) / side + reach);

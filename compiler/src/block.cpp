@@ -81,6 +81,7 @@ PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
 }
 
 PaintId LeafRegions::compute() {
+    limits::check();
     for (std::uint32_t i = 0; i < layers.size(); ++i)
         inside_[layers[i]] = isInside(i);
     return painter_.paint(layers, inside_, *palette_);
@@ -114,6 +115,8 @@ void BlockBuilder::lap(double& stage) {
 
 /// `cell` is culled already if it has strands.
 BlockBuilder::Built BlockBuilder::build(Cell& cell) {
+    const AtCell at("planarising", picture_, cell);
+    limits::check();
     work_.spend(cell.strands.size() * visitWork);
     if (cell.strands.empty())
         return solid(regions_.solid(cell, culler_, tree_.palette), cell.level);
@@ -318,6 +321,7 @@ BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
         regions_.toCorner();
         std::uint32_t local = 0;
         for (const Strand& s : cell.strands) {
+            limits::check();
             while (regions_.layers[local] != s.layer)
                 ++local;
             if (const int winding = windingBetween(points_, s, cell.square.corner(0), p); winding != 0)

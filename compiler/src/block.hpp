@@ -70,7 +70,8 @@ private:
 class BlockBuilder {
 public:
     BlockBuilder(const Picture& picture, const Painter& painter, const TreeOptions& options, WorkLimit& work)
-        : points_(picture.outlines.points),
+        : picture_(picture),
+          points_(picture.outlines.points),
           painter_(painter.clone()),
           options_(options),
           work_(work),
@@ -119,6 +120,7 @@ private:
     Built emit(const Made& made, unsigned level);
     Built emitMean(const Cell& cell);
 
+    const Picture& picture_;
     const Points points_;
     const std::unique_ptr<Painter> painter_;
     const TreeOptions& options_;

@@ -138,6 +138,7 @@ Cell rootCell(const Picture& picture, const Square& square, std::span<const std:
         for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
             const Run& run = picture.outlines.runs[r];
             const Strand whole{run.first, run.last, index};
+            limits::check();
             // From a point left of everything, where the winding is zero.
             winding += windingAlongX(points, whole, square.y0, square.x0 - outside, square.x0);
             const Strand part = narrowed(points, whole, square);
@@ -174,6 +175,7 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
             base = (known++)->winding;
         std::array<int, 16> windings;
         windings.fill(base);
+        limits::check();
         for (; s < cell.strands.size() && cell.strands[s].layer == layer; ++s)
             splitter.push(cell.strands[s], windings);
         for (std::size_t i = 0; i < 16; ++i)
@@ -181,6 +183,20 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
                 children[i].windings.push_back({layer, windings[i]});
     }
     copyKnown(none);
+}
+
+limits::Place AtCell::place(const void* self) {
+    const auto& [picture, cell, stage] = *static_cast<const AtCell*>(self);
+    std::uint32_t largest = none;
+    std::size_t most = 0, count = 0;
+    for (std::size_t i = 0; i < cell.strands.size(); ++i) {
+        const Strand& s = cell.strands[i];
+        const bool isNew = i == 0 || cell.strands[i - 1].layer != s.layer;
+        count = (isNew ? 0 : count) + s.last - s.first;
+        if (count > most)
+            most = count, largest = s.layer;
+    }
+    return largest == none ? limits::Place{} : picture.layers[largest].place;
 }
 
 void listLayers(const Cell& cell, std::vector<std::uint32_t>& layers) {

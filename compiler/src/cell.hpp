@@ -32,6 +32,20 @@ Cell rootCell(const Picture& picture, const Square& square, std::span<const std:
 void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children);
 
 /// Replaces `layers` by the cell's layers, ascending.
+/// For messages: says that work is at a cell. Its place is that of the layer with the most chords in it.
+class AtCell {
+public:
+    AtCell(const char* stage, const Picture& picture, const Cell& cell)
+        : picture_(picture), cell_(cell), stage_(stage, place, this) {}
+
+private:
+    static limits::Place place(const void* self);
+
+    const Picture& picture_;
+    const Cell& cell_;
+    const limits::Stage stage_;
+};
+
 void listLayers(const Cell& cell, std::vector<std::uint32_t>& layers);
 
 }  // namespace vtm::compiler

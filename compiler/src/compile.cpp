@@ -179,6 +179,7 @@ private:
 
 Result compile(const scene::Scene& scene, const Options& options) {
     checkOptions(options);
+    const limits::Stage stage("compiling");
     scene::validate(scene);
     return compileExcerpt(scene, wholeOf(scene), options);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/src/walk_items.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -194,6 +195,7 @@ PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
     Compositor compositor(picture);
     ItemWalk<Compositor> walk(picture, compositor);
     for (std::uint32_t index : items) {
+        limits::check();
         const PictureItem& item = picture.items[index];
         if (in(item.layer) && insideClips(picture, item.group, in))
             walk.item(item);
@@ -204,6 +206,7 @@ PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
 }
 
 PaintProgram compositeItems(const Picture& picture, std::span<const std::uint32_t> items) {
+    limits::check();
     Compositor compositor(picture);
     ItemWalk<Compositor> walk(picture, compositor);
     for (std::uint32_t index : items)

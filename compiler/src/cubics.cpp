@@ -1,4 +1,5 @@
 #include "compiler/src/cubics.hpp"
+#include "limits/limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -138,8 +139,10 @@ scene::Affine withoutFarAway(scene::Affine m) {
 
 void walkCurves(const scene::Path& path, const Affine& map, CurveSink& sink, double arcTolerance) {
     Walker walker(sink, withoutFarAway(map), arcTolerance);
-    for (const scene::Command& command : path)
+    for (const scene::Command& command : path) {
+        limits::check();
         std::visit(walker, command);
+    }
     walker.close();
 }
 

@@ -101,8 +101,10 @@ private:
         tbb::enumerable_thread_specific<Worker> workers(
             [&] { return Worker(picture_, painter, treeOptions_, work); });
         const auto start = Clock::now();
-        tbb::parallel_for(std::size_t{0}, dirty.size(),
-                          [&](std::size_t i) { trees[i] = workers.local().run(dirty[i]->cell); });
+        tbb::parallel_for(std::size_t{0}, dirty.size(), [&, holding = limits::current()](std::size_t i) {
+            const limits::Scope scope(holding);
+            trees[i] = workers.local().run(dirty[i]->cell);
+        });
         const double wall = milliseconds(start, Clock::now());
         TreeTimes sum;
         for (const Worker& worker : workers)

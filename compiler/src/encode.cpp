@@ -1,4 +1,5 @@
 #include "compiler/src/encode.hpp"
+#include "limits/limits.hpp"
 
 #include <string>
 
@@ -23,12 +24,16 @@ asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints,
         }
         return Entry::make(e.kind(), e.payload() + nodes);
     };
+    limits::need(tree.nodes.size() * sizeof(asset::Node) + tree.leaves.size() * sizeof(asset::Leaf) +
+                 tree.pieces.size() * sizeof(asset::Piece));
     for (asset::Node node : tree.nodes) {
+        limits::check();
         for (Entry& e : node.children)
             e = entry(e);
         asset.nodes.push_back(node);
     }
     for (const Tree::Leaf& l : tree.leaves) {
+        limits::check();
         asset::Leaf leaf;
         leaf.firstPiece = l.firstPiece + pieces;
         leaf.pieceCount = static_cast<std::uint16_t>(l.pieceCount);

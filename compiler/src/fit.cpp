@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/src/pairs.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -24,8 +25,10 @@ const FittedLeaf& Fitter::run(const Square& square, const PlanarLeaf& leaf, doub
     leaf_.corners = leaf.corners;
     chains_.link(leaf, square, scale_);
     cutSlivers();
-    for (const Chain& chain : chains_.all)
+    for (const Chain& chain : chains_.all) {
+        limits::check();
         fit(chain);
+    }
     return leaf_;
 }
 

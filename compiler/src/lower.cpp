@@ -62,6 +62,7 @@ public:
 private:
     void children(const scene::Group& g, const Affine& outer, std::uint32_t into) {
         for (std::size_t i = 0; i < g.children.size(); ++i) {
+            limits::check();
             const scene::Node& node = g.children[i];
             if (const auto* item = std::get_if<scene::Item>(&node.value)) {
                 const auto* next =
@@ -93,6 +94,7 @@ private:
 
     /// Two groups in one, clipped by the same layer and by its complement.
     void select(const scene::Select& s, const Affine& outer, std::uint32_t into) {
+        place_ = {};
         const std::uint32_t both = openGroup(into);
         const std::uint32_t mask = geometryLayer(s.mask, compose(outer, s.mask.transform));
         side(s.inside, {mask, none, false}, outer, both);
@@ -132,6 +134,7 @@ private:
         ClipExpression expression;
         for (const scene::ClipShape& shape : c.shapes) {
             ClipExpression::Term term;
+            place_ = shape.place;
             term.layer = layer({shape.path, compose(outer, shape.transform)}, shape.rule);
             if (shape.clip)
                 term.clip = clip(*shape.clip, outer);
@@ -159,6 +162,7 @@ private:
     /// Two items. The fill gets outlines of the stroke's where these will do.
     void fillBelowStroke(const scene::Item& fill, const scene::Item& stroke, const Affine& outer,
                          std::uint32_t into) {
+        place_ = fill.place;
         const Affine transform = compose(outer, fill.transform);
         const auto fillSource = paints_.add(fill.paint, transform),
                    strokeSource = paints_.add(stroke.paint, transform);
@@ -180,6 +184,7 @@ private:
     }
 
     void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
+        place_ = item.place;
         const Affine transform = outer == scene::identity ? item.transform : compose(outer, item.transform);
         if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
             patternItem(item, *pattern, transform, into);
@@ -226,6 +231,7 @@ private:
 
     void tile(const scene::Pattern& pattern, const std::shared_ptr<const Path>& border,
               const Affine& toPicture, std::uint32_t into) {
+        limits::check();
         const std::uint32_t index = openGroup(into);
         const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
         picture_.groups[index].clip = push({{{cut, none, false}}, none});
@@ -253,7 +259,7 @@ private:
     }
 
     std::uint32_t addLayer(RunRange runs, scene::FillRule rule) {
-        picture_.layers.push_back({rule, runs.first, runs.count});
+        picture_.layers.push_back({rule, runs.first, runs.count, place_});
         checkLimits();
         picture_.itemOfLayer.push_back(none);
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
@@ -261,6 +267,7 @@ private:
 
     /// `sides`: of a stroke, what addStroke returns.
     RunRange outline(const OutlineOrigin& origin, std::optional<std::uint32_t>* sides = nullptr) {
+        const limits::Stage stage(origin.stroke ? "stroking" : "flattening", place_);
         const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
         if (!origin.stroke) {
             addOutline(picture_.outlines, *origin.path, toSteps(origin), budget_.fillChords(),
@@ -315,6 +322,7 @@ private:
     const Box frame_;
     const bool isPart_;
     OutlineCache* const cache_;
+    limits::Place place_;  ///< of what is being lowered
     Picture picture_;
     PaintTable paints_;
 };

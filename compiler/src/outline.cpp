@@ -12,6 +12,7 @@
 #include "compiler/src/error_budget.hpp"
 #include "compiler/src/stroke_chords.hpp"
 #include "compiler/src/stroke_near.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -72,6 +73,8 @@ public:
 
     /// Where the line so far and its next points are known to be inside the box.
     void linesInside(std::span<const Point> to) {
+        limits::check();
+        askFor(to.size());
         const std::size_t before = points_.size();
         points_.resize(before + to.size());
         LatticePoint* const first = points_.data() + before;
@@ -183,7 +186,14 @@ private:
             endRun();
             taken_.take(from, to);
         }
+        askFor(1);
         points_.push_back(to);
+    }
+
+    /// Of the budget, before the vector moves to a larger place.
+    void askFor(std::size_t more) const {
+        if (points_.size() + more > points_.capacity())
+            limits::need(2 * points_.capacity() * sizeof(LatticePoint));
     }
 
     void endRun() {
@@ -234,6 +244,7 @@ public:
 
 private:
     void flatten(const Cubic& c, int halvings) {
+        limits::check();
         if (halvings == 0 || isFlat(c, tolerance_) || sink_.keepsBeyond(c))
             return sink_.line(c[3]);
         const bool isInside = sink_.keepsInside(c);

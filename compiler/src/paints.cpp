@@ -87,6 +87,7 @@ std::uint32_t PaintTable::record(asset::Gradient gradient, const std::vector<Gra
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
     gradient.stopCount = static_cast<std::uint32_t>(stops.size());
     append(picture_.data, gradient);
+    limits::check();
     for (const GradientStop& s : stops)
         append(picture_.data, asset::GradientStop{s.offset,
                                                   {unorm16(s.color.r), unorm16(s.color.g), unorm16(s.color.b),

@@ -5,6 +5,7 @@
 
 #include "compiler/compile.hpp"
 #include "compiler/src/hash.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -70,6 +71,7 @@ float gridFor(const Palette& palette) {
     for (float levels = 4095;; levels = (levels + 1) / 2 - 1) {
         Palette coarse;
         for (PaintId i = 0; i < palette.size() && coarse.size() <= mostPaints; ++i) {
+            limits::check();
             const PaintProgram& p = palette[i];
             if (Palette::isConstant(p))
                 coarse.solid(rounded(Palette::colorOf(p), levels));
@@ -86,6 +88,7 @@ float gridFor(const Palette& palette) {
 }  // namespace
 
 PaintId Palette::intern(const PaintProgram& program) {
+    limits::check();
     const auto [found, isNew] = index_.try_emplace(keyOf(program), static_cast<PaintId>(paints_.size()));
     if (isNew)
         paints_.push_back(program);
@@ -115,12 +118,14 @@ asset::Paint encodePaint(const PaintProgram& program, std::vector<asset::Texel>&
 }
 
 std::vector<std::uint16_t> encodePalette(const Palette& palette, asset::Asset& asset, float& error) {
+    const limits::Stage stage("encoding paints");
     const float levels = gridFor(palette);
     error = levels > 0 ? 0.5f / levels : 0;
     std::vector<std::uint16_t> indices;
     Palette written;
     asset.paints.push_back(solidPaint({}));
     for (PaintId i = 0; i < palette.size(); ++i) {
+        limits::check();
         const PaintProgram& p = palette[i];
         const bool constant = Palette::isConstant(p);
         const Color color = constant ? Palette::colorOf(p) : Color{};

@@ -99,6 +99,7 @@ private:
             ++missing_[{"masks by luminance or alpha", "drawn without"}];
         std::uint32_t inside = rest;
         for (const scene::Node& node : g.children) {
+            limits::check();
             if (const auto* item = std::get_if<scene::Item>(&node.value))
                 inside = this->item(*item, inside);
             else if (const auto* chosen = std::get_if<scene::Select>(&node.value))
@@ -125,6 +126,7 @@ private:
     }
 
     std::uint32_t item(const scene::Item& item, std::uint32_t rest) {
+        const limits::Stage stage("making the mask of", item.place);
         if (std::holds_alternative<scene::Pattern>(item.paint))
             ++missing_[{"patterns", "not drawn"}];
         const std::uint32_t paint = palette_.add(item.paint, item.transform);
@@ -158,6 +160,7 @@ private:
     }
 
     std::uint32_t push(const PaperNode& node) {
+        limits::check();
         result_.asset.nodes.push_back(node);
         return std::uint32_t(result_.asset.nodes.size() - 1);
     }

@@ -49,6 +49,7 @@ class Rewriting {
 public:
     Group numbered(const Group& group) {
         Group result = frameOf(group);
+        limits::check();
         for (const Node& node : group.children)
             result.children.push_back(
                 std::visit([&](const auto& value) { return numberedNode(value); }, node.value));
@@ -94,6 +95,7 @@ private:
         Group result = frameOf(group);
         if (group.opacity == 0)
             return result;
+        limits::check();
         for (const Node& node : group.children)
             if (const auto* item = std::get_if<Item>(&node.value)) {
                 if (item->opacity * alphaOf(item->paint) == 0)

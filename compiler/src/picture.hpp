@@ -15,6 +15,7 @@
 #include "asset/asset.hpp"
 #include "compiler/src/error_budget.hpp"
 #include "compiler/src/outline.hpp"
+#include "limits/limits.hpp"
 #include "scene/scene.hpp"
 
 namespace vtm::compiler {
@@ -37,6 +38,7 @@ inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 struct Layer {
     scene::FillRule rule = scene::FillRule::NonZero;
     std::uint32_t firstRun = 0, runCount = 0;  ///< of Picture::outlines
+    limits::Place place{};                     ///< of the item or the clip's shape, for messages
 };
 
 /// What an item is painted with.

@@ -1,4 +1,5 @@
 #include "compiler/src/planar.hpp"
+#include "limits/limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,7 @@ bool Planariser::isBefore(const Place& f, const Place& e) {
 }
 
 void Planariser::sweepTo(std::uint32_t index) {
+    limits::check();
     const std::vector<Edge>& edges = leaf_.set->edges;
     const Edge& e = edges[index];
     const Axis axis{e.a.y != e.b.y};
@@ -153,6 +155,7 @@ void Planariser::arrive(EdgeEnd end) {
 /// here, then cross it.
 void Planariser::walk() {
     while (!visits_.empty()) {
+        limits::check();
         Visit& visit = visits_.back();
         const std::uint32_t next =
             (visit.at == 0 ? static_cast<std::uint32_t>(visit.ends.size()) : visit.at) - 1;

@@ -6,6 +6,7 @@
 
 #include "compiler/src/chord_relations.hpp"
 #include "compiler/src/clip.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -182,6 +183,7 @@ bool Snapper::meetAll() {
     for (const Edge& e : edges)
         bands_.push_back(bandOf(e));
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        limits::check();
         std::size_t end = i + 1;
         while (end < edges.size() && left_[end] <= right_[i])
             ++end;

@@ -25,6 +25,7 @@
 #include "compiler/src/stroke_near.hpp"
 #include "compiler/src/stroke_offset.hpp"
 #include "compiler/src/stroke_subpath.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 
@@ -104,6 +105,7 @@ private:
         ribbon_.left.start = first + side;
         ribbon_.right.start = first - side;
         for (std::size_t i = 0; i < segments.size(); ++i) {
+            limits::check();
             if (i > 0)
                 joinSegments(segments[i - 1], segments[i]);
             sides(segments[i]);
@@ -279,6 +281,7 @@ private:
 
     /// Close draws the last edge where that is a line; a rest that the tolerance hides is taken away.
     void emit(Side& contour) {
+        limits::check();
         auto& ends = contour.ends;
         if (!ends.empty() && glm::distance(contour.end(), contour.start) <= tolerance_ * joinShare)
             ends.back() = contour.start;

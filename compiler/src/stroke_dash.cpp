@@ -8,6 +8,7 @@
 #include "compiler/compile.hpp"
 #include "compiler/src/stroke_subpath.hpp"
 #include "compiler/stroke.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler::stroke {
 
@@ -77,6 +78,7 @@ private:
     void walk(const Segment& segment, double length) {
         double t = 0, rest = length;
         while (pattern_.left() <= rest + snap_) {
+            limits::check();
             const bool atEnd = pattern_.left() >= rest - snap_;
             const double cut = atEnd ? 1 : cutAt(segment, t, pattern_.left(), length, error_);
             draw(segment, t, cut);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/src/stroke_roots.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::compiler::stroke {
 
@@ -154,8 +155,10 @@ double largestCoordinate(const Subpath& subpath) {
 
 std::vector<Subpath> subpaths(const scene::Path& path, double tolerance) {
     Builder builder(tolerance, coincidence * largestCoordinate(path));
-    for (const scene::Command& command : path)
+    for (const scene::Command& command : path) {
+        limits::check();
         std::visit(builder, command);
+    }
     return builder.take();
 }
 

@@ -1,6 +1,7 @@
 #include "compiler/src/tree.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -37,12 +38,15 @@ struct Top {
 class TopBuilder {
 public:
     TopBuilder(const Picture& picture, const Painter& painter, unsigned maxDepth, std::size_t strands)
-        : points_(picture.outlines.points),
+        : picture_(picture),
+          points_(picture.outlines.points),
           cullers_([&] { return CullerOfThread(picture, painter); }),
           most_(std::max(blockStrands, strands / blockShare)),
           deepest_(std::min(blockLevel, maxDepth)) {}
 
     Top run(Cell cell) {
+        const AtCell at("dividing the picture", picture_, cell);
+        limits::check();
         Top top;
         if (!cell.strands.empty())
             cullers_.local().culler.run(cell);
@@ -55,7 +59,10 @@ public:
         const bool onAll = cell.strands.size() > strandsForAll;
         cell = {};
         top.children.resize(16);
-        const auto build = [&](std::size_t i) { top.children[i] = run(std::move((*children)[i])); };
+        const auto build = [&, holding = limits::current()](std::size_t i) {
+            const limits::Scope scope(holding);
+            top.children[i] = run(std::move((*children)[i]));
+        };
         if (onAll)
             tbb::parallel_for(std::size_t{0}, std::size_t{16}, build);
         else
@@ -72,6 +79,7 @@ private:
         Culler culler;
     };
 
+    const Picture& picture_;
     const Points points_;
     tbb::enumerable_thread_specific<CullerOfThread> cullers_;
     const std::size_t most_;
@@ -96,6 +104,8 @@ public:
         std::size_t nodes = 0, leaves = 0, pieces = 0;
         for (const Tree& block : blocks_)
             nodes += block.nodes.size(), leaves += block.leaves.size(), pieces += block.pieces.size();
+        limits::need(nodes * sizeof(asset::Node) + leaves * sizeof(Tree::Leaf) +
+                     pieces * sizeof(Tree::Piece));
         tree_.nodes.reserve(nodes + blocks_.size());  // above blocks: fewer nodes
         tree_.leaves.reserve(leaves);
         tree_.pieces.reserve(pieces);
@@ -129,6 +139,7 @@ private:
     }
 
     Entry copy(const Tree& block, Tree::Leaf leaf) {
+        limits::check();
         const std::uint32_t first = leaf.firstPiece;
         leaf.firstPiece = static_cast<std::uint32_t>(tree_.pieces.size());
         for (PaintId& corner : leaf.corners)
@@ -161,6 +172,7 @@ private:
 
 Tree buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
                const Painter& painter, const TreeOptions& options, TreeTimes& times) {
+    const limits::Stage stage("dividing the picture");
     const auto start = Clock::now();
     WorkLimit work(options.maxWork);
     Cell cell = rootCell(picture, root, layers);
@@ -173,7 +185,10 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
     tbb::enumerable_thread_specific<BlockBuilder> builders(
         [&] { return BlockBuilder(picture, painter, options, work); });
     const auto pushed = Clock::now();
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&, holding = limits::current()](std::size_t i) {
+        const limits::Scope scope(holding);
+        limits::progress(static_cast<double>(done++) / static_cast<double>(blocks.size()));
         blocks[i] = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
     });
     const double wall = milliseconds(pushed, Clock::now());
@@ -182,6 +197,7 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
         sum += b.times();
     times.push += milliseconds(start, pushed);
     times += sum.sharing(wall);
+    const limits::Stage assembling("assembling");
     return Assembler(blocks).run(top);
 }
 

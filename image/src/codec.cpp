@@ -1,6 +1,7 @@
 #include "image/codec.hpp"
 
 #include "image/src/decoders.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::image {
 
@@ -9,6 +10,7 @@ Bitmap makeBitmap(std::int64_t width, std::int64_t height) {
         throw CodecError("the picture has no pixels");
     if (width > maxDecodedPixels || height > maxDecodedPixels || width * height > maxDecodedPixels)
         throw CodecError("the picture is larger than " + std::to_string(maxDecodedPixels) + " pixels");
+    limits::need(static_cast<std::size_t>(width * height) * 4);
     return {static_cast<int>(width), static_cast<int>(height),
             std::vector<std::uint8_t>(static_cast<std::size_t>(width * height) * 4)};
 }

@@ -5,6 +5,7 @@
 
 #include "image/codec.hpp"
 #include "image/src/decoders.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::image {
 namespace {
@@ -61,6 +62,7 @@ Bitmap decodeJpeg(Bytes bytes) {
     decoder.info.out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
     jpeg_start_decompress(&decoder.info);
     while (decoder.info.output_scanline < decoder.info.output_height) {
+        limits::check();
         JSAMPROW row =
             &bitmap.rgba[std::size_t(decoder.info.output_scanline) * std::size_t(bitmap.width) * 4];
         jpeg_read_scanlines(&decoder.info, &row, 1);

@@ -1,4 +1,5 @@
 #include "image/levels.hpp"
+#include "limits/limits.hpp"
 
 #include <algorithm>
 
@@ -68,6 +69,7 @@ std::vector<Level> levelsOf(const Bitmap& bitmap) {
     Pyramid pyramid(bitmap);
     Sums row(std::size_t(bitmap.width) * 4);
     for (std::size_t at = 0; at < bitmap.rgba.size(); at += row.size()) {
+        limits::check();
         for (std::size_t i = 0; i < row.size(); i += 4) {
             const std::uint8_t* p = &bitmap.rgba[at + i];
             for (std::size_t c = 0; c < 3; ++c)

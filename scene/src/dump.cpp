@@ -134,6 +134,7 @@ private:
     }
 
     void node(const Node& n) {
+        limits::check();
         std::visit([this](const auto& value) { write(value); }, n.value);
     }
 

@@ -87,6 +87,7 @@ private:
     }
 
     Height node(const Node& n) {
+        limits::check();
         return std::visit([this](const auto& value) { return check(value); }, n.value);
     }
 
@@ -150,6 +151,7 @@ private:
         ++level_;
         Height height = c.clip ? clip(c.clip) : 0;
         for (std::size_t i = 0; i < c.shapes.size(); ++i) {
+            limits::check();
             enter(std::to_string(i));
             path(c.shapes[i].path);
             report(fault(c.shapes[i]));

@@ -112,11 +112,13 @@ const std::unordered_map<Tag, Kinds>& table() {
 }  // namespace
 
 void checkAttributes(const Tree& tree, Reporter& reporter) {
-    for (const Element& element : tree.elements)
+    for (const Element& element : tree.elements) {
+        limits::check();
         if (const auto kinds = table().find(element.tag); kinds != table().end())
             for (const Kind& kind : kinds->second)
                 if (const auto value = element.find(kind.name); value && !kind.holds(trim(*value)))
                     reporter.warnInvalid(element, kind.name, *value);
+    }
 }
 
 }  // namespace vtm::svg

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "limits/limits.hpp"
+
 namespace vtm::svg {
 namespace {
 
@@ -36,6 +38,7 @@ bool liesInside(const std::vector<scene::Node>& nodes, const scene::Affine& tran
     const scene::Point margin = tolerance * scene::Point(box.width(), box.height());
     const Box grown{box.min - margin, box.max + margin};
     return std::all_of(nodes.begin(), nodes.end(), [&](const scene::Node& node) {
+        limits::check();
         if (const auto* item = std::get_if<scene::Item>(&node.value))
             return grown.contains(itemBox(*item, transform));
         return liesInside(std::get<scene::Group>(node.value).children, transform, box);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "limits/limits.hpp"
 #include "svg/src/css.hpp"
 #include "svg/src/cursor.hpp"
 #include "svg/src/style.hpp"
@@ -137,14 +138,17 @@ void addAll(Element& element, const std::vector<Candidate>& rules, Tree& tree, R
 }  // namespace
 
 void cascade(Tree& tree, Reporter& reporter) {
+    const limits::Stage stage("matching styles");
     const std::vector<Rule> rules = readSheets(tree, reporter);
     SelectorIndex index;
     for (const Rule& rule : rules)
         index.add(rule);
     long steps = maxMatchingSteps;
-    for (Element& element : tree.elements)
+    for (Element& element : tree.elements) {
+        limits::check();
         if (element.tag != Tag::CharacterData)
             addAll(element, index.match(element, steps), tree, reporter);
+    }
     if (steps <= 0)
         reporter.warn(Warning::Kind::Limit, *tree.root,
                       "the style sheets are too expensive to match; some rules are left out");

@@ -28,6 +28,9 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
         reporter_.warn(Kind::Reference, clipPath, "refers to itself in a circle");
         return nullptr;
     }
+    const Level level(*this, clipPath);
+    if (!level)
+        return nullptr;
     Scope inner = scope;
     inner.style = styleOf(clipPath);
     ++inner.depth;
@@ -71,7 +74,7 @@ void Converter::addClipShape(const Element& child, const Scope& parent,
         return;
     const CachedShape own = *shape;  // what the child's own clip draws may replace the cache's entry
     clip.shapes.push_back({own.path, scope->transform, scope->style.clipRule,
-                           intersect(clipOf(child, *scope, *own.box), around)});
+                           intersect(clipOf(child, *scope, *own.box), around), placeOf(child)});
 }
 
 }  // namespace vtm::svg

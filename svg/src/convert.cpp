@@ -55,8 +55,26 @@ Converter::Converter(const Tree& tree, Reporter& reporter, const Options& option
 
 Converter::~Converter() = default;
 
+Converter::Level::Level(Converter& converter, const Element& element)
+    : converter_(converter),
+      element_(element),
+      stage_(
+          "converting",
+          [](const void* level) {
+              const auto& self = *static_cast<const Level*>(level);
+              return self.converter_.placeOf(self.element_);
+          },
+          this) {
+    limits::check();
+    if (++converter_.budget_.level > Limits::maxDepth)
+        converter_.reporter_.warn(Kind::Limit, element, "elements are nested too deep here; it is left out");
+}
+
 void Converter::convertElement(const Element& element, const Scope& parent, Nodes& out) {
     if (!isRendered(element.tag) || !spend())
+        return;
+    const Level level(*this, element);
+    if (!level)
         return;
     const std::optional<Scope> scope = enter(element, parent);
     if (!scope)
@@ -114,10 +132,6 @@ bool Converter::passesConditions(const Element& element) const {
 }
 
 std::optional<Scope> Converter::enter(const Element& element, const Scope& parent) {
-    if (parent.depth >= Limits::maxDepth) {
-        reporter_.warn(Kind::Limit, element, "elements are nested too deep here; it is left out");
-        return std::nullopt;
-    }
     if (!passesConditions(element))
         return std::nullopt;
     Scope scope{computeStyle(element, parent.style, unitsFor(parent.style)), parent.transform,
@@ -174,8 +188,10 @@ LengthReader Converter::lengths(const Element& element, const Scope& scope) cons
 Box Converter::outlineBox(std::size_t first, const scene::Affine& userToPicture) const {
     Box box;
     const std::optional<scene::Affine> toUser = scene::inverse(userToPicture);
-    for (std::size_t i = first; toUser && i < outlines_.size(); ++i)
+    for (std::size_t i = first; toUser && i < outlines_.size(); ++i) {
+        limits::check();
         box.add(boundingBox(*outlines_[i].path, scene::compose(*toUser, outlines_[i].transform)));
+    }
     return box;
 }
 

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "limits/limits.hpp"
 #include "scene/scene.hpp"
 #include "svg/src/element.hpp"
 #include "svg/src/path_geometry.hpp"
@@ -29,6 +30,7 @@ struct Budget {
     std::size_t visits = Limits::maxNodes;  ///< elements still to be visited
     std::int64_t imagePixels = 1 << 26;     ///< still to be decoded
     int imageDepth = 0;                     ///< images in images around this document
+    int level = 0;                          ///< elements and references that are being followed
 };
 
 struct ContextElement;
@@ -60,8 +62,29 @@ public:
     Viewport rootSize() const { return rootSize_; }
     /// Appends the picture; `placement` maps the root viewport's units to where they shall lie.
     void convertRoot(const scene::Affine& placement, Nodes& out);
+    /// For the places of a nested document's items: the image in the outermost file.
+    void standFor(const limits::Place& image) { standsFor_ = image; }
 
 private:
+    limits::Place placeOf(const Element& element) const {
+        return standsFor_ ? *standsFor_ : reporter_.placeOf(element);
+    }
+    /// One level further in, by nesting or by reference, for as long as it lives; false where that is too
+    /// deep, after a warning. Says that the element is being worked on, and checks the budget.
+    class Level {
+    public:
+        Level(Converter& converter, const Element& element);
+        Level(const Level&) = delete;
+        Level& operator=(const Level&) = delete;
+        ~Level() { --converter_.budget_.level; }
+        explicit operator bool() const { return converter_.budget_.level <= Limits::maxDepth; }
+
+    private:
+        Converter& converter_;
+        const Element& element_;
+        const limits::Stage stage_;
+    };
+
     // convert.cpp: elements in general
     void convertElement(const Element& element, const Scope& parent, Nodes& out);
     void convertChildren(const Element& element, const Scope& scope, Nodes& out);
@@ -117,7 +140,8 @@ private:
     ServerResult server(std::string_view href, const Element& element, const Scope& scope, const Box& box);
     std::vector<const Element*> templateChain(const Element& server);
     ServerResult gradient(const Element& server, const Scope& scope, const Box& box);
-    std::vector<scene::GradientStop> gradientStops(const std::vector<const Element*>& chain);
+    const std::vector<scene::GradientStop>& gradientStops(const std::vector<const Element*>& chain);
+    std::vector<scene::GradientStop> stopsIn(const Element& gradient);
     ServerResult pattern(const Element& server, const Scope& scope, const Box& box);
     /// A pattern's content and how many visits it stands for, patterns within patterns expanded.
     struct PatternContent {
@@ -162,8 +186,8 @@ private:
     ImageContent imageContent(std::string_view href, const Element& element);
     ImageContent loadImage(std::string_view href);
     static std::optional<Viewport> sizeOf(const ImageContent& content);
-    void placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Rect& viewport,
-                     const AspectRatio& ratio, const Scope& scope, Nodes& out);
+    void placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Element& element,
+                     const Rect& viewport, const AspectRatio& ratio, const Scope& scope, Nodes& out);
     void placeDocument(NestedDocument& document, const Rect& viewport, const AspectRatio& ratio,
                        const Scope& scope, Nodes& out);
 
@@ -212,10 +236,12 @@ private:
     std::unordered_map<const Element*, Style> styles_;
     std::unordered_map<const Element*, CachedShape> shapes_;
     std::unordered_map<const Element*, PatternContent> patterns_;
+    std::unordered_map<const Element*, std::vector<scene::GradientStop>> stops_;  ///< by their gradient
     std::unordered_map<std::string_view, ImageContent> images_;
     std::unordered_set<const Element*> active_;
     std::vector<Outline> outlines_;
     int outlineListeners_ = 0;
+    std::optional<limits::Place> standsFor_;
 };
 
 /// The paint laid in another space: `change` maps its old path space to the new one.

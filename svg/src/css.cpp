@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "limits/limits.hpp"
 #include "svg/src/cursor.hpp"
 
 namespace vtm::svg {
@@ -69,6 +70,7 @@ void blank(std::string& text, std::string_view open, std::string_view close) {
 std::vector<RawDeclaration> parseDeclarations(std::string_view text) {
     std::vector<RawDeclaration> declarations;
     for (Cursor cursor(text); !cursor.atEnd(); cursor.consume(';')) {
+        limits::check();
         const std::string_view declaration = take(cursor, ";");
         const std::size_t colon = declaration.find(':');
         if (colon == declaration.npos)
@@ -84,6 +86,7 @@ std::vector<Rule> parseStyleSheet(std::string_view text) {
     std::vector<Rule> rules;
     Cursor cursor(text);
     for (cursor.skipSpaces(); !cursor.atEnd(); cursor.skipSpaces()) {
+        limits::check();
         if (cursor.consume('@')) {
             skipAtRule(cursor);
             continue;

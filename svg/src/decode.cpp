@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "limits/limits.hpp"
 #include "svg/src/cursor.hpp"
 
 namespace vtm::svg {
@@ -33,6 +34,7 @@ std::vector<std::uint8_t> gunzip(Bytes bytes, const std::string& fileName) {
     std::vector<std::uint8_t> out;
     std::array<std::uint8_t, 1 << 16> chunk;
     for (int status = Z_OK; status != Z_STREAM_END;) {
+        limits::check();
         stream.next_out = chunk.data();
         stream.avail_out = static_cast<uInt>(chunk.size());
         status = inflate(&stream, Z_NO_FLUSH);
@@ -71,6 +73,7 @@ std::string fromUtf16(Bytes bytes, bool bigEndian) {
     };
     std::string out;
     for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+        limits::check();
         char32_t c = unit(i);
         const bool pair = c >= 0xd800 && c < 0xdc00 && i + 3 < bytes.size();
         if (const char32_t low = pair ? unit(i + 2) : 0; low >= 0xdc00 && low < 0xe000) {

@@ -50,6 +50,51 @@ Tag tagOf(std::string_view localName) {
     return localName.starts_with("fe") ? Tag::FilterPrimitive : Tag::Unknown;
 }
 
+const char* nameOf(Tag tag) {
+    switch (tag) {
+        case Tag::A:
+            return "a";
+        case Tag::Circle:
+            return "circle";
+        case Tag::ClipPath:
+            return "clipPath";
+        case Tag::Ellipse:
+            return "ellipse";
+        case Tag::G:
+            return "g";
+        case Tag::Image:
+            return "image";
+        case Tag::Line:
+            return "line";
+        case Tag::Marker:
+            return "marker";
+        case Tag::Mask:
+            return "mask";
+        case Tag::Path:
+            return "path";
+        case Tag::Pattern:
+            return "pattern";
+        case Tag::Polygon:
+            return "polygon";
+        case Tag::Polyline:
+            return "polyline";
+        case Tag::Rect:
+            return "rect";
+        case Tag::Style:
+            return "style";
+        case Tag::Svg:
+            return "svg";
+        case Tag::Switch:
+            return "switch";
+        case Tag::Symbol:
+            return "symbol";
+        case Tag::Use:
+            return "use";
+        default:
+            return "";
+    }
+}
+
 std::optional<std::string_view> Element::find(std::string_view attribute) const {
     for (const Attribute& candidate : attributes)
         if (candidate.name == attribute)

@@ -57,6 +57,8 @@ enum class Tag : unsigned char {
 };
 
 Tag tagOf(std::string_view localName);
+/// The name of elements of that tag that are drawn or lead to what is; empty for others. Static storage.
+const char* nameOf(Tag tag);
 
 /// Names are local for attributes without a namespace; `xlink:` and `xml:` stand for those
 /// namespaces whatever prefix the file gives them.

@@ -3,6 +3,7 @@
 
 #include <unordered_map>
 
+#include "limits/limits.hpp"
 #include "svg/src/cursor.hpp"
 #include "svg/src/decode.hpp"
 
@@ -33,6 +34,7 @@ void readEntity(Cursor& cursor, Entities& entities) {
 Entities readSubset(Cursor& cursor) {
     Entities entities;
     while (!cursor.atEnd() && !cursor.consume(']')) {
+        limits::check();
         if (cursor.consume("<!--")) {
             const std::size_t end = cursor.rest().find("-->");
             cursor.advance(end == std::string_view::npos ? cursor.rest().size() : end + 3);
@@ -83,6 +85,7 @@ private:
     void copy(std::string_view text, int depth) {
         Cursor cursor(text);
         while (!cursor.atEnd()) {
+            limits::check();
             const std::string_view rest = cursor.rest();
             std::size_t plain = std::min(rest.find_first_of("&<"), rest.size());
             if (rest.substr(plain).starts_with("<!--"))

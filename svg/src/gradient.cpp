@@ -74,23 +74,34 @@ scene::Paint radial(const Coordinates& at, std::vector<scene::GradientStop> stop
 
 }  // namespace
 
-/// Stops of the first gradient in the chain that has any; offsets clamped and never decreasing.
-std::vector<scene::GradientStop> Converter::gradientStops(const Chain& chain) {
+/// Stops of the first gradient in the chain that has any.
+const std::vector<scene::GradientStop>& Converter::gradientStops(const Chain& chain) {
+    static const std::vector<scene::GradientStop> nothing;
+    for (const Element* gradient : chain) {
+        limits::check();
+        const auto [found, isNew] = stops_.try_emplace(gradient);
+        if (isNew)
+            found->second = stopsIn(*gradient);
+        if (!found->second.empty())
+            return found->second;
+    }
+    return nothing;
+}
+
+/// Offsets clamped and never decreasing.
+std::vector<scene::GradientStop> Converter::stopsIn(const Element& gradient) {
     std::vector<scene::GradientStop> stops;
     float last = 0;
-    for (const Element* gradient : chain) {
-        for (const Element* child : gradient->children) {
-            if (child->tag != Tag::Stop)
-                continue;
-            const double offset = parseFraction(child->get("offset")).value_or(0);
-            last = std::max(last, static_cast<float>(std::clamp(offset, 0.0, 1.0)));
-            const Style& style = styleOf(*child);
-            scene::Color color = resolveColor(style.stopColor, style);
-            color.a *= static_cast<float>(style.stopOpacity);
-            stops.push_back({last, color});
-        }
-        if (!stops.empty())
-            break;
+    for (const Element* child : gradient.children) {
+        limits::check();
+        if (child->tag != Tag::Stop)
+            continue;
+        const double offset = parseFraction(child->get("offset")).value_or(0);
+        last = std::max(last, static_cast<float>(std::clamp(offset, 0.0, 1.0)));
+        const Style& style = styleOf(*child);
+        scene::Color color = resolveColor(style.stopColor, style);
+        color.a *= static_cast<float>(style.stopOpacity);
+        stops.push_back({last, color});
     }
     return stops;
 }

@@ -77,9 +77,11 @@ void Converter::convertImage(const Element& element, const Scope& scope, Nodes& 
         return;
     const AspectRatio ratio = parseAspectRatio(element.get("preserveAspectRatio"));
     if (const auto* bitmap = std::get_if<std::shared_ptr<const image::Bitmap>>(&content))
-        placeBitmap(*bitmap, viewport, ratio, scope, out);
-    else if (const auto* document = std::get_if<std::shared_ptr<NestedDocument>>(&content))
+        placeBitmap(*bitmap, element, viewport, ratio, scope, out);
+    else if (const auto* document = std::get_if<std::shared_ptr<NestedDocument>>(&content)) {
+        (*document)->converter.standFor(placeOf(element));
         placeDocument(**document, viewport, ratio, scope, out);
+    }
 }
 
 std::optional<Viewport> Converter::sizeOf(const ImageContent& content) {
@@ -96,6 +98,8 @@ Converter::ImageContent Converter::imageContent(std::string_view href, const Ele
     ImageContent content;
     try {
         content = loadImage(href);
+    } catch (const limits::Exceeded&) {
+        throw;
     } catch (const std::runtime_error& error) {
         const bool data = isDataUrl(href);
         reporter_.warn(Kind::Reference, element,
@@ -125,8 +129,8 @@ Converter::ImageContent Converter::loadImage(std::string_view href) {
 }
 
 /// The bitmap as a rectangle in its own pixels: all of it, or with `slice` what the viewport shows.
-void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Rect& viewport,
-                            const AspectRatio& ratio, const Scope& scope, Nodes& out) {
+void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Element& element,
+                            const Rect& viewport, const AspectRatio& ratio, const Scope& scope, Nodes& out) {
     const Rect whole{0, 0, static_cast<double>(bitmap->width), static_cast<double>(bitmap->height)};
     const scene::Affine toUser = fit(whole, ratio, viewport);
     const auto toPixels = scene::inverse(toUser);
@@ -135,9 +139,9 @@ void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, 
         return;
     const Box shown = mapBox(*toPixels, viewport.box());
     const scene::Point min = glm::max(shown.min, whole.box().min), max = glm::min(shown.max, whole.box().max);
-    out.push_back({scene::Item{std::make_shared<const scene::Path>(scene::rectangle(min, max)), transform,
-                               scene::FillRule::NonZero,
-                               scene::ImagePaint{bitmap, scope.style.imageFilter, scene::identity}}});
+    out.push_back({scene::Item{
+        std::make_shared<const scene::Path>(scene::rectangle(min, max)), transform, scene::FillRule::NonZero,
+        scene::ImagePaint{bitmap, scope.style.imageFilter, scene::identity}, 1, placeOf(element)}});
 }
 
 void Converter::placeDocument(NestedDocument& document, const Rect& viewport, const AspectRatio& ratio,

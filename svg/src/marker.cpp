@@ -82,6 +82,9 @@ void Converter::convertMarker(const Element& marker, const ContextElement& conte
         reporter_.warn(Kind::Reference, marker, "refers to itself in a circle");
         return;
     }
+    const Level level(*this, marker);
+    if (!level)
+        return;
     Scope scope{styleOf(marker), shape.transform, shape.viewport, &context, shape.depth + 1};
     const LengthReader reader = lengths(marker, scope);
     const Rect viewport{0, 0, reader.lengthOr("markerWidth", Axis::X, 3),

@@ -35,6 +35,9 @@ std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const
         reporter_.warn(Kind::Reference, element, "refers to itself in a circle");
         return nullptr;
     }
+    const Level level(*this, element);
+    if (!level)
+        return nullptr;
     Scope inner = scope;
     inner.style = styleOf(element);
     ++inner.depth;

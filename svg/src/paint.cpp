@@ -91,6 +91,7 @@ std::vector<const Element*> Converter::templateChain(const Element& server) {
                            fits ? "refers to itself in a circle" : "refers to an element of another kind");
             break;
         }
+        limits::check();
         chain.push_back(next);
         const auto href = hrefOf(*next);
         next = href ? tree_.byHref(*href) : nullptr;

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "limits/limits.hpp"
 #include "svg/src/cursor.hpp"
 
 namespace vtm::svg {
@@ -41,6 +42,7 @@ private:
             return true;
         }
         do {
+            limits::check();
             in_.skipSpaces();
             if (!command(kind))
                 return false;
@@ -191,6 +193,7 @@ ParsedPath parsePoints(std::string_view text) {
     Cursor in(text);
     in.skipSpaces();
     while (!in.atEnd()) {
+        limits::check();
         const std::string_view point = in.rest();
         const auto x = in.number();
         in.skipCommaSpaces();

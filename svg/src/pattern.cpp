@@ -89,6 +89,9 @@ std::shared_ptr<const scene::Group> Converter::patternContent(const Element& own
         reporter_.warn(Kind::Reference, owner, "refers to itself in a circle");
         return nullptr;
     }
+    const Level level(*this, owner);
+    if (!level)
+        return nullptr;
     auto content = std::make_shared<scene::Group>();
     Scope scope;
     scope.style = styleOf(owner);

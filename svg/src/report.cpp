@@ -56,6 +56,11 @@ void Reporter::warnInvalid(const Element& element, std::string_view attribute, s
          fmt::format("{}={} is not valid; it is ignored", attribute, quoted(value)));
 }
 
+limits::Place Reporter::placeOf(const Element& element) const {
+    const Location at = map_.at(element.offset);
+    return {static_cast<std::uint32_t>(at.line), static_cast<std::uint32_t>(at.column), nameOf(element.tag)};
+}
+
 bool Reporter::wasSeen(const Element& element, const std::string& message) {
     return !seen_.insert(fmt::format("{} {}", element.offset, message)).second;
 }
@@ -63,9 +68,11 @@ bool Reporter::wasSeen(const Element& element, const std::string& message) {
 bool Reporter::isFull() const { return !warnings_.empty() && warnings_.back().message == moreAreLeftOut; }
 
 void Reporter::warn(Warning::Kind kind, const Element& element, const std::string& what) {
-    const std::string message = fmt::format("<{}>: {}", element.name, what);
     const bool counted = kind == Warning::Kind::Text || kind == Warning::Kind::Filter;
-    if ((!counted && isFull()) || wasSeen(element, message))
+    if (!counted && isFull())
+        return;
+    const std::string message = fmt::format("<{}>: {}", element.name, what);
+    if (wasSeen(element, message))
         return;
     if (counted)
         return count({kind, map_.at(element.offset), message});

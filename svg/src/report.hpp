@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "limits/limits.hpp"
 #include "svg/load.hpp"
 #include "svg/src/element.hpp"
 
@@ -53,6 +54,8 @@ public:
     void warn(Warning::Kind kind, const Element& element, const std::string& what);
     /// `<name>: attribute="value" is not valid; it is ignored`
     void warnInvalid(const Element& element, std::string_view attribute, std::string_view value);
+    /// Of an element in the file, for messages.
+    limits::Place placeOf(const Element& element) const;
     std::vector<Warning>& warnings() const { return warnings_; }
 
 private:

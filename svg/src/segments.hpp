@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "limits/limits.hpp"
 #include "scene/path.hpp"
 #include "svg/src/path_geometry.hpp"
 
@@ -33,6 +34,7 @@ template <class Visitor>
 void forEachSegment(const scene::Path& path, Visitor&& visit) {
     scene::Point from{}, start{};
     for (const scene::Command& command : path) {
+        limits::check();
         if (const auto* move = std::get_if<scene::MoveTo>(&command)) {
             visit(MoveSegment{move->to});
             from = start = move->to;

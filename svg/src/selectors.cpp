@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "limits/limits.hpp"
+#include "svg/load.hpp"
 #include "svg/src/css.hpp"
 #include "svg/src/cursor.hpp"
 
@@ -113,6 +115,8 @@ std::optional<Selector> parseSelector(std::string_view text) {
         selector.specificity += specificityOf(*compound);
         compound->combinator = combinator;
         selector.compounds.push_back(std::move(*compound));
+        if (selector.compounds.size() > Limits::maxCompounds)
+            return std::nullopt;
         combinator = cursor.atEnd() ? Combinator::None : readCombinator(cursor);
     }
     return selector;
@@ -187,6 +191,7 @@ long costOf(const Compound& compound, const Element& element) {
 /// Whether compounds 0 to `last` match, the last one being put on `element`.
 bool matchesUpTo(const std::vector<Compound>& compounds, std::size_t last, const Element& element,
                  long& steps) {
+    limits::check();
     steps -= costOf(compounds[last], element);
     if (steps <= 0 || !compoundMatches(compounds[last], element))
         return false;
@@ -216,6 +221,7 @@ bool matchesUpTo(const std::vector<Compound>& compounds, std::size_t last, const
 std::optional<std::vector<Selector>> parseSelectors(std::string_view text) {
     std::vector<Selector> selectors;
     for (Cursor cursor(text); !cursor.atEnd();) {
+        limits::check();
         auto selector = parseSelector(cursor.until(','));
         if (!selector)
             return std::nullopt;

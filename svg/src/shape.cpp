@@ -79,6 +79,7 @@ void Converter::fillShape(const Element& element, const Scope& scope, CachedShap
     item.geometry = scope.style.fillRule;
     item.paint = std::move(*fill);
     item.opacity = static_cast<float>(scope.style.fillOpacity);
+    item.place = placeOf(element);
     out.push_back({std::move(item)});
 }
 
@@ -91,8 +92,12 @@ void Converter::strokeShape(const Element& element, const Scope& scope, CachedSh
     auto stroke = paint(scope.style.stroke, element, scope, boxOf(shape));
     if (!stroke)
         return;
-    scene::Item item{shape.path, scope.transform, std::move(*style), std::move(*stroke),
-                     static_cast<float>(scope.style.strokeOpacity)};
+    scene::Item item{shape.path,
+                     scope.transform,
+                     std::move(*style),
+                     std::move(*stroke),
+                     static_cast<float>(scope.style.strokeOpacity),
+                     placeOf(element)};
     if (scope.style.nonScalingStroke) {  // the stroke is made in the picture's space
         item.path = std::make_shared<const scene::Path>(mapPath(scope.transform, *shape.path));
         item.paint = mapPaint(std::move(item.paint), scope.transform);

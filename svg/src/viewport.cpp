@@ -71,7 +71,7 @@ void Converter::fillBackground(const Scope& scope, const Rect& canvas, Nodes& ou
     if (scope.style.background && scope.style.background->a > 0)
         out.push_back({scene::Item{
             std::make_shared<const scene::Path>(scene::rectangle(canvas.box().min, canvas.box().max)),
-            scope.transform, scene::FillRule::NonZero, *scope.style.background}});
+            scope.transform, scene::FillRule::NonZero, *scope.style.background, 1, placeOf(*tree_.root)}});
 }
 
 void Converter::convertViewport(const Element& element, const Rect& viewport, const Scope& scope,

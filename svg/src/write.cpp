@@ -76,17 +76,22 @@ private:
     void group(const Group& g) {
         if (g.clip || g.mask || g.blend != BlendMode::Normal)
             throw WriteError("a group with a clip, a mask or a blend mode cannot be written as SVG");
+        if (++depth_ > maxNesting)
+            throw WriteError(fmt::format("groups are nested more than {} levels deep", maxNesting));
         text_ += "<g style=\"isolation:isolate\"" + opacity("opacity", g.opacity) + ">\n";
         children(g);
         text_ += "</g>\n";
+        --depth_;
     }
 
     void children(const Group& g) {
         for (const Node& node : g.children) {
             if (const auto* child = std::get_if<Group>(&node.value))
                 group(*child);
+            else if (const auto* drawn = std::get_if<Item>(&node.value))
+                item(*drawn);
             else
-                item(std::get<Item>(node.value));
+                throw WriteError("a selection cannot be written as SVG");
         }
     }
 
@@ -110,6 +115,7 @@ private:
     }
 
     std::string text_;
+    int depth_ = 0;
 };
 
 }  // namespace

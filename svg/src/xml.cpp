@@ -2,6 +2,7 @@
 
 #include <pugixml.hpp>
 
+#include "limits/limits.hpp"
 #include "svg/src/cursor.hpp"
 
 namespace vtm::svg {
@@ -63,6 +64,7 @@ public:
     Builder(Tree& tree, const SourceMap& map) : tree_(tree), map_(map) {}
 
     Element* build(const pugi::xml_node& node, Element* parent, int depth) {
+        limits::check();
         if (depth > Limits::maxDepth)
             throw ParseError(map_.at(offsetOf(node)), "elements are nested too deep");
         const std::size_t scope = namespaces_.depth();
@@ -139,6 +141,8 @@ private:
 }  // namespace
 
 std::unique_ptr<Tree> parseXml(std::string text, const SourceMap& map) {
+    const limits::Stage stage("reading the XML");
+    limits::need(text.size());
     auto tree = std::make_unique<Tree>();
     tree->text = std::move(text);
     pugi::xml_document document;

@@ -3,6 +3,7 @@
 #include "asset/container.hpp"
 #include "asset/prefilter.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/output.hpp"
 #include "tools/src/source.hpp"
 #include "tools/src/standard_output.hpp"
@@ -24,6 +25,7 @@ int compile(const CompileOptions& options) {
     if (options.json)
         refuseMixture(options.output, "the figures of --json");
     refuseLoss({options.input}, {options.output});
+    const PictureLimits limits(nameOf(options.input), true);
     try {
         Source source = loadSource(readInput(options.input), options.source);
         if (options.prefilter)

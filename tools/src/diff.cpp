@@ -6,6 +6,7 @@
 #include "image/codec.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/input.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/output.hpp"
 #include "tools/src/report.hpp"
 #include "tools/src/standard_output.hpp"
@@ -42,6 +43,7 @@ int diff(const DiffOptions& options) {
         refuseLoss({options.first, options.second}, {options.output});
     }
     std::string reading = nameOf(options.first);
+    const PictureLimits limits(reading, true);
     try {
         const image::Raster a = readPicture(options.first);
         reading = nameOf(options.second);

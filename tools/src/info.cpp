@@ -4,6 +4,7 @@
 
 #include "asset/container.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/source.hpp"
 #include "tools/src/standard_output.hpp"
 
@@ -61,6 +62,7 @@ const char* modeOf(const Source& source) {
 int info(const InfoOptions& options) {
     Json report = {{"input", options.input}};
     std::vector<asset::SectionInfo> sections;
+    const PictureLimits limits(nameOf(options.input), true);
     try {
         Input input = readInput(options.input);
         sections = sectionsOf(input);

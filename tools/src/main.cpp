@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/process.hpp"
 #include "tools/src/report.hpp"
 #include "tools/src/standard_output.hpp"
@@ -30,6 +31,8 @@ int run(int argc, char** argv) {
     addInfo(app, exitCode);
     addDiff(app, exitCode);
     addTrace(app, exitCode);
+    for (CLI::App* command : app.get_subcommands({}))
+        addLimitOptions(*command);
     try {
         app.parse(argc, argv);
         return exitCode;

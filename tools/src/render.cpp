@@ -11,6 +11,7 @@
 #include "tools/src/framing.hpp"
 #include "tools/src/jobs.hpp"
 #include "tools/src/left_out.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/output.hpp"
 #include "tools/src/progress.hpp"
 #include "tools/src/source.hpp"
@@ -71,7 +72,9 @@ void renderOne(const Job& job, const RenderOptions& options, const scene::Color&
         printReport(job, source, view, engine);
 }
 
-bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
+bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine,
+              bool alone) {
+    const PictureLimits limits(nameOf(job.input), alone);
     try {
         renderOne(job, options, ground, engine);
         return true;
@@ -99,7 +102,7 @@ int render(const RenderOptions& options) {
     std::size_t failed = 0;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         showProgress(i, jobs.size());
-        failed += succeeds(jobs[i], options, ground, *engine) ? 0 : 1;
+        failed += succeeds(jobs[i], options, ground, *engine, jobs.size() == 1) ? 0 : 1;
     }
     clearProgress();
     if (jobs.size() > 1 || !options.batch.empty())

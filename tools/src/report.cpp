@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "tools/src/limits.hpp"
 #include "tools/src/progress.hpp"
 #include "tools/src/standard_output.hpp"
 
@@ -117,6 +118,8 @@ std::string describeError(const std::string& path) {
         throw;
     } catch (const StandardOutputError&) {
         throw;
+    } catch (const limits::Exceeded& exceeded) {
+        return describe(path, exceeded);
     } catch (const std::bad_alloc&) {
         return path + ": not enough memory";
     } catch (const std::exception& error) {

@@ -1,5 +1,6 @@
 #include "tools/src/source.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 

@@ -2,6 +2,7 @@
 /// Input files: SVG, parsed and compiled here, or an asset that was compiled before.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 

@@ -8,6 +8,7 @@
 #include "image/codec.hpp"
 #include "svg/write.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/limits.hpp"
 #include "tools/src/output.hpp"
 #include "tools/src/source.hpp"
 
@@ -43,6 +44,7 @@ int run(const TraceOptions& options) {
             "(libpotrace-dev)");
     requireSuffix(options.output, {".svg", ".vtm"});
     refuseLoss({options.input}, {options.output});
+    const PictureLimits limits(nameOf(options.input), true);
     try {
         const scene::Scene scene = trace::trace(image::decode(readInput(options.input).bytes), options.trace);
         writeOutput(options.output, isAsset(options.output) ? assetOf(scene, options) : svgOf(scene));

@@ -7,18 +7,46 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/view.hpp"
+#include "limits/limits.hpp"
+#include "tools/src/limits.hpp"
 
 namespace vtm::tools {
 
 namespace {
 
+/// As fine as usual, as long as that takes no more than a third of the limit; then no finer than the raster shows.
+compiler::ViewResult compileInTime(const Source& source, const compiler::Part& part, const asset::View& view,
+                                   compiler::Options options) {
+    const auto compile = [&] {
+        return compiler::compileView(*source.scene, part, view.width, view.height, options);
+    };
+    const double seconds = secondsForFirstTry();
+    if (seconds <= 0)
+        return compile();
+    try {
+        limits::Limits limits = limits::current().budget->limits();
+        limits.seconds = seconds;
+        limits.overrunHandler = {};
+        limits::Budget budget(limits);
+        const limits::Scope scope(budget);
+        return compile();
+    } catch (const limits::Exceeded& exceeded) {
+        if (exceeded.limit() == limits::Limit::Cancelled)
+            throw;
+    }
+    constexpr double coarsest = 0x1p-6;  // compiler::Options::tolerance; a raster wants a finer one
+    options.tolerance = coarsest;
+    compiler::ViewResult result = compile();
+    say(fmt::format("{}: warning: takes long; edges may be off by a sixteenth of a pixel", source.name));
+    return result;
+}
+
 asset::View compileSeen(Source& source, const SourceOptions& options, const Framing& framing,
                         const asset::View& view) {
     const Rectangle part = framing.part.value_or(Rectangle{0, 0, source.width, source.height});
-    compiler::ViewResult made = timed(source.stages, "compile", [&] {
-        return compiler::compileView(*source.scene, {part.x, part.y, part.width, part.height}, view.width,
-                                     view.height, options.compiler);
-    });
+    const compiler::Part seen{part.x, part.y, part.width, part.height};
+    compiler::ViewResult made = timed(
+        source.stages, "compile", [&] { return compileInTime(source, seen, view, options.compiler); });
     const scene::Affine& m = made.fromScene;
     for (compiler::UnprovenSquare& s : made.result.unproven)
         s = {(s.x - m[2].x) / m[0].x, (s.y - m[2].y) / m[1].y, s.side / std::min(m[0].x, m[1].y)};

@@ -1,4 +1,5 @@
 #include "trace/src/palette.hpp"
+#include "limits/limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +129,7 @@ constexpr int rounds = 16;
 
 void improve(std::vector<dvec3>& centres, const std::vector<Sample>& samples) {
     for (int round = 0; round < rounds; ++round) {
+        limits::check();
         std::vector<dvec3> sums(centres.size(), dvec3(0));
         std::vector<double> weights(centres.size());
         for (const Sample& s : samples) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "limits/limits.hpp"
 #include "trace/src/palette.hpp"
 
 #ifdef VTM_WITH_POTRACE
@@ -116,9 +117,12 @@ bool available() { return true; }
 
 scene::Scene trace(const image::Bitmap& bitmap, const Options& options) {
     check(bitmap, options);
+    const limits::Stage stage("tracing");
     const Palette palette = quantise(bitmap, options.colors);
     scene::Scene scene{double(bitmap.width), double(bitmap.height), {}};
     for (std::size_t k = 0; k < palette.colors.size(); ++k) {
+        limits::check();
+        limits::progress(double(k) / double(palette.colors.size()));
         const Rgb& rgb = palette.colors[k];
         scene::Item item;
         item.path = std::make_shared<scene::Path>(

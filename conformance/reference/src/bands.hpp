@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conformance/reference/src/edges.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::reference {
 
@@ -23,7 +24,8 @@ void forEachBand(int height, const MakeWork& makeWork) {
     std::atomic<int> next{0};
     std::exception_ptr error;
     std::mutex errorMutex;
-    const auto run = [&] {
+    const auto run = [&, holding = limits::current()] {
+        const limits::Scope scope(holding);
         try {
             auto work = makeWork();
             for (int first = next.fetch_add(bandHeight); first < height; first = next.fetch_add(bandHeight))

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "conformance/reference/src/flatten.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -57,6 +58,7 @@ void addFill(const scene::Path& path, const Affine& toPixels, const View& view, 
         const Point first = last;
         for (const Curve& curve : subpath.curves) {
             for (const Sample& sample : flatten(curve, fineness)) {
+                limits::check();
                 const Point next = scene::apply(toPixels, sample.at);
                 edges.add(last, next, shape);
                 last = next;

@@ -1,6 +1,7 @@
 #include <glm/common.hpp>
 
 #include "conformance/reference/src/rows.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -32,6 +33,7 @@ Mean meanOver(const Trapezoid& t, int n, Sampler& sampler) {
     double weights = 0;
     const int rows = std::max(1, int(std::ceil((t.y1 - t.y0) * n)));
     for (int i = 0; i < rows; ++i) {
+        limits::check();
         const double share = (i + 0.5) / rows, y = t.y0 + share * (t.y1 - t.y0);
         const double left = t.left0 + share * (t.left1 - t.left0);
         const double width = std::max(0.0, t.right0 + share * (t.right1 - t.right0) - left);

@@ -6,6 +6,7 @@
 
 #include "conformance/reference/src/stroke.hpp"
 #include "conformance/reference/src/tiling.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -89,6 +90,7 @@ private:
             groupsOf(tree).push_back(node);
         }
         for (const scene::Node& child : group.children) {
+            limits::check();
             if (const auto* item = std::get_if<scene::Item>(&child.value))
                 addItem(*item, tree, place);
             else if (const auto* select = std::get_if<scene::Select>(&child.value))

@@ -5,6 +5,7 @@
 #include "conformance/reference/src/bands.hpp"
 #include "conformance/reference/src/coverage.hpp"
 #include "conformance/reference/src/rows.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -24,6 +25,7 @@ image::Raster renderRows(const Picture& picture, const MakeRows& makeRows) {
                    int first, int end) mutable {
             const std::vector<Edge> edges = edgesOfBand(picture.edges, first, end);
             for (int y = first; y < end; ++y) {
+                limits::check();
                 pieces.clear();
                 cutToRow(edges, y, pieces);
                 colours.assign(std::size_t(picture.width), Colour(0));
@@ -39,6 +41,8 @@ image::Raster renderRows(const Picture& picture, const MakeRows& makeRows) {
 
 image::Raster render(const scene::Scene& scene, const View& view, const Options& options) {
     checkView(view);
+    scene::validate(scene);
+    const limits::Stage stage("rendering");
     if (options.samples < 1 || options.samples > 256)
         throw std::invalid_argument("reference: " + std::to_string(options.samples) + " samples");
     if (!(options.flatness > 0))

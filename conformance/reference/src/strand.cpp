@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "conformance/reference/reference.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -181,6 +182,7 @@ private:
     /// Along a chord of length l from `from` to `to`, lengths both.
     void walkPart(const Sample& a, const Sample& b, double from, double to, double l) {
         while (left_ < to - from && dashes_.size() <= maxDashes) {
+            limits::check();
             from += left_;
             const Sample cut = between(a, b, from / l);
             extendTo(cut);

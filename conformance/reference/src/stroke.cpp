@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "conformance/reference/src/strand.hpp"
+#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -267,8 +268,10 @@ void addStroke(const scene::Path& path, const scene::StrokeStyle& style, const A
     if (!style.dashes.empty())
         if (auto dashes = dash(strands, style, fineness))
             strands = std::move(*dashes);
-    for (const Strand& strand : strands)
+    for (const Strand& strand : strands) {
+        limits::check();
         stroker.stroke(strand);
+    }
 }
 
 }  // namespace vtm::reference

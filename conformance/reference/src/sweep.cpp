@@ -1,4 +1,5 @@
 #include "conformance/reference/src/sweep.hpp"
+#include "limits/limits.hpp"
 
 #include <numeric>
 
@@ -133,6 +134,7 @@ void RowSweep::pixel(std::span<const Piece> pieces, std::span<const int> members
     std::size_t nextEntry = 0, nextSide = 0;
     active_.clear();
     for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
+        limits::check();
         const double y0 = levels_[i], y1 = levels_[i + 1];
         enterThrough(y0, nextEntry, regions);
         for (; nextSide < sides_.size() && sides_[nextSide].yt <= y0; ++nextSide)

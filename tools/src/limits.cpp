@@ -1,0 +1,94 @@
+#include "tools/src/limits.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <fmt/core.h>
+
+#include "image/codec.hpp"
+#include "tools/src/commands.hpp"
+
+namespace vtm::tools {
+namespace {
+
+struct Allowance {
+    double seconds = 60;
+    double megabytes = 4096;
+};
+Allowance allowance;
+
+double parseLimit(const char* option, const std::string& text) {
+    if (text == "none")
+        return 0;
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !(value >= 0 && value <= 1e12))
+        throw UsageError(fmt::format("{}: '{}' is neither a number from 0 on nor 'none'", option, text));
+    return value;
+}
+
+std::string optionOf(const limits::Exceeded& exceeded) {
+    if (exceeded.limit() == limits::Limit::Seconds)
+        return fmt::format("--max-seconds {:g}", allowance.seconds);
+    return fmt::format("--max-memory {:g}", allowance.megabytes);
+}
+
+/// Ends the process at once: nothing is freed, no other thread is waited for.
+[[noreturn]] void giveUp(const std::string& message) {
+    const std::string line = message + "\n";
+    std::fwrite(line.data(), 1, line.size(), stderr);  // unbuffered
+    image::removeTemporaries();
+    _exit(badInput);
+}
+
+limits::Limits limitsOf(const std::string& path, bool alone) {
+    limits::Limits result;
+    result.seconds = allowance.seconds;
+    result.memoryBytes = static_cast<std::size_t>(allowance.megabytes * (1 << 20));
+    result.overrunHandler = [path, alone](const limits::Exceeded& exceeded, bool isEnding) {
+        if (alone || !isEnding)
+            giveUp(describe(path, exceeded));
+    };
+    return result;
+}
+
+}  // namespace
+
+void addLimitOptions(CLI::App& command) {
+    const std::string group = "Limits";
+    command
+        .add_option_function<std::string>(
+            "--max-seconds",
+            [](const std::string& text) { allowance.seconds = parseLimit("--max-seconds", text); },
+            "Give a picture up after so much CPU or wall time, 0 or none: never (default 60)")
+        ->group(group);
+    command
+        .add_option_function<std::string>(
+            "--max-memory",
+            [](const std::string& text) { allowance.megabytes = parseLimit("--max-memory", text); },
+            "Give a picture up at so many MB of resident memory, 0 or none: never (default 4096)")
+        ->group(group);
+}
+
+PictureLimits::PictureLimits(std::string path, bool alone)
+    : budget_(limitsOf(path, alone)), scope_(budget_) {}
+
+PictureLimits::~PictureLimits() { malloc_trim(0); }
+
+double secondsForFirstTry() {
+    const limits::Budget* budget = limits::current().budget;
+    return budget && allowance.seconds > 0 ? allowance.seconds / 3 - budget->seconds() : 0;
+}
+
+std::string describe(const std::string& path, const limits::Exceeded& exceeded) {
+    const limits::Place& place = exceeded.place();
+    const std::string where = place.line > 0 ? fmt::format("{}:{}:{}", path, place.line, place.column) : path;
+    if (exceeded.limit() == limits::Limit::Cancelled)
+        return fmt::format("{}: cancelled{}", where, exceeded.during());
+    return fmt::format("{}: {}: exceeded{}", where, optionOf(exceeded), exceeded.during());
+}
+
+}  // namespace vtm::tools
