@@ -3,8 +3,8 @@
 // Requires: fetch.glsl, coverage.glsl, region_color.glsl; LINEAR, RADIAL, IMAGE, GROUPS, MATERIAL.
 // Exports: leafIntegral.
 
-// Of pieceSum()'s loop, at most.
-const float pieceTurns = float(chordCount) + 5.0;
+// Of pieceSum()'s loop, at most: straight pieces are one chord.
+float pieceTurns(uvec4 piece) { return piece.z == 0u ? 4.0 : float(chordCount) + 5.0; }
 
 #if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
 
@@ -16,7 +16,7 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel, fl
     vec4 sum = vec4(0.0);
     float weight = 0.0;
     uint terms = 4u + 2u * low(leaf.y);
-    for (uint i = 0u; i < terms && spend((i & 1u) == 0u && i >= 4u ? pieceTurns + 1.0 : 1.0); ++i) {
+    for (uint i = 0u; i < terms && spend(1.0); ++i) {
         uint paint = high(piece.w);
         if (i < 4u) {
             weight = seg(cornerOf(frame, int(i)), cornerOf(frame, int((i + 1u) & 3u)));
@@ -24,7 +24,7 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel, fl
             paint = (i & 1u) == 0u ? low(word) : high(word);
         } else if ((i & 1u) == 0u) {
             piece = texelAt(ASSET ASSET_PART(sections).y + leaf.x + (i - 4u) / 2u);
-            weight = pieceSum(frame, piece);
+            weight = spend(pieceTurns(piece)) ? pieceSum(frame, piece) : 0.0;
             paint = low(piece.w);
         } else {
             weight = -weight;
@@ -43,9 +43,9 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel, fl
     vec4 sum = seg(a, b) * solidColor(ASSET low(leaf.z)) + seg(b, c) * solidColor(ASSET high(leaf.z)) +
                seg(c, d) * solidColor(ASSET low(leaf.w)) + seg(d, a) * solidColor(ASSET high(leaf.w));
     uint end = leaf.x + low(leaf.y);
-    for (uint i = leaf.x; i < end && spend(pieceTurns + 1.0); ++i) {
+    for (uint i = leaf.x; i < end && spend(1.0); ++i) {
         uvec4 piece = texelAt(ASSET ASSET_PART(sections).y + i);
-        float weight = pieceSum(frame, piece);
+        float weight = spend(pieceTurns(piece)) ? pieceSum(frame, piece) : 0.0;
         if (weight != 0.0)
             sum += weight * (solidColor(ASSET low(piece.w)) - solidColor(ASSET high(piece.w)));
     }

@@ -164,7 +164,7 @@ vec4 sampled(Vtm vtm, vec2 st, vec2 dx, vec2 dy, float turns) {
         turnsLeft = allowed;
         addFootprint(vtm, footprint, color);
         color = clamp(color, 0.0, 1.0);
-        share = max(share, clamp(1.0 - 2.0 * turnsLeft / allowed, 0.0, 1.0));
+        share = max(share, clamp(1.0 - 4.0 * turnsLeft / allowed, 0.0, 1.0));
     }
     if (share > 0.0)
         color = mix(color, prefiltered(vtm, footprint), share);
