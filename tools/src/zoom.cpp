@@ -45,7 +45,8 @@ void warnIfTooCoarse(const Source& source, const std::string& path, const Source
     if (finest > pixel * (1 + 1e-9))
         printWarning(fmt::format("{}: warning: at this zoom boundaries may be off by {:.3g} pixels; {}", path,
                                  asset::finestShare * finest / pixel,
-                                 source.scene ? "a finer --tolerance, or none, may help"
+                                 source.scene ? options.paper ? "paper mode does not follow the view"
+                                                              : "without --tolerance they would not be"
                                               : "compile it anew with a finer --tolerance, or draw the SVG"));
 }
 
@@ -53,13 +54,13 @@ void warnIfTooCoarse(const Source& source, const std::string& path, const Source
 
 asset::View prepareView(Source& source, const std::string& path, const SourceOptions& options,
                         const Framing& framing, bool compile) {
-    asset::View view = frame(framing, source.width, source.height);
+    const asset::View view = frame(framing, source.width, source.height);
     if (!compile)
         return view;
     const bool followsView = source.scene && !options.paper && !options.hasTolerance;
-    if (followsView)
-        view = compileSeen(source, path, options, framing, view);
-    else if (source.scene)
+    if (followsView)  // warns itself
+        return compileSeen(source, path, options, framing, view);
+    if (source.scene)
         compileSource(source, path, options);
     warnIfTooCoarse(source, path, options, view);
     return view;
