@@ -78,8 +78,9 @@ class Render(Command):
         self.assertEqual([image.getpixel((x, 10)) for x in (5, 15)], [NOTHING, RED])
 
     def test_zoom_is_exact(self):
-        size = 2.0**-30
-        image = self.draw("--view", f"{20 - size / 2!r},5,{size!r},{size!r}", "--width", "16", engine="cpu")
+        size, edge = 2.0**-30, 20.3  # which is no border of a cell
+        self.svg = self.write("edge.svg", SQUARE.replace('x="20"', f'x="{edge}"').replace('width="20" h', f'width="{edge}" h'))
+        image = self.draw("--view", f"{edge - size / 2!r},5,{size!r},{size!r}", "--width", "16", engine="cpu")
         self.assertEqual([image.getpixel((x, 8)) for x in (0, 7, 8, 15)], [RED, RED, PALE_BLUE, PALE_BLUE])
 
     def test_zoom_beyond_what_a_file_shows_is_a_warning(self):
