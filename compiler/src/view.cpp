@@ -70,7 +70,7 @@ public:
         if (needed(scene_.width, scene_.height, pixel_.shorter()) >= options_.tolerance || isAll)
             return whole();
         if (x_.isEmpty() || y_.isEmpty())
-            return nothing(view_.width, view_.height, options_);
+            return empty();
         return cut();
     }
 
@@ -84,6 +84,17 @@ private:
         Options options = options_;
         options.tolerance = std::min(options_.tolerance, std::max(finest, tolerance));
         return options;
+    }
+
+    /// Where nothing of the picture is seen, or doubles cannot tell the view's sides apart.
+    ViewResult empty() const {
+        ViewResult made = nothing(view_.width, view_.height, options_);
+        const bool isOutside = part_.x + part_.width <= 0 || part_.y + part_.height <= 0 ||
+                               part_.x >= scene_.width || part_.y >= scene_.height;
+        if (!isOutside)
+            made.result.warnings.push_back(
+                "nothing is drawn: double precision cannot tell the sides of the view apart");
+        return made;
     }
 
     ViewResult whole() {

@@ -182,7 +182,11 @@ Case dashedParabolaCase() {
     return {"dashed-parabola",
             pictureOf({{stroked(parabola(), style)}}),
             {double(foot), double(parabolaAt(foot))},
-            [along](Real x, Real y) { return std::fmod(along(x, y), 10.4L) < 7.3L; }};
+            [along](Real x, Real y) {
+                const Real f = footOnParabola(x, y, 200);
+                return std::hypot(x - f, y - parabolaAt(f)) < 9.1L / 2 &&
+                       std::fmod(along(x, y), 10.4L) < 7.3L;
+            }};
 }
 
 Case miterCase() {

@@ -72,20 +72,21 @@ void warnIfTooCoarse(const Source& source, const SourceOptions& options, const a
     if (finest > pixel * (1 + 1e-9))
         say(fmt::format("{}: warning: at this zoom boundaries may be off by {:.3g} pixels; {}", source.name,
                         asset::finestShare * finest / pixel,
-                        source.scene ? "a finer --tolerance, or none, may help"
+                        source.scene ? options.paper ? "paper mode does not follow the view"
+                                                     : "without --tolerance they would not be"
                                      : "compile it anew with a finer --tolerance, or draw the SVG"));
 }
 
 }  // namespace
 
 asset::View prepareView(Source& source, const SourceOptions& options, const Framing& framing, bool compile) {
-    asset::View view = frame(framing, source.width, source.height);
+    const asset::View view = frame(framing, source.width, source.height);
     if (!compile)
         return view;
     const bool followsView = source.scene && !options.paper && !options.hasTolerance;
-    if (followsView)
-        view = compileSeen(source, options, framing, view);
-    else if (source.scene)
+    if (followsView)  // warns itself
+        return compileSeen(source, options, framing, view);
+    if (source.scene)
         compileSource(source, options);
     warnIfTooCoarse(source, options, view);
     return view;

@@ -44,6 +44,21 @@ class Render(Drawing):
         image = self.draw("--view", "-10,0,20,20")
         self.assertEqual([image.getpixel((x, 10)) for x in (5, 15)], [NOTHING, RED])
 
+    def test_zoom_is_exact(self):
+        size, edge = 2.0**-30, 20.3  # which is no border of a cell
+        self.svg = self.write("edge.svg", SQUARE.replace('x="20"', f'x="{edge}"').replace('width="20" h', f'width="{edge}" h'))
+        image = self.draw("--view", f"{edge - size / 2!r},5,{size!r},{size!r}", "--width", "16", engine="cpu")
+        self.assertEqual([image.getpixel((x, 8)) for x in (0, 7, 8, 15)], [RED, RED, PALE_BLUE, PALE_BLUE])
+
+    def test_zoom_beyond_what_a_file_shows_is_a_warning(self):
+        self.vtm("compile", self.svg, "-o", "square.vtm")
+        drawing = ("render", "square.vtm", "-o", "out.png", "--engine", "cpu")
+        self.assertEqual(self.vtm(*drawing, "--width", "400").stderr, "")
+        self.assertIn("boundaries may be off by", self.vtm(*drawing, "--view", "20,5,1e-6,1e-6", "--width", "16").stderr)
+        beyond_doubles = ("render", self.svg, "-o", "out.png", "--engine", "cpu", "--width", "16")
+        for size in ("1e-13", "1e-30"):
+            self.assertIn("double precision", self.vtm(*beyond_doubles, "--view", f"20,5,{size},{size}").stderr)
+
     def test_background(self):
         image = self.draw("--background", "white")
         self.assertEqual([image.getpixel((x, 10)) for x in (10, 25, 35)],
