@@ -2,9 +2,8 @@
 // every other, fetches and all.
 // Requires: fetch.glsl, shadow.glsl; patch_vertex.glsl's outputs; constants of src/patch.hpp; CROWDED defined as 1 where the
 // patch has crowded cells, else 0.
-// Exports: patchOrigin, patchTexels, patchPicture, Cell, patchPoint, cellAt, firstReferences, referenceCount,
-// referencesFrom, referenceAt,
-// patchTexel, unpackColor, finishedSum.
+// Exports: patchOrigin, patchTexels, patchPicture, Cell, patchPoint, isFlatPatch, cellAt, firstReferences,
+// referenceCount, referencesFrom, referenceAt, patchTexel, unpackColor, finishedSum.
 
 uniform usampler2D patches;
 uniform vec4 pixelToPatch;  // distances, by columns
@@ -30,11 +29,15 @@ vec2 patchPoint(vec2 pixel) {
     return (floor(times(pixelToPatch, pixel - patchOrigin) / patchStep) + vec2(0.25, 0.625)) * patchStep;
 }
 
+bool isFlatPatch() { return patchTexels.z != 0u; }
+
 Cell cellAt(vec2 pixel) {
     const float side = float(1u << patchCellsLog2);
     vec2 o = patchPoint(pixel);
     vec2 place = clamp(floor(o * side), 0.0, side - 1.0);
     uvec4 texel = patchTexel(patchTexels.y + (uint(place.y) << patchCellsLog2) + uint(place.x));
+    // A patch of one paint has no cells: what stands there is another patch's.
+    texel = isFlatPatch() ? uvec4(0u) : texel;
     uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;
     return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) / side);
 }

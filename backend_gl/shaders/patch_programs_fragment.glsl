@@ -80,13 +80,13 @@ vec4 valueOf(Share share, Cell cell, bool quarters) {
 // branch, and loops once after their end unless that is told at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
-    bool flatPatch = patchTexels.z != 0u, cut = false, quarters = false;
+    bool cut = false, quarters = false;
     uint passes = 0u;
     vec4 sum = vec4(0.0);
     for (;;) {
-        List list = List(flatPatch ? uvec4(0u) : firstReferences(cell), 0u, false, 0u, 0u);
+        List list = List(firstReferences(cell), 0u, false, 0u, 0u);
         list.all = referencesFrom(list.references);
-        Share recent = Share(flatPatch ? patchTexels.z - 1u : low(cell.texel.x), vec4(quarters ? 0.0 : 1.0));
+        Share recent = Share(isFlatPatch() ? patchTexels.z - 1u : low(cell.texel.x), vec4(quarters ? 0.0 : 1.0));
         Share older = Share(noPaint, vec4(0.0));
         uvec2 paints = uvec2(noPaint);
         vec4 weights = vec4(0.0);

@@ -11,6 +11,7 @@
 #include "backend_gl/src/patch_pieces.hpp"
 #include "backend_gl/src/patch_texels.hpp"
 #include "backend_gl/src/patch_turns.hpp"
+#include "backend_gl/src/rough_cells.hpp"
 #include "limits/limits.hpp"
 
 namespace vtm::gl {
@@ -196,19 +197,44 @@ bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* con
 
 /// Corners of a pixel are no further from its centre than `margin`, so it stretches what it maps by no more
 /// than twice that.
-PaintCosts costsOf(const PatchSource& source, const PatchPlace& place, double margin) {
-    const double stretch = 2 * margin * std::ldexp(source.map.side, -place.level);
-    return {source.programTurns, source.steepness, asset::leastSteepness(glm::dmat2(stretch))};
+double stretchOf(const PatchSource& source, const PatchPlace& place, double margin) {
+    return 2 * margin * std::ldexp(source.map.side, -place.level);
 }
 
-/// Of one paint: nothing but that, unless it takes too many turns.
-Patch flatPatch(const PatchSource& source, const PaintCosts& costs, std::uint32_t paint) {
+/// Which cells shaders do not draw: they would take too many turns, or not be exact.
+class HandedOver {
+public:
+    HandedOver(const PatchSource& source, double stretch, bool programs)
+        : maxTurns_(source.maxTurns),
+          programs_(programs),
+          costs_{source.programTurns, source.changes, asset::leastSteepness(glm::dmat2(stretch))} {
+        // The scanner has no colours of materials.
+        if (programs && source.asset.materials.empty())
+            rough_ = {source.changes, float(stretch)};
+    }
+
+    bool operator()(std::uint32_t paint, const std::vector<PlanarPiece>& pieces,
+                    std::span<const std::uint32_t> list) const {
+        const std::uint64_t turns =
+            programs_ ? turnsWithPrograms(costs_, paint, pieces, list) : solidTurns(list.size());
+        return turns > maxTurns_ || rough_.mayBe(paint, pieces, list);
+    }
+
+private:
+    std::uint64_t maxTurns_;
+    bool programs_;
+    PaintCosts costs_;
+    RoughCells rough_;
+};
+
+/// Of one paint: nothing but that, unless shaders do not draw it.
+Patch flatPatch(const PatchSource& source, double stretch, std::uint32_t paint) {
     Patch patch;
     patch.paint = paint;
     patch.programs = asset::isProgram(source.asset.paints[paint]);
-    if (!patch.programs || turnsWithPrograms(costs, paint, {}, {}) <= source.maxTurns)
-        return patch;
     const std::vector<PlanarPiece> none;
+    if (!patch.programs || !HandedOver(source, stretch, true)(paint, none, {}))
+        return patch;
     const CellWriter writer(source.asset.paints, none, patch.texels);
     for (int cell = 0; cell < cellCount * cellCount; ++cell)
         patch.crowded.push_back(std::uint8_t(cell));
@@ -221,7 +247,7 @@ Patch flatPatch(const PatchSource& source, const PaintCosts& costs, std::uint32_
 Patch buildPatch(const PatchSource& source, const PatchPlace& place, double margin,
                  std::span<const PlanarPiece* const> near) {
     const LocalPieces local(place, margin, near);
-    const PaintCosts costs = costsOf(source, place, margin);
+    const double stretch = stretchOf(source, place, margin);
     const bool programs = hasPrograms(source.asset, near);
     const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
     const Lists lists = listsOf(pieces, margin);
@@ -229,11 +255,8 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
         return paintAt(source.asset, source.map, betweenRows(local.toLattice(point)), near);
     };
     if (lists.numbers.empty())
-        return flatPatch(source, costs, paintIn(dvec2(0.5)));
-    const auto isCrowded = [&](std::uint32_t paint, std::span<const std::uint32_t> list) {
-        return (programs ? turnsWithPrograms(costs, paint, pieces, list) : solidTurns(list.size())) >
-               source.maxTurns;
-    };
+        return flatPatch(source, stretch, paintIn(dvec2(0.5)));
+    const HandedOver isHandedOver(source, stretch, programs);
     Patch patch;
     patch.programs = programs;
     for (const PlanarPiece& piece : pieces) {
@@ -256,7 +279,7 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
                 here.paint = walk.paintAt(here.point, rowStart, lists.of(i - cellCount), lists.of(i));
             else
                 here.paint = walk.paintAt(here.point, last, lists.of(i - 1), lists.of(i));
-            const bool crowded = isCrowded(here.paint, lists.of(i));
+            const bool crowded = isHandedOver(here.paint, pieces, lists.of(i));
             cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
             if (crowded)
                 patch.crowded.push_back(std::uint8_t(i));

@@ -15,6 +15,7 @@
 
 #include "asset/asset.hpp"
 #include "asset/planar_map.hpp"
+#include "asset/steepness.hpp"
 #include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
@@ -77,7 +78,7 @@ struct PatchSource {
     asset::AssetView asset;
     asset::Map map;
     std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
-    std::span<const float> steepness;             ///< by paint (asset/steepness.hpp)
+    std::span<const asset::PaintChange> changes;  ///< by paint
     std::uint32_t maxTurns = turnsPerPixel;
 };
 

@@ -64,7 +64,7 @@ std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, g
 }
 
 PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const PlanarPiece* const> near) {
-    const PatchSource source{asset_->asset, map_, asset_->programTurns, asset_->steepness, maxTurns_};
+    const PatchSource source{asset_->asset, map_, asset_->programTurns, asset_->changes, maxTurns_};
     Patch patch = buildPatch(source, place, patchMargin(), near);
     if (patch.texels.empty())
         return {true, patch.programs, patch.paint, 0, 0, {}};

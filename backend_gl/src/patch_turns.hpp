@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asset/planar_map.hpp"
+#include "asset/steepness.hpp"
 
 namespace vtm::gl {
 
@@ -16,10 +17,10 @@ std::uint64_t solidTurns(std::size_t pieces);
 /// What paints cost, by paint.
 struct PaintCosts {
     std::span<const std::uint32_t> turns;  ///< of turns.hpp
-    std::span<const float> steepness;      ///< of asset/steepness.hpp
-    float leastSteep = 0;                  ///< no pixel of the patch has a smaller one
+    std::span<const asset::PaintChange> changes;
+    float leastSteep = 0;  ///< no pixel of the patch has a smaller one
 
-    bool mayBeSteep(std::uint32_t paint) const { return steepness[paint] > leastSteep; }
+    bool mayBeSteep(std::uint32_t paint) const { return changes[paint].steepness > leastSteep; }
 };
 
 /// Of patch_programs_fragment.glsl, for pieces `list` and the paint at the reference point.

@@ -4,7 +4,6 @@
 
 #include <glm/common.hpp>
 
-#include "asset/steepness.hpp"
 #include "backend_gl/src/turns.hpp"
 
 namespace vtm::gl {
@@ -38,7 +37,7 @@ KeptAsset keptOf(const asset::AssetView& asset) {
     copy(asset.images, kept.asset.images);
     copy(asset.materials, kept.asset.materials);
     kept.programTurns = programTurns(asset);
-    kept.steepness = asset::steepnessOf(asset);
+    kept.changes = asset::changesOf(asset);
     return kept;
 }
 

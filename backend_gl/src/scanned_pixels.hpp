@@ -9,6 +9,7 @@
 
 #include "asset/asset.hpp"
 #include "asset/scan.hpp"
+#include "asset/steepness.hpp"
 #include "asset/view.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/placement.hpp"
@@ -19,7 +20,7 @@ namespace vtm::gl {
 struct KeptAsset {
     asset::Asset asset;                       ///< without commands and prefilter
     std::vector<std::uint32_t> programTurns;  ///< by paint (turns.hpp)
-    std::vector<float> steepness;             ///< by paint (asset/steepness.hpp)
+    std::vector<asset::PaintChange> changes;  ///< by paint
 };
 KeptAsset keptOf(const asset::AssetView& asset);
 
