@@ -94,12 +94,13 @@ struct Node;
 class NodeList : public std::vector<Node> {
 public:
     using std::vector<Node>::vector;
-    NodeList() = default;
-    NodeList(std::vector<Node> nodes) noexcept : std::vector<Node>(std::move(nodes)) {}
+    // Defined where Node is complete.
+    NodeList() noexcept;
+    NodeList(std::vector<Node> nodes) noexcept;
     NodeList(const NodeList& other);
-    NodeList(NodeList&&) noexcept = default;
+    NodeList(NodeList&&) noexcept;
     NodeList& operator=(const NodeList& other);
-    NodeList& operator=(NodeList&&) noexcept = default;
+    NodeList& operator=(NodeList&&) noexcept;
     ~NodeList();
 };
 

@@ -401,7 +401,7 @@ void addCoverage(const Paints& paints, const Map& map, const View& view, image::
 void addColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
                image::Raster& target) {
     image::Raster colors(view.width, view.height);
-    drawColors(paints, map, view, materials, finerLevels(view), 1, colors);
+    drawColors(paints, map, view, materials, finerLevels(paints.asset(), view), 1, colors);
     for (std::size_t i = 0; i < colors.rgba.size(); ++i)
         target.rgba[i] += colors.rgba[i];
 }

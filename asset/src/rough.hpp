@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <span>
 
+#include "asset/asset.hpp"
 #include "asset/src/float4.hpp"
 #include "asset/steepness.hpp"
 #include "asset/view.hpp"
@@ -21,9 +22,12 @@ inline constexpr int maxFinerLevels = 3;
 /// Few of the finer pixels are rough, and their errors differ in sign: each may be off by so many times more.
 inline constexpr float finerTolerance = 3;
 
-/// How many times over rough pixels of a view may be drawn finer.
-inline int finerLevels(const View& view) {
+/// How many times over rough pixels of a view may be drawn finer. Materials are asked for at the places that
+/// shaders ask them for, and no others.
+inline int finerLevels(const AssetView& asset, const View& view) {
     int levels = 0;
+    if (!asset.materials.empty())
+        return levels;
     for (int side = std::max(view.width, view.height) * finerSide;
          levels < maxFinerLevels && side <= maxFinerSide; side *= finerSide)
         ++levels;

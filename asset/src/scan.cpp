@@ -257,7 +257,7 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     // An exception loses the scratch, whose sums may be half done.
     std::unique_ptr<Scratch> scratch = takeScratch();
     const limits::Stage stage("scanning");
-    Drawing drawing(*this, view, materials, *scratch, finerLevels(view));
+    Drawing drawing(*this, view, materials, *scratch, finerLevels(asset, view));
     drawing.addPicture();
     drawing.draw(store);
     giveBack(std::move(scratch));

@@ -61,6 +61,11 @@ void release(std::shared_ptr<const void> part) noexcept {
 
 }  // namespace detail
 
+NodeList::NodeList() noexcept = default;
+NodeList::NodeList(std::vector<Node> nodes) noexcept : std::vector<Node>(std::move(nodes)) {}
+NodeList::NodeList(NodeList&&) noexcept = default;
+NodeList& NodeList::operator=(NodeList&&) noexcept = default;
+
 NodeList::NodeList(const NodeList& other) : std::vector<Node>(counted(other, Copying())) {}
 
 NodeList& NodeList::operator=(const NodeList& other) { return *this = NodeList(other); }
