@@ -20,4 +20,9 @@ using MaterialFunction = std::function<glm::vec4(std::uint32_t material, glm::ve
 /// them. Throws std::length_error if the view is beyond its limits.
 image::Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials = {});
 
+/// The same as shaders draw it, which have nothing finer than quarters of pixels (docs/coverage.md, rough
+/// pixels).
+image::Raster evaluateAsShaders(const AssetView& asset, const View& view,
+                                const MaterialFunction& materials = {});
+
 }  // namespace vtm::asset

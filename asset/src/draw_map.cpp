@@ -399,9 +399,9 @@ void addCoverage(const Paints& paints, const Map& map, const View& view, image::
 }
 
 void addColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
-               image::Raster& target) {
+               int finerLevels, image::Raster& target) {
     image::Raster colors(view.width, view.height);
-    drawColors(paints, map, view, materials, finerLevels(paints.asset(), view), 1, colors);
+    drawColors(paints, map, view, materials, finerLevels, 1, colors);
     for (std::size_t i = 0; i < colors.rgba.size(); ++i)
         target.rgba[i] += colors.rgba[i];
 }

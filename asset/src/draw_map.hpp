@@ -24,8 +24,8 @@ View crop(const View& view, const PixelBox& box);
 /// target += coverage of each pixel's box, of a map with the paints 0 and 1.
 void addCoverage(const Paints& paints, const Map& map, const View& view, image::Raster& target);
 
-/// target += ∫ colour over each pixel's box.
+/// target += ∫ colour over each pixel's box; of rough pixels, so many levels finer (asset/src/rough.hpp).
 void addColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
-               image::Raster& target);
+               int finerLevels, image::Raster& target);
 
 }  // namespace vtm::asset

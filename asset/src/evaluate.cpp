@@ -12,6 +12,7 @@
 #include "asset/src/draw_map.hpp"
 #include "asset/src/float4.hpp"
 #include "asset/src/paint.hpp"
+#include "asset/src/rough.hpp"
 
 namespace vtm::asset {
 
@@ -111,10 +112,10 @@ void pop(const Command& command, std::vector<Raster>& stack) {
 }
 
 void execute(const Paints& paints, const Command& command, const View& view,
-             const MaterialFunction& materials, std::vector<Raster>& stack) {
+             const MaterialFunction& materials, int levels, std::vector<Raster>& stack) {
     switch (command.kind) {
         case Command::Kind::DrawMap:
-            return addColors(paints, paints.asset().maps[command.map], view, materials, stack.back());
+            return addColors(paints, paints.asset().maps[command.map], view, materials, levels, stack.back());
         case Command::Kind::FillMask:
             return fillMask(paints, command, view, materials, stack.back());
         case Command::Kind::ClipMask:
@@ -127,19 +128,28 @@ void execute(const Paints& paints, const Command& command, const View& view,
     }
 }
 
+/// Rough pixels so many levels finer.
+Raster drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels) {
+    validate(view);
+    std::vector<Raster> stack(1, Raster(view.width, view.height));
+    for (const Command& command : paints.asset().commands)
+        execute(paints, command, view, materials, levels, stack);
+    std::ranges::transform(stack.back().rgba, stack.back().rgba.begin(), unit);
+    return std::move(stack.back());
+}
+
 }  // namespace
 
 Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials) {
     return evaluate(Paints(asset), view, materials);
 }
 
+Raster evaluateAsShaders(const AssetView& asset, const View& view, const MaterialFunction& materials) {
+    return drawn(Paints(asset), view, materials, 0);
+}
+
 Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials) {
-    validate(view);
-    std::vector<Raster> stack(1, Raster(view.width, view.height));
-    for (const Command& command : paints.asset().commands)
-        execute(paints, command, view, materials, stack);
-    std::ranges::transform(stack.back().rgba, stack.back().rgba.begin(), unit);
-    return std::move(stack.back());
+    return drawn(paints, view, materials, finerLevels(paints.asset(), view));
 }
 
 }  // namespace vtm::asset

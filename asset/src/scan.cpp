@@ -257,7 +257,7 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     // An exception loses the scratch, whose sums may be half done.
     std::unique_ptr<Scratch> scratch = takeScratch();
     const limits::Stage stage("scanning");
-    Drawing drawing(*this, view, materials, *scratch, finerLevels(asset, view));
+    Drawing drawing(*this, view, materials, *scratch, sums == Sums::Encoded ? finerLevels(asset, view) : 0);
     drawing.addPicture();
     drawing.draw(store);
     giveBack(std::move(scratch));

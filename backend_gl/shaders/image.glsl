@@ -1,5 +1,5 @@
 // Pictures of paint programs and their levels (image/levels.hpp), all in one texture, row after row.
-// Requires: fetch.glsl, gradient.glsl; constants imageColumnsLog2, filter*. Twin of: asset/src/image_fill.cpp.
+// Requires: fetch.glsl (spend, too), gradient.glsl; constants imageColumnsLog2, filter*. Twin of: asset/src/image_fill.cpp.
 // Exports: imageColor.
 
 #ifdef ONE_ASSET
@@ -89,6 +89,10 @@ vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
     int tapsLog2 = b.w == filterNearest ? 0 : b.w == filterBicubic ? 2 : 1;
     vec4 sum = vec4(0.0);
     int levels = share > 0.0 ? 2 : 1;
+    // At each point: the loop itself, down to its level, the texels.
+    int turnsOfPoint = 1 + int(lod) + 3 + (1 << (2 * tapsLog2)) + 1;
+    if (!spend(float(levels * (2 * probes.side + 1) * turnsOfPoint)))
+        return sum;
     for (int i = levels * -probes.side; i < levels * (probes.side + 1); ++i) {
         // The two levels take turns at each of the points.
         bool coarser = levels == 2 && (i & 1) == 1;

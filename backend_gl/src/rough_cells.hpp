@@ -13,10 +13,10 @@
 
 namespace vtm::gl {
 
-/// What shaders still draw. A patch serves an octave, and `RoughCells::pixel` is that of its coarsest end on
-/// the diagonal, so pixels are up to 2.8 times as small as that: these are four times the scanner's bounds
-/// (asset/src/rough.hpp), and leave about 4/255.
-inline constexpr float maxCutChange = 96.0f / 255, maxCutVariation = 1, maxWholeChange = 320.0f / 255;
+/// What shaders still draw, of a change over `RoughCells::pixel`. A patch serves an octave, and that is the
+/// diagonal of its largest pixel: pixels themselves are 1.4 to 2.8 times as small. Under an edge a sixteenth
+/// of a change is left, of layers that change together the square's 24th: 3/255.
+inline constexpr float maxCutChange = 64.0f / 255, maxCutVariation = 0.7f, maxWholeChange = 190.0f / 255;
 
 struct RoughCells {
     std::span<const asset::PaintChange> changes;  ///< by paint; empty: none are

@@ -46,7 +46,7 @@ std::vector<Texel> dataOf(const AssetView& asset) {
 /// Programs with their turns in the word that is free.
 std::vector<asset::Paint> paintsOf(const AssetView& asset) {
     std::vector<asset::Paint> paints(asset.paints.begin(), asset.paints.end());
-    const std::vector<std::uint32_t> turns = programTurns(asset);
+    const std::vector<std::uint32_t> turns = programTurns(asset, ImageTurns::CountedByShaders);
     for (std::size_t i = 0; i < paints.size(); ++i)
         if (asset::isProgram(paints[i]))
             paints[i][2] = turns[i];

@@ -40,26 +40,27 @@ std::uint32_t imageTurns(const asset::AssetView& asset, const Texel& fill) {
     return loop(2 * 17, loop(levels) + loop(filter == ImageFilter::Bicubic ? 16 : 4));
 }
 
-std::uint32_t layerTurns(const asset::AssetView& asset, const asset::Instruction& in) {
+std::uint32_t layerTurns(const asset::AssetView& asset, const asset::Instruction& in, ImageTurns images) {
     // The words spread and stopCount of a Gradient, image and filter of an ImageFill.
     if (in.op == Op::Linear || in.op == Op::Radial)
         return gradientTurns(Spread(asset.data[in.argument + 1][2]), asset.data[in.argument + 1][3]);
-    return in.op == Op::Image ? imageTurns(asset, asset.data[in.argument + 1]) : 0;
+    return in.op == Op::Image && images == ImageTurns::AtMost ? imageTurns(asset, asset.data[in.argument + 1])
+                                                              : 0;
 }
 
-std::uint32_t turnsOf(const asset::AssetView& asset, const asset::Paint& program) {
+std::uint32_t turnsOf(const asset::AssetView& asset, const asset::Paint& program, ImageTurns images) {
     std::uint32_t turns = loop(program[1]);
     for (std::uint32_t i = 0; i < program[1]; ++i)
-        turns += layerTurns(asset, std::bit_cast<asset::Instruction>(asset.data[program[0] + i]));
+        turns += layerTurns(asset, std::bit_cast<asset::Instruction>(asset.data[program[0] + i]), images);
     return turns;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> programTurns(const asset::AssetView& asset) {
+std::vector<std::uint32_t> programTurns(const asset::AssetView& asset, ImageTurns images) {
     std::vector<std::uint32_t> turns;
     for (const asset::Paint& paint : asset.paints)
-        turns.push_back(asset::isProgram(paint) ? turnsOf(asset, paint) : 0);
+        turns.push_back(asset::isProgram(paint) ? turnsOf(asset, paint, images) : 0);
     return turns;
 }
 

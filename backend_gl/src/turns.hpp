@@ -23,8 +23,12 @@ inline constexpr std::uint32_t turnsPerPixel = driverTurns / vectorPixels;
 /// the stops.
 inline constexpr std::uint32_t longRamp = 16;
 
+/// Images take what their pixels' footprints want: as many as at most, or none, where shaders count them.
+enum class ImageTurns { AtMost, CountedByShaders };
+
 /// The turns that paint.glsl takes for one colour of a paint at most, by paint: 0 for solid colours. Loops in
 /// materials are their authors' own.
-std::vector<std::uint32_t> programTurns(const asset::AssetView& asset);
+std::vector<std::uint32_t> programTurns(const asset::AssetView& asset,
+                                        ImageTurns images = ImageTurns::AtMost);
 
 }  // namespace vtm::gl

@@ -51,7 +51,7 @@ TEST_F(Gl, TexturesShowWhatTheEvaluatorDoes) {
                                blendAsset(asset::Blend::Normal), blendAsset(asset::Blend::Hue)})
         for (test::TextureCanvas canvas(asset); const int i : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}) {
             const View view = largeView(random);
-            EXPECT_LE(worst(canvas.draw(view), asset::evaluate(asset, view)), tolerance) << i;
+            EXPECT_LE(worst(canvas.draw(view), asset::evaluateAsShaders(asset, view)), tolerance) << i;
         }
 }
 
@@ -60,7 +60,7 @@ TEST_F(Gl, TexturesHaveEveryPaint) {
     test::TextureCanvas canvas(asset);
     for (int i = 0; i < 16; ++i) {  // large, so that it does not matter where in a pixel a paint is looked at
         const View view = turnedView(96, 96, {8 + 16 * (i % 4), 8 + 16 * (i / 4)}, 40, 0.5);
-        const Raster picture = asset::evaluate(asset, view);
+        const Raster picture = asset::evaluateAsShaders(asset, view);
         EXPECT_LE(worst(canvas.draw(view), picture), tolerance) << i;
         EXPECT_GT(worst(picture, Raster(96, 96)), 0.1) << i;
     }
