@@ -167,7 +167,8 @@ TEST(Vtm, AMillionGroupsClipsOrMasksInEachOther) {
     EXPECT_THROW(Vtm::fromScene(deep), scene::InvalidScene);
     const auto at = scene::translation(1, 0);
     for (const Compositing& how : {clipped, masked})
-        EXPECT_THROW(Vtm::layer(Vtm::paint(red), {}, how).placed(at).toScene(side, side), scene::InvalidScene);
+        EXPECT_THROW(Vtm::layer(Vtm::paint(red), {}, how).placed(at).toScene(side, side),
+                     scene::InvalidScene);
 }
 
 TEST(Vtm, MaterialsAndImagesReachTheAsset) {

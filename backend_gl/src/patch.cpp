@@ -12,6 +12,7 @@
 #include "backend_gl/src/patch_texels.hpp"
 #include "backend_gl/src/patch_turns.hpp"
 #include "backend_gl/src/rough_cells.hpp"
+#include "backend_gl/src/turns.hpp"
 #include "limits/limits.hpp"
 
 namespace vtm::gl {
@@ -205,10 +206,9 @@ double stretchOf(const PatchSource& source, const PatchPlace& place, double marg
 class HandedOver {
 public:
     HandedOver(const PatchSource& source, double stretch, bool programs)
-        : maxTurns_(source.maxTurns),
+        : maxTurns_(source.asset.materials.empty() ? source.maxTurns : source.maxTurns * materialFactor),
           programs_(programs),
           costs_{source.programTurns, source.changes, asset::leastSteepness(glm::dmat2(stretch))} {
-        // The scanner has no colours of materials.
         if (programs && source.asset.materials.empty())
             rough_ = {source.changes, float(stretch)};
     }
@@ -221,6 +221,10 @@ public:
     }
 
 private:
+    /// The scanner has no colours of materials, so shaders take up to half of what a driver allows; pixels
+    /// that share an invocation have cells that are alike.
+    static constexpr std::uint64_t materialFactor = vectorPixels / 2;
+
     std::uint64_t maxTurns_;
     bool programs_;
     PaintCosts costs_;

@@ -15,8 +15,9 @@ namespace vtm::gl {
 
 /// What shaders still draw, of a change over `RoughCells::pixel`. A patch serves an octave, and that is the
 /// diagonal of its largest pixel: pixels themselves are 1.4 to 2.8 times as small. Under an edge a sixteenth
-/// of a change is left, of layers that change together the square's 24th: 3/255.
-inline constexpr float maxCutChange = 64.0f / 255, maxCutVariation = 0.7f, maxWholeChange = 190.0f / 255;
+/// of a change is left, of layers that change together the square's 24th: 2/255, and as much from other
+/// causes.
+inline constexpr float maxCutChange = 40.0f / 255, maxCutVariation = 0.4f, maxWholeChange = 120.0f / 255;
 
 struct RoughCells {
     std::span<const asset::PaintChange> changes;  ///< by paint; empty: none are

@@ -120,11 +120,13 @@ TEST_F(Gl, LinearLightAddsLight) {
 TEST_F(Gl, LinearLightOfPrograms) {
     const Asset asset = blendAsset(asset::Blend::Normal);
     const Texture texture = renderer->upload(asset);
-    const image::Raster picture = renderer->render(texture, turned());
+    // Magnified, so that no pixel is rough: those would be averaged in encoded numbers (docs/coverage.md).
+    const View view = turnedView(side, side, {32, 32}, 6, 0.4);
+    const image::Raster picture = renderer->render(texture, view);
     Output output;
     output.linearLight = true;
     const UserFramebuffer target(GL_RGBA32F, side, side);
-    renderer->draw(texture, turned(), output);
+    renderer->draw(texture, view, output);
     const image::Raster drawn = target.floats();
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {

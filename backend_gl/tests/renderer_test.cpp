@@ -57,6 +57,10 @@ Worst worstOfNearest(const image::Raster& drawn, const image::Raster& a, const i
 }
 
 /// Rough pixels come from the shaders or, where their cells are handed over, from the scanner.
+image::Raster handedOver(const Asset& asset, const View& view) {
+    return asset::isSumOfMaps(asset) ? asset::Scanner(asset).draw(view) : asset::evaluate(asset, view);
+}
+
 void expectTwins(Renderer& renderer, const Asset& asset, int views = 25, double tolerance = twinTolerance) {
     ASSERT_NO_THROW(asset::validate(asset));
     const Texture texture = renderer.upload(asset);
@@ -64,7 +68,7 @@ void expectTwins(Renderer& renderer, const Asset& asset, int views = 25, double 
     for (int i = 0; i < views; ++i) {
         const View view = randomView(random);
         const Worst w = worstOfNearest(renderer.render(texture, view), asset::evaluateAsShaders(asset, view),
-                                       asset::Scanner(asset).draw(view));
+                                       handedOver(asset, view));
         ASSERT_LE(w.difference, tolerance) << "view " << i << " pixel " << w.x << ", " << w.y;
     }
 }

@@ -67,7 +67,8 @@ Converter::Level::Level(Converter& converter, const Element& element)
           this) {
     limits::check();
     if (++converter_.budget_.level > Limits::maxDepth)
-        converter_.reporter_.warn(Warning::Kind::Limit, element, "elements are nested too deep here; it is left out");
+        converter_.reporter_.warn(Warning::Kind::Limit, element,
+                                  "elements are nested too deep here; it is left out");
 }
 
 void Converter::convertElement(const Element& element, const Scope& parent, Nodes& out) {

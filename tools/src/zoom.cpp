@@ -14,7 +14,8 @@ namespace vtm::tools {
 
 namespace {
 
-/// As fine as usual, as long as that takes no more than a third of the limit; then no finer than the raster shows.
+/// As fine as usual, as long as that takes no more than a third of the limit; then no finer than the raster
+/// shows.
 compiler::ViewResult compileInTime(const Source& source, const compiler::Part& part, const asset::View& view,
                                    compiler::Options options) {
     const auto compile = [&] {
@@ -45,8 +46,8 @@ asset::View compileSeen(Source& source, const SourceOptions& options, const Fram
                         const asset::View& view) {
     const Rectangle part = framing.part.value_or(Rectangle{0, 0, source.width, source.height});
     const compiler::Part seen{part.x, part.y, part.width, part.height};
-    compiler::ViewResult made = timed(
-        source.stages, "compile", [&] { return compileInTime(source, seen, view, options.compiler); });
+    compiler::ViewResult made =
+        timed(source.stages, "compile", [&] { return compileInTime(source, seen, view, options.compiler); });
     const scene::Affine& m = made.fromScene;
     for (compiler::UnprovenSquare& s : made.result.unproven)
         s = {(s.x - m[2].x) / m[0].x, (s.y - m[2].y) / m[1].y, s.side / std::min(m[0].x, m[1].y)};

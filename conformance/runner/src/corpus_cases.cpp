@@ -83,18 +83,8 @@ SceneSettings at(SceneSettings settings, int size) {
     return settings;
 }
 
-/// Paints that vary are read once a pixel by the engines, which differs from the reference where pixels are
-/// large.
-SceneSettings twinsOnly(SceneSettings settings) {
-    settings.bounds = {.twin = settings.bounds.twin};
-    return settings;
-}
-
 /// Pixels a side.
 constexpr int thumbnails[] = {8, 16, 32};
-
-/// Files whose gradients go through many shades within such a pixel.
-bool isShaded(const CorpusFile& file) { return file.name == "gallardo" || file.name == "fluent_prince"; }
 
 /// Where a pixel holds very much, the largest difference is what matters, and the evaluator's chords are no
 /// yardstick.
@@ -131,17 +121,15 @@ std::vector<Case> corpusCases(const Folder& folder) {
                 });
         add("engines." + file.name + ".1024px", "A real file: every engine against the exact reference.",
             [=](const Setting& setting) { return againstReference(file.name, at(settings, 1024), setting); });
-        add("engines." + file.name + ".64px", "A real file made small: the engines against each other.",
-            [=](const Setting& setting) {
-                return againstReference(file.name, twinsOnly(at(settings, 64)), setting);
+        add("engines." + file.name + ".64px",
+            "A real file made small: the engines against the exact reference.", [=](const Setting& setting) {
+                return againstReference(file.name, crowded(at(settings, 64)), setting);
             });
         for (const int size : thumbnails)
             add(fmt::format("thumbnails.{}.{}px", file.name, size),
                 "A real file made very small: every engine against the exact reference.",
                 [=](const Setting& setting) {
-                    const SceneSettings small = at(settings, size);
-                    return againstReference(file.name, isShaded(file) ? twinsOnly(small) : crowded(small),
-                                            setting);
+                    return againstReference(file.name, crowded(at(settings, size)), setting);
                 });
     }
     for (const std::string& icon : drawingsIn(vtm::cases::sharedDirectory() / "corpus/icons"))
