@@ -181,8 +181,8 @@ private:
                 colors.emplace_back(*next, means.at(*next));
         }
         std::ranges::sort(colors, {}, [](const auto& c) { return c.first; });
-        const auto again = std::ranges::unique(colors, {}, [](const auto& c) { return c.first; });
-        colors.erase(again.begin(), again.end());
+        const auto isSamePixel = [](const auto& a, const auto& b) { return a.first == b.first; };
+        colors.erase(std::unique(colors.begin(), colors.end(), isSamePixel), colors.end());
         for (const auto& [pixel, color] : colors)
             scratch_.programs.pixels().replace(pixel.row, pixel.x, color);
     }
