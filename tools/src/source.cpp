@@ -1,6 +1,5 @@
 #include "tools/src/source.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 
