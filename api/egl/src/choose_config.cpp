@@ -4,7 +4,6 @@
 #include <array>
 #include <iterator>
 #include <map>
-#include <tuple>
 
 #include "api/egl/src/attributes.hpp"
 #include "api/egl/src/configs.hpp"
@@ -147,21 +146,30 @@ private:
     bool asksForMore_ = false;
 };
 
-/// Section 3.4.1.2, rules 1 to 9 and 11; smaller comes first. Native visual types have no order of their own.
-auto sortKey(const Display& display, const Request& request, EGLConfig config) {
-    const auto value = [&](EGLint name) { return configAttribute(display, config, name); };
+/// A config as it is ordered: smaller keys come first (section 3.4.1.2, rules 1 to 9 and 11). Native visual
+/// types have no order of their own. The key is made once: another thread may terminate the display
+/// meanwhile.
+struct Candidate {
+    EGLConfig handle = nullptr;
+    std::array<EGLint, 10> key{};
+};
+
+/// `value` gives the config's attributes by name.
+template <class Value>
+Candidate candidate(const Request& request, EGLConfig handle, Value&& value) {
     const auto asked = [&](EGLint name) { return request[name] > 0 ? value(name) : 0; };
     const EGLint caveat = value(EGL_CONFIG_CAVEAT);
     const bool isGrey = value(EGL_COLOR_BUFFER_TYPE) == EGL_LUMINANCE_BUFFER;
     const EGLint bits =
         asked(EGL_ALPHA_SIZE) + (isGrey ? asked(EGL_LUMINANCE_SIZE)
                                         : asked(EGL_RED_SIZE) + asked(EGL_GREEN_SIZE) + asked(EGL_BLUE_SIZE));
-    return std::tuple(caveat == EGL_NONE          ? 0
-                      : caveat == EGL_SLOW_CONFIG ? 1
-                                                  : 2,
-                      isGrey, -bits, value(EGL_BUFFER_SIZE), value(EGL_SAMPLE_BUFFERS), value(EGL_SAMPLES),
-                      value(EGL_DEPTH_SIZE), value(EGL_STENCIL_SIZE), value(EGL_ALPHA_MASK_SIZE),
-                      value(EGL_CONFIG_ID));
+    return {
+        handle,
+        {caveat == EGL_NONE          ? 0
+         : caveat == EGL_SLOW_CONFIG ? 1
+                                     : 2,
+         isGrey, -bits, value(EGL_BUFFER_SIZE), value(EGL_SAMPLE_BUFFERS), value(EGL_SAMPLES),
+         value(EGL_DEPTH_SIZE), value(EGL_STENCIL_SIZE), value(EGL_ALPHA_MASK_SIZE), value(EGL_CONFIG_ID)}};
 }
 
 /// The system's choice, in its order. Throws what it says against the list.
@@ -184,17 +192,29 @@ std::vector<EGLConfig> pixmapConfigs(const Display& display, EGLint pixmap) {
     return systemChoice(display, list);
 }
 
-std::vector<EGLConfig> ourChoice(Display& display, const Request& request) {
+std::vector<Candidate> ourChoice(Display& display, const Request& request) {
     const EGLint pixmap = request[EGL_MATCH_NATIVE_PIXMAP];
     const bool byPixmap = pixmap != EGL_NONE && request[EGL_CONFIG_ID] == EGL_DONT_CARE;
     const std::vector<EGLConfig> fitting =
         byPixmap ? pixmapConfigs(display, pixmap) : std::vector<EGLConfig>();
     const std::lock_guard lock(display.initializing);
-    std::vector<EGLConfig> chosen;
+    std::vector<Candidate> chosen;
     for (const auto& config : display.configs)
         if (request.matches(*config) && (!byPixmap || std::ranges::count(fitting, config->pixmap) > 0))
-            chosen.push_back(config->handle);
+            chosen.push_back(candidate(request, config->handle,
+                                       [&](EGLint name) { return config->attribute(name).value_or(0); }));
+    std::ranges::sort(chosen, {}, &Candidate::key);
     return chosen;
+}
+
+/// In the system's order.
+std::vector<Candidate> candidates(const Display& display, const Request& request,
+                                  const std::vector<EGLConfig>& systems) {
+    std::vector<Candidate> made;
+    for (const EGLConfig config : systems)
+        made.push_back(candidate(request, config,
+                                 [&](EGLint name) { return systemConfigAttribute(display, config, name); }));
+    return made;
 }
 
 /// Programs that ask for OpenGL or OpenGL ES alone get what they get without us, though both draw with
@@ -210,15 +230,14 @@ std::vector<EGLConfig> choice(Display& display, const EGLint* list) {
     if (request[EGL_CONFIG_ID] == EGL_DONT_CARE && request[EGL_RENDERABLE_TYPE] != EGL_DONT_CARE &&
         (request[EGL_RENDERABLE_TYPE] & EGL_OPENVG_BIT))
         systems.clear();
-    std::vector<EGLConfig> ours =
-        isForOpenGl(request) ? std::vector<EGLConfig>() : ourChoice(display, request);
-    const auto isBefore = [&](EGLConfig a, EGLConfig b) {
-        return sortKey(display, request, a) < sortKey(display, request, b);
-    };
-    std::ranges::sort(ours, isBefore);
-    std::vector<EGLConfig> all;
-    std::ranges::merge(systems, ours, std::back_inserter(all), isBefore);
-    return all;
+    const std::vector<Candidate> ours =
+        isForOpenGl(request) ? std::vector<Candidate>() : ourChoice(display, request);
+    std::vector<Candidate> all;
+    std::ranges::merge(candidates(display, request, systems), ours, std::back_inserter(all), {},
+                       &Candidate::key, &Candidate::key);
+    std::vector<EGLConfig> handles;
+    std::ranges::transform(all, std::back_inserter(handles), &Candidate::handle);
+    return handles;
 }
 
 }  // namespace

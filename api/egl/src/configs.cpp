@@ -30,7 +30,7 @@ EGLConfig nearest(const Display& display, const std::vector<EGLConfig>& candidat
     int bestDistance = INT_MAX;
     const int wanted = format.redBits != 0 ? format.redBits : 8;
     for (const EGLConfig config : candidates) {
-        const auto value = [&](EGLint name) { return configAttribute(display, config, name); };
+        const auto value = [&](EGLint name) { return systemConfigAttribute(display, config, name); };
         const bool isUsable = (value(EGL_SURFACE_TYPE) & surfaceBit) && value(EGL_SAMPLES) == 0 &&
                               (value(EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT) && value(EGL_RED_SIZE) <= 8 &&
                               value(EGL_COLOR_BUFFER_TYPE) == EGL_RGB_BUFFER;
@@ -54,7 +54,7 @@ EGLConfig equal(const Display& display, const std::vector<EGLConfig>& candidates
     EGLConfig best = nullptr;
     int bestDistance = INT_MAX;
     for (const EGLConfig config : candidates) {
-        const auto value = [&](EGLint name) { return configAttribute(display, config, name); };
+        const auto value = [&](EGLint name) { return systemConfigAttribute(display, config, name); };
         const bool isEqual =
             value(EGL_RED_SIZE) == format.redBits && value(EGL_GREEN_SIZE) == format.greenBits &&
             value(EGL_BLUE_SIZE) == format.blueBits && value(EGL_ALPHA_SIZE) == format.alphaBits &&
@@ -148,9 +148,7 @@ std::optional<EGLint> Config::attribute(EGLint name) const {
     }
 }
 
-EGLint configAttribute(const Display& display, EGLConfig handle, EGLint name) {
-    if (const auto config = configs().find(handle))
-        return config->attribute(name).value_or(0);
+EGLint systemConfigAttribute(const Display& display, EGLConfig handle, EGLint name) {
     EGLint value = 0;
     if (!systemEgl()->GetConfigAttrib(display.handle, handle, name, &value))
         return 0;
@@ -172,7 +170,7 @@ void makeConfigs(Display& display) {
     const std::vector<EGLConfig> systems = systemConfigs(display);
     EGLint lastId = 0;
     for (const EGLConfig config : systems)
-        lastId = std::max(lastId, configAttribute(display, config, EGL_CONFIG_ID));
+        lastId = std::max(lastId, systemConfigAttribute(display, config, EGL_CONFIG_ID));
     std::vector<std::shared_ptr<const Config>> made;
     for (const VtmSurfaceFormat& format : formats) {
         auto config = std::make_shared<Config>();
@@ -183,14 +181,16 @@ void makeConfigs(Display& display) {
         config->pixmap = nearest(display, systems, EGL_PIXMAP_BIT, format);
         config->gl = equal(display, systems, EGL_PBUFFER_BIT | (config->window ? EGL_WINDOW_BIT : 0), format);
         if (config->gl) {
-            config->glApis = configAttribute(display, config->gl, EGL_RENDERABLE_TYPE);
-            config->depthBits = configAttribute(display, config->gl, EGL_DEPTH_SIZE);
-            config->stencilBits = configAttribute(display, config->gl, EGL_STENCIL_SIZE);
+            config->glApis = systemConfigAttribute(display, config->gl, EGL_RENDERABLE_TYPE);
+            config->depthBits = systemConfigAttribute(display, config->gl, EGL_DEPTH_SIZE);
+            config->stencilBits = systemConfigAttribute(display, config->gl, EGL_STENCIL_SIZE);
             if (config->window)
                 config->window = config->gl;
         }
         if (config->window) {
-            const auto value = [&](EGLint name) { return configAttribute(display, config->window, name); };
+            const auto value = [&](EGLint name) {
+                return systemConfigAttribute(display, config->window, name);
+            };
             config->visualId = value(EGL_NATIVE_VISUAL_ID);
             config->visualType = value(EGL_NATIVE_VISUAL_TYPE);
             config->minSwapInterval = value(EGL_MIN_SWAP_INTERVAL);

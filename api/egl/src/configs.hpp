@@ -18,8 +18,8 @@ void makeConfigs(Display& display);
 /// All that the system has; none where it does not run.
 std::vector<EGLConfig> systemConfigs(const Display& display);
 
-/// An attribute of a config of either kind; 0 if it cannot be had. The system's never count as OpenVG's: even
-/// where the system knows OpenVG, its contexts are not those that libOpenVG draws with.
-EGLint configAttribute(const Display& display, EGLConfig config, EGLint name);
+/// An attribute of a config of the system's; 0 if it cannot be had. They never count as OpenVG's: even where
+/// the system knows OpenVG, its contexts are not those that libOpenVG draws with.
+EGLint systemConfigAttribute(const Display& display, EGLConfig config, EGLint name);
 
 }  // namespace vtm::egl

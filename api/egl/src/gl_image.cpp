@@ -11,8 +11,8 @@ namespace {
 /// By which OpenGL ES 2 draws into pbuffers. Throws Error.
 EGLConfig anyGlConfig(const Display& display) {
     for (const EGLConfig config : systemConfigs(display))
-        if (configAttribute(display, config, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT &&
-            configAttribute(display, config, EGL_SURFACE_TYPE) & EGL_PBUFFER_BIT)
+        if (systemConfigAttribute(display, config, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT &&
+            systemConfigAttribute(display, config, EGL_SURFACE_TYPE) & EGL_PBUFFER_BIT)
             return config;
     throw Error{EGL_BAD_MATCH};
 }

@@ -19,9 +19,9 @@ void createTarget(Surface& surface, EGLConfig best, EGLint surfaceBit, Make&& ma
     const Display& display = surface.display;
     std::vector<EGLConfig> candidates{best};
     for (const EGLConfig config : systemConfigs(display))
-        if (config != best && (configAttribute(display, config, EGL_SURFACE_TYPE) & surfaceBit) &&
-            (configAttribute(display, config, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT) &&
-            configAttribute(display, config, EGL_SAMPLES) == 0)
+        if (config != best && (systemConfigAttribute(display, config, EGL_SURFACE_TYPE) & surfaceBit) &&
+            (systemConfigAttribute(display, config, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT) &&
+            systemConfigAttribute(display, config, EGL_SAMPLES) == 0)
             candidates.push_back(config);
     EGLint error = EGL_BAD_MATCH;
     for (std::size_t i = 0; i < candidates.size() && error == EGL_BAD_MATCH; ++i) {

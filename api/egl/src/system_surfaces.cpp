@@ -24,7 +24,7 @@ Adopted& adopted() {
 
 /// Null if OpenVG has no such colours.
 std::shared_ptr<const Config> configLike(Display& display, EGLConfig systems) {
-    const auto value = [&](EGLint name) { return configAttribute(display, systems, name); };
+    const auto value = [&](EGLint name) { return systemConfigAttribute(display, systems, name); };
     const std::lock_guard lock(display.initializing);
     for (const auto& config : display.configs) {
         const VtmSurfaceFormat& f = config->format;
@@ -49,7 +49,7 @@ std::shared_ptr<Surface> adopt(Display& display, EGLSurface handle) {
     requireSystem(systemEgl()->ChooseConfig(display.handle, list, &systems, 1, &count));
     require(count == 1, EGL_BAD_SURFACE);
     const auto config = configLike(display, systems);
-    require(config && (configAttribute(display, systems, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT),
+    require(config && (systemConfigAttribute(display, systems, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT),
             EGL_BAD_MATCH);
     // Of whatever kind it is, the system knows its size, and what swapping it does.
     const auto surface = std::make_shared<Surface>(display, config, Surface::Kind::window);

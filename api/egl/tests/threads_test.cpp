@@ -1,6 +1,8 @@
 // EGL specification section 2.6: any function may be called in any thread. Under ThreadSanitizer this tells
 // of races.
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <functional>
 #include <thread>
@@ -100,6 +102,31 @@ TEST_F(Threads, SomeInitializeWhileOthersTerminate) {
             }
         }
     });
+    EXPECT_TRUE(eglInitialize(display, nullptr, nullptr));
+}
+
+TEST_F(Threads, SomeChooseConfigsWhileOthersTerminate) {
+    // A thread must be interrupted within a call for this to tell anything.
+    const int rounds = isAlone() ? 20'000 : 300;
+    std::atomic<int> choosing = 3;
+    const auto terminates = [&] {
+        while (choosing > 0)
+            EXPECT_TRUE(eglTerminate(display));
+    };
+    const auto chooses = [&] {
+        for (int round = 0; round < rounds; ++round) {
+            EXPECT_TRUE(eglInitialize(display, nullptr, nullptr));
+            std::array<EGLConfig, 64> configs{};
+            EGLint count = 0;
+            const EGLint attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENVG_BIT, EGL_SURFACE_TYPE,
+                                         EGL_PBUFFER_BIT, EGL_NONE};
+            if (eglChooseConfig(display, attributes, configs.data(), EGLint(configs.size()), &count)) {
+                EXPECT_EQ(std::ranges::count(configs, EGLConfig(nullptr)), 64 - std::min(count, 64));
+            }
+        }
+        --choosing;
+    };
+    inParallel(4, [&](int i) { i == 0 ? terminates() : chooses(); });
     EXPECT_TRUE(eglInitialize(display, nullptr, nullptr));
 }
 
