@@ -6,8 +6,8 @@
 #include "asset/coverage.hpp"
 #include "asset/walk.hpp"
 #include "compiler/compile.hpp"
-#include "compiler/src/stroke_chords.hpp"
 #include "compiler/stroke.hpp"
+#include "compiler/stroke/chords.hpp"
 #include "compiler/tests/leaf_support.hpp"
 
 namespace vtm::compiler {

@@ -1,4 +1,4 @@
-#include "compiler/src/fit.hpp"
+#include "compiler/fit/fit.hpp"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include "asset/scan.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/session.hpp"
-#include "compiler/src/encode.hpp"
+#include "compiler/tree/encode.hpp"
 
 namespace vtm::compiler {
 namespace {

@@ -1,10 +1,10 @@
-#include "compiler/src/lattice.hpp"
+#include "compiler/lower/lattice.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "compiler/src/outline.hpp"
+#include "compiler/lower/outline.hpp"
 
 namespace vtm::compiler {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "compiler/src/cell.hpp"
-#include "compiler/src/fit.hpp"
-#include "compiler/src/planar.hpp"
+#include "compiler/fit/fit.hpp"
+#include "compiler/planar/planar.hpp"
+#include "compiler/tree/cell.hpp"
 
 namespace vtm::compiler {
 

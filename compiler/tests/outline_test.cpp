@@ -1,13 +1,13 @@
-#include "compiler/src/outline.hpp"
+#include "compiler/lower/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "compiler/src/even_shares.hpp"
-#include "compiler/src/strand.hpp"
-#include "compiler/src/stroke_chords.hpp"
+#include "compiler/lower/even_shares.hpp"
+#include "compiler/planar/strand.hpp"
+#include "compiler/stroke/chords.hpp"
 
 namespace vtm::compiler {
 namespace {

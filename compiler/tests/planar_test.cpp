@@ -1,4 +1,4 @@
-#include "compiler/src/planar.hpp"
+#include "compiler/planar/planar.hpp"
 
 #include <algorithm>
 #include <cmath>

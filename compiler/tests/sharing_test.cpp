@@ -6,7 +6,7 @@
 
 #include "asset/container.hpp"
 #include "compiler/compile.hpp"
-#include "compiler/src/picture.hpp"
+#include "compiler/lower/picture.hpp"
 #include "compiler/tests/comparison.hpp"
 #include "scene/scene.hpp"
 

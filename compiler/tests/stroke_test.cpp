@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/compile.hpp"
-#include "compiler/src/stroke_chords.hpp"
+#include "compiler/stroke/chords.hpp"
 #include "compiler/tests/stroke_support.hpp"
 
 namespace vtm::compiler {

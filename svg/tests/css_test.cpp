@@ -1,4 +1,4 @@
-#include "svg/src/css.hpp"
+#include "svg/css/css.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {

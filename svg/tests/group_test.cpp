@@ -1,4 +1,4 @@
-#include "svg/src/path_geometry.hpp"
+#include "svg/geometry/path_geometry.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {

@@ -5,9 +5,9 @@
 
 #include <sys/stat.h>
 
-#include "svg/src/data_url.hpp"
-#include "svg/src/path_geometry.hpp"
+#include "svg/geometry/path_geometry.hpp"
 #include "svg/tests/support.hpp"
+#include "svg/xml/data_url.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -1,6 +1,6 @@
 // Values that cannot be read: named in a warning, and taken for absent.
 
-#include "svg/src/path_geometry.hpp"
+#include "svg/geometry/path_geometry.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {

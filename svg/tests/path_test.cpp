@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "svg/src/path_data.hpp"
-#include "svg/src/path_geometry.hpp"
+#include "svg/geometry/path_data.hpp"
+#include "svg/geometry/path_geometry.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {

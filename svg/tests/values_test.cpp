@@ -1,9 +1,9 @@
 #include <numbers>
 
-#include "svg/src/color.hpp"
-#include "svg/src/length.hpp"
-#include "svg/src/transform.hpp"
-#include "svg/src/viewbox.hpp"
+#include "svg/css/color.hpp"
+#include "svg/css/length.hpp"
+#include "svg/geometry/transform.hpp"
+#include "svg/geometry/viewbox.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {

@@ -1,7 +1,7 @@
 #include <zlib.h>
 
-#include "svg/src/decode.hpp"
 #include "svg/tests/support.hpp"
+#include "svg/xml/decode.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -1,0 +1,28 @@
+/// \file
+/// Filling and stroking (specification section 8.8).
+#pragma once
+
+#include "api/openvg/draw/path_mask.hpp"
+#include "api/openvg/draw/path_masks.hpp"
+#include "api/openvg/state/context.hpp"
+
+namespace vtm::openvg {
+
+/// Throws for what is no bitwise OR of VGPaintMode values.
+void requirePaintModes(VGbitfield modes);
+
+/// Whether a state's strokes have a width.
+bool hasStroke(const State& state);
+
+/// Of a state that hasStroke().
+StrokeParameters strokeParameters(const State& state);
+
+/// Gives the pixels of `clip` that a path covers, filled or stroked as the context's state says: exactly, or
+/// by centres where antialiasing is off. Nothing for a stroke without width.
+void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::mat3& toSurface,
+               const Rectangle& clip, const RowSink& row);
+
+/// Draws it with the current paints.
+void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface);
+
+}  // namespace vtm::openvg

@@ -1,0 +1,243 @@
+#include "api/openvg/draw/path_mask.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "api/openvg/path/flatten.hpp"
+#include "api/openvg/state/matrix.hpp"
+#include "compiler/compile.hpp"
+#include "scene/scene.hpp"
+
+namespace vtm::openvg {
+
+namespace {
+
+using glm::dvec2;
+
+/// The picture that a mask is compiled as: as many units along its longer side, the outline a margin inside.
+constexpr double pictureSide = 1024, pictureMargin = 1;
+
+/// Shares of the longer side, good for 16, 256, 2048, 16384 and 262144 pixels. The last is the least that the
+/// compiler proves.
+constexpr std::array tolerances{1.0 / (1 << 10), 1.0 / (1 << 14), 1.0 / (1 << 17), 1.0 / (1 << 20),
+                                1.0 / (1 << 24)};
+constexpr double viewTolerance = 1.0 / (1 << 20);
+
+/// A border may be off by this much of a pixel: 1/64 of it is 4/255 of the coverage along an edge at the very
+/// worst, and the compiler's typical error is a tenth of its bound.
+constexpr double pixelTolerance = 1.0 / 64;
+
+/// One leaf where it can be: a scanner wants few pieces, not short lists.
+constexpr unsigned piecesPerLeaf = 4096;
+
+/// Of one mask, in pairs of chords: a few seconds. No call may take a program's minute.
+constexpr std::size_t mostWork = 1'000'000'000;
+
+asset::CoverageScanner compiled(std::shared_ptr<const scene::Path> outline, scene::FillRule rule,
+                                const scene::Affine& toPicture, dvec2 picture, double tolerance) {
+    scene::Item item;
+    item.path = std::move(outline);
+    item.transform = toPicture;
+    item.geometry = rule;
+    item.paint = scene::Color{0, 0, 0, 1};
+    scene::Scene scene;
+    scene.width = picture.x;
+    scene.height = picture.y;
+    scene.root.children.push_back({std::move(item)});
+    const compiler::Result result = compiler::compile(
+        scene, {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf, .maxWork = mostWork});
+    return asset::CoverageScanner(result.asset);
+}
+
+/// The subpaths whose boxes meet a picture: all others wind round no point of it. Of a stroke with dashes
+/// from afar most are such.
+std::shared_ptr<const scene::Path> partSeen(const scene::Path& outline, const scene::Affine& toPicture,
+                                            dvec2 picture) {
+    auto result = std::make_shared<scene::Path>();
+    scene::Path& seen = *result;
+    for (auto first = outline.begin(); first != outline.end();) {
+        const auto end = std::find_if(first + 1, outline.end(), [](const scene::Command& command) {
+            return std::holds_alternative<scene::MoveTo>(command);
+        });
+        const std::size_t before = seen.size();
+        seen.insert(seen.end(), first, end);
+        const Box box = boxOf({seen.begin() + std::ptrdiff_t(before), seen.end()});
+        dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+        for (const dvec2 corner :
+             {box.min, box.max, dvec2(box.min.x, box.max.y), dvec2(box.max.x, box.min.y)}) {
+            const dvec2 p = scene::apply(toPicture, corner);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        if (!(least.x <= picture.x && least.y <= picture.y && most.x >= 0 && most.y >= 0))
+            seen.resize(before);
+        first = end;
+    }
+    return result;
+}
+
+/// Of an outline so many pixels wide doubles do not tell a curve from its rounding: it is drawn as lines, few
+/// of them, where the compiler would cut it finer and finer.
+constexpr double mostPixels = double(1LL << 40);
+
+std::shared_ptr<const scene::Path> asLines(const scene::Path& outline, const glm::mat3& toSurface) {
+    auto lines = std::make_shared<scene::Path>();
+    std::optional<dvec2> end;
+    flatten(outline, toSurface, [&](dvec2 a, dvec2 b) {
+        if (end != a)
+            lines->emplace_back(scene::MoveTo{a});
+        lines->emplace_back(scene::LineTo{b});
+        end = b;
+    });
+    return lines;
+}
+
+/// Of the whole outline: scale and shift of its box into a picture.
+struct Fit {
+    double scale;
+    dvec2 shift, picture;
+};
+Fit fitted(dvec2 min, dvec2 max) {
+    const dvec2 extent = max - min;
+    const double scale = (pictureSide - 2 * pictureMargin) / std::max(extent.x, extent.y);
+    return {scale, dvec2(pictureMargin) - scale * min, scale * extent + 2 * pictureMargin};
+}
+
+}  // namespace
+
+Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Rectangle& clip) {
+    const glm::dmat3 m(toSurface);
+    dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+    for (const dvec2 corner : {min, max, dvec2(min.x, max.y), dvec2(max.x, min.y)}) {
+        const dvec2 p(m * glm::dvec3(corner, 1));
+        if (!(std::isfinite(p.x) && std::isfinite(p.y)))
+            return {};
+        least = glm::min(least, p);
+        most = glm::max(most, p);
+    }
+    const auto whole = [](double v) { return int(std::clamp(v, -1e6, 1e6)); };
+    return Rectangle{whole(std::floor(least.x)), whole(std::floor(least.y)), whole(std::ceil(most.x)),
+                     whole(std::ceil(most.y))}
+        .intersected(clip);
+}
+
+PathMask::PathMask(scene::Path outline, scene::FillRule rule)
+    : outline_(std::make_shared<const scene::Path>(std::move(outline))), rule_(rule) {
+    const Box box = boxOf(*outline_);
+    min_ = box.min;
+    max_ = box.max;
+}
+
+const asset::CoverageScanner& PathMask::scannerFor(double tolerance) {
+    std::size_t i = 0;
+    while (i + 1 < tolerances.size() && tolerances[i] > tolerance)
+        ++i;
+    std::optional<asset::CoverageScanner>& scanner = scanners_[i];
+    if (!scanner) {
+        const Fit fit = fitted(min_, max_);
+        scanner = compiled(outline_, rule_, {fit.scale, 0, 0, fit.scale, fit.shift.x, fit.shift.y},
+                           fit.picture, tolerances[i]);
+    }
+    return *scanner;
+}
+
+void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) {
+    if (!(max_.x > min_.x && max_.y > min_.y) || !isFinite(glm::dmat3(toSurface)))
+        return;
+    const Rectangle seen = pixelsOf(toSurface, min_, max_, clip);
+    if (seen.empty())
+        return;
+    asset::View view;
+    view.width = seen.x1 - seen.x0;
+    view.height = seen.y1 - seen.y0;
+    std::vector<CoverageRun> moved;
+    const auto onSurface = [&](int y, std::span<const CoverageRun> runs) {
+        moved.assign(runs.begin(), runs.end());
+        for (CoverageRun& run : moved) {
+            run.first += seen.x0;
+            run.end += seen.x0;
+        }
+        row(y + seen.y0, moved);
+    };
+    const glm::dmat3 m(toSurface);
+    const dvec2 origin = dvec2(m[2]) - dvec2(seen.x0, seen.y0);
+    const dvec2 extent = max_ - min_;
+    const double stretch = std::max(glm::length(dvec2(m[0])), glm::length(dvec2(m[1])));
+    const double tolerance = pixelTolerance / (stretch * std::max(extent.x, extent.y));
+    if (tolerance < tolerances.back()) {
+        // The view is the picture; what lies outside is cut off before anything is rounded.
+        const scene::Affine toView{dvec2(m[0]), dvec2(m[1]), origin};
+        const dvec2 picture(view.width, view.height);
+        view.toPixels = scene::identity;
+        if (stretch * std::max(extent.x, extent.y) > mostPixels)
+            return compiled(asLines(*outline_, toSurface), rule_,
+                            scene::translation(-double(seen.x0), -double(seen.y0)), picture, viewTolerance)
+                .scan(view, onSurface);
+        compiled(partSeen(*outline_, toView, picture), rule_, toView, picture, viewTolerance)
+            .scan(view, onSurface);
+        return;
+    }
+    const Fit fit = fitted(min_, max_);
+    const dvec2 x = dvec2(m[0]) / fit.scale, y = dvec2(m[1]) / fit.scale;
+    view.toPixels = {x, y, origin - x * fit.shift.x - y * fit.shift.y};
+    scannerFor(tolerance).scan(view, onSurface);
+}
+
+void PathMask::scanCenters(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) const {
+    if (!isFinite(glm::dmat3(toSurface)))
+        return;
+    const Rectangle seen = pixelsOf(toSurface, min_, max_, clip);
+    if (seen.empty())
+        return;
+    // By row: columns from which on centres lie right of the line, and what that does to the winding.
+    struct Crossing {
+        int column, change;
+    };
+    std::vector<std::vector<Crossing>> rows(std::size_t(seen.y1 - seen.y0));
+    flatten(*outline_, toSurface, [&](dvec2 a, dvec2 b) {
+        int change = 1;
+        if (a.y > b.y) {
+            std::swap(a, b);
+            change = -1;
+        }
+        // Centres with a.y <= y < b.y.
+        const double from = std::max(std::ceil(a.y - 0.5), double(seen.y0)),
+                     to = std::min(std::ceil(b.y - 0.5), double(seen.y1));
+        for (double y = from; y < to; ++y) {
+            const double x = a.x + (y + 0.5 - a.y) / (b.y - a.y) * (b.x - a.x);
+            const double column = std::ceil(x - 0.5);
+            if (column < seen.x1)
+                rows[std::size_t(y - seen.y0)].push_back(
+                    {std::max(int(std::max(column, -1e6)), seen.x0), change});
+        }
+    });
+    std::vector<CoverageRun> runs;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        std::ranges::sort(rows[i], {}, &Crossing::column);
+        runs.clear();
+        int winding = 0, start = seen.x0;
+        const auto close = [&](int end) {
+            const bool inside = rule_ == scene::FillRule::NonZero ? winding != 0 : winding % 2 != 0;
+            if (inside && start < end)
+                runs.push_back({start, end, 1});
+            start = end;
+        };
+        for (const Crossing& crossing : rows[i]) {
+            close(crossing.column);
+            winding += crossing.change;
+        }
+        close(seen.x1);
+        if (!runs.empty())
+            row(int(i) + seen.y0, runs);
+    }
+}
+
+}  // namespace vtm::openvg

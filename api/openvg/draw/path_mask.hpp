@@ -1,0 +1,53 @@
+/// \file
+/// Which pixels an outline covers, and how much: a Vector Texture Map with two sides, inside and outside.
+///
+/// It is compiled once, in the path's own space, and drawn under any matrix. The tolerance is a share of the
+/// outline's size, so where a view magnifies it further than that allows, a finer one is made, and beyond
+/// what can be proven one for the view alone.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <glm/mat3x3.hpp>
+
+#include "api/openvg/image/pixels.hpp"
+#include "asset/coverage_scan.hpp"
+#include "scene/path.hpp"
+
+namespace vtm::openvg {
+
+using asset::CoverageRun;
+/// Takes the covered runs of a row, surface coordinates.
+using RowSink = std::function<void(int y, std::span<const CoverageRun>)>;
+
+class PathMask {
+public:
+    PathMask(scene::Path outline, scene::FillRule rule);
+
+    const scene::Path& outline() const { return *outline_; }
+    scene::FillRule rule() const { return rule_; }
+
+    /// Exact coverage of the pixels of `clip` (section 6: pixel (x, y) is the square from there to (x + 1, y
+    /// + 1)).
+    void scan(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row);
+    /// Coverage 1 where a pixel's centre is inside, 0 elsewhere. A border that two paths share bit for bit
+    /// gives every centre to one of them: each segment is cut into the same lines whichever way it runs.
+    void scanCenters(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) const;
+
+private:
+    const asset::CoverageScanner& scannerFor(double tolerance);
+
+    std::shared_ptr<const scene::Path> outline_;  ///< shared with the scenes that are compiled
+    scene::FillRule rule_;
+    glm::dvec2 min_{0}, max_{0};                                     ///< a box around the outline
+    std::array<std::optional<asset::CoverageScanner>, 5> scanners_;  ///< from coarse to fine
+};
+
+/// The pixels that the image of a box may meet, within `clip`. Empty for what is no number.
+Rectangle pixelsOf(const glm::mat3& toSurface, glm::dvec2 min, glm::dvec2 max, const Rectangle& clip);
+
+}  // namespace vtm::openvg

@@ -1,0 +1,138 @@
+// VG_KHR_parametric_filter.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <VG/vgext.h>
+
+#include "api/openvg/image/filter_images.hpp"
+#include "api/openvg/paint/color_ramp.hpp"
+#include "api/openvg/paint/color_transform.hpp"
+
+using namespace vtm::openvg;
+
+namespace {
+
+/// highlight() or shadow() of the extension's text.
+class Tint {
+public:
+    /// Colours come premultiplied in `space`.
+    Tint(const Context& context, VGPaint handle, float strength, ColorSpace space)
+        : strength_(strength), space_(space) {
+        if (handle == VG_INVALID_HANDLE)
+            return;
+        const std::shared_ptr<Paint> paint = context.objects->get<Paint>(handle);
+        require(paint->type == VG_PAINT_TYPE_COLOR || paint->type == VG_PAINT_TYPE_LINEAR_GRADIENT);
+        if (paint->type == VG_PAINT_TYPE_COLOR) {
+            const std::array<VGfloat, 4>& c = paint->color;
+            color_ = premultiplied(transformedColor(ColorTransform(*paint), Color(c[0], c[1], c[2], c[3]),
+                                                    {space.linear, false, false}));
+        } else {
+            ramp_.emplace(*paint);
+            require(ramp_->first().a == 0);
+        }
+    }
+
+    /// False for VG_INVALID_HANDLE.
+    bool exists() const { return color_ || ramp_; }
+
+    /// 0 without a paint. Alphas times the strength are alphas again: no more than 1.
+    Color operator()(float alpha) const {
+        const float amount = std::min(std::max(0.0f, alpha * strength_), 1.0f);
+        if (color_)
+            return *color_ * amount;
+        return ramp_ ? fullyConverted(ramp_->at(double(amount)), ramp_->space(), space_) : Color(0);
+    }
+
+private:
+    float strength_;
+    ColorSpace space_;
+    std::optional<Color> color_;
+    std::optional<ColorRamp> ramp_;
+};
+
+/// An image's alpha between pixels, its border pixels going on outside.
+class Alphas {
+public:
+    explicit Alphas(const Image& image) : width_(image.width()), height_(image.height()) {
+        values_.reserve(std::size_t(width_) * std::size_t(height_));
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x)
+                values_.push_back(image.color(x, y).a);
+    }
+
+    /// Whole numbers are pixels.
+    float at(double x, double y) const {
+        const Place u(x, width_), v(y, height_);
+        return u.mix(v.mix(at(u.low, v.low), at(u.low, v.high)),
+                     v.mix(at(u.high, v.low), at(u.high, v.high)));
+    }
+
+private:
+    /// Between two pixels of a line.
+    struct Place {
+        int low, high;
+        float share;
+
+        /// max first: it makes 0 of what is no number.
+        Place(double v, int size) {
+            const double inside = std::min(std::max(0.0, v), size - 1.0);
+            low = int(inside);
+            high = std::min(low + 1, size - 1);
+            share = float(inside - low);
+        }
+        float mix(float a, float b) const { return a + share * (b - a); }
+    };
+
+    float at(int x, int y) const { return values_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
+
+    int width_, height_;
+    std::vector<float> values_;
+};
+
+Color sum(Color a, Color b) { return glm::min(a + b, 1.0f); }
+
+}  // namespace
+
+void vgParametricFilterKHR(VGImage dst, VGImage src, VGImage blur, VGfloat strength, VGfloat offsetX,
+                           VGfloat offsetY, VGbitfield filterFlags, VGPaint highlightPaint,
+                           VGPaint shadowPaint) {
+    call([&](Context& context) {
+        for (const VGImage image : {dst, src, blur})
+            context.objects->get<Image>(image);
+        for (const VGPaint paint : {highlightPaint, shadowPaint})
+            if (paint != VG_INVALID_HANDLE)
+                context.objects->get<Paint>(paint);
+        const FilterImages images(context, dst, src), blurred(context, dst, blur);
+        const ColorSpace space{context.state.filterFormatLinear, true, false};
+        const Tint highlight(context, highlightPaint, strength, space),
+            shadow(context, shadowPaint, strength, space);
+        const bool isInner = filterFlags & VG_PF_INNER_FLAG_KHR, isOuter = filterFlags & VG_PF_OUTER_FLAG_KHR,
+                   knocksOut = filterFlags & VG_PF_KNOCKOUT_FLAG_KHR,
+                   isVisible = filterFlags & VG_PF_OBJECT_VISIBLE_FLAG_KHR;
+        const Alphas alphas(*blurred.src);
+        for (int y = 0; y < images.height(); ++y)
+            for (int x = 0; x < images.width(); ++x) {
+                // A paint that is not there has no light to take from the other's: glows and drop shadows.
+                const double dx = double(offsetX), dy = double(offsetY);
+                const float lit = highlight.exists() ? alphas.at(x + dx, y + dy) : 0,
+                            shaded = shadow.exists() ? alphas.at(x - dx, y - dy) : 0;
+                const Color outer =
+                    sum(highlight(std::max(lit - shaded, 0.0f)), shadow(std::max(shaded - lit, 0.0f)));
+                const Color inner = highlight.exists() ? outer : shadow(1 - std::max(shaded - lit, 0.0f));
+
+                const Color object = normalized(images.src->color(x, y), images.src->format().space, space);
+                const float innerAlpha = isInner ? object.a : 0,
+                            objectAlpha = knocksOut || !isVisible ? 0
+                                          : isInner               ? 1 - inner.a
+                                                                  : 1,
+                            outerAlpha = !isOuter                 ? 0
+                                         : knocksOut || isVisible ? 1 - object.a
+                                                                  : 1;
+                writeFiltered(context.state, *images.dst, x, y,
+                              sum(sum(inner * innerAlpha, object * objectAlpha), outer * outerAlpha), space);
+            }
+    });
+}

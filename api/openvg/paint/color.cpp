@@ -1,0 +1,88 @@
+#include "api/openvg/paint/color.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace vtm::openvg {
+
+float encodeGamma(float x) { return x <= 0.00304f ? 12.92f * x : 1.0556f * std::pow(x, 1 / 2.4f) - 0.0556f; }
+
+float decodeGamma(float x) { return x <= 0.03928f ? x / 12.92f : std::pow((x + 0.0556f) / 1.0556f, 2.4f); }
+
+namespace {
+
+Color decoded(Color c) { return {decodeGamma(c.r), decodeGamma(c.g), decodeGamma(c.b), c.a}; }
+Color encoded(Color c) { return {encodeGamma(c.r), encodeGamma(c.g), encodeGamma(c.b), c.a}; }
+
+/// A function on [0, 1] by straight lines between many points.
+class Table {
+public:
+    template <class Function>
+    explicit Table(Function&& function) {
+        for (std::size_t i = 0; i < values_.size(); ++i)
+            values_[i] = float(function(double(i) / parts));
+    }
+    float operator()(float x) const {
+        const float place = std::min(std::max(x, 0.0f), 1.0f) * float(parts);
+        const auto i = std::min(std::size_t(place), parts - 1);
+        return values_[i] + (place - float(i)) * (values_[i + 1] - values_[i]);
+    }
+
+private:
+    static constexpr std::size_t parts = 4096;
+    std::array<float, parts + 1> values_;
+};
+
+}  // namespace
+
+Color fastEncoded(Color c) {
+    // Over the root, where the curve is not steep.
+    static const Table table([](double root) { return encodeGamma(float(root * root)); });
+    return {table(std::sqrt(std::max(c.r, 0.0f))), table(std::sqrt(std::max(c.g, 0.0f))),
+            table(std::sqrt(std::max(c.b, 0.0f))), c.a};
+}
+
+Color fastDecoded(Color c) {
+    static const Table table([](double x) { return decodeGamma(float(x)); });
+    return {table(c.r), table(c.g), table(c.b), c.a};
+}
+
+ByteGamma::ByteGamma() {
+    for (std::size_t i = 0; i < decodedBytes.size(); ++i)
+        decodedBytes[i] = decodeGamma(float(i) / 255);
+    for (std::size_t i = 0; i < decoded.size(); ++i)
+        decoded[i] = decodeGamma(float(i) / 4096);
+    for (std::size_t i = 0; i < encoded.size(); ++i)
+        encoded[i] = std::uint8_t(std::min(encodeGamma(float(i) / 16384), 1.0f) * 255 + 0.5f);
+}
+
+const ByteGamma& byteGamma() {
+    static const ByteGamma tables;
+    return tables;
+}
+
+Color converted(Color color, ColorSpace from, ColorSpace to) {
+    if (from.linear == to.linear && from.luminance == to.luminance)
+        return color;
+    // Luminance is a sum of linear light. Grey stands for itself in all spaces of its kind.
+    const bool toGrey = to.luminance && !from.luminance;
+    bool linear = from.linear;
+    if (!linear && (toGrey || to.linear)) {
+        color = decoded(color);
+        linear = true;
+    }
+    if (toGrey)
+        color = Color(glm::vec3(luminance(glm::vec3(color))), color.a);
+    return linear && !to.linear ? encoded(color) : color;
+}
+
+Color fullyConverted(Color color, ColorSpace from, ColorSpace to) {
+    if (from == to)
+        return color;
+    if (from.premultiplied)
+        color = unpremultiplied(color);
+    color = converted(color, from, to);
+    return to.premultiplied ? premultiplied(color) : color;
+}
+
+}  // namespace vtm::openvg

@@ -1,0 +1,241 @@
+#include "api/openvg/record/record.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <VG/vgext.h>
+
+#include <fmt/format.h>
+
+#include "api/openvg/draw/pixel_source.hpp"
+#include "api/openvg/path/projective.hpp"
+#include "api/openvg/record/record_shapes.hpp"
+#include "api/openvg/state/matrix.hpp"
+
+namespace vtm::openvg {
+
+namespace {
+
+/// The modes whose formulas are the same, on [0, 1] and everywhere in it.
+std::optional<scene::BlendMode> counterpartOf(VGint mode) {
+    switch (mode) {
+        case VG_BLEND_SRC_OVER:
+            return scene::BlendMode::Normal;
+        case VG_BLEND_MULTIPLY:
+            return scene::BlendMode::Multiply;
+        case VG_BLEND_SCREEN:
+            return scene::BlendMode::Screen;
+        case VG_BLEND_DARKEN:
+            return scene::BlendMode::Darken;
+        case VG_BLEND_LIGHTEN:
+            return scene::BlendMode::Lighten;
+        case VG_BLEND_ADDITIVE:
+            return scene::BlendMode::PlusLighter;
+        case VG_BLEND_OVERLAY_KHR:
+            return scene::BlendMode::Overlay;
+        case VG_BLEND_HARDLIGHT_KHR:
+            return scene::BlendMode::HardLight;
+        case VG_BLEND_SOFTLIGHT_KHR:
+            return scene::BlendMode::SoftLight;
+        case VG_BLEND_DIFFERENCE_KHR:
+            return scene::BlendMode::Difference;
+        case VG_BLEND_EXCLUSION_KHR:
+            return scene::BlendMode::Exclusion;
+        default:
+            return std::nullopt;
+    }
+}
+
+}  // namespace
+
+Recorder::Recorder(double width, double height)
+    : width_(width),
+      height_(height),
+      flip_{1, 0, 0, -1, 0, height},
+      picture_(std::make_shared<scene::Path>(rectangleOf(0, 0, width, height))) {}
+
+void Recorder::refuse(const std::string& why) {
+    if (fault_.empty())
+        fault_ = fmt::format("call {}: {}", calls_, why);
+    throw Error(VTM_NOT_RECORDABLE_ERROR);
+}
+
+scene::Scene Recorder::finish() { return {width_, height_, std::move(root_)}; }
+
+// ---- Drawing --------------------------------------------------------------------------------------
+
+void Recorder::drawPath(const State& state, const Path& path, VGbitfield modes, const glm::mat3& toSurface) {
+    ++calls_;
+    refuseClipLines(state);
+    if (path.data.commands().empty() || !inverseOf(toSurface))
+        return;
+    for (const VGPaintMode mode : {VG_FILL_PATH, VG_STROKE_PATH}) {
+        if (!(modes & VGbitfield(mode)))
+            continue;
+        const glm::mat3& paintToUser = state.matrix(mode == VG_FILL_PATH ? VG_MATRIX_FILL_PAINT_TO_USER
+                                                                         : VG_MATRIX_STROKE_PAINT_TO_USER);
+        if (isProjective(paintToUser))
+            refuse("paint in perspective");
+        const Paint& paint = currentPaint(state, mode);
+        const scene::Shape shape = shapeOf(state, path, mode, toPicture(toSurface));
+        const bool isColor = paint.type == VG_PAINT_TYPE_COLOR;
+        if (!shape.path->empty() && (isColor || inverseOf(toSurface * paintToUser)))
+            draw(state, painted(shape, paint, affineOf(paintToUser), state, bitmaps_), shape);
+    }
+}
+
+void Recorder::drawImage(const State& state, const Image& image, const glm::mat3& toSurface) {
+    ++calls_;
+    refuseClipLines(state);
+    if (state.imageMode != VG_DRAW_IMAGE_NORMAL)
+        refuse(fmt::format("an image in mode 0x{:x}", state.imageMode));
+    if (!inverseOf(toSurface))
+        return;
+    const scene::Node node = painted(image, toPicture(toSurface), state, bitmaps_);
+    const auto& item = std::get<scene::Item>(node.value);
+    draw(state, node, {item.path, item.transform, item.geometry});
+}
+
+void Recorder::refuseClipLines(const State& state) {
+    if (!clipLines(state).empty())
+        refuse("clip lines");
+}
+
+scene::Affine Recorder::toPicture(const glm::mat3& toSurface) {
+    if (isProjective(toSurface))
+        refuse("a matrix in perspective");
+    return scene::compose(flip_, affineOf(toSurface));
+}
+
+void Recorder::draw(const State& state, scene::Node node, const scene::Shape& shape) {
+    const Cut cut = cutOf(state);
+    if (state.blendMode == VG_BLEND_DST_KHR || (cut.isScissored && cut.rectangles.empty()))
+        return;
+    if (state.blendMode == VG_BLEND_DST_OVER)
+        return layBelow(std::move(node), cut);
+    if (state.blendMode == VG_BLEND_SRC) {
+        if (isOpaque(node))
+            return lay(std::move(node), scene::BlendMode::Normal, cut);
+        if (!cut.isNone())
+            refuse("VG_BLEND_SRC of what is translucent, under scissoring or a mask");
+        return replace(std::move(node), shape);
+    }
+    const std::optional<scene::BlendMode> blend = counterpartOf(state.blendMode);
+    if (!blend)
+        refuse(fmt::format("blend mode 0x{:x}", state.blendMode));
+    lay(std::move(node), *blend, cut);
+}
+
+void Recorder::clear(const State& state, int x, int y, int width, int height) {
+    ++calls_;
+    const scene::Color color = clearColor(state);
+    std::vector<VGint> rectangles;
+    if (state.scissoring)
+        rectangles = rectanglesOf(state);
+    scene::Path path;
+    const auto add = [&](double x0, double y0, double x1, double y1) {
+        x0 = std::max(x0, double(x));
+        y0 = std::max(y0, double(y));
+        x1 = std::min(x1, double(x) + width);
+        y1 = std::min(y1, double(y) + height);
+        if (!(x0 < x1 && y0 < y1))
+            return;
+        const scene::Path one = rectangleOf(x0, y0, x1 - x0, y1 - y0);
+        path.insert(path.end(), one.begin(), one.end());
+    };
+    for (std::size_t i = 0; i < rectangles.size(); i += 4)
+        add(rectangles[i], rectangles[i + 1], double(rectangles[i]) + rectangles[i + 2],
+            double(rectangles[i + 1]) + rectangles[i + 3]);
+    if (!state.scissoring)
+        add(0, 0, width_, height_);
+    if (path.empty())
+        return;
+    const scene::Shape shape{std::make_shared<scene::Path>(std::move(path)), flip_, scene::FillRule::NonZero};
+    if (!state.scissoring && x <= 0 && y <= 0 && double(x) + width >= width_ &&
+        double(y) + height >= height_) {
+        root_.children.clear();
+        isPlain_ = true;
+        lastCut_ = {};
+    }
+    scene::Node node{scene::Item{shape.path, shape.transform, shape.geometry, color, 1}};
+    if (root_.children.empty() || color.a == 1)
+        lay(std::move(node), scene::BlendMode::Normal, {});
+    else
+        replace(std::move(node), shape);
+}
+
+// ---- Layers ---------------------------------------------------------------------------------------
+
+Recorder::Cut Recorder::cutOf(const State& state) const {
+    Cut cut;
+    if (state.scissoring) {
+        cut.isScissored = true;
+        cut.rectangles = rectanglesOf(state);
+    }
+    if (state.masking)
+        cut.mask = mask_;
+    return cut;
+}
+
+scene::Group Recorder::groupOf(scene::Node node, const Cut& cut) const {
+    scene::Group group;
+    group.children.push_back(std::move(node));
+    group.clip = cut.mask.clip;
+    if (cut.isScissored) {
+        scene::Clip clip;
+        clip.shapes.push_back({std::make_shared<scene::Path>(outlineOf(cut.rectangles)), flip_,
+                               scene::FillRule::NonZero, nullptr});
+        clip.clip = cut.mask.clip;
+        group.clip = std::make_shared<scene::Clip>(std::move(clip));
+    }
+    if (cut.mask.alpha)
+        group.mask =
+            std::make_shared<scene::Mask>(scene::Mask{cut.mask.alpha, scene::MaskKind::Alpha, false});
+    return group;
+}
+
+void Recorder::lay(scene::Node node, scene::BlendMode blend, const Cut& cut) {
+    const bool isNormal = blend == scene::BlendMode::Normal;
+    isPlain_ = isPlain_ && isNormal;
+    if (isNormal && cut.isNone()) {
+        root_.children.push_back(std::move(node));
+        lastCut_ = {};
+    } else if (isNormal && !lastCut_.isNone() && cut == lastCut_) {
+        // Cut together they are what they are cut one by one: at every point a cut is all or nothing.
+        std::get<scene::Group>(root_.children.back().value).children.push_back(std::move(node));
+    } else {
+        scene::Group group = groupOf(std::move(node), cut);
+        group.blend = blend;
+        root_.children.push_back({std::move(group)});
+        lastCut_ = isNormal ? cut : Cut();
+    }
+}
+
+void Recorder::layBelow(scene::Node node, const Cut& cut) {
+    if (!isPlain_) {
+        // What was blended has seen nothing below it, and still must not.
+        scene::Group above;
+        above.children = std::move(root_.children);
+        root_.children.clear();
+        root_.children.push_back({std::move(above)});
+        isPlain_ = true;
+        lastCut_ = {};
+    }
+    if (!cut.isNone())
+        node = {groupOf(std::move(node), cut)};
+    root_.children.insert(root_.children.begin(), std::move(node));
+}
+
+void Recorder::replace(scene::Node node, const scene::Shape& shape) {
+    scene::Group inside, outside;
+    inside.children.push_back(std::move(node));
+    outside.children = std::move(root_.children);
+    root_.children.clear();
+    root_.children.push_back({scene::Select{shape, std::make_shared<scene::Group>(std::move(inside)),
+                                            std::make_shared<scene::Group>(std::move(outside))}});
+    isPlain_ = true;
+    lastCut_ = {};
+}
+
+}  // namespace vtm::openvg

@@ -1,0 +1,107 @@
+#include "api/openvg/record/record_mask.hpp"
+
+#include <utility>
+
+namespace vtm::openvg {
+
+namespace {
+
+using PicturePath = std::shared_ptr<const scene::Path>;
+
+bool isEverything(const RecordedMask& mask) { return !mask.clip && !mask.alpha; }
+
+scene::Node white(const PicturePath& picture) {
+    scene::Item item;
+    item.path = picture;
+    item.geometry = scene::FillRule::NonZero;
+    item.paint = scene::Color{1, 1, 1, 1};
+    return {std::move(item)};
+}
+
+/// A group whose alpha is the mask's value.
+scene::Node alphaOf(const RecordedMask& mask, const PicturePath& picture) {
+    scene::Group group;
+    if (mask.alpha)
+        group.children = mask.alpha->children;
+    else
+        group.children.push_back(white(picture));
+    group.clip = mask.clip;
+    return {std::move(group)};
+}
+
+std::shared_ptr<const scene::Group> groupOf(scene::Node node) {
+    scene::Group group;
+    group.children.push_back(std::move(node));
+    return std::make_shared<scene::Group>(std::move(group));
+}
+
+void append(scene::Clip& result, const std::shared_ptr<const scene::Clip>& clip, const PicturePath& picture) {
+    if (clip->clip)
+        result.shapes.push_back({picture, scene::identity, scene::FillRule::NonZero, clip});
+    else
+        result.shapes.insert(result.shapes.end(), clip->shapes.begin(), clip->shapes.end());
+}
+
+}  // namespace
+
+RecordedMask emptyMask() { return {std::make_shared<scene::Clip>(), nullptr}; }
+
+RecordedMask maskOf(scene::ClipShape shape) {
+    scene::Clip clip;
+    clip.shapes.push_back(std::move(shape));
+    return {std::make_shared<scene::Clip>(std::move(clip)), nullptr};
+}
+
+RecordedMask unionOf(const RecordedMask& a, const RecordedMask& b, const PicturePath& picture) {
+    if (isEverything(a) || isEverything(b))
+        return {};
+    if (a.alpha || b.alpha) {
+        // 1 - (1 - a)(1 - b) is what one alpha over another is.
+        scene::Group both;
+        both.children.push_back(alphaOf(a, picture));
+        both.children.push_back(alphaOf(b, picture));
+        return {nullptr, std::make_shared<scene::Group>(std::move(both))};
+    }
+    scene::Clip clip;
+    append(clip, a.clip, picture);
+    append(clip, b.clip, picture);
+    return {std::make_shared<scene::Clip>(std::move(clip)), nullptr};
+}
+
+RecordedMask intersectionOf(const RecordedMask& a, const RecordedMask& b, const PicturePath& picture) {
+    RecordedMask result = a;
+    if (!a.clip) {
+        result.clip = b.clip;
+    } else if (b.clip) {
+        scene::Clip clip;
+        append(clip, a.clip, picture);
+        clip.clip = b.clip;
+        result.clip = std::make_shared<scene::Clip>(std::move(clip));
+    }
+    if (!a.alpha) {
+        result.alpha = b.alpha;
+    } else if (b.alpha) {
+        scene::Group both = *a.alpha;
+        both.mask = std::make_shared<scene::Mask>(scene::Mask{b.alpha, scene::MaskKind::Alpha});
+        result.alpha = groupOf({std::move(both)});
+    }
+    return result;
+}
+
+std::optional<RecordedMask> differenceOf(const RecordedMask& a, const RecordedMask& b,
+                                         const PicturePath& picture) {
+    if (isEverything(b))
+        return emptyMask();
+    if (b.alpha || b.clip->clip)
+        return std::nullopt;
+    if (b.clip->shapes.empty())
+        return a;
+    const scene::ClipShape& shape = b.clip->shapes.front();
+    if (b.clip->shapes.size() > 1 || shape.clip)
+        return std::nullopt;
+    const scene::Select outside{
+        {shape.path, shape.transform, shape.rule}, nullptr, groupOf(alphaOf({nullptr, a.alpha}, picture))};
+    return RecordedMask{a.clip, groupOf({outside})};
+}
+
+}  // namespace vtm::openvg

@@ -1,0 +1,219 @@
+#include "compiler/compile.hpp"
+
+#include <algorithm>
+
+#include "compiler/compile/clock.hpp"
+#include "compiler/compile/compile_excerpt.hpp"
+#include "compiler/compile/settings.hpp"
+#include "compiler/lower/walk_items.hpp"
+#include "compiler/paint/painters.hpp"
+#include "compiler/tree/encode.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::Command;
+
+std::vector<std::uint32_t> allLayers(const Picture& picture) {
+    std::vector<std::uint32_t> layers(picture.layers.size());
+    for (std::uint32_t i = 0; i < layers.size(); ++i)
+        layers[i] = i;
+    return layers;
+}
+
+/// Maps over the lattice's root square.
+class MapBuilder {
+public:
+    MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, Result& result)
+        : picture_(picture), lattice_(lattice), options_(treeOptions(options)), result_(result) {}
+
+    Tree build(std::span<const std::uint32_t> layers, const Painter& painter) {
+        return buildTree(picture_, lattice_.square(), layers, painter, options_, times_);
+    }
+    std::uint32_t add(const Tree& tree, std::span<const std::uint16_t> paints) {
+        asset::Asset& asset = result_.asset;
+        const asset::Entry root = encodeTree(tree, paints, asset);
+        asset.maps.push_back({0, 0, std::max(asset.width, asset.height), root});
+        checkDrawn(asset.maps.size(), asset.nodes.size(), asset.pieces.size());
+        certify(tree, options_.budget, result_);
+        return static_cast<std::uint32_t>(asset.maps.size() - 1);
+    }
+    const TreeTimes& times() const { return times_; }
+
+private:
+    const Picture& picture_;
+    const Lattice& lattice_;
+    const TreeOptions options_;
+    Result& result_;
+    TreeTimes times_;
+};
+
+/// Returns by how much merging colours that the format cannot all name may have changed one.
+float compileExact(const Picture& picture, MapBuilder& maps, asset::Asset& asset) {
+    const Tree tree = maps.build(allLayers(picture), PicturePainter(picture));
+    float error = 0;
+    const std::vector<std::uint16_t> paints = encodePalette(tree.palette, asset, error);
+    asset.nodes.reserve(tree.nodes.size());
+    asset.leaves.reserve(tree.leaves.size());
+    asset.pieces.reserve(tree.pieces.size());
+    Command draw;
+    draw.kind = Command::Kind::DrawMap;
+    draw.map = maps.add(tree, paints);
+    asset.commands.push_back(draw);
+    return error;
+}
+
+/// Compat mode: every item and every clip is a mask of its own; groups become commands.
+class CompatCompiler {
+public:
+    CompatCompiler(const Picture& picture, MapBuilder& maps, asset::Asset& asset)
+        : picture_(picture), maps_(maps), asset_(asset) {
+        palette_.solid({1, 1, 1, 1});  // a mask's paint 1
+    }
+
+    float run() {
+        ItemWalk<CompatCompiler> walk(picture_, *this);
+        for (const PictureItem& item : picture_.items)
+            walk.item(item);
+        walk.finish();
+        float error = 0;
+        const std::vector<std::uint16_t> paints = encodePalette(palette_, asset_, error);
+        for (Command& command : asset_.commands)
+            command.paint = paints[command.paint];
+        return error;
+    }
+
+    void open(std::uint32_t) {
+        push();
+        ++depth_;
+    }
+
+    void item(const PictureItem& item) {
+        MaskPainter painter(picture_, item.layer, none);
+        Command& fill = emit(Command::Kind::FillMask);
+        fill.paint = paintOf(item);
+        const std::uint32_t layer[] = {item.layer};
+        fill.map = addMask(layer, painter);
+    }
+
+    void emptyMask(std::uint32_t) {
+        push();
+        emit(Command::Kind::PopMaskAlpha);
+    }
+
+    void close(std::uint32_t index) {
+        --depth_;
+        const PictureGroup& group = picture_.groups[index];
+        if (group.clip != none)
+            emit(Command::Kind::ClipMask).map = clipMap(group.clip);
+        if (group.role != GroupRole::Plain) {
+            emit(group.role == GroupRole::AlphaMask       ? Command::Kind::PopMaskAlpha
+                 : group.role == GroupRole::LuminanceMask ? Command::Kind::PopMaskLuminance
+                                                          : Command::Kind::PopMaskLinear);
+            return;
+        }
+        Command& pop = emit(Command::Kind::Pop);
+        pop.blend = group.adds ? asset::Blend::PlusLighter : static_cast<asset::Blend>(group.blend);
+        pop.opacity = group.opacity;
+    }
+
+private:
+    Command& emit(Command::Kind kind) {
+        if (asset_.commands.size() >= asset::maxCommands)
+            throw LimitError("the picture takes more than " + std::to_string(asset::maxCommands) +
+                             " commands in compat mode");
+        Command command;
+        command.kind = kind;
+        asset_.commands.push_back(command);
+        return asset_.commands.back();
+    }
+
+    void push() {
+        if (depth_ == asset::maxPictures)
+            throw LimitError("groups are nested more than " + std::to_string(asset::maxPictures - 1) +
+                             " deep, which compat mode cannot draw");
+        emit(Command::Kind::Push);
+    }
+
+    std::uint32_t addMask(std::span<const std::uint32_t> layers, const MaskPainter& painter) {
+        constexpr std::array<std::uint16_t, 2> paints{0, 1};
+        return maps_.add(maps_.build(layers, painter), paints);
+    }
+
+    PaintId paintOf(const PictureItem& item) {
+        const Source& source = picture_.sources[item.source];
+        if (source.op != asset::Op::Solid)
+            return palette_.add({{{source.op, asset::Blend::Normal, item.opacity, source.data}, {}}});
+        Color color = source.color;
+        for (float& c : color)
+            c *= item.opacity;
+        return palette_.solid(color);
+    }
+
+    std::uint32_t clipMap(std::uint32_t clip) {
+        std::vector<std::uint32_t> layers;
+        collectLayers(clip, layers);
+        std::sort(layers.begin(), layers.end());
+        MaskPainter painter(picture_, none, clip);
+        return addMask(layers, painter);
+    }
+
+    void collectLayers(std::uint32_t clip, std::vector<std::uint32_t>& into) const {
+        if (clip == none)
+            return;
+        for (const ClipExpression::Term& term : picture_.clips[clip].terms) {
+            into.push_back(term.layer);
+            collectLayers(term.clip, into);
+        }
+        collectLayers(picture_.clips[clip].outer, into);
+    }
+
+    const Picture& picture_;
+    MapBuilder& maps_;
+    asset::Asset& asset_;
+    Palette palette_;
+    unsigned depth_ = 1;  ///< pictures on the stack
+};
+
+}  // namespace
+
+Result compile(const scene::Scene& scene, const Options& options) {
+    checkOptions(options);
+    const limits::Stage stage("compiling");
+    scene::validate(scene);
+    return compileExcerpt(scene, wholeOf(scene), options);
+}
+
+Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
+    const auto start = Clock::now();
+    const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
+    // Where coverage is a factor, fills end where they are told to.
+    const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
+    Picture picture = lower(scene, excerpt, lattice, errorBudget(options), sharing);
+    const auto lowered = Clock::now();
+
+    Result result;
+    result.sampledStrokes = picture.sampledStrokes;
+    asset::Asset& asset = result.asset;
+    asset.width = excerpt.width;
+    asset.height = excerpt.height;
+    asset.mode = options.mode;
+    asset.data = std::move(picture.data);
+    asset.images = bitmapsOf(picture);
+    asset.materials = std::move(picture.materials);
+    MapBuilder maps(picture, lattice, options, result);
+    float error = 0;
+    if (options.mode == asset::Mode::Exact)
+        error = compileExact(picture, maps, asset);
+    else
+        error = CompatCompiler(picture, maps, asset).run();
+
+    asset.finestPixel = finestPixel(result);
+    const TreeTimes& t = maps.times();
+    const double built = milliseconds(lowered, Clock::now());
+    result.stages = stageTimes(milliseconds(start, lowered), built, t);
+    result.warnings = warningsOf(result, options, error);
+    return result;
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,157 @@
+#include "compiler/lower/chords.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vtm::compiler {
+namespace {
+
+/// Brings any chord of a curve that may be cut below its tolerance.
+constexpr int maxHalvings = 40;
+
+double cross(scene::Point a, scene::Point b) { return a.x * b.y - a.y * b.x; }
+double dot(scene::Point a, scene::Point b) { return a.x * b.x + a.y * b.y; }
+
+}  // namespace
+
+/// Whether across its chord d over a step h the curve strays no farther than the tolerance. With the
+/// accelerations p and q at the ends it strays by f(s) = h² s (1 - s) (d × p (2 - s) + d × q (1 + s)) / (6
+/// |d|), so by h² (|d × p| + |d × q|) / (9 √3 |d|) at most.
+struct ChordCutter::Proof {
+    double ax, ay, bx, by, most;
+
+    Proof(const Curve& curve, double tolerance)
+        : ax(3 * curve.a.x),
+          ay(3 * curve.a.y),
+          bx(curve.b.x),
+          by(curve.b.y),
+          most(60.75 * tolerance * tolerance) {}
+
+    /// A truth value for each number.
+    template <class Number>
+    auto operator()(const Vertex<Number>& from, const Vertex<Number>& to) const {
+        const Number h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
+        const Number a = dx * ay - dy * ax, b = dx * by - dy * bx;  // d × P'' / 2 = a t + b
+        const Number across = h * h * (magnitude(a * from.t + b) + magnitude(a * to.t + b));
+        return across * across <= most * (dx * dx + dy * dy);
+    }
+};
+
+std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
+    curve_ = {p[3] - p[0] + 3.0 * (p[1] - p[2]), 3.0 * (p[0] - 2.0 * p[1] + p[2]), 3.0 * (p[1] - p[0]), p[0]};
+    const double needed = guess();
+    if (!(needed <= mostChords) || !isResolved())
+        return {};
+    const int whole = static_cast<int>(needed), count = std::max(1, whole + (whole < needed));
+    findVertices(count, p[3]);
+    runForward_ = runForward(0, count);
+    appendChords(count);
+    return ends_;
+}
+
+/// Whether points of the curve are rounded by less than the tolerance. Beyond, chords between them are noise,
+/// which no number of halvings proves.
+bool ChordCutter::isResolved() const {
+    constexpr double rounding = 0x1p-50;  // of the largest of four terms, twice at most in each of three sums
+    double largest = 0;
+    for (const Point p : {curve_.a, curve_.b, curve_.c, curve_.start})
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    return rounding * largest <= tolerance_;
+}
+
+/// The number of chords that will do if each of them has an equal share of it.
+double ChordCutter::guess() {
+    constexpr double sure = 0.9;  // of the tolerance: steps are not small
+    constexpr double leastSpeed = std::numeric_limits<double>::min();  // no division by zero
+    const auto [a, b, c, start] = curve_;
+    const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
+    const double ax = 3 * a.x, ay = 3 * a.y, bx = 2 * b.x, by = 2 * b.y, cx = c.x, cy = c.y;
+    const double per = 1 / (8 * sure * tolerance_);
+    return shares_.integrate(0, 1, [=](Pair t) {
+        const Pair x = (t * ax + bx) * t + cx, y = (t * ay + by) * t + cy;
+        const Pair speed = squareRoot(x * x + y * y) + leastSpeed;
+        return squareRoot(per * magnitude((c2 * t + c1) * t + c0) / speed);
+    });
+}
+
+void ChordCutter::findVertices(int count, Point end) {
+    const auto [a, b, c, start] = curve_;
+    t_[0] = 0;
+    shares_.cut(count, &t_[1]);
+    t_[std::size_t(count)] = t_[std::size_t(count) + 1] = 1;
+    for (std::size_t k = 0; k < std::size_t(count); k += 2) {
+        const Pair t = load(&t_[k]);
+        store(&x_[k], ((a.x * t + b.x) * t + c.x) * t + start.x);
+        store(&y_[k], ((a.y * t + b.y) * t + c.y) * t + start.y);
+    }
+    for (const std::size_t k : {std::size_t(count), std::size_t(count) + 1})
+        x_[k] = end.x, y_[k] = end.y;
+}
+
+/// Whether no two velocities between point away from each other, so that along a chord the curve runs from
+/// one end to the other without turning back: so if it is the case for the velocity's Bernstein coefficients.
+bool ChordCutter::runsForward(double t0, double t1) const {
+    const Point v = curve_.velocity(t0), w = curve_.velocity(t1),
+                m = v + (3.0 * curve_.a * t0 + curve_.b) * (t1 - t0);
+    return (dot(v, m) >= 0) & (dot(m, w) >= 0) & (dot(v, w) >= 0);
+}
+
+/// All chords between two vertices.
+bool ChordCutter::runForward(int first, int last) const {
+    if (runsForward(t_[std::size_t(first)], t_[std::size_t(last)]))
+        return true;
+    const int middle = (first + last) / 2;
+    return middle > first && runForward(first, middle) && runForward(middle, last);
+}
+
+void ChordCutter::appendChords(int count) {
+    const Proof isNear(curve_, tolerance_);
+    int appended = 0;
+    ends_.clear();
+    for (int k = 0; k < count; k += 2) {
+        const double *const t = &t_[std::size_t(k)], *const x = &x_[std::size_t(k)],
+                            *const y = &y_[std::size_t(k)];
+        const PairMask near = isNear(Vertex<Pair>{load(t), load(x), load(y)},
+                                     Vertex<Pair>{load(t + 1), load(x + 1), load(y + 1)});
+        if ((near[0] & near[1]) != 0 && runForward_)
+            continue;
+        appendVertices(appended + 1, k);
+        for (int i = 0; i < std::min(2, count - k); ++i) {
+            const Vertex<double> from{t[i], x[i], y[i]}, to{t[i + 1], x[i + 1], y[i + 1]};
+            if (near[i] != 0 && (runForward_ || runsForward(from.t, to.t)))
+                ends_.push_back({to.x, to.y});
+            else
+                halves(from, to, maxHalvings);
+        }
+        appended = k + 2;
+    }
+    appendVertices(appended + 1, count);
+}
+
+/// From the first to the last one.
+void ChordCutter::appendVertices(int first, int last) {
+    const std::size_t before = ends_.size(), count = std::size_t(std::max(0, last + 1 - first));
+    ends_.resize(before + count);
+    Point* const ends = ends_.data() + before;
+    const double *const x = x_.data() + first, *const y = y_.data() + first;
+    for (std::size_t k = 0; k < count; ++k)
+        ends[k] = {x[k], y[k]};
+}
+
+void ChordCutter::chord(const Vertex<double>& from, const Vertex<double>& to, int halvings) {
+    const bool isProven = Proof(curve_, tolerance_)(from, to) && (runForward_ || runsForward(from.t, to.t));
+    if (halvings > 0 && !isProven)
+        halves(from, to, halvings);
+    else
+        ends_.push_back({to.x, to.y});
+}
+
+void ChordCutter::halves(const Vertex<double>& from, const Vertex<double>& to, int halvings) {
+    const double t = (from.t + to.t) / 2;
+    const Point at = curve_.at(t);
+    chord(from, {t, at.x, at.y}, halvings - 1);
+    chord({t, at.x, at.y}, to, halvings - 1);
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,69 @@
+/// \file
+/// Cubics to chords, as few as the tolerance allows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "compiler/lower/cubics.hpp"
+#include "compiler/lower/even_shares.hpp"
+
+namespace vtm::compiler {
+
+/// Cuts cubics where all their chords stray about equally far. A curve and its reverse are cut at the same
+/// places. Keeps its memory from curve to curve.
+///
+/// Over a small step h of the parameter the curve P strays from its chord by h² |P' × P''| / (8 |P'|). So
+/// sqrt(|P' × P''| / (8 |P'| tolerance)) chords are needed per unit of t, and steps with equal shares of its
+/// integral make the fewest. What is guessed so is then proven, or halved.
+class ChordCutter {
+public:
+    /// Guessed for one cubic.
+    static constexpr int mostChords = 256;
+
+    explicit ChordCutter(double tolerance) : tolerance_(tolerance) {}
+
+    /// The ends of chords within the tolerance, the last one that of the cubic. Empty if they would be too
+    /// many, or the cubic is infinite, or so large that doubles do not resolve the tolerance. Valid until the
+    /// next call.
+    std::span<const scene::Point> cut(const Cubic& cubic);
+
+private:
+    using Point = scene::Point;
+    /// By powers of its parameter: P = ((a t + b) t + c) t + start.
+    struct Curve {
+        Point a, b, c, start;
+
+        Point at(double t) const { return ((a * t + b) * t + c) * t + start; }
+        Point velocity(double t) const { return (3.0 * a * t + 2.0 * b) * t + c; }
+    };
+    /// Of one number or of two at once.
+    template <class Number>
+    struct Vertex {
+        Number t, x, y;
+    };
+    /// The proof of a chord.
+    struct Proof;
+
+    double guess();
+    bool isResolved() const;
+    void findVertices(int count, Point end);
+    bool runsForward(double t0, double t1) const;
+    bool runForward(int first, int last) const;
+    void appendChords(int count);
+    void appendVertices(int first, int last);
+    void chord(const Vertex<double>& from, const Vertex<double>& to, int halvings);
+    void halves(const Vertex<double>& from, const Vertex<double>& to, int halvings);
+
+    const double tolerance_;
+    Curve curve_;
+    EvenShares shares_;
+    /// Vertices, and one more for loops over two at once.
+    std::array<double, mostChords + 2> t_, x_, y_;
+    bool runForward_ = false;  ///< all chords, proven
+    std::vector<Point> ends_;
+};
+
+}  // namespace vtm::compiler

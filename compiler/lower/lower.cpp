@@ -1,0 +1,337 @@
+/// \file
+/// Scene to picture: strokes become outlines, patterns become groups of tiles, curves become chords.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+
+#include "compiler/compile.hpp"
+#include "compiler/lower/outline_cache.hpp"
+#include "compiler/lower/paints.hpp"
+#include "compiler/lower/picture.hpp"
+#include "compiler/stroke.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using scene::Affine;
+using scene::compose;
+using scene::Path;
+using scene::Point;
+
+/// A box in picture units; empty while min > max.
+struct Box {
+    Point min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
+    bool empty() const { return !(min.x <= max.x && min.y <= max.y); }
+    void add(Point p) { min = glm::min(min, p), max = glm::max(max, p); }
+    Box cut(const Box& b) const { return {glm::max(min, b.min), glm::min(max, b.max)}; }
+};
+
+Box mapped(const Box& b, const Affine& m) {
+    Box r;
+    for (Point p : {b.min, Point{b.max.x, b.min.y}, b.max, Point{b.min.x, b.max.y}})
+        r.add(scene::apply(m, p));
+    return r;
+}
+
+class Lowering {
+public:
+    Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+             const ErrorBudget& budget, Sharing sharing, OutlineCache* cache)
+        : lattice_(lattice),
+          budget_(budget),
+          sharing_(sharing),
+          frame_{{0, 0}, {excerpt.width, excerpt.height}},
+          isPart_(excerpt.isPart),
+          cache_(cache),
+          paints_(picture_, excerpt) {
+        if (cache_)
+            picture_.outlines = cache_->take();
+        // So that most pictures' need not be moved while they grow. Memory that is not written to costs
+        // nothing.
+        constexpr std::size_t usualPoints = 1u << 17, usualRuns = 1u << 15;
+        picture_.outlines.points.reserve(usualPoints);
+        picture_.outlines.runs.reserve(usualRuns);
+        picture_.groups.emplace_back();
+        group(scene.root, excerpt.fromScene, openGroup(0));
+    }
+
+    Picture take() { return std::move(picture_); }
+
+private:
+    void children(const scene::Group& g, const Affine& outer, std::uint32_t into) {
+        for (std::size_t i = 0; i < g.children.size(); ++i) {
+            limits::check();
+            const scene::Node& node = g.children[i];
+            if (const auto* item = std::get_if<scene::Item>(&node.value)) {
+                const auto* next =
+                    i + 1 < g.children.size() ? std::get_if<scene::Item>(&g.children[i + 1].value) : nullptr;
+                if (sharing_ == Sharing::Outlines && next && mayHideOutline(*item, *next)) {
+                    fillBelowStroke(*item, *next, outer, into);
+                    ++i;
+                } else {
+                    this->item(*item, outer, into);
+                }
+            } else if (const auto* chosen = std::get_if<scene::Select>(&node.value)) {
+                select(*chosen, outer, into);
+            } else {
+                group(std::get<scene::Group>(node.value), outer, openGroup(into));
+            }
+        }
+    }
+
+    void group(const scene::Group& g, const Affine& outer, std::uint32_t index) {
+        PictureGroup& record = picture_.groups[index];
+        record.opacity = g.opacity;
+        record.blend = g.blend;
+        if (g.clip)
+            picture_.groups[index].clip = clip(*g.clip, outer);
+        children(g, outer, index);
+        if (g.mask)
+            mask(*g.mask, outer, index);
+    }
+
+    /// Two groups in one, clipped by the same layer and by its complement.
+    void select(const scene::Select& s, const Affine& outer, std::uint32_t into) {
+        place_ = {};
+        const std::uint32_t both = openGroup(into);
+        const std::uint32_t mask = geometryLayer(s.mask, compose(outer, s.mask.transform));
+        side(s.inside, {mask, none, false}, outer, both);
+        side(s.outside, {mask, none, true}, outer, both);
+    }
+
+    void side(const std::shared_ptr<const scene::Group>& content, ClipExpression::Term term,
+              const Affine& outer, std::uint32_t into) {
+        if (!content)
+            return;
+        const std::uint32_t index = openGroup(into);
+        picture_.groups[index].adds = term.inverted;
+        picture_.groups[index].clip = push({{term}, none});
+        // The side's own opacity, clip and mask belong to its content: one group further in.
+        group(*content, outer, openGroup(index));
+    }
+
+    std::uint32_t openGroup(std::uint32_t parent) {
+        PictureGroup g;
+        g.parent = parent;
+        g.depth = picture_.groups[parent].depth + 1;
+        picture_.groups.push_back(g);
+        return static_cast<std::uint32_t>(picture_.groups.size() - 1);
+    }
+
+    void mask(const scene::Mask& m, const Affine& outer, std::uint32_t of) {
+        const std::uint32_t index = openGroup(of);
+        picture_.groups[of].mask = index;
+        picture_.groups[index].role = m.kind == scene::MaskKind::Alpha ? GroupRole::AlphaMask
+                                      : m.linear                       ? GroupRole::LinearMask
+                                                                       : GroupRole::LuminanceMask;
+        // The mask's own opacity, clip and mask belong to its content: one group further in.
+        group(*m.content, outer, openGroup(index));
+    }
+
+    std::uint32_t clip(const scene::Clip& c, const Affine& outer) {
+        ClipExpression expression;
+        for (const scene::ClipShape& shape : c.shapes) {
+            ClipExpression::Term term;
+            place_ = shape.place;
+            term.layer = layer({shape.path, compose(outer, shape.transform)}, shape.rule);
+            if (shape.clip)
+                term.clip = clip(*shape.clip, outer);
+            expression.terms.push_back(term);
+        }
+        if (c.clip)
+            expression.outer = clip(*c.clip, outer);
+        return push(std::move(expression));
+    }
+
+    std::uint32_t push(ClipExpression expression) {
+        picture_.clips.push_back(std::move(expression));
+        return static_cast<std::uint32_t>(picture_.clips.size() - 1);
+    }
+
+    /// Whether the stroke of a fill's outline, which lies right above it, may hide where the fill ends.
+    static bool mayHideOutline(const scene::Item& fill, const scene::Item& stroke) {
+        const auto* style = std::get_if<scene::StrokeStyle>(&stroke.geometry);
+        return std::holds_alternative<scene::FillRule>(fill.geometry) && style && style->dashes.empty() &&
+               style->width > 0 && fill.path == stroke.path && fill.transform == stroke.transform &&
+               stroke.opacity >= 1 && !std::holds_alternative<scene::Pattern>(fill.paint) &&
+               !std::holds_alternative<scene::Pattern>(stroke.paint);
+    }
+
+    /// Two items. The fill gets outlines of the stroke's where these will do.
+    void fillBelowStroke(const scene::Item& fill, const scene::Item& stroke, const Affine& outer,
+                         std::uint32_t into) {
+        place_ = fill.place;
+        const Affine transform = compose(outer, fill.transform);
+        const auto fillSource = paints_.add(fill.paint, transform),
+                   strokeSource = paints_.add(stroke.paint, transform);
+        const OutlineOrigin fillOrigin{fill.path, transform},
+            strokeOrigin{stroke.path, transform, &std::get<scene::StrokeStyle>(stroke.geometry)};
+        const bool isHidden = strokeSource && picture_.sources[*strokeSource].opaque;
+        std::optional<std::uint32_t> shared;
+        RunRange strokeRuns, fillRuns;
+        if (strokeSource) {
+            picture_.sampledStrokes += hasSampledOffsets(*stroke.path);
+            strokeRuns = outline(strokeOrigin, &shared);
+        }
+        if (fillSource) {
+            fillRuns = isHidden && shared ? RunRange{strokeRuns.first, *shared} : outline(fillOrigin);
+            paint(addLayer(fillRuns, std::get<scene::FillRule>(fill.geometry)), fill, *fillSource, into);
+        }
+        if (strokeSource)
+            paint(addLayer(strokeRuns, scene::FillRule::NonZero), stroke, *strokeSource, into);
+    }
+
+    void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
+        place_ = item.place;
+        const Affine transform = outer == scene::identity ? item.transform : compose(outer, item.transform);
+        if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
+            patternItem(item, *pattern, transform, into);
+            return;
+        }
+        const auto source = paints_.add(item.paint, transform);
+        if (!source)
+            return;
+        paint(geometryLayer(item, transform), item, *source, into);
+    }
+
+    void paint(std::uint32_t layer, const scene::Item& item, std::uint32_t source, std::uint32_t into) {
+        picture_.itemOfLayer[layer] = static_cast<std::uint32_t>(picture_.items.size());
+        picture_.items.push_back({layer, source, item.opacity, into});
+    }
+
+    /// A group of tiles, clipped by the item's own outline.
+    void patternItem(const scene::Item& item, const scene::Pattern& pattern, const Affine& transform,
+                     std::uint32_t into) {
+        const std::uint32_t index = openGroup(into);
+        const std::uint32_t shape = geometryLayer(item, transform);
+        picture_.groups[index].opacity = item.opacity;
+        picture_.groups[index].clip = push({{{shape, none, false}}, none});
+        const Affine toPicture = compose(transform, pattern.transform);
+        const auto toPattern = scene::inverse(toPicture);
+        const Box seen = bounds(picture_.layers[shape]).cut(frame_);
+        if (!toPattern || seen.empty())
+            return;
+        const Box box = mapped(seen, *toPattern);
+        const Point period = pattern.max - pattern.min;
+        const glm::dvec2 first = glm::floor((box.min - pattern.min) / period);
+        const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
+        const double tiles = (last.x - first.x + 1) * (last.y - first.y + 1);
+        if (!(tiles <= static_cast<double>(maxTiles)))
+            throw LimitError("a pattern would take " + std::to_string(tiles) + " tiles; at most " +
+                             std::to_string(maxTiles) + " are drawn");
+        const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)
+                                   : std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
+        for (double y = first.y; y <= last.y; ++y)
+            for (double x = first.x; x <= last.x; ++x)
+                tile(pattern, border, compose(toPicture, scene::translation(x * period.x, y * period.y)),
+                     index);
+    }
+
+    void tile(const scene::Pattern& pattern, const std::shared_ptr<const Path>& border,
+              const Affine& toPicture, std::uint32_t into) {
+        limits::check();
+        const std::uint32_t index = openGroup(into);
+        const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
+        picture_.groups[index].clip = push({{{cut, none, false}}, none});
+        group(*pattern.content, toPicture, openGroup(index));
+    }
+
+    /// Of an item or a shape.
+    template <class Shaped>
+    std::uint32_t geometryLayer(const Shaped& shape, const Affine& transform) {
+        if (const auto* rule = std::get_if<scene::FillRule>(&shape.geometry))
+            return layer({shape.path, transform}, *rule);
+        picture_.sampledStrokes += hasSampledOffsets(*shape.path);
+        return layer({shape.path, transform, &std::get<scene::StrokeStyle>(shape.geometry)},
+                     scene::FillRule::NonZero);
+    }
+
+    std::uint32_t layer(const OutlineOrigin& origin, scene::FillRule rule) {
+        const std::size_t pointsBefore = picture_.outlines.points.size();
+        const std::optional<RunRange> known = cache_ ? cache_->find(origin) : std::nullopt;
+        const RunRange runs = known ? *known : outline(origin);
+        if (cache_ && !known)
+            cache_->add(origin, runs,
+                        static_cast<std::uint32_t>(picture_.outlines.points.size() - pointsBefore));
+        return addLayer(runs, rule);
+    }
+
+    std::uint32_t addLayer(RunRange runs, scene::FillRule rule) {
+        picture_.layers.push_back({rule, runs.first, runs.count, place_});
+        checkLimits();
+        picture_.itemOfLayer.push_back(none);
+        return static_cast<std::uint32_t>(picture_.layers.size() - 1);
+    }
+
+    /// `sides`: of a stroke, what addStroke returns.
+    RunRange outline(const OutlineOrigin& origin, std::optional<std::uint32_t>* sides = nullptr) {
+        const limits::Stage stage(origin.stroke ? "stroking" : "flattening", place_);
+        const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
+        if (!origin.stroke) {
+            addOutline(picture_.outlines, *origin.path, toSteps(origin), budget_.fillChords(),
+                       lattice_.clampMin(), lattice_.clampMax());
+        } else {
+            const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
+            if (stretch > 0 && std::isfinite(stretch)) {
+                const auto first = addStroke(
+                    picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
+                    budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
+                    lattice_.clampMin(), lattice_.clampMax(), nearFrame(origin.transform));
+                if (sides)
+                    *sides = first;
+            }
+        }
+        return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
+    }
+
+    /// What of a path's space a stroke must be right in; everywhere if nothing is said.
+    std::optional<PathBox> nearFrame(const Affine& transform) const {
+        const auto toPath = isPart_ ? scene::inverse(transform) : std::nullopt;
+        if (!toPath)
+            return std::nullopt;
+        const Box box = mapped(frame_, *toPath);
+        return PathBox{box.min, box.max};
+    }
+
+    Affine toSteps(const OutlineOrigin& origin) const {
+        return compose(lattice_.toSteps(), origin.transform);
+    }
+
+    void checkLimits() const {
+        if (picture_.outlines.points.size() > maxChords)
+            throw LimitError("the picture's outlines take more than " + std::to_string(maxChords) +
+                             " chords");
+        if (picture_.layers.size() >= maxLayers)
+            throw LimitError("the picture has more than " + std::to_string(maxLayers) + " layers");
+    }
+
+    Box bounds(const Layer& layer) const {
+        Box box;
+        for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
+            box.add(lattice_.toUnits(picture_.outlines.points[picture_.outlines.runs[r].first]));
+            box.add(lattice_.toUnits(picture_.outlines.points[picture_.outlines.runs[r].last]));
+        }
+        return box;
+    }
+
+    const Lattice& lattice_;
+    const ErrorBudget& budget_;
+    const Sharing sharing_;
+    const Box frame_;
+    const bool isPart_;
+    OutlineCache* const cache_;
+    limits::Place place_;  ///< of what is being lowered
+    Picture picture_;
+    PaintTable paints_;
+};
+
+}  // namespace
+
+Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache) {
+    return Lowering(scene, excerpt, lattice, budget, sharing, cache).take();
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,62 @@
+/// \file
+/// Curves to chords on the lattice, gathered into monotone runs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compiler/lower/lattice.hpp"
+#include "scene/affine.hpp"
+#include "scene/path.hpp"
+#include "scene/stroke.hpp"
+
+namespace vtm::compiler {
+
+/// A directed straight edge of a layer's outline.
+struct Chord {
+    LatticePoint a, b;
+};
+
+/// Consecutive chords of one contour that nowhere turn back, in x or in y: points[first] to
+/// points[last], first < last. A monotone chain meets every horizontal and vertical line once at
+/// most and every square in one stretch, so all questions about it are binary searches.
+struct Run {
+    std::uint32_t first = 0, last = 0;
+};
+
+/// The contours of layers: points[run.first .. run.last] for every run. Runs of a contour follow each
+/// other and share their end points.
+struct Outlines {
+    std::vector<LatticePoint> points;
+    std::vector<Run> runs;
+
+    Chord chord(std::uint32_t i) const { return {points[i], points[i + 1]}; }
+};
+
+/// Appends the closed contours of `path` under `toSteps` (path space to lattice steps): every subpath
+/// is closed, every curve's chords lie within `tolerance` steps of it, every vertex is even, and what
+/// lies outside [clampMin, clampMax] is moved onto that box's border, which changes no winding number
+/// inside it.
+void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine& toSteps, double tolerance,
+                glm::dvec2 clampMin, glm::dvec2 clampMax);
+
+/// A box in a path's space.
+struct PathBox {
+    scene::Point min, max;
+};
+
+/// So the outline of a stroke of `path`, within `strokeTolerance` and `chordTolerance` (strokeContours) in
+/// path space; `tolerance`, in steps, is for the curves that it leaves. If all subpaths are closed and
+/// without dashes, returns how many of the runs, the first ones, may stand for the outline of `path` itself:
+/// beside the stroke they have the same winding numbers. With `near` the outline is right in that box only.
+std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
+                                       const scene::StrokeStyle& style, double strokeTolerance,
+                                       double chordTolerance, const scene::Affine& toSteps, double tolerance,
+                                       glm::dvec2 clampMin, glm::dvec2 clampMax,
+                                       const std::optional<PathBox>& near = std::nullopt);
+
+/// Tolerance, as a share of the given one, in path space: how much `m` stretches at most.
+double largestStretch(const scene::Affine& m);
+
+}  // namespace vtm::compiler

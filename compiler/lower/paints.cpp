@@ -1,0 +1,170 @@
+#include "compiler/lower/paints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "compiler/compile.hpp"
+#include "image/codec.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using scene::Affine;
+using scene::Color;
+using scene::compose;
+using scene::GradientStop;
+
+/// No point of the picture has a coordinate beyond three times this in a paint's space, so that engines can
+/// square coordinates in single precision. A gradient that is shorter than this part of the picture shows its
+/// last stop, or the mean of its stops, whether it is enlarged to that length or not.
+constexpr double largestPlace = 0x1p60;
+
+/// The largest number below 1, which a focal radius may not reach.
+constexpr float belowOne = 0x1.fffffep-1f;
+
+std::array<float, 4> premultiplied(const Color& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
+
+std::uint16_t unorm16(float v) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f));
+}
+
+bool allOpaque(const std::vector<GradientStop>& stops) {
+    return std::all_of(stops.begin(), stops.end(), [](const GradientStop& s) { return s.color.a >= 1; });
+}
+
+template <class Record>
+void append(std::vector<asset::Texel>& data, const Record& record) {
+    static_assert(sizeof(Record) % sizeof(asset::Texel) == 0);
+    const std::size_t at = data.size();
+    data.resize(at + sizeof(Record) / sizeof(asset::Texel));
+    std::memcpy(data.data() + at, &record, sizeof(Record));
+}
+
+/// Unit vector of the gradient to the picture: (0, 0) → start, (1, 0) → end.
+Affine gradientFrame(const scene::LinearGradient& g) {
+    const glm::dvec2 d = g.end - g.start;
+    return {d, {-d.y, d.x}, g.start};
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> PaintTable::add(const scene::Paint& paint, const Affine& item) {
+    if (const auto* color = std::get_if<Color>(&paint))
+        return solid(*color);
+    if (const auto* g = std::get_if<scene::LinearGradient>(&paint))
+        return linear(*g, compose(item, g->transform));
+    if (const auto* g = std::get_if<scene::RadialGradient>(&paint))
+        return radial(*g, compose(item, g->transform));
+    if (const auto* image = std::get_if<scene::ImagePaint>(&paint))
+        return bitmap(*image, compose(item, image->transform));
+    if (const auto* m = std::get_if<scene::Material>(&paint))
+        return material(*m, compose(item, m->transform));
+    return std::nullopt;
+}
+
+std::array<float, 6> PaintTable::numbers(const Affine& m) const {
+    const double side = std::max(size_.x, size_.y);
+    double largest = 0;
+    for (int row = 0; row < 2; ++row)
+        largest =
+            std::max({largest, side * std::abs(m[0][row]), side * std::abs(m[1][row]), std::abs(m[2][row])});
+    const double scale = std::min(1.0, largestPlace / largest);
+    const auto f = [scale](double v) { return static_cast<float>(scale * v); };
+    return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
+}
+
+std::uint32_t PaintTable::push(Source source) {
+    picture_.sources.push_back(source);
+    return static_cast<std::uint32_t>(picture_.sources.size() - 1);
+}
+
+std::optional<std::uint32_t> PaintTable::solid(const Color& c) {
+    return push({asset::Op::Solid, premultiplied(c), 0, c.a >= 1});
+}
+
+std::uint32_t PaintTable::record(asset::Gradient gradient, const std::vector<GradientStop>& stops) {
+    const auto at = static_cast<std::uint32_t>(picture_.data.size());
+    gradient.stopCount = static_cast<std::uint32_t>(stops.size());
+    append(picture_.data, gradient);
+    limits::check();
+    for (const GradientStop& s : stops)
+        append(picture_.data, asset::GradientStop{s.offset,
+                                                  {unorm16(s.color.r), unorm16(s.color.g), unorm16(s.color.b),
+                                                   unorm16(s.color.a)},
+                                                  0});
+    return at;
+}
+
+std::optional<std::uint32_t> PaintTable::linear(const scene::LinearGradient& g, const Affine& toPicture) {
+    const auto inverse = scene::inverse(compose(toPicture, gradientFrame(g)));
+    if (!inverse)
+        return std::nullopt;
+    return ramp({*inverse, g.stops, g.spread});
+}
+
+std::uint32_t PaintTable::ramp(const Ramp& whole) {
+    const std::optional<Ramp> part = isPart_ ? narrowed(whole, size_) : std::nullopt;
+    const Ramp& ramp = part ? *part : whole;
+    asset::Gradient gradient;
+    gradient.matrix = numbers(ramp.toRamp);
+    gradient.spread = static_cast<asset::Spread>(ramp.spread);
+    return push({asset::Op::Linear, {}, record(gradient, ramp.stops), allOpaque(ramp.stops)});
+}
+
+std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, const Affine& toPicture) {
+    const auto inverse =
+        scene::inverse(compose(toPicture, Affine{g.radius, 0, 0, g.radius, g.center.x, g.center.y}));
+    if (!inverse)
+        return std::nullopt;
+    if (const auto straight = isPart_ ? straightened(g, *inverse, size_) : std::nullopt)
+        return ramp(*straight);
+    asset::Gradient gradient;
+    gradient.matrix = numbers(*inverse);
+    gradient.spread = static_cast<asset::Spread>(g.spread);
+    gradient.fx = static_cast<float>((g.focus.x - g.center.x) / g.radius);
+    gradient.fy = static_cast<float>((g.focus.y - g.center.y) / g.radius);
+    gradient.fr = std::min(belowOne, static_cast<float>(g.focalRadius / g.radius));
+    return push({asset::Op::Radial, {}, record(gradient, g.stops), allOpaque(g.stops)});
+}
+
+std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, const Affine& toPicture) {
+    const auto inverse = scene::inverse(toPicture);
+    if (!inverse)
+        return std::nullopt;
+    const auto [found, isNew] =
+        images_.try_emplace(image.bitmap.get(), static_cast<std::uint32_t>(picture_.images.size()));
+    if (isNew) {
+        picture_.images.push_back(image.bitmap);
+        imagePixels_ += std::int64_t{image.bitmap->width} * image.bitmap->height;
+    }
+    if (imagePixels_ > image::maxDecodedPixels)
+        throw LimitError("the picture's images have more than " + std::to_string(image::maxDecodedPixels) +
+                         " pixels together");
+    const auto at = static_cast<std::uint32_t>(picture_.data.size());
+    append(picture_.data,
+           asset::ImageFill{numbers(*inverse), found->second, static_cast<asset::ImageFilter>(image.filter)});
+    return push({asset::Op::Image, {}, at, false});
+}
+
+static_assert(scene::maxSide == asset::largestLength && scene::minSide == 1 / asset::largestLength);
+static_assert(scene::maxMaterialName == asset::maxMaterialName &&
+              scene::maxMaterialText == asset::maxMaterialText);
+
+std::optional<std::uint32_t> PaintTable::material(const scene::Material& m, const Affine& toPicture) {
+    const auto inverse = scene::inverse(toPicture);
+    if (!inverse)
+        return std::nullopt;
+    const auto [found, isNew] =
+        materials_.try_emplace(m.name, static_cast<std::uint32_t>(picture_.materials.size()));
+    if (isNew && picture_.materials.size() >= asset::maxMaterials)
+        throw LimitError("the picture has more than " + std::to_string(asset::maxMaterials) + " materials");
+    if (isNew)
+        picture_.materials.push_back({m.name, m.glsl});
+    const auto at = static_cast<std::uint32_t>(picture_.data.size());
+    append(picture_.data,
+           asset::MaterialFill{numbers(*inverse), found->second, 0, premultiplied(m.fallback)});
+    return push({asset::Op::Material, {}, at, false});
+}
+
+}  // namespace vtm::compiler

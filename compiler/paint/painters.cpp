@@ -1,0 +1,173 @@
+#include "compiler/paint/painters.hpp"
+
+#include <algorithm>
+
+namespace vtm::compiler {
+
+PicturePainter::PicturePainter(const Picture& picture)
+    : picture_(picture),
+      plain_(picture.groups.size()),
+      shades_(picture.layers.size()),
+      wanted_(picture.layers.size()) {
+    for (std::uint32_t g = 0; g < plain_.size(); ++g)  // parents come first
+        plain_[g] = isPlain(g);
+    for (const PictureItem& item : picture.items) {
+        const Source& source = picture.sources[item.source];
+        Shade& shade = shades_[item.layer];
+        shade.kind = plain_[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
+        for (std::size_t c = 0; c < 4; ++c)
+            shade.color[c] = source.color[c] * item.opacity;
+    }
+}
+
+std::unique_ptr<Painter> PicturePainter::clone() const { return std::make_unique<PicturePainter>(*this); }
+
+bool PicturePainter::isPlain(std::uint32_t index) const {
+    const PictureGroup& g = picture_.groups[index];
+    return g.role == GroupRole::Plain && g.opacity >= 1 && g.blend == scene::BlendMode::Normal &&
+           g.clip == none && g.mask == none && (g.parent == none || plain_[g.parent]);
+}
+
+PaintId PicturePainter::paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
+                              Palette& palette) {
+    if (Color color; stackSolids(layers, inside, color))
+        return palette.solid(color);
+    items_.clear();
+    for (std::uint32_t layer : layers)
+        if (picture_.itemOfLayer[layer] != none)
+            items_.push_back(picture_.itemOfLayer[layer]);
+    return composite(picture_, items_, inside, palette);
+}
+
+/// The usual case: what shows is solid colours in groups that change nothing.
+bool PicturePainter::stackSolids(std::span<const std::uint32_t> layers,
+                                 const std::vector<std::uint8_t>& inside, Color& color) const {
+    std::size_t bottom = layers.size();  // down to the first that hides the rest
+    for (bool hidden = false; bottom > 0 && !hidden;) {
+        const std::uint32_t layer = layers[--bottom];
+        const Shade& shade = shades_[layer];
+        if (!inside[layer] || shade.kind == Shade::None)
+            continue;
+        if (shade.kind == Shade::Other)
+            return false;
+        hidden = shade.color[3] >= 1;
+    }
+    color = {};
+    for (std::size_t i = bottom; i < layers.size(); ++i)
+        if (inside[layers[i]] && shades_[layers[i]].kind == Shade::Solid)
+            color = over(shades_[layers[i]].color, color);
+    return true;
+}
+
+namespace {
+
+Cover termCover(const ClipExpression::Term& term, const std::vector<Cover>& covers) {
+    const Cover cover = covers[term.layer];
+    if (!term.inverted || cover == Cover::Edge)
+        return cover;
+    return cover == Cover::In ? Cover::Out : Cover::In;
+}
+
+}  // namespace
+
+// Cover is ordered Out < Edge < In: a union covers like its best term, an intersection like its worst.
+Cover PicturePainter::clipCover(std::uint32_t clip, const std::vector<Cover>& covers) const {
+    if (clip == none)
+        return Cover::In;
+    const ClipExpression& e = picture_.clips[clip];
+    Cover any = Cover::Out;
+    for (const ClipExpression::Term& term : e.terms)
+        any = std::max(any, std::min(termCover(term, covers), clipCover(term.clip, covers)));
+    return std::min(any, clipCover(e.outer, covers));
+}
+
+Cover PicturePainter::groupCover(std::uint32_t group, const std::vector<Cover>& covers) const {
+    Cover cover = Cover::In;
+    for (; group != none; group = picture_.groups[group].parent)
+        cover = std::min(cover, clipCover(picture_.groups[group].clip, covers));
+    return cover;
+}
+
+bool PicturePainter::hidesAllBelow(const PictureItem& item, const std::vector<Cover>& covers) const {
+    if (covers[item.layer] != Cover::In || !picture_.sources[item.source].opaque || item.opacity < 1)
+        return false;
+    if (plain_[item.group])
+        return true;
+    for (std::uint32_t g = item.group; g != none; g = picture_.groups[g].parent) {
+        const PictureGroup& group = picture_.groups[g];
+        if (group.role != GroupRole::Plain || group.opacity < 1 || group.blend != scene::BlendMode::Normal ||
+            group.mask != none || clipCover(group.clip, covers) != Cover::In)
+            return false;
+    }
+    return true;
+}
+
+void PicturePainter::want(std::uint32_t layer) {
+    wanted_[layer] = true;
+    marked_.push_back(layer);
+}
+
+void PicturePainter::markClips(std::uint32_t group) {
+    for (; group != none; group = picture_.groups[group].parent)
+        markClip(picture_.groups[group].clip);
+}
+
+void PicturePainter::markClip(std::uint32_t clip) {
+    if (clip == none)
+        return;
+    const ClipExpression& e = picture_.clips[clip];
+    for (const ClipExpression::Term& term : e.terms) {
+        want(term.layer);
+        markClip(term.clip);
+    }
+    markClip(e.outer);
+}
+
+void PicturePainter::cull(std::span<const std::uint32_t> layers, const std::vector<Cover>& covers,
+                          std::vector<std::uint8_t>& keep) {
+    bool hidden = false;
+    for (std::size_t i = layers.size(); i-- > 0;) {
+        const std::uint32_t index = picture_.itemOfLayer[layers[i]];
+        if (index == none)
+            continue;
+        const PictureItem& item = picture_.items[index];
+        const bool clipped = !plain_[item.group];
+        if (hidden || covers[item.layer] == Cover::Out ||
+            (clipped && groupCover(item.group, covers) == Cover::Out))
+            continue;
+        want(item.layer);
+        if (clipped)
+            markClips(item.group);
+        hidden = hidesAllBelow(item, covers);
+    }
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        keep[i] = wanted_[layers[i]];
+    for (std::uint32_t layer : marked_)
+        wanted_[layer] = false;
+    marked_.clear();
+}
+
+PaintId PicturePainter::mean(std::span<const PaintId> paints, Palette& palette) {
+    Color sum{};
+    for (PaintId id : paints) {
+        if (!Palette::isConstant(palette[id]))
+            return paints[paints.size() / 2];
+        const Color color = Palette::colorOf(palette[id]);
+        for (std::size_t c = 0; c < 4; ++c)
+            sum[c] += color[c] / static_cast<float>(paints.size());
+    }
+    return palette.solid(sum);
+}
+
+PaintId MaskPainter::paint(std::span<const std::uint32_t>, const std::vector<std::uint8_t>& inside,
+                           Palette&) {
+    const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };
+    return layer_ != none ? in(layer_) : insideClip(picture_, clip_, in);
+}
+
+PaintId MaskPainter::mean(std::span<const PaintId> paints, Palette&) {
+    const auto covered = std::count(paints.begin(), paints.end(), 1u);
+    return 2 * static_cast<std::size_t>(covered) >= paints.size();
+}
+
+}  // namespace vtm::compiler

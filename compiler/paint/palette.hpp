@@ -1,0 +1,78 @@
+/// \file
+/// The paints of regions: constant colours and paint programs, each distinct one once.
+#pragma once
+
+#include <array>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "asset/asset.hpp"
+#include "compiler/containers/number_map.hpp"
+#include "compiler/paint/stacks.hpp"
+
+namespace vtm::compiler {
+
+/// A paint of a palette.
+using PaintId = std::uint32_t;
+
+/// Premultiplied.
+using Color = std::array<float, 4>;
+
+/// Porter-Duff source over.
+inline Color over(const Color& s, const Color& d) {
+    Color r;
+    for (std::size_t i = 0; i < 4; ++i)
+        r[i] = s[i] + (1 - s[3]) * d[i];
+    return r;
+}
+
+/// An instruction and, for Op::Solid, its colour.
+struct PaintStep {
+    asset::Instruction instruction;
+    Color color{};
+};
+using PaintProgram = std::vector<PaintStep>;
+
+/// Paint 0 is transparent.
+class Palette {
+public:
+    Palette() { solid({0, 0, 0, 0}); }
+
+    PaintId solid(const Color& premultiplied);
+    /// A program of one solid step, or of none, is that colour.
+    PaintId add(const PaintProgram& program);
+
+    std::size_t size() const { return paints_.size(); }
+    const PaintProgram& operator[](PaintId id) const { return paints_[id]; }
+    static bool isConstant(const PaintProgram& p) {
+        return p.empty() || (p.size() == 1 && p[0].instruction.op == asset::Op::Solid);
+    }
+    static Color colorOf(const PaintProgram& constant) {
+        return constant.empty() ? Color{} : constant[0].color;
+    }
+
+    StackTable stacks;  ///< what an EditablePainter's paints are numbers of, instead of programs
+
+private:
+    PaintId intern(const PaintProgram& program);
+
+    std::vector<PaintProgram> paints_;
+    std::unordered_map<std::string, PaintId> index_;  ///< of programs that are not constant
+    NumberMap solids_;                                ///< by a hash of the colour
+};
+
+/// One paint; a program, and the colours it uses, are appended to `data`. Throws LimitError if its groups are
+/// nested deeper than asset::maxStack, or it has more steps than asset::maxInstructions.
+asset::Paint encodePaint(const PaintProgram& program, std::vector<asset::Texel>& data);
+
+/// More paints than this the format cannot name.
+inline constexpr std::size_t mostPaints = 0x10000;
+
+/// Writes the palette as the asset's paints, programs to its data. Solid colours beyond the 65536
+/// paints that the format can name are merged, each with the nearest of a coarser grid of colours;
+/// returns each paint's index and, in `error`, by how much a component may have changed. Throws
+/// LimitError if programs alone are too many, and as encodePaint().
+std::vector<std::uint16_t> encodePalette(const Palette& palette, asset::Asset& asset, float& error);
+
+}  // namespace vtm::compiler

@@ -1,0 +1,291 @@
+#include <algorithm>
+#include <utility>
+
+#include "compiler/containers/small_sort.hpp"
+#include "compiler/planar/chord_relations.hpp"
+#include "compiler/planar/snap.hpp"
+
+namespace vtm::compiler {
+
+// ---- cut --------------------------------------------------------------------------------------
+
+/// By edge, and along it: counted out by edges, most of which have few.
+void Snapper::sortSplits() {
+    firstSplits_.assign(set_.edges.size() + 1, 0);
+    for (const Split& split : splits_)
+        ++firstSplits_[split.edge + 1];
+    for (std::size_t e = 0; e < set_.edges.size(); ++e)
+        firstSplits_[e + 1] += firstSplits_[e];
+    nextSplits_.resize(splits_.size());
+    for (const Split& split : splits_)
+        nextSplits_[firstSplits_[split.edge]++] = split;  // in the end, where the next edge's begin
+    splits_.swap(nextSplits_);
+    const auto isBefore = [](const Split& p, const Split& q) {
+        return p.chord != q.chord ? p.chord < q.chord : p.progress < q.progress;
+    };
+    std::uint32_t first = 0;
+    for (std::size_t e = 0; e < set_.edges.size(); first = firstSplits_[e++])
+        if (firstSplits_[e] > first + 1)
+            sortFew(splits_.begin() + first, splits_.begin() + firstSplits_[e], isBefore);
+}
+
+/// Replaces every split edge by its parts, ordered along it.
+void Snapper::applySplits() {
+    sortSplits();
+    nextEdges_.clear();
+    nextEdges_.swap(set_.edges);
+    parts_.clear();
+    newChords_.clear();
+    doubts_.clear();
+    const Split* s = splits_.data();
+    const Split* const end = s + splits_.size();
+    for (std::uint32_t i = 0; i < nextEdges_.size(); ++i) {
+        beginParts();
+        if (s == end || s->edge != i) {
+            set_.edges.push_back(nextEdges_[i]);
+            continue;
+        }
+        const Split *const first = s, *from = nullptr;
+        for (; s != end && s->edge == i; from = s++)
+            part(nextEdges_[i], from, s);
+        part(nextEdges_[i], from, nullptr);
+        doubt({first, s});
+    }
+    beginParts();
+}
+
+/// Doubts an edge that cuts another one near a neighbouring cut of the same chord: that one may bend the
+/// chord over it. The farther from their crossing, the farther are two chords from each other.
+void Snapper::doubt(std::span<const Split> cuts) {
+    const auto isAt = [](const Split& p, const Split& q) { return p.chord == q.chord && p.at == q.at; };
+    const auto check = [&](const Split& cut, LatticePoint at) {
+        if (std::abs(orient(cut.by.a, cut.by.b, at)) <= 2 * near(cut.by.a, cut.by.b))
+            doubts_.push_back({cut.edge, cut.byEdge});
+    };
+    std::size_t before = 0;  // the first of those in the place before
+    for (std::size_t here = 0, next; here < cuts.size(); before = here, here = next) {
+        for (next = here + 1; next < cuts.size() && isAt(cuts[next], cuts[here]);)
+            ++next;
+        if (here == 0 || cuts[here].chord != cuts[before].chord)
+            continue;
+        for (std::size_t k = before; k < here; ++k)
+            check(cuts[k], cuts[here].at);
+        for (std::size_t k = here; k < next; ++k)
+            check(cuts[k], cuts[before].at);
+    }
+}
+
+void Snapper::beginParts() {
+    parts_.push_back(
+        {static_cast<std::uint32_t>(set_.edges.size()), static_cast<std::uint32_t>(newChords_.size())});
+}
+
+/// The part between two cuts, or an end where there is none. It may run against the whole: a vertical part of
+/// a falling chain, or one chord, where rounding can step back past a steep edge's end.
+void Snapper::part(const Edge& whole, const Split* from, const Split* to) {
+    const auto isVertex = [&](const Split& cut) { return cut.at == set_.vertex(whole, cut.chord); };
+    const bool newFrom = from && !isVertex(*from), newTo = to && !isVertex(*to);
+    const std::uint32_t first = whole.first + (from ? from->chord + 1 : 1),
+                        end = to ? whole.first + to->chord + newTo : whole.last;  // of the vertices between
+    const LatticePoint a = from ? from->at : whole.a, b = to ? to->at : whole.b;
+    const std::uint32_t between = end > first ? end - first : 0;
+    if (a == b && between == 0)
+        return;
+    Edge e = whole;
+    e.first = static_cast<std::uint32_t>(set_.vertices.size());
+    e.last = e.first + between + 1;
+    set_.vertices.resize(e.last + 1);
+    LatticePoint* const chain = set_.vertices.data() + e.first;
+    std::copy_n(set_.vertices.data() + first, between, chain + 1);
+    chain[0] = a;
+    chain[between + 1] = b;
+    const bool reversed = b < a;
+    const auto number = static_cast<std::uint32_t>(set_.edges.size());
+    const bool newFirst = reversed ? newTo : newFrom, newLast = reversed ? newFrom : newTo;
+    if (newFirst || (newLast && between == 0))
+        newChords_.push_back({number, e.first});
+    if (newLast && between > 0)
+        newChords_.push_back({number, e.first + between});
+    if (reversed) {
+        std::reverse(chain, chain + between + 2);
+        e.firstChange = static_cast<std::uint32_t>(set_.changes.size());
+        for (std::uint32_t k = 0; k < e.changeCount; ++k) {
+            const Change c = set_.changes[whole.firstChange + k];
+            set_.changes.push_back({c.layer, -c.winding});
+        }
+    }
+    e.a = chain[0];
+    e.b = chain[between + 1];
+    set_.edges.push_back(e);
+}
+
+// ---- check ------------------------------------------------------------------------------------
+
+/// Whether parts meet anywhere but at their ends. A bent chord stays in the box of the chord that it was, so
+/// only edges that were close can; most of these have been seen to stay clear of each other but where they
+/// cross.
+bool Snapper::partsMeet() const {
+    const auto meet = [&](std::uint32_t e, std::uint32_t f) { return newMeet(e, f) || newMeet(f, e); };
+    return std::any_of(close_.begin(), close_.end(),
+                       [&](const Pair& pair) {
+                           return (pair.isNear | isDoubtful_[pair.e] | isDoubtful_[pair.f]) &&
+                                  meet(pair.e, pair.f);
+                       }) ||
+           std::any_of(doubts_.begin(), doubts_.end(),
+                       [&](const auto& pair) { return meet(pair.first, pair.second); });
+}
+
+/// Whether a new chord of a part of edge e, as it was, meets a part of edge f. The parts of both lie one
+/// after the other in x, but for what rounding moved them.
+bool Snapper::newMeet(std::uint32_t e, std::uint32_t f) const {
+    constexpr Coord rounded = 4;
+    std::uint32_t first = parts_[f].edge;
+    const std::uint32_t end = parts_[f + 1].edge;
+    for (std::uint32_t k = parts_[e].newChord; k < parts_[e + 1].newChord; ++k) {
+        const NewChord& chord = newChords_[k];
+        const Coord left = set_.vertices[chord.first].x - rounded,
+                    right = set_.vertices[chord.first + 1].x + rounded;
+        while (first + 1 < end && set_.edges[first].b.x < left)
+            ++first;
+        for (std::uint32_t j = first; j < end && set_.edges[j].a.x <= right; ++j)
+            if (meetsPart(set_.edges[chord.edge], chord.first, set_.edges[j]))
+                return true;
+    }
+    return false;
+}
+
+/// Whether the chord of e from vertex v meets f anywhere but at an end of both edges.
+bool Snapper::meetsPart(const Edge& e, std::uint32_t v, const Edge& f) const {
+    const LatticePoint *const vertices = set_.vertices.data(), *const end = vertices + f.last;
+    const LatticePoint a = vertices[v], b = vertices[v + 1];
+    if ((f.a.x > b.x) | (f.b.x < a.x) | !overlap(a.y, b.y, f.a.y, f.b.y))
+        return false;
+    const auto isEnd = [](const Edge& g, LatticePoint p) { return (p == g.a) | (p == g.b); };
+    for (const LatticePoint* r = firstNotBelow(vertices + f.first + 1, end, a.x); r <= end && r[-1].x <= b.x;
+         ++r) {
+        const LatticePoint c = r[-1], d = *r;
+        if (!overlap(a.y, b.y, c.y, d.y))
+            continue;
+        const bool fromA = (a == c) | (a == d), fromB = (b == c) | (b == d);
+        if (fromA | fromB) {
+            const LatticePoint at = fromA ? a : b, p = fromA ? b : a, q = at == c ? d : c;
+            if (!isEnd(e, at) || !isEnd(f, at))
+                return true;
+            if (!(fromA & fromB) && orient(at, p, q) == 0 && ((p < at) == (q < at)))
+                return true;
+            continue;
+        }
+        const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d), atA = orient(c, d, a),
+                           atB = orient(c, d, b);
+        if (!(areBeyond(atC, atD, 0) | areBeyond(atA, atB, 0)) &&
+            (atA != 0 || atB != 0 || isOnChord(a, b, c) || isOnChord(c, d, a)))
+            return true;
+    }
+    return false;
+}
+
+// ---- merge ------------------------------------------------------------------------------------
+
+int Snapper::compare(const Edge& e, const Edge& f) const {
+    if (e.b != f.b)
+        return e.b < f.b ? -1 : 1;
+    if (e.chordCount() != f.chordCount())
+        return e.chordCount() < f.chordCount() ? -1 : 1;
+    const auto p = set_.chain(e), q = set_.chain(f);
+    const auto [i, j] = std::mismatch(p.begin(), p.end(), q.begin());
+    return i == p.end() ? 0 : *i < *j ? -1 : 1;
+}
+
+/// Sorts the edges; equal ones become one with their changes added, and those without any change
+/// vanish.
+void Snapper::sortAndMerge() {
+    order_.resize(set_.edges.size());
+    for (std::uint32_t i = 0; i < order_.size(); ++i)
+        order_[i] = {sortKey(set_.edges[i].a), i};
+    sortByKey(order_, spareOrder_, [](const Place& p) { return p.a; });
+    nextEdges_.clear();
+    for (std::size_t i = 0; i < order_.size();) {
+        std::size_t end = i + 1;
+        while (end < order_.size() && order_[end].a == order_[i].a)
+            ++end;
+        if (end > i + 1)
+            sortFew(order_.begin() + std::ptrdiff_t(i), order_.begin() + std::ptrdiff_t(end),
+                    [&](const Place& p, const Place& q) {
+                        const int c = compare(set_.edges[p.edge], set_.edges[q.edge]);
+                        return c != 0 ? c < 0 : p.edge < q.edge;
+                    });
+        while (i < end) {
+            Edge e = set_.edges[order_[i].edge];
+            const std::size_t first = i++;
+            while (i < end && compare(set_.edges[order_[i].edge], e) == 0)
+                ++i;
+            if (i > first + 1) {
+                sum_.clear();
+                for (std::size_t k = first; k < i; ++k)
+                    collect(set_.edges[order_[k].edge]);
+                sumChanges(e);
+            }
+            if (e.changeCount > 0)
+                nextEdges_.push_back(e);
+        }
+    }
+    set_.edges.swap(nextEdges_);
+}
+
+/// The same, but leaves the edges in the order in which they stand.
+void Snapper::mergeParts() {
+    constexpr std::uint32_t taken = Slots::none - 1;
+    const std::vector<Edge>& edges = set_.edges;
+    slots_.reset(edges.size());
+    nextEqual_.assign(edges.size(), Slots::none);
+    bool areDifferent = true;
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        std::uint32_t& last = slots_.find(sortKey(edges[i].a) + 3 * sortKey(edges[i].b),
+                                          [&](std::uint32_t k) { return compare(edges[k], edges[i]) == 0; });
+        if (last != Slots::none) {
+            nextEqual_[last] = i;
+            areDifferent = false;
+        }
+        last = i;
+    }
+    if (areDifferent)
+        return;
+    nextEdges_.clear();
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        if (nextEqual_[i] == taken)
+            continue;
+        Edge e = edges[i];
+        if (nextEqual_[i] != Slots::none) {
+            sum_.clear();
+            for (std::uint32_t k = i; k != Slots::none;) {
+                collect(edges[k]);
+                k = std::exchange(nextEqual_[k], taken);
+            }
+            sumChanges(e);
+        }
+        if (e.changeCount > 0)
+            nextEdges_.push_back(e);
+    }
+    set_.edges.swap(nextEdges_);
+}
+
+void Snapper::collect(const Edge& edge) {
+    const auto changes = set_.of(edge);
+    sum_.insert(sum_.end(), changes.begin(), changes.end());
+}
+
+/// Gives the edge the sum of what has been collected.
+void Snapper::sumChanges(Edge& into) {
+    std::sort(sum_.begin(), sum_.end(), [](const Change& p, const Change& q) { return p.layer < q.layer; });
+    into.firstChange = static_cast<std::uint32_t>(set_.changes.size());
+    for (std::size_t i = 0; i < sum_.size();) {
+        Change total{sum_[i].layer, 0};
+        for (; i < sum_.size() && sum_[i].layer == total.layer; ++i)
+            total.winding += sum_[i].winding;
+        if (total.winding != 0)
+            set_.changes.push_back(total);
+    }
+    into.changeCount = static_cast<std::uint32_t>(set_.changes.size()) - into.firstChange;
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,199 @@
+#include "compiler/session/changes.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "compiler/containers/hash.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+bool isItem(const Picture& picture, std::uint32_t layer) { return picture.itemOfLayer[layer] != none; }
+
+bool sameLayer(const Picture& p, std::uint32_t a, const Picture& q, std::uint32_t b) {
+    const Layer &x = p.layers[a], &y = q.layers[b];
+    return x.firstRun == y.firstRun && x.runCount == y.runCount && x.rule == y.rule &&
+           isItem(p, a) == isItem(q, b);
+}
+
+std::uint64_t hashOf(const Picture& p, std::uint32_t layer) {
+    const Layer& l = p.layers[layer];
+    return mixed(mixed(l.firstRun, l.runCount),
+                 (l.rule == scene::FillRule::NonZero ? 0 : 1) + (isItem(p, layer) ? 2 : 0));
+}
+
+/// Matches the layers between `first` and the ends, greedily: each with the next equal one.
+void matchMiddle(const Picture& before, std::uint32_t endBefore, const Picture& after, std::uint32_t endAfter,
+                 std::uint32_t first, LayerChanges& changes) {
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places;  // descending
+    for (std::uint32_t j = endAfter; j-- > first;)
+        places[hashOf(after, j)].push_back(j);
+    std::uint32_t next = first;
+    for (std::uint32_t i = first; i < endBefore; ++i) {
+        const auto found = places.find(hashOf(before, i));
+        if (found == places.end())
+            continue;
+        std::vector<std::uint32_t>& equal = found->second;
+        while (!equal.empty() && equal.back() < next)
+            equal.pop_back();
+        if (equal.empty() || !sameLayer(before, i, after, equal.back()))
+            continue;
+        changes.after[i] = equal.back();
+        next = equal.back() + 1;
+    }
+}
+
+}  // namespace
+
+bool LayerChanges::renumbers() const {
+    for (std::uint32_t i = 0; i < after.size(); ++i)
+        if (after[i] != none && after[i] != i)
+            return true;
+    return false;
+}
+
+LayerChanges matchLayers(const Picture& before, const Picture& after) {
+    auto endBefore = static_cast<std::uint32_t>(before.layers.size()),
+         endAfter = static_cast<std::uint32_t>(after.layers.size());
+    LayerChanges changes{std::vector<std::uint32_t>(endBefore, none),
+                         std::vector<std::uint32_t>(endAfter, none)};
+    std::uint32_t first = 0;
+    for (; first < std::min(endBefore, endAfter) && sameLayer(before, first, after, first); ++first)
+        changes.after[first] = first;
+    for (; std::min(endBefore, endAfter) > first && sameLayer(before, endBefore - 1, after, endAfter - 1);) {
+        --endBefore, --endAfter;
+        changes.after[endBefore] = endAfter;
+    }
+    matchMiddle(before, endBefore, after, endAfter, first, changes);
+    for (std::uint32_t i = 0; i < changes.after.size(); ++i)
+        if (changes.after[i] != none)
+            changes.before[changes.after[i]] = i;
+    return changes;
+}
+
+// ---- names ------------------------------------------------------------------------------------
+
+std::uint32_t LayerNames::fresh() {
+    if (free_.empty()) {
+        layers_.push_back(none);
+        return static_cast<std::uint32_t>(layers_.size() - 1);
+    }
+    const std::uint32_t name = free_.back();
+    free_.pop_back();
+    return name;
+}
+
+void LayerNames::update(const Picture& after, const LayerChanges& changes) {
+    std::vector<std::uint32_t> names(changes.before.size(), none);
+    std::vector<std::uint8_t> items(names.size());
+    std::vector<std::uint32_t> left;  // names whose layers are gone, and nobody has taken them
+    std::uint32_t i = 0;              // all layers before it are dealt with
+    for (std::uint32_t j = 0; j < names.size(); ++j) {
+        items[j] = isItem(after, j);
+        if (changes.before[j] != none) {
+            for (; i < changes.before[j]; ++i)
+                left.push_back(names_[i]);
+            names[j] = names_[i++];
+        } else if (i < changes.after.size() && changes.after[i] == none && isItem_[i] == items[j]) {
+            names[j] = names_[i++];
+        }
+    }
+    for (; i < changes.after.size(); ++i)
+        left.push_back(names_[i]);
+    // What a new layer is called must not be in any stack that is kept: names are free only now.
+    for (std::uint32_t name : left)
+        layers_[name] = none;
+    for (std::uint32_t j = 0; j < names.size(); ++j) {
+        if (names[j] == none)
+            names[j] = fresh();
+        layers_[names[j]] = j;
+    }
+    free_.insert(free_.end(), left.begin(), left.end());
+    names_ = std::move(names);
+    isItem_ = std::move(items);
+}
+
+// ---- meanings ---------------------------------------------------------------------------------
+
+namespace {
+
+class Meanings {
+public:
+    Meanings(const Picture& picture, std::span<const std::uint32_t> names)
+        : picture_(picture),
+          names_(names),
+          hides_(groupsThatHide(picture)),
+          clips_(picture.groups.size()),
+          paints_(picture.groups.size()),
+          firstItem_(picture.groups.size(), none) {
+        for (const PictureItem& item : picture.items)
+            for (std::uint32_t g = item.group; g != none && firstItem_[g] == none;
+                 g = picture.groups[g].parent)
+                firstItem_[g] = names[item.layer];
+        for (std::uint32_t g = 0; g < picture.groups.size(); ++g)  // parents come first
+            group(g);
+    }
+
+    LayerMeaning of(const PictureItem& item) const {
+        const Source& source = picture_.sources[item.source];
+        const auto& c = source.color;
+        std::uint64_t paint = mixed(paints_[item.group], bits(item.opacity) << 32 | source.data);
+        paint = mixed(paint, std::uint64_t{static_cast<std::uint32_t>(source.op)} << 1 | source.opaque);
+        paint = mixed(mixed(paint, bits(c[0]) << 32 | bits(c[1])), bits(c[2]) << 32 | bits(c[3]));
+        return {mixed(clips_[item.group], hides(picture_, item, hides_[item.group])), paint};
+    }
+
+private:
+    /// A group is called after its first item.
+    void group(std::uint32_t index) {
+        const PictureGroup& g = picture_.groups[index];
+        const bool root = g.parent == none;
+        clips_[index] = root ? 0 : clips_[g.parent];
+        if (g.clip != none)
+            clips_[index] = mixed(clips_[index], clip(g.clip));
+        std::uint64_t h = mixed(root ? 0 : paints_[g.parent], firstItem_[index]);
+        h = mixed(
+            h, std::uint64_t{static_cast<std::uint32_t>(g.role)} << 32 | static_cast<std::uint32_t>(g.blend));
+        h = mixed(h, bits(g.opacity));
+        paints_[index] = mixed(h, g.mask != none);
+    }
+
+    std::uint64_t clip(std::uint32_t index) const {
+        if (index == none)
+            return 0;
+        const ClipExpression& e = picture_.clips[index];
+        std::uint64_t h = mixed(clip(e.outer), e.terms.size());
+        for (const ClipExpression::Term& term : e.terms)
+            h = mixed(mixed(mixed(h, names_[term.layer]), term.inverted), clip(term.clip));
+        return mixed(h, 1);
+    }
+
+    const Picture& picture_;
+    const std::span<const std::uint32_t> names_;
+    const std::vector<std::uint8_t> hides_;
+    std::vector<std::uint64_t> clips_, paints_;  ///< by group
+    std::vector<std::uint32_t> firstItem_;       ///< by group: its layer's name
+};
+
+}  // namespace
+
+std::vector<LayerMeaning> meanings(const Picture& picture, std::span<const std::uint32_t> names) {
+    std::vector<LayerMeaning> all(picture.layers.size());
+    const Meanings of(picture, names);
+    for (const PictureItem& item : picture.items)
+        all[item.layer] = of.of(item);
+    return all;
+}
+
+std::vector<std::uint8_t> groupsThatHide(const Picture& picture) {
+    std::vector<std::uint8_t> hide(picture.groups.size());
+    for (std::uint32_t g = 0; g < hide.size(); ++g) {
+        const PictureGroup& group = picture.groups[g];
+        hide[g] = group.role == GroupRole::Plain && group.opacity >= 1 &&
+                  group.blend == scene::BlendMode::Normal && group.mask == none &&
+                  (group.parent == none || hide[group.parent]);
+    }
+    return hide;
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,224 @@
+#include "compiler/session/editor.hpp"
+
+#include <algorithm>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "compiler/compile/clock.hpp"
+#include "compiler/compile/settings.hpp"
+#include "compiler/paint/editable.hpp"
+#include "compiler/tree/encode.hpp"
+#include "compiler/tree/join.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+/// A block has this part of the picture's strands, but at least so many.
+constexpr std::size_t blockShare = 256, leastBlock = 16;
+
+std::size_t strandsPerBlock(std::size_t runs) { return std::max(leastBlock, runs / blockShare); }
+
+/// Culls and builds blocks, one after the other.
+class Worker {
+public:
+    Worker(const Picture& picture, const Painter& painter, const TreeOptions& options, WorkLimit& work)
+        : painter_(painter.clone()), culler_(picture, *painter_), builder_(picture, painter, options, work) {}
+
+    Tree run(Cell cell) {
+        culler_.run(cell);
+        return builder_.run(std::move(cell), true);
+    }
+    const TreeTimes& times() const { return builder_.times(); }
+
+private:
+    const std::unique_ptr<Painter> painter_;
+    Culler culler_;
+    BlockBuilder builder_;
+};
+
+class Editor {
+public:
+    Editor(Kept& kept, Result& result, const Options& options)
+        : kept_(kept), result_(result), options_(options), treeOptions_(treeOptions(options)) {}
+
+    Update run(const scene::Scene& scene) {
+        const auto start = Clock::now();
+        kept_.cache.put(std::move(kept_.picture.outlines));
+        picture_ =
+            lower(scene, wholeOf(scene), kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
+        const auto lowered = Clock::now();
+        Update update;
+        update.anew = !kept_.partition;
+        update.outlines = kept_.cache.added();
+        compare();
+        if (update.anew)
+            kept_.partition.emplace(kept_.lattice.square(), strandsPerBlock(kept_.cache.usedRuns()),
+                                    treeOptions_.maxDepth);
+        if (update.anew || geometryChanged_)
+            update.blocks = build();
+        update.blocksInAll = kept_.partition->blocks().size();
+        update.paints = kept_.paints.update(picture_, kept_.names, repainted_);
+        encode(update, start, lowered);
+        kept_.picture = std::move(picture_);
+        return update;
+    }
+
+private:
+    /// Finds what differs from the last picture.
+    void compare() {
+        changes_ = matchLayers(kept_.picture, picture_);
+        kept_.names.update(picture_, changes_);
+        const std::vector<std::uint32_t>& names = kept_.names.names();
+        std::vector<LayerMeaning> now = meanings(picture_, names);
+        repainted_.assign(kept_.names.layers().size(), false);
+        geometryChanged_ =
+            std::find(changes_.after.begin(), changes_.after.end(), none) != changes_.after.end();
+        for (std::uint32_t layer = 0; layer < now.size(); ++layer) {
+            const std::uint32_t before = changes_.before[layer];
+            if (before == none || now[layer].paint != kept_.meanings[before].paint)
+                repainted_[names[layer]] = true;
+            if (before == none)
+                geometryChanged_ = true;
+            else if (now[layer].shape != kept_.meanings[before].shape)
+                touched_.push_back(layer);
+        }
+        geometryChanged_ |= !touched_.empty();
+        kept_.meanings = std::move(now);
+    }
+
+    /// Builds the blocks that are not what they were; returns their number.
+    std::size_t build() {
+        EditablePainter painter(picture_, kept_.names.names());
+        kept_.partition->update(kept_.picture.layers, picture_, changes_, touched_, painter);
+        std::vector<Partition::Block*> dirty;
+        for (Partition::Block& block : kept_.partition->blocks())
+            if (block.dirty)
+                dirty.push_back(&block);
+
+        WorkLimit work(treeOptions_.maxWork);
+        std::vector<Tree> trees(dirty.size());
+        tbb::enumerable_thread_specific<Worker> workers(
+            [&] { return Worker(picture_, painter, treeOptions_, work); });
+        const auto start = Clock::now();
+        tbb::parallel_for(std::size_t{0}, dirty.size(), [&, holding = limits::current()](std::size_t i) {
+            const limits::Scope scope(holding);
+            trees[i] = workers.local().run(dirty[i]->cell);
+        });
+        const double wall = milliseconds(start, Clock::now());
+        TreeTimes sum;
+        for (const Worker& worker : workers)
+            sum += worker.times();
+        times_ += sum.sharing(wall);
+        for (std::size_t i = 0; i < dirty.size(); ++i)
+            replace(*dirty[i], std::move(trees[i]));
+        return dirty.size();
+    }
+
+    /// Gives the block a tree whose paints are places in its own table of stacks.
+    void replace(Partition::Block& block, Tree tree) {
+        const StackTable stacks = std::move(tree.palette.stacks);
+        const std::vector<PaintId> before = std::move(block.paints);
+        block.paints.clear();
+        std::vector<PaintId> places(stacks.size(), none);
+        const auto place = [&](PaintId local) {
+            if (places[local] == none)
+                block.paints.push_back(places[local] = kept_.paints.use(stacks[local]));
+            return places[local];
+        };
+        const auto entry = [&](asset::Entry& e) {
+            if (e.kind() == asset::Entry::Kind::Solid)
+                e = asset::Entry::make(e.kind(), place(e.payload()));
+        };
+        entry(tree.root);
+        for (asset::Node& node : tree.nodes)
+            std::for_each(node.children.begin(), node.children.end(), entry);
+        for (Tree::Leaf& leaf : tree.leaves)
+            for (PaintId& corner : leaf.corners)
+                corner = place(corner);
+        for (Tree::Piece& piece : tree.pieces)
+            piece.left = place(piece.left), piece.right = place(piece.right);
+        tree.nodes.shrink_to_fit();
+        tree.leaves.shrink_to_fit();
+        tree.pieces.shrink_to_fit();
+        block.tree = std::move(tree);
+        block.dirty = false;
+        block.place.reset();
+        for (PaintId id : before)  // last, so that what stays in use keeps its place
+            kept_.paints.release(id);
+    }
+
+    /// The next asset, made of what changed; the rest is moved in from the last one when nothing can fail any
+    /// more.
+    void encode(const Update& update, Clock::time_point start, Clock::time_point lowered) {
+        asset::Asset& last = result_.asset;
+        asset::Asset next;
+        next.width = kept_.width;
+        next.height = kept_.height;
+        next.mode = options_.mode;
+        const bool moved = kept_.paints.encode(picture_, update.anew || picture_.data != kept_.picture.data,
+                                               last, next, colourError_);
+        const bool isJoined = update.blocks > 0 || moved;
+        const asset::Entry root =
+            isJoined ? joinBlocks(*kept_.partition, kept_.paints.indices(), moved ? nullptr : &last, next)
+                     : last.maps[0].root;
+        next.maps = {{0, 0, std::max(kept_.width, kept_.height), root}};
+        if (isJoined)
+            checkDrawn(next.maps.size(), next.nodes.size(), next.pieces.size());
+        next.commands = {asset::Command{}};
+        next.materials = picture_.materials;
+        const bool newImages = update.anew || picture_.images != kept_.picture.images;
+        if (newImages)
+            next.images = bitmapsOf(picture_);
+        if (!isJoined)
+            next.fallbackLeaves = last.fallbackLeaves;
+        Result report;
+        report.asset.width = kept_.width;
+        report.asset.height = kept_.height;
+        report.sampledStrokes = picture_.sampledStrokes;
+        for (const Partition::Block& block : kept_.partition->blocks())
+            certify(block.tree, treeOptions_.budget, report);
+        next.finestPixel = finestPixel(report);
+        report.warnings = warningsOf(report, options_, colourError_);
+        report.stages = stageTimes(milliseconds(start, lowered), milliseconds(lowered, Clock::now()), times_);
+
+        if (!newImages)
+            next.images.swap(last.images);
+        if (!isJoined) {
+            next.nodes.swap(last.nodes);
+            next.leaves.swap(last.leaves);
+            next.pieces.swap(last.pieces);
+        }
+        report.asset = std::move(next);
+        result_ = std::move(report);
+    }
+
+    Kept& kept_;
+    Result& result_;
+    const Options& options_;
+    const TreeOptions treeOptions_;
+    Picture picture_;
+    LayerChanges changes_;
+    std::vector<std::uint32_t> touched_;   ///< layers that stayed, but whose items show elsewhere
+    std::vector<std::uint8_t> repainted_;  ///< by name
+    bool geometryChanged_ = false;
+    TreeTimes times_;
+    float colourError_ = 0;
+};
+
+}  // namespace
+
+Kept::Kept(double pictureWidth, double pictureHeight, const Options& options)
+    : width(pictureWidth), height(pictureHeight), lattice(width, height, latticeBits(options)) {}
+
+bool Kept::isWorn() const {
+    constexpr std::size_t factor = 4;  // seldom enough to be paid for by the edits in between
+    const std::size_t wanted = strandsPerBlock(cache.usedRuns()), most = partition->most();
+    return wanted > factor * most || most > factor * wanted || cache.isWorn(picture.outlines);
+}
+
+Update edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options) {
+    return Editor(kept, result, options).run(scene);
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,193 @@
+#include "compiler/stroke/chords.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "compiler/lower/even_shares.hpp"
+#include "compiler/stroke/roots.hpp"
+
+namespace vtm::compiler::stroke {
+namespace {
+
+/// Halvings of a chord that was guessed too long.
+constexpr int maxHalvings = 12;
+/// Chords of a curve; where more are guessed, halving makes them.
+constexpr double mostDensity = 4096;
+/// Of these, so many are placed at once.
+constexpr int mostChords = 256;
+
+/// One coordinate of a curve and its velocity at two places.
+struct Coordinate {
+    Pair a, b, c, start, a3, b2;
+
+    Coordinate(double cubed, double squared, double linear, double constant)
+        : a{cubed, cubed},
+          b{squared, squared},
+          c{linear, linear},
+          start{constant, constant},
+          a3(3 * a),
+          b2(2 * b) {}
+    Pair at(Pair t) const { return ((a * t + b) * t + c) * t + start; }
+    Pair slope(Pair t) const { return (a3 * t + b2) * t + c; }
+};
+
+class ChordOffset {
+public:
+    ChordOffset(const Cubic& curve, double distance, double tolerance, Side& side)
+        : curve_(curve),
+          powers_(curve),
+          xs_(powers_.cubed.x, powers_.squared.x, powers_.linear.x, powers_.start.x),
+          ys_(powers_.cubed.y, powers_.squared.y, powers_.linear.y, powers_.start.y),
+          distance_(distance),
+          tolerance_(tolerance),
+          side_(side) {}
+
+    void run(double t0, double t1) {
+        const std::array<double, 3> turns = curvature(curve_).cross;
+        const auto [least, most] = std::minmax({turns[0], turns[1], turns[2]});
+        double from = t0;
+        if (least < 0 && most > 0)
+            for (const double inflection : rootsInside(powers(turns)))
+                if (inflection > t0 && inflection < t1) {
+                    convex(from, inflection);
+                    from = inflection;
+                }
+        convex(from, t1);
+    }
+
+private:
+    struct Vertex {
+        double t;
+        Point at, along;  ///< of any length
+    };
+    /// Two vertices.
+    struct Vertices {
+        Pair x, y, alongX, alongY;
+    };
+
+    Vertex vertex(double t) const {
+        const Point velocity = powers_.velocity(t);
+        const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
+        const Point along = isInside ? unit(velocity) : tangentAt(curve_, t);
+        return {t, (isInside ? powers_.at(t) : pointAt(curve_, t)) + perp(along) * distance_, along};
+    }
+
+    /// Inside the curve.
+    Vertices vertices(Pair t) const {
+        constexpr double least = 1e-280;  // smaller squares lose digits; the vertex becomes infinite
+        const Pair x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+        const Pair share = distance_ / squareRoot(square > least ? square : 0.0);
+        return {xs_.at(t) - y * share, ys_.at(t) + x * share, x, y};
+    }
+
+    /// The number of chords in [from, to] if each of them has an equal share of it: divided by dt, a chord
+    /// strays by a quarter of its length times half its turn, both of which grow with dt.
+    double guess(double from, double to) {
+        // Of the tolerance: the tangent strays a little farther than the curve, and a chord that reaches the
+        // limit costs pieces later.
+        constexpr double sure = 0.8;
+        const auto& [a, b, c, start] = powers_;
+        const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
+        const double per = 1 / (8 * sure * tolerance_);
+        return shares_.integrate(from, to, [=, this](Pair t) {
+            const Pair x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+            const Pair turn = ((c2 * t + c1) * t + c0) / square;
+            const Pair chords = squareRoot(per * magnitude((squareRoot(square) - distance_ * turn) * turn));
+            return chords < mostDensity ? chords : 0.0;
+        });
+    }
+
+    /// Between which the curve has no inflection.
+    void convex(double from, double to) {
+        const double needed = guess(from, to);
+        if (needed > mostChords) {
+            const double middle = (from + to) / 2;
+            convex(from, middle);
+            convex(middle, to);
+            return;
+        }
+        const int count = std::max(1, static_cast<int>(std::ceil(needed)));
+        findVertices(from, to, count);
+        appendChords(count);
+    }
+
+    void findVertices(double from, double to, int count) {
+        const std::size_t last = std::size_t(count);
+        t_[0] = from;
+        shares_.cut(count, &t_[1]);
+        t_[last] = t_[last + 1] = to;
+        for (std::size_t k = 0; k <= last; k += 2) {
+            const Vertices two = vertices(load(&t_[k]));
+            store(&x_[k], two.x), store(&y_[k], two.y);
+        }
+        const Point first = vertex(from).at, end = vertex(to).at;
+        x_[0] = first.x, y_[0] = first.y;
+        x_[last] = x_[last + 1] = end.x, y_[last] = y_[last + 1] = end.y;
+    }
+
+    void appendChords(int count) {
+        int appended = 0;
+        for (int k = 0; k < count; k += 2) {
+            const double *const t = &t_[std::size_t(k)], *const x = &x_[std::size_t(k)],
+                                *const y = &y_[std::size_t(k)];
+            const PairMask near =
+                areNear(load(x), load(y), vertices(0.5 * (load(t) + load(t + 1))), load(x + 1), load(y + 1));
+            const int many = std::min(2, count - k);
+            if (near[0] != 0 && (near[1] != 0 || many == 1))
+                continue;
+            side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], k - appended);
+            for (int i = 0; i < many; ++i)
+                chord(vertex(t[i]), vertex(t[i + 1]), maxHalvings);
+            appended = k + many;
+        }
+        side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], count - appended);
+    }
+
+    void chord(const Vertex& a, const Vertex& b, int halvings) {
+        const Vertex middle = vertex((a.t + b.t) / 2);
+        if (halvings > 0 && !isNear(a, middle, b)) {
+            chord(a, middle, halvings - 1);
+            chord(middle, b, halvings - 1);
+        } else {
+            side_.addLine(b.at);
+        }
+    }
+
+    bool isNear(const Vertex& a, const Vertex& m, const Vertex& b) const {
+        const PairMask near = areNear(both(a.at.x), both(a.at.y),
+                                      {both(m.at.x), both(m.at.y), both(m.along.x), both(m.along.y)},
+                                      both(b.at.x), both(b.at.y));
+        // So short that its direction is rounding.
+        return near[0] != 0 || 2 * (glm::distance(a.at, m.at) + glm::distance(m.at, b.at)) <= tolerance_;
+    }
+
+    /// Whether the tangents in m stray less than the tolerance from the chords over their ends; all lengths
+    /// times the chords'. False for infinite vertices.
+    PairMask areNear(Pair ax, Pair ay, const Vertices& m, Pair bx, Pair by) const {
+        const Pair x = bx - ax, y = by - ay, mx = m.x - ax, my = m.y - ay;
+        const Pair square = x * x + y * y, along = mx * x + my * y, rest = square - along;
+        const Pair slope = magnitude((m.alongX * y - m.alongY * x) / (m.alongX * x + m.alongY * y));
+        const Pair most = magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
+        return most < tolerance_ * squareRoot(square);
+    }
+
+    const Cubic& curve_;
+    const PowerForm powers_;
+    const Coordinate xs_, ys_;
+    const double distance_, tolerance_;
+    Side& side_;
+    EvenShares shares_;
+    /// Vertices, and one more for loops over two at once.
+    std::array<double, mostChords + 3> t_, x_, y_;
+};
+
+}  // namespace
+
+void appendChords(const Cubic& curve, double t0, double t1, double distance, double tolerance, Side& side) {
+    ChordOffset(curve, distance, tolerance, side).run(t0, t1);
+}
+
+}  // namespace vtm::compiler::stroke

@@ -1,0 +1,40 @@
+/// \file
+/// Offsets of curves as chords, for outlines that become chords anyway.
+#pragma once
+
+#include "compiler/lower/outline.hpp"
+#include "compiler/stroke/contours.hpp"
+#include "compiler/stroke/offset.hpp"
+#include "scene/path.hpp"
+#include "scene/stroke.hpp"
+
+namespace vtm::compiler {
+
+/// As strokeOutline (compiler/stroke.hpp), but with chords within `tolerance` + `chordTolerance` of the
+/// offsets in place of most curves that are within `tolerance`. The curves that are left become chords within
+/// `chordTolerance` later. Returns whether all is rings: closed subpaths without dashes.
+///
+/// The contours before ContourSink::sidesEnd are the rings' right sides, each in its subpath's direction. On
+/// the way from a subpath to its right side one crosses nothing but the stroke, so beside the stroke both
+/// have the same winding numbers.
+bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                    double chordTolerance, ContourSink& contours);
+/// The same, right within a box: parts of the path that cannot reach it are left out, so that what is left is
+/// small beside the tolerance. The path lies about the origin, as the box does.
+bool strokeContoursNear(const PathBox& box, const scene::Path& path, const scene::StrokeStyle& style,
+                        double tolerance, double chordTolerance, ContourSink& contours);
+/// As a path.
+scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+                                  double chordTolerance);
+
+namespace stroke {
+
+/// Goes on with chords within `tolerance` of the offset that lies at `distance` to the left of a curve
+/// without cusps, over [t0, t1], where the curve is not tighter than that.
+///
+/// Between inflections the offset is convex: it lies between its chord and its tangent in any point between.
+/// So it strays from the chord by no more than the tangent does over the chord's ends.
+void appendChords(const Cubic& curve, double t0, double t1, double distance, double tolerance, Side& side);
+
+}  // namespace stroke
+}  // namespace vtm::compiler

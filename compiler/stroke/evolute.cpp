@@ -1,0 +1,94 @@
+#include "compiler/stroke/evolute.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace vtm::compiler::stroke {
+
+struct Evolute::Parabola {
+    Point from, control, to;
+
+    /// Of the triangle, in which the evolute lies, over the chord; if that is short, a side.
+    double height() const {
+        const Point chord = to - from, side = control - from;
+        const double length = glm::length(chord), shorter = glm::length(side);
+        return length > 0 ? std::min(shorter, std::abs(cross(chord, side)) / length) : shorter;
+    }
+};
+
+Evolute::Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, const OffsetOptions& options)
+    : curvature_(curvature(c)),
+      stretch_(stretch),
+      radius_(signedRadius),
+      tolerance_(options.tolerance),
+      straight_(options.straight()) {}
+
+Point Evolute::at(double u) const { return stretch_.point(u) + normal(u) * centreDistance(u); }
+
+bool Evolute::isTighterAtEnd() const { return centreDistance(1) < centreDistance(0); }
+
+double Evolute::depth() const { return std::abs(radius_) - centreDistance(tightest()); }
+
+void Evolute::append(Side& side) const { append(0, 1, maxFitDepth, side); }
+
+void Evolute::append(double u0, double u1, int depth, Side& side) const {
+    const Parabola arc{at(u0), meeting(u0, u1), at(u1)};
+    if (depth == 0 || arc.height() <= straight_)
+        return side.lineTo(arc.to, gapShare * tolerance_);
+    if (error(arc, u0, u1) > tolerance_) {
+        append(u0, (u0 + u1) / 2, depth - 1, side);
+        append((u0 + u1) / 2, u1, depth - 1, side);
+        return;
+    }
+    const Cubic c = elevate(arc.from, arc.control, arc.to);
+    side.cubicTo(c.p1, c.p2, c.p3);
+}
+
+/// Of the ends and some places between.
+double Evolute::tightest() const {
+    constexpr int places = 4;
+    double best = 0;
+    for (int i = 1; i <= places; ++i)
+        if (const double u = double(i) / places; centreDistance(u) < centreDistance(best))
+            best = u;
+    return best;
+}
+
+/// Distance of parallel tangents: where the parabola runs along the normal, the evolute touches it.
+double Evolute::error(const Parabola& arc, double u0, double u1) const {
+    double worst = 0;
+    for (const double share : {0.25, 0.5, 0.75}) {
+        const double u = u0 + (u1 - u0) * share;
+        const Point n = normal(u);
+        const double a = cross(arc.control - arc.from, n), b = cross(arc.to - arc.control, n);
+        const double t = a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0), s = 1 - t;
+        const Point on = arc.from * (s * s) + arc.control * (2 * s * t) + arc.to * (t * t);
+        worst = std::max(worst, std::abs(cross(on - at(u), n)));
+    }
+    return worst;
+}
+
+/// Towards the centre of curvature.
+Point Evolute::normal(double u) const { return perp(stretch_.tangent(u)) * (radius_ < 0 ? -1.0 : 1.0); }
+
+double Evolute::centreDistance(double u) const {
+    const double t = stretch_.parameter(u), r = std::abs(radius_);
+    const double q = std::max(0.0, bernstein(curvature_.speedSquared, t)), cube = q * std::sqrt(q);
+    const double bend = std::abs(bernstein(curvature_.cross, t));
+    return cube < r * bend ? cube / bend : (cube > 0 ? r : 0);
+}
+
+/// Where the normals meet, always between curve and offset.
+Point Evolute::meeting(double u0, double u1) const {
+    const Point n0 = normal(u0), n1 = normal(u1), p0 = stretch_.point(u0);
+    const double sine = cross(n0, n1);
+    constexpr double parallel = 1e-9;  // below, rounding moves the crossing by more than the evolute is long
+    if (std::abs(sine) < parallel)
+        return (at(u0) + at(u1)) / 2.0;
+    const double s = cross(stretch_.point(u1) - p0, n1) / sine;
+    return p0 + n0 * std::clamp(s, 0.0, std::abs(radius_));
+}
+
+}  // namespace vtm::compiler::stroke

@@ -1,0 +1,69 @@
+/// \file
+/// A stretch of a curve as strokes run through it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "compiler/stroke/bend.hpp"
+#include "compiler/stroke/fit.hpp"
+
+namespace vtm::compiler::stroke {
+
+/// A stretch of a curve, which must outlive it, by a parameter u in [0, 1]: even in t where the curve is
+/// gentle, even in the tangent's angle where it is tight (the offsets' arc length follows the angle there).
+class Stretch {
+public:
+    Stretch(const Cubic& c, const Span& span)
+        : c_(c),
+          powers_(c),
+          span_(span),
+          start_(tangentAt(c, span.t0)),
+          turn_(angleBetween(start_, tangentAt(c, span.t1))) {}
+
+    double parameter(double u) const {
+        if (u <= 0 || u >= 1)
+            return u <= 0 ? span_.t0 : span_.t1;
+        if (span_.bend == Bend::Gentle)
+            return span_.t0 + (span_.t1 - span_.t0) * u;
+        return whereTangent(rotate(start_, turn_ * u));
+    }
+    double lengthBound() const {
+        const Cubic piece = part(c_, span_.t0, span_.t1);
+        return glm::distance(piece.p0, piece.p1) + glm::distance(piece.p1, piece.p2) +
+               glm::distance(piece.p2, piece.p3);
+    }
+    Point point(double u) const { return pointAt(c_, parameter(u)); }
+    Point tangent(double u) const { return tangentAt(c_, parameter(u)); }
+    Sample offset(double u, double distance) const {
+        const double t = parameter(u);
+        const Point velocity = powers_.velocity(t);
+        const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
+        const Point along = isInside ? unit(velocity) : tangentAt(c_, t);
+        const Point at = isInside ? powers_.at(t) : pointAt(c_, t);
+        return {at + perp(along) * distance, along};
+    }
+
+private:
+    /// γ' × direction is quadratic and changes its sign once: with Bernstein coefficients a, b, c over
+    /// the stretch, x = t / (1 - t) is the positive root of c x² + 2b x + a.
+    double whereTangent(Point direction) const {
+        const auto velocity = velocityOver(c_, span_.t0, span_.t1);
+        const double sign = turn_ > 0 ? -1 : 1;  // so that a < 0 < c
+        const double a = sign * cross(velocity[0], direction), b = sign * cross(velocity[1], direction),
+                     c = sign * cross(velocity[2], direction);
+        const double root = std::sqrt(std::max(0.0, b * b - a * c));
+        const double share = b > 0 ? -a / (-a + b + root) : (root - b) / (root - b + c);
+        return span_.t0 + (span_.t1 - span_.t0) * std::clamp(share, 0.0, 1.0);
+    }
+
+    const Cubic& c_;
+    const PowerForm powers_;
+    Span span_;
+    Point start_;
+    double turn_;
+};
+
+}  // namespace vtm::compiler::stroke

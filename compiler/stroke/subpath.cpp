@@ -1,0 +1,165 @@
+#include "compiler/stroke/subpath.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "compiler/stroke/roots.hpp"
+#include "limits/limits.hpp"
+
+namespace vtm::compiler::stroke {
+
+namespace {
+
+/// Points closer than this share of the path's largest coordinate are the same: it is what the
+/// importer's transforms leave of equal points. A longer rest of a closed polygon would be a segment
+/// with a join of its own.
+constexpr double coincidence = 1e-12;
+
+/// Control points closer to the chord than this share of the extent make a straight segment; ten
+/// times finer than the directions that tangents resolve.
+constexpr double straightness = 1e-10;
+
+/// A speed that falls below this share of the extent is a cusp. A curve that turns faster than that
+/// has its tip within 1e-18 of the extent.
+constexpr double cuspSpeed = 1e-9;
+
+/// Straight and, as it has no cusp, without turning back.
+bool isStraight(const Cubic& c) {
+    const Point chord = c.p3 - c.p0;
+    const double length = glm::length(chord), size = extent(c);
+    return length > 0 && std::abs(cross(chord, c.p1 - c.p0)) <= straightness * size * length &&
+           std::abs(cross(chord, c.p2 - c.p0)) <= straightness * size * length;
+}
+
+/// Whether the directions of the controls keep within half a turn, so that the speed cannot vanish inside.
+bool runsForward(const Cubic& c) {
+    const Point chord = c.p3 - c.p0;
+    const double a = glm::dot(c.p1 - c.p0, chord), b = glm::dot(c.p2 - c.p1, chord),
+                 d = glm::dot(c.p3 - c.p2, chord);
+    return a >= 0 && b > 0 && d >= 0;
+}
+
+Roots<3> cusps(const Cubic& c) {
+    if (runsForward(c))
+        return {};
+    const double least = cuspSpeed * extent(c);
+    Roots<3> result;
+    for (const double t : rootsInside(derivative(powers(curvature(c).speedSquared))))
+        if (glm::length(derivativeAt(c, t)) <= least)
+            result.add(t);
+    return result;
+}
+
+class Builder {
+public:
+    Builder(double tolerance, double coincident) : tolerance_(tolerance), coincident_(coincident) {}
+
+    void operator()(const scene::MoveTo& c) {
+        finish(false);
+        start_ = at_ = c.to;
+    }
+    void operator()(const scene::LineTo& c) { add(straightCubic(at_, c.to)); }
+    void operator()(const scene::QuadTo& c) { add(elevate(at_, c.control, c.to)); }
+    void operator()(const scene::CubicTo& c) { add({at_, c.control1, c.control2, c.to}); }
+    void operator()(const scene::ArcTo& c) {
+        drawn_ = true;
+        const Arc arc = ellipticalArc(at_, c, tolerance_);
+        for (const Cubic& piece : arc.pieces)
+            arc.circle ? addSmooth(piece, false, arc.circle) : add(piece);
+        at_ = c.to;
+    }
+    void operator()(const scene::Close&) {
+        add(straightCubic(at_, start_));
+        finish(true);
+        at_ = start_;
+    }
+
+    std::vector<Subpath> take() {
+        finish(false);
+        return std::move(result_);
+    }
+
+private:
+    void finish(bool closed) {
+        if (drawn_)
+            result_.push_back({std::move(segments_), closed, start_});
+        segments_.clear();
+        drawn_ = false;
+    }
+
+    void add(const Cubic& c) {
+        drawn_ = true;
+        at_ = c.p3;
+        if (extent(c) <= coincident_)
+            return;
+        double from = 0;
+        Cubic rest = c;
+        for (const double t : cusps(c)) {
+            // Both controls at a cusp lie in it but for rounding, whose direction would be a tangent.
+            Cubic before = part(c, from, t);
+            before.p1 = rest.p1 == rest.p0 ? before.p0 : before.p1;
+            before.p2 = before.p3;
+            addSmooth(before, from > 0);
+            rest = part(c, t, 1);
+            rest.p1 = rest.p0;
+            from = t;
+        }
+        addSmooth(rest, from > 0);
+    }
+
+    void addSmooth(const Cubic& c, bool afterCusp, std::optional<Circle> circle = {}) {
+        if (extent(c) <= coincident_)
+            return;
+        const bool straight = isStraight(c);
+        segments_.push_back({straight ? straightCubic(c.p0, c.p3) : c, straight, circle, afterCusp});
+    }
+
+    double tolerance_, coincident_;
+    std::vector<Subpath> result_;
+    std::vector<Segment> segments_;
+    Point start_{0, 0}, at_{0, 0};
+    bool drawn_ = false;
+};
+
+}  // namespace
+
+double largestCoordinate(const scene::Path& path) {
+    double largest = 0;
+    const auto see = [&](Point p) { largest = std::max({largest, std::abs(p.x), std::abs(p.y)}); };
+    for (const scene::Command& command : path) {
+        if (const auto* move = std::get_if<scene::MoveTo>(&command))
+            see(move->to);
+        else if (const auto* line = std::get_if<scene::LineTo>(&command))
+            see(line->to);
+        else if (const auto* quad = std::get_if<scene::QuadTo>(&command))
+            see(quad->control), see(quad->to);
+        else if (const auto* cubic = std::get_if<scene::CubicTo>(&command))
+            see(cubic->control1), see(cubic->control2), see(cubic->to);
+        else if (const auto* arc = std::get_if<scene::ArcTo>(&command))
+            see(arc->to);
+    }
+    return largest;
+}
+
+double largestCoordinate(const Subpath& subpath) {
+    double largest = std::max(std::abs(subpath.at.x), std::abs(subpath.at.y));
+    if (!subpath.segments.empty())
+        largest = 0;
+    for (const Segment& s : subpath.segments)
+        for (const Point p : {s.curve.p0, s.curve.p1, s.curve.p2, s.curve.p3})
+            largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    return largest;
+}
+
+std::vector<Subpath> subpaths(const scene::Path& path, double tolerance) {
+    Builder builder(tolerance, coincidence * largestCoordinate(path));
+    for (const scene::Command& command : path) {
+        limits::check();
+        std::visit(builder, command);
+    }
+    return builder.take();
+}
+
+}  // namespace vtm::compiler::stroke

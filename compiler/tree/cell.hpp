@@ -1,0 +1,51 @@
+/// \file
+/// Cells: what of the picture passes through a square, pushed down the 16-tree.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "compiler/lower/picture.hpp"
+#include "compiler/planar/strand.hpp"
+
+namespace vtm::compiler {
+
+struct LayerWinding {
+    std::uint32_t layer;
+    int winding;
+};
+
+struct Cell {
+    Square square;
+    unsigned level = 0;
+    std::vector<Strand> strands;         ///< what passes through, ascending by layer
+    std::vector<LayerWinding> windings;  ///< at the first corner, ascending by layer, zero left out
+
+    /// Chords in the cell.
+    std::size_t chordCount() const;
+};
+
+/// The given layers (ascending) in the root square.
+Cell rootCell(const Picture& picture, const Square& square, std::span<const std::uint32_t> layers);
+
+/// The 16 children, row by row; their memory is used again.
+void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children);
+
+/// Replaces `layers` by the cell's layers, ascending.
+/// For messages: says that work is at a cell. Its place is that of the layer with the most chords in it.
+class AtCell {
+public:
+    AtCell(const char* stage, const Picture& picture, const Cell& cell)
+        : picture_(picture), cell_(cell), stage_(stage, place, this) {}
+
+private:
+    static limits::Place place(const void* self);
+
+    const Picture& picture_;
+    const Cell& cell_;
+    const limits::Stage stage_;
+};
+
+void listLayers(const Cell& cell, std::vector<std::uint32_t>& layers);
+
+}  // namespace vtm::compiler

@@ -1,0 +1,163 @@
+// Images: bitmaps and nested SVG documents. Source: SVG 2 section 12.3.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <glm/common.hpp>
+
+#include "image/codec.hpp"
+#include "svg/convert/converter.hpp"
+#include "svg/xml/data_url.hpp"
+#include "svg/xml/document.hpp"
+
+namespace vtm::svg {
+namespace {
+
+/// Images in images in images …
+constexpr int maxImageDepth = 8;
+
+using Bytes = std::vector<std::uint8_t>;
+
+bool looksLikeSvg(const Bytes& bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                                std::min<std::size_t>(bytes.size(), 4096));
+    const bool gzip = text.starts_with("\x1f\x8b"),
+               utf16 = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    return gzip || utf16 || (text.find('<') != text.npos && trim(text.substr(0, text.find('<'))).size() <= 3);
+}
+
+/// A relative reference below the resource directory. Absolute paths and other schemes are not read.
+Bytes readResource(std::string_view href, const std::string& directory) {
+    const std::string path = percentDecoded(href.substr(0, href.find_first_of("#?")));
+    if (path.empty() || directory.empty() || path.find(':') != path.npos || path.front() == '/')
+        throw image::CodecError("is not a file that may be read");
+    const std::filesystem::path file = std::filesystem::path(directory) / path;
+    std::error_code none;
+    // Reading a pipe or a device may never end.
+    if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))
+        throw image::CodecError("is no regular file");
+    return image::readFile(file.string());
+}
+
+}  // namespace
+
+struct Converter::NestedDocument {
+    Options options;
+    std::unique_ptr<ParsedDocument> parsed;
+    Converter converter;
+
+    NestedDocument(const Bytes& bytes, Options own, std::vector<Warning>& warnings, Budget& budget)
+        : options(std::move(own)),
+          parsed(parseDocument(bytes, options, warnings)),
+          converter(*parsed->tree, parsed->reporter, options, budget) {}
+};
+
+void Converter::convertImage(const Element& element, const Scope& scope, Nodes& out) {
+    const auto href = hrefOf(element);
+    if (!href || href->empty()) {
+        reporter_.warn(Kind::Reference, element, "has no href");
+        return;
+    }
+    const ImageContent content = imageContent(*href, element);
+    const std::optional<Viewport> size = sizeOf(content);
+    if (!size)
+        return;
+    const LengthReader reader = lengths(element, scope);
+    const auto width = reader.length("width", Axis::X), height = reader.length("height", Axis::Y);
+    Rect viewport{reader.lengthOr("x", Axis::X, 0), reader.lengthOr("y", Axis::Y, 0), 0, 0};
+    viewport.width = width.value_or(height ? *height * size->width / size->height : size->width);
+    viewport.height = height.value_or(width ? *width * size->height / size->width : size->height);
+    const Box box = viewport.box();
+    if (!(viewport.width > 0 && viewport.height > 0) || !isWithinReach(mapBox(scope.transform, box)))
+        return;
+    if (outlineListeners_ > 0)
+        outlines_.push_back(
+            {std::make_shared<const scene::Path>(scene::rectangle(box.min, box.max)), scope.transform});
+    if (!scope.style.visible)
+        return;
+    const AspectRatio ratio = parseAspectRatio(element.get("preserveAspectRatio"));
+    if (const auto* bitmap = std::get_if<std::shared_ptr<const image::Bitmap>>(&content))
+        placeBitmap(*bitmap, element, viewport, ratio, scope, out);
+    else if (const auto* document = std::get_if<std::shared_ptr<NestedDocument>>(&content)) {
+        (*document)->converter.standFor(placeOf(element));
+        placeDocument(**document, viewport, ratio, scope, out);
+    }
+}
+
+std::optional<Viewport> Converter::sizeOf(const ImageContent& content) {
+    if (const auto* bitmap = std::get_if<std::shared_ptr<const image::Bitmap>>(&content))
+        return Viewport{static_cast<double>((*bitmap)->width), static_cast<double>((*bitmap)->height)};
+    if (const auto* document = std::get_if<std::shared_ptr<NestedDocument>>(&content))
+        return (*document)->converter.rootSize();
+    return std::nullopt;
+}
+
+Converter::ImageContent Converter::imageContent(std::string_view href, const Element& element) {
+    if (const auto found = images_.find(href); found != images_.end())
+        return found->second;
+    ImageContent content;
+    try {
+        content = loadImage(href);
+    } catch (const limits::Exceeded&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        const bool data = isDataUrl(href);
+        reporter_.warn(Kind::Reference, element,
+                       fmt::format("the image {}cannot be drawn: {}",
+                                   data ? "" : fmt::format("\"{}\" ", href.substr(0, 200)), error.what()));
+    }
+    return images_.emplace(href, std::move(content)).first->second;
+}
+
+Converter::ImageContent Converter::loadImage(std::string_view href) {
+    const Bytes bytes =
+        isDataUrl(href) ? decodeDataUrl(href) : readResource(href, options_.resourceDirectory);
+    if (looksLikeSvg(bytes)) {
+        if (budget_.imageDepth >= maxImageDepth)
+            throw image::CodecError("images are nested too deep");
+        Options options = options_;
+        options.fileName = isDataUrl(href) ? "image in " + options_.fileName : std::string(href);
+        options.resourceDirectory.clear();  // an image may not load further files (SVG 2 section 2.2)
+        return std::make_shared<NestedDocument>(bytes, std::move(options), reporter_.warnings(), budget_);
+    }
+    image::Bitmap bitmap = image::decode(bytes);
+    const std::int64_t pixels = std::int64_t(bitmap.width) * bitmap.height;
+    if (pixels > budget_.imagePixels)
+        throw image::CodecError("the images have too many pixels together");
+    budget_.imagePixels -= pixels;
+    return std::make_shared<const image::Bitmap>(std::move(bitmap));
+}
+
+/// The bitmap as a rectangle in its own pixels: all of it, or with `slice` what the viewport shows.
+void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Element& element,
+                            const Rect& viewport, const AspectRatio& ratio, const Scope& scope, Nodes& out) {
+    const Rect whole{0, 0, static_cast<double>(bitmap->width), static_cast<double>(bitmap->height)};
+    const scene::Affine toUser = fit(whole, ratio, viewport);
+    const auto toPixels = scene::inverse(toUser);
+    const scene::Affine transform = scene::compose(scope.transform, toUser);
+    if (!toPixels || !scene::inverse(transform))
+        return;
+    const Box shown = mapBox(*toPixels, viewport.box());
+    const scene::Point min = glm::max(shown.min, whole.box().min), max = glm::min(shown.max, whole.box().max);
+    out.push_back({scene::Item{
+        std::make_shared<const scene::Path>(scene::rectangle(min, max)), transform, scene::FillRule::NonZero,
+        scene::ImagePaint{bitmap, scope.style.imageFilter, scene::identity}, 1, placeOf(element)}});
+}
+
+void Converter::placeDocument(NestedDocument& document, const Rect& viewport, const AspectRatio& ratio,
+                              const Scope& scope, Nodes& out) {
+    const Viewport size = document.converter.rootSize();
+    if (!(size.width > 0 && size.height > 0))
+        return;
+    const scene::Affine placement =
+        scene::compose(scope.transform, fit({0, 0, size.width, size.height}, ratio, viewport));
+    Nodes nodes;
+    ++budget_.imageDepth;
+    document.converter.convertRoot(placement, nodes);
+    --budget_.imageDepth;
+    scene::Group group;  // a picture of its own: nothing in it blends with what lies below
+    appendClipped(viewport, scope.transform, std::move(nodes), group.children);
+    appendGroup(std::move(group), true, out);
+}
+
+}  // namespace vtm::svg

@@ -1,0 +1,162 @@
+// Elements that establish viewports: svg, symbol; and use, which gives them their size.
+
+#include <algorithm>
+#include <cmath>
+
+#include "svg/convert/converter.hpp"
+#include "svg/geometry/bounds.hpp"
+
+namespace vtm::svg {
+namespace {
+
+bool isAncestorOf(const Element& ancestor, const Element& element) {
+    for (const Element* e = &element; e; e = e->parent)
+        if (e == &ancestor)
+            return true;
+    return false;
+}
+
+/// One side of the root viewport: a length, or a share of the viewBox or else of the default.
+std::optional<double> rootSide(const LengthReader& reader, std::string_view name, Axis axis,
+                               const std::optional<double>& viewBoxSide, double fallback) {
+    const auto length = parseLength(reader.text(name), reader.units);
+    if (length && length->percent)
+        return length->value / 100 * viewBoxSide.value_or(fallback);
+    return length ? std::optional(resolve(*length, axis, reader.viewport)) : std::nullopt;
+}
+
+}  // namespace
+
+/// A side that is absent follows from the other one and the viewBox's proportions.
+Viewport Converter::computeRootSize() {
+    const Element& root = *tree_.root;
+    const Viewport fallback{options_.defaultWidth, options_.defaultHeight};
+    const LengthReader reader{root, styleOf(root), fallback, unitsFor(styleOf(root))};
+    const auto box = parseViewBox(root.get("viewBox"));
+    const auto boxWidth = box ? std::optional(box->width) : std::nullopt;
+    const auto boxHeight = box ? std::optional(box->height) : std::nullopt;
+    const auto width = rootSide(reader, "width", Axis::X, boxWidth, fallback.width);
+    const auto height = rootSide(reader, "height", Axis::Y, boxHeight, fallback.height);
+    if (box && width.has_value() != height.has_value())
+        return width ? Viewport{*width, *width * box->height / box->width}
+                     : Viewport{*height * box->width / box->height, *height};
+    return {width.value_or(boxWidth.value_or(fallback.width)),
+            height.value_or(boxHeight.value_or(fallback.height))};
+}
+
+void Converter::convertRoot(const scene::Affine& placement, Nodes& out) {
+    Scope outside;
+    outside.style.fontSize = options_.defaultFontSize;
+    outside.transform = placement;
+    outside.viewport = rootSize_;
+    convertElement(*tree_.root, outside, out);
+}
+
+void Converter::convertSvg(const Element& element, const Scope& scope, Nodes& out) {
+    if (&element == tree_.root && scope.depth == 1) {
+        const Rect canvas{0, 0, rootSize_.width, rootSize_.height};
+        fillBackground(scope, canvas, out);
+        return convertViewport(element, canvas, scope, out);
+    }
+    const LengthReader reader = lengths(element, scope);
+    convertViewport(element,
+                    {reader.lengthOr("x", Axis::X, 0), reader.lengthOr("y", Axis::Y, 0),
+                     reader.lengthOr("width", Axis::X, scope.viewport.width),
+                     reader.lengthOr("height", Axis::Y, scope.viewport.height)},
+                    scope, out);
+}
+
+/// CSS gives the outermost svg a background like any box.
+void Converter::fillBackground(const Scope& scope, const Rect& canvas, Nodes& out) {
+    if (scope.style.background && scope.style.background->a > 0)
+        out.push_back({scene::Item{
+            std::make_shared<const scene::Path>(scene::rectangle(canvas.box().min, canvas.box().max)),
+            scope.transform, scene::FillRule::NonZero, *scope.style.background, 1, placeOf(*tree_.root)}});
+}
+
+void Converter::convertViewport(const Element& element, const Rect& viewport, const Scope& scope,
+                                Nodes& out) {
+    if (!(viewport.width > 0 && viewport.height > 0)) {
+        reporter_.warn(Kind::Value, element, "width and height must be positive; it is left out");
+        return;
+    }
+    if (isEmptyViewBox(element.get("viewBox"))) {
+        reporter_.warn(Kind::Value, element,
+                       "viewBox=" + quoted(element.get("viewBox")) + " is empty; nothing of it is drawn");
+        return;
+    }
+    const auto viewBox = parseViewBox(element.get("viewBox"));
+    const scene::Affine inner =
+        viewBox ? fit(*viewBox, parseAspectRatio(element.get("preserveAspectRatio")), viewport)
+                : scene::translation(viewport.x, viewport.y);
+    Scope content = scope;
+    content.transform = scene::compose(scope.transform, inner);
+    content.viewport =
+        viewBox ? Viewport{viewBox->width, viewBox->height} : Viewport{viewport.width, viewport.height};
+    if (!scene::inverse(content.transform))
+        return;
+    // What the root's viewport cuts off, the picture's edge or the image's viewport cuts off anyway.
+    const bool visible = &element == tree_.root || scope.style.overflow.value_or(false);
+    Nodes nodes;
+    convertChildren(element, content, visible ? out : nodes);
+    appendClipped(viewport, scope.transform, std::move(nodes), out);
+}
+
+void Converter::appendClipped(const Rect& rect, const scene::Affine& transform, Nodes content, Nodes& out) {
+    const auto toRect = scene::inverse(transform);
+    if (content.empty() || !toRect)
+        return;
+    if (liesInside(content, *toRect, rect.box())) {
+        std::move(content.begin(), content.end(), std::back_inserter(out));
+        return;
+    }
+    auto clip = std::make_shared<scene::Clip>();
+    const Box box = rect.box();
+    clip->shapes.push_back({std::make_shared<const scene::Path>(scene::rectangle(box.min, box.max)),
+                            transform, scene::FillRule::NonZero, nullptr});
+    scene::Group group;
+    group.children = std::move(content);
+    group.clip = std::move(clip);
+    out.push_back({std::move(group)});
+}
+
+void Converter::convertUse(const Element& element, const Scope& scope, Nodes& out) {
+    const std::string_view href = hrefOf(element).value_or(std::string_view{});
+    const Element* target = tree_.byHref(href);
+    if (!target) {
+        reporter_.warn(Kind::Reference, element,
+                       href.empty() ? "refers to nothing"
+                                    : "refers to \"" + std::string(href) + "\", which is not here");
+        return;
+    }
+    const Expansion expansion(active_, *target);
+    if (!expansion || isAncestorOf(*target, element)) {
+        reporter_.warn(Kind::Reference, element, "refers to itself in a circle; it is left out");
+        return;
+    }
+    const ContextElement context{element, scope, {}};
+    Scope inner = scope;
+    inner.context = &context;
+    convertUsed(element, *target, inner, out);
+}
+
+void Converter::convertUsed(const Element& use, const Element& target, const Scope& scope, Nodes& out) {
+    if (target.tag != Tag::Svg && target.tag != Tag::Symbol)
+        return convertElement(target, scope, out);
+    const std::optional<Scope> entered = spend() ? enter(target, scope) : std::nullopt;
+    if (!entered)
+        return;
+    // The use's own size, where given, replaces the target's (SVG 2 section 5.6.2).
+    const LengthReader outer = lengths(use, scope), inner = lengths(target, *entered);
+    const auto side = [&](std::string_view name, Axis axis, double full) {
+        const auto given = outer.length(name, axis);
+        return given ? *given : inner.lengthOr(name, axis, full);
+    };
+    const Rect viewport{inner.lengthOr("x", Axis::X, 0), inner.lengthOr("y", Axis::Y, 0),
+                        side("width", Axis::X, scope.viewport.width),
+                        side("height", Axis::Y, scope.viewport.height)};
+    appendWithEffects(target, *entered, out,
+                      [&](Nodes& content) { convertViewport(target, viewport, *entered, content); });
+}
+
+}  // namespace vtm::svg

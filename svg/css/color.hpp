@@ -1,0 +1,20 @@
+/// \file
+/// Colours. Source: SVG 1.1 section 4.2, CSS Color 4 sections 4 to 7.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "scene/paint.hpp"
+#include "svg/css/cursor.hpp"
+
+namespace vtm::svg {
+
+/// A named colour, `#` notation, rgb(), rgba(), hsl(), hsla() or transparent; `currentColor` is not
+/// one. Stays where it is, or stops at the offending place, if there is none.
+std::optional<scene::Color> readColor(Cursor& cursor);
+/// The whole text, an icc-color() behind it ignored.
+std::optional<scene::Color> parseColor(std::string_view text);
+std::optional<scene::Color> namedColor(std::string_view name);
+
+}  // namespace vtm::svg

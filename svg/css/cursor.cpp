@@ -1,0 +1,113 @@
+#include "svg/css/cursor.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace vtm::svg {
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Whether an unsigned number begins here; std::from_chars alone would take "inf" and "nan" too.
+bool startsNumber(std::string_view text) {
+    if (text.starts_with('.'))
+        text.remove_prefix(1);
+    return !text.empty() && isDigit(text.front());
+}
+
+}  // namespace
+
+bool isIdentifier(char c) {
+    return isDigit(c) || (lower(c) >= 'a' && lower(c) <= 'z') || c == '-' || c == '_' ||
+           static_cast<unsigned char>(c) >= 0x80;
+}
+
+int hexDigit(char c) {
+    if (isDigit(c))
+        return c - '0';
+    return lower(c) >= 'a' && lower(c) <= 'f' ? lower(c) - 'a' + 10 : -1;
+}
+
+std::string_view trim(std::string_view text) {
+    while (!text.empty() && isSpace(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && isSpace(text.back()))
+        text.remove_suffix(1);
+    return text;
+}
+
+bool equalsIgnoringCase(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower(x) == lower(y); });
+}
+
+void Cursor::skipSpaces() {
+    while (!rest_.empty() && isSpace(rest_.front()))
+        rest_.remove_prefix(1);
+}
+
+void Cursor::skipCommaSpaces() {
+    skipSpaces();
+    if (consume(','))
+        skipSpaces();
+}
+
+bool Cursor::consume(char c) {
+    if (rest_.empty() || rest_.front() != c)
+        return false;
+    rest_.remove_prefix(1);
+    return true;
+}
+
+bool Cursor::consume(std::string_view word) {
+    if (!equalsIgnoringCase(rest_.substr(0, word.size()), word))
+        return false;
+    rest_.remove_prefix(word.size());
+    return true;
+}
+
+std::optional<double> Cursor::number() {
+    std::string_view text = rest_;
+    const bool negative = text.starts_with('-');
+    if (negative || text.starts_with('+'))
+        text.remove_prefix(1);
+    if (!startsNumber(text))
+        return std::nullopt;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Out of range leaves the value alone: a huge exponent is huge, a tiny one nothing.
+    if (error == std::errc::result_out_of_range) {
+        const std::string_view token(text.data(), static_cast<std::size_t>(end - text.data()));
+        value = token.find("e-") == token.npos && token.find("E-") == token.npos ? maxNumber : 0;
+    }
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    value = std::min(value, maxNumber);
+    return negative ? -value : value;
+}
+
+std::string_view Cursor::identifier() {
+    std::size_t size = 0;
+    while (size < rest_.size() && isIdentifier(rest_[size]))
+        ++size;
+    const std::string_view word = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return word;
+}
+
+std::string_view Cursor::unit() {
+    std::size_t size = 0;
+    while (size < rest_.size() && lower(rest_[size]) >= 'a' && lower(rest_[size]) <= 'z')
+        ++size;
+    const std::string_view word = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return word;
+}
+
+std::string_view Cursor::until(char end) {
+    const std::size_t size = std::min(rest_.find(end), rest_.size());
+    const std::string_view part = rest_.substr(0, size);
+    rest_.remove_prefix(std::min(size + 1, rest_.size()));
+    return part;
+}
+
+}  // namespace vtm::svg

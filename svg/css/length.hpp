@@ -1,0 +1,43 @@
+/// \file
+/// Lengths: numbers with units and percentages. Source: SVG 2 section 8.9, CSS Values 4.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "svg/css/cursor.hpp"
+
+namespace vtm::svg {
+
+/// What percentages refer to: the nearest viewport, user units.
+struct Viewport {
+    double width = 0, height = 0;
+    friend bool operator==(const Viewport&, const Viewport&) = default;
+};
+
+/// What the other relative units refer to.
+struct Units {
+    double dpi = 96;
+    double fontSize = 12, rootFontSize = 12;
+    Viewport root;  ///< for vw and vh
+};
+
+/// User units, or a percentage of something that is known only where it is used.
+struct Length {
+    double value = 0;
+    bool percent = false;
+};
+
+enum class Axis { X, Y, Diagonal };
+
+std::optional<Length> readLength(Cursor& cursor, const Units& units);
+/// The whole text, surrounding spaces aside.
+std::optional<Length> parseLength(std::string_view text, const Units& units);
+double resolve(Length length, Axis axis, const Viewport& viewport);
+
+/// A number or a percentage as a fraction.
+std::optional<double> parseFraction(std::string_view text);
+/// Degrees from a number with an optional CSS angle unit.
+std::optional<double> readAngle(Cursor& cursor);
+
+}  // namespace vtm::svg

@@ -1,0 +1,149 @@
+// The table of properties: by whom each value is read and where it is kept.
+
+#include <type_traits>
+#include <unordered_map>
+
+#include "svg/css/property_values.hpp"
+
+namespace vtm::svg {
+namespace {
+
+/// `marker`: all three at once.
+bool applyMarkers(Style& style, std::string_view value, const Units& units) {
+    const auto marker = parseReference(value, units);
+    if (marker)
+        style.markerStart = style.markerMid = style.markerEnd = *marker;
+    return marker.has_value();
+}
+
+void copyMarkers(Style& to, const Style& from) {
+    to.markerStart = from.markerStart;
+    to.markerMid = from.markerMid;
+    to.markerEnd = from.markerEnd;
+}
+
+bool applyOverflow(Style& style, std::string_view value, const Units& units) {
+    const auto overflow = parseOverflow(value, units);
+    if (overflow)
+        style.overflow = *overflow;
+    return overflow.has_value();
+}
+
+/// Inherited from an element that declares nothing it is the initial value, visible; that some
+/// elements are clipped where nothing is declared is the user agent's style sheet.
+void copyOverflow(Style& to, const Style& from) { to.overflow = from.overflow.value_or(true); }
+
+template <class Part>
+constexpr bool isInherited = std::is_same_v<Part, Inherited>;
+
+/// Tells the class and the type of a member from a pointer to it.
+template <class>
+struct MemberOf;
+template <class P, class T>
+struct MemberOf<T P::*> {
+    using Part = P;
+    using Type = T;
+};
+
+template <auto Member, auto Parse>
+Property property(std::string_view name, bool attribute = true) {
+    using Part = typename MemberOf<decltype(Member)>::Part;
+    return {name, attribute, isInherited<Part>,
+            [](Style& style, std::string_view value, const Units& units) {
+                auto parsed = Parse(value, units);
+                if (parsed)
+                    style.*Member = std::move(*parsed);
+                return parsed.has_value();
+            },
+            [](Style& to, const Style& from) { to.*Member = from.*Member; }};
+}
+
+constexpr std::string_view geometryNames[]{"x", "y", "width", "height", "cx", "cy", "r", "rx", "ry", "d"};
+
+/// What is no length gives way to the attribute, as any declaration that is not valid does.
+template <std::size_t I>
+bool applyGeometry(Style& style, std::string_view value, const Units& units) {
+    if (geometryNames[I] != "d" && !equalsIgnoringCase(value, "auto") && !parseLength(value, units))
+        return false;
+    style.geometry.push_back({geometryNames[I], value});
+    return true;
+}
+
+template <std::size_t I>
+void copyGeometry(Style& to, const Style& from) {
+    for (const Attribute& attribute : from.geometry)
+        if (attribute.name == geometryNames[I])
+            to.geometry.push_back(attribute);
+}
+
+/// Geometry that CSS may give instead of an attribute (SVG 2 section 8.14).
+template <std::size_t... I>
+void addGeometry(std::vector<Property>& table, std::index_sequence<I...>) {
+    (table.push_back({geometryNames[I], false, false, applyGeometry<I>, copyGeometry<I>}), ...);
+}
+
+std::vector<Property> makeTable() {
+    std::vector<Property> table{
+        property<&Inherited::color, parsePlainColor>("color"),
+        property<&Inherited::fill, parsePaint>("fill"),
+        property<&Inherited::stroke, parsePaint>("stroke"),
+        property<&Inherited::fillOpacity, parseOpacity>("fill-opacity"),
+        property<&Inherited::strokeOpacity, parseOpacity>("stroke-opacity"),
+        property<&Inherited::fillRule, parseFillRule>("fill-rule"),
+        property<&Inherited::clipRule, parseFillRule>("clip-rule"),
+        property<&Inherited::strokeWidth, parseWidth>("stroke-width"),
+        property<&Inherited::cap, parseCap>("stroke-linecap"),
+        property<&Inherited::join, parseJoin>("stroke-linejoin"),
+        property<&Inherited::miterLimit, parseMiterLimit>("stroke-miterlimit"),
+        property<&Inherited::dashes, parseDashes>("stroke-dasharray"),
+        property<&Inherited::dashOffset, parseAnyLength>("stroke-dashoffset"),
+        property<&Inherited::visible, parseVisibility>("visibility"),
+        property<&Inherited::markerStart, parseReference>("marker-start"),
+        property<&Inherited::markerMid, parseReference>("marker-mid"),
+        property<&Inherited::markerEnd, parseReference>("marker-end"),
+        {"marker", false, true, applyMarkers, copyMarkers},
+        property<&Inherited::paintOrder, parsePaintOrder>("paint-order"),
+        property<&Inherited::linearColors, parseColorInterpolation>("color-interpolation"),
+        property<&Inherited::imageFilter, parseImageRendering>("image-rendering"),
+        property<&Inherited::fontSize, parseFontSize>("font-size"),
+        property<&Own::displayed, parseDisplay>("display"),
+        property<&Own::opacity, parseOpacity>("opacity"),
+        property<&Own::blend, parseBlend>("mix-blend-mode", false),
+        property<&Own::isolated, parseIsolation>("isolation", false),
+        {"overflow", true, false, applyOverflow, copyOverflow},
+        property<&Own::clipPath, parseReference>("clip-path"),
+        property<&Own::mask, parseReference>("mask"),
+        property<&Own::filter, parseFilter>("filter"),
+        property<&Own::maskKind, parseMaskType>("mask-type"),
+        property<&Own::stopColor, parseColorValue>("stop-color"),
+        property<&Own::stopOpacity, parseOpacity>("stop-opacity"),
+        property<&Own::background, parseBackground>("background-color", false),
+        property<&Own::nonScalingStroke, parseVectorEffect>("vector-effect"),
+        property<&Own::transform, parseTransformText>("transform"),
+        property<&Own::transformOrigin, parseOrigin>("transform-origin"),
+    };
+    addGeometry(table, std::make_index_sequence<std::size(geometryNames)>{});
+    return table;
+}
+
+using Index = std::unordered_map<std::string_view, const Property*>;
+
+const Index& propertyIndex() {
+    static const std::vector<Property> table = makeTable();
+    static const Index index = [] {
+        Index made;
+        for (const Property& property : table)
+            made.emplace(property.name, &property);
+        return made;
+    }();
+    return index;
+}
+
+}  // namespace
+
+const Property* findProperty(std::string_view name) {
+    const auto found = propertyIndex().find(name);
+    return found == propertyIndex().end() ? nullptr : found->second;
+}
+
+}  // namespace vtm::svg

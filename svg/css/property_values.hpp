@@ -1,0 +1,49 @@
+/// \file
+/// How the value of each property is read: the text as it is declared, trimmed; nothing if it is none of the
+/// property's (CSS Values 4, SVG 2 section 6).
+#pragma once
+
+#include "svg/css/style.hpp"
+
+namespace vtm::svg {
+
+using Dashes = std::shared_ptr<const std::vector<Length>>;
+
+std::optional<PaintValue> parsePaint(std::string_view text, const Units&);
+std::optional<ColorValue> parseColorValue(std::string_view text, const Units&);
+std::optional<scene::Color> parsePlainColor(std::string_view text, const Units&);
+std::optional<std::optional<scene::Color>> parseBackground(std::string_view text, const Units&);
+/// Clamped to [0, 1].
+std::optional<double> parseOpacity(std::string_view text, const Units&);
+std::optional<scene::FillRule> parseFillRule(std::string_view text, const Units&);
+std::optional<Length> parseAnyLength(std::string_view text, const Units&);
+/// Not negative.
+std::optional<Length> parseWidth(std::string_view text, const Units&);
+std::optional<scene::Cap> parseCap(std::string_view text, const Units&);
+std::optional<scene::Join> parseJoin(std::string_view text, const Units&);
+std::optional<double> parseMiterLimit(std::string_view text, const Units&);
+/// None negative.
+std::optional<Dashes> parseDashes(std::string_view text, const Units&);
+std::optional<bool> parseVisibility(std::string_view text, const Units&);
+std::optional<bool> parseDisplay(std::string_view text, const Units&);
+std::optional<std::optional<bool>> parseOverflow(std::string_view text, const Units&);
+/// url() or none; anything else that CSS allows there (shapes, image masks) is not supported.
+std::optional<std::string_view> parseReference(std::string_view text, const Units&);
+std::optional<std::string_view> parseFilter(std::string_view text, const Units&);
+std::optional<std::array<PaintStage, 3>> parsePaintOrder(std::string_view text, const Units&);
+std::optional<scene::BlendMode> parseBlend(std::string_view text, const Units&);
+std::optional<bool> parseIsolation(std::string_view text, const Units&);
+std::optional<scene::MaskKind> parseMaskType(std::string_view text, const Units&);
+std::optional<bool> parseColorInterpolation(std::string_view text, const Units&);
+std::optional<scene::ImageFilter> parseImageRendering(std::string_view text, const Units&);
+std::optional<bool> parseVectorEffect(std::string_view text, const Units&);
+/// Here the units' font size is the parent's.
+std::optional<double> parseFontSize(std::string_view text, const Units&);
+/// The text itself, if it is well formed.
+std::optional<std::string_view> parseTransformText(std::string_view text, const Units&);
+std::optional<std::optional<TransformOrigin>> parseOrigin(std::string_view text, const Units&);
+
+/// `url(#id)`, `url("#id")`: what is in it. Stays where it is if there is none.
+std::optional<std::string_view> readUrl(Cursor& cursor);
+
+}  // namespace vtm::svg

@@ -1,0 +1,99 @@
+/// \file
+/// Computed style: every property that the importer knows, with inheritance done.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "svg/css/length.hpp"
+#include "svg/geometry/transform.hpp"
+#include "svg/xml/element.hpp"
+
+namespace vtm::svg {
+
+enum class PaintKind { None, Color, CurrentColor, Server, ContextFill, ContextStroke };
+
+/// A value of `fill` or `stroke`.
+struct PaintValue {
+    PaintKind kind = PaintKind::None;
+    scene::Color color;                 ///< of Color, or of a fallback that is a colour
+    std::string_view server;            ///< the href in url()
+    std::optional<PaintKind> fallback;  ///< None, Color or CurrentColor
+};
+
+/// A colour that may be `currentColor`.
+struct ColorValue {
+    bool current = false;
+    scene::Color color;
+};
+
+enum class PaintStage { Fill, Stroke, Markers };
+
+/// Properties that an element takes over from its parent.
+struct Inherited {
+    scene::Color color{0, 0, 0, 1};
+    PaintValue fill{PaintKind::Color, {0, 0, 0, 1}, {}, {}}, stroke;
+    double fillOpacity = 1, strokeOpacity = 1;
+    scene::FillRule fillRule = scene::FillRule::NonZero, clipRule = scene::FillRule::NonZero;
+    Length strokeWidth{1};
+    scene::Cap cap = scene::Cap::Butt;
+    scene::Join join = scene::Join::Miter;
+    double miterLimit = 4;
+    std::shared_ptr<const std::vector<Length>> dashes;  ///< null: none
+    Length dashOffset;
+    bool visible = true;
+    std::string_view markerStart, markerMid, markerEnd;  ///< hrefs, empty: none
+    std::array<PaintStage, 3> paintOrder{PaintStage::Fill, PaintStage::Stroke, PaintStage::Markers};
+    bool linearColors = false;  ///< color-interpolation
+    scene::ImageFilter imageFilter = scene::ImageFilter::Trilinear;
+    double fontSize = 12;
+};
+
+/// Properties of the element alone. Hrefs of url() are empty for `none`.
+struct Own {
+    bool displayed = true;
+    double opacity = 1;
+    scene::BlendMode blend = scene::BlendMode::Normal;
+    bool isolated = false;
+    std::optional<bool> overflow;  ///< whether it is visible, if declared
+    std::string_view clipPath, mask;
+    std::string_view filter;  ///< the whole value
+    scene::MaskKind maskKind = scene::MaskKind::Luminance;
+    ColorValue stopColor{false, {0, 0, 0, 1}};
+    double stopOpacity = 1;
+    std::optional<scene::Color> background;
+    bool nonScalingStroke = false;
+    std::string_view transform;  ///< as written, known to be well formed
+    std::optional<TransformOrigin> transformOrigin;
+    /// x, width, cx, … where CSS, not an attribute, gives them.
+    std::vector<Attribute> geometry;
+};
+
+struct Style : Inherited, Own {};
+
+/// The computed style of `element` below a parent of style `parent`; units.fontSize is ignored.
+Style computeStyle(const Element& element, const Style& parent, Units units);
+
+scene::Color resolveColor(const ColorValue& value, const Style& style);
+
+struct Property {
+    std::string_view name;
+    bool attribute;  ///< may also be written as an attribute
+    bool inherited;
+    /// False if the value is not one of the property's.
+    bool (*apply)(Style& style, std::string_view value, const Units& units);
+    void (*copy)(Style& to, const Style& from);
+};
+
+/// Whether a value is one of the property's, or a keyword that all properties have.
+bool isValid(const Property& property, std::string_view value);
+
+/// Null for unknown names.
+const Property* findProperty(std::string_view name);
+
+}  // namespace vtm::svg

@@ -1,0 +1,153 @@
+#include "svg/geometry/transform.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace vtm::svg {
+namespace {
+
+using scene::Affine;
+
+struct Arguments {
+    const Units& units;
+    const Viewport& viewport;
+    std::vector<Length> values;
+    std::size_t count() const { return values.size(); }
+    double operator[](std::size_t i) const { return i < count() ? values[i].value : 0; }
+    /// As a length along an axis, 0 where absent.
+    double length(std::size_t i, Axis axis) const {
+        return i < count() ? resolve(values[i], axis, viewport) : 0;
+    }
+    /// As a factor: percentages are allowed there.
+    double factor(std::size_t i) const { return values[i].percent ? values[i].value / 100 : values[i].value; }
+};
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+std::optional<Affine> makeTransform(std::string_view name, const Arguments& a) {
+    const auto is = [&](std::string_view other, std::size_t least, std::size_t most) {
+        return equalsIgnoringCase(name, other) && a.count() >= least && a.count() <= most;
+    };
+    if (is("matrix", 6, 6))
+        return Affine{a[0], a[1], a[2], a[3], a[4], a[5]};
+    if (is("translate", 1, 2))
+        return scene::translation(a.length(0, Axis::X), a.length(1, Axis::Y));
+    if (is("translateX", 1, 1))
+        return scene::translation(a.length(0, Axis::X), 0);
+    if (is("translateY", 1, 1))
+        return scene::translation(0, a.length(0, Axis::Y));
+    if (is("scale", 1, 2))
+        return scene::scaling(a.factor(0), a.factor(a.count() - 1));
+    if (is("scaleX", 1, 1))
+        return scene::scaling(a.factor(0), 1);
+    if (is("scaleY", 1, 1))
+        return scene::scaling(1, a.factor(0));
+    if (is("rotate", 1, 1))
+        return rotation(a[0]);
+    if (is("rotate", 2, 3))
+        return aroundPoint(rotation(a[0]), {a[1], a[2]});
+    if (is("skewX", 1, 1))
+        return Affine{1, 0, std::tan(radians(a[0])), 1, 0, 0};
+    if (is("skewY", 1, 1))
+        return Affine{1, std::tan(radians(a[0])), 0, 1, 0, 0};
+    if (is("skew", 1, 2))
+        return Affine{1, std::tan(radians(a[1])), std::tan(radians(a[0])), 1, 0, 0};
+    return std::nullopt;
+}
+
+bool takesAngles(std::string_view name) {
+    return equalsIgnoringCase(name, "rotate") || equalsIgnoringCase(name.substr(0, 4), "skew");
+}
+
+std::optional<Length> readArgument(Cursor& cursor, bool angle, const Units& units) {
+    if (!angle)
+        return readLength(cursor, units);
+    const std::optional<double> degrees = readAngle(cursor);
+    return degrees ? std::optional(Length{*degrees}) : std::nullopt;
+}
+
+std::optional<Affine> readFunction(Cursor& cursor, const Units& units, const Viewport& viewport) {
+    const std::string_view name = cursor.identifier();
+    cursor.skipSpaces();
+    if (!cursor.consume('('))
+        return std::nullopt;
+    Arguments arguments{units, viewport, {}};
+    cursor.skipSpaces();
+    while (!cursor.consume(')')) {
+        // Only rotate's first argument is an angle; the others have no unit in practice.
+        const std::optional<Length> value = readArgument(cursor, takesAngles(name), units);
+        if (!value || arguments.count() >= 6)
+            return std::nullopt;
+        arguments.values.push_back(*value);
+        cursor.skipCommaSpaces();
+    }
+    return makeTransform(name, arguments);
+}
+
+std::optional<Length> originKeyword(std::string_view word, Axis axis) {
+    const auto is = [&](std::string_view name) { return equalsIgnoringCase(word, name); };
+    if (is("center"))
+        return Length{50, true};
+    if (axis == Axis::X ? is("left") : is("top"))
+        return Length{0, true};
+    if (axis == Axis::X ? is("right") : is("bottom"))
+        return Length{100, true};
+    return std::nullopt;
+}
+
+std::optional<Length> originPart(std::string_view word, Axis axis, const Units& units) {
+    const std::optional<Length> keyword = originKeyword(word, axis);
+    return keyword ? keyword : parseLength(word, units);
+}
+
+/// Up to the next space.
+std::string_view readWord(Cursor& cursor) {
+    cursor.skipSpaces();
+    const std::string_view rest = cursor.rest();
+    std::size_t size = 0;
+    while (size < rest.size() && !isSpace(rest[size]))
+        ++size;
+    cursor.advance(size);
+    return rest.substr(0, size);
+}
+
+}  // namespace
+
+Affine rotation(double degrees) {
+    const double c = std::cos(radians(degrees)), s = std::sin(radians(degrees));
+    return {c, s, -s, c, 0, 0};
+}
+
+Affine aroundPoint(const Affine& transform, glm::dvec2 origin) {
+    return scene::compose(scene::compose(scene::translation(origin.x, origin.y), transform),
+                          scene::translation(-origin.x, -origin.y));
+}
+
+std::optional<Affine> parseTransform(std::string_view text, const Units& units, const Viewport& viewport) {
+    Affine result = scene::identity;
+    text = trim(text);
+    if (equalsIgnoringCase(text, "none"))
+        return result;
+    for (Cursor cursor(text); !cursor.atEnd(); cursor.skipCommaSpaces()) {
+        const std::optional<Affine> next = readFunction(cursor, units, viewport);
+        if (!next)
+            return std::nullopt;
+        result = scene::compose(result, *next);
+    }
+    return result;
+}
+
+std::optional<TransformOrigin> parseTransformOrigin(std::string_view text, const Units& units) {
+    Cursor cursor(text);
+    const std::string_view first = readWord(cursor), second = readWord(cursor);
+    const bool swapped =
+        !originPart(first, Axis::X, units);  // "top", "top left": keywords may come in any order
+    const std::string_view xWord = swapped ? second : first, yWord = swapped ? first : second;
+    const std::optional<Length> x = originPart(xWord.empty() ? "center" : xWord, Axis::X, units);
+    const std::optional<Length> y = originPart(yWord.empty() ? "center" : yWord, Axis::Y, units);
+    return x && y ? std::optional(TransformOrigin{*x, *y}) : std::nullopt;
+}
+
+}  // namespace vtm::svg
