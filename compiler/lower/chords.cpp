@@ -39,12 +39,12 @@ struct ChordCutter::Proof {
 };
 
 std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
-    curve_ = {p[3] - p[0] + 3.0 * (p[1] - p[2]), 3.0 * (p[0] - 2.0 * p[1] + p[2]), 3.0 * (p[1] - p[0]), p[0]};
+    curve_ = {p.p3 - p.p0 + 3.0 * (p.p1 - p.p2), 3.0 * (p.p0 - 2.0 * p.p1 + p.p2), 3.0 * (p.p1 - p.p0), p.p0};
     const double needed = guess();
     if (!(needed <= mostChords) || !isResolved())
         return {};
     const int whole = static_cast<int>(needed), count = std::max(1, whole + (whole < needed));
-    findVertices(count, p[3]);
+    findVertices(count, p.p3);
     runForward_ = runForward(0, count);
     appendChords(count);
     return ends_;

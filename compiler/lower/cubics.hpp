@@ -2,15 +2,15 @@
 /// A path's outline as straight lines and cubic Béziers.
 #pragma once
 
-#include <array>
 #include <limits>
 
+#include "geometry/cubic.hpp"
 #include "scene/affine.hpp"
 #include "scene/path.hpp"
 
 namespace vtm::compiler {
 
-using Cubic = std::array<scene::Point, 4>;
+using geometry::Cubic;
 
 /// Receives closed contours: start, then lines and cubics, each from where the last one ended; the
 /// last one of a contour ends at its start.

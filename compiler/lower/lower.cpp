@@ -11,29 +11,16 @@
 #include "compiler/lower/paints.hpp"
 #include "compiler/lower/picture.hpp"
 #include "compiler/stroke.hpp"
+#include "geometry/box.hpp"
 
 namespace vtm::compiler {
 namespace {
 
+using geometry::Box;
 using scene::Affine;
 using scene::compose;
 using scene::Path;
 using scene::Point;
-
-/// A box in picture units; empty while min > max.
-struct Box {
-    Point min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
-    bool empty() const { return !(min.x <= max.x && min.y <= max.y); }
-    void add(Point p) { min = glm::min(min, p), max = glm::max(max, p); }
-    Box cut(const Box& b) const { return {glm::max(min, b.min), glm::min(max, b.max)}; }
-};
-
-Box mapped(const Box& b, const Affine& m) {
-    Box r;
-    for (Point p : {b.min, Point{b.max.x, b.min.y}, b.max, Point{b.min.x, b.max.y}})
-        r.add(scene::apply(m, p));
-    return r;
-}
 
 class Lowering {
 public:
@@ -210,10 +197,10 @@ private:
         picture_.groups[index].clip = push({{{shape, none, false}}, none});
         const Affine toPicture = compose(transform, pattern.transform);
         const auto toPattern = scene::inverse(toPicture);
-        const Box seen = bounds(picture_.layers[shape]).cut(frame_);
+        const Box seen = bounds(picture_.layers[shape]).intersection(frame_);
         if (!toPattern || seen.empty())
             return;
-        const Box box = mapped(seen, *toPattern);
+        const Box box = geometry::mapped(seen, *toPattern);
         const Point period = pattern.max - pattern.min;
         const glm::dvec2 first = glm::floor((box.min - pattern.min) / period);
         const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
@@ -291,7 +278,7 @@ private:
         const auto toPath = isPart_ ? scene::inverse(transform) : std::nullopt;
         if (!toPath)
             return std::nullopt;
-        const Box box = mapped(frame_, *toPath);
+        const Box box = geometry::mapped(frame_, *toPath);
         return PathBox{box.min, box.max};
     }
 

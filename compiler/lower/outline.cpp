@@ -99,11 +99,11 @@ public:
     std::size_t runCount() const { return runs_.size(); }
     /// Whether the line so far ends inside the box and all of the curve lies there.
     bool keepsInside(const Cubic& c) const {
-        return beyond_ == 0 && (sidesBeyond(c[1]) | sidesBeyond(c[2]) | sidesBeyond(c[3])) == 0;
+        return beyond_ == 0 && (sidesBeyond(c.p1) | sidesBeyond(c.p2) | sidesBeyond(c.p3)) == 0;
     }
     /// Whether the line so far ends beyond a side of the box beyond which all of the curve lies.
     bool keepsBeyond(const Cubic& c) const {
-        return (beyond_ & sidesBeyond(c[1]) & sidesBeyond(c[2]) & sidesBeyond(c[3])) != 0;
+        return (beyond_ & sidesBeyond(c.p1) & sidesBeyond(c.p2) & sidesBeyond(c.p3)) != 0;
     }
 
     /// Ends the last contour.
@@ -218,20 +218,6 @@ private:
     Directions taken_;  ///< by the run so far
 };
 
-std::array<Cubic, 2> halve(const Cubic& c) {
-    const Point a = lerp(c[0], c[1], 0.5), b = lerp(c[1], c[2], 0.5), d = lerp(c[2], c[3], 0.5);
-    const Point ab = lerp(a, b, 0.5), bd = lerp(b, d, 0.5), m = lerp(ab, bd, 0.5);
-    return {Cubic{c[0], a, ab, m}, Cubic{m, bd, d, c[3]}};
-}
-
-/// Whether the cubic is so flat that one chord will do: it strays by at most max|P''| / 8, and |P''| <= 6
-/// max|second difference of the controls| (Wang, Shen 1988). False for infinite curves.
-bool isFlat(const Cubic& c, double tolerance) {
-    const Point d0 = c[0] - c[1] * 2.0 + c[2], d1 = c[1] - c[2] * 2.0 + c[3];
-    return 0.75 * 0.75 * std::max(d0.x * d0.x + d0.y * d0.y, d1.x * d1.x + d1.y * d1.y) <=
-           tolerance * tolerance;
-}
-
 /// Halving so often brings any curve below a lattice step.
 constexpr int maxHalvings = 400;
 
@@ -245,13 +231,13 @@ public:
 private:
     void flatten(const Cubic& c, int halvings) {
         limits::check();
-        if (halvings == 0 || isFlat(c, tolerance_) || sink_.keepsBeyond(c))
-            return sink_.line(c[3]);
+        if (halvings == 0 || geometry::chordError(c) <= tolerance_ || sink_.keepsBeyond(c))
+            return sink_.line(c.p3);
         const bool isInside = sink_.keepsInside(c);
         const std::span<const Point> ends = cutter_.cut(c);
         // Where there would be too many, halves are cut, so that their bends are seen.
         if (ends.empty()) {
-            for (const Cubic& half : halve(c))
+            for (const Cubic& half : geometry::halves(c))
                 flatten(half, halvings - 1);
         } else {
             isInside ? sink_.linesInside(ends) : sink_.lines(ends);

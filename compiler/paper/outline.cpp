@@ -19,17 +19,8 @@ constexpr int maxHalvings = 16;
 constexpr double seenMin = -0.25, seenMax = 1.25;
 
 bool isFar(const Cubic& c) {
-    Point min = c[0], max = c[0];
-    for (const Point p : c)
-        min = glm::min(min, p), max = glm::max(max, p);
-    return max.x < seenMin || max.y < seenMin || min.x > seenMax || min.y > seenMax;
-}
-
-/// |B''| <= 6 max of the second differences, and a chord is within |B''| / 8 of its curve.
-bool isFlat(const Cubic& c, double tolerance) {
-    const double bend =
-        std::max(glm::length(c[0] - 2.0 * c[1] + c[2]), glm::length(c[1] - 2.0 * c[2] + c[3]));
-    return 0.75 * bend <= tolerance;
+    const geometry::Box box = geometry::controlBox(c);
+    return box.max.x < seenMin || box.max.y < seenMin || box.min.x > seenMax || box.min.y > seenMax;
 }
 
 class ChordSink : public CurveSink {
@@ -51,12 +42,10 @@ public:
 
 private:
     void flatten(const Cubic& c, int halvings) {
-        if (halvings == maxHalvings || isFlat(c, tolerance_) || isFar(c))
-            return line(c[3]);
-        const Point ab = (c[0] + c[1]) * 0.5, bc = (c[1] + c[2]) * 0.5, cd = (c[2] + c[3]) * 0.5;
-        const Point abc = (ab + bc) * 0.5, bcd = (bc + cd) * 0.5, middle = (abc + bcd) * 0.5;
-        flatten({c[0], ab, abc, middle}, halvings + 1);
-        flatten({middle, bcd, cd, c[3]}, halvings + 1);
+        if (halvings == maxHalvings || geometry::chordError(c) <= tolerance_ || isFar(c))
+            return line(c.p3);
+        for (const Cubic& half : geometry::halves(c))
+            flatten(half, halvings + 1);
     }
 
     const double tolerance_;
@@ -67,17 +56,11 @@ private:
 /// Bounds of the control points.
 class BoundsSink : public CurveSink {
 public:
-    void start(Point p) override { add(p); }
-    void line(Point to) override { add(to); }
-    void cubic(const Cubic& c) override {
-        for (const Point p : c)
-            add(p);
-    }
+    void start(Point p) override { box.add(p); }
+    void line(Point to) override { box.add(to); }
+    void cubic(const Cubic& c) override { box.add(geometry::controlBox(c)); }
 
-    Point min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
-
-private:
-    void add(Point p) { min = glm::min(min, p), max = glm::max(max, p); }
+    geometry::Box box;
 };
 
 }  // namespace
@@ -110,11 +93,11 @@ Placement placeMask(const scene::Path& path, const scene::Affine& toPicture, Poi
     constexpr double grow = 8.0 / 7;  // 1/16 of the result stays free on either side
     BoundsSink bounds;
     walkCurves(path, toPicture, bounds);
-    const Point min = glm::max(bounds.min, Point(0)), max = glm::min(bounds.max, size);
-    if (!(min.x <= max.x && min.y <= max.y))
+    const geometry::Box seen = bounds.box.intersection({Point(0), size});
+    if (seen.empty())
         return {};
-    const double side = grow * std::max(max.x - min.x, max.y - min.y);
-    return {(min + max) * 0.5 - side / 2, side};
+    const double side = grow * std::max(seen.width(), seen.height());
+    return {(seen.min + seen.max) * 0.5 - side / 2, side};
 }
 
 Outline outlineInMask(const scene::Path& path, const scene::Affine& toPicture, scene::FillRule rule,

@@ -72,7 +72,7 @@ private:
         const Point velocity = powers_.velocity(t);
         const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
         const Point along = isInside ? unit(velocity) : tangentAt(curve_, t);
-        return {t, (isInside ? powers_.at(t) : pointAt(curve_, t)) + perp(along) * distance_, along};
+        return {t, (isInside ? powers_.at(t) : curve_.at(t)) + perp(along) * distance_, along};
     }
 
     /// Inside the curve.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/cubic.hpp"
 #include "scene/path.hpp"
 
 namespace vtm::compiler::stroke {
@@ -29,27 +30,15 @@ Point rotate(Point v, double angle);
 /// Signed angle from `a` to `b`, in (-π, π].
 double angleBetween(Point a, Point b);
 
-struct Cubic {
-    Point p0, p1, p2, p3;
-};
+using geometry::Cubic;
 
-Cubic straightCubic(Point from, Point to);
-Cubic elevate(Point from, Point control, Point to);
-inline Point pointAt(const Cubic& c, double t) {
-    const double s = 1 - t;
-    return c.p0 * (s * s * s) + c.p1 * (3 * s * s * t) + c.p2 * (3 * s * t * t) + c.p3 * (t * t * t);
-}
-inline Point derivativeAt(const Cubic& c, double t) {
-    const double s = 1 - t;
-    return 3.0 * ((c.p1 - c.p0) * (s * s) + (c.p2 - c.p1) * (2 * s * t) + (c.p3 - c.p2) * (t * t));
-}
 /// γ' over [t0, t1] as a Bernstein polynomial. Not from the piece's control points: those of a short one
 /// beside a cusp lie closer together than the digits of their coordinates tell apart.
 inline std::array<Point, 3> velocityOver(const Cubic& c, double t0, double t1) {
     const double s0 = 1 - t0, s1 = 1 - t1;
     const Point between =
         3.0 * ((c.p1 - c.p0) * (s0 * s1) + (c.p2 - c.p1) * (s0 * t1 + t0 * s1) + (c.p3 - c.p2) * (t0 * t1));
-    return {derivativeAt(c, t0), between, derivativeAt(c, t1)};
+    return {c.derivative(t0), between, c.derivative(t1)};
 }
 /// A cubic by powers of its parameter.
 struct PowerForm {
@@ -65,8 +54,6 @@ struct PowerForm {
     Point acceleration(double t) const { return 6.0 * cubed * t + 2.0 * squared; }
 };
 
-/// The piece over [t0, t1], parametrised over [0, 1] again.
-Cubic part(const Cubic& c, double t0, double t1);
 /// Largest distance of a control point from the start.
 double extent(const Cubic& c);
 
@@ -101,9 +88,6 @@ double arcLength(const Cubic& c, double t0, double t1, double relativeError = us
 /// The t >= t0 at which arcLength(c, t0, t) is `length`, at most 1.
 double parameterAtLength(const Cubic& c, double t0, double length, double relativeError = usualLengthError);
 
-/// Largest angle that one cubic may span on a circle of `radius` so that it stays within
-/// `tolerance`; at most a quarter turn.
-double arcStep(double radius, double tolerance);
 /// Arc of a circle from `center + from`, turning by `angle`, as cubics.
 std::vector<Cubic> circleArc(Point center, Point from, double angle, double tolerance);
 struct Circle {

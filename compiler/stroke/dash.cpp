@@ -97,14 +97,13 @@ private:
         if (!pattern_.drawing() || from >= to)
             return;
         const bool whole = from == 0 && to == 1;
-        dash_.push_back({whole ? segment.curve : part(segment.curve, from, to), segment.straight,
+        dash_.push_back({whole ? segment.curve : geometry::part(segment.curve, from, to), segment.straight,
                          segment.circle, segment.afterCusp && from == 0});
     }
 
     void endDash(const Segment& segment, double t) {
         if (pattern_.drawing())
-            result_.push_back(
-                {std::move(dash_), false, pointAt(segment.curve, t), tangentAt(segment.curve, t)});
+            result_.push_back({std::move(dash_), false, segment.curve.at(t), tangentAt(segment.curve, t)});
         cut_ = true;
         dash_.clear();
     }

@@ -42,7 +42,7 @@ void Evolute::append(double u0, double u1, int depth, Side& side) const {
         append((u0 + u1) / 2, u1, depth - 1, side);
         return;
     }
-    const Cubic c = elevate(arc.from, arc.control, arc.to);
+    const Cubic c = geometry::raised(arc.from, arc.control, arc.to);
     side.cubicTo(c.p1, c.p2, c.p3);
 }
 

@@ -62,7 +62,7 @@ private:
     }
 
     void find(const Cubic& curve, double from, double to, int halvings) {
-        const Cubic c = from == 0 && to == 1 ? curve : part(curve, from, to);
+        const Cubic c = from == 0 && to == 1 ? curve : geometry::part(curve, from, to);
         const Point min = glm::min(glm::min(c.p0, c.p1), glm::min(c.p2, c.p3)),
                     max = glm::max(glm::max(c.p0, c.p1), glm::max(c.p2, c.p3));
         const bool hasJoin = (from == 0 && startsNear_) || (to == 1 && endsNear_);
@@ -97,8 +97,8 @@ public:
             chains_.emplace_back();
         const bool isWhole = interval.from == 0 && interval.to == 1;
         chains_.back().segments.push_back(
-            {isWhole ? segment.curve : part(segment.curve, interval.from, interval.to), segment.straight,
-             segment.circle, segment.afterCusp && interval.from == 0});
+            {isWhole ? segment.curve : geometry::part(segment.curve, interval.from, interval.to),
+             segment.straight, segment.circle, segment.afterCusp && interval.from == 0});
         isOpen_ = interval.to == 1;
     }
     void gap() { isOpen_ = false; }

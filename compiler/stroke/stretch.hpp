@@ -31,18 +31,18 @@ public:
         return whereTangent(rotate(start_, turn_ * u));
     }
     double lengthBound() const {
-        const Cubic piece = part(c_, span_.t0, span_.t1);
+        const Cubic piece = geometry::part(c_, span_.t0, span_.t1);
         return glm::distance(piece.p0, piece.p1) + glm::distance(piece.p1, piece.p2) +
                glm::distance(piece.p2, piece.p3);
     }
-    Point point(double u) const { return pointAt(c_, parameter(u)); }
+    Point point(double u) const { return c_.at(parameter(u)); }
     Point tangent(double u) const { return tangentAt(c_, parameter(u)); }
     Sample offset(double u, double distance) const {
         const double t = parameter(u);
         const Point velocity = powers_.velocity(t);
         const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
         const Point along = isInside ? unit(velocity) : tangentAt(c_, t);
-        const Point at = isInside ? powers_.at(t) : pointAt(c_, t);
+        const Point at = isInside ? powers_.at(t) : c_.at(t);
         return {at + perp(along) * distance, along};
     }
 

@@ -47,7 +47,7 @@ Roots<3> cusps(const Cubic& c) {
     const double least = cuspSpeed * extent(c);
     Roots<3> result;
     for (const double t : rootsInside(derivative(powers(curvature(c).speedSquared))))
-        if (glm::length(derivativeAt(c, t)) <= least)
+        if (glm::length(c.derivative(t)) <= least)
             result.add(t);
     return result;
 }
@@ -60,8 +60,8 @@ public:
         finish(false);
         start_ = at_ = c.to;
     }
-    void operator()(const scene::LineTo& c) { add(straightCubic(at_, c.to)); }
-    void operator()(const scene::QuadTo& c) { add(elevate(at_, c.control, c.to)); }
+    void operator()(const scene::LineTo& c) { add(geometry::straightCubic(at_, c.to)); }
+    void operator()(const scene::QuadTo& c) { add(geometry::raised(at_, c.control, c.to)); }
     void operator()(const scene::CubicTo& c) { add({at_, c.control1, c.control2, c.to}); }
     void operator()(const scene::ArcTo& c) {
         drawn_ = true;
@@ -71,7 +71,7 @@ public:
         at_ = c.to;
     }
     void operator()(const scene::Close&) {
-        add(straightCubic(at_, start_));
+        add(geometry::straightCubic(at_, start_));
         finish(true);
         at_ = start_;
     }
@@ -98,11 +98,11 @@ private:
         Cubic rest = c;
         for (const double t : cusps(c)) {
             // Both controls at a cusp lie in it but for rounding, whose direction would be a tangent.
-            Cubic before = part(c, from, t);
+            Cubic before = geometry::part(c, from, t);
             before.p1 = rest.p1 == rest.p0 ? before.p0 : before.p1;
             before.p2 = before.p3;
             addSmooth(before, from > 0);
-            rest = part(c, t, 1);
+            rest = geometry::part(c, t, 1);
             rest.p1 = rest.p0;
             from = t;
         }
@@ -113,7 +113,8 @@ private:
         if (extent(c) <= coincident_)
             return;
         const bool straight = isStraight(c);
-        segments_.push_back({straight ? straightCubic(c.p0, c.p3) : c, straight, circle, afterCusp});
+        segments_.push_back(
+            {straight ? geometry::straightCubic(c.p0, c.p3) : c, straight, circle, afterCusp});
     }
 
     double tolerance_, coincident_;

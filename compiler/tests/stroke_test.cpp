@@ -388,7 +388,7 @@ TEST(StrokeEdges, ChordsLieWhereTheOffsetsDo) {
         const Path outline = strokeOutlineOfChords(path, style(0.4), tolerance / 4, tolerance * 3 / 4);
         for (int i = 2; i < 1000; ++i) {
             const double t = i / 1000.0 * i / 1000.0;
-            const Point on = stroke::pointAt(c, t), side = stroke::perp(stroke::tangentAt(c, t));
+            const Point on = stroke::c.at(t), side = stroke::perp(stroke::tangentAt(c, t));
             if (std::min(glm::distance(on, c.p0), glm::distance(on, c.p3)) < 2 * reach)
                 continue;  // by the caps
             for (const double sign : {-1.0, 1.0}) {

@@ -70,7 +70,7 @@ void Converter::addClipShape(const Element& child, const Scope& parent,
                              const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip) {
     const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
     CachedShape* shape = scope && scope->style.visible ? shapeOf(child, *scope) : nullptr;
-    if (!shape || !isWithinReach(mapBox(scope->transform, boxOf(*shape))))
+    if (!shape || !isWithinReach(geometry::mapped(boxOf(*shape), scope->transform)))
         return;
     const CachedShape own = *shape;  // what the child's own clip draws may replace the cache's entry
     clip.shapes.push_back({own.path, scope->transform, scope->style.clipRule,

@@ -68,7 +68,8 @@ void Converter::convertImage(const Element& element, const Scope& scope, Nodes& 
     viewport.width = width.value_or(height ? *height * size->width / size->height : size->width);
     viewport.height = height.value_or(width ? *width * size->height / size->width : size->height);
     const Box box = viewport.box();
-    if (!(viewport.width > 0 && viewport.height > 0) || !isWithinReach(mapBox(scope.transform, box)))
+    if (!(viewport.width > 0 && viewport.height > 0) ||
+        !isWithinReach(geometry::mapped(box, scope.transform)))
         return;
     if (outlineListeners_ > 0)
         outlines_.push_back(
@@ -137,7 +138,7 @@ void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, 
     const scene::Affine transform = scene::compose(scope.transform, toUser);
     if (!toPixels || !scene::inverse(transform))
         return;
-    const Box shown = mapBox(*toPixels, viewport.box());
+    const Box shown = geometry::mapped(viewport.box(), *toPixels);
     const scene::Point min = glm::max(shown.min, whole.box().min), max = glm::min(shown.max, whole.box().max);
     out.push_back({scene::Item{
         std::make_shared<const scene::Path>(scene::rectangle(min, max)), transform, scene::FillRule::NonZero,

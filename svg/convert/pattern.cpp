@@ -69,7 +69,7 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
     if (!scene::inverse(transform) || !toContent)
         return Nothing{};
     const Viewport inner = viewBox ? Viewport{viewBox->width, viewBox->height} : rootSize_;
-    const Box period = mapBox(*toContent, tile.box());
+    const Box period = geometry::mapped(tile.box(), *toContent);
     if (!(period.width() > 0 && period.height() > 0) || !isWithinReach(period))
         return Nothing{};
     auto content = patternContent(*owner, inner);

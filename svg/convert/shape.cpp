@@ -42,7 +42,7 @@ void Converter::convertShape(const Element& element, const Scope& scope, Nodes& 
     CachedShape* shape = shapeOf(element, scope);
     if (!shape)
         return;
-    if (!isWithinReach(mapBox(scope.transform, boxOf(*shape)))) {
+    if (!isWithinReach(geometry::mapped(boxOf(*shape), scope.transform))) {
         reporter_.warn(Kind::Limit, element, "lies too far away; it is left out");
         return;
     }

@@ -28,14 +28,14 @@ public:
     void operator()(const LineSegment& line) {
         segment(line.to, line.to - line.from, line.to - line.from, line.closes);
     }
-    void operator()(const CubicSegment& c) {
-        segment(c.to, firstNonZero({c.control1 - c.from, c.control2 - c.from, c.to - c.from}),
-                firstNonZero({c.to - c.control2, c.to - c.control1, c.to - c.from}), false);
+    void operator()(const geometry::Cubic& c) {
+        segment(c.p3, firstNonZero({c.p1 - c.p0, c.p2 - c.p0, c.p3 - c.p0}),
+                firstNonZero({c.p3 - c.p2, c.p3 - c.p1, c.p3 - c.p0}), false);
     }
     void operator()(const ArcSegment& a) {
         const double sign = a.arc.sweep < 0 ? -1 : 1;
-        segment(a.to, sign * a.arc.direction(a.arc.start), sign * a.arc.direction(a.arc.start + a.arc.sweep),
-                false);
+        segment(a.to, sign * a.arc.derivative(a.arc.start),
+                sign * a.arc.derivative(a.arc.start + a.arc.sweep), false);
     }
 
     std::vector<Vertex> finish() {

@@ -1,5 +1,6 @@
 /// \file
-/// A path as segments that know where they begin; quadratics raised to cubics, arcs by their centre.
+/// A path as segments that know where they begin: moves, lines, cubics (quadratics are raised) and arcs by
+/// their centre.
 #pragma once
 
 #include <variant>
@@ -17,16 +18,9 @@ struct LineSegment {
     scene::Point from, to;
     bool closes = false;
 };
-struct CubicSegment {
-    scene::Point from, control1, control2, to;
-    scene::Point at(double t) const {
-        const double s = 1 - t;
-        return s * s * s * from + 3 * s * s * t * control1 + 3 * s * t * t * control2 + t * t * t * to;
-    }
-};
 struct ArcSegment {
     scene::Point from, to;
-    CenterArc arc;
+    geometry::EllipticalArc arc;
 };
 
 /// Calls `visit` with each segment in turn.
@@ -42,11 +36,10 @@ void forEachSegment(const scene::Path& path, Visitor&& visit) {
             visit(LineSegment{from, line->to});
             from = line->to;
         } else if (const auto* quad = std::get_if<scene::QuadTo>(&command)) {
-            visit(CubicSegment{from, (from + 2.0 * quad->control) / 3.0,
-                               (quad->to + 2.0 * quad->control) / 3.0, quad->to});
+            visit(geometry::raised(from, quad->control, quad->to));
             from = quad->to;
         } else if (const auto* cubic = std::get_if<scene::CubicTo>(&command)) {
-            visit(CubicSegment{from, cubic->control1, cubic->control2, cubic->to});
+            visit(geometry::Cubic{from, cubic->control1, cubic->control2, cubic->to});
             from = cubic->to;
         } else if (const auto* arc = std::get_if<scene::ArcTo>(&command)) {
             if (const auto center = centerForm(from, *arc))

@@ -93,7 +93,7 @@ TEST(PathGeometry, SmallRadiiGrow) {
     const auto arc = centerForm({0, 0}, {{1, 1}, 0, false, true, {10, 0}});
     ASSERT_TRUE(arc);
     expectNear(arc->center, {5, 0});
-    EXPECT_NEAR(arc->u.x, 5, 1e-12);
+    EXPECT_NEAR(arc->axisX.x, 5, 1e-12);
 }
 TEST(PathGeometry, ArcsWithoutARadiusAreLines) {
     EXPECT_FALSE(centerForm({0, 0}, {{0, 5}, 0, false, true, {1, 1}}));

@@ -69,15 +69,9 @@ std::shared_ptr<const scene::Path> partSeen(const scene::Path& outline, const sc
         });
         const std::size_t before = seen.size();
         seen.insert(seen.end(), first, end);
-        const Box box = boxOf({seen.begin() + std::ptrdiff_t(before), seen.end()});
-        dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
-        for (const dvec2 corner :
-             {box.min, box.max, dvec2(box.min.x, box.max.y), dvec2(box.max.x, box.min.y)}) {
-            const dvec2 p = scene::apply(toPicture, corner);
-            least = glm::min(least, p);
-            most = glm::max(most, p);
-        }
-        if (!(least.x <= picture.x && least.y <= picture.y && most.x >= 0 && most.y >= 0))
+        const geometry::Box box =
+            geometry::mapped(boxOf({seen.begin() + std::ptrdiff_t(before), seen.end()}), toPicture);
+        if (box.intersection({dvec2(0), picture}).empty())
             seen.resize(before);
         first = end;
     }
@@ -131,9 +125,9 @@ Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Recta
 
 PathMask::PathMask(scene::Path outline, scene::FillRule rule)
     : outline_(std::make_shared<const scene::Path>(std::move(outline))), rule_(rule) {
-    const Box box = boxOf(*outline_);
-    min_ = box.min;
-    max_ = box.max;
+    const geometry::Box box = boxOf(*outline_);
+    if (!box.empty())
+        min_ = box.min, max_ = box.max;
 }
 
 const asset::CoverageScanner& PathMask::scannerFor(double tolerance) {

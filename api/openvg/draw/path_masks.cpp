@@ -47,7 +47,7 @@ void requireFewDashes(std::span<const Segment> segments, const std::vector<doubl
         throw std::length_error("too many dashes");
 }
 
-double reachOf(const Box& box) {
+double reachOf(const geometry::Box& box) {
     const glm::dvec2 far = glm::max(glm::abs(box.min), glm::abs(box.max));
     return std::max(far.x, far.y);
 }
@@ -56,9 +56,8 @@ double reachOf(const Box& box) {
 void snapCurves(std::vector<Segment>& segments, double least) {
     const auto isNear = [&](Point a, Point b) { return glm::distance(a, b) < least; };
     for (Segment& s : segments) {
-        EllipticalArc arc;
-        if (s.isArc() && arcOf(s, arc)) {
-            if (glm::length(arc.axisX) < least && glm::length(arc.axisY) < least)
+        if (const auto arc = arcOf(s)) {
+            if (glm::length(arc->axisX) < least && glm::length(arc->axisY) < least)
                 s.type = VG_LINE_TO;
             continue;
         }
@@ -81,8 +80,7 @@ std::vector<Segment> asLines(const std::vector<Segment>& segments) {
             lines.push_back(s);
             continue;
         }
-        EllipticalArc arc;
-        const bool isEllipse = s.isArc() && arcOf(s, arc);
+        const auto arc = arcOf(s);
         const auto at = [&](double t) {
             const Point a = glm::mix(s.from, s.control1, t), b = glm::mix(s.control1, s.control2, t),
                         c = glm::mix(s.control2, s.to, t);
@@ -90,12 +88,12 @@ std::vector<Segment> asLines(const std::vector<Segment>& segments) {
                 return glm::mix(glm::mix(a, b, t), glm::mix(b, c, t), t);
             if (s.type == VG_QUAD_TO)
                 return glm::mix(a, glm::mix(s.control1, s.to, t), t);
-            return arc.at(arc.start + t * arc.sweep);
+            return arc->at(arc->start + t * arc->sweep);
         };
         Segment line;
         line.type = VG_LINE_TO;
         line.from = s.from;
-        const int count = s.isArc() && !isEllipse ? 1 : linesPerCurve;
+        const int count = s.isArc() && !arc ? 1 : linesPerCurve;
         for (int i = 1; i <= count; ++i) {
             line.to = i == count ? s.to : at(double(i) / count);
             lines.push_back(line);
@@ -106,7 +104,7 @@ std::vector<Segment> asLines(const std::vector<Segment>& segments) {
 }
 
 /// What the stroker takes, of a path with this box.
-std::vector<Segment> strokable(std::vector<Segment> segments, const Box& box, double width) {
+std::vector<Segment> strokable(std::vector<Segment> segments, const geometry::Box& box, double width) {
     const double reach = reachOf(box);
     snapCurves(segments, nearestPoints * std::max(reach, width));
     return reach > mostWidths * width ? asLines(segments) : segments;
@@ -142,11 +140,11 @@ void PathMasks::clear() {
 
 scene::Path strokeOutline(const PathData& path, const StrokeParameters& parameters) {
     const std::vector<Segment> plain = withoutRationals(path.segments());
-    const Box box = boxOf(outline(plain));
+    const geometry::Box box = boxOf(outline(plain));
     const std::vector<Segment> segments = strokable(plain, box, parameters.style.width);
     requireFewDashes(segments, parameters.style.dashes);
     const scene::Path line = outline(segments);
-    const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y) + parameters.style.width;
+    const double size = std::max(box.width(), box.height()) + parameters.style.width;
     const double tolerance = size * strokeTolerance;
     if (parameters.style.dashes.empty() || parameters.dashPhaseReset)
         return compiler::strokeOutline(line, parameters.style, tolerance);

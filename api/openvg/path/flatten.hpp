@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
+#include "geometry/box.hpp"
 #include "scene/path.hpp"
 
 namespace vtm::openvg {
@@ -17,11 +18,7 @@ namespace vtm::openvg {
 void flatten(const scene::Path& outline, const glm::mat3& map,
              const std::function<void(glm::dvec2 a, glm::dvec2 b)>& line);
 
-struct Box {
-    glm::dvec2 min{0}, max{0};
-};
-
-/// A box around all end points, control points and ellipses of an outline; nothing where the path is empty.
-Box boxOf(const scene::Path& outline);
+/// A box around all end points, control points and ellipses of an outline; empty if the path is.
+geometry::Box boxOf(const scene::Path& outline);
 
 }  // namespace vtm::openvg

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "api/openvg/path/path_data.hpp"
+#include "geometry/box.hpp"
 
 namespace vtm::openvg {
 
@@ -20,12 +21,7 @@ struct PointOnPath {
 PointOnPath pointAlong(std::span<const Segment> segments, std::size_t first, std::size_t count,
                        double distance);
 
-struct PathBounds {
-    bool isEmpty = true;
-    Point min{0}, max{0};
-};
-
 /// The tightest box around all points of a path's image, those of moves included.
-PathBounds bounds(std::span<const Segment> segments, const glm::mat3& affine);
+geometry::Box bounds(std::span<const Segment> segments, const glm::mat3& affine);
 
 }  // namespace vtm::openvg

@@ -41,11 +41,13 @@ VGfloat toVgFloat(double v) {
     return VGfloat(std::clamp(v, -most, most));
 }
 
-void storeBounds(const PathBounds& box, VGfloat* minX, VGfloat* minY, VGfloat* width, VGfloat* height) {
-    *minX = toVgFloat(box.min.x);
-    *minY = toVgFloat(box.min.y);
-    *width = box.isEmpty ? -1 : toVgFloat(box.max.x - box.min.x);
-    *height = box.isEmpty ? -1 : toVgFloat(box.max.y - box.min.y);
+/// Of an empty path: width and height -1 (section 8.6.12).
+void storeBounds(const vtm::geometry::Box& box, VGfloat* minX, VGfloat* minY, VGfloat* width,
+                 VGfloat* height) {
+    *minX = box.empty() ? 0 : toVgFloat(box.min.x);
+    *minY = box.empty() ? 0 : toVgFloat(box.min.y);
+    *width = box.empty() ? -1 : toVgFloat(box.width());
+    *height = box.empty() ? -1 : toVgFloat(box.height());
 }
 
 void requireOutputs(std::initializer_list<VGfloat*> outputs) {
@@ -206,7 +208,7 @@ void vgPathTransformedBounds(VGPath handle, VGfloat* minX, VGfloat* minY, VGfloa
         requireOutputs({minX, minY, width, height});
         require(path->capabilities & VG_PATH_CAPABILITY_PATH_TRANSFORMED_BOUNDS, VG_PATH_CAPABILITY_ERROR);
         const glm::mat3& toSurface = context.state.matrix(VG_MATRIX_PATH_USER_TO_SURFACE);
-        const PathBounds box =
+        const vtm::geometry::Box box =
             isProjective(toSurface)
                 ? bounds(projectedSegments(path->data.segments(), toSurface, State()), glm::mat3(1))
                 : bounds(path->data.segments(), toSurface);

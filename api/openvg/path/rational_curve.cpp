@@ -47,8 +47,8 @@ RationalCurve lastPart(RationalCurve c, double t) {
 
 /// An ellipse's arc of up to a quarter of a turn is a conic whose middle point lies where the tangents meet,
 /// with the cosine of half the angle for a weight.
-std::vector<RationalCurve> conics(const Segment& s, const EllipticalArc& arc) {
-    const int count = std::max(1, int(std::ceil(std::abs(arc.sweep) / (std::numbers::pi / 2) - 1e-9)));
+std::vector<RationalCurve> conics(const Segment& s, const geometry::EllipticalArc& arc) {
+    const int count = geometry::cubicCount(arc, std::numbers::pi / 2);
     const double angle = arc.sweep / count, weight = std::cos(angle / 2);
     std::vector<RationalCurve> curves;
     dvec3 start = homogeneous(s.from, 1);
@@ -114,9 +114,8 @@ std::vector<RationalCurve> rationalCurves(const Segment& s) {
         default:
             break;
     }
-    EllipticalArc arc;
-    if (s.isArc() && arcOf(s, arc))
-        return conics(s, arc);
+    if (const auto arc = arcOf(s))
+        return conics(s, *arc);
     return {{1, {from, to}}};
 }
 

@@ -18,6 +18,20 @@ constexpr std::array<int, 15> counts{0, 2, 2, 1, 1, 4, 6, 2, 4, 5, 5, 5, 5, 7, 1
 /// Of OpenVG 1.1.
 constexpr std::size_t coreCommands = 13;
 
+bool isLarge(const Segment& s) { return s.type == VG_LCCWARC_TO || s.type == VG_LCWARC_TO; }
+bool isCounterClockwise(const Segment& s) { return s.type == VG_SCCWARC_TO || s.type == VG_LCCWARC_TO; }
+
+Segment arcSegment(Point from, const scene::ArcTo& arc) {
+    Segment s;
+    s.type = arc.largeArc ? (arc.sweep ? VG_LCCWARC_TO : VG_LCWARC_TO)
+                          : (arc.sweep ? VG_SCCWARC_TO : VG_SCWARC_TO);
+    s.from = from;
+    s.radii = arc.radii;
+    s.rotation = glm::degrees(arc.rotation);
+    s.to = arc.to;
+    return s;
+}
+
 }  // namespace
 
 int coordinateCount(unsigned segment) { return counts[segment >> 1]; }
@@ -50,32 +64,17 @@ scene::Path outline(const std::vector<Segment>& segments) {
             case VG_CUBIC_TO:
                 path.emplace_back(scene::CubicTo{s.control1, s.control2, s.to});
                 break;
-            default: {
-                EllipticalArc arc;
-                if (!arcOf(s, arc)) {
+            default:
+                if (arcOf(s))
+                    path.emplace_back(scene::ArcTo{glm::abs(s.radii),
+                                                   glm::radians(std::fmod(s.rotation, 360.0)), isLarge(s),
+                                                   isCounterClockwise(s), s.to});
+                else
                     path.emplace_back(scene::LineTo{s.to});
-                    break;
-                }
-                const bool large = s.type == VG_LCCWARC_TO || s.type == VG_LCWARC_TO;
-                const bool counterClockwise = s.type == VG_SCCWARC_TO || s.type == VG_LCCWARC_TO;
-                path.emplace_back(scene::ArcTo{glm::abs(s.radii), glm::radians(std::fmod(s.rotation, 360.0)),
-                                               large, counterClockwise, s.to});
                 break;
-            }
         }
     }
     return path;
-}
-
-Segment arcSegment(Point from, const scene::ArcTo& arc) {
-    Segment s;
-    s.type = arc.largeArc ? (arc.sweep ? VG_LCCWARC_TO : VG_LCWARC_TO)
-                          : (arc.sweep ? VG_SCCWARC_TO : VG_SCWARC_TO);
-    s.from = from;
-    s.radii = arc.radii;
-    s.rotation = glm::degrees(arc.rotation);
-    s.to = arc.to;
-    return s;
 }
 
 std::vector<Segment> segmentsOf(const scene::Path& outline) {
@@ -107,41 +106,11 @@ std::vector<Segment> segmentsOf(const scene::Path& outline) {
     return segments;
 }
 
-// ---- Arcs -----------------------------------------------------------------------------------------
-
-Point EllipticalArc::at(double t) const { return center + std::cos(t) * axisX + std::sin(t) * axisY; }
-Point EllipticalArc::derivative(double t) const { return -std::sin(t) * axisX + std::cos(t) * axisY; }
-
-bool arcOf(const Segment& s, EllipticalArc& arc) {
-    const Point radii = glm::abs(s.radii);
-    if (!(radii.x > 0) || !(radii.y > 0) || s.from == s.to)
-        return false;
-    const double angle = glm::radians(std::fmod(s.rotation, 360.0)), c = std::cos(angle), n = std::sin(angle);
-    // Half the chord where the ellipse is the unit circle.
-    const Point half = (s.to - s.from) / 2.0;
-    Point h((half.x * c + half.y * n) / radii.x, (-half.x * n + half.y * c) / radii.y);
-    const double length2 = glm::dot(h, h), grown = std::max(1.0, std::sqrt(length2));
-    if (!std::isfinite(length2) || !(length2 > 0))
-        return false;
-    h /= grown;
-    arc.axisX = grown * radii.x * Point(c, n);
-    arc.axisY = grown * radii.y * Point(-n, c);
-    const bool large = s.type == VG_LCCWARC_TO || s.type == VG_LCWARC_TO;
-    const bool counterClockwise = s.type == VG_SCCWARC_TO || s.type == VG_LCCWARC_TO;
-    // The centre lies left of the chord for small counter-clockwise arcs and large clockwise ones.
-    const double unit2 = glm::dot(h, h), distance = std::sqrt(std::max(0.0, 1 / unit2 - 1));
-    const double side = large == counterClockwise ? -distance : distance;
-    const Point middle = h + side * Point(-h.y, h.x);  // of the circle, from the arc's start
-    arc.center = s.from + middle.x * arc.axisX + middle.y * arc.axisY;
-    const Point first = -middle, last = 2.0 * h - middle;
-    arc.start = std::atan2(first.y, first.x);
-    arc.sweep = std::atan2(first.x * last.y - first.y * last.x, glm::dot(first, last));
-    constexpr double turn = 2 * 3.14159265358979323846;
-    if (counterClockwise && arc.sweep < 0)
-        arc.sweep += turn;
-    if (!counterClockwise && arc.sweep > 0)
-        arc.sweep -= turn;
-    return true;
+std::optional<geometry::EllipticalArc> arcOf(const Segment& s) {
+    if (!s.isArc())
+        return std::nullopt;
+    return geometry::centerForm({s.from, s.radii, glm::radians(std::fmod(s.rotation, 360.0)), isLarge(s),
+                                 isCounterClockwise(s), s.to});
 }
 
 void transformEllipse(const glm::dmat2& linear, Point& radii, double& rotation) {

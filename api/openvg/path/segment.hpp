@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <glm/mat2x2.hpp>
@@ -10,6 +11,7 @@
 
 #include <VG/vgext.h>
 
+#include "geometry/arc.hpp"
 #include "scene/path.hpp"
 
 namespace vtm::openvg {
@@ -43,20 +45,9 @@ struct Segment {
 scene::Path outline(const std::vector<Segment>& segments);
 /// The other way.
 std::vector<Segment> segmentsOf(const scene::Path& outline);
-Segment arcSegment(Point from, const scene::ArcTo& arc);
 
-/// An arc by its centre (section 18.4), radii grown where no ellipse reaches both ends (section 8.4).
-struct EllipticalArc {
-    Point center{0};
-    Point axisX{0}, axisY{0};     ///< point(t) = center + cos t axisX + sin t axisY
-    double start = 0, sweep = 0;  ///< radians
-
-    Point at(double t) const;
-    Point derivative(double t) const;
-};
-
-/// Of a segment that isArc(); false if it is drawn as a line.
-bool arcOf(const Segment& segment, EllipticalArc& arc);
+/// An arc by its centre (section 18.4); nothing if it is drawn as a line, or is no arc.
+std::optional<geometry::EllipticalArc> arcOf(const Segment& segment);
 
 /// The affine image of an ellipse: radii and rotation (degrees) of what becomes of them.
 void transformEllipse(const glm::dmat2& linear, Point& radii, double& rotation);
