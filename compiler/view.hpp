@@ -10,6 +10,7 @@
 #include "asset/view.hpp"
 #include "compiler/compile.hpp"
 #include "scene/affine.hpp"
+#include "scene/fit.hpp"
 #include "scene/scene.hpp"
 
 namespace vtm::compiler {
@@ -30,13 +31,22 @@ struct ViewResult {
     scene::Affine fromScene = scene::identity;
 };
 
-/// The asset for a raster of `width` by `height` pixels that `part` fills. Options::tolerance is the coarsest
+/// The asset for a frame (scene::frame). Options::tolerance is the coarsest
 /// that is used; where that is not a sixteenth of a pixel's shorter side, it is made so. Asset::finestPixel
 /// says what was reached, and result.warnings where it was not: beyond some 10^11 times, when roundings of
 /// the scene's own doubles show. Not made finer by it: images with ImageFilter::Nearest and materials, which
 /// are drawn from single precision. Throws as compile does; std::length_error where the raster is beyond
-/// asset::maxViewSide or maxViewPixels, std::invalid_argument where it is empty or `part` is not as above.
+/// asset::maxViewSide or maxViewPixels, std::invalid_argument where a number of the frame is not finite or
+/// its pixels are not above 0.
+ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options = {});
+
+/// The same for a raster of `width` by `height` pixels that `part` fills; std::invalid_argument where it is
+/// empty or `part` is not as above.
 ViewResult compileView(const scene::Scene& scene, const Part& part, int width, int height,
                        const Options& options = {});
+
+/// The frame's view of an asset of the whole picture. Throws std::length_error where the raster or a number
+/// is beyond the limits of asset/view.hpp.
+asset::View viewOf(const scene::Frame& frame);
 
 }  // namespace vtm::compiler

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/core.h>
@@ -7,6 +6,7 @@
 #include "bench/src/contest.hpp"
 #include "bench/src/measure.hpp"
 #include "compiler/compile.hpp"
+#include "compiler/view.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"
 
@@ -24,8 +24,7 @@ struct Truth {
 };
 
 asset::View wholePicture(const scene::Scene& scene, int width) {
-    const int height = std::max(1, int(std::lround(scene.height * width / scene.width)));
-    return {width, height, {width / scene.width, 0, 0, height / scene.height, 0, 0}};
+    return compiler::viewOf(scene::frame({.width = width}, scene.width, scene.height));
 }
 
 /// Another engine's, averaged over many samples, where the corpus has one; else our exact reference.

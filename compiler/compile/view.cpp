@@ -34,14 +34,34 @@ Span seen(double from, double size, double pixel, double picture) {
     return {std::max(0.0, from - margin * pixel), std::min(picture, from + size + margin * pixel)};
 }
 
-void check(const Part& part, int width, int height) {
-    const bool isFinite = std::isfinite(part.x) && std::isfinite(part.y) &&
-                          std::isfinite(part.x + part.width) && std::isfinite(part.y + part.height);
-    if (!(isFinite && part.width > 0 && part.height > 0))
-        throw std::invalid_argument("part must be finite and not empty");
-    if (width < 1 || height < 1)
+bool isFinite(scene::Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+void check(const scene::Frame& frame) {
+    const scene::Rect seen = frame.seen();
+    if (!(isFinite(frame.pixel) && isFinite(frame.turn) && isFinite({seen.x, seen.y}) &&
+          isFinite({seen.x + seen.width, seen.y + seen.height}) && frame.pixel.x > 0 && frame.pixel.y > 0))
+        throw std::invalid_argument("the part that is seen must be finite and not empty");
+}
+
+/// Of the raster alone.
+asset::View rasterOf(const scene::Frame& frame) {
+    if (!(frame.width >= 1 && frame.height >= 1))
         throw std::invalid_argument("raster must not be empty");
-    asset::validate({width, height});
+    // As doubles: a file may ask for 1e30 pixels.
+    if (frame.width > asset::maxViewSide || frame.height > asset::maxViewSide)
+        throw std::length_error("raster is wider or higher than " + std::to_string(asset::maxViewSide) +
+                                " pixels");
+    const asset::View raster{int(frame.width), int(frame.height)};
+    asset::validate(raster);
+    return raster;
+}
+
+/// In user units, along the axes of the scene.
+Pixel pixelOf(const scene::Frame& frame) {
+    if (!frame.isTurned())
+        return {frame.pixel.x, frame.pixel.y};
+    const double shorter = std::min(frame.pixel.x, frame.pixel.y);
+    return {shorter, shorter};
 }
 
 /// The power of two next to it: products with it are exact.
@@ -56,14 +76,15 @@ ViewResult nothing(int width, int height, const Options& options) {
 
 class ViewCompiler {
 public:
-    ViewCompiler(const scene::Scene& scene, const Part& part, int width, int height, const Options& options)
+    ViewCompiler(const scene::Scene& scene, const scene::Frame& frame, const Options& options)
         : scene_(scene),
-          part_(part),
-          view_{width, height},
-          pixel_{part.width / width, part.height / height},
+          frame_(frame),
+          part_(frame.seen()),
+          view_(rasterOf(frame)),
+          pixel_(pixelOf(frame)),
           options_(options),
-          x_(seen(part.x, part.width, pixel_.width, scene.width)),
-          y_(seen(part.y, part.height, pixel_.height, scene.height)) {}
+          x_(seen(part_.x, part_.width, pixel_.width, scene.width)),
+          y_(seen(part_.y, part_.height, pixel_.height, scene.height)) {}
 
     ViewResult run() {
         const bool isAll = x_.size() == scene_.width && y_.size() == scene_.height;
@@ -120,9 +141,7 @@ private:
     /// From a picture whose origin shows that place of the scene.
     asset::View viewFrom(scene::Point origin, scene::Point scale) const {
         asset::View view = view_;
-        const double sx = 1 / pixel_.width, sy = 1 / pixel_.height;
-        view.toPixels = {
-            sx / scale.x, 0, 0, sy / scale.y, (origin.x - part_.x) * sx, (origin.y - part_.y) * sy};
+        view.toPixels = frame_.toPixels(origin, scale);
         return view;
     }
 
@@ -137,7 +156,8 @@ private:
     }
 
     const scene::Scene& scene_;
-    const Part& part_;
+    const scene::Frame& frame_;
+    const scene::Rect part_;  ///< that is seen
     const asset::View view_;
     const Pixel pixel_;
     const Options& options_;
@@ -146,12 +166,30 @@ private:
 
 }  // namespace
 
-ViewResult compileView(const scene::Scene& scene, const Part& part, int width, int height,
-                       const Options& options) {
-    check(part, width, height);
+ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options) {
+    check(frame);
     checkOptions(options);
     scene::validate(scene);
-    return ViewCompiler(scene, part, width, height, options).run();
+    return ViewCompiler(scene, frame, options).run();
+}
+
+ViewResult compileView(const scene::Scene& scene, const Part& part, int width, int height,
+                       const Options& options) {
+    if (width < 1 || height < 1)
+        throw std::invalid_argument("raster must not be empty");
+    scene::Framing framing;
+    framing.width = width;
+    framing.height = height;
+    framing.part = {part.x, part.y, part.width, part.height};
+    framing.placement.fit = scene::Fit::Stretch;
+    return compileView(scene, scene::frame(framing, scene.width, scene.height), options);
+}
+
+asset::View viewOf(const scene::Frame& frame) {
+    asset::View view = rasterOf(frame);
+    view.toPixels = frame.toPixels();
+    asset::validate(view);
+    return view;
 }
 
 }  // namespace vtm::compiler

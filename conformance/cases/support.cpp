@@ -1,12 +1,12 @@
 #include "conformance/cases/support.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "compiler/view.hpp"
 #include "image/codec.hpp"
 #include "svg/load.hpp"
 
@@ -50,8 +50,7 @@ scene::Scene loadScene(const fs::path& path) {
 }
 
 asset::View wholePicture(const scene::Scene& scene, int size) {
-    const int height = int(std::lround(scene.height * size / scene.width));
-    return {size, height, {size / scene.width, 0, 0, height / scene.height, 0, 0}};
+    return compiler::viewOf(scene::frame({.width = size}, scene.width, scene.height));
 }
 
 image::Raster asWritten(const image::Raster& raster) { return image::toRaster(image::toBitmap(raster)); }

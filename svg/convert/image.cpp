@@ -67,7 +67,7 @@ void Converter::convertImage(const Element& element, const Scope& scope, Nodes& 
     Rect viewport{reader.lengthOr("x", Axis::X, 0), reader.lengthOr("y", Axis::Y, 0), 0, 0};
     viewport.width = width.value_or(height ? *height * size->width / size->height : size->width);
     viewport.height = height.value_or(width ? *width * size->height / size->width : size->height);
-    const Box box = viewport.box();
+    const Box box = toBox(viewport);
     if (!(viewport.width > 0 && viewport.height > 0) || !isWithinReach(mapBox(scope.transform, box)))
         return;
     if (outlineListeners_ > 0)
@@ -132,13 +132,14 @@ Converter::ImageContent Converter::loadImage(std::string_view href) {
 void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Element& element,
                             const Rect& viewport, const AspectRatio& ratio, const Scope& scope, Nodes& out) {
     const Rect whole{0, 0, static_cast<double>(bitmap->width), static_cast<double>(bitmap->height)};
-    const scene::Affine toUser = fit(whole, ratio, viewport);
+    const scene::Affine toUser = scene::fittedMap(whole, ratio, viewport);
     const auto toPixels = scene::inverse(toUser);
     const scene::Affine transform = scene::compose(scope.transform, toUser);
     if (!toPixels || !scene::inverse(transform))
         return;
-    const Box shown = mapBox(*toPixels, viewport.box());
-    const scene::Point min = glm::max(shown.min, whole.box().min), max = glm::min(shown.max, whole.box().max);
+    const Box shown = mapBox(*toPixels, toBox(viewport));
+    const scene::Point min = glm::max(shown.min, toBox(whole).min),
+                       max = glm::min(shown.max, toBox(whole).max);
     out.push_back({scene::Item{
         std::make_shared<const scene::Path>(scene::rectangle(min, max)), transform, scene::FillRule::NonZero,
         scene::ImagePaint{bitmap, scope.style.imageFilter, scene::identity}, 1, placeOf(element)}});
@@ -150,7 +151,7 @@ void Converter::placeDocument(NestedDocument& document, const Rect& viewport, co
     if (!(size.width > 0 && size.height > 0))
         return;
     const scene::Affine placement =
-        scene::compose(scope.transform, fit({0, 0, size.width, size.height}, ratio, viewport));
+        scene::compose(scope.transform, scene::fittedMap({0, 0, size.width, size.height}, ratio, viewport));
     Nodes nodes;
     ++budget_.imageDepth;
     document.converter.convertRoot(placement, nodes);

@@ -94,7 +94,7 @@ void Converter::convertMarker(const Element& marker, const ContextElement& conte
         return;
     const auto viewBox = parseViewBox(marker.get("viewBox"));
     const scene::Affine inner =
-        viewBox ? fit(*viewBox, parseAspectRatio(marker.get("preserveAspectRatio")), viewport)
+        viewBox ? scene::fittedMap(*viewBox, parseAspectRatio(marker.get("preserveAspectRatio")), viewport)
                 : scene::identity;
     const Rect box = viewBox.value_or(viewport);
     const scene::Point ref = scene::apply(

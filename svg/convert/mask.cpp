@@ -15,7 +15,7 @@ Box regionOf(const LengthReader& written, bool boxUnits, const Box& box) {
     };
     const Rect rect{get("x", Axis::X, -10), get("y", Axis::Y, -10), get("width", Axis::X, 120),
                     get("height", Axis::Y, 120)};
-    return boxUnits ? mapBox(unitSquareTo(box), rect.box()) : rect.box();
+    return boxUnits ? mapBox(unitSquareTo(box), toBox(rect)) : toBox(rect);
 }
 
 }  // namespace

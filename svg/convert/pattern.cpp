@@ -61,7 +61,7 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
     // Without a viewBox the content's origin is the tile's corner.
     const scene::Affine scale = boxContent ? scene::scaling(box.width(), box.height()) : scene::identity;
     const scene::Affine toTile =
-        viewBox ? fit(*viewBox, parseAspectRatio(inherited(chain, "preserveAspectRatio")), tile)
+        viewBox ? scene::fittedMap(*viewBox, parseAspectRatio(inherited(chain, "preserveAspectRatio")), tile)
                 : scene::compose(scene::translation(tile.x, tile.y), scale);
     const scene::Affine transform =
         scene::compose(transformFrom(inherited(chain, "patternTransform"), style, scope.viewport), toTile);
@@ -69,7 +69,7 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
     if (!scene::inverse(transform) || !toContent)
         return Nothing{};
     const Viewport inner = viewBox ? Viewport{viewBox->width, viewBox->height} : rootSize_;
-    const Box period = mapBox(*toContent, tile.box());
+    const Box period = mapBox(*toContent, toBox(tile));
     if (!(period.width() > 0 && period.height() > 0) || !isWithinReach(period))
         return Nothing{};
     auto content = patternContent(*owner, inner);

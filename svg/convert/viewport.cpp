@@ -70,7 +70,7 @@ void Converter::convertSvg(const Element& element, const Scope& scope, Nodes& ou
 void Converter::fillBackground(const Scope& scope, const Rect& canvas, Nodes& out) {
     if (scope.style.background && scope.style.background->a > 0)
         out.push_back({scene::Item{
-            std::make_shared<const scene::Path>(scene::rectangle(canvas.box().min, canvas.box().max)),
+            std::make_shared<const scene::Path>(scene::rectangle(toBox(canvas).min, toBox(canvas).max)),
             scope.transform, scene::FillRule::NonZero, *scope.style.background, 1, placeOf(*tree_.root)}});
 }
 
@@ -87,7 +87,7 @@ void Converter::convertViewport(const Element& element, const Rect& viewport, co
     }
     const auto viewBox = parseViewBox(element.get("viewBox"));
     const scene::Affine inner =
-        viewBox ? fit(*viewBox, parseAspectRatio(element.get("preserveAspectRatio")), viewport)
+        viewBox ? scene::fittedMap(*viewBox, parseAspectRatio(element.get("preserveAspectRatio")), viewport)
                 : scene::translation(viewport.x, viewport.y);
     Scope content = scope;
     content.transform = scene::compose(scope.transform, inner);
@@ -106,12 +106,12 @@ void Converter::appendClipped(const Rect& rect, const scene::Affine& transform, 
     const auto toRect = scene::inverse(transform);
     if (content.empty() || !toRect)
         return;
-    if (liesInside(content, *toRect, rect.box())) {
+    if (liesInside(content, *toRect, toBox(rect))) {
         std::move(content.begin(), content.end(), std::back_inserter(out));
         return;
     }
     auto clip = std::make_shared<scene::Clip>();
-    const Box box = rect.box();
+    const Box box = toBox(rect);
     clip->shapes.push_back({std::make_shared<const scene::Path>(scene::rectangle(box.min, box.max)),
                             transform, scene::FillRule::NonZero, nullptr});
     scene::Group group;

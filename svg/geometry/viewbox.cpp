@@ -48,9 +48,8 @@ std::optional<AspectRatio> readAspectRatio(std::string_view text) {
     if (cursor.consume("defer"))
         cursor.skipSpaces();
     AspectRatio ratio;
-    if (cursor.consume("none")) {
-        ratio.keep = false;
-    } else {
+    const bool keepsAspect = !cursor.consume("none");
+    if (keepsAspect) {
         const auto x = cursor.consume('x') ? readAlignment(cursor) : std::nullopt;
         const auto y = cursor.consume('Y') ? readAlignment(cursor) : std::nullopt;
         if (!x || !y)
@@ -59,26 +58,11 @@ std::optional<AspectRatio> readAspectRatio(std::string_view text) {
         ratio.alignY = *y;
     }
     cursor.skipSpaces();
-    ratio.slice = cursor.consume("slice");
-    if (!ratio.slice)
+    const bool slices = cursor.consume("slice");
+    if (!slices)
         cursor.consume("meet");
+    ratio.fit = !keepsAspect ? scene::Fit::Stretch : slices ? scene::Fit::Cover : scene::Fit::Contain;
     return cursor.atEnd() ? std::optional(ratio) : std::nullopt;
-}
-
-Rect fittedRect(double contentWidth, double contentHeight, const AspectRatio& ratio, const Rect& viewport) {
-    if (!ratio.keep)
-        return viewport;
-    const double scaleX = viewport.width / contentWidth, scaleY = viewport.height / contentHeight;
-    const double scale = ratio.slice ? std::max(scaleX, scaleY) : std::min(scaleX, scaleY);
-    const double width = contentWidth * scale, height = contentHeight * scale;
-    return {viewport.x + (viewport.width - width) * ratio.alignX,
-            viewport.y + (viewport.height - height) * ratio.alignY, width, height};
-}
-
-scene::Affine fit(const Rect& viewBox, const AspectRatio& ratio, const Rect& viewport) {
-    const Rect to = fittedRect(viewBox.width, viewBox.height, ratio, viewport);
-    const double scaleX = to.width / viewBox.width, scaleY = to.height / viewBox.height;
-    return {scaleX, 0, 0, scaleY, to.x - viewBox.x * scaleX, to.y - viewBox.y * scaleY};
 }
 
 }  // namespace vtm::svg

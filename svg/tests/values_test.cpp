@@ -151,14 +151,16 @@ TEST(ViewBox, NeedsFourNumbersAndASize) {
     EXPECT_FALSE(parseViewBox("0 0 0 10"));
 }
 TEST(ViewBox, MeetCentresByDefault) {
-    expectNear(fit({10, 10, 100, 50}, parseAspectRatio(""), {0, 0, 100, 100}), {1, 0, 0, 1, -10, 15});
+    expectNear(scene::fittedMap({10, 10, 100, 50}, parseAspectRatio(""), {0, 0, 100, 100}),
+               {1, 0, 0, 1, -10, 15});
 }
 TEST(ViewBox, SliceFills) {
-    expectNear(fit({0, 0, 100, 50}, parseAspectRatio("xMaxYMin slice"), {0, 0, 100, 100}),
+    expectNear(scene::fittedMap({0, 0, 100, 50}, parseAspectRatio("xMaxYMin slice"), {0, 0, 100, 100}),
                {2, 0, 0, 2, -100, 0});
 }
 TEST(ViewBox, NoneStretches) {
-    expectNear(fit({0, 0, 100, 50}, parseAspectRatio("none"), {5, 0, 100, 100}), {1, 0, 0, 2, 5, 0});
+    expectNear(scene::fittedMap({0, 0, 100, 50}, parseAspectRatio("none"), {5, 0, 100, 100}),
+               {1, 0, 0, 2, 5, 0});
 }
 
 }  // namespace

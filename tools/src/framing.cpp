@@ -1,13 +1,15 @@
 #include "tools/src/framing.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include <fmt/core.h>
 
 #include "tools/src/commands.hpp"
+#include "tools/src/report.hpp"
 
 namespace vtm::tools {
 
@@ -22,7 +24,7 @@ double parseNumber(const char*& at, const char* end) {
     return value;
 }
 
-Rectangle parseView(const std::string& text) {
+scene::Rect parseView(const std::string& text) {
     const char* at = text.data();
     const char* const end = at + text.size();
     double numbers[4];
@@ -36,54 +38,66 @@ Rectangle parseView(const std::string& text) {
     return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-struct Size {
-    double width, height;
-};
+const std::map<std::string, scene::Fit> fits{
+    {"contain", scene::Fit::Contain}, {"cover", scene::Fit::Cover}, {"stretch", scene::Fit::Stretch}};
 
-Size wantedSize(const Framing& framing, const Rectangle& part) {
-    if (framing.width && framing.height)
-        return {double(*framing.width), double(*framing.height)};
-    if (framing.width)
-        return {double(*framing.width), *framing.width * part.height / part.width};
-    if (framing.height)
-        return {*framing.height * part.width / part.height, double(*framing.height)};
-    return {part.width * framing.scale, part.height * framing.scale};
+scene::Fit parseFit(const std::string& name) {
+    const auto fit = fits.find(name);
+    if (fit == fits.end())
+        throw UsageError(fmt::format("--fit: '{}' is none of contain, cover, stretch", name));
+    return fit->second;
 }
 
-/// Doubles until the limit has been checked: a file may ask for 1e30 pixels.
-Size limited(Size size) {
-    size = {std::max(1.0, std::round(size.width)), std::max(1.0, std::round(size.height))};
-    if (size.width > asset::maxViewSide || size.height > asset::maxViewSide ||
-        size.width * size.height > double(asset::maxViewPixels))
-        throw std::length_error(fmt::format(
-            "{:.0f} x {:.0f} pixels are too many (at most {} a side and {} in all); choose a smaller "
-            "--width, --height or --scale",
-            size.width, size.height, asset::maxViewSide, asset::maxViewPixels));
-    return size;
+double parseRotation(const std::string& text) {
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || next != end || !std::isfinite(value))
+        throw UsageError(fmt::format("--rotate: '{}' is not a number of degrees", text));
+    return value;
+}
+
+void addSize(CLI::App& command, scene::Framing& framing) {
+    const auto side = CLI::Range(1, asset::maxViewSide);
+    auto* width = command.add_option("-w,--width", framing.width, "Pixels; alone it keeps the aspect");
+    auto* height = command.add_option("-h,--height", framing.height, "Pixels; alone it keeps the aspect");
+    width->check(side);
+    height->check(side);
+    command.add_option("-z,--zoom,--scale", framing.scale, "Pixels a user unit")
+        ->check(CLI::PositiveNumber)
+        ->excludes(width)
+        ->excludes(height);
 }
 
 }  // namespace
 
-void addFramingOptions(CLI::App& command, Framing& framing) {
-    const auto side = CLI::Range(1, asset::maxViewSide);
-    auto* width =
-        command.add_option("--width", framing.width, "Pixels; alone it keeps the aspect")->check(side);
-    auto* height =
-        command.add_option("--height", framing.height, "Pixels; alone it keeps the aspect")->check(side);
-    command.add_option("--scale", framing.scale, "Pixels a user unit")
-        ->check(CLI::PositiveNumber)
-        ->excludes(width)
-        ->excludes(height);
+void addFramingOptions(CLI::App& command, scene::Framing& framing) {
+    // -h is the height here, as rsvg-convert and resvg have it.
+    command.set_help_flag("--help", "Print this help message and exit");
+    addSize(command, framing);
+    command.add_option_function<std::string>(
+        "--fit", [&framing](const std::string& name) { framing.placement.fit = parseFit(name); },
+        "With both --width and --height: contain (all of the picture, centred; default), cover (no pixel is "
+        "left "
+        "empty) or stretch");
     command.add_option_function<std::string>(
         "--view", [&framing](const std::string& text) { framing.part = parseView(text); },
-        "x,y,width,height in user units: the part that fills the raster");
+        "x,y,width,height in user units: the part that is drawn, instead of the whole picture");
+    command.add_option_function<std::string>(
+        "--rotate", [&framing](const std::string& text) { framing.rotation = parseRotation(text); },
+        "Degrees, clockwise; the raster is as large as what it turns needs");
 }
 
-asset::View frame(const Framing& framing, double pictureWidth, double pictureHeight) {
-    const Rectangle part = framing.part.value_or(Rectangle{0, 0, pictureWidth, pictureHeight});
-    const Size size = limited(wantedSize(framing, part));
-    const double sx = size.width / part.width, sy = size.height / part.height;
-    return {int(size.width), int(size.height), {sx, 0, 0, sy, -part.x * sx, -part.y * sy}};
+scene::Frame frameOf(const scene::Framing& framing, double pictureWidth, double pictureHeight) {
+    const scene::Frame frame = scene::frame(framing, pictureWidth, pictureHeight);
+    if (frame.width > asset::maxViewSide || frame.height > asset::maxViewSide ||
+        frame.width * frame.height > double(asset::maxViewPixels))
+        throw std::length_error(fmt::format(
+            "{} x {} pixels are too many (at most {} a side and {} in all); choose a smaller --width, "
+            "--height or --zoom",
+            readable(frame.width), readable(frame.height), readable(asset::maxViewSide),
+            readable(double(asset::maxViewPixels))));
+    return frame;
 }
 
 }  // namespace vtm::tools

@@ -1,32 +1,18 @@
 /// \file
-/// How large the raster is and which part of the picture fills it.
+/// The options that say how large the raster is and what of the picture it shows (scene/fit.hpp).
 #pragma once
-
-#include <optional>
 
 #include <CLI/CLI.hpp>
 
 #include "asset/view.hpp"
+#include "scene/fit.hpp"
 
 namespace vtm::tools {
 
-/// A rectangle in user units.
-struct Rectangle {
-    double x = 0, y = 0, width = 0, height = 0;
-};
+/// --width, --height, --zoom, --fit, --view, --rotate.
+void addFramingOptions(CLI::App& command, scene::Framing& framing);
 
-struct Framing {
-    std::optional<int> width, height;
-    double scale = 1;
-    std::optional<Rectangle> part;
-};
-
-/// --width, --height, --scale, --view.
-void addFramingOptions(CLI::App& command, Framing& framing);
-
-/// The part (the whole picture where none was asked for) fills the raster. One dimension alone keeps
-/// the aspect; none: one pixel a user unit, times the scale; rounded, at least one pixel.
-/// Throws std::length_error beyond asset::maxViewSide and maxViewPixels.
-asset::View frame(const Framing& framing, double pictureWidth, double pictureHeight);
+/// Throws std::length_error beyond asset::maxViewSide and maxViewPixels, with what to do about it.
+scene::Frame frameOf(const scene::Framing& framing, double pictureWidth, double pictureHeight);
 
 }  // namespace vtm::tools

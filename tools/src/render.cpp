@@ -29,7 +29,7 @@ struct RenderOptions {
     std::string output, batch;
     std::string engine = "auto", background = "transparent", programCache, debugView;
     SourceOptions source;
-    Framing framing;
+    scene::Framing framing;
     bool json = false;
 };
 
@@ -95,7 +95,8 @@ std::vector<Job> checkedJobs(const RenderOptions& options) {
 }
 
 int render(const RenderOptions& options) {
-    parseDebugView(options.debugView);
+    if (parseDebugView(options.debugView) != DebugView::None && options.framing.rotation != 0)
+        throw UsageError("--debug-view: shows pictures that are not turned");
     const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
     const scene::Color ground = parseColor(options.background);
     const std::vector<Job> jobs = checkedJobs(options);

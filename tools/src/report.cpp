@@ -96,6 +96,14 @@ Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels) {
 std::string jsonLine(const Json& object) { return dumped(object, -1); }
 std::string jsonText(const Json& object) { return dumped(object, 2); }
 
+std::string readable(double number) {
+    std::string digits = fmt::format("{:.0f}", number);
+    const std::size_t first = digits.starts_with('-') ? 1 : 0;
+    for (std::size_t at = digits.size(); at > first + 3;)
+        digits.insert(at -= 3, 1, ',');
+    return digits;
+}
+
 std::string toText(const Json& object, int indent) {
     std::string text;
     for (const auto& [key, value] : object.items()) {

@@ -46,6 +46,9 @@ Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels);
 std::string jsonLine(const Json& object);
 std::string jsonText(const Json& object);
 
+/// A whole number with a comma every three digits.
+std::string readable(double number);
+
 /// One `key: value` a line; nested objects indented.
 std::string toText(const Json& object, int indent = 0);
 

@@ -16,11 +16,9 @@ namespace {
 
 /// As fine as usual, as long as that takes no more than a third of the limit; then no finer than the raster
 /// shows.
-compiler::ViewResult compileInTime(const Source& source, const compiler::Part& part, const asset::View& view,
+compiler::ViewResult compileInTime(const Source& source, const scene::Frame& frame,
                                    compiler::Options options) {
-    const auto compile = [&] {
-        return compiler::compileView(*source.scene, part, view.width, view.height, options);
-    };
+    const auto compile = [&] { return compiler::compileView(*source.scene, frame, options); };
     const double seconds = secondsForFirstTry();
     if (seconds <= 0)
         return compile();
@@ -42,12 +40,9 @@ compiler::ViewResult compileInTime(const Source& source, const compiler::Part& p
     return result;
 }
 
-asset::View compileSeen(Source& source, const SourceOptions& options, const Framing& framing,
-                        const asset::View& view) {
-    const Rectangle part = framing.part.value_or(Rectangle{0, 0, source.width, source.height});
-    const compiler::Part seen{part.x, part.y, part.width, part.height};
+asset::View compileSeen(Source& source, const SourceOptions& options, const scene::Frame& frame) {
     compiler::ViewResult made =
-        timed(source.stages, "compile", [&] { return compileInTime(source, seen, view, options.compiler); });
+        timed(source.stages, "compile", [&] { return compileInTime(source, frame, options.compiler); });
     const scene::Affine& m = made.fromScene;
     for (compiler::UnprovenSquare& s : made.result.unproven)
         s = {(s.x - m[2].x) / m[0].x, (s.y - m[2].y) / m[1].y, s.side / std::min(m[0].x, m[1].y)};
@@ -80,15 +75,17 @@ void warnIfTooCoarse(const Source& source, const SourceOptions& options, const a
 
 }  // namespace
 
-asset::View prepareView(Source& source, const SourceOptions& options, const Framing& framing, bool compile) {
-    const asset::View view = frame(framing, source.width, source.height);
+asset::View prepareView(Source& source, const SourceOptions& options, const scene::Framing& framing,
+                        bool compile) {
+    const scene::Frame frame = frameOf(framing, source.width, source.height);
     if (!compile)
-        return view;
+        return compiler::viewOf(frame);
     const bool followsView = source.scene && !options.paper && !options.hasTolerance;
     if (followsView)  // warns itself
-        return compileSeen(source, options, framing, view);
+        return compileSeen(source, options, frame);
     if (source.scene)
         compileSource(source, options);
+    const asset::View view = compiler::viewOf(frame);
     warnIfTooCoarse(source, options, view);
     return view;
 }
