@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::compiler {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::compiler::stroke {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::svg {
 

@@ -10,7 +10,7 @@
 
 #include <VG/vgext.h>
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::openvg {
 
