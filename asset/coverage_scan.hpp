@@ -1,14 +1,14 @@
 /// \file
-/// How much a mask covers of every pixel: the Scanner's sums (asset/scan.hpp) without colours, for renderers
-/// that bring their own.
+/// How much a mask covers of every pixel: the Scanner's sums (vtm/asset/scan.hpp) without colours, for
+/// renderers that bring their own.
 #pragma once
 
 #include <functional>
 #include <span>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
 
 namespace vtm::asset {
 

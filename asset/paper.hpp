@@ -15,9 +15,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::asset {
 
@@ -120,7 +120,7 @@ struct PaperAsset {
     Asset palette;                      ///< its paints, data and images; nothing else of it
 };
 
-/// Throws FormatError (asset/container.hpp) unless every index, order and limit above holds.
+/// Throws FormatError (vtm/asset/container.hpp) unless every index, order and limit above holds.
 void validate(const PaperAsset& asset);
 
 // ---- Evaluation ---------------------------------------------------------------------------------

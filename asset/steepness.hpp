@@ -8,7 +8,7 @@
 
 #include <glm/mat2x2.hpp>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::asset {
 

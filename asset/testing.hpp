@@ -9,9 +9,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::asset::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::asset::test {
 

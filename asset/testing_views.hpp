@@ -9,7 +9,7 @@
 #include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 
-#include "asset/view.hpp"
+#include <vtm/asset/view.hpp>
 
 namespace vtm::asset::test {
 

@@ -6,8 +6,8 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
-#include "limits/limits.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/limits/limits.hpp>
 
 namespace vtm::asset {
 

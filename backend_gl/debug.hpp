@@ -2,8 +2,8 @@
 /// What the backend's index of a picture looks like, for debug views.
 #pragma once
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
 
 namespace vtm::gl {
 

@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include <vtm/gl/context.hpp>
 #include "asset/paper.hpp"
-#include "backend_gl/context.hpp"
 
 namespace vtm::gl {
 

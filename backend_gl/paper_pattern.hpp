@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
+#include <vtm/asset/view.hpp>
+#include <vtm/gl/context.hpp>
+#include <vtm/image/bitmap.hpp>
 #include "asset/paper.hpp"
-#include "asset/view.hpp"
-#include "backend_gl/context.hpp"
-#include "image/bitmap.hpp"
 
 namespace vtm::gl {
 

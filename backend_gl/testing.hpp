@@ -8,9 +8,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include "asset/view.hpp"
-#include "backend_gl/sampled_texture.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/view.hpp>
+#include <vtm/gl/sampled_texture.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::gl::test {
 

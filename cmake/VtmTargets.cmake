@@ -1,8 +1,8 @@
-# How every target of ours is made: the language level, the warnings, the include root.
+# How every target of ours is made: the language level, the warnings, the include roots.
 
 add_library(vtm_settings INTERFACE)
 target_compile_features(vtm_settings INTERFACE cxx_std_20)
-target_include_directories(vtm_settings INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(vtm_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/api/include)
 
 add_library(vtm_warnings INTERFACE)
 target_compile_options(vtm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)

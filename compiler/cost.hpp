@@ -13,7 +13,7 @@
 #include <array>
 #include <cstddef>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::compiler {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/scene.hpp>
 #include "asset/paper.hpp"
-#include "compiler/compile.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::compiler {
 

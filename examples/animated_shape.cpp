@@ -11,8 +11,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "backend_gl/sampled_texture.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/gl/sampled_texture.hpp>
 #include "examples/stage.hpp"
 
 using namespace vtm;

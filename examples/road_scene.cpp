@@ -10,7 +10,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "backend_gl/sampled_texture.hpp"
+#include <vtm/gl/sampled_texture.hpp>
 #include "examples/stage.hpp"
 
 using namespace vtm;

@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <exception>
 
-#include "api/vtm.hpp"
-#include "backend_gl/renderer.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
+#include <vtm/authoring.hpp>
+#include <vtm/gl/renderer.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 
 using namespace vtm;
 using scene::Color;

@@ -4,9 +4,9 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "compiler/compile.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 
 namespace stage {
 

@@ -10,8 +10,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "asset/asset.hpp"
-#include "backend_gl/context.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/gl/context.hpp>
 
 namespace stage {
 

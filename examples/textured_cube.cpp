@@ -9,7 +9,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "backend_gl/sampled_texture.hpp"
+#include <vtm/gl/sampled_texture.hpp>
 #include "examples/stage.hpp"
 
 using namespace vtm;

@@ -9,14 +9,14 @@
 #include <limits>
 #include <random>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "asset/prefilter.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/prefilter.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 #include "asset/testing_files.hpp"
-#include "compiler/compile.hpp"
 #include "conformance/generate/damage.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
 
 namespace {
 

@@ -6,8 +6,11 @@ file:line: message, exit code 1.
 check_includes.py --self-test: the check must catch planted violations.
 
 The rule, for a file of module M:
-- Ours are included with quotes, from the repository's root, and exist; but for what the build makes (GENERATED).
-- M's public headers and sources include M and the modules named in MODULES[M] only.
+- Public headers stand in api/include and are included as users include them: <vtm/scene/path.hpp>. They belong to
+  the module that PUBLIC names, and include public headers, the standard library and glm only.
+- Other headers of ours are included with quotes, from the repository's root, and exist; but for what the build makes
+  (GENERATED).
+- M's headers and sources include M and the modules named in MODULES[M] only.
 - Tests, and what stands in no module (tests/), may include every module.
 - Another module's header comes from that module's root, never from its src/ or tests/.
 - Angle brackets are for the standard library, POSIX and the libraries in LIBRARIES, each only in
@@ -38,6 +41,17 @@ MODULES = {
     "conformance/compare": {"image", "limits"},
     "conformance/vgscript": {"svg", "scene", "image", "limits"},
 }
+PUBLIC = {  # folders of api/include/vtm, and the modules whose public headers they hold
+    "limits": "limits",
+    "image": "image",
+    "scene": "scene",
+    "svg": "svg",
+    "asset": "asset",
+    "compiler": "compiler",
+    "gl": "backend_gl",
+}
+PUBLIC_ROOT = pathlib.PurePosixPath("api/include")
+PUBLIC_LIBRARIES = re.compile(r"glm/.*|VG/.*|stddef\.h|stdint\.h")
 EVERYTHING = set(MODULES)
 MODULES["conformance/cases"] = EVERYTHING
 MODULES["conformance/runner"] = EVERYTHING | {"conformance/cases"}
@@ -79,8 +93,15 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]*)[>"]')
 SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cc"}
 
 
+def is_public(path):
+    return path.is_relative_to(PUBLIC_ROOT)
+
+
 def module_of(path):
     """The module a path relative to the root belongs to, or None."""
+    if is_public(path):
+        inner = path.relative_to(PUBLIC_ROOT).parts
+        return PUBLIC.get(inner[1]) if len(inner) > 2 else "api"
     for depth in (2, 1):
         name = "/".join(path.parts[:depth])
         if len(path.parts) > depth and name in MODULES:
@@ -100,6 +121,8 @@ def check_ours(root, file, module, target):
     other = module_of(path)
     if ".." in path.parts or path.is_absolute():
         return "leaves the repository's root"
+    if is_public(path):
+        return "is public: include it as <vtm/...>"
     if other is None:
         return "is not a path from the repository's root into a module"
     if not (root / path).is_file():
@@ -114,7 +137,24 @@ def check_ours(root, file, module, target):
     return None
 
 
-def check_library(root, module, target):
+def check_public(root, file, module, target):
+    """An include of <vtm/...hpp>."""
+    path = PUBLIC_ROOT / target
+    other = module_of(path)
+    if not (root / path).is_file():
+        return "does not exist"
+    if other == module or "tests" in inside(file, module)[:-1] or other in MODULES[module]:
+        return None
+    # What every module throws is derived from it.
+    return None if target == "vtm/error.hpp" else f"{module} may not include {other}"
+
+
+def check_library(root, file, module, target):
+    if target.startswith("vtm/") and target.endswith(".hpp"):
+        return check_public(root, file, module, target)
+    if is_public(file) and not (STANDARD.fullmatch(target) or PUBLIC_LIBRARIES.fullmatch(target)
+                                or (root / PUBLIC_ROOT / target).is_file()):
+        return "is no public header"
     if (root / target).is_file():
         return "is ours: include it with quotes"
     if STANDARD.fullmatch(target):
@@ -129,14 +169,21 @@ def violations(root):
     for path in sorted(root.rglob("*")):
         file = pathlib.PurePosixPath(path.relative_to(root).as_posix())
         module = module_of(file)
-        if path.suffix not in SUFFIXES or module is None:
+        if path.suffix not in SUFFIXES:
+            continue
+        if module is None:
+            if is_public(file):
+                yield f"{file}:1: belongs to no module"
             continue
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             match = INCLUDE.match(line)
             if not match:
                 continue
             quote, target = match.groups()
-            wrong = check_ours(root, file, module, target) if quote == '"' else check_library(root, module, target)
+            if quote == "<":
+                wrong = check_library(root, file, module, target)
+            else:
+                wrong = "is not public" if is_public(file) else check_ours(root, file, module, target)
             if wrong:
                 yield f'{file}:{number}: "{target}" {wrong}'
 
@@ -144,27 +191,42 @@ def violations(root):
 def self_test():
     """Each planted file holds one include; those marked True are violations."""
     cases = [
-        ("scene/src/good.cpp", '#include "scene/path.hpp"', False),
+        ("scene/src/good.cpp", "#include <vtm/scene/path.hpp>", False),
+        ("scene/src/shared.cpp", '#include "scene/shared.hpp"', False),
         ("scene/src/own_private.cpp", '#include "scene/src/private.hpp"', False),
         ("scene/src/standard.cpp", "#include <vector>", False),
-        ("svg/src/allowed.cpp", '#include "scene/path.hpp"', False),
-        ("svg/tests/wide.cpp", '#include "asset/asset.hpp"', False),
-        ("scene/src/upwards.cpp", '#include "svg/load.hpp"', True),
-        ("asset/forbidden.hpp", '#  include "scene/path.hpp"', True),
+        ("svg/src/allowed.cpp", "#include <vtm/scene/path.hpp>", False),
+        ("svg/src/allowed_shared.cpp", '#include "scene/shared.hpp"', False),
+        ("svg/src/error.cpp", "#include <vtm/error.hpp>", False),
+        ("svg/tests/wide.cpp", "#include <vtm/asset/asset.hpp>", False),
+        ("backend_gl/src/own.cpp", "#include <vtm/gl/context.hpp>", False),
+        ("api/include/vtm/svg/allowed.hpp", "#include <vtm/scene/path.hpp>", False),
+        ("api/include/vtm/svg/glm.hpp", "#include <glm/vec2.hpp>", False),
+        ("scene/src/upwards.cpp", "#include <vtm/svg/load.hpp>", True),
+        ("asset/forbidden.hpp", "#  include <vtm/scene/path.hpp>", True),
+        ("asset/forbidden_shared.hpp", '#include "scene/shared.hpp"', True),
+        ("api/include/vtm/scene/upwards.hpp", "#include <vtm/svg/load.hpp>", True),
+        ("api/include/vtm/svg/internal.hpp", '#include "scene/shared.hpp"', True),
+        ("api/include/vtm/svg/internal_angle.hpp", "#include <scene/shared.hpp>", True),
+        ("api/include/vtm/svg/library.hpp", "#include <fmt/core.h>", True),
+        ("api/include/vtm/stray/stray.hpp", "#include <vector>", True),
+        ("svg/src/quoted.cpp", '#include "api/include/vtm/scene/path.hpp"', True),
         ("svg/src/private.cpp", '#include "scene/src/private.hpp"', True),
         ("svg/tests/private.cpp", '#include "scene/src/private.hpp"', True),
-        ("svg/src/relative.cpp", '#include "../../scene/path.hpp"', True),
+        ("svg/src/relative.cpp", '#include "../../scene/shared.hpp"', True),
         ("svg/src/sibling.cpp", '#include "private.hpp"', True),
         ("svg/src/missing.cpp", '#include "scene/missing.hpp"', True),
-        ("svg/src/angle.cpp", "#include <scene/path.hpp>", True),
+        ("svg/src/missing_public.cpp", "#include <vtm/scene/missing.hpp>", True),
+        ("svg/src/angle.cpp", "#include <scene/shared.hpp>", True),
         ("svg/src/gl.cpp", "#include <GLES3/gl3.h>", True),
         ("svg/src/unknown.cpp", "#include <boost/variant.hpp>", True),
         ("conformance/compare/src/reference.cpp", '#include "conformance/reference/reference.hpp"', True),
     ]
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        given = ["scene/path.hpp", "scene/src/private.hpp", "svg/load.hpp", "svg/src/private.hpp",
-                 "asset/asset.hpp", "conformance/reference/reference.hpp"]
+        public = ["error", "scene/path", "svg/load", "asset/asset", "gl/context"]
+        given = [f"api/include/vtm/{name}.hpp" for name in public] + [
+            "scene/shared.hpp", "scene/src/private.hpp", "svg/src/private.hpp", "conformance/reference/reference.hpp"]
         for name, text in [(g, "") for g in given] + [(c[0], c[1]) for c in cases]:
             path = root / name
             path.parent.mkdir(parents=True, exist_ok=True)

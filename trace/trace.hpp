@@ -6,8 +6,8 @@
 
 #include <stdexcept>
 
-#include "image/bitmap.hpp"
-#include "scene/scene.hpp"
+#include <vtm/image/bitmap.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::trace {
 

@@ -2,8 +2,8 @@
 
 #include <map>
 
+#include <vtm/authoring.hpp>
 #include "api/src/level.hpp"
-#include "api/vtm.hpp"
 
 namespace vtm {
 

@@ -10,9 +10,9 @@
 #include <array>
 #include <map>
 
+#include <vtm/authoring.hpp>
 #include "api/src/level.hpp"
 #include "api/src/place.hpp"
-#include "api/vtm.hpp"
 
 namespace vtm {
 

@@ -1,4 +1,4 @@
-#include "api/vtm.hpp"
+#include <vtm/authoring.hpp>
 
 #include <atomic>
 #include <vector>

@@ -3,11 +3,11 @@
 
 #include <random>
 
-#include "api/vtm.hpp"
+#include <vtm/authoring.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
 
 namespace vtm {
 namespace {

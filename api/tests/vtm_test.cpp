@@ -1,9 +1,9 @@
-#include "api/vtm.hpp"
+#include <vtm/authoring.hpp>
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
 
 namespace vtm {
 namespace {

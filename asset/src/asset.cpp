@@ -1,4 +1,4 @@
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::asset {
 

@@ -2,8 +2,8 @@
 
 #include <zlib.h>
 
+#include <vtm/image/codec.hpp>
 #include "asset/src/validate.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::asset {
 

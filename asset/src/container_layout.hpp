@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::asset {
 

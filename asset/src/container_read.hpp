@@ -2,7 +2,7 @@
 /// Bytes of a `.vtm` file as a validated view, without copying its records.
 #pragma once
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 
 namespace vtm::asset {
 

@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "asset/src/container_images.hpp"
 #include "asset/src/container_layout.hpp"
 #include "asset/src/container_materials.hpp"

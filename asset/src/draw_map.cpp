@@ -13,13 +13,13 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "asset/coverage.hpp"
 #include "asset/src/paint.hpp"
 #include "asset/src/rough.hpp"
 #include "asset/src/row_sums.hpp"
 #include "asset/steepness.hpp"
 #include "asset/walk.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::asset {
 

@@ -4,8 +4,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <vtm/asset/view.hpp>
 #include "asset/src/paint.hpp"
-#include "asset/view.hpp"
 
 namespace vtm::asset {
 

@@ -1,4 +1,4 @@
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
 
 #include <algorithm>
 #include <vector>

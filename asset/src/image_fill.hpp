@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "image/levels.hpp"
 
 namespace vtm::asset {

@@ -1,4 +1,4 @@
-#include "asset/mapped_asset.hpp"
+#include <vtm/asset/mapped_asset.hpp>
 
 #include <fcntl.h>
 #include <sys/mman.h>

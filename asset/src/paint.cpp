@@ -6,9 +6,9 @@
 
 #include <glm/common.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "asset/src/blend.hpp"
 #include "asset/src/gradient.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::asset {
 

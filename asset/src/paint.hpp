@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
 #include "asset/src/float4.hpp"
 #include "asset/src/image_fill.hpp"
 #include "asset/steepness.hpp"

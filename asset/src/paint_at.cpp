@@ -1,4 +1,4 @@
-#include "asset/paint_at.hpp"
+#include <vtm/asset/paint_at.hpp>
 
 #include <algorithm>
 #include <array>

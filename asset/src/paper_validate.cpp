@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "asset/paper.hpp"
 #include "asset/src/validate.hpp"
 

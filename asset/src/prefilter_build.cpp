@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "asset/evaluate.hpp"
-#include "asset/prefilter.hpp"
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/prefilter.hpp>
+#include <vtm/limits/limits.hpp>
 #include "asset/src/paint.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::asset {
 

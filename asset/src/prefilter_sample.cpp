@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "asset/prefilter.hpp"
+#include <vtm/asset/prefilter.hpp>
 
 namespace vtm::asset {
 

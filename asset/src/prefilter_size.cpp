@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
-#include "asset/prefilter.hpp"
+#include <vtm/asset/prefilter.hpp>
 #include "asset/src/paint.hpp"
 #include "asset/src/records.hpp"
 #include "asset/walk.hpp"

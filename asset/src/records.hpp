@@ -9,7 +9,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::asset {
 

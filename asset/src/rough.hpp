@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <span>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
 #include "asset/src/float4.hpp"
 #include "asset/steepness.hpp"
-#include "asset/view.hpp"
 
 namespace vtm::asset {
 

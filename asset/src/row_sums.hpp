@@ -18,9 +18,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <vtm/asset/view.hpp>
 #include "asset/planar_map.hpp"
 #include "asset/src/float4.hpp"
-#include "asset/view.hpp"
 
 namespace vtm::asset {
 

@@ -1,4 +1,4 @@
-#include "asset/scan.hpp"
+#include <vtm/asset/scan.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -13,6 +13,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "asset/src/blend.hpp"
 #include "asset/src/paint.hpp"
 #include "asset/src/rough.hpp"
@@ -20,7 +21,6 @@
 #include "asset/src/scan_programs.hpp"
 #include "asset/src/scan_stores.hpp"
 #include "asset/steepness.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::asset {
 

@@ -14,7 +14,7 @@
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 
-#include "asset/scan.hpp"
+#include <vtm/asset/scan.hpp>
 #include "asset/src/blend.hpp"
 #include "asset/src/paint.hpp"
 #include "asset/src/program_pixels.hpp"

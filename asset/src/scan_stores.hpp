@@ -16,7 +16,7 @@
 
 #include <glm/common.hpp>
 
-#include "asset/scan.hpp"
+#include <vtm/asset/scan.hpp>
 #include "asset/src/float4.hpp"
 
 namespace vtm::asset {

@@ -9,8 +9,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "asset/src/records.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::asset {
 

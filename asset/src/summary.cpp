@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <set>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "asset/walk.hpp"
 
 namespace vtm::asset {

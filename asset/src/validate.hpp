@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 
 namespace vtm::asset {
 

@@ -2,9 +2,9 @@
 #include <set>
 #include <string_view>
 
+#include <vtm/image/codec.hpp>
 #include "asset/src/records.hpp"
 #include "asset/src/validate.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::asset {
 

@@ -1,4 +1,4 @@
-#include "asset/view.hpp"
+#include <vtm/asset/view.hpp>
 
 #include <cmath>
 #include <stdexcept>

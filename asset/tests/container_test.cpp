@@ -1,10 +1,10 @@
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 
 #include <cstring>
 
 #include <gtest/gtest.h>
 
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_files.hpp"
 #include "asset/testing_views.hpp"

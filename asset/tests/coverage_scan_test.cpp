@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <glm/vec4.hpp>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 

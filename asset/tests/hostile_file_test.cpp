@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_files.hpp"
 #include "asset/testing_views.hpp"

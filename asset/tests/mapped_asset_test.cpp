@@ -1,4 +1,4 @@
-#include "asset/mapped_asset.hpp"
+#include <vtm/asset/mapped_asset.hpp>
 
 #include <unistd.h>
 
@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/image/codec.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_files.hpp"
 #include "asset/testing_views.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::asset::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "asset/paint_at.hpp"
+#include <vtm/asset/paint_at.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 
 namespace vtm::asset {

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 
 namespace vtm::asset {
 namespace {

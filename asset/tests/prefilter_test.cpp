@@ -1,10 +1,10 @@
-#include "asset/prefilter.hpp"
+#include <vtm/asset/prefilter.hpp>
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 
 namespace vtm::asset::test {

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <glm/matrix.hpp>
 
-#include "asset/evaluate.hpp"
-#include "asset/prefilter.hpp"
-#include "compiler/compile.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/prefilter.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 
 namespace vtm::asset::test {
 namespace {

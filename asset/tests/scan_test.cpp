@@ -1,6 +1,6 @@
 // The scanner against the evaluator, which sums leaf by leaf.
 
-#include "asset/scan.hpp"
+#include <vtm/asset/scan.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "asset/prefilter.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/prefilter.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 

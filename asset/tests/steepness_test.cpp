@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include "asset/evaluate.hpp"
-#include "asset/scan.hpp"
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/scan.hpp>
 #include "asset/src/paint.hpp"
 #include "asset/src/row_sums.hpp"
 #include "asset/testing.hpp"

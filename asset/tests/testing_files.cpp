@@ -5,7 +5,7 @@
 
 #include <zlib.h>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "asset/testing.hpp"
 
 namespace vtm::asset::test {

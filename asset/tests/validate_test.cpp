@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_files.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "backend_gl/src/gl.hpp"
 
 namespace vtm::gl {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "asset/coverage.hpp"
 #include "asset/paper.hpp"
 #include "backend_gl/src/patch.hpp"

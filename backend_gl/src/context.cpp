@@ -1,4 +1,4 @@
-#include "backend_gl/context.hpp"
+#include <vtm/gl/context.hpp>
 
 #include <cstdlib>
 #include <optional>

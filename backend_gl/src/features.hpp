@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::gl {
 

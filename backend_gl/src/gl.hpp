@@ -7,7 +7,7 @@
 
 #include <GLES3/gl3.h>
 
-#include "backend_gl/context.hpp"
+#include <vtm/gl/context.hpp>
 
 namespace vtm::gl {
 

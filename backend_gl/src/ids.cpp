@@ -1,4 +1,4 @@
-#include "backend_gl/ids.hpp"
+#include <vtm/gl/ids.hpp>
 
 #include <algorithm>
 #include <cmath>

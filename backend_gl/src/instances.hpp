@@ -9,7 +9,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "backend_gl/src/programs.hpp"
 
 namespace vtm::gl {

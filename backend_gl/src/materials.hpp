@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::gl {
 

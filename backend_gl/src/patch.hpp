@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "asset/planar_map.hpp"
 #include "asset/steepness.hpp"
 #include "backend_gl/src/turns.hpp"

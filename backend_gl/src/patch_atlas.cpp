@@ -8,8 +8,8 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "backend_gl/src/constants.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::gl {
 

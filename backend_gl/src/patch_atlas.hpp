@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/patch.hpp"
 #include "backend_gl/src/scanned_pixels.hpp"

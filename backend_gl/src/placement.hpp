@@ -7,8 +7,8 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
 #include "backend_gl/src/instances.hpp"
 
 namespace vtm::gl {

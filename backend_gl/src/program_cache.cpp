@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 namespace vtm::gl {
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "backend_gl/renderer.hpp"
+#include <vtm/gl/renderer.hpp>
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/finish.hpp"
 #include "backend_gl/src/materials.hpp"

@@ -1,4 +1,4 @@
-#include "backend_gl/renderer.hpp"
+#include <vtm/gl/renderer.hpp>
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "backend_gl/sampled_texture.hpp"
+#include <vtm/gl/sampled_texture.hpp>
 
 #include <array>
 #include <bit>

@@ -1,5 +1,5 @@
 /// \file
-/// Pixels of crowded cells: too much for a shader, so the CPU makes them (asset/scan.hpp).
+/// Pixels of crowded cells: too much for a shader, so the CPU makes them (vtm/asset/scan.hpp).
 #pragma once
 
 #include <array>
@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "asset/scan.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/scan.hpp>
+#include <vtm/asset/view.hpp>
 #include "asset/steepness.hpp"
-#include "asset/view.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/placement.hpp"
 

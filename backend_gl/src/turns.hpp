@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::gl {
 

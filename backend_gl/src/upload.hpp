@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "asset/scan.hpp"
-#include "backend_gl/renderer.hpp"
+#include <vtm/asset/scan.hpp>
+#include <vtm/gl/renderer.hpp>
 #include "backend_gl/src/features.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/instances.hpp"

@@ -4,9 +4,9 @@
 
 #include <EGL/egl.h>
 
+#include <vtm/gl/sampled_texture.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
-#include "backend_gl/sampled_texture.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/requirements.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "asset/scan.hpp"
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/turns.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::gl {
 namespace {

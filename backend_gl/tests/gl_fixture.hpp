@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "backend_gl/renderer.hpp"
+#include <vtm/gl/renderer.hpp>
 
 namespace vtm::gl {
 

@@ -1,5 +1,5 @@
 // Numbers by pixel against asset::paintAt and compiler::itemAt.
-#include "backend_gl/ids.hpp"
+#include <vtm/gl/ids.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,13 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
-#include "asset/paint_at.hpp"
+#include <vtm/asset/paint_at.hpp>
+#include <vtm/compiler/pick.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
-#include "compiler/pick.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -1,8 +1,8 @@
 // Materials: user GLSL in the leaves' programs, against the same functions on the CPU.
 #include <cmath>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/src/programs.hpp"

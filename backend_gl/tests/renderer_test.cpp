@@ -1,13 +1,13 @@
-#include "backend_gl/renderer.hpp"
+#include <vtm/gl/renderer.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "asset/scan.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/scan.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"

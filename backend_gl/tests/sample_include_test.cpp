@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <vtm/gl/sampled_texture.hpp>
 #include "asset/testing.hpp"
-#include "backend_gl/sampled_texture.hpp"
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/prefixed.hpp"
 #include "backend_gl/testing.hpp"

@@ -1,12 +1,12 @@
 // Assets as textures in a user's shader, against the CPU evaluator: everywhere in the plane, alone and
 // together.
-#include "backend_gl/sampled_texture.hpp"
+#include <vtm/gl/sampled_texture.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
 #include "backend_gl/src/gl.hpp"

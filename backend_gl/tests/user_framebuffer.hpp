@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include <vtm/image/bitmap.hpp>
 #include "backend_gl/src/gl.hpp"
-#include "image/bitmap.hpp"
 
 namespace vtm::gl {
 

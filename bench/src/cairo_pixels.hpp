@@ -7,7 +7,7 @@
 
 #include <cairo.h>
 
-#include "image/bitmap.hpp"
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::bench {
 

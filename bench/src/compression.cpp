@@ -2,12 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <vtm/compiler/compile.hpp>
 #include "bench/src/files.hpp"
 #include "bench/src/font.hpp"
 #include "bench/src/fragment_cost.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 namespace vtm::bench {
 namespace {

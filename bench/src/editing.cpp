@@ -4,10 +4,10 @@
 
 #include <fmt/core.h>
 
+#include <vtm/compiler/session.hpp>
 #include "bench/src/files.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
-#include "compiler/session.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <exception>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "bench/src/files.hpp"
-#include "compiler/compile.hpp"
 
 int main(int argc, char** argv) {
     if (argc < 2) {

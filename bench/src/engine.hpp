@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
+#include <vtm/image/bitmap.hpp>
+#include <vtm/scene/scene.hpp>
 #include "bench/src/files.hpp"
-#include "image/bitmap.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::bench {
 

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/write.hpp>
 #include "bench/src/engine.hpp"
-#include "image/codec.hpp"
-#include "svg/write.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -1,8 +1,8 @@
-#include "asset/scan.hpp"
-#include "backend_gl/renderer.hpp"
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/gl/renderer.hpp>
 #include "bench/src/engine.hpp"
 #include "bench/src/measure.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/view.hpp>
 #include "bench/src/contest.hpp"
 #include "bench/src/measure.hpp"
-#include "compiler/compile.hpp"
-#include "compiler/view.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"
 

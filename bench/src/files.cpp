@@ -7,8 +7,8 @@
 
 #include <fmt/core.h>
 
-#include "image/codec.hpp"
-#include "svg/load.hpp"
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 
 namespace vtm::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <vtm/scene/scene.hpp>
 #include "bench/src/options.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::bench {
 

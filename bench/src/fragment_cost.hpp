@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "compiler/cost.hpp"
 
 namespace vtm::bench {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <thread>
 
-#include "backend_gl/context.hpp"
+#include <vtm/gl/context.hpp>
 
 namespace vtm::bench {
 namespace {

@@ -8,13 +8,13 @@
 
 #include <fmt/core.h>
 
-#include "backend_gl/context.hpp"
+#include <vtm/gl/context.hpp>
+#include <vtm/image/codec.hpp>
 #include "backend_gl/paper_pattern.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
 #include "bench/src/shader_count.hpp"
 #include "compiler/paper.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <vtm/image/bitmap.hpp>
 #include "bench/src/shape.hpp"
-#include "image/bitmap.hpp"
 
 namespace vtm::bench {
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "asset/view.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/view.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::bench {
 

@@ -1,11 +1,11 @@
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
+#include <vtm/compiler/compile.hpp>
 #include "bench/src/files.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/peer_rsvg.hpp"
 #include "bench/src/reports.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <vtm/compiler/compile.hpp>
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
 #include "bench/src/synthetic.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::bench {
 

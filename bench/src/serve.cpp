@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <vtm/compiler/compile.hpp>
+#include <vtm/image/codec.hpp>
 #include "bench/src/engine.hpp"
 #include "bench/src/measure.hpp"
-#include "compiler/compile.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <variant>
 
-#include "scene/affine.hpp"
-#include "scene/paint.hpp"
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/paint.hpp>
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 
 namespace vtm::bench {
 

@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
+#include <vtm/compiler/compile.hpp>
 #include "bench/src/contest.hpp"
 #include "bench/src/measure.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::bench {
 

@@ -8,11 +8,11 @@
 
 #include <fmt/core.h>
 
-#include "backend_gl/renderer.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/gl/renderer.hpp>
 #include "bench/src/files.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::bench {
 namespace {

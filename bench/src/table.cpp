@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <vtm/image/codec.hpp>
 #include "bench/src/machine.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::bench {
 namespace {

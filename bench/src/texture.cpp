@@ -4,12 +4,12 @@
 #include <fmt/core.h>
 #include <glm/matrix.hpp>
 
-#include "backend_gl/renderer.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/gl/renderer.hpp>
 #include "backend_gl/testing.hpp"
 #include "bench/src/files.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::bench {
 namespace {

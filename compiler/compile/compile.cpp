@@ -1,4 +1,4 @@
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 /// Compiling an excerpt of a scene.
 #pragma once
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 #include "compiler/lower/picture.hpp"
 
 namespace vtm::compiler {

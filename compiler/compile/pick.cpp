@@ -1,11 +1,11 @@
-#include "compiler/pick.hpp"
+#include <vtm/compiler/pick.hpp>
 
 #include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "asset/paint_at.hpp"
+#include <vtm/asset/paint_at.hpp>
 
 namespace vtm::compiler {
 

@@ -2,7 +2,7 @@
 /// What compiling once and editing have in common: settings that follow from the options, and reports.
 #pragma once
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 #include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {

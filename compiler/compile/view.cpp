@@ -1,4 +1,4 @@
-#include "compiler/view.hpp"
+#include <vtm/compiler/view.hpp>
 
 #include <algorithm>
 #include <cmath>

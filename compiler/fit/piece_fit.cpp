@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "compiler/lower/pairs.hpp"
 
 namespace vtm::compiler {

@@ -1,5 +1,5 @@
 #include "compiler/lower/cubics.hpp"
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 
 #include <limits>
 
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 #include "geometry/cubic.hpp"
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::compiler {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "compiler/lower/lattice.hpp"
 
 namespace vtm::compiler {

@@ -11,7 +11,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "scene/affine.hpp"
+#include <vtm/scene/affine.hpp>
 
 namespace vtm::compiler {
 

@@ -6,11 +6,11 @@
 
 #include <glm/common.hpp>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/stroke.hpp>
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/lower/paints.hpp"
 #include "compiler/lower/picture.hpp"
-#include "compiler/stroke.hpp"
 #include "geometry/box.hpp"
 
 namespace vtm::compiler {

@@ -11,8 +11,8 @@
 
 #include <glm/vec2.hpp>
 
-#include "scene/affine.hpp"
-#include "scene/paint.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/paint.hpp>
 
 namespace vtm::compiler {
 

@@ -7,12 +7,12 @@
 
 #include <glm/common.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "compiler/lower/chords.hpp"
 #include "compiler/lower/cubics.hpp"
 #include "compiler/lower/error_budget.hpp"
 #include "compiler/stroke/chords.hpp"
 #include "compiler/stroke/near.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {

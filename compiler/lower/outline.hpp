@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 #include "compiler/lower/lattice.hpp"
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::compiler {
 

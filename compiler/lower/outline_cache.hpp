@@ -9,10 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 #include "compiler/lower/outline.hpp"
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::compiler {
 

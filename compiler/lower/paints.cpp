@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "compiler/compile.hpp"
-#include "image/codec.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/image/codec.hpp>
 
 namespace vtm::compiler {
 namespace {

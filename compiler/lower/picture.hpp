@@ -12,11 +12,11 @@
 #include <optional>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/limits/limits.hpp>
+#include <vtm/scene/scene.hpp>
 #include "compiler/lower/error_budget.hpp"
 #include "compiler/lower/outline.hpp"
-#include "limits/limits.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::compiler {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include <vtm/limits/limits.hpp>
 #include "compiler/lower/walk_items.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {

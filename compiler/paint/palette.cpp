@@ -3,9 +3,9 @@
 #include <bit>
 #include <cmath>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/limits/limits.hpp>
 #include "compiler/containers/hash.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "compiler/containers/number_map.hpp"
 #include "compiler/paint/stacks.hpp"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include <vtm/scene/path.hpp>
 #include "compiler/containers/number_map.hpp"
 #include "compiler/paint/palette.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::compiler {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "compiler/compile/clock.hpp"
 #include "compiler/lower/paints.hpp"
 #include "compiler/paper/mask.hpp"

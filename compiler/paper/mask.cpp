@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include <vtm/compiler/stroke.hpp>
 #include "compiler/lower/outline.hpp"
 #include "compiler/paper/cell.hpp"
 #include "compiler/paper/mip.hpp"
-#include "compiler/stroke.hpp"
 #include "compiler/tree/append_node.hpp"
 
 namespace vtm::compiler::paper {

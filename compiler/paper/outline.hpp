@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::compiler::paper {
 

@@ -1,5 +1,5 @@
 #include "compiler/planar/planar.hpp"
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <algorithm>
 #include <cmath>

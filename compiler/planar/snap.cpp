@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include <vtm/limits/limits.hpp>
 #include "compiler/planar/chord_relations.hpp"
 #include "compiler/planar/clip.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 namespace {

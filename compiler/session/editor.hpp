@@ -4,10 +4,10 @@
 
 #include <optional>
 
+#include <vtm/compiler/session.hpp>
 #include "compiler/lower/lattice.hpp"
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/paint/stack_paints.hpp"
-#include "compiler/session.hpp"
 #include "compiler/session/changes.hpp"
 #include "compiler/tree/partition.hpp"
 

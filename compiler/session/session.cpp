@@ -1,4 +1,4 @@
-#include "compiler/session.hpp"
+#include <vtm/compiler/session.hpp>
 
 #include "compiler/compile/settings.hpp"
 #include "compiler/session/editor.hpp"

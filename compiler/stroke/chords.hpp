@@ -2,15 +2,15 @@
 /// Offsets of curves as chords, for outlines that become chords anyway.
 #pragma once
 
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 #include "compiler/lower/outline.hpp"
 #include "compiler/stroke/contours.hpp"
 #include "compiler/stroke/offset.hpp"
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::compiler {
 
-/// As strokeOutline (compiler/stroke.hpp), but with chords within `tolerance` + `chordTolerance` of the
+/// As strokeOutline (vtm/compiler/stroke.hpp), but with chords within `tolerance` + `chordTolerance` of the
 /// offsets in place of most curves that are within `tolerance`. The curves that are left become chords within
 /// `chordTolerance` later. Returns whether all is rings: closed subpaths without dashes.
 ///

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::compiler {
 

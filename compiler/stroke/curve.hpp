@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include <vtm/scene/path.hpp>
 #include "geometry/cubic.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::compiler::stroke {
 

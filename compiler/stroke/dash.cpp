@@ -5,10 +5,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "compiler/compile.hpp"
-#include "compiler/stroke.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/stroke.hpp>
+#include <vtm/limits/limits.hpp>
 #include "compiler/stroke/subpath.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::compiler::stroke {
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 #include "compiler/lower/outline.hpp"
 #include "compiler/stroke/subpath.hpp"
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::compiler::stroke {
 

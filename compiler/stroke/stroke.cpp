@@ -11,7 +11,7 @@
 // as it may reach no further than half of each line, two kites of one line do not meet: a point in m kites
 // lies in at least 2m rectangles and stays covered.
 
-#include "compiler/stroke.hpp"
+#include <vtm/compiler/stroke.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/limits/limits.hpp>
 #include "compiler/stroke/chords.hpp"
 #include "compiler/stroke/near.hpp"
 #include "compiler/stroke/offset.hpp"
 #include "compiler/stroke/subpath.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::compiler {
 

@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "compiler/stroke/roots.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::compiler::stroke {
 

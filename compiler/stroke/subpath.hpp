@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 #include "compiler/stroke/curve.hpp"
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::compiler::stroke {
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "asset/planar_map.hpp"
-#include "compiler/compile.hpp"
 
 namespace vtm::compiler {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/asset.hpp"
-#include "asset/evaluate.hpp"
-#include "scene/path.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::compiler::test {
 

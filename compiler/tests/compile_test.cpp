@@ -1,12 +1,12 @@
-#include "compiler/compile.hpp"
-#include "compiler/session.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/session.hpp>
 
 #include <bit>
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
 
 namespace vtm::compiler {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/stroke.hpp>
 #include "asset/coverage.hpp"
 #include "asset/walk.hpp"
-#include "compiler/compile.hpp"
-#include "compiler/stroke.hpp"
 #include "compiler/stroke/chords.hpp"
 #include "compiler/tests/leaf_support.hpp"
 

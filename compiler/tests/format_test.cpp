@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "asset/scan.hpp"
-#include "compiler/compile.hpp"
-#include "compiler/session.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/session.hpp>
 #include "compiler/tree/encode.hpp"
 
 namespace vtm::compiler {

@@ -1,14 +1,14 @@
 // Limits of time, memory and nesting, as the compiler holds them.
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/pick.hpp>
+#include <vtm/compiler/session.hpp>
 #include "compiler/paper.hpp"
-#include "compiler/pick.hpp"
-#include "compiler/session.hpp"
 #include "limits/testing.hpp"
 
 namespace vtm::compiler {

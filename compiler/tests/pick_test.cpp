@@ -1,4 +1,4 @@
-#include "compiler/pick.hpp"
+#include <vtm/compiler/pick.hpp>
 
 #include <cmath>
 #include <numbers>

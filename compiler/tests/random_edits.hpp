@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::compiler::test {
 

@@ -1,10 +1,10 @@
-#include "compiler/session.hpp"
+#include <vtm/compiler/session.hpp>
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "compiler/tests/comparison.hpp"
 #include "compiler/tests/random_edits.hpp"
 

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "asset/container.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/scene.hpp>
 #include "compiler/lower/picture.hpp"
 #include "compiler/tests/comparison.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::compiler {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiler/stroke.hpp"
+#include <vtm/compiler/stroke.hpp>
 
 namespace vtm::compiler {
 

@@ -1,4 +1,4 @@
-#include "compiler/stroke.hpp"
+#include <vtm/compiler/stroke.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 #include "compiler/stroke/chords.hpp"
 #include "compiler/tests/stroke_support.hpp"
 

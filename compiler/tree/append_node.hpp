@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::compiler {
 

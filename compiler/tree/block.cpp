@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 #include "compiler/compile/clock.hpp"
 #include "compiler/tree/append_node.hpp"
 

@@ -1,9 +1,9 @@
 #include "compiler/tree/encode.hpp"
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <string>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 
 namespace vtm::compiler {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 #include "compiler/cost.hpp"
 #include "compiler/lower/error_budget.hpp"
 #include "compiler/lower/picture.hpp"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/scene/scene.hpp>
 #include "conformance/reference/reference.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::cases {
 

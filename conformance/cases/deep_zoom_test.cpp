@@ -10,9 +10,9 @@
 
 #include <fmt/core.h>
 
-#include "asset/container.hpp"
-#include "asset/scan.hpp"
-#include "compiler/view.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/view.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 #include "conformance/cases/distances.hpp"
 #include "conformance/cases/support.hpp"
 #include "conformance/generate/generate.hpp"

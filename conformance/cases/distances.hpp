@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "scene/scene.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::cases {
 

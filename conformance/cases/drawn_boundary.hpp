@@ -7,7 +7,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::cases {
 

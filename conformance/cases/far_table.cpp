@@ -7,9 +7,9 @@
 
 #include <fmt/core.h>
 
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/pick.hpp>
 #include "asset/walk.hpp"
-#include "compiler/compile.hpp"
-#include "compiler/pick.hpp"
 #include "conformance/cases/distances.hpp"
 #include "conformance/cases/support.hpp"
 

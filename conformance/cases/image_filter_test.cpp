@@ -13,10 +13,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/evaluate.hpp"
-#include "asset/scan.hpp"
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "backend_gl/testing.hpp"
-#include "compiler/compile.hpp"
 #include "conformance/cases/measure.hpp"
 #include "conformance/reference/reference.hpp"
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <random>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "conformance/cases/measure.hpp"
 #include "conformance/reference/reference.hpp"
 

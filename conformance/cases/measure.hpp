@@ -2,7 +2,7 @@
 /// A file of the corpus, compiled, and its truth.
 #pragma once
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/compare/compare.hpp"
 

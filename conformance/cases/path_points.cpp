@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "scene/affine.hpp"
+#include <vtm/scene/affine.hpp>
 
 namespace vtm::cases {
 

@@ -2,7 +2,7 @@
 /// Points of a path, command by command.
 #pragma once
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::cases {
 

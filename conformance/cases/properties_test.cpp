@@ -12,9 +12,9 @@
 
 #include <fmt/core.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "conformance/cases/asset_properties.hpp"
 #include "conformance/cases/certify.hpp"
 #include "conformance/cases/support.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 

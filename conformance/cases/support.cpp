@@ -6,9 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "compiler/view.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
+#include <vtm/compiler/view.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 
 namespace vtm::cases {
 

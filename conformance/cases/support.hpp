@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
-#include "backend_gl/renderer.hpp"
-#include "scene/scene.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
+#include <vtm/gl/renderer.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::cases {
 

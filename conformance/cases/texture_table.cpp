@@ -11,11 +11,11 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <vtm/image/codec.hpp>
 #include "backend_gl/testing.hpp"
 #include "conformance/cases/measure.hpp"
 #include "conformance/cases/texture_views.hpp"
 #include "conformance/compare/compare.hpp"
-#include "image/codec.hpp"
 
 namespace {
 

@@ -14,9 +14,9 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "backend_gl/testing.hpp"
-#include "compiler/compile.hpp"
 #include "conformance/cases/measure.hpp"
 #include "conformance/cases/texture_views.hpp"
 #include "conformance/compare/compare.hpp"

@@ -8,9 +8,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::cases {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "image/bitmap.hpp"
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::compare {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::generate {
 

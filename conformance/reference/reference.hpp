@@ -9,8 +9,8 @@
 
 #include <glm/vec4.hpp>
 
-#include "image/bitmap.hpp"
-#include "scene/scene.hpp"
+#include <vtm/image/bitmap.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::reference {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "image/bitmap.hpp"
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::vgscript {
 

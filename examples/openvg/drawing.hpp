@@ -1,13 +1,13 @@
 /// \file
-/// A scene (scene/scene.hpp) as objects of OpenVG: a VGPath for every path, a VGPaint for every item, made
-/// once and drawn under any matrix.
+/// A scene (vtm/scene/scene.hpp) as objects of OpenVG: a VGPath for every path, a VGPaint for every item,
+/// made once and drawn under any matrix.
 #pragma once
 
 #include <map>
 
 #include <VG/openvg.h>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace drawing {
 

@@ -16,11 +16,11 @@
 #include <VG/vgu.h>
 #include <vtm/gles.h>
 
-#include "backend_gl/context.hpp"
+#include <vtm/gl/context.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 #include "examples/openvg/drawing.hpp"
 #include "examples/openvg/paints.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
 
 using namespace vtm;
 

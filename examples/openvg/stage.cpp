@@ -6,7 +6,7 @@
 #include <VG/openvg.h>
 #include <vtm/vg.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 namespace stage {
 

@@ -10,10 +10,10 @@
 
 #include <glm/trigonometric.hpp>
 
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 #include "examples/openvg/drawing.hpp"
 #include "examples/openvg/stage.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
 
 using namespace vtm;
 

@@ -1,4 +1,4 @@
-#include "image/bitmap.hpp"
+#include <vtm/image/bitmap.hpp>
 
 #include <algorithm>
 #include <cmath>

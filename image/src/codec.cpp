@@ -1,7 +1,7 @@
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "image/src/decoders.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::image {
 

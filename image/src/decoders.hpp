@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "image/bitmap.hpp"
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::image {
 

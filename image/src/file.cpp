@@ -9,7 +9,7 @@
 #include <sys/statfs.h>
 #include <unistd.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "image/src/descriptor.hpp"
 #include "image/src/temporary.hpp"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "image/src/decoders.hpp"
 
 namespace vtm::image {

@@ -1,5 +1,5 @@
 #include "image/levels.hpp"
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <algorithm>
 

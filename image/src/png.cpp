@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "image/src/decoders.hpp"
 
 namespace vtm::image {

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 namespace vtm::image {
 

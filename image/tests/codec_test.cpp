@@ -1,4 +1,4 @@
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 namespace vtm::image {
 namespace {

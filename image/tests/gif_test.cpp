@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 namespace vtm::image {
 namespace {

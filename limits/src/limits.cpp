@@ -1,4 +1,4 @@
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <algorithm>
 #include <chrono>

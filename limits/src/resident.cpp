@@ -5,7 +5,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 namespace vtm::limits {
 namespace {

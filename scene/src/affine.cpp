@@ -1,4 +1,4 @@
-#include "scene/affine.hpp"
+#include <vtm/scene/affine.hpp>
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::scene {
 

@@ -1,8 +1,8 @@
-#include "scene/nested.hpp"
+#include <vtm/scene/nested.hpp>
 
 #include <algorithm>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::scene {
 

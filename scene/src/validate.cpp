@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 #include "scene/src/validate_values.hpp"
 
 namespace vtm::scene {

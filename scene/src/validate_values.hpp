@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::scene {
 

@@ -1,8 +1,8 @@
-#include "scene/affine.hpp"
+#include <vtm/scene/affine.hpp>
 
 #include <gtest/gtest.h>
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::scene {
 namespace {

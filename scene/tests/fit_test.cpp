@@ -1,4 +1,4 @@
-#include "scene/fit.hpp"
+#include <vtm/scene/fit.hpp>
 
 #include <gtest/gtest.h>
 

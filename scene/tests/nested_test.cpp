@@ -1,9 +1,9 @@
 // Scenes nested a million levels deep, along every way in which a part can hold another one.
-#include "scene/nested.hpp"
+#include <vtm/scene/nested.hpp>
 
 #include <gtest/gtest.h>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::scene {
 namespace {

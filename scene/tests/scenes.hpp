@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::scene {
 

@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "limits/limits.hpp"
-#include "scene/scene.hpp"
+#include <vtm/limits/limits.hpp>
+#include <vtm/scene/scene.hpp>
 #include "svg/css/style.hpp"
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/geometry/shapes.hpp"

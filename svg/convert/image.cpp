@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <glm/common.hpp>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "svg/convert/converter.hpp"
 #include "svg/xml/data_url.hpp"
 #include "svg/xml/document.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 #include "svg/css/css.hpp"
 #include "svg/css/cursor.hpp"
 #include "svg/css/style.hpp"

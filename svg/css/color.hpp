@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "scene/paint.hpp"
+#include <vtm/scene/paint.hpp>
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {

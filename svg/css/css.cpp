@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {

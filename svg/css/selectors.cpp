@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
+#include <vtm/svg/load.hpp>
 #include "svg/css/css.hpp"
 #include "svg/css/cursor.hpp"
-#include "svg/load.hpp"
 
 namespace vtm::svg {
 namespace {

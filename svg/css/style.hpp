@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 #include "svg/css/length.hpp"
 #include "svg/geometry/transform.hpp"
 #include "svg/xml/element.hpp"

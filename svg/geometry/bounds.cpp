@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 namespace vtm::svg {
 namespace {

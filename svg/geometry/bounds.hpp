@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 #include "svg/geometry/path_geometry.hpp"
 
 namespace vtm::svg {

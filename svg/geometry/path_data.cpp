@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {

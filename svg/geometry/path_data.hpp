@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::svg {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 #include "geometry/arc.hpp"
 #include "geometry/box.hpp"
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::svg {
 

@@ -5,8 +5,8 @@
 
 #include <variant>
 
-#include "limits/limits.hpp"
-#include "scene/path.hpp"
+#include <vtm/limits/limits.hpp>
+#include <vtm/scene/path.hpp>
 #include "svg/geometry/path_geometry.hpp"
 
 namespace vtm::svg {

@@ -2,7 +2,7 @@
 /// Basic shapes as paths. Source: SVG 2 chapter 10.
 #pragma once
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 #include "svg/css/length.hpp"
 #include "svg/css/style.hpp"
 #include "svg/xml/element.hpp"

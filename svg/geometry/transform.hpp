@@ -3,7 +3,7 @@
 /// read as one: commas optional, units allowed.
 #pragma once
 
-#include "scene/affine.hpp"
+#include <vtm/scene/affine.hpp>
 #include "svg/css/length.hpp"
 
 namespace vtm::svg {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "scene/fit.hpp"
+#include <vtm/scene/fit.hpp>
 #include "svg/geometry/path_geometry.hpp"
 
 namespace vtm::svg {

@@ -1,9 +1,9 @@
 // Chains and nests a million long: warnings and errors that name the place, and a flat stack.
 #include <algorithm>
 
+#include <vtm/svg/write.hpp>
 #include "limits/testing.hpp"
 #include "svg/tests/support.hpp"
-#include "svg/write.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "svg/load.hpp"
+#include <vtm/svg/load.hpp>
 
 namespace vtm::svg {
 

@@ -1,8 +1,8 @@
-#include "svg/write.hpp"
+#include <vtm/svg/write.hpp>
 
 #include <gtest/gtest.h>
 
-#include "svg/load.hpp"
+#include <vtm/svg/load.hpp>
 
 namespace vtm::svg {
 namespace {

@@ -1,4 +1,4 @@
-#include "svg/write.hpp"
+#include <vtm/svg/write.hpp>
 
 #include <cmath>
 #include <numbers>

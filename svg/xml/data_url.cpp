@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {

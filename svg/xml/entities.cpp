@@ -3,7 +3,7 @@
 
 #include <unordered_map>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 #include "svg/css/cursor.hpp"
 #include "svg/xml/decode.hpp"
 

@@ -7,8 +7,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "limits/limits.hpp"
-#include "svg/load.hpp"
+#include <vtm/limits/limits.hpp>
+#include <vtm/svg/load.hpp>
 #include "svg/xml/element.hpp"
 
 namespace vtm::svg {

@@ -1,9 +1,9 @@
 #include <stdexcept>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "asset/prefilter.hpp"
-#include "asset/scan.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/prefilter.hpp>
+#include <vtm/asset/scan.hpp>
 #include "asset/testing_files.hpp"
 
 namespace {

@@ -1,9 +1,9 @@
 // Writes the files that the fuzz target `asset` starts from into a folder: one of each kind of record.
 
-#include "asset/container.hpp"
-#include "asset/prefilter.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/prefilter.hpp>
+#include <vtm/image/codec.hpp>
 #include "asset/testing.hpp"
-#include "image/codec.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::fuzz {
 

@@ -1,4 +1,4 @@
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "asset/prefilter.hpp"
-#include "asset/scan.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/prefilter.hpp>
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/svg/load.hpp>
 #include "conformance/reference/reference.hpp"
-#include "svg/load.hpp"
 #include "tests/fuzz/scene_of_bytes.hpp"
 
 namespace vtm::fuzz {

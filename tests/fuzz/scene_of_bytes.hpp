@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::fuzz {
 

@@ -1,4 +1,4 @@
-#include "svg/load.hpp"
+#include <vtm/svg/load.hpp>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

@@ -5,7 +5,7 @@
 #include <exception>
 #include <new>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 

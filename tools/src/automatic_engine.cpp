@@ -1,6 +1,6 @@
 #include "tools/src/automatic_engine.hpp"
 
-#include "asset/scan.hpp"
+#include <vtm/asset/scan.hpp>
 
 namespace vtm::tools {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/core.h>
 
-#include "scene/scene.hpp"
-#include "svg/load.hpp"
+#include <vtm/scene/scene.hpp>
+#include <vtm/svg/load.hpp>
 #include "tools/src/commands.hpp"
 
 namespace vtm::tools {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "image/bitmap.hpp"
-#include "scene/paint.hpp"
+#include <vtm/image/bitmap.hpp>
+#include <vtm/scene/paint.hpp>
 
 namespace vtm::tools {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <vtm/image/codec.hpp>
 #include "conformance/compare/compare.hpp"
-#include "image/codec.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/input.hpp"
 #include "tools/src/limits.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "asset/view.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/view.hpp>
+#include <vtm/image/bitmap.hpp>
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {

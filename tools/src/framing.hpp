@@ -1,11 +1,11 @@
 /// \file
-/// The options that say how large the raster is and what of the picture it shows (scene/fit.hpp).
+/// The options that say how large the raster is and what of the picture it shows (vtm/scene/fit.hpp).
 #pragma once
 
 #include <CLI/CLI.hpp>
 
-#include "asset/view.hpp"
-#include "scene/fit.hpp"
+#include <vtm/asset/view.hpp>
+#include <vtm/scene/fit.hpp>
 
 namespace vtm::tools {
 

@@ -2,8 +2,8 @@
 /// Drawing with the shaders.
 #pragma once
 
+#include <vtm/gl/renderer.hpp>
 #include "backend_gl/paper.hpp"
-#include "backend_gl/renderer.hpp"
 #include "tools/src/engine.hpp"
 
 namespace vtm::tools {

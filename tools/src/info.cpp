@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "tools/src/commands.hpp"
 #include "tools/src/limits.hpp"
 #include "tools/src/source.hpp"

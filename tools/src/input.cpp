@@ -4,8 +4,8 @@
 
 #include <unistd.h>
 
-#include "asset/container.hpp"
-#include "image/codec.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/image/codec.hpp>
 #include "tools/src/output.hpp"
 
 namespace vtm::tools {

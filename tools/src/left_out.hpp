@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "svg/load.hpp"
+#include <vtm/svg/load.hpp>
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {

@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "tools/src/commands.hpp"
 
 namespace vtm::tools {

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 namespace vtm::tools {
 

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "tools/src/commands.hpp"
 #include "tools/src/input.hpp"
 #include "tools/src/standard_output.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 #include "tools/src/color.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/debug_view.hpp"

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "asset/asset.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "compiler/paper.hpp"
 
 namespace vtm::tools {

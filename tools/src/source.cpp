@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 #include "tools/src/commands.hpp"
 #include "tools/src/left_out.hpp"
 #include "tools/src/text_options.hpp"

@@ -8,11 +8,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "asset/asset.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/scene.hpp>
+#include <vtm/svg/load.hpp>
 #include "compiler/paper.hpp"
-#include "scene/scene.hpp"
-#include "svg/load.hpp"
 #include "tools/src/input.hpp"
 #include "tools/src/report.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-#include "image/codec.hpp"
+#include <vtm/image/codec.hpp>
 
 namespace vtm::tools {
 

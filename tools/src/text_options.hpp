@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "svg/load.hpp"
+#include <vtm/svg/load.hpp>
 
 namespace vtm::tools {
 

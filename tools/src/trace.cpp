@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "asset/container.hpp"
-#include "image/codec.hpp"
-#include "svg/write.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/write.hpp>
 #include "tools/src/commands.hpp"
 #include "tools/src/limits.hpp"
 #include "tools/src/output.hpp"

@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "compiler/view.hpp"
-#include "limits/limits.hpp"
+#include <vtm/compiler/view.hpp>
+#include <vtm/limits/limits.hpp>
 #include "tools/src/limits.hpp"
 
 namespace vtm::tools {

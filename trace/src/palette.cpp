@@ -1,5 +1,5 @@
 #include "trace/src/palette.hpp"
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 #include "trace/src/palette.hpp"
 
 #ifdef VTM_WITH_POTRACE

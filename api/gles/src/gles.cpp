@@ -14,8 +14,8 @@
 #include <vtm/gles.h>
 #include <glm/vec2.hpp>
 
-#include "asset/container.hpp"
-#include "backend_gl/renderer.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/gl/renderer.hpp>
 
 using namespace vtm;
 

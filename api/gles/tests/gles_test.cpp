@@ -13,7 +13,7 @@
 #include <VG/vgu.h>
 #include <vtm/gles.h>
 
-#include "backend_gl/context.hpp"
+#include <vtm/gl/context.hpp>
 
 namespace vtm {
 namespace {

@@ -11,10 +11,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/scene.hpp>
 #include "api/openvg/path/flatten.hpp"
 #include "api/openvg/state/matrix.hpp"
-#include "compiler/compile.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::openvg {
 

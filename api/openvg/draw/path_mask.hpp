@@ -14,9 +14,9 @@
 
 #include <glm/mat3x3.hpp>
 
+#include <vtm/scene/path.hpp>
 #include "api/openvg/image/pixels.hpp"
 #include "asset/coverage_scan.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::openvg {
 

@@ -9,10 +9,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <vtm/compiler/stroke.hpp>
 #include "api/openvg/path/flatten.hpp"
 #include "api/openvg/path/path_measure.hpp"
 #include "api/openvg/path/rational_curve.hpp"
-#include "compiler/stroke.hpp"
 
 namespace vtm::openvg {
 

@@ -5,9 +5,9 @@
 #include <deque>
 #include <memory>
 
+#include <vtm/scene/stroke.hpp>
 #include "api/openvg/draw/path_mask.hpp"
 #include "api/openvg/path/path_data.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::openvg {
 

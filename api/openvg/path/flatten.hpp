@@ -7,8 +7,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
+#include <vtm/scene/path.hpp>
 #include "geometry/box.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::openvg {
 

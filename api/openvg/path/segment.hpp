@@ -11,8 +11,8 @@
 
 #include <VG/vgext.h>
 
+#include <vtm/scene/path.hpp>
 #include "geometry/arc.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::openvg {
 

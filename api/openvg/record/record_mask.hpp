@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::openvg {
 

@@ -7,10 +7,10 @@
 
 #include <glm/mat3x3.hpp>
 
+#include <vtm/scene/scene.hpp>
 #include "api/openvg/paint/color.hpp"
 #include "api/openvg/state/objects.hpp"
 #include "api/openvg/state/state.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::openvg {
 

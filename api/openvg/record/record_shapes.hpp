@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include <vtm/scene/scene.hpp>
 #include "api/openvg/state/objects.hpp"
 #include "api/openvg/state/state.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::openvg {
 

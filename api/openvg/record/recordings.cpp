@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/compile.hpp>
 #include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/record/record.hpp"
 #include "api/openvg/state/matrix.hpp"
-#include "asset/container.hpp"
-#include "asset/scan.hpp"
-#include "compiler/compile.hpp"
 
 using namespace vtm;
 using namespace vtm::openvg;

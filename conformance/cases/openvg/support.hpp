@@ -13,7 +13,7 @@
 #include <VG/vgu.h>
 #include <vtm/vg.h>
 
-#include "scene/affine.hpp"
+#include <vtm/scene/affine.hpp>
 
 namespace vtm::cases::openvg {
 

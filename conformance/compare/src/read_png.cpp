@@ -4,8 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <vtm/image/codec.hpp>
 #include "conformance/compare/compare.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::compare {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::generate {
 

@@ -2,8 +2,8 @@
 /// Random paints.
 #pragma once
 
+#include <vtm/scene/paint.hpp>
 #include "conformance/generate/src/random.hpp"
-#include "scene/paint.hpp"
 
 namespace vtm::generate {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/path.hpp"
+#include <vtm/scene/path.hpp>
 
 namespace vtm::generate {
 

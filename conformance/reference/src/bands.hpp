@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include <vtm/limits/limits.hpp>
 #include "conformance/reference/src/edges.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::reference {
 

@@ -2,8 +2,8 @@
 /// A single shape's coverage of a row of pixels.
 #pragma once
 
+#include <vtm/scene/path.hpp>
 #include "conformance/reference/src/sweep.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::reference {
 

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include <vtm/scene/path.hpp>
 #include "conformance/reference/src/geometry.hpp"
-#include "scene/path.hpp"
 
 namespace vtm::reference {
 

@@ -3,8 +3,8 @@
 #include <glm/common.hpp>
 #include <numbers>
 
+#include <vtm/limits/limits.hpp>
 #include "conformance/reference/src/flatten.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {

@@ -1,7 +1,7 @@
 #include <glm/common.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "conformance/reference/src/rows.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {

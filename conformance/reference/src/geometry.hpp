@@ -6,8 +6,8 @@
 #include <cmath>
 #include <span>
 
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::reference {
 

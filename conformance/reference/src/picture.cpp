@@ -4,9 +4,9 @@
 #include <map>
 #include <utility>
 
+#include <vtm/limits/limits.hpp>
 #include "conformance/reference/src/stroke.hpp"
 #include "conformance/reference/src/tiling.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {

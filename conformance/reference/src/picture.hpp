@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include <vtm/scene/scene.hpp>
 #include "conformance/reference/src/edges.hpp"
 #include "conformance/reference/src/shader.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::reference {
 

@@ -1,11 +1,11 @@
 #include <memory>
 #include <stdexcept>
 
+#include <vtm/limits/limits.hpp>
 #include "conformance/reference/reference.hpp"
 #include "conformance/reference/src/bands.hpp"
 #include "conformance/reference/src/coverage.hpp"
 #include "conformance/reference/src/rows.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {

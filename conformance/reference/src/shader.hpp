@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include <vtm/scene/paint.hpp>
 #include "conformance/reference/reference.hpp"
 #include "conformance/reference/src/blend.hpp"
 #include "conformance/reference/src/geometry.hpp"
-#include "scene/paint.hpp"
 
 namespace vtm::reference {
 

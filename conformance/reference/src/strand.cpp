@@ -3,8 +3,8 @@
 #include <iterator>
 #include <numeric>
 
+#include <vtm/limits/limits.hpp>
 #include "conformance/reference/reference.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include <vtm/scene/stroke.hpp>
 #include "conformance/reference/src/flatten.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::reference {
 

@@ -3,8 +3,8 @@
 #include <numbers>
 #include <optional>
 
+#include <vtm/limits/limits.hpp>
 #include "conformance/reference/src/strand.hpp"
-#include "limits/limits.hpp"
 
 namespace vtm::reference {
 namespace {

@@ -6,8 +6,8 @@
 /// join and cap, all turning the same way, so that their union is what has a non-zero winding.
 #pragma once
 
+#include <vtm/scene/stroke.hpp>
 #include "conformance/reference/src/edges.hpp"
-#include "scene/stroke.hpp"
 
 namespace vtm::reference {
 

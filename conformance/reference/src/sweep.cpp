@@ -1,5 +1,5 @@
 #include "conformance/reference/src/sweep.hpp"
-#include "limits/limits.hpp"
+#include <vtm/limits/limits.hpp>
 
 #include <numeric>
 

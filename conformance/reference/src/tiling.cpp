@@ -4,7 +4,7 @@
 
 #include <glm/common.hpp>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::reference {
 namespace {

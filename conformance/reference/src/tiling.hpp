@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include <vtm/scene/paint.hpp>
 #include "conformance/reference/src/geometry.hpp"
-#include "scene/paint.hpp"
 
 namespace vtm::reference {
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include <vtm/image/bitmap.hpp>
 #include "conformance/compare/compare.hpp"
 #include "conformance/runner/src/faults.hpp"
-#include "image/bitmap.hpp"
 
 namespace vtm::conformance {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <vtm/svg/load.hpp>
 #include "conformance/runner/src/crowded_scenes.hpp"
 #include "conformance/runner/src/kinds.hpp"
 #include "conformance/runner/src/scene_subject.hpp"
-#include "svg/load.hpp"
 
 namespace vtm::conformance {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::conformance {
 

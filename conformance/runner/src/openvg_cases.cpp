@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include <vtm/svg/load.hpp>
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/src/judge.hpp"
 #include "conformance/runner/src/kinds.hpp"
 #include "conformance/vgscript/vgscript.hpp"
-#include "svg/load.hpp"
 
 namespace vtm::conformance {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <fmt/core.h>
 
-#include "asset/evaluate.hpp"
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/session.hpp>
 #include "backend_gl/paper_pattern.hpp"
-#include "compiler/compile.hpp"
 #include "compiler/paper.hpp"
-#include "compiler/session.hpp"
 #include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/src/judge.hpp"

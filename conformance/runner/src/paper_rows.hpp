@@ -2,8 +2,8 @@
 /// The rows of the paper that are more than a picture: what they promise, tried on a scene.
 #pragma once
 
+#include <vtm/scene/scene.hpp>
 #include "conformance/runner/src/case.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::conformance {
 

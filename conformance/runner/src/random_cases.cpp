@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <vtm/svg/write.hpp>
 #include "conformance/generate/generate.hpp"
 #include "conformance/runner/src/kinds.hpp"
 #include "conformance/runner/src/scene_subject.hpp"
-#include "svg/write.hpp"
 
 namespace vtm::conformance {
 namespace {

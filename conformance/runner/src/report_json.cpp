@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include <vtm/image/codec.hpp>
 #include "conformance/runner/src/report.hpp"
 #include "conformance/runner/src/row_json.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::conformance {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <vtm/image/codec.hpp>
 #include "conformance/runner/src/report.hpp"
 #include "conformance/runner/src/row_json.hpp"
 #include "conformance/runner/src/suite.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::conformance {
 namespace fs = std::filesystem;

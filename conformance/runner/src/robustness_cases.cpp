@@ -5,15 +5,15 @@
 
 #include <fmt/core.h>
 
-#include "asset/container.hpp"
-#include "asset/evaluate.hpp"
-#include "compiler/compile.hpp"
+#include <vtm/asset/container.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/image/codec.hpp>
+#include <vtm/svg/load.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/generate/damage.hpp"
 #include "conformance/runner/src/kinds.hpp"
 #include "conformance/runner/src/views.hpp"
-#include "image/codec.hpp"
-#include "svg/load.hpp"
 
 namespace vtm::conformance {
 namespace {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include <vtm/asset/scan.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/gl/renderer.hpp>
 #include "asset/paper.hpp"
-#include "asset/scan.hpp"
-#include "backend_gl/renderer.hpp"
-#include "compiler/compile.hpp"
 #include "conformance/runner/src/judge.hpp"
 #include "conformance/runner/src/suite.hpp"
 #include "conformance/runner/src/views.hpp"

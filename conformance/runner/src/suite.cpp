@@ -4,8 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <vtm/image/codec.hpp>
 #include "conformance/runner/src/kinds.hpp"
-#include "image/codec.hpp"
 
 namespace vtm::conformance {
 namespace fs = std::filesystem;

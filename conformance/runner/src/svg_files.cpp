@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "svg/load.hpp"
+#include <vtm/svg/load.hpp>
 
 namespace vtm::conformance {
 namespace fs = std::filesystem;

@@ -4,8 +4,8 @@
 
 #include <functional>
 
+#include <vtm/scene/scene.hpp>
 #include "conformance/runner/src/suite.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::conformance {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include <vtm/compiler/compile.hpp>
 #include "backend_gl/testing.hpp"
-#include "compiler/compile.hpp"
 #include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/src/kinds.hpp"

@@ -9,9 +9,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <vtm/scene/affine.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/cases/texture_views.hpp"
-#include "scene/affine.hpp"
 
 namespace vtm::conformance {
 namespace {

@@ -10,8 +10,8 @@
 #include <glm/mat3x3.hpp>
 #include <nlohmann/json_fwd.hpp>
 
-#include "asset/view.hpp"
-#include "scene/scene.hpp"
+#include <vtm/asset/view.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::conformance {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "svg/load.hpp"
+#include <vtm/svg/load.hpp>
 
 namespace vtm::vgscript {
 

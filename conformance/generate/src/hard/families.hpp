@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::generate {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include <vtm/scene/scene.hpp>
 #include "conformance/generate/src/random.hpp"
-#include "scene/scene.hpp"
 
 namespace vtm::generate {
 

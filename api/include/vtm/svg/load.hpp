@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::svg {
 
@@ -75,8 +75,8 @@ struct Document {
     std::vector<Warning> warnings;
 };
 
-/// Throws ParseError, and limits::Exceeded under a budget (limits/limits.hpp). `bytes` may be gzip-compressed
-/// (SVGZ).
+/// Throws ParseError, and limits::Exceeded under a budget (vtm/limits/limits.hpp). `bytes` may be
+/// gzip-compressed (SVGZ).
 Document load(std::span<const std::uint8_t> bytes, const Options& options = {});
 
 }  // namespace vtm::svg

@@ -9,11 +9,11 @@
 #include <optional>
 #include <string>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
-#include "backend_gl/context.hpp"
-#include "backend_gl/output.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
+#include <vtm/gl/context.hpp>
+#include <vtm/gl/output.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::gl {
 
@@ -38,7 +38,8 @@ private:
 enum class Pixels {
     Automatic,  ///< Scanned where the driver runs shaders on the CPU (llvmpipe and the like), else Shaders
     Shaders,
-    Scanned  ///< asset/scan.hpp, on the CPU, several times faster there; pictures with materials take Shaders
+    Scanned  ///< vtm/asset/scan.hpp, on the CPU, several times faster there; pictures with materials take
+             ///< Shaders
 };
 
 /// Premultiplied sRGB-encoded bytes red, green, blue, alpha; rows from the top.

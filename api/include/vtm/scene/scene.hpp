@@ -12,12 +12,12 @@
 #include <variant>
 #include <vector>
 
-#include "limits/limits.hpp"
-#include "scene/affine.hpp"
-#include "scene/nested.hpp"
-#include "scene/paint.hpp"
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
+#include <vtm/limits/limits.hpp>
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/nested.hpp>
+#include <vtm/scene/paint.hpp>
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 
 namespace vtm::scene {
 

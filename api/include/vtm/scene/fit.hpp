@@ -6,8 +6,8 @@
 
 #include <optional>
 
-#include "scene/affine.hpp"
-#include "scene/path.hpp"
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::scene {
 
@@ -51,7 +51,7 @@ struct Framing {
 /// A raster and what it shows. The numbers are kept apart, instead of as one matrix, so that deep zooms lose
 /// nothing.
 struct Frame {
-    double width = 1, height = 1;  ///< whole numbers above 0; engines have limits (asset/view.hpp)
+    double width = 1, height = 1;  ///< whole numbers above 0; engines have limits (vtm/asset/view.hpp)
     Point pixel{1, 1};             ///< a pixel's width and height, in turned user units
     Point turn{1, 0};              ///< cosine and sine of the rotation
     Point origin{0, 0};            ///< a point in user units

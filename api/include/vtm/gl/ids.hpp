@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "asset/view.hpp"
-#include "backend_gl/context.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/view.hpp>
+#include <vtm/gl/context.hpp>
 
 namespace vtm::gl {
 

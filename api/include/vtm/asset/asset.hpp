@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "asset/pyramid.hpp"
-#include "image/bitmap.hpp"
+#include <vtm/asset/pyramid.hpp>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::asset {
 
@@ -266,7 +266,7 @@ struct Asset {
     std::vector<image::Bitmap> images;
     std::vector<Material> materials;
     std::uint32_t fallbackLeaves = 0;  ///< averaged from samples and too large for the tolerance
-    Prefilter prefilter;               ///< for minification, optional (asset/prefilter.hpp)
+    Prefilter prefilter;               ///< for minification, optional (vtm/asset/prefilter.hpp)
     /// How far it may be magnified: the side, in user units, of the smallest pixels for which no drawn
     /// boundary lies farther than a sixteenth of one from the scene's. 0: of any size. Nothing where it is
     /// unknown, as in files that were written before it was stored. Images and gradients have limits of their
@@ -278,7 +278,7 @@ struct Asset {
 inline constexpr double finestShare = 1.0 / 16;
 
 /// The same, as what every function reads: spans over an Asset, or over a file mapped into memory
-/// (asset/mapped_asset.hpp). Valid as long as what they point into.
+/// (vtm/asset/mapped_asset.hpp). Valid as long as what they point into.
 struct AssetView {
     double width = 0, height = 0;
     Mode mode = Mode::Exact;

@@ -14,8 +14,8 @@
 #include <string>
 #include <variant>
 
-#include "compiler/compile.hpp"
-#include "scene/scene.hpp"
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm {
 

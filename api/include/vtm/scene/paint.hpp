@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "image/bitmap.hpp"
-#include "scene/affine.hpp"
-#include "scene/nested.hpp"
-#include "scene/path.hpp"
+#include <vtm/image/bitmap.hpp>
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/nested.hpp>
+#include <vtm/scene/path.hpp>
 
 namespace vtm::scene {
 

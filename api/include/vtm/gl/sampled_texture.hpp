@@ -13,9 +13,9 @@
 #include <span>
 #include <string>
 
-#include "asset/asset.hpp"
-#include "asset/prefilter.hpp"
-#include "backend_gl/context.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/prefilter.hpp>
+#include <vtm/gl/context.hpp>
 
 namespace vtm::gl {
 

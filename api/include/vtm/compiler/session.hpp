@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "compiler/compile.hpp"
+#include <vtm/compiler/compile.hpp>
 
 namespace vtm::compiler {
 

@@ -14,9 +14,9 @@
 
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
-#include "asset/evaluate.hpp"
-#include "asset/view.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/asset/view.hpp>
 
 namespace vtm::asset {
 

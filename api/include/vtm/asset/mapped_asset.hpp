@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "asset/container.hpp"
+#include <vtm/asset/container.hpp>
 
 namespace vtm::asset {
 

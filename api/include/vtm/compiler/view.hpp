@@ -7,11 +7,11 @@
 /// rounded.
 #pragma once
 
-#include "asset/view.hpp"
-#include "compiler/compile.hpp"
-#include "scene/affine.hpp"
-#include "scene/fit.hpp"
-#include "scene/scene.hpp"
+#include <vtm/asset/view.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/affine.hpp>
+#include <vtm/scene/fit.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::compiler {
 
@@ -46,7 +46,7 @@ ViewResult compileView(const scene::Scene& scene, const Part& part, int width, i
                        const Options& options = {});
 
 /// The frame's view of an asset of the whole picture. Throws std::length_error where the raster or a number
-/// is beyond the limits of asset/view.hpp.
+/// is beyond the limits of vtm/asset/view.hpp.
 asset::View viewOf(const scene::Frame& frame);
 
 }  // namespace vtm::compiler

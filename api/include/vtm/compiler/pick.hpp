@@ -11,9 +11,9 @@
 
 #include <glm/vec2.hpp>
 
-#include "asset/asset.hpp"
-#include "compiler/compile.hpp"
-#include "scene/scene.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::compiler {
 

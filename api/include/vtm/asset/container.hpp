@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::asset {
 
@@ -24,7 +24,7 @@ std::vector<std::uint8_t> write(const AssetView& asset);
 bool isContainer(std::span<const std::uint8_t> bytes);
 
 /// Reads and validates hostile bytes: whatever they are, a valid asset or a FormatError. Copies every
-/// record; asset/mapped_asset.hpp copies none.
+/// record; vtm/asset/mapped_asset.hpp copies none.
 Asset read(std::span<const std::uint8_t> bytes);
 
 /// A line of a file's section table.

@@ -4,12 +4,12 @@
 
 #include <cstddef>
 
-#include "scene/path.hpp"
-#include "scene/stroke.hpp"
+#include <vtm/scene/path.hpp>
+#include <vtm/scene/stroke.hpp>
 
 namespace vtm::compiler {
 
-/// Dashes of one path beyond this number are a LimitError (compiler/compile.hpp).
+/// Dashes of one path beyond this number are a LimitError (vtm/compiler/compile.hpp).
 inline constexpr std::size_t maxDashes = 1'000'000;
 
 /// A path whose non-zero fill is the stroke of `path` in `style`, in the path's own space: dashes,

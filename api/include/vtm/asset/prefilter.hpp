@@ -11,7 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "asset/asset.hpp"
+#include <vtm/asset/asset.hpp>
 
 namespace vtm::asset {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "asset/asset.hpp"
-#include "scene/scene.hpp"
+#include <vtm/asset/asset.hpp>
+#include <vtm/scene/scene.hpp>
 
 namespace vtm::compiler {
 
