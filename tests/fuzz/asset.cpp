@@ -4,6 +4,8 @@
 #include <vtm/asset/evaluate.hpp>
 #include <vtm/asset/prefilter.hpp>
 #include <vtm/asset/scan.hpp>
+#include <vtm/limits/limits.hpp>
+
 #include "asset/testing_files.hpp"
 
 namespace {
@@ -11,6 +13,9 @@ namespace {
 using namespace vtm::asset;
 
 constexpr int side = 16;
+
+/// Of one run, with the sanitizers: work beyond it is refused, as users of limits have it.
+constexpr double seconds = 4;
 
 void require(bool holds, const char* what) {
     if (!holds)
@@ -47,6 +52,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     const test::Bytes written = write(asset);
     require(write(read(written)) == written, "what was read is written as other bytes");
-    use(asset);
+    vtm::limits::Budget budget({.seconds = seconds});
+    const vtm::limits::Scope scope(budget);
+    try {
+        use(asset);
+    } catch (const vtm::limits::Exceeded&) {
+    }
     return 0;
 }
