@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """vtm-bench's results as one page, page.py [FOLDER] [--readme FILE]
 
-Reads FOLDER/*.json (bench/results) and writes FOLDER/index.html, which needs nothing else, and FOLDER/zoom.svg for the
+Reads FOLDER/*.json (build/bench) and writes FOLDER/index.html, which needs nothing else, and FOLDER/zoom.svg for the
 documents. With --readme, the table between FILE's bench markers is replaced. docs/benchmarks.md says what all means.
 """
 import argparse

@@ -56,13 +56,13 @@ constexpr const char* usage =
     "  --pictures FOLDER where `drawing` and `paper` write what they draw (nowhere)\n"
     "  --node FOLDER     holds node_modules with peers ($VTM_BENCH_NODE)\n"
     "  --peer COMMAND    one more peer process; may be repeated\n"
-    "  --output FOLDER   where the results go (bench/results)\n";
+    "  --output FOLDER   where the results go (build/bench)\n";
 
 struct Arguments {
     Options options;
     std::vector<std::string> names;
     std::vector<std::string> rest;  ///< all that is not a name
-    std::string output = VTM_SOURCE_DIR "/bench/results";
+    std::string output = VTM_SOURCE_DIR "/build/bench";
     bool list = false;
 };
 
