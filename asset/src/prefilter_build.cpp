@@ -127,16 +127,6 @@ void requireAllowed(PyramidSize size) {
         throw std::invalid_argument("pyramid: size is not allowed");
 }
 
-/// White where the predicate holds, transparent elsewhere.
-std::vector<Paint> maskPaints(std::size_t count, const std::function<bool(std::uint32_t)>& isInside) {
-    constexpr std::uint32_t one = std::bit_cast<std::uint32_t>(1.0f);
-    std::vector<Paint> paints(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (isInside(i))
-            paints[i] = {one, one, one, one};
-    return paints;
-}
-
 }  // namespace
 
 Prefilter buildPrefilter(const AssetView& asset, PyramidSize size, unsigned threads) {
@@ -150,20 +140,6 @@ Prefilter buildPrefilter(const AssetView& asset, PyramidSize size, unsigned thre
 
 Prefilter buildPrefilter(const AssetView& asset, const PrefilterOptions& options) {
     return buildPrefilter(asset, prefilterSize(asset, options), options.threads);
-}
-
-CoveragePyramid buildCoveragePyramid(const AssetView& asset, PyramidSize size,
-                                     const std::function<bool(std::uint32_t)>& isInside, unsigned threads) {
-    requireAllowed(size);
-    if (asset.mode != Mode::Exact)
-        throw std::invalid_argument("coverage pyramid: an asset of compat mode has no regions");
-    const std::vector<Paint> paints = maskPaints(asset.paints.size(), isInside);
-    AssetView mask = asset;
-    mask.paints = paints;
-    CoveragePyramid pyramid{size, {}};
-    eachMean(baseMeans(mask, size, threads),
-             [&](const double* mean) { pyramid.texels.push_back(rounded(mean[3])); });
-    return pyramid;
 }
 
 }  // namespace vtm::asset

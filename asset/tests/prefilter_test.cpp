@@ -166,44 +166,11 @@ TEST(Prefilter, DoesNotDependOnThreads) {
     }
 }
 
-TEST(CoveragePyramid, SharesOfARegion) {
-    const Asset asset = threeRegions();
-    const PyramidSize size{24, 24};
-    std::vector<int> sums(size.texelsBefore(size.levels()));
-    for (std::uint32_t region = 1; region <= 3; ++region) {
-        const CoveragePyramid pyramid =
-            buildCoveragePyramid(asset, size, [&](std::uint32_t paint) { return paint == region; });
-        ASSERT_EQ(pyramid.texels.size(), sums.size());
-        // In these assets region 1 is pure red, 2 green, 3 blue: a channel is a share.
-        for (unsigned l = 0; l < size.levels(); ++l) {
-            const image::Raster exact = wholePicture(asset, size.level(l));
-            for (std::size_t i = 0; i < size.level(l).texels(); ++i) {
-                const int share = pyramid.texels[size.texelsBefore(l) + i];
-                ASSERT_NEAR(share, exact.rgba[i * 4 + region - 1] * 255.0, texelTolerance);
-                sums[size.texelsBefore(l) + i] += share;
-            }
-        }
-    }
-    for (const int sum : sums)
-        EXPECT_NEAR(sum, 255, 1);
-}
-
-/// The paints' own colours play no part, programs no more than others.
-TEST(CoveragePyramid, AnyPaintCanBeAsked) {
-    const Asset asset = everyPaint();
-    const CoveragePyramid all = buildCoveragePyramid(asset, {16, 8}, [](std::uint32_t) { return true; });
-    EXPECT_EQ(all.texels, std::vector<std::uint8_t>(all.size.texelsBefore(all.size.levels()), 255));
-    const CoveragePyramid none = buildCoveragePyramid(asset, {16, 8}, [](std::uint32_t) { return false; });
-    EXPECT_EQ(none.texels, std::vector<std::uint8_t>(all.texels.size(), 0));
-}
-
 TEST(Pyramid, RefusesWhatItCannotBe) {
-    const auto all = [](std::uint32_t) { return true; };
     EXPECT_THROW(buildPrefilter(disc(), PyramidSize{4, 7}), std::invalid_argument);
     EXPECT_THROW(buildPrefilter(disc(), PyramidSize{8192, 1}), std::invalid_argument);
-    EXPECT_THROW(buildCoveragePyramid(disc(), {5, 4}, all), std::invalid_argument);
-    EXPECT_THROW(buildCoveragePyramid(disc(), {0, 0}, all), std::invalid_argument);
-    EXPECT_THROW(buildCoveragePyramid(layers(), {4, 4}, all), std::invalid_argument);
+    EXPECT_THROW(buildPrefilter(disc(), PyramidSize{5, 4}), std::invalid_argument);
+    EXPECT_THROW(buildPrefilter(disc(), PyramidSize{0, 0}), std::invalid_argument);
 }
 
 // ---- Sampling -------------------------------------------------------------------------------------

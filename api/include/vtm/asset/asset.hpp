@@ -277,8 +277,7 @@ struct Asset {
 /// What finestPixel promises, in pixels.
 inline constexpr double finestShare = 1.0 / 16;
 
-/// The same, as what every function reads: spans over an Asset, or over a file mapped into memory
-/// (vtm/asset/mapped_asset.hpp). Valid as long as what they point into.
+/// The same, as what every function reads: spans over an Asset. Valid as long as what they point into.
 struct AssetView {
     double width = 0, height = 0;
     Mode mode = Mode::Exact;

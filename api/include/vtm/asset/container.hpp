@@ -23,8 +23,7 @@ std::vector<std::uint8_t> write(const AssetView& asset);
 /// Whether they begin as a `.vtm` file does, whole or not.
 bool isContainer(std::span<const std::uint8_t> bytes);
 
-/// Reads and validates hostile bytes: whatever they are, a valid asset or a FormatError. Copies every
-/// record; vtm/asset/mapped_asset.hpp copies none.
+/// Reads and validates hostile bytes: whatever they are, a valid asset or a FormatError.
 Asset read(std::span<const std::uint8_t> bytes);
 
 /// A line of a file's section table.

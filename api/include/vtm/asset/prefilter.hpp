@@ -1,11 +1,9 @@
 /// \file
 /// Minification: pyramids of exact means, built from exact coverage, and the filter that samples them.
 /// Masks cannot be averaged and composited afterwards, so what is averaged is the composited,
-/// premultiplied colour; coverage alone is for regions whose colour is known at run time only.
+/// premultiplied colour.
 /// Sources: Ray et al. 2005 (mipmap of the classification function); the rest is ours: docs/prefilter.md.
 #pragma once
-
-#include <functional>
 
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
@@ -38,13 +36,6 @@ PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& option
 Prefilter buildPrefilter(const AssetView& asset, const PrefilterOptions& options = {});
 /// Of a given size. Throws std::invalid_argument if that is not allowed.
 Prefilter buildPrefilter(const AssetView& asset, PyramidSize size, unsigned threads = 0);
-
-/// The share of each texel in which `isInside(paint)` holds, for every index of Asset::paints: what blends a
-/// region of a run-time material with the rest of the picture where it is minified. Throws
-/// std::invalid_argument for a size that is not allowed, or an asset of compat mode, which has no regions.
-CoveragePyramid buildCoveragePyramid(const AssetView& asset, PyramidSize size,
-                                     const std::function<bool(std::uint32_t paint)>& isInside,
-                                     unsigned threads = 0);
 
 // ---- Sampling -------------------------------------------------------------------------------------
 

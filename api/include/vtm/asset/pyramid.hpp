@@ -54,10 +54,4 @@ struct PrefilterView {
     std::span<const Rgba8> texels;
 };
 
-/// The share of each texel that a set of regions covers, in 255ths; laid out likewise.
-struct CoveragePyramid {
-    PyramidSize size;
-    std::vector<std::uint8_t> texels;
-};
-
 }  // namespace vtm::asset
