@@ -9,6 +9,8 @@
 
 #include <vtm/asset/container.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// Maps a file read-only and validates it; its records are used where they lie, none is copied. Pictures
@@ -34,3 +36,5 @@ private:
 };
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

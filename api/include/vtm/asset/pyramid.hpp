@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// Largest side of a pyramid, texels.
@@ -61,3 +63,5 @@ struct CoveragePyramid {
 };
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop
