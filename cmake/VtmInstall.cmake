@@ -32,7 +32,11 @@ vtm_install_pkgconfig(vtm "${PROJECT_DESCRIPTION}" LIBDIR ${CMAKE_INSTALL_LIBDIR
 if(TARGET libvtm_gl)
     set_target_properties(libvtm_gl PROPERTIES EXPORT_NAME gl)
     vtm_install_library(gl ${CMAKE_INSTALL_LIBDIR} libvtm_gl)
-    vtm_install_pkgconfig(vtm-gl "VTM's pictures in OpenGL ES" LIBDIR ${CMAKE_INSTALL_LIBDIR} REQUIRES vtm LIBS -lvtm_gl
+    if(NOT BUILD_SHARED_LIBS)
+        set(entry -Wl,--undefined=vtm_gl_draw)  # as in api/gl/CMakeLists.txt
+    endif()
+    vtm_install_pkgconfig(vtm-gl "VTM's pictures in OpenGL ES" LIBDIR ${CMAKE_INSTALL_LIBDIR} REQUIRES vtm
+        LIBS -lvtm_gl ${entry}
         PRIVATE -lEGL -lGLESv2)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/api/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)

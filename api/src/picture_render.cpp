@@ -68,7 +68,9 @@ Shot shotOf(const RenderOptions& options, double pictureWidth, double pictureHei
     if (const auto& m = options.matrix) {
         checkSize(*options.width, *options.height);
         const scene::Affine toPixels{(*m)[0], (*m)[1], (*m)[2], (*m)[3], (*m)[4], (*m)[5]};
-        return {{*options.width, *options.height, toPixels}, std::nullopt};
+        const asset::View view{*options.width, *options.height, toPixels};
+        asset::validate(view);
+        return {view, std::nullopt};
     }
     const scene::Frame frame = scene::frame({.width = options.width,
                                              .height = options.height,

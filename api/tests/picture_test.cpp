@@ -158,6 +158,8 @@ TEST(Picture, OptionsThatContradictThemselvesAreRefused) {
                  std::invalid_argument);
     EXPECT_THROW(picture.render({.width = 20000}), std::length_error);
     EXPECT_THROW(picture.render({.scale = 1e300}), std::length_error);
+    EXPECT_THROW(picture.render({.width = 2, .height = 2, .matrix = {{1e300, 0, 0, 1e300, 0, 0}}}),
+                 std::length_error);
     EXPECT_EQ(row(picture.render({.width = 2, .height = 1, .matrix = {{0, 0, 0, 0, 0, 0}}}), 0), "none none");
 }
 

@@ -144,7 +144,7 @@ class Check:
 
     def build_consumer(self, name, prefix):
         """By find_package."""
-        build = self.configure(f"{name}_build", "-DVTM_FROM=find_package", "-DWITH_ALL=ON", f"-DCMAKE_PREFIX_PATH={prefix}",
+        build = self.configure(f"{name}_build", "-DVTM_FROM=find_package", "-DVTM_COMPONENTS=gl;openvg", f"-DCMAKE_PREFIX_PATH={prefix}",
                                "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF")
         found = re.search(r"^vtm_DIR:\w+=(.*)$", (build / "CMakeCache.txt").read_text(), re.M)[1]
         require(pathlib.Path(found).is_relative_to(prefix), f"found {found} instead of the one in {prefix}")
