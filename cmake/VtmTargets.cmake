@@ -22,7 +22,9 @@ function(vtm_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK" ${ARGN})
     add_library(vtm_${name} STATIC ${ARG_SOURCES})
     add_library(vtm::${name} ALIAS vtm_${name})
-    set_target_properties(vtm_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    # Public headers make what they declare visible; nothing else leaves the libraries that are made of these.
+    set_target_properties(vtm_${name} PROPERTIES
+        POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     # Nobody replaces single functions of ours when a program is loaded, so they may be inlined where they are public.
     target_compile_options(vtm_${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>")
     target_link_libraries(vtm_${name} PUBLIC vtm_settings ${ARG_DEPENDS} PRIVATE vtm_warnings ${ARG_LINK})
@@ -41,7 +43,10 @@ function(vtm_test name)
 endfunction()
 
 # Debian's own Python first: the numpy and Pillow that ./dev setup installs live there.
-find_program(VTM_PYTHON NAMES python3 HINTS /usr/bin REQUIRED)
+find_program(VTM_PYTHON NAMES python3 HINTS /usr/bin)
+if((VTM_BUILD_TESTS OR VTM_BUILD_BENCH) AND NOT VTM_PYTHON)
+    message(FATAL_ERROR "tests and benchmarks need Python 3; without them: -DVTM_BUILD_TESTS=OFF -DVTM_BUILD_BENCH=OFF")
+endif()
 
 # vtm_script_test(name script.py arguments...): a Python test; exit code 77 means skipped.
 function(vtm_script_test name script)

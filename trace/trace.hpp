@@ -4,8 +4,7 @@
 /// works as if it were not there.
 #pragma once
 
-#include <stdexcept>
-
+#include <vtm/error.hpp>
 #include <vtm/image/bitmap.hpp>
 #include <vtm/scene/scene.hpp>
 
@@ -21,8 +20,8 @@ struct Options {
 };
 
 /// Says why nothing can be traced: options out of range, an empty picture, no potrace.
-class TraceError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+class TraceError : public Error {
+    using Error::Error;
 };
 
 /// Whether potrace was built in.

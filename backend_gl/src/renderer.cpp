@@ -250,7 +250,7 @@ Texture Renderer::upload(const asset::AssetView& asset) {
         if (texture->features.has(Features::Material))
             asset.mode == asset::Mode::Exact ? programs.patch(texture->features, texture->materialSet, {})
                                              : programs.fill(texture->features, texture->materialSet);
-        return Texture(std::move(texture));
+        return Texture(std::move(texture), *this);
     });
 }
 

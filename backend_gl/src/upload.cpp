@@ -93,10 +93,28 @@ void UploadedAsset::uploadPlacements(std::uint32_t first, std::uint32_t last) {
                     &placements[firstRow * mapsPerRow]);
 }
 
-Texture::Texture(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Texture::Texture(std::unique_ptr<Impl> impl, Renderer& renderer)
+    : renderer_(&renderer), impl_(std::move(impl)) {}
+
+Texture::Texture(const asset::AssetView& asset, const RendererOptions& options)
+    : own_(std::make_unique<Renderer>(options)),
+      renderer_(own_.get()),
+      impl_(std::move(own_->upload(asset).impl_)) {}
+
 Texture::~Texture() = default;
-std::optional<double> Texture::finestPixel() const { return impl_->finestPixel; }
 Texture::Texture(Texture&&) noexcept = default;
-Texture& Texture::operator=(Texture&&) noexcept = default;
+
+Texture& Texture::operator=(Texture&& other) noexcept {
+    impl_ = std::move(other.impl_);  // the old one before its renderer
+    own_ = std::move(other.own_);
+    renderer_ = other.renderer_;
+    return *this;
+}
+
+void Texture::draw(const asset::View& view, const Output& output) const {
+    renderer_->draw(*this, view, output);
+}
+
+std::optional<double> Texture::finestPixel() const { return impl_->finestPixel; }
 
 }  // namespace vtm::gl

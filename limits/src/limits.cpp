@@ -74,7 +74,7 @@ bool needsWatcher(const Limits& l) { return l.seconds > 0 || l.memoryBytes > 0 |
 }  // namespace
 
 Exceeded::Exceeded(Limit limit, double value, std::string stage, Place place)
-    : std::runtime_error(message(limit, value, stage, place)),
+    : Error(message(limit, value, stage, place)),
       limit_(limit),
       value_(value),
       stage_(std::move(stage)),

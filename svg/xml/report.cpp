@@ -15,7 +15,7 @@ constexpr const char* moreAreLeftOut = "more warnings are left out";
 }  // namespace
 
 ParseError::ParseError(Location where, const std::string& what)
-    : std::runtime_error(fmt::format("{}:{}:{}: {}", where.file, where.line, where.column, what)),
+    : Error(fmt::format("{}:{}:{}: {}", where.file, where.line, where.column, what)),
       where_(std::move(where)) {}
 
 SourceMap::SourceMap(std::string fileName, std::string_view source)

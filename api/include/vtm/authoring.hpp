@@ -17,6 +17,8 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/scene/scene.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm {
 
 /// Where a mask is inside. Its path must be there.
@@ -106,3 +108,5 @@ struct VtmNode {
 compiler::Result compile(const Vtm& vtm, double width, double height, const compiler::Options& options = {});
 
 }  // namespace vtm
+
+#pragma GCC visibility pop

@@ -19,6 +19,8 @@
 #include <vtm/asset/pyramid.hpp>
 #include <vtm/image/bitmap.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// One RGBA32UI texel.
@@ -335,3 +337,5 @@ struct Summary {
 Summary summarize(const AssetView& asset);
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

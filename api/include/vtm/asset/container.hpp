@@ -4,17 +4,19 @@
 
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/error.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::asset {
 
 /// Says what is wrong with the bytes and where: an offset, a section, a record.
-class FormatError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+class FormatError : public Error {
+    using Error::Error;
 };
 
 /// Throws FormatError where read() would refuse the file: write() validates first, by the same rules.
@@ -47,3 +49,5 @@ std::vector<SectionInfo> sectionsOf(std::span<const std::uint8_t> bytes);
 void validate(const AssetView& asset);
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

@@ -11,6 +11,8 @@
 #include <vtm/asset/asset.hpp>
 #include <vtm/asset/view.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// The premultiplied colour of Asset::materials[material] at point p of its own space: the twin of its GLSL.
@@ -26,3 +28,5 @@ image::Raster evaluateAsShaders(const AssetView& asset, const View& view,
                                 const MaterialFunction& materials = {});
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

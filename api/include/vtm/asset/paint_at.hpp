@@ -8,6 +8,8 @@
 
 #include <vtm/asset/asset.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// The paint index at a point of the plane of an exact asset, picture units; 0 outside its maps. `asset` must
@@ -17,3 +19,5 @@ namespace vtm::asset {
 std::uint32_t paintAt(const AssetView& asset, glm::dvec2 point);
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

@@ -11,6 +11,8 @@
 
 #include <vtm/asset/asset.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 // ---- Building -------------------------------------------------------------------------------------
@@ -70,3 +72,5 @@ glm::vec4 samplePrefilter(const AssetView& asset, glm::vec2 st, const glm::mat2&
                           Minification filter = Minification::Taps4, Wrap wrap = Wrap::Border);
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

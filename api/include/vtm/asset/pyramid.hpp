@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// Largest side of a pyramid, texels.
@@ -55,3 +57,5 @@ struct PrefilterView {
 };
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

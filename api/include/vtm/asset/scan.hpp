@@ -18,6 +18,8 @@
 #include <vtm/asset/evaluate.hpp>
 #include <vtm/asset/view.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// Premultiplied bytes red, green, blue, alpha, in the scanner's numbers; rows from the top.
@@ -66,3 +68,5 @@ private:
 };
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

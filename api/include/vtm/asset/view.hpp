@@ -4,6 +4,8 @@
 
 #include <glm/mat3x2.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::asset {
 
 /// A raster of `width` by `height` pixels. `toPixels` maps picture coordinates to pixel coordinates:
@@ -25,3 +27,5 @@ inline constexpr double maxViewNumber = 1e18;
 void validate(const View& view);
 
 }  // namespace vtm::asset
+
+#pragma GCC visibility pop

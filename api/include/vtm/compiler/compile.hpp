@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/error.hpp>
 #include <vtm/scene/scene.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::compiler {
 
@@ -63,11 +65,13 @@ struct Result {
 };
 
 /// The scene asks for more than a stated limit allows; says which.
-class LimitError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+class LimitError : public Error {
+    using Error::Error;
 };
 
 /// Throws scene::InvalidScene, LimitError, std::invalid_argument (options out of range).
 Result compile(const scene::Scene& scene, const Options& options = {});
 
 }  // namespace vtm::compiler
+
+#pragma GCC visibility pop

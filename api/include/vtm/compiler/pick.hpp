@@ -15,6 +15,8 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/scene/scene.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::compiler {
 
 /// Items that one pick map can tell apart.
@@ -41,3 +43,5 @@ PickMap compilePickMap(const scene::Scene& scene, const Options& options = {});
 std::optional<std::uint32_t> itemAt(const PickMap& map, glm::dvec2 point);
 
 }  // namespace vtm::compiler
+
+#pragma GCC visibility pop

@@ -7,6 +7,8 @@
 
 #include <vtm/compiler/compile.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::compiler {
 
 /// What an update did.
@@ -49,3 +51,5 @@ private:
 };
 
 }  // namespace vtm::compiler
+
+#pragma GCC visibility pop

@@ -7,6 +7,8 @@
 #include <vtm/scene/path.hpp>
 #include <vtm/scene/stroke.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::compiler {
 
 /// Dashes of one path beyond this number are a LimitError (vtm/compiler/compile.hpp).
@@ -26,3 +28,5 @@ scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& sty
 bool hasSampledOffsets(const scene::Path& path);
 
 }  // namespace vtm::compiler
+
+#pragma GCC visibility pop

@@ -13,6 +13,8 @@
 #include <vtm/scene/fit.hpp>
 #include <vtm/scene/scene.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::compiler {
 
 /// A rectangle in user units. It may reach beyond the picture, or lie outside.
@@ -50,3 +52,5 @@ ViewResult compileView(const scene::Scene& scene, const Part& part, int width, i
 asset::View viewOf(const scene::Frame& frame);
 
 }  // namespace vtm::compiler
+
+#pragma GCC visibility pop

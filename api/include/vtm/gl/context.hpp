@@ -3,14 +3,17 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
 #include <string>
+
+#include <vtm/error.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::gl {
 
 /// What EGL or GL refused, with its error code.
-class GlError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+class GlError : public Error {
+    using Error::Error;
 };
 
 /// GL_OUT_OF_MEMORY. What was asked for is not there; the renderer goes on working.
@@ -66,3 +69,5 @@ private:
 };
 
 }  // namespace vtm::gl
+
+#pragma GCC visibility pop

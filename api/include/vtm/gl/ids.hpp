@@ -12,6 +12,8 @@
 #include <vtm/asset/view.hpp>
 #include <vtm/gl/context.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::gl {
 
 /// An exact asset on the GPU with a number for each of its paints. Belongs to its renderer's context.
@@ -55,3 +57,5 @@ private:
 };
 
 }  // namespace vtm::gl
+
+#pragma GCC visibility pop

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::gl {
 
 /// Pixels [x, x + width) × [y, y + height).
@@ -49,3 +51,5 @@ struct Output {
 };
 
 }  // namespace vtm::gl
+
+#pragma GCC visibility pop

@@ -15,24 +15,9 @@
 #include <vtm/gl/output.hpp>
 #include <vtm/image/bitmap.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::gl {
-
-/// An asset on the GPU. Belongs to the renderer that uploaded it and must not outlive it.
-class Texture {
-public:
-    ~Texture();
-    Texture(Texture&&) noexcept;
-    Texture& operator=(Texture&&) noexcept;
-
-    /// How far the picture may be magnified: asset::Asset::finestPixel.
-    std::optional<double> finestPixel() const;
-
-private:
-    friend class Renderer;
-    struct Impl;
-    explicit Texture(std::unique_ptr<Impl>);
-    std::unique_ptr<Impl> impl_;
-};
 
 /// Who makes the pixels of exact pictures that are drawn into 8-bit framebuffers without conversions.
 enum class Pixels {
@@ -68,6 +53,33 @@ struct RendererOptions {
 
     /// Returns GL's graphics reset status, 0 for none; empty: the driver's own, where it has one.
     std::function<unsigned()> resetStatus;
+};
+
+class Renderer;
+
+/// An asset on the GPU. It must not outlive the renderer that uploaded it, unless it has one of its own.
+class Texture {
+public:
+    /// With a renderer of its own, in the context that is current. Several pictures are better uploaded by
+    /// one renderer, which compiles its programs once. Throws as Renderer and Renderer::upload do.
+    explicit Texture(const asset::AssetView& asset, const RendererOptions& options = {});
+    ~Texture();
+    Texture(Texture&&) noexcept;
+    Texture& operator=(Texture&&) noexcept;
+
+    /// Renderer::draw, by the renderer that uploaded it.
+    void draw(const asset::View& view, const Output& output = {}) const;
+
+    /// How far the picture may be magnified: asset::Asset::finestPixel.
+    std::optional<double> finestPixel() const;
+
+private:
+    friend class Renderer;
+    struct Impl;
+    Texture(std::unique_ptr<Impl> impl, Renderer& renderer);
+    std::unique_ptr<Renderer> own_;  ///< outlives impl_
+    Renderer* renderer_;
+    std::unique_ptr<Impl> impl_;
 };
 
 /// Programs so far.
@@ -128,3 +140,5 @@ private:
 };
 
 }  // namespace vtm::gl
+
+#pragma GCC visibility pop

@@ -17,6 +17,8 @@
 #include <vtm/asset/prefilter.hpp>
 #include <vtm/gl/context.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::gl {
 
 /// GLSL ES 3.00 that a fragment shader has between its `#version 300 es` and its own text: the type Vtm and
@@ -66,3 +68,5 @@ private:
 };
 
 }  // namespace vtm::gl
+
+#pragma GCC visibility pop

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::image {
 
 /// 8-bit straight (not premultiplied) sRGB with alpha, rows top to bottom, no padding.
@@ -32,3 +34,5 @@ Bitmap toBitmap(const Raster& raster);
 Raster toRaster(const Bitmap& bitmap);
 
 }  // namespace vtm::image
+
+#pragma GCC visibility pop

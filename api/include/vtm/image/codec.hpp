@@ -4,17 +4,19 @@
 
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <vtm/error.hpp>
 #include <vtm/image/bitmap.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::image {
 
 /// Says what is wrong with the encoded data or the file.
-class CodecError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+class CodecError : public Error {
+    using Error::Error;
 };
 
 /// Limit on decoded pixels: width * height beyond it is an error before anything is allocated.
@@ -49,3 +51,5 @@ void writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 void removeTemporaries() noexcept;
 
 }  // namespace vtm::image
+
+#pragma GCC visibility pop

@@ -17,9 +17,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <thread>
+
+#include <vtm/error.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::limits {
 
@@ -32,7 +35,7 @@ struct Place {
 enum class Limit { Seconds, Memory, Cancelled };
 
 /// A limit was passed, or the callback cancelled. What was being made is lost, nothing else.
-class Exceeded : public std::runtime_error {
+class Exceeded : public Error {
 public:
     Exceeded(Limit limit, double value, std::string stage, Place place);
     Limit limit() const { return limit_; }
@@ -192,3 +195,5 @@ void progress(double done);
 std::size_t residentBytes();
 
 }  // namespace vtm::limits
+
+#pragma GCC visibility pop

@@ -7,6 +7,8 @@
 #include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::scene {
 
 /// SVG's matrix(a b c d e f): columns (a b), (c d), (e f); maps p to M·(p, 1).
@@ -27,3 +29,5 @@ Affine translation(double x, double y);
 Affine scaling(double x, double y);
 
 }  // namespace vtm::scene
+
+#pragma GCC visibility pop

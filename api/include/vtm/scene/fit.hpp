@@ -9,6 +9,8 @@
 #include <vtm/scene/affine.hpp>
 #include <vtm/scene/path.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::scene {
 
 /// From (x, y), y downwards; of user units or of pixels.
@@ -73,3 +75,5 @@ struct Frame {
 Frame frame(const Framing& framing, double pictureWidth, double pictureHeight);
 
 }  // namespace vtm::scene
+
+#pragma GCC visibility pop

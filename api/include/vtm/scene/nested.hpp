@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::scene {
 
 namespace detail {
@@ -33,3 +35,5 @@ public:
 };
 
 }  // namespace vtm::scene
+
+#pragma GCC visibility pop

@@ -13,6 +13,8 @@
 #include <vtm/scene/nested.hpp>
 #include <vtm/scene/path.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::scene {
 
 struct Group;
@@ -91,3 +93,5 @@ inline constexpr std::size_t maxMaterialName = 64, maxMaterialText = 65536;  ///
 using Paint = std::variant<Color, LinearGradient, RadialGradient, Pattern, ImagePaint, Material>;
 
 }  // namespace vtm::scene
+
+#pragma GCC visibility pop

@@ -11,6 +11,8 @@
 
 #include <glm/vec2.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::scene {
 
 using Point = glm::dvec2;
@@ -57,3 +59,5 @@ Path polygon(const std::vector<Point>& points);
 std::optional<Point> endOf(const Command& command);
 
 }  // namespace vtm::scene
+
+#pragma GCC visibility pop

@@ -7,17 +7,19 @@
 
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include <vtm/error.hpp>
 #include <vtm/limits/limits.hpp>
 #include <vtm/scene/affine.hpp>
 #include <vtm/scene/nested.hpp>
 #include <vtm/scene/paint.hpp>
 #include <vtm/scene/path.hpp>
 #include <vtm/scene/stroke.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::scene {
 
@@ -138,8 +140,8 @@ struct Scene {
 };
 
 /// Says which node breaks which rule of the normal form.
-class InvalidScene : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+class InvalidScene : public Error {
+    using Error::Error;
 };
 
 /// Levels of groups, selections and clips inside each other, those of masks and patterns included.
@@ -156,3 +158,5 @@ void validate(const Scene& scene, const std::function<bool(const Path&)>& isKnow
 std::string dump(const Scene& scene);
 
 }  // namespace vtm::scene
+
+#pragma GCC visibility pop

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::scene {
 
 enum class Cap { Butt, Round, Square };
@@ -25,3 +27,5 @@ struct StrokeStyle {
 };
 
 }  // namespace vtm::scene
+
+#pragma GCC visibility pop

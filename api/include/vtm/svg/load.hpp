@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <vtm/error.hpp>
 #include <vtm/scene/scene.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::svg {
 
@@ -20,7 +22,7 @@ struct Location {
 };
 
 /// `file:line:column: what is wrong`. The document cannot be read at all.
-class ParseError : public std::runtime_error {
+class ParseError : public Error {
 public:
     ParseError(Location where, const std::string& what);
     const Location& where() const { return where_; }
@@ -80,3 +82,5 @@ struct Document {
 Document load(std::span<const std::uint8_t> bytes, const Options& options = {});
 
 }  // namespace vtm::svg
+
+#pragma GCC visibility pop

@@ -2,16 +2,18 @@
 /// Scene in, SVG out: for scenes of plain paths.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include <vtm/error.hpp>
 #include <vtm/scene/scene.hpp>
+
+#pragma GCC visibility push(default)
 
 namespace vtm::svg {
 
 /// Names the first part of a scene that is not written.
-class WriteError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+class WriteError : public Error {
+    using Error::Error;
 };
 
 /// A document of one `path` an item and one `g` a group, in the scene's units, y down. Fills, strokes,
@@ -21,3 +23,5 @@ class WriteError : public std::runtime_error {
 std::string write(const scene::Scene& scene);
 
 }  // namespace vtm::svg
+
+#pragma GCC visibility pop

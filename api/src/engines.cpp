@@ -1,0 +1,53 @@
+#include "api/src/engines.hpp"
+
+#include <dlfcn.h>
+
+#include <vtm/asset/evaluate.hpp>
+#include <vtm/error.hpp>
+#include "api/gl_entry.hpp"
+
+/// Null unless the program itself is linked with libvtm_gl.
+#pragma weak vtm_gl_draw
+
+namespace vtm {
+
+namespace {
+
+using GlDraw = bool (*)(GlRequest&);
+
+/// Beside libvtm, or where the loader looks. It stays loaded: drivers do not like to be unloaded.
+GlDraw loadGlDraw() {
+#ifdef VTM_GL_LIBRARY
+    if (void* library = dlopen(VTM_GL_LIBRARY, RTLD_NOW | RTLD_LOCAL))
+        return reinterpret_cast<GlDraw>(dlsym(library, "vtm_gl_draw"));
+#endif
+    return nullptr;
+}
+
+GlDraw findGlDraw() {
+    static const GlDraw found = vtm_gl_draw ? &vtm_gl_draw : loadGlDraw();
+    return found;
+}
+
+}  // namespace
+
+CpuEngine::CpuEngine(const asset::Asset& asset) : asset_(asset) {
+    if (asset::isSumOfMaps(asset))
+        scanner_.emplace(asset);
+}
+
+image::Raster CpuEngine::draw(const asset::View& view) const {
+    return scanner_ ? scanner_->draw(view) : asset::evaluate(asset_, view);
+}
+
+std::optional<image::Raster> drawWithGl(const asset::Asset& asset, const asset::View& view, bool required) {
+    const GlDraw draw = findGlDraw();
+    if (!draw && required)
+        throw Error("no library libvtm_gl is installed, which draws with OpenGL ES");
+    GlRequest request{asset, view, required, {}};
+    if (!draw || !draw(request))
+        return std::nullopt;
+    return std::move(request.drawn);
+}
+
+}  // namespace vtm

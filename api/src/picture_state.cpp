@@ -1,0 +1,77 @@
+#include "api/src/picture_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <vtm/compiler/view.hpp>
+
+namespace vtm {
+
+namespace {
+
+/// The shorter side of a pixel, user units.
+double pixelOf(const scene::Affine& toPixels) {
+    return 1 / std::max(glm::length(toPixels[0]), glm::length(toPixels[1]));
+}
+
+/// What a matrix shows, as compileView takes it: in pixels that are no coarser than the matrix's.
+compiler::ViewResult compileSeen(const scene::Scene& scene, const asset::View& view) {
+    const scene::Affine fromPixels = *scene::inverse(view.toPixels);
+    const scene::Point x = double(view.width) * fromPixels[0], y = double(view.height) * fromPixels[1];
+    const scene::Point min = fromPixels[2] + glm::min(x, 0.0) + glm::min(y, 0.0);
+    const scene::Point size = glm::abs(x) + glm::abs(y);
+    const double pixel = pixelOf(view.toPixels);
+    compiler::Options options;
+    constexpr double finest = 0x1p-26;  // of Options::tolerance
+    options.tolerance =
+        std::clamp(asset::finestShare * pixel / std::max(size.x, size.y), finest, options.tolerance);
+    // The raster is of the view's bounds, which are larger than the view and may be beyond the limits; the
+    // tolerance decides.
+    constexpr double maxSide = 8192;
+    const auto side = [&](double length) { return int(std::clamp(std::ceil(length / pixel), 1.0, maxSide)); };
+    compiler::ViewResult made =
+        compiler::compileView(scene, {min.x, min.y, size.x, size.y}, side(size.x), side(size.y), options);
+    made.view = view;
+    made.view.toPixels = scene::compose(view.toPixels, *scene::inverse(made.fromScene));
+    return made;
+}
+
+}  // namespace
+
+std::shared_ptr<const Compiled> Picture::State::whole() {
+    const std::lock_guard lock(compiling_);
+    if (!whole_)
+        whole_ = take(compiler::compile(*scene));
+    return whole_;
+}
+
+Seen Picture::State::compileFor(const Shot& shot) {
+    const double needed = asset::finestShare * pixelOf(shot.view.toPixels) / std::max(width, height);
+    if (!scene || needed >= compiler::Options().tolerance || !scene::inverse(shot.view.toPixels))
+        return {whole(), shot.view};
+    compiler::ViewResult made =
+        shot.frame ? compiler::compileView(*scene, *shot.frame) : compileSeen(*scene, shot.view);
+    return {take(std::move(made.result)), made.view};
+}
+
+std::shared_ptr<const Compiled> Picture::State::take(compiler::Result result) {
+    for (std::string& warning : result.warnings)
+        warn(std::move(warning));
+    return std::make_shared<const Compiled>(std::move(result.asset));
+}
+
+void Picture::State::warn(std::string message) {
+    const std::lock_guard lock(warning_);
+    if (std::find(warnings_.begin(), warnings_.end(), message) == warnings_.end())
+        warnings_.push_back(std::move(message));
+}
+
+std::vector<std::string> Picture::State::warnings() {
+    const std::lock_guard lock(warning_);
+    return warnings_;
+}
+
+}  // namespace vtm

@@ -1,0 +1,60 @@
+/// \file
+/// What a Picture holds, and how it compiles for a view.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include <vtm/asset/view.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/scene/scene.hpp>
+#include <vtm/vtm.hpp>
+#include "api/src/engines.hpp"
+
+namespace vtm {
+
+/// A raster, and the map from user units to its pixels.
+struct Shot {
+    asset::View view;
+    std::optional<scene::Frame> frame;  ///< not where the caller gave a matrix
+};
+
+/// A compiled picture. Its engine points into it.
+struct Compiled {
+    explicit Compiled(asset::Asset made) : asset(std::move(made)), cpu(asset) {}
+    Compiled(const Compiled&) = delete;
+    Compiled& operator=(const Compiled&) = delete;
+
+    const asset::Asset asset;
+    const CpuEngine cpu;
+};
+
+/// What draws a shot.
+struct Seen {
+    std::shared_ptr<const Compiled> compiled;
+    asset::View view;
+};
+
+struct __attribute__((visibility("hidden"))) Picture::State {
+    double width = 0, height = 0;
+    std::optional<scene::Scene> scene;  ///< not where the picture was loaded compiled
+
+    std::shared_ptr<const Compiled> whole();
+    /// Fine enough, if the scene is there.
+    Seen compileFor(const Shot& shot);
+    void warn(std::string message);
+    std::vector<std::string> warnings();
+
+private:
+    friend class Picture;
+    std::shared_ptr<const Compiled> take(compiler::Result result);
+    std::mutex compiling_, warning_;
+    std::shared_ptr<const Compiled> whole_;
+    std::vector<std::string> warnings_;
+};
+
+/// Throws std::invalid_argument, std::length_error.
+Shot shotOf(const RenderOptions& options, double pictureWidth, double pictureHeight);
+
+}  // namespace vtm
