@@ -39,7 +39,7 @@ Cell cellAt(vec2 pixel) {
     // A patch of one paint has no cells: what stands there is another patch's.
     texel = isFlatPatch() ? uvec4(0u) : texel;
     uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;
-    return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) / side);
+    return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) / side - referenceShift * patchStep);
 }
 
 // References, as a texel of them.

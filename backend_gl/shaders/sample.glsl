@@ -127,6 +127,9 @@ bool isMirrored(int wrapping, float copy) {
     return wrapping == wrapMirror && abs(copy - 2.0 * floor(copy * 0.5)) > 0.5;
 }
 
+// The largest float below 1: whatever a square's side, it lies in the tree's last cell.
+const float lastPlace = 1.0 - 1.0 / 16777216.0;
+
 // Adds what the tree has of the footprint; gives up where no turns are left.
 void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
     vec2 scale = vtm.size / vtm.square.z, offset = -vtm.square.xy / vtm.square.z;
@@ -143,7 +146,10 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
             vec2 least = max(st - halfBox, 0.0), most = min(st + halfBox, 1.0);
             if (any(greaterThan(least, most)))
                 continue;
-            Tile tile = Tile(st * scale + offset, halfBox * scale, least * scale + offset, most * scale + offset,
+            // A box that only touches the picture's end has no cell beyond it.
+            least = clamp(least * scale + offset, 0.0, lastPlace);
+            most = clamp(most * scale + offset, 0.0, 1.0);
+            Tile tile = Tile(st * scale + offset, halfBox * scale, least, most,
                              mat2(toBox[0] * turned.x, toBox[1] * turned.y),
                              mat3x2(footprint.sides[0], footprint.sides[1], picturePoint(vtm, st * scale + offset)), 1.0);
             tile.turn = cross2(tile.toBox[0], tile.toBox[1]) < 0.0 ? -1.0 : 1.0;

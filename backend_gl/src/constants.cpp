@@ -42,7 +42,8 @@ std::string patches() {
            constant("moreBit", moreBit) + constant("wideBit", wideBit) + constant("crowdedBit", crowdedBit) +
            constant("referencesMask", referencesMask) + constant("patchCellsLog2", patchCellsLog2) +
            fmt::format("const float patchStep = {:.17g};\nconst float patchSlopeScale = {:.1f};\n",
-                       std::ldexp(1.0, -int(patchStepLog2)), patchSlopeScale);
+                       std::ldexp(1.0, -int(patchStepLog2)), patchSlopeScale) +
+           fmt::format("const vec2 referenceShift = vec2({}, {});\n", referenceShiftX, referenceShiftY);
 }
 
 std::string paperMode() {

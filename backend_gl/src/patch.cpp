@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -10,6 +11,7 @@
 #include <vtm/limits/limits.hpp>
 #include "asset/steepness.hpp"
 #include "backend_gl/src/patch_pieces.hpp"
+#include "backend_gl/src/patch_references.hpp"
 #include "backend_gl/src/patch_texels.hpp"
 #include "backend_gl/src/patch_turns.hpp"
 #include "backend_gl/src/rough_cells.hpp"
@@ -26,14 +28,6 @@ using glm::dvec2;
 
 /// Cells a side.
 constexpr int cellCount = 1 << patchCellsLog2;
-constexpr double cellSize = 1.0 / cellCount;
-
-/// Squared distance from a point to a chord.
-double distance2(dvec2 a, dvec2 d, double inverseLength2, dvec2 point) {
-    const dvec2 q = point - a;
-    const dvec2 gap = q - std::clamp(glm::dot(q, d) * inverseLength2, 0.0, 1.0) * d;
-    return glm::dot(gap, gap);
-}
 
 // ---- Lists ----------------------------------------------------------------------------------------
 
@@ -98,45 +92,7 @@ Lists listsOf(const std::vector<PlanarPiece>& pieces, double margin) {
     return lists;
 }
 
-// ---- Reference points -----------------------------------------------------------------------------
-
-/// How far a point is from being on the other side of a piece's curve or chord.
-double clearance2(const PlanarPiece& p, dvec2 point) {
-    const dvec2 d = p.b - p.a;
-    const double length2 = glm::dot(d, d);
-    double clear = distance2(p.a, d, 1 / length2, point);
-    const dvec2 q = point - p.a;
-    if (const double s = glm::dot(q, d) / length2; s > 0 && s < 1) {
-        const double gap = cross(d, q) / length2 - p.height(s);
-        clear = std::min(clear, gap * gap * length2);
-    }
-    return clear;
-}
-
-/// The first place that is this share of a cell away from all pieces is taken, else the one furthest away.
-constexpr double goodClearance = 1.0 / 16;
-
-Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& pieces,
-                      std::span<const std::uint32_t> list) {
-    // From the middle outwards.
-    static constexpr std::array<unsigned, 16> order{5, 10, 6, 9, 0, 15, 3, 12, 1, 14, 2, 13, 4, 11, 7, 8};
-    Reference best;
-    double bestClearance = -1;
-    for (const unsigned place : order) {
-        const dvec2 inCell = (dvec2(place % 4, place / 4) + 0.5) / 4.0;
-        const dvec2 point = (dvec2(column, row) + inCell) * cellSize;
-        double clear = cellSize * cellSize;
-        for (const std::uint32_t i : list)
-            clear = std::min(clear, clearance2(pieces[i], point));
-        if (clear > bestClearance) {
-            best = {point, place, 0};
-            bestClearance = clear;
-        }
-        if (clear >= cellSize * cellSize * goodClearance * goodClearance)
-            break;
-    }
-    return best;
-}
+// ---- Paints of reference points --------------------------------------------------------------------
 
 /// The net change of paint that a piece makes on the straight way from one point to another: 1 from right to
 /// left, -1 from left to right.
@@ -236,17 +192,32 @@ Patch flatPatch(const PatchSource& source, double stretch, std::uint32_t paint) 
     Patch patch;
     patch.paint = paint;
     patch.programs = asset::isProgram(source.asset.paints[paint]);
-    const std::vector<PlanarPiece> none;
-    if (!patch.programs || !HandedOver(source, stretch, true)(paint, none, {}))
-        return patch;
-    const CellWriter writer(source.asset.paints, none, patch.texels);
-    for (int cell = 0; cell < cellCount * cellCount; ++cell)
-        patch.crowded.push_back(std::uint8_t(cell));
-    patch.texels.assign(patch.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, paint}));
+    if (patch.programs && HandedOver(source, stretch, true)(paint, {}, {}))
+        return crowdedPatch(source.asset.paints);
     return patch;
 }
 
+/// A point that is clear of pieces, and its paint. Where there are pieces it lies in the first cell.
+std::optional<Reference> startOf(const PatchSource& source, const LocalPieces& local, bool isEmpty,
+                                 std::span<const PlanarPiece* const> near) {
+    const std::optional<dvec2> point = clearPoint(local, isEmpty ? 1 : cellSize, near);
+    if (!point)
+        return std::nullopt;
+    const dvec2 lattice = betweenRows(local.toLattice(*point));
+    return Reference{*point, 0, paintAt(source.asset, source.map, lattice, near)};
+}
+
 }  // namespace
+
+Patch crowdedPatch(std::span<const asset::Paint> paints) {
+    Patch patch;
+    const std::vector<PlanarPiece> none;
+    const CellWriter writer(paints, none, patch.texels);
+    for (int cell = 0; cell < cellCount * cellCount; ++cell)
+        patch.crowded.push_back(std::uint8_t(cell));
+    patch.texels.assign(patch.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
+    return patch;
+}
 
 Patch buildPatch(const PatchSource& source, const PatchPlace& place, double margin,
                  std::span<const PlanarPiece* const> near) {
@@ -255,11 +226,11 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
     const bool programs = hasPrograms(source.asset, near);
     const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
     const Lists lists = listsOf(pieces, margin);
-    const auto paintIn = [&](dvec2 point) {
-        return paintAt(source.asset, source.map, betweenRows(local.toLattice(point)), near);
-    };
+    const std::optional<Reference> start = startOf(source, local, lists.numbers.empty(), near);
+    if (!start)
+        return crowdedPatch(source.asset.paints);
     if (lists.numbers.empty())
-        return flatPatch(source, stretch, paintIn(dvec2(0.5)));
+        return flatPatch(source, stretch, start->paint);
     const HandedOver isHandedOver(source, stretch, programs);
     Patch patch;
     patch.programs = programs;
@@ -278,7 +249,7 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
             const std::size_t i = cells.size();
             Reference here = referenceIn(column, row, pieces, lists.of(i));
             if (i == 0)
-                here.paint = paintIn(here.point);
+                here.paint = walk.paintAt(here.point, *start, {}, lists.of(i));
             else if (column == 0)
                 here.paint = walk.paintAt(here.point, rowStart, lists.of(i - cellCount), lists.of(i));
             else

@@ -36,8 +36,11 @@ inline constexpr int maxPatchLevel = 2 * int(asset::maxLevel);
 
 /// Cells a side.
 inline constexpr unsigned patchCellsLog2 = 4;
-/// Reference points stand on a grid of 2^referenceLog2 a side in their cell.
+inline constexpr double cellSize = 1.0 / (1u << patchCellsLog2);  ///< patch sides
+/// Reference points stand on a grid of 2^referenceLog2 a side in their cell, moved by this: in steps of end
+/// points, so that none is an end point.
 inline constexpr unsigned referenceLog2 = 2;
+inline constexpr double referenceShiftX = 0.625, referenceShiftY = 0.25;
 /// Coordinates of end points: steps of 2^-patchStepLog2 of a patch from -1, in 18 bits.
 inline constexpr unsigned patchStepLog2 = 16, patchCoordinateBits = 18;
 /// Slopes have 12 bits; this stands for 1.
@@ -81,6 +84,9 @@ struct PatchSource {
     std::span<const asset::PaintChange> changes;  ///< by paint
     std::uint32_t maxTurns = turnsPerPixel;
 };
+
+/// All cells of which are crowded.
+Patch crowdedPatch(std::span<const asset::Paint> paints);
 
 /// `margin`: the largest distance from a pixel's centre to its corners, in patch sides, at most 1/4. `near`:
 /// at least all pieces that come nearer than that to the patch.

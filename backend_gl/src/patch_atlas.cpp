@@ -36,6 +36,14 @@ int patchLevelFor(const asset::Map& map, const asset::View& view) {
     return std::min(int(cells) - int(patchCellsLog2), maxPatchLevel);
 }
 
+/// With s and t the stretches, s² + t² is the sum of the squares of the matrix and s t its determinant, and
+/// s / t + t / s grows with the ratio.
+bool isStretched(const asset::View& view) {
+    const dvec2 x = view.toPixels[0], y = view.toPixels[1];
+    const double squares = glm::dot(x, x) + glm::dot(y, y);
+    return squares > (maxStretchRatio + 1 / maxStretchRatio) * std::abs(x.x * y.y - x.y * y.x);
+}
+
 double patchMargin() { return std::ldexp(1 / cellsPerRadius, -int(patchCellsLog2)); }
 
 PatchAtlas::PatchAtlas(const KeptAsset& asset, const asset::Map& map, std::uint32_t maxTurns)
@@ -65,7 +73,10 @@ std::vector<std::vector<const PlanarPiece*>> PatchAtlas::piecesNear(int level, g
 
 PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const PlanarPiece* const> near) {
     const PatchSource source{asset_->asset, map_, asset_->programTurns, asset_->changes, maxTurns_};
-    Patch patch = buildPatch(source, place, patchMargin(), near);
+    return this->place(buildPatch(source, place, patchMargin(), near));
+}
+
+PatchAtlas::Placed PatchAtlas::place(Patch patch) {
     if (patch.texels.empty())
         return {true, patch.programs, patch.paint, 0, 0, {}};
     Placed placed{false,           patch.programs,          0, std::uint32_t(texels_.size()),
@@ -74,12 +85,25 @@ PatchAtlas::Placed PatchAtlas::place(const PatchPlace& place, std::span<const Pl
     return placed;
 }
 
+void PatchAtlas::makeRoom() {
+    if (texels_.size() <= mostTexels)
+        return;
+    placed_.clear();
+    crowded_.reset();
+    texels_.clear();
+    uploaded_ = 0;
+}
+
+const PatchAtlas::Placed& PatchAtlas::prepareCrowded() {
+    makeRoom();
+    if (!crowded_)
+        crowded_ = place(crowdedPatch(asset_->asset.paints));
+    upload();
+    return *crowded_;
+}
+
 std::vector<const PatchAtlas::Placed*> PatchAtlas::prepare(int level, glm::i64vec2 min, glm::i64vec2 max) {
-    if (texels_.size() > mostTexels) {
-        placed_.clear();
-        texels_.clear();
-        uploaded_ = 0;
-    }
+    makeRoom();
     if (!pieces_)
         pieces_ = planarPieces(asset_->asset, map_);
     std::vector<std::vector<const PlanarPiece*>> near;

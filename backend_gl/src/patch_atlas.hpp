@@ -20,6 +20,15 @@ int patchLevelFor(const asset::Map& map, const asset::View& view);
 /// The largest of those radii, patch sides.
 double patchMargin();
 
+/// The ratio ρ of a view's largest stretch to its smallest up to which patches are exact. A patch is less
+/// than 64 of the pixels' longer sides wide, and 64 ρ of the shorter ones. So rounded ends, half a step each
+/// way, are off by 64 ρ · 2^-17 · sqrt(2) = 0.0007 ρ pixels at most, which is 0.25 ρ / 255 of a pixel that a
+/// boundary runs through; a slope's rounding, 7e-5 of 0.75 patches, by 0.9 ρ / 255 in the middle of the
+/// longest curve; and where a curve leaves its tangent within a pixel by `flatEnough` ρ = 0.006 ρ, by
+/// (0.006 ρ)². That is 3.5/255 for ρ = 3 at the worst.
+inline constexpr double maxStretchRatio = 3;
+bool isStretched(const asset::View& view);
+
 class PatchAtlas {
 public:
     /// `asset` must outlive it. A cell that would take more than `maxTurns` is crowded.
@@ -35,6 +44,12 @@ public:
     };
     /// All squares of a level that meet [min, max], in patches, row by row. May move the texture.
     std::vector<const Placed*> prepare(int level, glm::i64vec2 min, glm::i64vec2 max);
+    /// One that is crowded all over. May move the texture.
+    const Placed& prepareCrowded();
+    /// Whether patches do not suffice for a view. They do where the scanner lacks the colours of materials.
+    bool isScanned(const asset::View& view) const {
+        return asset_->asset.materials.empty() && isStretched(view);
+    }
 
     const asset::Map& map() const { return map_; }
     const TextureHandle& texture() const { return texture_; }
@@ -42,6 +57,8 @@ public:
 
 private:
     Placed place(const PatchPlace& place, std::span<const PlanarPiece* const> near);
+    Placed place(Patch patch);
+    void makeRoom();
     std::vector<std::vector<const PlanarPiece*>> piecesNear(int level, glm::i64vec2 min,
                                                             glm::i64vec2 max) const;
     void upload();
@@ -53,6 +70,7 @@ private:
     std::optional<std::vector<PlanarPiece>> pieces_;  ///< once a view has asked
 
     std::map<PatchPlace, Placed> placed_;
+    std::optional<Placed> crowded_;
     std::vector<asset::Texel> texels_;
     std::size_t uploaded_ = 0, capacity_ = 0;
     TextureHandle texture_;

@@ -53,10 +53,15 @@ LocalPieces::LocalPieces(const PatchPlace& place, double margin, std::span<const
         add(*piece);
 }
 
-void LocalPieces::add(const PlanarPiece& piece) {
+PlanarPiece LocalPieces::toPatch(const PlanarPiece& piece) const {
     PlanarPiece local = piece;
     local.a = (piece.a - corner_) / side_;
     local.b = (piece.b - corner_) / side_;
+    return local;
+}
+
+void LocalPieces::add(const PlanarPiece& piece) {
+    const PlanarPiece local = toPatch(piece);
     const double length = glm::length(local.b - local.a);
     const double parts =
         std::max(length <= longestPiece ? 1.0 : std::max(fewestParts, std::ceil(length / longestPart)),

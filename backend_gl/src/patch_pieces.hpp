@@ -23,6 +23,8 @@ public:
 
     const std::vector<PlanarPiece>& pieces() const { return pieces_; }
     glm::dvec2 toLattice(glm::dvec2 local) const { return corner_ + local * side_; }
+    /// In patch coordinates, not rounded.
+    PlanarPiece toPatch(const PlanarPiece& piece) const;
 
 private:
     void add(const PlanarPiece& piece);

@@ -73,16 +73,21 @@ public:
     /// Pixels of the box that a square's cell can show in.
     PixelBox pixelsOfCell(i64vec2 at, unsigned cell) const {
         constexpr unsigned cells = 1u << patchCellsLog2;
-        const dvec2 corner = dvec2(at) + dvec2(cell % cells, cell / cells) / double(cells);
-        const auto [least, most] = bounds(corner, 1.0 / cells);
+        return pixelsOf(dvec2(at) + dvec2(cell % cells, cell / cells) * cellSize, cellSize);
+    }
+    /// ... and the first square.
+    PixelBox pixelsOfFirst() const { return pixelsOf({0, 0}, 1); }
+
+    i64vec2 min, max;
+
+private:
+    PixelBox pixelsOf(dvec2 corner, double side) const {
+        const auto [least, most] = bounds(corner, side);
         const dvec2 first(box_.min), end(box_.max);
         return {glm::ivec2(glm::clamp(glm::floor(least), first, end)),
                 glm::ivec2(glm::clamp(glm::ceil(most), first, end))};
     }
 
-    i64vec2 min, max;
-
-private:
     /// The least and the largest pixel coordinates of a square, whose corner and side are in patches.
     std::pair<dvec2, dvec2> bounds(dvec2 corner, double side) const {
         dvec2 least(HUGE_VAL), most(-HUGE_VAL);
@@ -100,16 +105,21 @@ private:
     PixelBox box_;
 };
 
-/// Two triangles.
-template <class Vertex>
-void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at, Vertex vertex) {
+/// Two triangles; where(corner) is a pixel.
+template <class Vertex, class Where>
+void addTriangles(std::vector<Vertex>& vertices, Vertex vertex, Where&& where) {
     for (const i64vec2 corner :
          {i64vec2(0, 0), i64vec2(1, 0), i64vec2(0, 1), i64vec2(0, 1), i64vec2(1, 0), i64vec2(1, 1)}) {
-        const dvec2 pixel = squares.pixel(at.x + corner.x, at.y + corner.y);
+        const dvec2 pixel = where(corner);
         vertex.position[0] = float(pixel.x);
         vertex.position[1] = float(pixel.y);
         vertices.push_back(vertex);
     }
+}
+
+template <class Vertex>
+void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at, const Vertex& vertex) {
+    addTriangles(vertices, vertex, [&](i64vec2 c) { return squares.pixel(at.x + c.x, at.y + c.y); });
 }
 
 struct Geometry {
@@ -153,6 +163,25 @@ Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
                 addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[patch.paint]));
         }
     return geometry;
+}
+
+/// All of the map's pixels from the scanner, as crowded ones.
+Geometry scannedGeometry(PatchAtlas& atlas, const Squares& map) {
+    Geometry geometry;
+    geometry.crowded = map.pixelsOfFirst();
+    if (geometry.crowded.empty())
+        return geometry;
+    const Placed& patch = atlas.prepareCrowded();
+    const PatchVertex vertex = patchVertex(map, patch, 0, 0);
+    addTriangles(geometry.solid, vertex, [&](i64vec2 c) {
+        const PixelBox& box = geometry.crowded;
+        return dvec2(box.min) + dvec2(c) * dvec2(box.size());
+    });
+    return geometry;
+}
+
+Geometry preparedGeometry(const UploadedAsset& asset, PatchAtlas& atlas, const Squares& squares, int level) {
+    return geometryOf(asset, squares, atlas.prepare(level, squares.min, squares.max));
 }
 
 template <class Vertex>
@@ -215,10 +244,11 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
             glEnable(GL_BLEND);
             glBlendFunc(GL_ONE, GL_ONE);
         }
-        const int level = patchLevelFor(atlas.map(), view);
+        const bool scanned = atlas.isScanned(view);
+        const int level = scanned ? 0 : patchLevelFor(atlas.map(), view);
         const Squares squares(atlas.map(), view, box, level);
-        const std::vector<const Placed*> patches = atlas.prepare(level, squares.min, squares.max);
-        const Geometry geometry = geometryOf(asset, squares, patches);
+        const Geometry geometry =
+            scanned ? scannedGeometry(atlas, squares) : preparedGeometry(asset, atlas, squares, level);
         if (!geometry.crowded.empty()) {
             const bool light = finish.has(Finish::LinearLight);
             atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);

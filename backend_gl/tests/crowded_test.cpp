@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/geometric.hpp>
 #include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
 #include "asset/testing.hpp"
@@ -80,6 +81,31 @@ TEST_F(Gl, CrowdedCellsAreScanned) {
             const image::Raster scanned = asset::Scanner(asset).draw(view);
             EXPECT_LE(worst(crowded.render(crowded.upload(asset), view), scanned), 2) << zoom;
         }
+}
+
+/// The turned view, `ratio` times as large along an axis that is turned by `axis`.
+View stretchedView(double ratio, double axis) {
+    View view = turnedView(60, 50, {30, 34}, 0.9, 0.4);
+    const glm::dvec2 along(std::cos(axis), std::sin(axis)), middle(30, 25);
+    const auto stretched = [&](glm::dvec2 v) { return v + (ratio - 1) * glm::dot(v, along) * along; };
+    for (int column : {0, 1})
+        view.toPixels[column] = stretched(view.toPixels[column]);
+    view.toPixels[2] = middle + stretched(view.toPixels[2] - middle);
+    return view;
+}
+
+/// Patches are as fine as the smaller stretch asks for; beyond maxStretchRatio the scanner draws.
+TEST_F(Gl, StretchedViewsAreExact) {
+    for (const Asset& asset : {halfPlane(), threeRegions(), disc(), twoLevels()}) {
+        const Texture texture = renderer->upload(asset);
+        const asset::Scanner scanner(asset);
+        for (const double ratio : {1.5, 2.9, 3.1, 10.0, 300.0, 1e5})
+            for (const double axis : {0.0, 0.6, 1.6, 2.9}) {
+                const View view = stretchedView(ratio, axis);
+                EXPECT_LE(worst(renderer->render(texture, view), scanner.draw(view)), 4)
+                    << ratio << ' ' << axis;
+            }
+    }
 }
 
 TEST_F(Gl, CrowdedCellsGoIntoEveryOutput) {

@@ -131,6 +131,24 @@ TEST_F(Gl, BeyondABorderThereIsNothingAndBeyondAClampedEdgeItsColour) {
     EXPECT_NEAR(oneAxis.pixel(2, 3)[0], 1, tolerance);
 }
 
+/// Boxes that touch the picture's end without meeting it: upright, on whole pixels, on all sides.
+TEST_F(Gl, PixelsBesideAPictureShowNothing) {
+    const Asset asset = twoLevels();
+    test::TextureCanvas canvas(asset);
+    for (const bool mirrored : {false, true})
+        for (const double zoom : {1.0, 2.0}) {
+            const View view = turnedView(160, 160, {32, 32}, zoom, 0, 0, mirrored);
+            const Raster raster = canvas.draw(view);
+            const int first = 80 - int(32 * zoom), end = 80 + int(32 * zoom);
+            const auto isOutside = [&](int i) { return i < first || i >= end; };
+            for (int y = 0; y < 160; ++y)
+                for (int x = 0; x < 160; ++x)
+                    if (isOutside(x) || isOutside(y)) {
+                        EXPECT_LE(raster.pixel(x, y)[3], 1e-5) << x << ", " << y;
+                    }
+        }
+}
+
 TEST_F(Gl, MinifiedTexturesAreTheirMean) {
     const Asset asset = disc();
     const float mean = float(discRadius * discRadius * 3.14159265 / (65535.0 * 65535.0));
