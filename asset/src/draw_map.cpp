@@ -92,6 +92,7 @@ struct Drawn {
     const MaterialFunction& materials;
     float leastSteep;
     RoughBounds rough;
+    bool findsRough;  ///< whether rough pixels are looked for
 
     const AssetView& asset() const { return paints.asset(); }
     bool isSteep(std::uint32_t paint) const {
@@ -205,11 +206,13 @@ bool isCut(const AssetView& asset, Entry entry, const Overlap& overlap, const Le
                                [&](const Piece& piece) { return mayMeetPixel(frame, piece); });
 }
 
+constexpr std::array<vec2, 4> pixelCorners{vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)};
+
 /// What it means that steep paints are not the same in the quarters of a pixel, of which regions have other
 /// shares than of the whole: the sum over the quarters of (its share - the whole's) times its colour.
 vec4 quartersOf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame) {
     vec4 sum(0);
-    for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
+    for (const vec2 corner : pixelCorners) {
         const LeafFrame quarter{2.0f * frame.linear, 2.0f * frame.origin - corner};
         const PaintPlace place = placeOf(placed, frame, 0.25f + 0.5f * corner, 0.5f);
         sum += leafIntegral(drawn.asset(), entry, placed, quarter, {drawn, place, true}) -
@@ -227,8 +230,16 @@ bool isRough(const Drawn& drawn, std::uint32_t paint, bool isCut, const PlacedLe
     };
     const std::array<Float4, 4> quarters{colorAt({0.25f, 0.25f}, 0.5f), colorAt({0.75f, 0.25f}, 0.5f),
                                          colorAt({0.25f, 0.75f}, 0.5f), colorAt({0.75f, 0.75f}, 0.5f)};
-    return (isCut && drawn.rough.isRoughCut(change, quarters)) ||
-           (drawn.mayBeRough(paint) && drawn.rough.isRoughWhole(change, quarters, colorAt(vec2(0.5f), 1)));
+    if (isCut && drawn.rough.isRoughCut(change, quarters))
+        return true;
+    if (!drawn.mayBeRough(paint))
+        return false;
+    const Float4 color = colorAt(vec2(0.5f), 1);
+    if (drawn.rough.isRoughWhole(change, quarters, color))
+        return true;
+    return change.mayJump && std::ranges::any_of(pixelCorners, [&](vec2 corner) {
+               return drawn.rough.isRoughCorner(colorAt(corner, 0), color);
+           });
 }
 
 /// Whether a pixel wants to be drawn finer for any of a square's steep paints.
@@ -300,7 +311,8 @@ void addLeaf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const Pi
             const bool cut = !steep.empty() && isCut(drawn.asset(), entry, overlap, frame);
             if (cut)
                 color += quartersOf(drawn, entry, placed, frame);
-            if (!steep.empty() && !rough.at(x, y) && isRough(drawn, entry, steep, cut, placed, frame))
+            if (drawn.findsRough && !steep.empty() && !rough.at(x, y) &&
+                isRough(drawn, entry, steep, cut, placed, frame))
                 rough.mark(x, y);
             float* pixel = target.pixel(x, y);
             for (int c = 0; c < 4; ++c)
@@ -375,7 +387,8 @@ void drawColors(const Paints& paints, const Map& map, const View& view, const Ma
                 int levels, float roughness, image::Raster& colors) {
     const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
     const float leastSteep = leastSteepness(pixel);
-    const Drawn drawn{paints, PaintMeaning::Color, materials, leastSteep, roughBounds(leastSteep, roughness)};
+    const Drawn drawn{
+        paints, PaintMeaning::Color, materials, leastSteep, roughBounds(leastSteep, roughness), levels > 0};
     const RoughPixels rough = addMap(drawn, map, view, colors);
     if (levels == 0)
         return;
@@ -395,7 +408,7 @@ void drawColors(const Paints& paints, const Map& map, const View& view, const Ma
 }  // namespace
 
 void addCoverage(const Paints& paints, const Map& map, const View& view, image::Raster& target) {
-    addMap({paints, PaintMeaning::Coverage, {}, 0, {}}, map, view, target);
+    addMap({paints, PaintMeaning::Coverage, {}, 0, {}, false}, map, view, target);
 }
 
 void addColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,

@@ -33,41 +33,87 @@ Float4 colorBetween(const GradientView& gradient, std::size_t before, std::size_
 
 // ---- Means over pixels ------------------------------------------------------------------------------
 
-/// The padded ramp's integral from a to b. Between stops it is a quadratic, which Simpson's rule integrates
-/// exactly; at the same time that serves what lies before the first stop and behind the last.
-Float4 integral(const GradientView& gradient, float a, float b) {
-    std::size_t next = stopsUpTo(gradient, a);
-    Float4 sum{};
-    for (float from = a; from < b; ++next) {
-        const std::size_t before = next == 0 ? 0 : next - 1, after = std::min(next, gradient.size() - 1);
-        const float to = next == gradient.size() ? b : std::min(b, gradient.offset(after));
-        sum += (colorBetween(gradient, before, after, from) +
-                4.0f * colorBetween(gradient, before, after, 0.5f * (from + to)) +
-                colorBetween(gradient, before, after, to)) *
-               ((to - from) / 6);
-        from = to;
+/// How much of a pixel has u at a distance d from that in its middle, u being the sum of two that are even
+/// over their boxes: it rises, is flat and falls again.
+struct PixelWeight {
+    float reach, flat;  ///< |d| is at most `reach`; up to `flat` all are alike
+
+    PixelWeight(float longer, float shorter)
+        : reach(0.5f * (longer + shorter)), flat(0.5f * (longer - shorter)) {}
+
+    float at(float d) const {
+        const float rest = reach - std::abs(d), slope = reach - flat;
+        return rest < slope ? rest / slope : 1;
     }
-    return sum;
+    /// Where it bends next.
+    float bendAfter(float d) const {
+        return d < -flat ? -flat : d < flat ? flat : std::numeric_limits<float>::infinity();
+    }
+};
+
+/// A mean that grows. Differences from one colour are added, so that colours that are all alike stay what
+/// they are: blend modes may jump there.
+class WeighedMean {
+public:
+    explicit WeighedMean(Float4 base) : base_(base) {}
+
+    void add(float weight, Float4 color) {
+        sum_ += weight * (color - base_);
+        weights_ += weight;
+    }
+    Float4 mean() const { return weights_ > 0 ? base_ + sum_ / weights_ : base_; }
+
+private:
+    Float4 base_, sum_{};
+    float weights_ = 0;
+};
+
+/// Adds the padded ramp at middle + d for d from `from` to `last`. Between stops and bends it is a quadratic
+/// times a straight line, which Simpson's rule integrates exactly; at the same time that serves what lies
+/// before the first stop and behind the last.
+void add(const GradientView& gradient, float middle, float from, float last, const PixelWeight& weight,
+         WeighedMean& mean) {
+    std::size_t next = stopsUpTo(gradient, middle + from);
+    while (from < last) {
+        const std::size_t before = next == 0 ? 0 : next - 1, after = std::min(next, gradient.size() - 1);
+        const float end = next == gradient.size() ? last : std::min(last, gradient.offset(after) - middle);
+        const float to = std::min(end, weight.bendAfter(from)), sixth = (to - from) / 6;
+        const auto addAt = [&](float d, float times) {
+            mean.add(times * sixth * weight.at(d), colorBetween(gradient, before, after, middle + d));
+        };
+        if (from < to) {
+            addAt(from, 1);
+            addAt(0.5f * (from + to), 4);
+            addAt(to, 1);
+            from = to;
+        }
+        next += to == end;
+    }
 }
 
 /// A reflected ramp repeats after two, so no mean is over more; a padded one is all but two colours beyond.
 constexpr float widestPeriodic = 2, widestPadded = 1024;
 
-/// The mean from u - width / 2 to u + width / 2, width > 0.
-Float4 mean(const GradientView& gradient, float u, float width) {
+/// The mean over a pixel whose sides change u by `longer` > 0 and `shorter`, and in whose middle `color` is.
+Float4 meanOver(const GradientView& gradient, float u, float longer, float shorter, Float4 color) {
     const Spread spread = gradient.gradient().spread;
-    width = std::min(width, spread == Spread::Pad ? widestPadded : widestPeriodic);
-    if (spread == Spread::Pad)
-        return integral(gradient, u - 0.5f * width, u + 0.5f * width) / width;
-    u -= 2 * std::floor(0.5f * u);
-    const float from = u - 0.5f * width, to = u + 0.5f * width;
-    Float4 sum{};
-    for (float n = std::floor(from); n < to; ++n) {
-        const float a = std::max(from - n, 0.0f), b = std::min(to - n, 1.0f);
-        const bool isMirrored = spread == Spread::Reflect && n != 0 && n != 2;
-        sum += isMirrored ? integral(gradient, 1 - b, 1 - a) : integral(gradient, a, b);
+    const float widest = spread == Spread::Pad ? widestPadded : widestPeriodic;
+    const PixelWeight weight(std::min(longer, widest), std::min(shorter, widest));
+    WeighedMean mean(color);
+    if (spread == Spread::Pad) {
+        add(gradient, u, -weight.reach, weight.reach, weight, mean);
+    } else {
+        u -= 2 * std::floor(0.5f * u);
+        for (float n = std::floor(u - weight.reach); n < u + weight.reach; ++n) {
+            const float a = std::max(-weight.reach, n - u), b = std::min(weight.reach, n + 1 - u);
+            const bool isMirrored = spread == Spread::Reflect && std::fmod(n, 2.0f) != 0;
+            if (isMirrored)
+                add(gradient, n + 1 - u, -b, -a, weight, mean);
+            else
+                add(gradient, u - n, a, b, weight, mean);
+        }
     }
-    return sum / width;
+    return mean.mean();
 }
 
 /// Ramps narrower than this in a pixel are as good as straight there, but for stops: what interpolating
@@ -93,8 +139,7 @@ Float4 Ramp::over(float place, vec2 sides) {
     const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y);
     if (finds(place, 0.5f * (longer + shorter)))
         return at(place);
-    const float apart = shorter * 0.28867513f;  // 1 / √12
-    return 0.5f * (mean(gradient_, place - apart, longer) + mean(gradient_, place + apart, longer));
+    return meanOver(gradient_, place, longer, shorter, at(place));
 }
 
 void Ramp::find(float place) {

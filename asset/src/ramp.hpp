@@ -22,9 +22,8 @@ public:
     explicit Ramp(const GradientView& gradient)
         : gradient_(gradient), isPadded_(gradient.gradient().spread == Spread::Pad) {}
 
-    /// The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other
-    /// one's box is replaced by two points with the same variance. Where the pixel has nothing but a little
-    /// of one stretch, it is the colour in the middle.
+    /// The mean over a pixel whose sides change u by `sides`, exactly. Where the pixel has nothing but a
+    /// little of one stretch, it is the colour in the middle.
     Float4 over(float place, glm::vec2 sides);
 
     /// Over pixels none of which reaches further to either side; otherwise(i) where that is too far.

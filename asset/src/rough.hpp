@@ -49,6 +49,10 @@ inline constexpr float maxCutVariation = 0.5f;
 /// points that nobody asked for shows in them only; or if it varies by more, as above.
 inline constexpr float maxMeanDifference = 0.75f / 255, maxWholeRange = 24.0f / 255, maxWholeVariation = 1;
 
+/// Of a paint whose layers jump where no stop tells: also if one of its corners differs by so much, since a
+/// jump may pass between the middle and a corner.
+inline constexpr float maxCornerDifference = 24.0f / 255;
+
 /// The largest difference of a channel.
 inline float rangeOf(QuarterColors q) {
     float range = 0;
@@ -70,6 +74,9 @@ struct RoughBounds {
     }
     bool isRoughCut(const PaintChange& paint, QuarterColors q) const {
         return paint.variation * pixel > times * maxCutVariation || rangeOf(q) > times * maxQuarterRange;
+    }
+    bool isRoughCorner(Float4 corner, Float4 color) const {
+        return largest(corner - color) > times * maxCornerDifference;
     }
     bool isRoughWhole(const PaintChange& paint, QuarterColors q, Float4 color) const {
         return paint.variation * pixel > times * maxWholeVariation || rangeOf(q) > times * maxWholeRange ||

@@ -112,7 +112,7 @@ public:
         : of_(of),
           view_(view),
           scratch_(scratch),
-          programs_(programView(of, view_, materials, roughness)),
+          programs_(programView(of, view_, materials, roughness, finerLevels > 0)),
           finerLevels_(finerLevels) {
         scratch_.bands.clear(view.height);
         scratch_.colors.resize(view.width);
@@ -157,7 +157,7 @@ private:
             scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
         }
         programs.draw(programs_, top, rows);
-        if (!programs.rough().empty() && finerLevels_ > 0)
+        if (!programs.rough().empty())
             drawFiner(band);
         for (int row = 0; row < rows; ++row)
             scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
@@ -207,11 +207,11 @@ private:
     }
 
     static ProgramView programView(const Picture& of, const View& view, const MaterialFunction& materials,
-                                   float roughness) {
+                                   float roughness, bool findsRough) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
         const float leastSteep = leastSteepness(inverse);
-        return {
-            *of.paints, of.sums, view, inverse, leastSteep, materials, roughBounds(leastSteep, roughness)};
+        return {*of.paints, of.sums, view, inverse, leastSteep, materials, roughBounds(leastSteep, roughness),
+                findsRough};
     }
 
     const Picture& of_;

@@ -33,6 +33,7 @@ struct ProgramView {
     float leastSteep;    ///< of asset/steepness.hpp
     const MaterialFunction& materials;
     RoughBounds rough;
+    bool findsRough;  ///< whether rough pixels are looked for
 
     glm::vec2 point(glm::dvec2 pixel) const { return {inverse * (pixel - view.toPixels[2])}; }
 };
@@ -158,7 +159,7 @@ private:
         // what the quarters make better.
         const float change = float(leastSteepChange) / of.leastSteep * of.paints.changes()[paint].steepness;
         const float leastMoment = std::max(leastPart / change, leastShare);
-        const bool mayBeRough = of.rough.mayBeRough(of.paints.changes()[paint]);
+        const bool mayBeRough = of.findsRough && of.rough.mayBeRough(of.paints.changes()[paint]);
         drawWholes(of, paint, quarters_, [&](int row, int first, int end, Float4 q) {
             const float share = 0.25f * (q[0] + q[1] + q[2] + q[3]);
             const float momentX = (q[1] + q[3] - q[0] - q[2]) / 16,
@@ -188,7 +189,8 @@ private:
             Float4& pixel = *pixels_.use(cuts_[i].row, cuts_[i].x, cuts_[i].x + 1);
             for (std::size_t k = 0; k < 4; ++k)
                 pixel += cuts_[i].more[k] * colors_[4 * i + k];
-            if (cuts_[i].isCut() && of.rough.isRoughCut(of.paints.changes()[paint], quartersAt(i)))
+            if (of.findsRough && cuts_[i].isCut() &&
+                of.rough.isRoughCut(of.paints.changes()[paint], quartersAt(i)))
                 rough_.push_back({cuts_[i].row, cuts_[i].x});
         }
         if (mayBeRough)
@@ -207,6 +209,24 @@ private:
         for (std::size_t i = 0; i < cuts_.size(); ++i)
             if (of.rough.isRoughWhole(of.paints.changes()[paint], quartersAt(i), wholes_[i]))
                 rough_.push_back({cuts_[i].row, cuts_[i].x});
+        if (of.paints.changes()[paint].mayJump)
+            findRoughCorners(of, paint);
+    }
+
+    /// points_ are the cuts' middles, wholes_ their colours.
+    void findRoughCorners(const ProgramView& of, std::uint16_t paint) {
+        const glm::vec2 right = 0.5f * glm::mat2(of.inverse)[0], down = 0.5f * glm::mat2(of.inverse)[1];
+        colors_.resize(points_.size());
+        for (const glm::vec2 way : {-right - down, right - down, down - right, right + down}) {
+            corners_ = points_;
+            for (glm::vec2& corner : corners_)
+                corner += way;
+            of.paints.colors(paint, corners_, glm::mat2(0), colors_, of.materials);
+            toSums(of, colors_);
+            for (std::size_t i = 0; i < cuts_.size(); ++i)
+                if (of.rough.isRoughCorner(colors_[i], wholes_[i]))
+                    rough_.push_back({cuts_[i].row, cuts_[i].x});
+        }
     }
 
     /// While colors_ are those of the cuts' quarters.
@@ -223,7 +243,7 @@ private:
     std::vector<Share> shares_;
     std::vector<Cut> cuts_;
     std::vector<BandPixel> rough_;
-    std::vector<glm::vec2> points_;
+    std::vector<glm::vec2> points_, corners_;
     std::vector<Float4> colors_, wholes_;
     ProgramPixels pixels_;
 };

@@ -141,6 +141,91 @@ TEST(Steepness, BoundsEveryPaint) {
     EXPECT_GE(bounded, 3);
 }
 
+// ---- Near a place ---------------------------------------------------------------------------------
+
+NearChange nearOf(const std::vector<Instruction>& program, const std::vector<Texel>& data,
+                  const PixelsNear& pixels) {
+    const Asset asset = programAsset(program, data);
+    return changeNear(asset, asset.maps[0].root.payload(), pixels);
+}
+
+NearChange near(Op op, Gradient g, const std::vector<GradientStop>& stops, const PixelsNear& pixels) {
+    g.stopCount = std::uint32_t(stops.size());
+    std::vector<Texel> data;
+    addGradient(data, g, stops);
+    return nearOf({{op, Blend::Normal, 1, 0}}, data, pixels);
+}
+
+const std::vector<GradientStop> jumpAtHalf{grey(0, 0), grey(0.5f, 0), grey(0.5f, 1), grey(1, 1)};
+
+TEST(NearChange, HardStopsCountWhereTheyAre) {
+    const Gradient g = gradient(Spread::Pad, 0.1f);  // the stop lies at x = 5
+    EXPECT_FLOAT_EQ(near(Op::Linear, g, jumpAtHalf, {{4.5, 70}, 0.5, 0.1}).sum, 1);
+    EXPECT_EQ(near(Op::Linear, g, jumpAtHalf, {{4, 70}, 0.5, 0.1}).sum, 0);
+    EXPECT_EQ(near(Op::Linear, g, jumpAtHalf, {{-5, 70}, 0.5, 0.1}).sum, 0);
+    EXPECT_FLOAT_EQ(near(Op::Radial, g, jumpAtHalf, {{3, 4}, 0.1, 0.1}).sum, 1);
+    EXPECT_EQ(near(Op::Radial, g, jumpAtHalf, {{4, 4}, 0.1, 0.1}).sum, 0);
+}
+
+TEST(NearChange, PeriodsHaveTheirStopsAgain) {
+    const Gradient repeated = gradient(Spread::Repeat, 0.1f), reflected = gradient(Spread::Reflect, 0.1f);
+    for (const double x : {-5.0, 15.0, 25.0, 20.0, 0.0})
+        EXPECT_FLOAT_EQ(near(Op::Linear, repeated, jumpAtHalf, {{x, 0}, 0.5, 0.1}).sum, 1) << x;
+    for (const double x : {-5.0, 15.0, 25.0})
+        EXPECT_FLOAT_EQ(near(Op::Linear, reflected, jumpAtHalf, {{x, 0}, 0.5, 0.1}).sum, 1) << x;
+    for (const double x : {-10.0, 0.0, 10.0, 20.0})
+        EXPECT_EQ(near(Op::Linear, reflected, jumpAtHalf, {{x, 0}, 0.5, 0.1}).sum, 0) << x;
+    EXPECT_FLOAT_EQ(near(Op::Linear, repeated, jumpAtHalf, {{7.5, 0}, 50, 0.1}).sum, 2);
+}
+
+TEST(NearChange, JointIsAFourthOfTheProduct) {
+    std::vector<Texel> data;
+    Gradient g = gradient(Spread::Pad, 0.1f);
+    g.stopCount = 4;
+    const std::uint32_t ramp = addGradient(data, g, jumpAtHalf);
+    const std::vector<Instruction> twice{{Op::Linear, Blend::Normal, 1, ramp},
+                                         {Op::Linear, Blend::Normal, 0.5f, ramp}};
+    EXPECT_FLOAT_EQ(nearOf(twice, data, {{5, 0}, 0.5, 0.1}).sum, 1.5f);
+    EXPECT_FLOAT_EQ(nearOf(twice, data, {{5, 0}, 0.5, 0.1}).joint, 0.125f);
+    EXPECT_EQ(nearOf(twice, data, {{8, 0}, 0.5, 0.1}).joint, 0);
+    EXPECT_EQ(nearOf({twice[0]}, data, {{5, 0}, 0.5, 0.1}).joint, 0);
+}
+
+/// No two points of a pixel differ by more.
+TEST(NearChange, BoundsGradients) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 400; ++i) {
+        Gradient g = gradient(Spread(i % 3));
+        for (float& m : g.matrix)
+            m = 0.4f * (unit(random) - 0.5f);
+        g.fx = 0.8f * (unit(random) - 0.5f);
+        g.stopCount = 5;
+        std::vector<GradientStop> stops{grey(0, unit(random), unit(random))};
+        for (const float offset : {0.2f, 0.2f + 0.1f * unit(random), 0.7f, 1.0f})
+            stops.push_back(grey(offset, unit(random), unit(random)));
+        std::vector<Texel> data;
+        addGradient(data, g, stops);
+        const Asset asset = programAsset({{i % 2 ? Op::Linear : Op::Radial, Blend::Normal, 1, 0}}, data);
+        const Paints paints(asset);
+        const std::uint32_t paint = asset.maps[0].root.payload();
+        const vec2 middle(20 * unit(random), 20 * unit(random));
+        const float radius = 2 * unit(random), pixel = 2 * unit(random);
+        const auto inDisc = [&](float r) {
+            const float angle = 6.2831853f * unit(random);
+            return r * std::sqrt(unit(random)) * vec2(std::cos(angle), std::sin(angle));
+        };
+        const float most = changeNear(asset, paint, {middle, radius, pixel}).sum;
+        for (int k = 0; k < 200; ++k) {
+            const vec2 p = middle + inDisc(radius);
+            const glm::vec4 change = paints.color(paint, {p + inDisc(0.5f * pixel)}) -
+                                     paints.color(paint, {p + inDisc(0.5f * pixel)});
+            for (int c = 0; c < 4; ++c)
+                ASSERT_LE(std::abs(change[c]), most + 1e-4f) << i;
+        }
+    }
+}
+
 TEST(Steepness, LeastIsThatOfAPixelsLongestStep) {
     EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.5, 0, 0, 0.25)), float(2 * leastSteepChange));
     EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.6, 0.8, -0.8, 0.6)), float(leastSteepChange));
@@ -210,6 +295,52 @@ TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSteep) { expectPartsToHaveTh
 TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSmall) { expectPartsToHaveTheirColors(0.8, 3); }
 TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsAsSmallAsAPixel) { expectPartsToHaveTheirColors(1, 4); }
 
+// ---- Hard stops -----------------------------------------------------------------------------------
+
+/// What of a pixel lies where dot(p, normal) < offset: a polygon's area, by cutting the pixel.
+double shareBelow(glm::dvec2 pixel, glm::dvec2 normal, double offset) {
+    const std::array<glm::dvec2, 4> corners{pixel, pixel + glm::dvec2(1, 0), pixel + glm::dvec2(1, 1),
+                                            pixel + glm::dvec2(0, 1)};
+    std::vector<glm::dvec2> part;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % 4];
+        const double atA = glm::dot(a, normal) - offset, atB = glm::dot(b, normal) - offset;
+        if (atA < 0)
+            part.push_back(a);
+        if ((atA < 0) != (atB < 0))
+            part.push_back(a + (b - a) * (atA / (atA - atB)));
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const glm::dvec2 a = part[i], b = part[(i + 1) % part.size()];
+        area += 0.5 * (a.x * b.y - a.y * b.x);
+    }
+    return area;
+}
+
+TEST(HardStops, CutTurnedPixelsExactly) {
+    std::vector<Texel> data;
+    for (int i = 0; i < 64; ++i) {
+        const double angle = i * 0.0981 + 0.01;
+        const glm::dvec2 normal(std::cos(angle), std::sin(angle));
+        const double scale = 1.0 / (1 << i % 8), offset = 32 * (normal.x + normal.y) + 0.3;
+        Gradient g;
+        g.matrix = {float(scale * normal.x), 0, float(scale * normal.y), 0, float(0.5 - scale * offset), 0};
+        g.stopCount = 4;
+        data.clear();
+        addGradient(data, g, jumpAtHalf);
+        const Asset asset = programAsset({{Op::Linear, Blend::Normal, 1, 0}}, data);
+        const View view{64, 64, {1, 0, 0, 1, 0, 0}};
+        const image::Raster drawn = evaluate(asset, view), scanned = Scanner(asset).draw(view);
+        for (int y = 29; y < 35; ++y)
+            for (int x = 29; x < 35; ++x) {
+                const double white = 1 - shareBelow({x, y}, normal, offset);
+                ASSERT_NEAR(drawn.pixel(x, y)[0], white, 0.25 / 255) << i << ' ' << x << ' ' << y;
+                ASSERT_NEAR(scanned.pixel(x, y)[0], white, 0.25 / 255) << i << ' ' << x << ' ' << y;
+            }
+    }
+}
+
 // ---- Rough pixels ---------------------------------------------------------------------------------
 
 constexpr int truthSide = 32;
@@ -247,16 +378,10 @@ void expectMeans(const Asset& asset, double bound) {
 }
 
 TEST(Rough, BlendedLayersAreTheirMean) {
-    for (const Blend mode : {Blend::Normal, Blend::Multiply, Blend::Overlay, Blend::Difference}) {
-        SCOPED_TRACE(unsigned(mode));
-        expectMeans(blendAsset(mode), 4);
+    for (unsigned mode = 0; mode <= unsigned(Blend::PlusLighter); ++mode) {
+        SCOPED_TRACE(mode);
+        expectMeans(blendAsset(Blend(mode)), 4);
     }
-}
-/// Their colours jump, where what is below is grey or the division ends at 1, and no four points need show
-/// it.
-TEST(Rough, LayersOfModesThatJumpAreNearlyTheirMean) {
-    for (const Blend mode : {Blend::ColorDodge, Blend::Hue})
-        expectMeans(blendAsset(mode), 8);
 }
 TEST(Rough, LayersUnderAnEdgeAreTheirMean) { expectMeans(steepHalves(8), 4); }
 

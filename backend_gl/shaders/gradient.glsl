@@ -54,56 +54,79 @@ vec4 integralBetween(ASSET_IN uint from, uint to) {
 }
 #endif
 
-// The padded ramp's integral from a to b. Between stops it is a quadratic, which Simpson's rule integrates exactly; at
-// the same time that serves what lies before the first stop and behind the last.
-vec4 rampIntegral(ASSET_IN uint firstStop, uint count, float a, float b) {
-    vec4 sum = vec4(0.0);
-    float from = a;
-    for (uint next = stopsUpTo(ASSET firstStop, count, a); from < b; ++next) {
+// How much of a pixel has u at a distance d from that in its middle, u being the sum of two that are even over their
+// boxes: |d| is at most `reach`, and up to `even` all are alike.
+float pixelWeight(float d, float reach, float even) {
+    float rest = reach - abs(d), slope = reach - even;
+    return rest < slope ? rest / slope : 1.0;
+}
+
+// Adds what the padded ramp differs from a colour at middle + d for d from `from` to `last`, times weights, and the
+// weights: colours that are all alike stay what they are, where blend modes may jump. Between stops and bends of the
+// weight it is a quadratic times a straight line, which Simpson's rule integrates exactly; at the same time that serves
+// what lies before the first stop and behind the last.
+void addRamp(ASSET_IN uint firstStop, uint count, float middle, float from, float last, float reach, float even,
+             vec4 base, inout vec4 sum, inout float weights) {
+    uint next = stopsUpTo(ASSET firstStop, count, middle + from);
+    while (from < last) {
         uvec4 before = texelAt(ASSET firstStop + (next == 0u ? 0u : next - 1u));
         uvec4 after = texelAt(ASSET firstStop + min(next, count - 1u));
-        float to = next == count ? b : min(b, uintBitsToFloat(after.x));
-        sum += (colorBetween(before, after, from) + 4.0 * colorBetween(before, after, 0.5 * (from + to)) +
-                colorBetween(before, after, to)) * ((to - from) / 6.0);
-        from = to;
+        float end = next == count ? last : min(last, uintBitsToFloat(after.x) - middle);
+        float bend = from < -even ? -even : from < even ? even : last, to = min(end, bend);
+        if (from < to) {
+            float at = 0.5 * (from + to), sixth = (to - from) / 6.0;
+            vec3 shares = sixth * vec3(pixelWeight(from, reach, even), 4.0 * pixelWeight(at, reach, even),
+                                       pixelWeight(to, reach, even));
+            sum += shares.x * (colorBetween(before, after, middle + from) - base) +
+                   shares.y * (colorBetween(before, after, middle + at) - base) +
+                   shares.z * (colorBetween(before, after, middle + to) - base);
+            weights += shares.x + shares.y + shares.z;
+            from = to;
+        }
+        next += to == end ? 1u : 0u;
 #if LONG_RAMPS
-        // On to the last stop, instead of from stop to stop.
-        uint last = stopsUpTo(ASSET firstStop, from < b && count > longRamp ? count : 0u, b);
-        if (last > next + 1u) {
-            sum += integralBetween(ASSET firstStop + next, firstStop + last - 1u);
-            next = last - 1u;
-            from = uintBitsToFloat(texelAt(ASSET firstStop + next).x);
+        // On to the last stop, instead of from stop to stop: all weights are 1 there.
+        uint upTo = stopsUpTo(ASSET firstStop, from < last && count > longRamp ? count : 0u, middle + last);
+        if (upTo > next) {
+            float end = uintBitsToFloat(texelAt(ASSET firstStop + upTo - 1u).x) - middle;
+            sum += integralBetween(ASSET firstStop + next - 1u, firstStop + upTo - 1u) - (end - from) * base;
+            weights += end - from;
+            from = end;
+            next = upTo;
         }
 #endif
     }
-    return sum;
 }
 
-// The mean from u - width / 2 to u + width / 2, width > 0. A reflected ramp repeats after two, so no mean is over
-// more; a padded one is all but two colours beyond 1024.
-vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float width) {
+// The mean over a pixel whose sides change u by `longer` > 0 and `shorter`, and in whose middle `base` is. A reflected ramp
+// repeats after two, so no mean is over more; a padded one is all but two colours beyond 1024.
+vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float longer, float shorter,
+              vec4 base) {
     bool periodic = spread == spreadReflect || spread == spreadRepeat;
-    width = min(width, periodic ? 2.0 : 1024.0);
+    float widest = periodic ? 2.0 : 1024.0;
+    longer = min(longer, widest);
+    shorter = min(shorter, widest);
+    float reach = 0.5 * (longer + shorter), even = 0.5 * (longer - shorter), weights = 0.0;
     u -= periodic ? 2.0 * floor(0.5 * u) : 0.0;
-    float from = u - 0.5 * width, to = u + 0.5 * width;
     vec4 sum = vec4(0.0);
     // One turn with the whole stretch where the ramp is padded.
-    float first = periodic ? floor(from) : 0.0, last = periodic ? to : 1.0;
+    float first = periodic ? floor(u - reach) : 0.0, last = periodic ? u + reach : 1.0;
     for (float n = first; n < last; ++n) {
-        float a = periodic ? max(from - n, 0.0) : from, b = periodic ? min(to - n, 1.0) : to;
-        bool mirrored = spread == spreadReflect && n != 0.0 && n != 2.0;
-        sum += rampIntegral(ASSET firstStop, count, mirrored ? 1.0 - b : a, mirrored ? 1.0 - a : b);
+        float a = periodic ? max(-reach, n - u) : -reach, b = periodic ? min(reach, n + 1.0 - u) : reach;
+        bool mirrored = spread == spreadReflect && mod(n, 2.0) != 0.0;
+        addRamp(ASSET firstStop, count, mirrored ? n + 1.0 - u : periodic ? u - n : u, mirrored ? -b : a,
+                mirrored ? -a : b, reach, even, base, sum, weights);
     }
-    return sum / width;
+    return weights > 0.0 ? base + sum / weights : base;
 }
 
 // Ramps narrower than this in a pixel are as good as straight there, but for stops. Where alpha does not change they are
 // straight, and so beyond the ends of padded ones.
 const float straightWidth = 1.0 / 16.0;
 
-// The mean over a pixel whose sides change u by `sides`. Its longer side makes a box, exactly; the other one's box is
-// replaced by two points with the same variance. Where the pixel has nothing but a little of one stretch between two
-// stops, it is the colour in the middle.
+// The mean over a pixel whose sides change u by `sides`, exactly; of long ramps the shorter side's box is replaced by two
+// points with the same variance. Where the pixel has nothing but a little of one stretch between two stops, it is the
+// colour in the middle.
 vec4 colorOver(ASSET_IN uint firstStop, uint count, uint spread, float u, vec2 sides) {
     sides = min(abs(sides), vec2(1024.0));
     float longer = max(sides.x, sides.y), shorter = min(sides.x, sides.y), width = longer + shorter;
@@ -114,13 +137,18 @@ vec4 colorOver(ASSET_IN uint firstStop, uint count, uint spread, float u, vec2 s
     uvec4 after = texelAt(ASSET firstStop + min(upTo, count - 1u));
     bool isLine = high(before.z) == high(after.z);
     float low = upTo > 0u ? uintBitsToFloat(before.x) : 0.0, high = upTo < count ? uintBitsToFloat(after.x) : 1.0;
+    vec4 middle = colorBetween(before, after, v);
     if ((width <= straightWidth || isLine) && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
         (padded && upTo == count || unclamped + 0.5 * width <= high))
-        return colorBetween(before, after, v);
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 2; ++i)
-        sum += rampMean(ASSET firstStop, count, spread, u + (i == 0 ? -0.28867513 : 0.28867513) * shorter, longer);
-    return 0.5 * sum;
+        return middle;
+#if LONG_RAMPS
+    if (count > longRamp) {
+        float apart = 0.28867513 * shorter;  // 1 / sqrt(12)
+        return 0.5 * (rampMean(ASSET firstStop, count, spread, u - apart, longer, 0.0, middle) +
+                      rampMean(ASSET firstStop, count, spread, u + apart, longer, 0.0, middle));
+    }
+#endif
+    return rampMean(ASSET firstStop, count, spread, u, longer, shorter, middle);
 }
 
 // ---- Radial gradients

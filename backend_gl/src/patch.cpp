@@ -152,28 +152,45 @@ bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* con
         near, [&](const PlanarPiece* p) { return isProgram(p->left) || isProgram(p->right); });
 }
 
-/// Corners of a pixel are no further from its centre than `margin`, so it stretches what it maps by no more
-/// than twice that.
-double stretchOf(const PatchSource& source, const PatchPlace& place, double margin) {
-    return 2 * margin * std::ldexp(source.map.side, -place.level);
-}
+/// A patch's cells, in the picture.
+class CellPlaces {
+public:
+    CellPlaces(const PatchSource& source, const PatchPlace& place, double margin)
+        : side_(std::ldexp(source.map.side, -place.level)),
+          corner_(dvec2(source.map.x, source.map.y) + side_ * dvec2(double(place.x), double(place.y))),
+          margin_(margin * side_) {}
+
+    /// Corners of a pixel are no further from its centre than the margin, so it stretches what it maps by no
+    /// more than twice that.
+    double stretch() const { return 2 * margin_; }
+    /// The pixels with centres in a cell.
+    asset::PixelsNear pixels(int column, int row) const {
+        const double cell = cellSize * side_;
+        return {corner_ + cell * dvec2(column + 0.5, row + 0.5), std::sqrt(0.5) * cell, stretch()};
+    }
+
+private:
+    double side_;
+    dvec2 corner_;
+    double margin_;
+};
 
 /// Which cells shaders do not draw: they would take too many turns, or not be exact.
 class HandedOver {
 public:
-    HandedOver(const PatchSource& source, double stretch, bool programs)
+    HandedOver(const PatchSource& source, const CellPlaces& places, bool programs)
         : maxTurns_(source.asset.materials.empty() ? source.maxTurns : source.maxTurns * materialFactor),
           programs_(programs),
-          costs_{source.programTurns, source.changes, asset::leastSteepness(glm::dmat2(stretch))} {
+          costs_{source.programTurns, source.changes, asset::leastSteepness(glm::dmat2(places.stretch()))} {
         if (programs && source.asset.materials.empty())
-            rough_ = {source.changes, float(stretch)};
+            rough_ = RoughCells(source.asset, source.changes);
     }
 
-    bool operator()(std::uint32_t paint, const std::vector<PlanarPiece>& pieces,
-                    std::span<const std::uint32_t> list) const {
+    bool operator()(const asset::PixelsNear& pixels, std::uint32_t paint,
+                    const std::vector<PlanarPiece>& pieces, std::span<const std::uint32_t> list) const {
         const std::uint64_t turns =
             programs_ ? turnsWithPrograms(costs_, paint, pieces, list) : solidTurns(list.size());
-        return turns > maxTurns_ || rough_.mayBe(paint, pieces, list);
+        return turns > maxTurns_ || rough_.mayBe(pixels, paint, pieces, list);
     }
 
 private:
@@ -187,13 +204,26 @@ private:
     RoughCells rough_;
 };
 
-/// Of one paint: nothing but that, unless shaders do not draw it.
-Patch flatPatch(const PatchSource& source, double stretch, std::uint32_t paint) {
+/// Of one paint: nothing but that, unless there are cells that shaders do not draw.
+Patch flatPatch(const PatchSource& source, const CellPlaces& places, std::uint32_t paint) {
     Patch patch;
     patch.paint = paint;
     patch.programs = asset::isProgram(source.asset.paints[paint]);
-    if (patch.programs && HandedOver(source, stretch, true)(paint, {}, {}))
-        return crowdedPatch(source.asset.paints);
+    if (!patch.programs)
+        return patch;
+    const std::vector<PlanarPiece> none;
+    const HandedOver isHandedOver(source, places, true);
+    CellWriter writer(source.asset.paints, none, patch.texels);
+    std::vector<Texel> cells;
+    for (int cell = 0; cell < cellCount * cellCount; ++cell) {
+        const Reference here{dvec2(0.5), 0, paint};
+        const bool crowded = isHandedOver(places.pixels(cell % cellCount, cell / cellCount), paint, none, {});
+        cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
+        if (crowded)
+            patch.crowded.push_back(std::uint8_t(cell));
+    }
+    if (!patch.crowded.empty())
+        patch.texels = std::move(cells);
     return patch;
 }
 
@@ -222,7 +252,7 @@ Patch crowdedPatch(std::span<const asset::Paint> paints) {
 Patch buildPatch(const PatchSource& source, const PatchPlace& place, double margin,
                  std::span<const PlanarPiece* const> near) {
     const LocalPieces local(place, margin, near);
-    const double stretch = stretchOf(source, place, margin);
+    const CellPlaces places(source, place, margin);
     const bool programs = hasPrograms(source.asset, near);
     const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
     const Lists lists = listsOf(pieces, margin);
@@ -230,8 +260,8 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
     if (!start)
         return crowdedPatch(source.asset.paints);
     if (lists.numbers.empty())
-        return flatPatch(source, stretch, start->paint);
-    const HandedOver isHandedOver(source, stretch, programs);
+        return flatPatch(source, places, start->paint);
+    const HandedOver isHandedOver(source, places, programs);
     Patch patch;
     patch.programs = programs;
     for (const PlanarPiece& piece : pieces) {
@@ -254,7 +284,7 @@ Patch buildPatch(const PatchSource& source, const PatchPlace& place, double marg
                 here.paint = walk.paintAt(here.point, rowStart, lists.of(i - cellCount), lists.of(i));
             else
                 here.paint = walk.paintAt(here.point, last, lists.of(i - 1), lists.of(i));
-            const bool crowded = isHandedOver(here.paint, pieces, lists.of(i));
+            const bool crowded = isHandedOver(places.pixels(column, row), here.paint, pieces, lists.of(i));
             cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
             if (crowded)
                 patch.crowded.push_back(std::uint8_t(i));

@@ -18,16 +18,18 @@ constexpr std::uint32_t loop(std::uint32_t turns, std::uint32_t each = 0) { retu
 /// stopsUpTo() of gradient.glsl halves [0, count] until nothing is left.
 std::uint32_t searchTurns(std::uint32_t count) { return loop(std::uint32_t(std::bit_width(count)) + 1); }
 
-/// rampIntegral(): stretches between stops, one before and one behind them; three where sums stand for the
-/// rest.
-std::uint32_t integralTurns(std::uint32_t count) {
-    return count > longRamp ? 2 * searchTurns(count) + loop(3) : searchTurns(count) + loop(count + 1);
+/// addRamp(): stretches between stops and the weight's two bends, one before and one behind the stops; three
+/// where sums stand for the rest.
+std::uint32_t rampTurns(std::uint32_t count) {
+    return searchTurns(count) + (count > longRamp ? loop(3, searchTurns(count)) : loop(count + 3));
 }
 
-/// colorOver(): a search, and two means, each over one copy of a padded ramp or at most three of others.
+/// colorOver(): a search and a mean, of long ramps two, each over one copy of a padded ramp; of others a mean
+/// is over at most twice two periods, and a long one over two.
 std::uint32_t gradientTurns(Spread spread, std::uint32_t count) {
-    const std::uint32_t copies = spread == Spread::Pad ? 1 : 3;
-    return searchTurns(count) + loop(2, loop(copies, integralTurns(count)));
+    const bool isLong = count > longRamp;
+    const std::uint32_t copies = spread == Spread::Pad ? 1 : isLong ? 3 : 5;
+    return searchTurns(count) + (isLong ? 2 : 1) * loop(copies, rampTurns(count));
 }
 
 /// imageColor(): two levels at up to 17 points, each found from the first and read at 4, or 16 for Bicubic.

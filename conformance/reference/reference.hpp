@@ -45,9 +45,9 @@ using MaterialFunction = std::function<glm::dvec4(const scene::Material& materia
 
 struct Options {
     Mode mode = Mode::Exact;
-    /// Points a side of a pixel, in [1, 256], at which paints that vary (gradients, patterns, images)
-    /// are read where few do not do; solid colours need none, and trilinear and bicubic images have one
-    /// colour a pixel, for its centre.
+    /// Parts a side of a pixel, in [1, 256], in which paints that vary are read where few do not do:
+    /// gradients by their mean over each, patterns and images at its middle. Solid colours need none, and
+    /// trilinear and bicubic images have one colour a pixel, for its centre.
     int samples = 32;
     /// Curves lie within it of the true outlines, in pixels, > 0: half a 255th of a pixel's colour takes 2e-3
     /// along a whole side of it.

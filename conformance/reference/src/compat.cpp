@@ -91,7 +91,7 @@ struct RowCanvas {
         const int n = samplesOf(picture.shaders[std::size_t(shader)]);
         Colour sum(0);
         for (int i = 0; i < n * n; ++i)
-            sum += sampler.shade(shader, {x + (i % n + 0.5) / n, y + (i / n + 0.5) / n});
+            sum += sampler.shade(shader, {{x + (i % n + 0.5) / n, y + (i / n + 0.5) / n}, Vector(1.0 / n)});
         return sum / double(n * n);
     }
 

@@ -38,9 +38,11 @@ Mean meanOver(const Trapezoid& t, int n, Sampler& sampler) {
         const double left = t.left0 + share * (t.left1 - t.left0);
         const double width = std::max(0.0, t.right0 + share * (t.right1 - t.right0) - left);
         const int columns = std::max(1, int(std::ceil(width * n)));
+        const Vector size(width / columns, (t.y1 - t.y0) / rows);
         for (int k = 0; k < columns; ++k) {
-            const Colour colour = sampler.colourAt({left + (k + 0.5) / columns * width, y});
-            sum += colour * (width / columns);
+            const Point centre(left + (k + 0.5) * size.x, y);
+            const Colour colour = sampler.colourOver({centre, size});
+            sum += colour * size.x;
             low = glm::min(low, colour);
             high = glm::max(high, colour);
         }
@@ -57,7 +59,7 @@ public:
     void cross(int shape, int winding) override { sampler_.cross(shape, winding); }
 
     void run(int begin, int end) override {
-        const Colour colour = sampler_.colourAt({begin + 0.5, y_ + 0.5});
+        const Colour colour = sampler_.colourOver({{begin + 0.5, y_ + 0.5}});
         if (sampler_.variation() == Variation::Constant) {
             std::fill(row_ + begin, row_ + end, colour);
             return;
@@ -70,7 +72,7 @@ public:
         const double area = trapezoid.area();
         if (!(area > negligibleArea))
             return;
-        Colour colour = sampler_.colourAt(centreOf(trapezoid));
+        Colour colour = sampler_.colourOver({centreOf(trapezoid)});
         if (sampler_.variation() != Variation::Constant)
             colour = varyingColour(trapezoid);
         row_[column] += colour * area;

@@ -23,14 +23,14 @@ void toggle(std::vector<int>& ascending, int value) {
 
 }  // namespace
 
-/// Composites at a point: groups are colours on the sampler's stack.
+/// Composites over a spot: groups are colours on the sampler's stack.
 struct PointCanvas {
     Sampler& sampler;
-    Point p;
+    const Spot& spot;
 
     void open(const GroupNode&) { sampler.stack_.emplace_back(0); }
     void draw(const Layer& layer) {
-        const Colour colour = sampler.shade(layer.shader, p) * layer.opacity;
+        const Colour colour = sampler.shade(layer.shader, spot) * layer.opacity;
         sampler.stack_.back() = over(sampler.stack_.back(), colour);
     }
     void close(const GroupNode& group) {
@@ -39,7 +39,7 @@ struct PointCanvas {
         if (colour.a > 0 && group.clip != none && sampler.insideClip(group.clip) == group.outside)
             colour = Colour(0);
         if (colour.a > 0 && group.mask != none)
-            colour *= sampler.maskAt(group.mask, p);
+            colour *= sampler.maskOver(group.mask, spot);
         if (group.parent == none)
             sampler.stack_.push_back(colour);
         else
@@ -63,18 +63,18 @@ void Sampler::cross(int index, int winding) {
         toggle((shape.ofClip ? parts_ : layers_)[std::size_t(shape.owner)], shape.place);
 }
 
-Colour Sampler::colourAt(Point p) {
+Colour Sampler::colourOver(const Spot& spot) {
     variation_ = Variation::Constant;
-    return treeColour(0, p);
+    return treeColour(0, spot);
 }
 
-Colour Sampler::treeColour(int index, Point p) {
+Colour Sampler::treeColour(int index, const Spot& spot) {
     const Tree& tree = picture_.trees[std::size_t(index)];
     const std::vector<int>& layers = layers_[std::size_t(index)];
     std::size_t first = layers.size();
     while (first > 0 && !tree.layers[std::size_t(layers[--first])].hides) {
     }
-    PointCanvas canvas{*this, p};
+    PointCanvas canvas{*this, spot};
     composite(tree, std::span(layers).subspan(first), canvas);
     const Colour colour = stack_.back();
     stack_.pop_back();
@@ -91,14 +91,15 @@ bool Sampler::insideClip(int index) const {
     return inside && (clip.clip == none || insideClip(clip.clip));
 }
 
-double Sampler::maskAt(int index, Point p) {
+double Sampler::maskOver(int index, const Spot& spot) {
     const MaskNode& mask = picture_.masks[std::size_t(index)];
-    const Colour colour = treeColour(mask.tree, p);
+    const Colour colour = treeColour(mask.tree, spot);
     return mask.kind == scene::MaskKind::Alpha ? colour.a : luminance(colour, mask.linear);
 }
 
-Colour Sampler::shade(int index, Point p) {
+Colour Sampler::shade(int index, const Spot& spot) {
     const Shader& shader = picture_.shaders[std::size_t(index)];
+    const Point p = spot.centre;
     if (const auto* solid = std::get_if<SolidShader>(&shader))
         return solid->colour;
     const auto* image = std::get_if<ImageShader>(&shader);
@@ -109,9 +110,9 @@ Colour Sampler::shade(int index, Point p) {
     if (const auto* tile = std::get_if<TileShader>(&shader))
         return tileColour(index, *tile, p);
     if (const auto* linear = std::get_if<LinearShader>(&shader))
-        return linear->at(p);
+        return linear->over(spot);
     if (const auto* radial = std::get_if<RadialShader>(&shader))
-        return radial->at(p);
+        return radial->over(spot);
     if (const auto* material = std::get_if<MaterialShader>(&shader))
         return material->at(p);
     return image->at(ofAPixel ? Point(std::floor(p.x) + 0.5, std::floor(p.y) + 0.5) : p);
@@ -158,7 +159,7 @@ Colour Sampler::locate(Point p) {
     }
     for (const Edge* edge : crossed_)
         cross(edge->shape, edge->winding);
-    const Colour colour = colourAt(p);
+    const Colour colour = colourOver({p});
     for (const Edge* edge : crossed_)
         cross(edge->shape, -edge->winding);
     return colour;

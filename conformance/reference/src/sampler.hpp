@@ -1,5 +1,5 @@
 /// \file
-/// The colour of a picture at a point, given which shapes the point is inside of.
+/// The colour of a picture about a point, given which shapes the point is inside of.
 #pragma once
 
 #include <memory>
@@ -23,17 +23,18 @@ public:
 
     /// Steps over an edge of a shape. All windings are zero at first.
     void cross(int shape, int winding);
-    Colour colourAt(Point p);
+    /// Gradients are their means over the spot; all else is read at its centre.
+    Colour colourOver(const Spot& spot);
     /// Of what the last colour was made of.
     Variation variation() const { return variation_; }
-    Colour shade(int shader, Point p);
+    Colour shade(int shader, const Spot& spot);
 
 private:
     friend struct PointCanvas;
 
-    Colour treeColour(int tree, Point p);
+    Colour treeColour(int tree, const Spot& spot);
     bool insideClip(int clip) const;
-    double maskAt(int mask, Point p);
+    double maskOver(int mask, const Spot& spot);
     Colour tileColour(int shader, const TileShader& tile, Point p);
     Colour locate(Point p);
     void indexRows();

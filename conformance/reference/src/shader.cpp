@@ -7,17 +7,6 @@
 namespace vtm::reference {
 namespace {
 
-/// The offset inside [0, 1] that repeats or mirrors to; padding is left to the ramp.
-double spreadOffset(double t, scene::Spread spread) {
-    if (spread == scene::Spread::Repeat)
-        return t - std::floor(t);
-    if (spread == scene::Spread::Reflect)
-        return 1 - std::abs(t - 2 * std::floor(t / 2) - 1);
-    return t;
-}
-
-Colour straight(const scene::Color& c) { return {c.r, c.g, c.b, c.a}; }
-
 Colour premultiplied(const Colour& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
 
 Colour texel(const image::Bitmap& bitmap, double x, double y) {
@@ -66,25 +55,10 @@ double wrap(double v, double period) {
 
 }  // namespace
 
-Colour premultiplied(const scene::Color& color) { return premultiplied(straight(color)); }
-
-Colour Ramp::at(double offset) const {
-    const double t = spreadOffset(offset, spread_);
-    const auto after =
-        std::upper_bound(stops_.begin(), stops_.end(), t,
-                         [](double value, const scene::GradientStop& s) { return value < s.offset; });
-    if (after == stops_.begin())
-        return premultiplied(straight(stops_.front().color));
-    if (after == stops_.end())
-        return premultiplied(straight(stops_.back().color));
-    const auto before = after - 1;
-    const double share = (t - before->offset) / (double(after->offset) - before->offset);
-    return premultiplied(straight(before->color) * (1 - share) + straight(after->color) * share);
-}
-
-bool Ramp::isOpaque() const {
-    return std::all_of(stops_.begin(), stops_.end(),
-                       [](const scene::GradientStop& s) { return s.color.a >= 1; });
+Colour LinearShader::over(const Spot& spot) const {
+    const Vector step(dot(toPaint[0], gradient), dot(toPaint[1], gradient));
+    return ramp.over(dot(scene::apply(toPaint, spot.centre) - start, gradient),
+                     std::abs(step.x) * spot.size.x, std::abs(step.y) * spot.size.y);
 }
 
 std::optional<double> RadialShader::offsetAt(Point p) const {
@@ -106,9 +80,16 @@ std::optional<double> RadialShader::offsetAt(Point p) const {
     return hasRadius(low) ? std::optional(low) : std::nullopt;
 }
 
-Colour RadialShader::at(Point p) const {
-    const auto offset = offsetAt(scene::apply(toPaint, p));
-    return offset ? ramp.at(*offset) : Colour(0);
+Colour RadialShader::over(const Spot& spot) const {
+    const auto at = [&](double x, double y) {
+        return offsetAt(scene::apply(toPaint, spot.centre + Vector(x, y) * spot.size / 2.0));
+    };
+    const auto middle = at(0, 0), left = at(-1, 0), right = at(1, 0), top = at(0, -1), bottom = at(0, 1);
+    if (!middle)
+        return Colour(0);
+    if (!left || !right || !top || !bottom)
+        return ramp.at(*middle);
+    return ramp.over(*middle, std::abs(*right - *left), std::abs(*bottom - *top));
 }
 
 Means::Means(const image::Bitmap& bitmap, double footprint) {

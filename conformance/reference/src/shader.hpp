@@ -11,24 +11,16 @@
 #include "conformance/reference/reference.hpp"
 #include "conformance/reference/src/blend.hpp"
 #include "conformance/reference/src/geometry.hpp"
+#include "conformance/reference/src/ramp.hpp"
 
 namespace vtm::reference {
 
 struct Picture;
 
-Colour premultiplied(const scene::Color& color);
-
-class Ramp {
-public:
-    Ramp(std::vector<scene::GradientStop> stops, scene::Spread spread)
-        : stops_(std::move(stops)), spread_(spread) {}
-    /// Before the first stop its colour, after the last its. Where stops coincide the last one holds.
-    Colour at(double offset) const;
-    bool isOpaque() const;
-
-private:
-    std::vector<scene::GradientStop> stops_;
-    scene::Spread spread_;
+/// What a paint is asked for: a rectangle of the raster.
+struct Spot {
+    Point centre;
+    Vector size{0};  ///< 0: a point
 };
 
 struct SolidShader {
@@ -43,7 +35,8 @@ struct LinearShader {
     Vector gradient;  ///< of the offset
     Ramp ramp;
 
-    Colour at(Point p) const { return ramp.at(dot(scene::apply(toPaint, p) - start, gradient)); }
+    /// The mean over the spot.
+    Colour over(const Spot& spot) const;
 };
 
 /// Circles about focus + t·(center - focus) of radius focalRadius + t·(radius - focalRadius).
@@ -52,7 +45,8 @@ struct RadialShader {
     scene::RadialGradient gradient;
     Ramp ramp;
 
-    Colour at(Point p) const;
+    /// The mean over the spot, as if the offset were a straight line there.
+    Colour over(const Spot& spot) const;
     /// The largest t whose circle passes through a point of paint space and has a radius.
     std::optional<double> offsetAt(Point p) const;
 };

@@ -59,6 +59,47 @@ TEST(Paints, HardStopsInsideAPixel) {
     expectPixel(renderAt(scene, Mode::Compat), 3, 3, {0.25, 0, 0.75, 1});
 }
 
+LinearGradient redThenBlue(Point start, Point end) {
+    LinearGradient g = linear(start, end);
+    g.stops = {{0, red}, {0.5f, red}, {0.5f, blue}, {1, blue}};
+    return g;
+}
+
+TEST_P(Paints, HardStopsCutATriangleOffAPixel) {
+    // From (3, 4) to (4, 4 - 1/16): a triangle of 1/32, between the points of a grid of 8 × 8.
+    const Point middle(3, 4), across = 4.0 * Point(1.0 / 16, 1);
+    const auto raster = draw(sceneOf({{fillAll(redThenBlue(middle - across, middle + across))}}));
+    expectPixel(raster, 3, 3, {31.0 / 32, 0, 1.0 / 32, 1}, 1e-4);
+}
+
+TEST_P(Paints, HardStopsAlongARowLieBetweenPoints) {
+    const double beside = 3 + 1.0 / 64;
+    const auto across = draw(sceneOf({{fillAll(redThenBlue({beside - 4, 0}, {beside + 4, 0}))}}));
+    expectPixel(across, 3, 3, {1.0 / 64, 0, 63.0 / 64, 1});
+    const auto down = draw(sceneOf({{fillAll(redThenBlue({0, beside - 4}, {0, beside + 4}))}}));
+    expectPixel(down, 3, 3, {1.0 / 64, 0, 63.0 / 64, 1});
+}
+
+TEST(Paints, ThousandsOfStopsUnderAnEdgeAreTheirMean) {
+    // 32 red and 32 blue bands a pixel, as many as points, up to the middle of pixel 3.
+    LinearGradient g = linear({0, 0}, {8, 0});
+    g.stops.clear();
+    constexpr int bands = 8 * 64;
+    for (int i = 0; i < bands; ++i)
+        for (const int end : {i, i + 1})
+            g.stops.push_back({float(end) / bands, i % 2 == 0 ? red : blue});
+    const auto raster = renderAt(sceneOf({{fill(rectangle({0, 0}, {3.5, 8}), g)}}), Mode::Exact);
+    expectPixel(raster, 2, 3, {0.5, 0, 0.5, 1});
+    expectPixel(raster, 3, 3, {0.25, 0, 0.25, 0.5});
+}
+
+TEST(Paints, PeriodsSmallerThanASampleAreTheirMean) {
+    for (const Spread spread : {Spread::Repeat, Spread::Reflect}) {
+        const Scene scene = sceneOf({{fillAll(linear({0, 0}, {0.001, 0.002}, spread))}});
+        expectPixel(renderAt(scene, Mode::Exact), 3, 3, {0.5, 0, 0, 1}, 1e-3);
+    }
+}
+
 TEST_P(Paints, RadialGradientIsTheDistance) {
     const RadialGradient g{{4, 4}, 4, {4, 4}, 0, blackToRed, Spread::Pad, identity};
     const auto raster = draw(sceneOf({{fillAll(g)}}), 64);  // eight pixels a unit

@@ -16,10 +16,8 @@ Outcome run(const CrowdedScene& crowded, SceneSettings settings, int size, const
         svg::load({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}).scene;
     settings.views.way = ViewPlan::Way::Whole;
     settings.views.raster = size;
-    // Of very many curves in a pixel the evaluator's chords are no yardstick.
-    if (crowded.varies)
-        settings.bounds = {.twin = settings.bounds.twin};
-    else
+    // Of very many curves in a pixel the evaluator's chords are no yardstick for the others.
+    if (!crowded.varies)
         settings.bounds.twin = Bounds::any;
     SceneSubject subject(scene, settings, viewsOf(settings.views, scene, ""), setting.fault);
     return judge(subject, setting);

@@ -10,8 +10,7 @@ namespace vtm::conformance {
 struct CrowdedScene {
     const char* name;
     const char* about;
-    /// Gradients that go through many shades within a pixel: all engines read paints once for a pixel or its
-    /// quarters, which the reference does not, so they are compared with each other.
+    /// Gradients that go through many shades within a pixel: engines are also compared with each other.
     bool varies;
     std::string (*svg)();
 };
