@@ -184,13 +184,20 @@ private:
     void joinSegments(const Segment& a, const Segment& b) {
         const double angle = turn(a, b);
         if (std::abs(angle) <= std::max(sameDirection, joinShare * tolerance_ / radius_))
-            return;
+            return smoothJoin(b);
         const double sign = angle > 0 ? 1 : -1;
         outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign);
         innerJoin(angle > 0 ? ribbon_.left : ribbon_.right, a, b, sign);
         if (b.afterCusp && showsBeyond())  // the other half of the disc that the normal sweeps there
             ribbon_.beyond.push_back(
                 sector(endPoint(a), perp(endTangent(a.curve)) * (sign * radius_), angle));
+    }
+
+    /// Where a curve is tight up to its end its inner side has come to the evolute, not to the offset.
+    void smoothJoin(const Segment& b) {
+        const Point at = b.curve.p0, side = perp(startTangent(b.curve)) * radius_;
+        go(ribbon_.left, at + side);
+        go(ribbon_.right, at - side);
     }
 
     void innerJoin(Side& inner, const Segment& a, const Segment& b, double sign) const {

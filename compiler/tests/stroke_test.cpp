@@ -307,6 +307,23 @@ TEST(StrokeJoins, SmoothOnesAddNothing) {
 
 // --- edges ---------------------------------------------------------------------------------------------
 
+/// Up to its end the curve is tighter than the stroke is wide, and goes on as a line.
+TEST(StrokeJoins, LinesGoOnFromTightEnds) {
+    const Path there{MoveTo{{175, 15}}, CubicTo{{175, 30}, {175.1, 175}, {175, 175}}, LineTo{{15, 175}}};
+    const Path back{MoveTo{{15, 175}}, LineTo{{175, 175}}, CubicTo{{175.1, 175}, {175, 30}, {175, 15}}};
+    const Path arc{MoveTo{{15, 175}}, LineTo{{175, 175}}, ArcTo{{2, 2}, 0, false, false, {177, 173}},
+                   LineTo{{177, 15}}};
+    for (const Path& path : {there, back, arc})
+        for (const auto& outline :
+             {strokeOutline(path, style(20), 1e-3), strokeOutlineOfChords(path, style(20), 5e-4, 5e-4)})
+            for (const double along : {20.0, 60.0, 120.0, 160.0}) {
+                for (const double across : {-9.9, -5.0, 0.0, 5.0, 9.9})
+                    EXPECT_TRUE(inside(outline, {along, 175 + across})) << along << ' ' << across;
+                EXPECT_FALSE(inside(outline, {along, 164.9})) << along;
+                EXPECT_FALSE(inside(outline, {along, 185.1})) << along;
+            }
+}
+
 TEST(StrokeEdges, LineTakesFour) {
     EXPECT_EQ(edges(strokeOutline(polyline({{1, 2}, {30, 40}}), style(3), 1e-3)), 4u);
     EXPECT_EQ(contours(strokeOutline(polyline({{1, 2}, {30, 40}}), style(3), 1e-3)), 1u);
@@ -388,7 +405,7 @@ TEST(StrokeEdges, ChordsLieWhereTheOffsetsDo) {
         const Path outline = strokeOutlineOfChords(path, style(0.4), tolerance / 4, tolerance * 3 / 4);
         for (int i = 2; i < 1000; ++i) {
             const double t = i / 1000.0 * i / 1000.0;
-            const Point on = stroke::c.at(t), side = stroke::perp(stroke::tangentAt(c, t));
+            const Point on = c.at(t), side = stroke::perp(stroke::tangentAt(c, t));
             if (std::min(glm::distance(on, c.p0), glm::distance(on, c.p3)) < 2 * reach)
                 continue;  // by the caps
             for (const double sign : {-1.0, 1.0}) {
