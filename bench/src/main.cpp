@@ -27,21 +27,10 @@ struct Entry {
 };
 
 constexpr Entry entries[] = {
-    {"micro", "single steps: fit, quantise, push, leaves, coverage (Google Benchmark)", micro},
-    {"pipeline", "from the file to the first frame, step by step (Google Benchmark)", pipeline},
-    {"startup", "context, programs, first frame; shader caches cold and warm", startup},
-    {"drawing", "time beside the peers: cold, warm, turning, zooming, minified", drawing},
-    {"error", "the same engines against exact truth", error},
-    {"memory", "the same engines' peak memory", memory},
-    {"sides", "drawing over 64² to 8192² pixels", sides},
-    {"texture", "pictures as textures: flat, minified, perspective", texture},
-    {"peers", "encoding against one drawing by librsvg", peers},
-    {"editing", "recolouring and moving items in a session", editing},
-    {"openvg", "vgDrawPath against cairo", openvg},
-    {"paper", "the paper's tables: lookups, instructions, four configurations", paper},
-    {"compression", "bytes against a flat grid, the paper's factor", compression},
-    {"scaling", "time, memory and bytes over 10^2 to 10^6 curves", scaling},
-    {"sweep", "the compiler's cost model against fixed sizes of leaves", sweep, true}};
+#define REPORT(name, text, slow) {#name, text, name, slow},
+#include "bench/src/reports.inc"
+#undef REPORT
+};
 
 constexpr const char* usage =
     "vtm-bench [REPORT...] [OPTIONS]: these reports, or all, each in a process of its own\n\n"

@@ -28,7 +28,8 @@ Difference compare(const image::Raster& a, const image::Raster& b, double thresh
 image::Bitmap differencePicture(const image::Raster& a, const image::Raster& b, double gain = 8);
 
 /// Reads a PNG as a raster without losing depth: 8-bit is straight, 16-bit RGBA is premultiplied
-/// (value / 65535), the convention of our ground truth. Throws std::runtime_error, which names the
+/// (value / 65535), the convention of our ground truth, unless a text chunk "Alpha" says "straight", as in
+/// files of vtm/image/encode.hpp. Throws std::runtime_error, which names the
 /// path, where the file cannot be read, is no PNG, is a 16-bit one without RGBA, or has more pixels
 /// than image::maxDecodedPixels.
 image::Raster readPng(const std::string& path);

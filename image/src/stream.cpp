@@ -47,7 +47,7 @@ std::vector<std::uint8_t> readStream(int descriptor, const std::string& name) {
             throw CodecError(name + ": cannot be read: " + std::generic_category().message(errno));
         end += count > 0 ? std::size_t(count) : 0;
         if (end > most)
-            throw CodecError(name + ": is longer than " + std::to_string(most) + " bytes");
+            throw CodecError(name + ": is longer than " + std::to_string(most >> 20) + " MiB");
     }
     bytes.resize(end);
     return bytes;

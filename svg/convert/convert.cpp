@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "svg/convert/converter.hpp"
 
@@ -77,11 +78,33 @@ void Converter::convertElement(const Element& element, const Scope& parent, Node
     const Level level(*this, element);
     if (!level)
         return;
+    if (only_ && &element != only_)
+        return convertTowardsOnly(element, parent, out);
+    const Element* const only = std::exchange(only_, nullptr);
+    if (const std::optional<Scope> scope = enter(element, parent))
+        appendWithEffects(element, *scope, out,
+                          [&](Nodes& content) { convertContent(element, *scope, content); });
+    only_ = only;
+}
+
+/// Ancestors give their transforms, viewports and inherited properties; what else they hold is passed over.
+void Converter::convertTowardsOnly(const Element& element, const Scope& parent, Nodes& out) {
+    if (!leadsToOnly(element))
+        return;
     const std::optional<Scope> scope = enter(element, parent);
     if (!scope)
         return;
-    appendWithEffects(element, *scope, out,
-                      [&](Nodes& content) { convertContent(element, *scope, content); });
+    if (element.tag == Tag::Svg)
+        convertSvg(element, *scope, out);
+    else
+        convertChildren(element, *scope, out);
+}
+
+bool Converter::leadsToOnly(const Element& element) const {
+    for (const Element* e = only_; e; e = e->parent)
+        if (e == &element)
+            return true;
+    return false;
 }
 
 void Converter::convertChildren(const Element& element, const Scope& scope, Nodes& out) {

@@ -62,6 +62,8 @@ public:
     Viewport rootSize() const { return rootSize_; }
     /// Appends the picture; `placement` maps the root viewport's units to where they shall lie.
     void convertRoot(const scene::Affine& placement, Nodes& out);
+    /// The same of one element, at its place.
+    void convertOnly(const Element& element, Nodes& out);
     /// For the places of a nested document's items: the image in the outermost file.
     void standFor(const limits::Place& image) { standsFor_ = image; }
 
@@ -86,6 +88,9 @@ private:
     };
 
     // convert.cpp: elements in general
+    /// Whether the element is an ancestor of the only one that is drawn, which has not been reached.
+    bool leadsToOnly(const Element& element) const;
+    void convertTowardsOnly(const Element& element, const Scope& parent, Nodes& out);
     void convertElement(const Element& element, const Scope& parent, Nodes& out);
     void convertChildren(const Element& element, const Scope& scope, Nodes& out);
     void convertContent(const Element& element, const Scope& scope, Nodes& out);
@@ -226,6 +231,7 @@ private:
     };
     Box outlineBox(std::size_t first, const scene::Affine& userToPicture) const;
 
+    const Element* only_ = nullptr;  ///< drawn alone, until it is reached
     const Tree& tree_;
     using Kind = Warning::Kind;
     Reporter& reporter_;

@@ -118,6 +118,7 @@ Converter::ImageContent Converter::loadImage(std::string_view href) {
             throw image::CodecError("images are nested too deep");
         Options options = options_;
         options.fileName = isDataUrl(href) ? "image in " + options_.fileName : std::string(href);
+        options.styleSheet.clear();
         options.resourceDirectory.clear();  // an image may not load further files (SVG 2 section 2.2)
         return std::make_shared<NestedDocument>(bytes, std::move(options), reporter_.warnings(), budget_);
     }

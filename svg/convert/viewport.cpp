@@ -52,10 +52,16 @@ void Converter::convertRoot(const scene::Affine& placement, Nodes& out) {
     convertElement(*tree_.root, outside, out);
 }
 
+void Converter::convertOnly(const Element& element, Nodes& out) {
+    only_ = &element;
+    convertRoot(scene::identity, out);
+}
+
 void Converter::convertSvg(const Element& element, const Scope& scope, Nodes& out) {
     if (&element == tree_.root && scope.depth == 1) {
         const Rect canvas{0, 0, rootSize_.width, rootSize_.height};
-        fillBackground(scope, canvas, out);
+        if (!only_)
+            fillBackground(scope, canvas, out);
         return convertViewport(element, canvas, scope, out);
     }
     const LengthReader reader = lengths(element, scope);

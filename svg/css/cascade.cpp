@@ -82,8 +82,10 @@ void check(const Element& element, const std::vector<RawDeclaration>& declaratio
             reporter.warnInvalid(element, raw.name, raw.value);
 }
 
-std::vector<Rule> readSheets(Tree& tree, Reporter& reporter) {
-    std::vector<Rule> rules;
+std::vector<Rule> readSheets(Tree& tree, std::string_view sheet, Reporter& reporter) {
+    std::vector<Rule> rules = parseStyleSheet(tree.ownedText.emplace_back(withoutComments(sheet)));
+    for (const Rule& rule : rules)
+        check(*tree.root, rule.declarations, reporter);
     for (const Element& element : tree.elements)
         if (element.tag == Tag::Style && isCss(element))
             for (Rule& rule : parseStyleSheet(sheetText(element, tree))) {
@@ -137,9 +139,9 @@ void addAll(Element& element, const std::vector<Candidate>& rules, Tree& tree, R
 
 }  // namespace
 
-void cascade(Tree& tree, Reporter& reporter) {
+void cascade(Tree& tree, std::string_view sheet, Reporter& reporter) {
     const limits::Stage stage("matching styles");
-    const std::vector<Rule> rules = readSheets(tree, reporter);
+    const std::vector<Rule> rules = readSheets(tree, sheet, reporter);
     SelectorIndex index;
     for (const Rule& rule : rules)
         index.add(rule);

@@ -45,4 +45,15 @@ bool liesInside(const std::vector<scene::Node>& nodes, const scene::Affine& tran
     });
 }
 
+Box boxAround(const std::vector<scene::Node>& nodes) {
+    Box box;
+    for (const scene::Node& node : nodes) {
+        limits::check();
+        const auto* item = std::get_if<scene::Item>(&node.value);
+        box.add(item ? itemBox(*item, scene::identity)
+                     : boxAround(std::get<scene::Group>(node.value).children));
+    }
+    return box;
+}
+
 }  // namespace vtm::svg

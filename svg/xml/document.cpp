@@ -1,10 +1,12 @@
 #include "svg/xml/document.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "svg/convert/converter.hpp"
 #include "svg/css/attributes.hpp"
 #include "svg/css/cascade.hpp"
+#include "svg/geometry/bounds.hpp"
 #include "svg/xml/decode.hpp"
 #include "svg/xml/xml.hpp"
 
@@ -24,6 +26,23 @@ void checkSide(const ParsedDocument& document, const char* name, double side) {
                         side));
 }
 
+const Element& exportedElement(const ParsedDocument& document, const std::string& id) {
+    if (const Element* element = document.tree->byId(id))
+        return *element;
+    throw ParseError(document.map.at(document.tree->root->offset),
+                     fmt::format("no element has the id \"{}\"", id));
+}
+
+/// Of what is drawn within the picture.
+std::optional<Rect> shownBounds(const scene::Scene& scene) {
+    const Box box = boxAround(scene.root.children);
+    const scene::Point min = glm::max(box.min, 0.0),
+                       max = glm::min(box.max, scene::Point(scene.width, scene.height));
+    if (!(min.x < max.x && min.y < max.y))
+        return std::nullopt;
+    return Rect{min.x, min.y, max.x - min.x, max.y - min.y};
+}
+
 }  // namespace
 
 std::unique_ptr<ParsedDocument> parseDocument(std::span<const std::uint8_t> bytes, const Options& options,
@@ -34,7 +53,7 @@ std::unique_ptr<ParsedDocument> parseDocument(std::span<const std::uint8_t> byte
     text = expandEntities(std::move(text), document->map);
     document->tree = parseXml(std::move(text), document->map);
     checkAttributes(*document->tree, document->reporter);
-    cascade(*document->tree, document->reporter);
+    cascade(*document->tree, options.styleSheet, document->reporter);
     return document;
 }
 
@@ -48,7 +67,16 @@ Document load(std::span<const std::uint8_t> bytes, const Options& options) {
     checkSide(*document, "height", size.height);
     result.scene.width = size.width;
     result.scene.height = size.height;
-    converter.convertRoot(scene::identity, result.scene.root.children);
+    if (options.exportId.empty()) {
+        converter.convertRoot(scene::identity, result.scene.root.children);
+        return result;
+    }
+    const Element& element = exportedElement(*document, options.exportId);
+    converter.convertOnly(element, result.scene.root.children);
+    result.exported = shownBounds(result.scene);
+    if (!result.exported)
+        throw ParseError(document->map.at(element.offset),
+                         fmt::format("#{}: nothing of it is drawn in the picture", options.exportId));
     return result;
 }
 

@@ -18,9 +18,9 @@ AutomaticEngine::AutomaticEngine(asset::Mode mode, const std::string& programCac
       twin_(makeEngine("asset", mode)),
       drawing_(scanner_.get()) {}
 
-image::Bitmap AutomaticEngine::draw(Source& source, const asset::View& view, const scene::Color& ground) {
+void AutomaticEngine::draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) {
     drawing_ = &engineFor(source);
-    return drawing_->draw(source, view, ground);
+    drawing_->draw(source, view, sheet, sink);
 }
 
 Engine& AutomaticEngine::engineFor(Source& source) {
@@ -54,7 +54,7 @@ bool AutomaticEngine::startsGl(Source& source) {
 
 void AutomaticEngine::doWithoutGl(const std::string& why) {
     driver_ = gl::Driver::None;
-    say("vtm: " + why + "; the CPU draws");
+    warn("vtm: " + why + "; the CPU draws");
 }
 
 }  // namespace vtm::tools

@@ -17,7 +17,7 @@ class AutomaticEngine : public Engine {
 public:
     AutomaticEngine(asset::Mode mode, const std::string& programCache);
     std::string name() const override { return drawing_->name(); }
-    image::Bitmap draw(Source& source, const asset::View& view, const scene::Color& ground) override;
+    void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) override;
 
 private:
     Engine& engineFor(Source& source);

@@ -53,21 +53,9 @@ scene::Color parseColor(const std::string& text) {
     throw UsageError(fmt::format("--background: '{}' is no colour", text));
 }
 
-void layOver(image::Raster& picture, const scene::Color& ground) {
-    const float premultiplied[4] = {ground.r * ground.a, ground.g * ground.a, ground.b * ground.a, ground.a};
-    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-        const float through = 1 - picture.rgba[i + 3];
-        for (std::size_t c = 0; c < 4; ++c)
-            picture.rgba[i + c] += through * premultiplied[c];
-    }
-}
-
-void layOver(image::Bitmap& picture, const scene::Color& ground) {
-    if (ground.a == 0)
-        return;
-    image::Raster raster = image::toRaster(picture);
-    layOver(raster, ground);
-    picture = image::toBitmap(raster);
+scene::Color overWhite(const scene::Color& color) {
+    const auto channel = [&](float c) { return c * color.a + (1 - color.a); };
+    return {channel(color.r), channel(color.g), channel(color.b), 1};
 }
 
 }  // namespace vtm::tools

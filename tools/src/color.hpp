@@ -12,8 +12,7 @@ namespace vtm::tools {
 /// Any colour that SVG knows. Throws UsageError.
 scene::Color parseColor(const std::string& text);
 
-/// Lays the picture over `ground`.
-void layOver(image::Raster& picture, const scene::Color& ground);
-void layOver(image::Bitmap& picture, const scene::Color& ground);
+/// For files that have no alpha.
+scene::Color overWhite(const scene::Color& color);
 
 }  // namespace vtm::tools

@@ -14,6 +14,11 @@ inline constexpr int done = 0, badInput = 1, badUsage = 2, closedPipe = 128 + SI
 
 /// For --help.
 inline constexpr const char* exitCodes =
+    "Examples:\n"
+    "  vtm render tiger.svg -o tiger.png -w 800\n"
+    "  vtm compile tiger.svg -o tiger.vtm\n"
+    "  vtm diff a.png b.png --max 2\n"
+    "  vtm render --help\n\n"
     "Exit codes: 0 done; 1 bad input, or something could not be read, drawn or written; 2 bad usage; 141 "
     "nobody reads "
     "standard output any more.\n"

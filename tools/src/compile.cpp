@@ -61,6 +61,8 @@ void addCompile(CLI::App& app, int& exitCode) {
                       "Add a pyramid of means for textures that are seen from afar");
     command->add_flag("--json", options->json, "Print figures and times");
     addSourceOptions(*command, options->source);
+    command->footer(
+        "Examples:\n  vtm compile tiger.svg -o tiger.vtm\n  vtm compile tiger.svg -o tiger.vtm --prefilter");
     command->callback([options, &exitCode] { exitCode = compile(*options); });
 }
 

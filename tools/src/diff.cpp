@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@ namespace {
 struct DiffOptions {
     std::string first, second, output;
     double threshold = 2;
+    std::optional<double> max, mean;
     bool json = false;
 };
 
@@ -27,9 +29,20 @@ Json report(const compare::Difference& difference) {
             {"worst_y", difference.worstY}};
 }
 
+/// PNG with all of its depth, or what else is read.
 image::Raster readPicture(const std::string& path) {
     const Input input = readInput(path);
-    return compare::readPng(input.bytes, input.name);
+    const bool isOther = input.bytes.size() > 4 && input.bytes[0] != 0x89;
+    return isOther ? image::toRaster(image::decode(input.bytes)) : compare::readPng(input.bytes, input.name);
+}
+
+/// Whether the pictures are as near as was asked for; says so where they are not. NaN is not near.
+bool isWithin(const char* option, const std::optional<double>& limit, double value) {
+    constexpr double rounding = 255 * 0x1p-22;  // of premultiplied floats in [0, 1] and their difference
+    if (!limit || value <= *limit + rounding)
+        return true;
+    say(fmt::format("vtm: {} {:g}: is {:.4g}", option, *limit, value));
+    return false;
 }
 
 void writePicture(const image::Raster& a, const image::Raster& b, const std::string& path) {
@@ -49,18 +62,22 @@ int diff(const DiffOptions& options) {
         reading = nameOf(options.second);
         const image::Raster b = readPicture(options.second);
         if (a.width != b.width || a.height != b.height)
-            throw std::invalid_argument(fmt::format("is {} x {} pixels, {} is {} x {}", b.width, b.height,
-                                                    options.first, a.width, a.height));
-        const Json figures = report(compare::compare(a, b, options.threshold));
+            throw std::invalid_argument(fmt::format("is {} x {} pixels, {} is {} x {}", readable(b.width),
+                                                    readable(b.height), nameOf(options.first),
+                                                    readable(a.width), readable(a.height)));
+        const compare::Difference difference = compare::compare(a, b, options.threshold);
+        const Json figures = report(difference);
         reading = options.output;
         if (!options.output.empty())
             writePicture(a, b, options.output);
         print(options.json ? jsonText(figures) : toText(figures));
+        const bool isMax = isWithin("--max", options.max, difference.max);
+        const bool isMean = isWithin("--mean", options.mean, difference.mean);
+        return isMax && isMean ? done : badInput;
     } catch (...) {
         say(describeError(reading));
         return badInput;
     }
-    return done;
 }
 
 }  // namespace
@@ -68,13 +85,19 @@ int diff(const DiffOptions& options) {
 void addDiff(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<DiffOptions>();
     CLI::App* command =
-        app.add_subcommand("diff", "Say how far two PNG files are apart, in 1/255 of a channel");
-    command->add_option("A", options->first, "PNG file, or - for standard input")->required();
-    command->add_option("B", options->second, "PNG file, or -")->required();
+        app.add_subcommand("diff", "Say how far two pictures are apart, in 1/255 of a channel");
+    command->add_option("A", options->first, "PNG, JPEG, WebP or GIF file, or - for standard input")
+        ->required();
+    command->add_option("B", options->second, "The same, or -")->required();
     command->add_option("-o,--output", options->output, "Write the differences as a picture");
     command->add_option("--threshold", options->threshold, "'over' counts pixels beyond this")
         ->capture_default_str();
+    for (const auto& [name, limit] : {std::pair("--max", &options->max), {"--mean", &options->mean}})
+        command->add_option(name, *limit, fmt::format("Exit code 1 if '{}' is beyond this", name + 2))
+            ->check(CLI::NonNegativeNumber);
     command->add_flag("--json", options->json, "As JSON");
+    command->footer(
+        "Examples:\n  vtm diff a.png b.png\n  vtm diff a.png b.png --max 2 --mean 0.01 -o differences.png");
     command->callback([options, &exitCode] { exitCode = diff(*options); });
 }
 

@@ -7,18 +7,14 @@
 #include <vtm/asset/scan.hpp>
 #include "conformance/reference/reference.hpp"
 #include "tools/src/automatic_engine.hpp"
-#include "tools/src/color.hpp"
 #include "tools/src/commands.hpp"
+#include "tools/src/cpu_engine.hpp"
 #include "tools/src/gl_engine.hpp"
 #include "tools/src/left_out.hpp"
 
 namespace vtm::tools {
 
 namespace {
-
-void warnOfMaterials(Source& source) {
-    warnOf(source, source.name + ": warning: no GLSL runs on the CPU; materials have their fallback colours");
-}
 
 class AssetEngine : public RasterEngine {
 public:
@@ -32,23 +28,6 @@ protected:
             return source.paper ? asset::evaluate(source.paper->asset, view, &source.cost.emplace())
                                 : asset::evaluate(*source.asset, view);
         });
-    }
-};
-
-/// The fastest without a GPU, for exact pictures.
-class CpuEngine : public RasterEngine {
-public:
-    std::string name() const override { return "cpu"; }
-
-protected:
-    image::Raster render(Source& source, const asset::View& view) override {
-        if (source.paper || !asset::isSumOfMaps(*source.asset))
-            throw std::runtime_error("the cpu engine draws exact pictures only");
-        if (!source.asset->materials.empty())
-            warnOfMaterials(source);
-        const asset::Scanner scanner =
-            timed(source.stages, "upload", [&] { return asset::Scanner(*source.asset); });
-        return timed(source.stages, "render", [&] { return scanner.draw(view); });
     }
 };
 
@@ -75,10 +54,22 @@ private:
 
 }  // namespace
 
-image::Bitmap RasterEngine::draw(Source& source, const asset::View& view, const scene::Color& ground) {
-    image::Raster raster = render(source, view);
-    layOver(raster, ground);
-    return image::toBitmap(raster);
+void warnOfMaterials(Source& source) {
+    warnOf(source, source.name + ": warning: no GLSL runs on the CPU; materials have their fallback colours");
+}
+
+image::Bitmap drawBitmap(Engine& engine, Source& source, const asset::View& view,
+                         const scene::Color& ground) {
+    image::Bitmap bitmap{view.width, view.height, {}};
+    bitmap.rgba.reserve(std::size_t(view.width) * std::size_t(view.height) * 4);
+    engine.draw(source, view, {ground}, [&](std::span<const std::uint8_t> row) {
+        bitmap.rgba.insert(bitmap.rgba.end(), row.begin(), row.end());
+    });
+    return bitmap;
+}
+
+void RasterEngine::draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) {
+    giveRows(render(source, view), sheet, sink);
 }
 
 std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode,

@@ -1,5 +1,5 @@
 /// \file
-/// The three routes to pixels behind one interface.
+/// The routes to pixels behind one interface.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include "tools/src/rows.hpp"
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {
@@ -18,18 +19,25 @@ public:
     virtual std::string name() const = 0;
     /// Whether it draws the compiled asset rather than the scene.
     virtual bool needsAsset() const { return true; }
-    /// Draws on `ground`. Adds its stages to the source's. Throws its module's exceptions.
-    virtual image::Bitmap draw(Source& source, const asset::View& view, const scene::Color& ground) = 0;
+    /// Gives every row of the view to the sink. Adds its stages to the source's, without the sink's time.
+    /// Throws its module's exceptions.
+    virtual void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) = 0;
 };
+
+/// The whole picture, 8 bits a channel.
+image::Bitmap drawBitmap(Engine& engine, Source& source, const asset::View& view, const scene::Color& ground);
 
 /// One that makes floats of transparent ground.
 class RasterEngine : public Engine {
 public:
-    image::Bitmap draw(Source& source, const asset::View& view, const scene::Color& ground) override;
+    void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) override;
 
 protected:
     virtual image::Raster render(Source& source, const asset::View& view) = 0;
 };
+
+/// Says that a picture has materials and is drawn where no GLSL runs.
+void warnOfMaterials(Source& source);
 
 /// "gl", "cpu" (the scanner), "asset" (the shaders' twin), "reference", or "auto": whichever is fast here.
 /// Contexts and programs are made at the first picture and kept; `programCache`: gl::RendererOptions.

@@ -1,7 +1,5 @@
 #include "tools/src/gl_engine.hpp"
 
-#include "tools/src/color.hpp"
-
 namespace vtm::tools {
 
 void GlEngine::start(Stages& stages) {
@@ -9,22 +7,26 @@ void GlEngine::start(Stages& stages) {
         gl_ = timed(stages, "start", [&] { return std::make_unique<Gl>(options_); });
 }
 
-image::Bitmap GlEngine::draw(Source& source, const asset::View& view, const scene::Color& ground) {
+void GlEngine::draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) {
     start(source.stages);
-    if (source.paper)
-        return RasterEngine::draw(source, view, ground);
+    if (source.paper || sheet.depth > 8)
+        return RasterEngine::draw(source, view, sheet, sink);
     const gl::Texture texture =
         timed(source.stages, "upload", [&] { return gl_->renderer.upload(*source.asset); });
-    image::Bitmap bitmap =
+    const image::Bitmap bitmap =
         timed(source.stages, "render", [&] { return gl_->renderer.renderBitmap(texture, view); });
-    layOver(bitmap, ground);
-    return bitmap;
+    giveRows(bitmap, sheet.ground, sink);
 }
 
 image::Raster GlEngine::render(Source& source, const asset::View& view) {
-    const gl::PaperTexture texture =
-        timed(source.stages, "upload", [&] { return gl::PaperTexture(source.paper->asset); });
-    return timed(source.stages, "render", [&] { return gl_->paper.render(texture, view); });
+    if (source.paper) {
+        const gl::PaperTexture texture =
+            timed(source.stages, "upload", [&] { return gl::PaperTexture(source.paper->asset); });
+        return timed(source.stages, "render", [&] { return gl_->paper.render(texture, view); });
+    }
+    const gl::Texture texture =
+        timed(source.stages, "upload", [&] { return gl_->renderer.upload(*source.asset); });
+    return timed(source.stages, "render", [&] { return gl_->renderer.render(texture, view); });
 }
 
 }  // namespace vtm::tools

@@ -12,7 +12,7 @@ class GlEngine : public RasterEngine {
 public:
     explicit GlEngine(const std::string& programCache) { options_.programCache = programCache; }
     std::string name() const override { return "gl"; }
-    image::Bitmap draw(Source& source, const asset::View& view, const scene::Color& ground) override;
+    void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) override;
 
     /// Makes the context and the renderers, once. Throws gl::GlError.
     void start(Stages& stages);
@@ -20,7 +20,7 @@ public:
     bool isSoftware() const { return gl_->context.isSoftware(); }
 
 protected:
-    /// Paper mode.
+    /// Paper mode, and more than 8 bits.
     image::Raster render(Source& source, const asset::View& view) override;
 
 private:

@@ -94,6 +94,7 @@ void addInfo(CLI::App& app, int& exitCode) {
     command->add_option("FILE", options->input, "SVG or .vtm file, or - for standard input")->required();
     command->add_flag("--json", options->json, "As JSON");
     addSourceOptions(*command, options->source);
+    command->footer("Examples:\n  vtm info tiger.vtm\n  vtm info tiger.svg --json");
     command->callback([options, &exitCode] { exitCode = info(*options); });
 }
 

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 bool meansDirectory(const std::string& output) { return output.ends_with('/') || fs::is_directory(output); }
 
 /// The picture's file in a directory.
-std::string fileFor(const std::string& input, const std::string& directory) {
+std::string fileFor(const std::string& input, const std::string& directory, const std::string& suffix) {
     const std::string stem = input == standardStream ? "stdin" : fs::path(input).stem().string();
-    return (fs::path(directory) / stem).string() + ".png";
+    return (fs::path(directory) / stem).string() + suffix;
 }
 
 }  // namespace
@@ -42,7 +42,8 @@ std::vector<Job> readBatch(const std::string& path) {
     return jobs;
 }
 
-std::vector<Job> jobsOf(const std::vector<std::string>& inputs, const std::string& output) {
+std::vector<Job> jobsOf(const std::vector<std::string>& inputs, const std::string& output,
+                        const std::string& suffix) {
     if (inputs.empty() || output.empty())
         throw UsageError("render: wants IN... and -o OUT, or --batch LIST");
     const bool directory = meansDirectory(output);
@@ -52,7 +53,7 @@ std::vector<Job> jobsOf(const std::vector<std::string>& inputs, const std::strin
         throw UsageError("-o: many inputs want a directory, not " + output);
     std::vector<Job> jobs;
     for (const std::string& input : inputs)
-        jobs.push_back({input, fileFor(input, output)});
+        jobs.push_back({input, fileFor(input, output, suffix)});
     return jobs;
 }
 
@@ -61,7 +62,6 @@ void refuseLoss(const std::vector<Job>& jobs, const std::string& batch) {
     if (!batch.empty())
         inputs.push_back(batch);
     for (const Job& job : jobs) {
-        requireSuffix(job.output, {".png"});
         inputs.push_back(job.input);
         outputs.push_back(job.output);
     }

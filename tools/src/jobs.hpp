@@ -15,12 +15,13 @@ struct Job {
 /// std::runtime_error.
 std::vector<Job> readBatch(const std::string& path);
 
-/// Into one file, or into a directory: one that exists, that ends in '/', or that many inputs go to. Throws
-/// UsageError.
-std::vector<Job> jobsOf(const std::vector<std::string>& inputs, const std::string& output);
+/// Into one file, or into a directory: one that exists, that ends in '/', or that many inputs go to; pictures
+/// in it are called as their inputs, with `suffix`. Throws UsageError.
+std::vector<Job> jobsOf(const std::vector<std::string>& inputs, const std::string& output,
+                        const std::string& suffix);
 
-/// Throws UsageError where a job would overwrite what another one writes or any reads, or is no PNG file by
-/// its name. `batch`: the list that they came from, if any.
+/// Throws UsageError where a job would overwrite what another one writes or any reads.
+/// `batch`: the list that they came from, if any.
 void refuseLoss(const std::vector<Job>& jobs, const std::string& batch);
 
 }  // namespace vtm::tools

@@ -48,7 +48,7 @@ void warnOfNotDrawnYet(Source& source, const std::vector<svg::Warning>& warnings
 }  // namespace
 
 void warnOf(Source& source, const std::string& message) {
-    say(message);
+    warn(message);
     ++source.leftOut;
 }
 

@@ -10,6 +10,7 @@
 
 #include <vtm/image/codec.hpp>
 #include "tools/src/commands.hpp"
+#include "tools/src/progress.hpp"
 
 namespace vtm::tools {
 namespace {
@@ -48,6 +49,11 @@ limits::Limits limitsOf(const std::string& path, bool alone) {
     limits::Limits result;
     result.seconds = allowance.seconds;
     result.memoryBytes = static_cast<std::size_t>(allowance.megabytes * (1 << 20));
+    if (alone)
+        result.proceed = [](const limits::Progress& progress) {
+            showWork(progress);
+            return true;
+        };
     result.overrunHandler = [path, alone](const limits::Exceeded& exceeded, bool isEnding) {
         if (alone || !isEnding)
             giveUp(describe(path, exceeded));
@@ -76,7 +82,10 @@ void addLimitOptions(CLI::App& command) {
 PictureLimits::PictureLimits(std::string path, bool alone)
     : budget_(limitsOf(path, alone)), scope_(budget_) {}
 
-PictureLimits::~PictureLimits() { malloc_trim(0); }
+PictureLimits::~PictureLimits() {
+    clearProgress();
+    malloc_trim(0);
+}
 
 double secondsForFirstTry() {
     const limits::Budget* budget = limits::current().budget;

@@ -74,6 +74,10 @@ std::string suffixOf(const std::string& path) {
     return suffix;
 }
 
+bool isRegularOutput(const std::string& output) {
+    return !isStandardOutput(output) && !isDeviceOrPipe(output);
+}
+
 void requireSuffix(const std::string& output, std::initializer_list<std::string_view> suffixes) {
     const std::string suffix = suffixOf(output);
     if (suffix.empty() || std::ranges::find(suffixes, suffix) != suffixes.end() || isDeviceOrPipe(output))

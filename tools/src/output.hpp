@@ -18,6 +18,9 @@ bool isStandardOutput(const std::string& output);
 /// Of the name, in lower case, with its dot; "" where it has none.
 std::string suffixOf(const std::string& path);
 
+/// A file, there or not yet: not standard output, a device or a pipe.
+bool isRegularOutput(const std::string& output);
+
 /// Throws UsageError if the output is a file whose name ends in none of `suffixes` (".png", any case). A name
 /// without a suffix is taken as it is, and what a device or a pipe is called says nothing.
 void requireSuffix(const std::string& output, std::initializer_list<std::string_view> suffixes);

@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "tools/src/report.hpp"
+
 namespace vtm::tools {
 
 namespace {
@@ -14,7 +16,7 @@ constexpr std::size_t barWidth = 40;
 
 bool onTerminal() {
     static const bool terminal = isatty(STDERR_FILENO) == 1;
-    return terminal;
+    return terminal && !isQuiet();
 }
 
 }  // namespace
@@ -26,6 +28,15 @@ void showProgress(std::size_t finished, std::size_t total) {
     const std::string bar = fmt::format("\r[{}{}] {}/{}", std::string(filled, '#'),
                                         std::string(barWidth - filled, ' '), finished, total);
     std::fputs(bar.c_str(), stderr);
+}
+
+void showWork(const limits::Progress& progress) {
+    constexpr double soon = 1;  // seconds that nobody waits for
+    if (!onTerminal() || progress.seconds < soon)
+        return;
+    const std::string share = progress.done > 0 ? fmt::format(" {:.0f} %", 100 * progress.done) : "";
+    std::fputs(fmt::format("\r\x1b[K{:.0f} s: {}{}", progress.seconds, progress.stage, share).c_str(),
+               stderr);
 }
 
 void clearProgress() {

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "tools/src/left_out.hpp"
 #include "tools/src/limits.hpp"
 #include "tools/src/output.hpp"
+#include "tools/src/picture_file.hpp"
 #include "tools/src/progress.hpp"
 #include "tools/src/source.hpp"
 #include "tools/src/standard_output.hpp"
@@ -22,7 +22,13 @@ namespace vtm::tools {
 
 namespace {
 
-namespace fs = std::filesystem;
+constexpr const char* examples =
+    "Examples:\n"
+    "  vtm render tiger.svg -o tiger.png -w 800\n"
+    "  vtm render tiger.svg -o tiger.jpg -w 800 -h 600 --fit cover -b white\n"
+    "  vtm render tiger.svg -o nose.png --view 150,200,100,100 --zoom 8\n"
+    "  vtm render icons/*.svg -o png/ -z 2\n"
+    "  vtm render - -o - < in.svg > out.png";
 
 struct RenderOptions {
     std::vector<std::string> inputs;
@@ -30,17 +36,9 @@ struct RenderOptions {
     std::string engine = "auto", background = "transparent", programCache, debugView;
     SourceOptions source;
     scene::Framing framing;
-    bool json = false;
+    FileOptions file;
+    bool json = false, verbose = false;
 };
-
-/// Into a folder that may have to be made.
-bool writePng(const image::Bitmap& bitmap, const std::string& output) {
-    const fs::path directory = fs::path(output).parent_path();
-    if (!directory.empty())
-        fs::create_directories(directory);
-    writeOutput(output, image::encodePng(bitmap));
-    return true;
-}
 
 void printReport(const Job& job, const Source& source, const asset::View& view, const Engine& engine) {
     Json report = {{"input", job.input},
@@ -58,16 +56,45 @@ void printReport(const Job& job, const Source& source, const asset::View& view, 
     print(jsonLine(report));
 }
 
+Sheet sheetFor(const Job& job, const RenderOptions& options, const scene::Color& ground) {
+    const bool isOpaque = !image::hasAlpha(formatOf(job.output, options.file));
+    return {isOpaque ? overWhite(ground) : ground, options.file.encoding.depth};
+}
+
+/// What --export-id draws is what is seen of it, where no --view says otherwise.
+scene::Framing framingOf(const RenderOptions& options, const Source& source) {
+    scene::Framing framing = options.framing;
+    if (!framing.part)
+        framing.part = source.exported;
+    return framing;
+}
+
+void drawDebugView(const DebugView debug, Source& source, const asset::View& view, const Sheet& sheet,
+                   Engine& engine, PictureFile& file) {
+    image::Bitmap bitmap = drawBitmap(engine, source, view, sheet.ground);
+    layLines(bitmap, debug, source, view);
+    giveRows(bitmap, {0, 0, 0, 0}, file.sink());
+}
+
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
     Source source = loadSource(readInput(job.input), options.source, false);
-    const asset::View view = prepareView(source, options.source, options.framing, engine.needsAsset());
+    const asset::View view =
+        prepareView(source, options.source, framingOf(options, source), engine.needsAsset());
     const DebugView debug = parseDebugView(options.debugView);
     prepare(source, debug);
-    image::Bitmap bitmap = engine.draw(source, view, ground);
-    layLines(bitmap, debug, source, view);
+    const Sheet sheet = sheetFor(job, options, ground);
+    PictureFile file(job.output, options.file, view.width, view.height);
+    if (debug == DebugView::None)
+        engine.draw(source, view, sheet, file.sink());
+    else
+        drawDebugView(debug, source, view, sheet, engine, file);
     if (options.source.strict)
         refuseLeftOut(source);
-    timed(source.stages, "write", [&] { return writePng(bitmap, job.output); });
+    file.write();
+    source.stages.emplace_back("write", file.milliseconds());
+    if (options.verbose)
+        say(fmt::format("{}: {} x {} pixels, drawn by {}", source.name, readable(view.width),
+                        readable(view.height), engine.name()));
     if (options.json)
         printReport(job, source, view, engine);
 }
@@ -85,11 +112,14 @@ bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& 
 }
 
 std::vector<Job> checkedJobs(const RenderOptions& options) {
-    const std::vector<Job> jobs =
-        options.batch.empty() ? jobsOf(options.inputs, options.output) : readBatch(options.batch);
-    if (options.json)
-        for (const Job& job : jobs)
+    const std::vector<Job> jobs = options.batch.empty()
+                                      ? jobsOf(options.inputs, options.output, suffixFor(options.file))
+                                      : readBatch(options.batch);
+    for (const Job& job : jobs) {
+        formatOf(job.output, options.file);
+        if (options.json)
             refuseMixture(job.output, "the figures of --json");
+    }
     refuseLoss(jobs, options.batch);
     return jobs;
 }
@@ -97,6 +127,8 @@ std::vector<Job> checkedJobs(const RenderOptions& options) {
 int render(const RenderOptions& options) {
     if (parseDebugView(options.debugView) != DebugView::None && options.framing.rotation != 0)
         throw UsageError("--debug-view: shows pictures that are not turned");
+    if (!options.debugView.empty() && options.file.encoding.depth != 8)
+        throw UsageError("--debug-view: has 8 bits a channel");
     const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
     const scene::Color ground = parseColor(options.background);
     const std::vector<Job> jobs = checkedJobs(options);
@@ -107,7 +139,8 @@ int render(const RenderOptions& options) {
     }
     clearProgress();
     if (jobs.size() > 1 || !options.batch.empty())
-        say(fmt::format("{} of {} drawn, {} failed", jobs.size() - failed, jobs.size(), failed));
+        warn(fmt::format("{} of {} drawn, {} failed", readable(double(jobs.size() - failed)),
+                         readable(double(jobs.size())), readable(double(failed))));
     return failed == 0 ? done : badInput;
 }
 
@@ -115,15 +148,20 @@ int render(const RenderOptions& options) {
 
 void addRender(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App* command = app.add_subcommand("render", "Draw SVG or .vtm files as PNG");
+    CLI::App* command = app.add_subcommand("render", "Draw SVG or .vtm files as PNG, JPEG, WebP or PPM");
     auto* inputs = command->add_option("IN", options->inputs, "SVG or .vtm files, or - for standard input");
-    auto* output = command->add_option("-o,--output", options->output,
-                                       "PNG file, a directory, or - for standard output");
+    auto* output =
+        command->add_option("-o,--output", options->output,
+                            ".png, .jpg, .webp or .ppm file, a directory, or - for standard output");
     command->add_option("--batch", options->batch, "A file of lines IN<TAB>OUT, or - for standard input")
         ->excludes(inputs)
         ->excludes(output);
     addFramingOptions(*command, options->framing);
-    command->add_option("--background", options->background, "The ground's colour")->capture_default_str();
+    addFileOptions(*command, options->file);
+    command
+        ->add_option("-b,--background,--background-color", options->background,
+                     "Any colour that SVG knows; a JPEG or PPM file has it on white")
+        ->capture_default_str();
     command
         ->add_option("--engine", options->engine,
                      "auto (gl where there is a GPU, else cpu for all that it can draw), gl (shaders), cpu "
@@ -136,7 +174,13 @@ void addRender(CLI::App& app, int& exitCode) {
         "--debug-view", options->debugView,
         "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, patches");
     command->add_flag("--json", options->json, "Print figures and times, a line of JSON a picture");
+    command->add_flag("-v,--verbose", options->verbose, "Say for each picture which engine drew it");
     addSourceOptions(*command, options->source);
+    command
+        ->add_option("-i,--export-id", options->source.svg.exportId,
+                     "Draw only the element with this id; without --view it fills the raster")
+        ->check([](const std::string& id) { return std::string(id.empty() ? "the id is empty" : ""); });
+    command->footer(examples);
     command->callback([options, &exitCode] { exitCode = render(*options); });
 }
 

@@ -15,6 +15,8 @@ namespace vtm::tools {
 
 namespace {
 
+bool quiet = false;  ///< --quiet
+
 std::string withPath(const std::string& path, const std::string& what) {
     return what.find(path) != std::string::npos ? what : path + ": " + what;
 }
@@ -120,6 +122,15 @@ void say(const std::string& message) {
     clearProgress();
     std::fputs((message + "\n").c_str(), stderr);
 }
+
+void warn(const std::string& message) {
+    if (!isQuiet())
+        say(message);
+}
+
+void beQuiet() { quiet = true; }
+
+bool isQuiet() { return quiet; }
 
 std::string describeError(const std::string& path) {
     try {

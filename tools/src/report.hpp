@@ -21,6 +21,13 @@ using Json = nlohmann::ordered_json;
 /// Milliseconds by stage, in the order in which the stages ran.
 using Stages = std::vector<std::pair<std::string, double>>;
 
+template <class Work>
+double millisecondsOf(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Runs `work`, records how long it took under `stage`, returns its result.
 template <class Work>
 auto timed(Stages& stages, const std::string& stage, Work&& work) {
@@ -55,6 +62,11 @@ std::string toText(const Json& object, int indent = 0);
 /// A line on standard error, over a progress bar if there is one. If it cannot be written, nobody can be
 /// told.
 void say(const std::string& message);
+
+/// The same of what is no error: nothing after beQuiet().
+void warn(const std::string& message);
+void beQuiet();
+bool isQuiet();
 
 /// `path: what`, for the exception being handled; `what` alone where it names the path itself. A
 /// StandardOutputError is thrown on.

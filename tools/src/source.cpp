@@ -31,6 +31,8 @@ void chooseMode(SourceOptions& options, const std::string& name) {
 void loadAsset(Source& source, const Input& input, const SourceOptions& options) {
     if (options.paper)
         throw std::runtime_error("is compiled; paper mode draws SVG files only");
+    if (!options.svg.exportId.empty() || !options.styleSheet.empty())
+        throw std::runtime_error("is compiled; --export-id and --stylesheet want an SVG file");
     source.asset = timed(source.stages, "parse", [&] { return asset::read(input.bytes); });
     if (options.mode && *options.mode != source.asset->mode)
         throw std::runtime_error("was compiled in the other mode than --mode asks for");
@@ -38,13 +40,22 @@ void loadAsset(Source& source, const Input& input, const SourceOptions& options)
     source.height = source.asset->height;
 }
 
-void parseSvg(Source& source, const Input& input, svg::Options options) {
+std::string readStyleSheet(const std::string& path) {
+    const Input sheet = readInput(path);
+    return {sheet.bytes.begin(), sheet.bytes.end()};
+}
+
+void parseSvg(Source& source, const Input& input, const SourceOptions& given) {
+    svg::Options options = given.svg;
+    if (!given.styleSheet.empty())
+        options.styleSheet = readStyleSheet(given.styleSheet);
     options.fileName = input.name;
     options.resourceDirectory = input.folder;
     svg::Document document = timed(source.stages, "parse", [&] { return svg::load(input.bytes, options); });
     warnOf(source, document.warnings);
     source.width = document.scene.width;
     source.height = document.scene.height;
+    source.exported = document.exported;
     source.scene = std::move(document.scene);
 }
 
@@ -85,6 +96,13 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
         ->capture_default_str();
     command.add_flag("--strict", options.strict,
                      "What is left out or repaired is an error: exit code 1, and nothing is written");
+    command.add_option("-s,--stylesheet", options.styleSheet,
+                       "A CSS file that comes before the style sheets of the SVG");
+    for (const auto& [name, side] : {std::pair("--default-width", &options.svg.defaultWidth),
+                                     {"--default-height", &options.svg.defaultHeight}})
+        command.add_option(name, *side, "Of an SVG that has neither size nor viewBox, in user units")
+            ->check(CLI::PositiveNumber)
+            ->capture_default_str();
     addTextOptions(command, options.svg);
 }
 
@@ -95,7 +113,7 @@ Source loadSource(Input input, const SourceOptions& options, bool compile) {
     if (input.isAsset())
         loadAsset(source, input, options);
     else
-        parseSvg(source, input, options.svg);
+        parseSvg(source, input, options);
     input.bytes = {};
     if (options.strict)
         refuseLeftOut(source);
@@ -114,7 +132,7 @@ void take(Source& source, compiler::Result result) {
     for (const auto& [stage, milliseconds] : result.stages)
         source.stages.emplace_back(stage, milliseconds);
     for (const std::string& warning : result.warnings)
-        say(fmt::format("{}: warning: {}", source.name, warning));
+        warn(fmt::format("{}: warning: {}", source.name, warning));
     source.proof = figures(result);
     source.unproven = std::move(result.unproven);
     source.asset = std::move(result.asset);

@@ -25,6 +25,7 @@ struct SourceOptions {
     std::optional<asset::Mode> mode;
     bool paper = false;         ///< --mode paper, for SVG files only
     bool hasTolerance = false;  ///< given by the user
+    std::string styleSheet;     ///< --stylesheet: a file
     bool strict = false;        ///< --strict: what was left out is an error
 };
 
@@ -32,10 +33,11 @@ struct SourceOptions {
 void addSourceOptions(CLI::App& command, SourceOptions& options);
 
 struct Source {
-    std::string name;                   ///< for messages
-    std::size_t leftOut = 0;            ///< warnings of left_out.hpp
-    double width = 0, height = 0;       ///< user units
-    std::optional<scene::Scene> scene;  ///< not where the file is an asset
+    std::string name;                     ///< for messages
+    std::size_t leftOut = 0;              ///< warnings of left_out.hpp
+    double width = 0, height = 0;         ///< user units
+    std::optional<scene::Rect> exported;  ///< what --export-id draws
+    std::optional<scene::Scene> scene;    ///< not where the file is an asset
     std::optional<asset::Asset> asset;
     std::optional<compiler::PaperResult> paper;                     ///< in place of `asset` in paper mode
     std::optional<std::vector<compiler::UnprovenSquare>> unproven;  ///< not where the file is an asset

@@ -21,7 +21,7 @@ void warnOf(const Unused& options) {
         if (option->count() > 0)
             given.push_back(option->get_name());
     if (!given.empty())
-        say(fmt::format("vtm: warning: {}: not used yet, since text is not drawn", fmt::join(given, ", ")));
+        warn(fmt::format("vtm: warning: {}: not used yet, since text is not drawn", fmt::join(given, ", ")));
 }
 
 Unused addFonts(CLI::App& command, svg::Options& svg) {

@@ -33,7 +33,7 @@ std::vector<std::uint8_t> svgOf(const scene::Scene& scene) {
 std::vector<std::uint8_t> assetOf(const scene::Scene& scene, const TraceOptions& options) {
     const compiler::Result result = compiler::compile(scene, options.compiler);
     for (const std::string& warning : result.warnings)
-        say(fmt::format("{}: warning: {}", nameOf(options.input), warning));
+        warn(fmt::format("{}: warning: {}", nameOf(options.input), warning));
     return asset::write(result.asset);
 }
 
@@ -77,6 +77,9 @@ void addTrace(CLI::App& app, int& exitCode) {
     command
         ->add_option("--tolerance", options->compiler.tolerance, "Of the .vtm, as a share of its longer side")
         ->check(CLI::Range(0x1p-26, 0x1p-6));
+    command->footer(
+        "Examples:\n  vtm trace scan.png -o scan.svg --colors 4\n  vtm trace scan.png -o scan.vtm --speckle "
+        "8");
     command->callback([options, &exitCode] { exitCode = run(*options); });
 }
 

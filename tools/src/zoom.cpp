@@ -36,7 +36,7 @@ compiler::ViewResult compileInTime(const Source& source, const scene::Frame& fra
     constexpr double coarsest = 0x1p-6;  // compiler::Options::tolerance; a raster wants a finer one
     options.tolerance = coarsest;
     compiler::ViewResult result = compile();
-    say(fmt::format("{}: warning: takes long; edges may be off by a sixteenth of a pixel", source.name));
+    warn(fmt::format("{}: warning: takes long; edges may be off by a sixteenth of a pixel", source.name));
     return result;
 }
 
@@ -66,11 +66,11 @@ double finestPixel(const Source& source, const SourceOptions& options) {
 void warnIfTooCoarse(const Source& source, const SourceOptions& options, const asset::View& view) {
     const double finest = finestPixel(source, options), pixel = pixelOf(view);
     if (finest > pixel * (1 + 1e-9))
-        say(fmt::format("{}: warning: at this zoom boundaries may be off by {:.3g} pixels; {}", source.name,
-                        asset::finestShare * finest / pixel,
-                        source.scene ? options.paper ? "paper mode does not follow the view"
-                                                     : "without --tolerance they would not be"
-                                     : "compile it anew with a finer --tolerance, or draw the SVG"));
+        warn(fmt::format("{}: warning: at this zoom boundaries may be off by {:.3g} pixels; {}", source.name,
+                         asset::finestShare * finest / pixel,
+                         source.scene ? options.paper ? "paper mode does not follow the view"
+                                                      : "without --tolerance they would not be"
+                                      : "compile it anew with a finer --tolerance, or draw the SVG"));
 }
 
 }  // namespace

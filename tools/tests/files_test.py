@@ -12,15 +12,15 @@ from support import SQUARE, Command, main
 class Suffixes(Command):
     def test_others_than_ours_are_bad_usage(self):
         self.vtm("render", self.svg, "-o", "a.png")
-        for arguments in (("render", self.svg, "-o", "x.jpg"), ("compile", self.svg, "-o", "x.png"),
+        for arguments in (("render", self.svg, "-o", "x.gif"), ("compile", self.svg, "-o", "x.png"),
                           ("render", self.svg, "-o", "x.png.bak"), ("render", self.svg, "-o", "x."),
                           ("diff", "a.png", "a.png", "-o", "x.jpg"), ("trace", "a.png", "-o", "x.png")):
             with self.subTest(arguments=arguments):
                 before = self.names()
                 self.assertIn("x.", self.vtm(*arguments, expect=2).stderr)
                 self.assertEqual(self.names(), before)
-        batch = self.write("list.tsv", f"{self.svg}\tb.png\n{self.svg}\tb.jpg\n")
-        self.assertIn("b.jpg", self.vtm("render", "--batch", batch, expect=2).stderr)
+        batch = self.write("list.tsv", f"{self.svg}\tb.png\n{self.svg}\tb.gif\n")
+        self.assertIn("b.gif", self.vtm("render", "--batch", batch, expect=2).stderr)
         self.assertFalse((self.folder / "b.png").exists())
 
     def test_empty_names_are_errors(self):

@@ -12,7 +12,8 @@ namespace {
 
 struct Decoded {
     int width = 0, height = 0;
-    bool deep = false;  ///< two bytes a channel, big-endian
+    bool deep = false;      ///< two bytes a channel, big-endian
+    bool straight = false;  ///< a deep one that says so
     std::vector<std::uint8_t> rgba;
 };
 
@@ -54,11 +55,22 @@ void expandToRgba(Reader& reader) {
     png_read_update_info(reader.png, reader.info);
 }
 
+/// As our encoder marks its files (image/src/png_write.cpp).
+bool saysStraight(const Reader& reader) {
+    png_textp texts = nullptr;
+    const int count = png_get_text(reader.png, reader.info, &texts, nullptr);
+    for (int i = 0; i < count; ++i)
+        if (std::strcmp(texts[i].key, "Alpha") == 0 && std::strcmp(texts[i].text, "straight") == 0)
+            return true;
+    return false;
+}
+
 void readHeader(Reader& reader, Decoded& picture) {
     png_read_info(reader.png, reader.info);
     picture.width = int(png_get_image_width(reader.png, reader.info));
     picture.height = int(png_get_image_height(reader.png, reader.info));
     picture.deep = png_get_bit_depth(reader.png, reader.info) == 16;
+    picture.straight = picture.deep && saysStraight(reader);
     if (picture.deep && png_get_color_type(reader.png, reader.info) != PNG_COLOR_TYPE_RGB_ALPHA)
         png_error(reader.png, "16-bit picture is not RGBA");
     if (std::int64_t(picture.width) * picture.height > image::maxDecodedPixels)
@@ -98,10 +110,13 @@ Decoded decode(std::span<const std::uint8_t> bytes, const std::string& name) {
     return picture;
 }
 
-image::Raster fromPremultiplied16(const Decoded& picture) {
+image::Raster fromSixteenBits(const Decoded& picture) {
     image::Raster raster(picture.width, picture.height);
     for (std::size_t i = 0; i < raster.rgba.size(); ++i)
         raster.rgba[i] = float((picture.rgba[2 * i] << 8 | picture.rgba[2 * i + 1]) / 65535.0);
+    for (std::size_t i = 0; picture.straight && i < raster.rgba.size(); i += 4)
+        for (std::size_t c = 0; c < 3; ++c)
+            raster.rgba[i + c] *= raster.rgba[i + 3];
     return raster;
 }
 
@@ -112,7 +127,7 @@ image::Raster readPng(const std::string& path) { return readPng(image::readFile(
 image::Raster readPng(std::span<const std::uint8_t> bytes, const std::string& name) {
     Decoded picture = decode(bytes, name);
     if (picture.deep)
-        return fromPremultiplied16(picture);
+        return fromSixteenBits(picture);
     return image::toRaster({picture.width, picture.height, std::move(picture.rgba)});
 }
 

@@ -21,19 +21,19 @@ struct Arguments {
     fs::path suites = fs::path(VTM_SOURCE_DIR) / "conformance/suites";
     fs::path json, junit, report;
     unsigned jobs = std::max(1u, std::thread::hardware_concurrency()), every = 1;
-    bool list = false, all = false, quiet = false, expectations = false, full = false, asItIs = false;
+    bool list = false, quiet = false, expectations = false, full = false, failed = false, asItIs = false;
 };
 
 void addOptions(CLI::App& app, Arguments& a) {
     app.add_option("PATTERN", a.patterns, "Cases: a name, all below it, or a glob; without, all");
     app.add_option("--exclude", a.excluded, "Leave these out")->expected(1, -1)->delimiter(',');
     app.add_option("--engine", a.engines, "Only these: gl, asset, scan, reference")->delimiter(',');
-    app.add_option("--every", a.every, "Only each so-manieth case")->check(CLI::PositiveNumber);
+    app.add_option("--every", a.every, "Only every k-th case")->check(CLI::PositiveNumber);
     app.add_option("--jobs,-j", a.jobs, "Cases at once")->check(CLI::PositiveNumber);
     app.add_option("--json", a.json, "Write a summary and a row a case");
     app.add_option("--junit", a.junit, "Write JUnit XML");
-    app.add_option("--report", a.report, "Write a page with pictures of what failed into this folder");
-    app.add_flag("--all", a.all, "... of every case");
+    app.add_option("--report", a.report, "Write a page with the pictures of every case into this folder");
+    app.add_flag("--failed", a.failed, "... with those of failed cases only");
     app.add_flag("--full", a.full, "All cases of the suites that have more than run every day");
     app.add_flag("--no-shrink", a.asItIs, "Do not look for the smallest scene that fails");
     app.add_flag("--list", a.list, "Print names and run nothing");
@@ -80,7 +80,7 @@ Setting settingOf(const Arguments& a) {
             setting.engines.push_back(engineOf(name));
     }
     setting.shrink = !a.asItIs;
-    setting.keepPictures = a.all && !a.report.empty();
+    setting.keepPictures = !a.failed && !a.report.empty();
     return setting;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <vtm/error.hpp>
+#include <vtm/scene/fit.hpp>
 #include <vtm/scene/scene.hpp>
 
 #pragma GCC visibility push(default)
@@ -52,8 +53,14 @@ struct Options {
     std::string fileName;           ///< for messages
     std::string resourceDirectory;  ///< relative hrefs of images start here; empty: none are read
     double dpi = 96;
+    /// CSS that comes before the document's own style sheets, so that these win where both say the same.
+    std::string styleSheet;
+    /// Only this element is drawn, with all that is in it, where it stands in the picture. It inherits from
+    /// its ancestors, but their opacity, clips, masks and filters are not applied. Empty: all.
+    std::string exportId;
     std::string language = "en";  ///< for systemLanguage
-    /// Viewport in which a root width or height in percent resolves, user units.
+    /// The size, in user units, of a document that has neither width and height nor a viewBox; and the
+    /// viewport in which a root width or height in percent resolves.
     double defaultWidth = 100, defaultHeight = 100;
     // Text (a later issue) will take its font options from here.
     std::vector<std::string> fontDirectories;
@@ -74,11 +81,14 @@ struct Limits {
 
 struct Document {
     scene::Scene scene;  ///< valid (scene::validate)
+    /// Of Options::exportId: bounds, within the picture, of what it draws: of its outlines, with
+    /// as much room as strokes can need at joins and caps.
+    std::optional<scene::Rect> exported = {};
     std::vector<Warning> warnings;
 };
 
-/// Throws ParseError, and limits::Exceeded under a budget (vtm/limits/limits.hpp). `bytes` may be
-/// gzip-compressed (SVGZ).
+/// Throws ParseError, also where Options::exportId names nothing that is drawn; and limits::Exceeded under a
+/// budget (vtm/limits/limits.hpp). `bytes` may be gzip-compressed (SVGZ).
 Document load(std::span<const std::uint8_t> bytes, const Options& options = {});
 
 }  // namespace vtm::svg
