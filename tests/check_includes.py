@@ -69,6 +69,7 @@ LIBRARIES = {
     r"pugixml\.hpp": {"svg"},
     r"zlib\.h": {"svg", "asset", "image"},
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
+    r"libdeflate\.h": {"image"},
     r"VG/.*|vtm/(vtm|vg|vg_image|gles)\.h": ANYWHERE,
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "api/egl", "api/gl", "api/gles"},
     r"dlfcn\.h": {"api", "api/openvg", "api/egl"},

@@ -40,18 +40,4 @@ Bitmap decodePng(Bytes bytes) {
     return bitmap;
 }
 
-std::vector<std::uint8_t> encodePng(const Bitmap& bitmap) {
-    PngImage png;
-    png.image.width = static_cast<png_uint_32>(bitmap.width);
-    png.image.height = static_cast<png_uint_32>(bitmap.height);
-    png.image.format = PNG_FORMAT_RGBA;
-    png_alloc_size_t size = 0;
-    png.require(png_image_write_get_memory_size(png.image, size, 0, bitmap.rgba.data(), 0, nullptr));
-    std::vector<std::uint8_t> bytes(size);
-    png.require(
-        png_image_write_to_memory(&png.image, bytes.data(), &size, 0, bitmap.rgba.data(), 0, nullptr));
-    bytes.resize(size);
-    return bytes;
-}
-
 }  // namespace vtm::image

@@ -1,0 +1,158 @@
+#include <vtm/image/encode.hpp>
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+namespace vtm::image {
+namespace {
+
+Bitmap bitmapOf(int width, int height) {
+    return {width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4)};
+}
+
+/// Every pixel by its place.
+template <class Color>
+Bitmap drawn(int width, int height, Color color) {
+    Bitmap bitmap = bitmapOf(width, height);
+    std::uint8_t* at = bitmap.rgba.data();
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (const int channel : color(x, y))
+                *at++ = std::uint8_t(channel);
+    return bitmap;
+}
+
+using Channels = std::array<int, 4>;
+
+Bitmap flat(int width, int height) {
+    return drawn(width, height, [](int x, int y) {
+        return x / 7 % 2 == y / 5 % 2 ? Channels{9, 80, 200, 255} : Channels{};
+    });
+}
+Bitmap gradient(int width, int height) {
+    return drawn(width, height, [](int x, int y) { return Channels{x, y, x + y, 255 - x}; });
+}
+/// As a paint varies in a picture.
+Bitmap smooth(int width, int height) {
+    return drawn(width, height, [](int x, int y) {
+        const auto wave = [](double at) { return int(127.5 + 127 * std::sin(at)); };
+        return Channels{wave(x * 0.02 + y * 0.01), wave(x * y * 0.0001), wave(y * 0.03), 255};
+    });
+}
+/// Rings with soft edges.
+Bitmap shape(int width, int height) {
+    return drawn(width, height, [=](int x, int y) {
+        const double inside = 6 * std::sin(std::hypot(x - width / 2.0, y - height / 3.0) / 6);
+        return Channels{200, 30, 40, int(255 * std::clamp(inside, 0.0, 1.0))};
+    });
+}
+Bitmap noise(int width, int height) {
+    std::minstd_rand random(5);
+    return drawn(width, height, [&](int, int) {
+        return Channels{int(random() >> 8), int(random() >> 8), int(random() >> 8), int(random() >> 8)};
+    });
+}
+
+int worst(const Bitmap& a, const Bitmap& b) {
+    int most = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        most = std::max(most, std::abs(a.rgba[i] - b.rgba[i]));
+    return most;
+}
+
+TEST(PngEncoder, KeepsEveryPixel) {
+    // Fewer rows than a sample, a band and a row, more bands than one, a last band that is short.
+    for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {40, 129}, {1, 300}, {700, 1}, {255, 256}})
+        for (const Bitmap& bitmap : {flat(width, height), gradient(width, height), noise(width, height)})
+            EXPECT_EQ(decode(encode(bitmap, FileFormat::Png)).rgba, bitmap.rgba) << width << " x " << height;
+}
+
+TEST(PngEncoder, KeepsEveryPixelWhereItStreams) {
+    const Bitmap large = gradient(4200, 4096);
+    EXPECT_EQ(decode(encode(large, FileFormat::Png)).rgba, large.rgba);
+}
+
+/// Bytes of libpng's file with its own choices, which cairo and others write.
+std::size_t usualSize(const Bitmap& bitmap) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = png_uint_32(bitmap.width);
+    image.height = png_uint_32(bitmap.height);
+    image.format = PNG_FORMAT_RGBA;
+    png_alloc_size_t size = 0;
+    png_image_write_get_memory_size(image, size, 0, bitmap.rgba.data(), 0, nullptr);
+    return size;
+}
+
+TEST(PngEncoder, ShapesAreSmallerThanUsual) {
+    EXPECT_LT(encode(shape(300, 300), FileFormat::Png).size(), usualSize(shape(300, 300)));
+}
+
+TEST(PngEncoder, SmoothPicturesAreFiltered) {
+    // Without a filter nearly every byte of them is another one than its neighbours.
+    const Bitmap bitmap = smooth(300, 300);
+    EXPECT_LT(encode(bitmap, FileFormat::Png).size(), usualSize(bitmap) * 11 / 10);
+}
+
+TEST(PngEncoder, SixteenBitsAreWrittenAsTheyAre) {
+    const auto encoder = makeEncoder(FileFormat::Png, 2, 1, {.depth = 16});
+    const std::vector<std::uint8_t> row{1, 2, 3, 4, 5, 6, 255, 255, 0, 0, 0, 1, 128, 0, 64, 0};
+    encoder->add(row);
+    const Bitmap decoded = decode(encoder->finish());  // 8 bits of it
+    EXPECT_EQ(decoded.width, 2);
+    EXPECT_EQ(decoded.rgba[3], 255);
+    EXPECT_EQ(decoded.rgba[7], 64);
+}
+
+TEST(JpegEncoder, IsCloseAndQualityCounts) {
+    Bitmap picture = gradient(64, 48);
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
+        picture.rgba[i] = 255;
+    const auto fine = encode(picture, FileFormat::Jpeg, {.quality = 95}),
+               rough = encode(picture, FileFormat::Jpeg, {.quality = 20});
+    EXPECT_LT(worst(decode(fine), picture), 16);
+    EXPECT_LT(rough.size(), fine.size());
+}
+
+TEST(WebpEncoder, KeepsEveryPixelWithoutAQuality) {
+    for (const Bitmap& bitmap : {flat(50, 30), gradient(50, 30), noise(50, 30)})
+        EXPECT_EQ(decode(encode(bitmap, FileFormat::Webp)).rgba, bitmap.rgba);
+    const Bitmap picture = noise(64, 64);
+    EXPECT_LT(encode(picture, FileFormat::Webp, {.quality = 20}).size(),
+              encode(picture, FileFormat::Webp).size() / 2);
+}
+
+TEST(PpmEncoder, IsAHeaderAndTheColours) {
+    const std::string expected = "P6\n2 1\n255\n\x01\x02\x03\x09\x08\x07";
+    const std::vector<std::uint8_t> file = encode({2, 1, {1, 2, 3, 255, 9, 8, 7, 255}}, FileFormat::Ppm);
+    EXPECT_EQ(std::string(file.begin(), file.end()), expected);
+    const auto deep = makeEncoder(FileFormat::Ppm, 1, 1, {.depth = 16});
+    deep->add(std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 255, 255});
+    const std::vector<std::uint8_t> deepFile = deep->finish();
+    EXPECT_EQ(std::string(deepFile.begin(), deepFile.end()), "P6\n1 1\n65535\n\x01\x02\x03\x04\x05\x06");
+}
+
+TEST(Encoders, RefuseWhatTheFormatDoesNotHave) {
+    EXPECT_THROW(makeEncoder(FileFormat::Png, 0, 1), CodecError);
+    EXPECT_THROW(makeEncoder(FileFormat::Webp, 16384, 1), CodecError);
+    EXPECT_THROW(makeEncoder(FileFormat::Jpeg, 1, 65501), CodecError);
+    EXPECT_THROW(makeEncoder(FileFormat::Jpeg, 1, 1, {.depth = 16}), std::invalid_argument);
+    EXPECT_THROW(makeEncoder(FileFormat::Png, 1, 1, {.depth = 12}), std::invalid_argument);
+    EXPECT_THROW(makeEncoder(FileFormat::Jpeg, 1, 1, {.quality = 0}), std::invalid_argument);
+}
+
+TEST(Encoders, SuffixesNameTheFormat) {
+    EXPECT_EQ(formatOfSuffix(".jpeg"), FileFormat::Jpeg);
+    EXPECT_EQ(formatOfSuffix(".webp"), FileFormat::Webp);
+    EXPECT_FALSE(formatOfSuffix(".gif"));
+    EXPECT_FALSE(formatOfSuffix(""));
+}
+
+}  // namespace
+}  // namespace vtm::image
