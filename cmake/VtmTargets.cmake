@@ -11,7 +11,7 @@ target_compile_options(vtm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
 target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>")
 # In inner loops & and | of bools are meant: nothing branches.
 target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>")
-option(VTM_WERROR "Treat our warnings as errors" ${PROJECT_IS_TOP_LEVEL})
+option(VTM_WERROR "Treat our warnings as errors" OFF)
 if(VTM_WERROR)
     target_compile_options(vtm_warnings INTERFACE -Werror)
 endif()

@@ -1,10 +1,12 @@
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/core.h>
 
 #include <vtm/compiler/view.hpp>
 #include <vtm/image/codec.hpp>
+#include <vtm/image/encode.hpp>
 #include <vtm/vtm.hpp>
 #include "api/src/picture_state.hpp"
 
@@ -100,9 +102,10 @@ Image Picture::render(const RenderOptions& options) const {
 }
 
 void Image::save(const std::string& path) const {
-    if (!path.ends_with(".png"))
-        throw image::CodecError(path + ": pictures are written as .png");
-    image::writeFile(path, image::encodePng(*this));
+    const auto format = image::formatOfSuffix(std::filesystem::path(path).extension().string());
+    if (!format)
+        throw image::CodecError(path + ": pictures are written as .png, .jpg, .webp or .ppm");
+    image::writeFile(path, image::encode(*this, *format));
 }
 
 }  // namespace vtm

@@ -201,7 +201,10 @@ TEST_F(PictureFiles, DamagedFilesAreNamed) {
 
 TEST_F(PictureFiles, ReferencesStartAtTheFile) {
     Image image = halves().render();
-    image.save(path("halves.png"));
+    for (const std::string suffix : {".png", ".jpg", ".webp"}) {
+        image.save(path("halves" + suffix));
+        EXPECT_EQ(image::decode(image::readFile(path("halves" + suffix))).width, 4) << suffix;
+    }
     EXPECT_EQ(image::decode(image::readFile(path("halves.png"))).rgba, image.rgba);
     const std::string text =
         R"(<svg xmlns="http://www.w3.org/2000/svg" width="4" height="2">)"

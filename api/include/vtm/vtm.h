@@ -98,7 +98,7 @@ VtmEngine vtmImageEngine(const VtmImage *image);
 /* 8-bit straight sRGB red, green, blue, alpha; rows from the top, 4 * width bytes each. Valid as long as the image. */
 const uint8_t *vtmImagePixels(const VtmImage *image);
 
-/* In the format of the path's suffix: .png. */
+/* In the format of the path's suffix: .png, .jpg, .webp or .ppm; the latter two without loss, .jpg and .ppm without alpha. */
 int vtmSaveImage(const VtmImage *image, const char *path);
 
 #pragma GCC visibility pop

@@ -80,7 +80,8 @@ class Image : public image::Bitmap {
 public:
     Engine engine = Engine::Cpu;  ///< who drew it: Cpu or Gl
 
-    /// Into a file in the format of its suffix: .png. Written whole or not at all. Throws image::CodecError.
+    /// Into a file in the format of its suffix: .png, .jpg, .webp (without loss) or .ppm. JPEG and PPM have
+    /// no alpha: draw on a background for them. Written whole or not at all. Throws image::CodecError.
     void save(const std::string& path) const;
 };
 

@@ -104,7 +104,7 @@ class Image:
         return numpy.frombuffer(pixels, numpy.uint8).reshape(height, width, 4).copy()
 
     def save(self, path):
-        """In the format of its suffix: .png."""
+        """In the format of its suffix: .png, .jpg, .webp, .ppm."""
         _checked(_library.vtmSaveImage(self._handle, os.fsencode(path)))
 
 

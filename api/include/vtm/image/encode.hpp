@@ -13,6 +13,8 @@
 #include <vtm/image/bitmap.hpp>
 #include <vtm/image/codec.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace vtm::image {
 
 enum class FileFormat { Png, Jpeg, Webp, Ppm };
@@ -53,3 +55,5 @@ std::unique_ptr<Encoder> makeEncoder(FileFormat format, int width, int height,
 std::vector<std::uint8_t> encode(const Bitmap& bitmap, FileFormat format, const EncodeOptions& options = {});
 
 }  // namespace vtm::image
+
+#pragma GCC visibility pop
