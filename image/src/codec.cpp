@@ -9,7 +9,8 @@ Bitmap makeBitmap(std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1)
         throw CodecError("the picture has no pixels");
     if (width > maxDecodedPixels || height > maxDecodedPixels || width * height > maxDecodedPixels)
-        throw CodecError("the picture is larger than " + std::to_string(maxDecodedPixels / 1'000'000) + " million pixels");
+        throw CodecError("the picture is larger than " + std::to_string(maxDecodedPixels / 1'000'000) +
+                         " million pixels");
     limits::need(static_cast<std::size_t>(width * height) * 4);
     return {static_cast<int>(width), static_cast<int>(height),
             std::vector<std::uint8_t>(static_cast<std::size_t>(width * height) * 4)};
