@@ -13,7 +13,7 @@ namespace {
 
 TEST(Pipeline, RandomScenes) {
     std::array<int, 3> outcomes{};
-    for (unsigned seed = 1; seed <= 1500; ++seed) {
+    for (unsigned seed = 1; seed <= 600; ++seed) {
         std::mt19937 random(seed);
         std::vector<std::uint8_t> bytes(40 + random() % 400);
         for (std::uint8_t& byte : bytes)
@@ -24,8 +24,8 @@ TEST(Pipeline, RandomScenes) {
         EXPECT_NO_THROW(outcome = runPipeline(bytes));
         ++outcomes[std::size_t(outcome)];
     }
-    EXPECT_LT(outcomes[0], 150) << "refused";
-    EXPECT_GT(outcomes[2], 200) << "compared with the reference";
+    EXPECT_LT(outcomes[0], 60) << "refused";
+    EXPECT_GT(outcomes[2], 80) << "compared with the reference";
 }
 
 }  // namespace
