@@ -26,18 +26,29 @@ double gaussLength(const Speed& speed, double t0, double t1) {
 /// Halvings at most: a cusp halves the step once a level, and 2^-24 of a curve is negligible.
 inline constexpr int maxLengthHalvings = 24;
 
-/// The length over [t0, t1] of a curve that runs at speed(t), `whole` by gaussLength(); within `tolerance`,
-/// by comparison of rules over halves, or within the rounding of the sums.
+/// By comparison of the rule over [t0, t1], which gave `whole`, with the rule over its halves.
 template <class Speed>
-double arcLength(const Speed& speed, double t0, double t1, double whole, double tolerance,
-                 int halvings = maxLengthHalvings) {
+double refinedLength(const Speed& speed, double t0, double t1, double whole, double tolerance, int halvings) {
     const double middle = (t0 + t1) / 2;
     const double left = gaussLength(speed, t0, middle), right = gaussLength(speed, middle, t1);
     constexpr double rounding = 1e-15;  // of a sum of sixteen
     if (halvings == 0 || std::abs(left + right - whole) <= std::max(tolerance, rounding * whole))
         return left + right;
-    return arcLength(speed, t0, middle, left, tolerance / 2, halvings - 1) +
-           arcLength(speed, middle, t1, right, tolerance / 2, halvings - 1);
+    return refinedLength(speed, t0, middle, left, tolerance / 2, halvings - 1) +
+           refinedLength(speed, middle, t1, right, tolerance / 2, halvings - 1);
+}
+
+/// The length over [t0, t1] of a curve that runs at speed(t), within `tolerance` or the rounding of the sums.
+template <class Speed>
+double arcLength(const Speed& speed, double t0, double t1, double tolerance) {
+    return refinedLength(speed, t0, t1, gaussLength(speed, t0, t1), tolerance, maxLengthHalvings);
+}
+
+/// The same within a share of the length.
+template <class Speed>
+double relativeArcLength(const Speed& speed, double t0, double t1, double share) {
+    const double whole = gaussLength(speed, t0, t1);
+    return refinedLength(speed, t0, t1, whole, share * whole, maxLengthHalvings);
 }
 
 }  // namespace vtm::geometry

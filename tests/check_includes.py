@@ -26,7 +26,7 @@ MODULES = {
     "limits": set(),
     "image": {"limits"},
     "geometry": set(),
-    "scene": {"image", "limits"},
+    "scene": {"geometry", "image", "limits"},
     "svg": {"scene", "geometry", "image", "limits"},
     "asset": {"image", "limits"},
     "compiler": {"scene", "geometry", "asset", "image", "limits"},

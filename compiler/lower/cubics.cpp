@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/arc.hpp"
+#include "scene/center_form.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -77,7 +77,7 @@ private:
     void arc(const scene::ArcTo& c) {
         if (current_ == c.to)
             return;
-        const auto arc = geometry::centerForm({current_, c.radii, c.rotation, c.largeArc, c.sweep, c.to});
+        const auto arc = scene::centerForm(current_, c);
         if (!arc)
             return sink_.line(map(c.to));
         const EllipticalArc mapped = geometry::mapped(*arc, m_);

@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "geometry/arc.hpp"
 #include "geometry/length.hpp"
+#include "scene/center_form.hpp"
 
 namespace vtm::compiler::stroke {
 
@@ -58,8 +58,7 @@ Curvature curvature(const Cubic& c) {
 
 double arcLength(const Cubic& c, double t0, double t1, double relativeError) {
     const double polygon = glm::distance(c.p0, c.p1) + glm::distance(c.p1, c.p2) + glm::distance(c.p2, c.p3);
-    const auto speed = speedOf(c);
-    return geometry::arcLength(speed, t0, t1, geometry::gaussLength(speed, t0, t1), relativeError * polygon);
+    return geometry::arcLength(speedOf(c), t0, t1, relativeError * polygon);
 }
 
 double parameterAtLength(const Cubic& c, double t0, double length, double relativeError) {
@@ -92,7 +91,7 @@ std::vector<Cubic> circleArc(Point center, Point from, double angle, double tole
 Arc ellipticalArc(Point from, const scene::ArcTo& to, double tolerance) {
     if (from == to.to)
         return {};
-    const auto arc = geometry::centerForm({from, to.radii, to.rotation, to.largeArc, to.sweep, to.to});
+    const auto arc = scene::centerForm(from, to);
     if (!arc)
         return {{geometry::straightCubic(from, to.to)}, {}};
     const double radius = std::max(glm::length(arc->axisX), glm::length(arc->axisY));

@@ -57,8 +57,7 @@ struct LengthSum {
     /// Over [0, end].
     template <class Speed>
     void add(const Speed& speed, double end) {
-        const double whole = geometry::gaussLength(speed, 0, end);
-        sum += geometry::arcLength(speed, 0, end, whole, relativeLengthError * whole);
+        sum += geometry::relativeArcLength(speed, 0, end, relativeLengthError);
     }
 };
 
@@ -85,10 +84,6 @@ struct PathMapper {
 }  // namespace
 
 Affine unitSquareTo(const Box& box) { return {box.width(), 0, 0, box.height(), box.min.x, box.min.y}; }
-
-std::optional<geometry::EllipticalArc> centerForm(Point from, const scene::ArcTo& arc) {
-    return geometry::centerForm({from, arc.radii, arc.rotation, arc.largeArc, arc.sweep, arc.to});
-}
 
 Box boundingBox(const Path& path, const Affine& transform) {
     BoxBuilder builder{transform, {}};

@@ -2,7 +2,6 @@
 /// What the importer has to know about outlines: boxes, lengths, directions, mapped copies.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <vtm/scene/affine.hpp>
@@ -19,9 +18,6 @@ using geometry::Box;
 
 /// Maps the unit square to the box.
 scene::Affine unitSquareTo(const Box& box);
-/// Nothing where the arc is a straight line or nothing at all.
-std::optional<geometry::EllipticalArc> centerForm(scene::Point from, const scene::ArcTo& arc);
-
 /// Tight box of the mapped outline, strokes not counted. A MoveTo that nothing follows counts.
 Box boundingBox(const scene::Path& path, const scene::Affine& transform);
 

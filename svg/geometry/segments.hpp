@@ -7,6 +7,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include <vtm/scene/path.hpp>
+#include "scene/center_form.hpp"
 #include "svg/geometry/path_geometry.hpp"
 
 namespace vtm::svg {
@@ -42,7 +43,7 @@ void forEachSegment(const scene::Path& path, Visitor&& visit) {
             visit(geometry::Cubic{from, cubic->control1, cubic->control2, cubic->to});
             from = cubic->to;
         } else if (const auto* arc = std::get_if<scene::ArcTo>(&command)) {
-            if (const auto center = centerForm(from, *arc))
+            if (const auto center = scene::centerForm(from, *arc))
                 visit(ArcSegment{from, arc->to, *center});
             else
                 visit(LineSegment{from, arc->to});

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/center_form.hpp"
 #include "svg/geometry/path_data.hpp"
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/tests/support.hpp"
@@ -81,7 +82,7 @@ TEST(PathGeometry, CenterFormMatchesTheEndpoints) {
     const Point from(3, 4), to(-2, 7);
     for (const bool large : {false, true})
         for (const bool sweep : {false, true}) {
-            const auto arc = centerForm(from, {{5, 9}, 0.7, large, sweep, to});
+            const auto arc = scene::centerForm(from, {{5, 9}, 0.7, large, sweep, to});
             ASSERT_TRUE(arc);
             expectNear(arc->at(arc->start), from);
             expectNear(arc->at(arc->start + arc->sweep), to);
@@ -90,13 +91,13 @@ TEST(PathGeometry, CenterFormMatchesTheEndpoints) {
         }
 }
 TEST(PathGeometry, SmallRadiiGrow) {
-    const auto arc = centerForm({0, 0}, {{1, 1}, 0, false, true, {10, 0}});
+    const auto arc = scene::centerForm({0, 0}, {{1, 1}, 0, false, true, {10, 0}});
     ASSERT_TRUE(arc);
     expectNear(arc->center, {5, 0});
     EXPECT_NEAR(arc->axisX.x, 5, 1e-12);
 }
 TEST(PathGeometry, ArcsWithoutARadiusAreLines) {
-    EXPECT_FALSE(centerForm({0, 0}, {{0, 5}, 0, false, true, {1, 1}}));
+    EXPECT_FALSE(scene::centerForm({0, 0}, {{0, 5}, 0, false, true, {1, 1}}));
 }
 TEST(PathGeometry, LengthOfACircle) {
     EXPECT_NEAR(lengthOf(parse("M 1 0 A 1 1 0 0 1 -1 0 A 1 1 0 0 1 1 0").path), 2 * std::numbers::pi, 1e-3);

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "geometry/arc.hpp"
+#include "scene/center_form.hpp"
 
 namespace vtm::openvg {
 
@@ -61,8 +61,7 @@ public:
             std::swap(from, arc.to);
             arc.sweep = !arc.sweep;
         }
-        const auto center =
-            geometry::centerForm({from, arc.radii, arc.rotation, arc.largeArc, arc.sweep, arc.to});
+        const auto center = scene::centerForm(from, arc);
         if (!center)
             return emitAll(1, backwards, mapped(from), mapped(arc.to), [](double) { return dvec2(0); });
         const geometry::EllipticalArc ellipse = geometry::mapped(*center, glm::dmat3x2(map_));
@@ -125,8 +124,7 @@ geometry::Box boxOf(const scene::Path& outline) {
             box.add(cubic->control1);
             box.add(cubic->control2);
         } else if (const auto* arc = std::get_if<scene::ArcTo>(&command)) {
-            if (const auto ellipse =
-                    geometry::centerForm({at, arc->radii, arc->rotation, arc->largeArc, arc->sweep, arc->to}))
+            if (const auto ellipse = scene::centerForm(at, *arc))
                 box.add(geometry::bounds(*ellipse));
         }
         if (const auto end = scene::endOf(command)) {

@@ -69,11 +69,8 @@ public:
         // A start that no symmetry fools.
         double sum = 0;
         constexpr int parts = 4;
-        for (int i = 0; i < parts; ++i) {
-            const double t0 = t * i / parts, t1 = t * (i + 1) / parts;
-            const double whole = geometry::gaussLength(speed, t0, t1);
-            sum += geometry::arcLength(speed, t0, t1, whole, lengthTolerance * whole);
-        }
+        for (int i = 0; i < parts; ++i)
+            sum += geometry::relativeArcLength(speed, t * i / parts, t * (i + 1) / parts, lengthTolerance);
         return sum;
     }
 
