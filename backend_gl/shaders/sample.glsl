@@ -6,9 +6,9 @@
 // ---- One square of the tree -------------------------------------------------------------------------
 
 // A footprint over one copy of the picture. Lengths in sides of the tree's square, which is [0, 1]².
-struct Tile {
+struct Footprint {
     vec2 centre, halfBox;  // of the footprint and its bounding box
-    vec2 least, most;      // of that box, cut to the picture
+    vec2 lower, upper;      // of that box, cut to the picture
     mat2 toBox;            // the footprint becomes the pixel's box [0, 1]², its centre 0.5
     mat3x2 pixel;          // its sides and centre, in the picture
     float turn;            // -1 if that mirrors
@@ -17,16 +17,16 @@ struct Tile {
 vec2 picturePoint(Vtm vtm, vec2 p) { return vtm.square.xy + p * vtm.square.z; }
 
 // Paints are evaluated in the middle of what the footprint's box has of the square.
-void addSquare(Vtm vtm, Tile tile, ivec2 cell, float side, uint entry, inout vec4 sum) {
+void addSquare(Vtm vtm, Footprint footprint, ivec2 cell, float side, uint entry, inout vec4 sum) {
     vec2 corner = vec2(cell) * side;
-    vec2 least = max(tile.centre - tile.halfBox, corner), most = min(tile.centre + tile.halfBox, corner + side);
+    vec2 lower = max(footprint.centre - footprint.halfBox, corner), upper = min(footprint.centre + footprint.halfBox, corner + side);
     uint payload = entry >> 2;
     uvec4 leaf = uvec4(0u, 0u, uvec2(payload | payload << 16));
     if ((entry & 3u) != kindSolid)
         leaf = texelAt(vtm, vtm.sections.x + payload);
-    Frame frame = Frame(tile.toBox * (side / float(leafExtent)), tile.toBox * (corner - tile.centre) + 0.5);
-    vec2 point = picturePoint(vtm, 0.5 * (least + most));
-    sum += tile.turn * leafIntegral(vtm, frame, leaf, point, tile.pixel, -1.0);
+    Frame frame = Frame(footprint.toBox * (side / float(leafExtent)), footprint.toBox * (corner - footprint.centre) + 0.5);
+    vec2 point = picturePoint(vtm, 0.5 * (lower + upper));
+    sum += footprint.turn * leafIntegral(vtm, frame, leaf, point, footprint.pixel, -1.0);
 }
 
 // ---- The tree -----------------------------------------------------------------------------------------
@@ -46,26 +46,26 @@ uint nodeAround(Vtm vtm, ivec2 cell, int level) {
     return node;
 }
 
-ivec2 firstCell(Tile tile, float side) { return ivec2(floor(tile.least / side)); }
-ivec2 lastCell(Tile tile, float side) { return max(ivec2(ceil(tile.most / side)) - 1, firstCell(tile, side)); }
+ivec2 firstCell(Footprint footprint, float side) { return ivec2(floor(footprint.lower / side)); }
+ivec2 lastCell(Footprint footprint, float side) { return max(ivec2(ceil(footprint.upper / side)) - 1, firstCell(footprint, side)); }
 
 // Whether a square meets the footprint, by its box in the pixel's coordinates.
-bool meets(Tile tile, ivec2 cell, float side) {
-    vec2 fromCentre = tile.toBox * ((vec2(cell) + 0.5) * side - tile.centre);
-    vec2 reach = (abs(tile.toBox[0]) + abs(tile.toBox[1])) * (0.5 * side) + 0.5;
+bool meets(Footprint footprint, ivec2 cell, float side) {
+    vec2 fromCentre = footprint.toBox * ((vec2(cell) + 0.5) * side - footprint.centre);
+    vec2 reach = (abs(footprint.toBox[0]) + abs(footprint.toBox[1])) * (0.5 * side) + 0.5;
     return all(lessThan(abs(fromCentre), reach));
 }
 
 // Squares in the order of the tree, with neither recursion nor a stack: a place in the tree is a cell, its level and
 // the node that holds it. First down to the smallest square that holds the whole box, which most often is a leaf.
-void addTile(Vtm vtm, Tile tile, inout vec4 sum) {
+void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
     int level = 0;
     ivec2 cell = ivec2(0);
     uint entry = vtm.root, parent = 0u;
     while ((entry & 3u) == kindNode && spend(1.0)) {
         float side = sideAt(level + 1);
-        ivec2 child = firstCell(tile, side);
-        if (child != lastCell(tile, side))
+        ivec2 child = firstCell(footprint, side);
+        if (child != lastCell(footprint, side))
             break;
         parent = entry >> 2;
         entry = childAt(vtm, parent, child);
@@ -82,11 +82,11 @@ void addTile(Vtm vtm, Tile tile, inout vec4 sum) {
         uint foundEntry = 0u;
         while (level >= top && found.x < 0 && spend(1.0)) {
             float side = sideAt(level);
-            if (!rising && meets(tile, cell, side)) {
+            if (!rising && meets(footprint, cell, side)) {
                 if ((entry & 3u) == kindNode) {
                     parent = entry >> 2;
                     ++level;
-                    cell = max(cell * 4, firstCell(tile, side * 0.25));
+                    cell = max(cell * 4, firstCell(footprint, side * 0.25));
                     entry = childAt(vtm, parent, cell);
                     continue;
                 }
@@ -95,10 +95,10 @@ void addTile(Vtm vtm, Tile tile, inout vec4 sum) {
                 foundEntry = entry;
             }
             // On to the next cell of this node that the box meets, or up where there is none.
-            ivec2 most = min(lastCell(tile, side), cell | 3);
-            bool along = cell.x < most.x, onward = level > top && (along || cell.y < most.y);
+            ivec2 upper = min(lastCell(footprint, side), cell | 3);
+            bool along = cell.x < upper.x, onward = level > top && (along || cell.y < upper.y);
             if (onward) {
-                cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(tile, side).x, cell.x & ~3), cell.y + 1);
+                cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(footprint, side).x, cell.x & ~3), cell.y + 1);
                 if (rising)
                     parent = nodeAround(vtm, cell, level);
                 entry = childAt(vtm, parent, cell);
@@ -109,7 +109,7 @@ void addTile(Vtm vtm, Tile tile, inout vec4 sum) {
             rising = !onward;
         }
         if (found.x >= 0)
-            addSquare(vtm, tile, found, foundSide, foundEntry, sum);
+            addSquare(vtm, footprint, found, foundSide, foundEntry, sum);
     }
 }
 
@@ -143,17 +143,17 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
             vec2 st = footprint.st - vec2(x, y);
             st = mix(st, 1.0 - st, mirrored);
             vec2 turned = mix(vec2(1.0), vec2(-1.0), mirrored);
-            vec2 least = max(st - halfBox, 0.0), most = min(st + halfBox, 1.0);
-            if (any(greaterThan(least, most)))
+            vec2 lower = max(st - halfBox, 0.0), upper = min(st + halfBox, 1.0);
+            if (any(greaterThan(lower, upper)))
                 continue;
             // A box that only touches the picture's end has no cell beyond it.
-            least = clamp(least * scale + offset, 0.0, lastPlace);
-            most = clamp(most * scale + offset, 0.0, 1.0);
-            Tile tile = Tile(st * scale + offset, halfBox * scale, least, most,
+            lower = clamp(lower * scale + offset, 0.0, lastPlace);
+            upper = clamp(upper * scale + offset, 0.0, 1.0);
+            Footprint footprint = Footprint(st * scale + offset, halfBox * scale, lower, upper,
                              mat2(toBox[0] * turned.x, toBox[1] * turned.y),
                              mat3x2(footprint.sides[0], footprint.sides[1], picturePoint(vtm, st * scale + offset)), 1.0);
-            tile.turn = cross2(tile.toBox[0], tile.toBox[1]) < 0.0 ? -1.0 : 1.0;
-            addTile(vtm, tile, sum);
+            footprint.turn = cross2(footprint.toBox[0], footprint.toBox[1]) < 0.0 ? -1.0 : 1.0;
+            addFootprint(vtm, footprint, sum);
         }
 }
 

@@ -17,18 +17,18 @@ namespace vtm::gl {
 
 namespace {
 
-/// Larger views are drawn in tiles of at most this side, 256 MiB of RGBA32F each.
-constexpr int largestTile = 4096;
+/// Larger views are drawn in parts of at most this side, 256 MiB of RGBA32F each.
+constexpr int maxPartSide = 4096;
 
-int tileSide() {
+int partSide() {
     GLint viewport[2] = {0, 0};
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
-    return std::min({largestTile, limit(GL_MAX_TEXTURE_SIZE), viewport[0], viewport[1]});
+    return std::min({maxPartSide, limit(GL_MAX_TEXTURE_SIZE), viewport[0], viewport[1]});
 }
 
 /// Calls visit(part) for parts of a box of at most `side` by `side` pixels.
 template <class Visit>
-void forEachTile(const PixelBox& box, int side, Visit&& visit) {
+void forEachPart(const PixelBox& box, int side, Visit&& visit) {
     for (int y = box.min.y; y < box.max.y; y += side)
         for (int x = box.min.x; x < box.max.x; x += side) {
             const glm::ivec2 corner(x, y);
@@ -44,10 +44,10 @@ asset::View viewOf(const asset::View& view, const PixelBox& box) {
 }
 
 /// Into rows of `rowLength` pixels.
-void readBack(const Target& target, const asset::View& tile, GLenum type, int rowLength, void* pixels) {
+void readBack(const Target& target, const asset::View& part, GLenum type, int rowLength, void* pixels) {
     target.bind();
     glPixelStorei(GL_PACK_ROW_LENGTH, rowLength);
-    glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, type, pixels);
+    glReadPixels(0, 0, part.width, part.height, GL_RGBA, type, pixels);
 }
 
 PixelBox wholeOf(const asset::View& view) { return {{0, 0}, {view.width, view.height}}; }
@@ -130,7 +130,7 @@ struct Renderer::Impl {
         if (asset.scanner && d.finish.flags() == 0 && d.bits == 8) {
             const OneDrawBuffer one;
             for (const PixelBox& box : d.boxes)
-                forEachTile(box, tileSide(), [&](const PixelBox& part) { drawScanned(asset, d, part); });
+                forEachPart(box, partSide(), [&](const PixelBox& part) { drawScanned(asset, d, part); });
             return check("drawing");
         }
         drawByShaders(asset, d);
@@ -141,12 +141,12 @@ struct Renderer::Impl {
         // Samples of one pixel may lie in several patches; each pixel's colour is made in one.
         if (asset.atlases.size() == 1 && !d.multisampled) {
             for (const PixelBox& box : d.boxes)
-                forEachTile(box, tileSide(), [&](const PixelBox& part) { drawDirectly(asset, d, part); });
+                forEachPart(box, partSide(), [&](const PixelBox& part) { drawDirectly(asset, d, part); });
         } else {
             PixelBox all;
             for (const PixelBox& box : d.boxes)
                 all = all.joined(box);
-            forEachTile(all, tileSide(), [&](const PixelBox& part) { drawThroughTarget(asset, d, part); });
+            forEachPart(all, partSide(), [&](const PixelBox& part) { drawThroughTarget(asset, d, part); });
         }
         check("drawing");
     }
@@ -175,35 +175,35 @@ struct Renderer::Impl {
         bytePixels.draw(workshop, d, box);
     }
 
-    /// All boxes' parts in the tile, from one target.
-    void drawThroughTarget(UploadedAsset& asset, const Destination& d, const PixelBox& tile) {
-        const asset::View view = viewOf(d.view, tile);
+    /// What the boxes have of `within`, from one target.
+    void drawThroughTarget(UploadedAsset& asset, const Destination& d, const PixelBox& within) {
+        const asset::View view = viewOf(d.view, within);
         const bool shows = isInvertible(view);
         const bool linearLight = d.finish.has(Finish::LinearLight);
         const Finish within(linearLight ? Finish::LinearLight | Finish::LinearOut : 0u);
         Target target = shows ? paint(asset, view, within) : Target();
         for (const PixelBox& box : d.boxes) {
-            const PixelBox part{glm::max(box.min, tile.min), glm::min(box.max, tile.max)};
+            const PixelBox part{glm::max(box.min, within.min), glm::min(box.max, within.max)};
             if (part.empty())
                 continue;
             begin(d, part);
             if (shows)
-                compose(workshop, d, target, part, -tile.min);
+                compose(workshop, d, target, part, -within.min);
         }
         end();
         if (shows)
             workshop.pool.giveBack(std::move(target));
     }
 
-    /// Calls use(target, tile, corner) for each painted tile.
+    /// Calls use(target, part, corner) for each painted part.
     template <class Use>
-    void paintTiles(UploadedAsset& asset, const asset::View& view, Use&& use) {
+    void paintParts(UploadedAsset& asset, const asset::View& view, Use&& use) {
         if (!isInvertible(view))
             return;
-        forEachTile(wholeOf(view), tileSide(), [&](const PixelBox& box) {
-            const asset::View tile = viewOf(view, box);
-            Target target = paint(asset, tile);
-            use(target, tile, box.min);
+        forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
+            const asset::View part = viewOf(view, box);
+            Target target = paint(asset, part);
+            use(target, part, box.min);
             workshop.pool.giveBack(std::move(target));
             check("drawing");
         });
@@ -212,17 +212,17 @@ struct Renderer::Impl {
     image::Bitmap bitmap(UploadedAsset& asset, const asset::View& view) {
         image::Bitmap bitmap{view.width, view.height, {}};
         bitmap.rgba.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
-        forEachTile(wholeOf(view), tileSide(), [&](const PixelBox& box) {
+        forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
             bytes.resize(box.size());
             Target target = bytes.take();
             Output output;
             output.framebuffer = target.framebuffer.get();
             output.alpha = Output::Alpha::Straight;
-            const asset::View tile = viewOf(view, box);
-            drawByShaders(asset, destinationOf(tile, output, 0));
+            const asset::View part = viewOf(view, box);
+            drawByShaders(asset, destinationOf(part, output, 0));
             const std::size_t first =
                 (std::size_t(box.min.y) * std::size_t(view.width) + std::size_t(box.min.x)) * 4;
-            readBack(target, tile, GL_UNSIGNED_BYTE, view.width, &bitmap.rgba[first]);
+            readBack(target, part, GL_UNSIGNED_BYTE, view.width, &bitmap.rgba[first]);
             bytes.giveBack(std::move(target));
             check("reading back");
         });
@@ -258,9 +258,9 @@ image::Raster Renderer::render(const Texture& texture, const asset::View& view) 
     asset::validate(view);
     image::Raster raster(view.width, view.height);
     impl_->call([&](const StateGuard&) {
-        impl_->paintTiles(
-            *texture.impl_, view, [&](const Target& target, const asset::View& tile, glm::ivec2 corner) {
-                readBack(target, tile, GL_FLOAT, raster.width, raster.pixel(corner.x, corner.y));
+        impl_->paintParts(
+            *texture.impl_, view, [&](const Target& target, const asset::View& part, glm::ivec2 corner) {
+                readBack(target, part, GL_FLOAT, raster.width, raster.pixel(corner.x, corner.y));
             });
     });
     // Rounding leaves sums some 1e-7 outside.
@@ -290,7 +290,7 @@ void Renderer::draw(const BytePixels& pixels, const Output& output) {
         const Destination d = destinationOf(view, output, guard.drawFramebuffer());
         const OneDrawBuffer one;
         for (const PixelBox& box : d.boxes)
-            forEachTile(box, tileSide(), [&](const PixelBox& part) { impl_->drawGiven(pixels, d, part); });
+            forEachPart(box, partSide(), [&](const PixelBox& part) { impl_->drawGiven(pixels, d, part); });
         impl_->check("drawing");
     });
 }
@@ -298,7 +298,7 @@ void Renderer::draw(const BytePixels& pixels, const Output& output) {
 void Renderer::draw(const Texture& texture, const asset::View& view) {
     asset::validate(view);
     impl_->call([&](const StateGuard&) {
-        forEachTile(wholeOf(view), tileSide(), [&](const PixelBox& box) {
+        forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
             impl_->bytes.resize(box.size());
             Target target = impl_->bytes.take();
             Output output;
