@@ -14,7 +14,7 @@
 #include <vtm/compiler/pick.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
 

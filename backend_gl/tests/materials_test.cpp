@@ -5,7 +5,7 @@
 #include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
-#include "backend_gl/src/programs.hpp"
+#include "backend_gl/core/programs.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 
 namespace vtm::gl {

@@ -8,7 +8,7 @@
 
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 
 namespace vtm::gl {

@@ -9,7 +9,7 @@
 #include <vtm/asset/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 

@@ -5,13 +5,13 @@
 
 #include <glm/matrix.hpp>
 
-#include "backend_gl/src/materials.hpp"
-#include "backend_gl/src/program.hpp"
-#include "backend_gl/src/programs.hpp"
-#include "backend_gl/src/requirements.hpp"
-#include "backend_gl/src/state_guard.hpp"
-#include "backend_gl/src/target.hpp"
-#include "backend_gl/src/upload.hpp"
+#include "backend_gl/core/materials.hpp"
+#include "backend_gl/core/program.hpp"
+#include "backend_gl/core/programs.hpp"
+#include "backend_gl/core/requirements.hpp"
+#include "backend_gl/core/state_guard.hpp"
+#include "backend_gl/output/target.hpp"
+#include "backend_gl/upload/upload.hpp"
 #include "paper/evaluate.hpp"
 #include "paper/gl/programs.hpp"
 #include "paper/gl/texels.hpp"
