@@ -16,8 +16,8 @@
 #include <glm/vec4.hpp>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 
 namespace vtm::asset {
 

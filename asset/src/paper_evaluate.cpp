@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "asset/paper.hpp"
-#include "asset/src/paint.hpp"
+#include "raster/src/paint.hpp"
 
 namespace vtm::asset {
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include <vtm/asset/asset.hpp>
-#include "asset/coverage.hpp"
 #include "asset/paper.hpp"
 #include "backend_gl/src/patch.hpp"
 #include "backend_gl/src/turns.hpp"
+#include "raster/coverage.hpp"
 
 namespace vtm::gl {
 

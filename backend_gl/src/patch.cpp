@@ -9,13 +9,13 @@
 #include <glm/mat2x2.hpp>
 
 #include <vtm/limits/limits.hpp>
-#include "asset/steepness.hpp"
 #include "backend_gl/src/patch_pieces.hpp"
 #include "backend_gl/src/patch_references.hpp"
 #include "backend_gl/src/patch_texels.hpp"
 #include "backend_gl/src/patch_turns.hpp"
 #include "backend_gl/src/rough_cells.hpp"
 #include "backend_gl/src/turns.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

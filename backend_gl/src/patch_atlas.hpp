@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include "backend_gl/src/gl.hpp"
 #include "backend_gl/src/patch.hpp"
 #include "backend_gl/src/scanned_pixels.hpp"

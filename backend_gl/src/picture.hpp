@@ -2,7 +2,7 @@
 /// Drawing an exact asset as a picture: every pixel once, by the patch that its centre lies in.
 #pragma once
 
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include "backend_gl/src/programs.hpp"
 #include "backend_gl/src/upload.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include <vtm/asset/prefilter.hpp>
 #include <vtm/gl/sampled_texture.hpp>
+#include <vtm/raster/prefilter.hpp>
 #include "backend_gl/src/constants.hpp"
 #include "backend_gl/src/materials.hpp"
 #include "backend_gl/src/prefixed.hpp"

@@ -4,10 +4,10 @@
 #include <bit>
 #include <limits>
 
-#include "asset/steepness.hpp"
 #include "backend_gl/src/asset_texels.hpp"
 #include "backend_gl/src/constants.hpp"
 #include "backend_gl/src/ramp_sums.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

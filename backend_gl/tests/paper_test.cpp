@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <fmt/core.h>
 
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/session.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "backend_gl/paper_pattern.hpp"
 #include "compiler/paper.hpp"
 #include "conformance/cases/support.hpp"
