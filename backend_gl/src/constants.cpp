@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <vtm/asset/asset.hpp>
-#include "asset/paper.hpp"
 #include "backend_gl/src/patch.hpp"
 #include "backend_gl/src/turns.hpp"
 #include "raster/coverage.hpp"
@@ -30,6 +29,7 @@ std::string layout() {
            constant("placementColumns", placementColumns) + constant("maxLevel", asset::maxLevel) +
            constant("leafExtent", asset::leafExtent) + constant("programTag", asset::programTag) +
            constant("longRamp", longRamp) + constant("kindSolid", asset::Entry::Kind::Solid) +
+           constant("kindNode", asset::Entry::Kind::Node) +
            fmt::format("const int maxStack = {};\nconst float slopeScale = {:.1f};\n", asset::maxStack,
                        asset::slopeScale) +
 
@@ -44,18 +44,6 @@ std::string patches() {
            fmt::format("const float patchStep = {:.17g};\nconst float patchSlopeScale = {:.1f};\n",
                        std::ldexp(1.0, -int(patchStepLog2)), patchSlopeScale) +
            fmt::format("const vec2 referenceShift = vec2({}, {});\n", referenceShiftX, referenceShiftY);
-}
-
-std::string paperMode() {
-    return constant("kindNode", asset::Entry::Kind::Node) + constant("paperNone", asset::noPaperIndex) +
-           constant("patternInside", PatternKind::Inside) +
-           fmt::format("const float patternLargest = {:.17g};\n", 1 - 0x1p-24) +
-           constant("paperIntersection", 1 + unsigned(asset::PaperOperator::Intersection)) +
-           fmt::format(
-               "const int paperPending = {};\nconst float paperMargin = {:.17g};\nconst float paperExtent = "
-               "{:.1f};\nconst float paperSlopeScale = {:.17g};\nconst float paperLargestLod = {:.1f};\n",
-               asset::maxPaperPending, asset::paperMargin, asset::paperExtent, asset::paperSlopeScale,
-               asset::paperLargestLod);
 }
 
 std::string operations() {
@@ -89,8 +77,6 @@ std::string actions() {
 
 }  // namespace
 
-std::string glslConstants() {
-    return layout() + patches() + paperMode() + operations() + blendModes() + actions();
-}
+std::string glslConstants() { return layout() + patches() + operations() + blendModes() + actions(); }
 
 }  // namespace vtm::gl

@@ -12,9 +12,6 @@ inline constexpr unsigned texelColumnsLog2 = 12, imageColumnsLog2 = 12;
 /// Texels a row of the placements' texture: four a map.
 inline constexpr unsigned placementColumns = 1024;
 
-/// Kinds of squares of a paper pattern; above Inside: cells of so many functions more.
-enum class PatternKind : unsigned { Outside, Inside };
-
 /// What layer_fragment.glsl does to its target.
 enum class Action : unsigned {
     Clip,  ///< target · coverage

@@ -113,28 +113,9 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
     }
 }
 
-ProgramSource paperSource(Features features, const std::string& materials) {
-    using namespace shaders;
-    const std::string defines = features.defines();
-    return {"paper",
-            {paper_vertex},
-            {defines, fetch, blend, gradient, image, paint, paper_hermite, paper_mask, paper_fragment,
-             materials}};
-}
-
-ProgramSource paperPatternSource(const PatternParts& parts) {
-    using namespace shaders;
-    const std::string defines = fmt::format(
-        "#define COMPRESSED {:d}\n#define FILTERED {:d}\n#define LINEAR {:d}\n#define CELLS {:d}\n#define "
-        "MIP {:d}\n"
-        "#define DEPTH {}\n",
-        parts.compressed, parts.filtered, parts.linear, parts.cells, parts.mip, parts.depth);
-    return {"pattern", {paper_vertex}, {defines, paper_hermite, paper_pattern_fragment}};
-}
-
 ProgramSource idsSource() {
     using namespace shaders;
-    return {"ids", {paper_vertex}, {fetch, id_fragment}};
+    return {"ids", {screen_vertex}, {fetch, id_fragment}};
 }
 
 std::vector<ProgramSource> Programs::everySource() {
@@ -156,14 +137,8 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Fill, features, 0);
         add(Kind::Patch, features, 0);
         add(Kind::Patch, features, allFinishes);
-        sources.push_back(
-            paperSource(Features(features), Features(features).has(Features::Material) ? materials : ""));
     }
     sources.push_back(idsSource());
-    for (unsigned form = 0; form < 16; ++form)
-        sources.push_back(paperPatternSource(
-            {(form & 1) != 0, (form & 2) != 0, (form & 4) != 0, true, (form & 8) != 0, 3}));
-    sources.push_back(paperPatternSource({.cells = false}));
     for (unsigned finish = 0; finish <= allFinishes; ++finish) {
         add(Kind::Flat, 0, finish);
         add(Kind::Compose, 0, finish);

@@ -27,15 +27,8 @@ inline constexpr unsigned costClassCount = 3;
 enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Patches };
 inline constexpr std::size_t unitCount = 6;
 
-/// Of those who have one program only. `materials`: their text (materialsSource), if the features name them.
-ProgramSource paperSource(Features features, const std::string& materials);
+/// Of numbers, which have one program only.
 ProgramSource idsSource();
-/// `cells`, `mip`: what it reads; `depth`: levels of the tree, at least 1.
-struct PatternParts {
-    bool compressed = true, filtered = true, linear = false, cells = true, mip = true;
-    unsigned depth = 1;
-};
-ProgramSource paperPatternSource(const PatternParts& parts);
 
 /// Each throws GlError with the driver's log where a program does not compile.
 class Programs {
@@ -59,7 +52,7 @@ public:
 
     ProgramFigures figures() const;
 
-    /// The text of every program that there can be, paper mode's and numbers' too, with no materials.
+    /// The text of every program that there can be, numbers' too, with no materials.
     /// Features and finishes, which have no names in common, are combined with none and all of the others.
     static std::vector<ProgramSource> everySource();
 

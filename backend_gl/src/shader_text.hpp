@@ -12,8 +12,7 @@ extern const std::string_view shadow, cell, patch_vertex, patch_fragment, patch_
 extern const std::string_view flat_vertex, flat_fragment;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment, general_fragment;
 extern const std::string_view sample_asset, sample_prefilter, sample;
-extern const std::string_view paper_vertex, paper_hermite, paper_mask, paper_fragment, paper_pattern_fragment;
 extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_fragment;
-extern const std::string_view output, compose_fragment, id_fragment;
+extern const std::string_view output, compose_fragment, screen_vertex, id_fragment;
 
 }  // namespace vtm::gl::shaders

@@ -6,6 +6,7 @@
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/scan.hpp>
 #include "conformance/reference/reference.hpp"
+#include "paper/evaluate.hpp"
 #include "tools/src/automatic_engine.hpp"
 #include "tools/src/commands.hpp"
 #include "tools/src/cpu_engine.hpp"
@@ -25,7 +26,7 @@ protected:
         if (!source.paper && !source.asset->materials.empty())
             warnOfMaterials(source);
         return timed(source.stages, "render", [&] {
-            return source.paper ? asset::evaluate(source.paper->asset, view, &source.cost.emplace())
+            return source.paper ? paper::evaluate(source.paper->asset, view, &source.cost.emplace())
                                 : asset::evaluate(*source.asset, view);
         });
     }

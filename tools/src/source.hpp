@@ -12,7 +12,8 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/scene/scene.hpp>
 #include <vtm/svg/load.hpp>
-#include "compiler/paper.hpp"
+#include "paper/compile.hpp"
+#include "paper/evaluate.hpp"
 #include "tools/src/input.hpp"
 #include "tools/src/report.hpp"
 
@@ -39,9 +40,9 @@ struct Source {
     std::optional<scene::Rect> exported;  ///< what --export-id draws
     std::optional<scene::Scene> scene;    ///< not where the file is an asset
     std::optional<asset::Asset> asset;
-    std::optional<compiler::PaperResult> paper;                     ///< in place of `asset` in paper mode
+    std::optional<paper::CompileResult> paper;                      ///< in place of `asset` in paper mode
     std::optional<std::vector<compiler::UnprovenSquare>> unproven;  ///< not where the file is an asset
-    std::optional<asset::PaperCost> cost;                           ///< of drawing `paper` on the CPU
+    std::optional<paper::Cost> cost;                                ///< of drawing `paper` on the CPU
     Json proof = Json::object();  ///< what the compiler proved; empty where the file is an asset
     Stages stages;
 };
