@@ -3,7 +3,7 @@
 #pragma once
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 
 namespace vtm::gl {
 

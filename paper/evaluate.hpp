@@ -8,8 +8,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 #include "paper/model.hpp"
 
 namespace vtm::paper {

@@ -2,8 +2,8 @@
 
 #include <dlfcn.h>
 
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/error.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "api/gl_entry.hpp"
 
 /// Null unless the program itself is linked with libvtm_gl.

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <vtm/asset/asset.hpp>
-#include "asset/coverage.hpp"
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/tiles/tile.hpp"
+#include "raster/coverage.hpp"
 
 namespace vtm::gl {
 

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include "backend_gl/layers/instances.hpp"
 
 namespace vtm::gl {

@@ -6,7 +6,7 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
-#include "asset/steepness.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/gl/output.hpp>
+#include <vtm/raster/view.hpp>
 #include "backend_gl/core/finish.hpp"
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/placement.hpp"

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/scan.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {
@@ -89,7 +89,7 @@ TEST_F(Gl, SteepGradients) {
         // A quarter of all shades a pixel.
         const View view = turnedView(24, 18, {29.5, 31.5}, 4 / length, 0.4);
         const Worst w = worst(renderer->render(renderer->upload(steepHalves(length)), view),
-                              steepHalvesByPoints(length, view));
+                              steepHalvesByPoints(length, view.width, view.height, view.toPixels));
         EXPECT_LE(w.difference, 4.0 / 255) << w.x << ", " << w.y;
     }
 }

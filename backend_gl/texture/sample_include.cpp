@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include <vtm/asset/prefilter.hpp>
 #include <vtm/gl/sampled_texture.hpp>
+#include <vtm/raster/prefilter.hpp>
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/materials.hpp"
 #include "backend_gl/core/shader_text.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/tiles/scanned_pixels.hpp"
 #include "backend_gl/tiles/tile.hpp"

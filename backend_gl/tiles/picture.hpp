@@ -2,7 +2,7 @@
 /// Drawing an exact asset as a picture: every pixel once, by the tile that its centre lies in.
 #pragma once
 
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include "backend_gl/core/programs.hpp"
 #include "backend_gl/upload/upload.hpp"
 

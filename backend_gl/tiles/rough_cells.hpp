@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "asset/planar_map.hpp"
-#include "asset/steepness.hpp"
+#include "raster/planar_map.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

@@ -1,5 +1,5 @@
 /// \file
-/// Pixels of crowded cells: too much for a shader, so the CPU makes them (vtm/asset/scan.hpp).
+/// Pixels of crowded cells: too much for a shader, so the CPU makes them (vtm/raster/scan.hpp).
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/scan.hpp>
-#include <vtm/asset/view.hpp>
-#include "asset/steepness.hpp"
+#include <vtm/raster/scan.hpp>
+#include <vtm/raster/view.hpp>
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/placement.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

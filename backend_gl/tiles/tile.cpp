@@ -9,13 +9,13 @@
 #include <glm/mat2x2.hpp>
 
 #include <vtm/limits/limits.hpp>
-#include "asset/steepness.hpp"
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/tiles/rough_cells.hpp"
 #include "backend_gl/tiles/tile_pieces.hpp"
 #include "backend_gl/tiles/tile_references.hpp"
 #include "backend_gl/tiles/tile_texels.hpp"
 #include "backend_gl/tiles/tile_turns.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
-#include "asset/planar_map.hpp"
-#include "asset/steepness.hpp"
 #include "backend_gl/core/turns.hpp"
+#include "raster/planar_map.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "asset/planar_map.hpp"
-#include "asset/steepness.hpp"
+#include "raster/planar_map.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

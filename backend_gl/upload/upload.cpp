@@ -4,10 +4,10 @@
 #include <bit>
 #include <limits>
 
-#include "asset/steepness.hpp"
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
 #include "backend_gl/upload/ramp_sums.hpp"
+#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 

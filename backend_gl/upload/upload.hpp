@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include <vtm/asset/scan.hpp>
 #include <vtm/gl/renderer.hpp>
+#include <vtm/raster/scan.hpp>
 #include "backend_gl/core/features.hpp"
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/placement.hpp"
@@ -33,7 +33,7 @@ struct UploadedAsset {
     InstanceList list;
     Features features;     ///< of the paint programs
     unsigned materialSet;  ///< of Programs
-    float steepest = 0;    ///< of asset/steepness.hpp, of all paints
+    float steepest = 0;    ///< of raster/steepness.hpp, of all paints
     std::vector<asset::Paint> paints;
     std::optional<double> finestPixel;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned

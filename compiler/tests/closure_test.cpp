@@ -8,7 +8,7 @@
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/compiler/compile.hpp>
-#include "asset/planar_map.hpp"
+#include "raster/planar_map.hpp"
 
 namespace vtm::compiler {
 namespace {

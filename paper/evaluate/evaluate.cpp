@@ -7,8 +7,8 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include "asset/src/paint.hpp"
 #include "paper/evaluate.hpp"
+#include "raster/src/paint.hpp"
 
 namespace vtm::paper {
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/gl/context.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 #include "paper/model.hpp"
 
 namespace vtm::paper {

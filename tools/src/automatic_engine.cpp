@@ -1,6 +1,6 @@
 #include "tools/src/automatic_engine.hpp"
 
-#include <vtm/asset/scan.hpp>
+#include <vtm/raster/scan.hpp>
 
 namespace vtm::tools {
 

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/prefilter.hpp>
+#include <vtm/raster/prefilter.hpp>
 #include "tools/src/commands.hpp"
 #include "tools/src/limits.hpp"
 #include "tools/src/output.hpp"

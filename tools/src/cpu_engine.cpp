@@ -4,8 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include <vtm/asset/scan.hpp>
 #include <vtm/limits/limits.hpp>
+#include <vtm/raster/scan.hpp>
 
 namespace vtm::tools {
 

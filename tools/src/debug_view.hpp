@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 #include "tools/src/source.hpp"
 
 namespace vtm::tools {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/scan.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include "conformance/reference/reference.hpp"
 #include "paper/evaluate.hpp"
 #include "tools/src/automatic_engine.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 #include "tools/src/rows.hpp"
 #include "tools/src/source.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/fit.hpp>
 
 namespace vtm::tools {

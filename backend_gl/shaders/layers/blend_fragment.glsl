@@ -1,5 +1,5 @@
 // A popped group with a blend mode that reads the backdrop; replaces the target's pixels.
-// Requires: blend.glsl. Twin of: asset/src/evaluate.cpp.
+// Requires: blend.glsl. Twin of: raster/src/evaluate.cpp.
 
 flat in ivec2 maskOffset;
 flat in uint boxPaint;

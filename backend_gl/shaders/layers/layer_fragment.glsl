@@ -1,5 +1,5 @@
 // Popped groups, masks and clips over a target of compat mode.
-// Requires: blend.glsl; constants action*. Twin of: asset/src/evaluate.cpp.
+// Requires: blend.glsl; constants action*. Twin of: raster/src/evaluate.cpp.
 
 flat in ivec2 maskOffset;
 flat in uint boxPaint;

@@ -1,5 +1,5 @@
 // Where this fragment's pixel lies in the leaf.
-// Requires: coverage.glsl, leaf_vertex.glsl's outputs. Twin of: asset/src/draw_map.cpp.
+// Requires: coverage.glsl, leaf_vertex.glsl's outputs. Twin of: raster/src/draw_map.cpp.
 // Exports: leafFrame, Overlap, overlapOf, picturePixel.
 
 flat in vec4 leafLinear;

@@ -1,5 +1,5 @@
 // Compositing of premultiplied colours. Source: W3C Compositing and Blending Level 1, sections 9 and 10.
-// Requires: constants blend*. Twin of: asset/src/blend.cpp.
+// Requires: constants blend*. Twin of: raster/src/blend.cpp.
 // Exports: over, blend, maskFactor.
 
 vec4 over(vec4 source, vec4 backdrop) { return source + (1.0 - source.a) * backdrop; }

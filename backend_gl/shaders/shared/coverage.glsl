@@ -1,6 +1,6 @@
 // Areas by Green's theorem in the pixel's own coordinates, its box being [0, 1]² (docs/coverage.md).
 // Requires: low, high; constants leafExtent, slopeScale, chordCount, smallestSpan.
-// Twin of: asset/src/coverage.cpp.
+// Twin of: raster/src/coverage.cpp.
 // Exports: Frame, toPixel, seg, quadArea, pieceSum.
 
 // Leaf coordinates to the pixel's: p -> linear · p + origin.

@@ -1,5 +1,5 @@
 // The asset's texels, addressed by one index.
-// Requires: constants texelColumnsLog2, programTag. Twin of: asset/src/records.hpp.
+// Requires: constants texelColumnsLog2, programTag. Twin of: asset/records.hpp.
 // Exports: spend, texelAt, low, high, sections, isProgram, isSteep, solidColor; ASSET_IN, ASSET, ASSET_PART.
 
 // Which asset? One a program, whose parts are uniforms; or, in the include, one of several, a parameter of every
@@ -28,7 +28,7 @@ uint high(uint word) { return word >> 16; }
 
 uvec4 paintAt(ASSET_IN uint paint) { return texelAt(ASSET ASSET_PART(sections).z + paint); }
 bool isProgram(uvec4 paint) { return paint.w == programTag; }
-// Whether a unit of the picture changes a program by more (asset/steepness.hpp).
+// Whether a unit of the picture changes a program by more (raster/steepness.hpp).
 bool isSteep(ASSET_IN uint paint, float least) {
     uvec4 texel = paintAt(ASSET paint);
     return isProgram(texel) && uintBitsToFloat(texel.z) > least;

@@ -1,6 +1,6 @@
 // Gradients of paint programs.
 // Requires: fetch.glsl; constants spread*, longRamp; LONG_RAMPS defined as 1 where a gradient has more stops than longRamp, else 0.
-// Twin of: asset/src/gradient.cpp.
+// Twin of: raster/src/gradient.cpp.
 // Exports: applyMatrix, gradientColor.
 
 // Columns (a.xy), (a.zw), (b.xy), applied to a picture point.

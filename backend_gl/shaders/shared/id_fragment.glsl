@@ -1,7 +1,7 @@
 // The number of the region that a pixel's centre lies in, by the curves themselves: on the way from the point to a corner
 // of its leaf the nearest piece tells.
 // Requires: fetch.glsl, its sections being leaves, pieces, numbers of paints and nodes; constants kindNode, kindSolid,
-// maxLevel, leafExtent, slopeScale. Twin of: asset/src/paint_at.cpp.
+// maxLevel, leafExtent, slopeScale. Twin of: raster/src/paint_at.cpp.
 
 // Squares of the deepest level are the unit, 2^24 a side of the map.
 uniform vec4 pixelToUnit;  // linear part, by columns

@@ -1,5 +1,5 @@
 // Pictures of paint programs and their levels (image/levels.hpp), all in one texture, row after row.
-// Requires: fetch.glsl (spend, too), gradient.glsl; constants imageColumnsLog2, filter*. Twin of: asset/src/image_fill.cpp.
+// Requires: fetch.glsl (spend, too), gradient.glsl; constants imageColumnsLog2, filter*. Twin of: raster/src/image_fill.cpp.
 // Exports: imageColor.
 
 #ifdef ONE_ASSET

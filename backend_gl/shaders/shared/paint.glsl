@@ -3,7 +3,7 @@
 // IMAGE, GROUPS, MIXING, MATERIAL defined as 1 or 0: what the asset's programs contain. Some drivers run
 // both sides of every branch, so what cannot occur is left out. Where MATERIAL is 1: materialColor, which
 // src/materials.cpp makes.
-// Twin of: asset/src/paint.cpp.
+// Twin of: raster/src/paint.cpp.
 // Exports: paintColor.
 
 #if MATERIAL

@@ -1,6 +1,6 @@
 // A pixel's footprint in the picture, and its mean from the pyramid of means. docs/texture.md, docs/prefilter.md.
 // Requires: sample_asset.glsl, coverage.glsl; constants wrap*, fadeFrom, fadeTo, largestAnisotropy,
-// largestFootprint, smallestFootprint, largestPlace. Twin of: asset/src/prefilter_sample.cpp.
+// largestFootprint, smallestFootprint, largestPlace. Twin of: raster/src/prefilter_sample.cpp.
 // Exports: Footprint, footprintOf, prefilterShare, prefiltered.
 
 // Where a pixel's box lies: a parallelogram.

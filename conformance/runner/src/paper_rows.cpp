@@ -5,9 +5,9 @@
 
 #include <fmt/core.h>
 
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/session.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/src/judge.hpp"

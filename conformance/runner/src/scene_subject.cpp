@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/cases/texture_views.hpp"
 #include "conformance/reference/reference.hpp"

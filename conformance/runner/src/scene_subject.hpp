@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/gl/renderer.hpp>
+#include <vtm/raster/scan.hpp>
 #include "conformance/runner/src/judge.hpp"
 #include "conformance/runner/src/suite.hpp"
 #include "conformance/runner/src/views.hpp"

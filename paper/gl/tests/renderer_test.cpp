@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "paper/evaluate.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::paper {
 

@@ -268,7 +268,7 @@ struct Asset {
     std::vector<image::Bitmap> images;
     std::vector<Material> materials;
     std::uint32_t fallbackLeaves = 0;  ///< averaged from samples and too large for the tolerance
-    Prefilter prefilter;               ///< for minification, optional (vtm/asset/prefilter.hpp)
+    Prefilter prefilter;               ///< for minification, optional (vtm/raster/prefilter.hpp)
     /// How far it may be magnified: the side, in user units, of the smallest pixels for which no drawn
     /// boundary lies farther than a sixteenth of one from the scene's. 0: of any size. Nothing where it is
     /// unknown, as in files that were written before it was stored. Images and gradients have limits of their
