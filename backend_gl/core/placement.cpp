@@ -30,7 +30,7 @@ PixelBox PixelBox::joined(const PixelBox& other) const {
     return other.empty() ? *this : PixelBox{glm::min(min, other.min), glm::max(max, other.max)};
 }
 
-PixelBox pixelsOf(const DrawnMap& drawn, const asset::Map& map, const asset::View& view) {
+PixelBox pixelsOf(const DrawnMask& drawn, const asset::Map& map, const asset::View& view) {
     if (drawn.min.x >= drawn.max.x)
         return {};
     const double unit = map.side / unitsPerSide;
@@ -49,16 +49,13 @@ Placement placementOf(const asset::Map& map, const asset::View& view, glm::ivec2
     const dvec2 corner(map.x, map.y);
     const dvec2 base =
         glm::clamp(glm::round((viewCentre(view) - corner) / unit), dvec2(0), dvec2(unitsPerSide));
-    const dvec2 picture = corner + base * unit;
-    const dvec2 pixel = view.toPixels * glm::dvec3(picture, 1) + dvec2(shift);
+    const dvec2 pixel = view.toPixels * glm::dvec3(corner + base * unit, 1) + dvec2(shift);
     const dvec2 x = view.toPixels[0] * unit, y = view.toPixels[1] * unit;
     return {{float(x.x), float(x.y), float(y.x), float(y.y)},
             {float(pixel.x), float(pixel.y)},
             {float(base.x), float(base.y)},
-            {float(picture.x), float(picture.y)},
-            float(unit),
-            0,
-            {float(box.min.x), float(box.min.y), float(box.max.x), float(box.max.y)}};
+            {float(box.min.x), float(box.min.y), float(box.max.x), float(box.max.y)},
+            {}};
 }
 
 bool isInvertible(const asset::View& view) {

@@ -22,20 +22,18 @@ struct PixelBox {
     PixelBox joined(const PixelBox& other) const;
 };
 
-/// The pixels of `view` that a drawn map can touch.
-PixelBox pixelsOf(const DrawnMap& drawn, const asset::Map& map, const asset::View& view);
+/// The pixels of `view` that a drawn mask can touch.
+PixelBox pixelsOf(const DrawnMask& drawn, const asset::Map& map, const asset::View& view);
 
-/// Four RGBA32F texels of the placements' texture. Squares of the deepest level are the unit: 2^24 a
-/// side of the map. Floats hold their numbers exactly, and only differences from `baseCell`, which lies
-/// near the view, meet the matrix: at 4096 pixels from it the error is below 4096 · 2^-23 pixels.
+/// Four RGBA32F texels of the placements' texture, of which three are read. Squares of the deepest level are
+/// the unit: 2^24 a side of the map. Floats hold their numbers exactly, and only differences from `baseCell`,
+/// which lies near the view, meet the matrix: at 4096 pixels from it the error is below 4096 · 2^-23 pixels.
 struct Placement {
-    float linear[4];       ///< units to pixels, by columns
-    float basePixel[2];    ///< where baseCell lands, pixels of the target
-    float baseCell[2];     ///< units from the map's corner
-    float basePicture[2];  ///< baseCell in picture coordinates
-    float unit;            ///< in picture units
-    float unused;
-    float box[4];  ///< of the target, which instances do not leave: min, max
+    float linear[4];     ///< units to pixels, by columns
+    float basePixel[2];  ///< where baseCell lands, pixels of the target
+    float baseCell[2];   ///< units from the map's corner
+    float box[4];        ///< of the target, which instances do not leave: min, max
+    float unused[4];
 };
 static_assert(sizeof(Placement) == 64);
 

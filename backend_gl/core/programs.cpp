@@ -32,15 +32,8 @@ unsigned Programs::materialSet(std::span<const asset::Material> materials) {
     return unsigned(materialSets_.size() - 1);
 }
 
-const Program& Programs::leaf(CostClass cost, Features features, unsigned materialSet) {
-    switch (cost) {
-        case CostClass::Solid:
-            return get(Kind::Solid, {});
-        case CostClass::Pieces:
-            return get(Kind::Pieces, {});
-        default:
-            return get(Kind::General, features, materialSet);
-    }
+const Program& Programs::leaf(LeafProgram program) {
+    return get(program == LeafProgram::Solid ? Kind::Solid : Kind::Pieces, {});
 }
 
 const Program& Programs::flat(Finish finish) { return get(Kind::Flat, {}, 0, finish); }
@@ -83,11 +76,6 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
             return {"solid", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, solid_fragment}};
         case Kind::Pieces:
             return {"pieces", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, pieces_fragment}};
-        case Kind::General:
-            return {"general",
-                    {fetch, leaf_vertex},
-                    {defines, fetch, coverage, leaf_placement, shaders::blend, gradient, image, paint,
-                     region_color, leaf_integral, general_fragment, materials}};
         case Kind::Flat:
             return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
         case Kind::Tile:
@@ -133,7 +121,6 @@ std::vector<ProgramSource> Programs::everySource() {
     for (unsigned features = 0; features < Features::LongRamps; ++features)
         featureSets.push_back(features);
     for (const unsigned features : featureSets) {
-        add(Kind::General, features, 0);
         add(Kind::Fill, features, 0);
         add(Kind::Tile, features, 0);
         add(Kind::Tile, features, allFinishes);

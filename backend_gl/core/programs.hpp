@@ -15,13 +15,12 @@
 
 namespace vtm::gl {
 
-/// Leaf programs by what a square of the tree costs.
-enum class CostClass : unsigned {
-    Solid,   ///< one colour
-    Pieces,  ///< regions of solid colours
-    General  ///< paint programs
+/// Programs of a mask's leaves.
+enum class LeafProgram : unsigned {
+    Solid,  ///< all inside
+    Pieces
 };
-inline constexpr unsigned costClassCount = 3;
+inline constexpr unsigned leafProgramCount = 2;
 
 /// Texture units, the same in every program.
 enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Tiles };
@@ -38,8 +37,7 @@ public:
     /// Materials that programs are compiled with, each list once. Number 0 is none.
     unsigned materialSet(std::span<const asset::Material> materials);
 
-    /// Only General looks at the features and materials.
-    const Program& leaf(CostClass cost, Features features, unsigned materialSet = 0);
+    const Program& leaf(LeafProgram program);
     /// Of a picture: tiles of one colour, and others.
     const Program& flat(Finish finish);
     /// `crowded`: some cells' pixels come from a texture.
@@ -57,18 +55,7 @@ public:
     static std::vector<ProgramSource> everySource();
 
 private:
-    enum class Kind : unsigned {
-        Solid,
-        Pieces,
-        General,
-        Flat,
-        Tile,
-        CrowdedTile,
-        Fill,
-        Layer,
-        Blend,
-        Compose
-    };
+    enum class Kind : unsigned { Solid, Pieces, Flat, Tile, CrowdedTile, Fill, Layer, Blend, Compose };
     const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
     static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
 

@@ -14,70 +14,46 @@ using asset::Cell;
 using asset::Entry;
 using Command = asset::Command;
 
-bool isProgram(const asset::AssetView& asset, std::uint32_t paint) {
-    return asset::isProgram(asset.paints[paint]);
+bool isEmpty(Entry entry) { return entry.kind() == Entry::Kind::Solid && entry.payload() == 0; }
+
+LeafProgram programOf(Entry entry) {
+    return entry.kind() == Entry::Kind::Solid ? LeafProgram::Solid : LeafProgram::Pieces;
 }
 
-bool usesPrograms(const asset::AssetView& asset, const asset::Leaf& leaf) {
-    const auto program = [&](std::uint32_t paint) { return isProgram(asset, paint); };
-    const auto* first = asset.pieces.data() + leaf.firstPiece;
-    return std::ranges::any_of(leaf.corners, program) ||
-           std::any_of(first, first + leaf.pieceCount, [&](const asset::Piece& piece) {
-               return program(piece.left) || program(piece.right);
-           });
-}
-
-CostClass costOf(const asset::AssetView& asset, bool coverage, Entry entry) {
-    const bool solid = entry.kind() == Entry::Kind::Solid;
-    if (!coverage &&
-        (solid ? isProgram(asset, entry.payload()) : usesPrograms(asset, asset.leaves[entry.payload()])))
-        return CostClass::General;
-    return solid ? CostClass::Solid : CostClass::Pieces;
-}
-
-bool isTransparent(const asset::AssetView& asset, bool coverage, Entry entry) {
-    if (entry.kind() != Entry::Kind::Solid)
-        return false;
-    return coverage ? entry.payload() == 0 : asset.paints[entry.payload()] == asset::Paint{};
-}
-
-/// The maps that the commands draw, each once a meaning, in order of first use.
-void listUses(const asset::AssetView& asset, InstanceList& list) {
-    list.asColor.resize(asset.maps.size());
-    list.asCoverage.resize(asset.maps.size());
+/// The masks that the commands draw, each once, in order of first use.
+void listMasks(const asset::AssetView& asset, InstanceList& list) {
+    list.drawnOfMap.resize(asset.maps.size());
     for (const Command& command : asset.commands) {
-        const bool coverage =
-            command.kind == Command::Kind::FillMask || command.kind == Command::Kind::ClipMask;
-        if (!coverage && command.kind != Command::Kind::DrawMap)
+        if (command.kind != Command::Kind::FillMask && command.kind != Command::Kind::ClipMask)
             continue;
-        auto& use = (coverage ? list.asCoverage : list.asColor)[command.map];
-        if (use)
+        auto& drawn = list.drawnOfMap[command.map];
+        if (drawn)
             continue;
-        use = std::uint32_t(list.drawn.size());
-        list.drawn.push_back({command.map, coverage, {}, glm::uvec2(~0u), glm::uvec2(0)});
+        drawn = std::uint32_t(list.drawn.size());
+        list.drawn.push_back({command.map, {}, glm::uvec2(~0u), glm::uvec2(0)});
     }
 }
 
-void grow(DrawnMap& drawn, Cell cell) {
+void grow(DrawnMask& drawn, Cell cell) {
     const std::uint32_t units = 1u << (2 * (asset::maxLevel - cell.level));
     drawn.min = glm::min(drawn.min, glm::uvec2(cell.x, cell.y) * units);
     drawn.max = glm::max(drawn.max, glm::uvec2(cell.x + 1, cell.y + 1) * units);
 }
 
-using ByClass = std::array<std::vector<Instance>, costClassCount>;
+using ByProgram = std::array<std::vector<Instance>, leafProgramCount>;
 
-void addMap(const asset::AssetView& asset, DrawnMap& drawn, ByClass& instances) {
-    for (unsigned c = 0; c < costClassCount; ++c)
-        drawn.ranges[c].first = instances[c].size();
+void addMask(const asset::AssetView& asset, DrawnMask& drawn, ByProgram& instances) {
+    for (unsigned p = 0; p < leafProgramCount; ++p)
+        drawn.ranges[p].first = instances[p].size();
     asset::walk(asset, asset.maps[drawn.map].root, [&](Cell cell, Entry entry) {
-        if (isTransparent(asset, drawn.coverage, entry))
+        if (isEmpty(entry))
             return;
         grow(drawn, cell);
-        instances[unsigned(costOf(asset, drawn.coverage, entry))].push_back(
+        instances[unsigned(programOf(entry))].push_back(
             {cell.x, cell.y, cell.level | drawn.map << 4, entry.bits});
     });
-    for (unsigned c = 0; c < costClassCount; ++c)
-        drawn.ranges[c].count = instances[c].size() - drawn.ranges[c].first;
+    for (unsigned p = 0; p < leafProgramCount; ++p)
+        drawn.ranges[p].count = instances[p].size() - drawn.ranges[p].first;
 }
 
 }  // namespace
@@ -86,14 +62,14 @@ InstanceList makeInstances(const asset::AssetView& asset) {
     if (asset.maps.size() > maxMaps)
         throw GlError("more maps than an instance can name");
     InstanceList list;
-    listUses(asset, list);
-    ByClass byClass;
-    for (DrawnMap& drawn : list.drawn)
-        addMap(asset, drawn, byClass);
-    for (unsigned c = 0; c < costClassCount; ++c) {
-        for (DrawnMap& drawn : list.drawn)
-            drawn.ranges[c].first += list.instances.size();
-        list.instances.insert(list.instances.end(), byClass[c].begin(), byClass[c].end());
+    listMasks(asset, list);
+    ByProgram byProgram;
+    for (DrawnMask& drawn : list.drawn)
+        addMask(asset, drawn, byProgram);
+    for (unsigned p = 0; p < leafProgramCount; ++p) {
+        for (DrawnMask& drawn : list.drawn)
+            drawn.ranges[p].first += list.instances.size();
+        list.instances.insert(list.instances.end(), byProgram[p].begin(), byProgram[p].end());
     }
     return list;
 }

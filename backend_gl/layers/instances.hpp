@@ -1,5 +1,5 @@
 /// \file
-/// What of a map is drawn: one instance for every square of its tree that can colour a pixel.
+/// What of a mask is drawn: one instance for every square of its tree that can cover a part of a pixel.
 #pragma once
 
 #include <array>
@@ -28,24 +28,23 @@ struct Range {
     std::size_t first = 0, count = 0;
 };
 
-/// One map as it is drawn, with what its paint indices mean.
-struct DrawnMap {
+/// A map whose paint indices are 0 outside and 1 inside, as it is drawn.
+struct DrawnMask {
     std::uint32_t map = 0;
-    bool coverage = false;  ///< indices are 0 and 1 and mean themselves
-    std::array<Range, costClassCount> ranges;
+    std::array<Range, leafProgramCount> ranges;
     /// Bounds of all instances, in squares of the deepest level.
     glm::uvec2 min{0}, max{0};
 };
 
 struct InstanceList {
     std::vector<Instance> instances;
-    std::vector<DrawnMap> drawn;
+    std::vector<DrawnMask> drawn;
     /// By map: its index in `drawn`.
-    std::vector<std::optional<std::uint32_t>> asColor, asCoverage;
+    std::vector<std::optional<std::uint32_t>> drawnOfMap;
 };
 
-/// Of every map that a command draws. Instances are in order of cost class, then of first use, so
-/// that maps used one after another make one run of instances a class.
+/// Of every mask that a command draws. Instances are in order of program, then of first use, so that masks
+/// used one after another make one run of instances a program.
 InstanceList makeInstances(const asset::AssetView& asset);
 
 }  // namespace vtm::gl

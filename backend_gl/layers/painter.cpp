@@ -6,8 +6,6 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
-#include "raster/steepness.hpp"
-
 namespace vtm::gl {
 
 namespace {
@@ -31,10 +29,11 @@ GLuint maskOp(Command::Kind kind) {
 }
 
 /// Runs of instances, neighbours joined.
-std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint32_t>& drawn, unsigned cost) {
+std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint32_t>& drawn,
+                          LeafProgram program) {
     std::vector<Range> runs;
     for (const std::uint32_t d : drawn) {
-        const Range& range = list.drawn[d].ranges[cost];
+        const Range& range = list.drawn[d].ranges[unsigned(program)];
         if (range.count == 0)
             continue;
         if (!runs.empty() && runs.back().first + runs.back().count == range.first)
@@ -54,7 +53,6 @@ Painter::Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& vi
     : workshop_(workshop),
       asset_(asset),
       view_(view),
-      leastSteep_(asset::leastSteepness(glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1])))),
       shelves_({view.width, view.height}),
       isPending_(asset.list.drawn.size()) {}
 
@@ -86,10 +84,8 @@ void Painter::execute(const Command& command) {
         return fill(command);
     flushFills();
     switch (command.kind) {
-        case Command::Kind::DrawMap:
-            return drawMap(*asset_.list.asColor[command.map]);
         case Command::Kind::ClipMask:
-            return clip(*asset_.list.asCoverage[command.map]);
+            return clip(*asset_.list.drawnOfMap[command.map]);
         case Command::Kind::Push:
             return stack_.push_back(workshop_.pool.take());
         default:
@@ -97,34 +93,19 @@ void Painter::execute(const Command& command) {
     }
 }
 
-// ---- Maps -----------------------------------------------------------------------------------------
-
-void Painter::drawMap(std::uint32_t drawn) {
-    const std::uint32_t map = asset_.list.drawn[drawn].map;
-    const PixelBox whole{{0, 0}, {view_.width, view_.height}};
-    asset_.placements[map] = placementOf(asset_.maps[map], view_, {0, 0}, whole);
-    bindTexture(Unit::Placements, asset_.placementTexels);
-    asset_.uploadPlacements(map, map);
-    stack_.back().bind();
-    drawInstances({drawn}, false);
-    stack_.back().touch(pixelsOf(asset_.list.drawn[drawn], asset_.maps[map], view_));
-}
+// ---- Masks ----------------------------------------------------------------------------------------
 
 /// Adds to the bound target: sums over undilated leaves need no order.
-void Painter::drawInstances(const std::vector<std::uint32_t>& drawn, bool coverage) {
+void Painter::drawInstances(const std::vector<std::uint32_t>& drawn) {
     glBlendFunc(GL_ONE, GL_ONE);
     glBindBuffer(GL_ARRAY_BUFFER, asset_.instances.get());
     glDisableVertexAttribArray(1);
-    for (unsigned cost = 0; cost < costClassCount; ++cost) {
-        const std::vector<Range> runs = runsOf(asset_.list, drawn, cost);
+    for (const LeafProgram kind : {LeafProgram::Solid, LeafProgram::Pieces}) {
+        const std::vector<Range> runs = runsOf(asset_.list, drawn, kind);
         if (runs.empty())
             continue;
-        const Program& program =
-            workshop_.programs.leaf(CostClass(cost), asset_.features, asset_.materialSet);
+        const Program& program = workshop_.programs.leaf(kind);
         use(program);
-        glUniform1i(program.uniform("paintsAreCoverage"), coverage);
-        glUniform1f(program.uniform("leastSteep"), leastSteep_);
-        glUniform1f(program.uniform("steepest"), asset_.steepest);
         for (const Range& run : runs) {
             pointAttribute(0, GL_UNSIGNED_INT, sizeof(Instance), run.first * sizeof(Instance));
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(run.count));
@@ -132,10 +113,8 @@ void Painter::drawInstances(const std::vector<std::uint32_t>& drawn, bool covera
     }
 }
 
-// ---- Masks ----------------------------------------------------------------------------------------
-
 void Painter::fill(const Command& command) {
-    const std::uint32_t drawn = *asset_.list.asCoverage[command.map];
+    const std::uint32_t drawn = *asset_.list.drawnOfMap[command.map];
     const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[command.map], view_);
     if (box.empty())
         return;
@@ -186,7 +165,7 @@ void Painter::drawCoverage() {
     asset_.uploadPlacements(first, last);
     coverage_.bind();
     coverage_.touched = {{0, 0}, {view_.width, shelves_.height()}};
-    drawInstances(drawn, true);
+    drawInstances(drawn);
 }
 
 void Painter::clip(std::uint32_t drawn) {

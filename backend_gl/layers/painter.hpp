@@ -1,5 +1,5 @@
 /// \file
-/// Running an asset's commands under one view that fits a target.
+/// Running the commands of an asset in compat mode under one view that fits a target.
 #pragma once
 
 #include <string>
@@ -43,7 +43,6 @@ private:
     };
     void bindAsset();
     void execute(const asset::Command& command);
-    void drawMap(std::uint32_t drawn);
     void fill(const asset::Command& command);
     void flushFills();
     void drawCoverage();
@@ -53,7 +52,7 @@ private:
     void popOver(const asset::Command& command, const Target& popped);
     void popBlend(const asset::Command& command, const Target& popped);
 
-    void drawInstances(const std::vector<std::uint32_t>& drawn, bool coverage);
+    void drawInstances(const std::vector<std::uint32_t>& drawn);
     void use(const Program& program) const;
     void useFill();
     const Program& useLayer(Action action, const Target& layer);
@@ -61,12 +60,11 @@ private:
     Workshop& workshop_;
     UploadedAsset& asset_;
     asset::View view_;
-    float leastSteep_;
     std::vector<Target> stack_;
     Target coverage_;
     Shelves shelves_;
     std::vector<PendingFill> pending_;
-    std::vector<bool> isPending_;  ///< by drawn map
+    std::vector<bool> isPending_;  ///< by drawn mask
 };
 
 }  // namespace vtm::gl

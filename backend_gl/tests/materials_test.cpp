@@ -161,9 +161,9 @@ TEST_F(Gl, MaterialsAreCompiledOncePerList) {
     EXPECT_NE(first, programs.materialSet({}));
     EXPECT_EQ(first, programs.materialSet(std::vector{checker}));
     const Features features(Features::Material);
-    const Program& program = programs.leaf(CostClass::General, features, first);
-    EXPECT_EQ(&program, &programs.leaf(CostClass::General, features, first));
-    EXPECT_NE(&program, &programs.leaf(CostClass::General, features, second));
+    const Program& program = programs.fill(features, first);
+    EXPECT_EQ(&program, &programs.fill(features, first));
+    EXPECT_NE(&program, &programs.fill(features, second));
 }
 
 TEST(Materials, PlacesAreFoundInTheLogsOfSeveralDrivers) {

@@ -76,8 +76,6 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::ui
     }
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);
-    for (const float s : steepness)
-        steepest = std::max(steepest, s);
     texels = texelTexture(joinedTexels(asset, steepness, pictures.list, sections));
     images = imageTexture(std::move(pictures.rgba));
     instances = uploadInstances(list.instances);

@@ -33,7 +33,6 @@ struct UploadedAsset {
     InstanceList list;
     Features features;     ///< of the paint programs
     unsigned materialSet;  ///< of Programs
-    float steepest = 0;    ///< of raster/steepness.hpp, of all paints
     std::vector<asset::Paint> paints;
     std::optional<double> finestPixel;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned

@@ -1,19 +1,16 @@
 // One quad an instance: the pixels that a square of a map's tree can meet.
-// Requires: fetch.glsl; constants maxLevel, leafExtent, kindSolid, placementColumns.
+// Requires: fetch.glsl; constants maxLevel, leafExtent, placementColumns.
 // Exports: the placement of the leaf under the view, flat, to leaf_placement.glsl.
 
 layout(location = 0) in uvec4 cell;  // x, y, level | map << 4, entry
 
-uniform highp sampler2D placements;  // of maps, four texels each: see src/placement.hpp
+uniform highp sampler2D placements;  // of maps, four texels each: see core/placement.hpp
 uniform vec2 targetSize;
-uniform bool paintsAreCoverage;      // paint indices are 0 or 1 and mean themselves
 
 flat out vec4 leafLinear;   // leaf steps to pixels, by columns
 flat out vec4 leafInverse;  // pixels to leaf steps
 flat out vec3 leafOrigin;   // pixels; z: sign of the determinant
-flat out vec3 leafPicture;  // picture coordinates of the leaf's corner; z: units a step
 flat out uint leafEntry;
-flat out vec4 leafColor;    // of a solid entry
 
 vec4 placement(uint map, uint texel) {
     uint index = map * 4u + texel;
@@ -22,8 +19,7 @@ vec4 placement(uint map, uint texel) {
 
 void main() {
     uint map = cell.z >> 4, level = cell.z & 15u;
-    vec4 linear = placement(map, 0u), base = placement(map, 1u), picture = placement(map, 2u),
-         box = placement(map, 3u);
+    vec4 linear = placement(map, 0u), base = placement(map, 1u), box = placement(map, 2u);
 
     // Squares of the deepest level are the unit: 2^24 a side, so floats hold them exactly, and only
     // differences from a base near the view meet the matrix.
@@ -39,17 +35,11 @@ void main() {
     leafLinear = vec4(m[0], m[1]);
     leafInverse = vec4(m[1].y, -m[0].y, -m[1].x, m[0].x) / determinant;
     leafOrigin = vec3(origin, sign(determinant));
-    leafPicture = vec3(picture.xy + fromBase * picture.z, picture.z * steps);
     leafEntry = cell.w;
-    leafColor = vec4(0.0);
-    if ((cell.w & 3u) == kindSolid) {
-        uint paint = cell.w >> 2;
-        leafColor = paintsAreCoverage ? vec4(float(paint)) : solidColor(paint);
-    }
 
     // Whole pixels, so that every pixel whose box meets the leaf has its centre inside the quad.
-    vec2 least = floor(origin + min(x, vec2(0.0)) + min(y, vec2(0.0)));
-    vec2 most = ceil(origin + max(x, vec2(0.0)) + max(y, vec2(0.0)));
-    vec2 corner = mix(least, most, vec2(gl_VertexID & 1, gl_VertexID >> 1));
+    vec2 lower = floor(origin + min(x, vec2(0.0)) + min(y, vec2(0.0)));
+    vec2 upper = ceil(origin + max(x, vec2(0.0)) + max(y, vec2(0.0)));
+    vec2 corner = mix(lower, upper, vec2(gl_VertexID & 1, gl_VertexID >> 1));
     gl_Position = vec4(clamp(corner, box.xy, box.zw) / targetSize * 2.0 - 1.0, 0.0, 1.0);
 }

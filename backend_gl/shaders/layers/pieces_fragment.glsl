@@ -1,10 +1,6 @@
-// A leaf whose regions all have solid colours. Requires: leaf_placement.glsl, fetch.glsl.
-
-uniform bool paintsAreCoverage;
+// A leaf of a mask, whose paint indices are 0 outside and 1 inside. Requires: leaf_placement.glsl, fetch.glsl.
 
 out vec4 color;
-
-vec4 regionColor(uint paint) { return paintsAreCoverage ? vec4(float(paint)) : solidColor(paint); }
 
 void main() {
     Frame frame = leafFrame();
@@ -12,14 +8,12 @@ void main() {
         discard;
     uvec4 leaf = texelAt(sections.x + (leafEntry >> 2));
     vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
-    vec4 sum = seg(a, b) * regionColor(low(leaf.z)) + seg(b, c) * regionColor(high(leaf.z)) +
-               seg(c, d) * regionColor(low(leaf.w)) + seg(d, a) * regionColor(high(leaf.w));
+    float sum = seg(a, b) * float(low(leaf.z)) + seg(b, c) * float(high(leaf.z)) + seg(c, d) * float(low(leaf.w)) +
+                seg(d, a) * float(high(leaf.w));
     uint end = leaf.x + low(leaf.y);
     for (uint i = leaf.x; i < end; ++i) {
         uvec4 piece = texelAt(sections.y + i);
-        float weight = pieceSum(frame, piece);
-        if (weight != 0.0)
-            sum += weight * (regionColor(low(piece.w)) - regionColor(high(piece.w)));
+        sum += pieceSum(frame, piece) * (float(low(piece.w)) - float(high(piece.w)));
     }
-    color = leafOrigin.z * sum;
+    color = vec4(leafOrigin.z * sum);
 }

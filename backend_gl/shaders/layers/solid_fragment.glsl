@@ -1,4 +1,4 @@
-// A square of one solid colour. Requires: leaf_placement.glsl.
+// A square of a mask that is all inside. Requires: leaf_placement.glsl.
 
 out vec4 color;
 
@@ -7,5 +7,5 @@ void main() {
     Overlap overlap = overlapOf(frame);
     if (overlap.empty)
         discard;
-    color = leafColor * (overlap.whole ? 1.0 : leafOrigin.z * quadArea(frame));
+    color = vec4(overlap.whole ? 1.0 : leafOrigin.z * quadArea(frame));
 }

@@ -26,7 +26,7 @@ void addSquare(Vtm vtm, CopyFootprint part, ivec2 cell, float side, uint entry, 
         leaf = texelAt(vtm, vtm.sections.x + payload);
     Frame frame = Frame(part.toBox * (side / float(leafExtent)), part.toBox * (corner - part.centre) + 0.5);
     vec2 point = picturePoint(vtm, 0.5 * (lower + upper));
-    sum += part.turn * leafIntegral(vtm, frame, leaf, point, part.pixel, -1.0);
+    sum += part.turn * leafIntegral(vtm, frame, leaf, point, part.pixel);
 }
 
 // ---- The tree -----------------------------------------------------------------------------------------

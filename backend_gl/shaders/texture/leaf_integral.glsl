@@ -1,5 +1,4 @@
-// The integral of a leaf's colour over the pixel's box, but for the sign of the frame: of all paints, or where
-// leastSteep >= 0 of steep programs only.
+// The integral of a leaf's colour over the pixel's box, but for the sign of the frame.
 // Requires: fetch.glsl, coverage.glsl, region_color.glsl; LINEAR, RADIAL, IMAGE, GROUPS, MATERIAL.
 // Exports: leafIntegral.
 
@@ -10,7 +9,7 @@ float pieceTurns(uvec4 piece) { return piece.z == 0u ? 4.0 : float(chordCount) +
 
 // One loop over the four corners and both sides of every piece, so that the paint interpreter, which
 // compilers inline, stands in the program once.
-vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel, float leastSteep) {
+vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
     Recent recent = nothingRecent();
     uvec4 piece = uvec4(0u);
     vec4 sum = vec4(0.0);
@@ -29,7 +28,7 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel, fl
         } else {
             weight = -weight;
         }
-        if (weight != 0.0 && (leastSteep < 0.0 || isSteep(ASSET paint, leastSteep)))
+        if (weight != 0.0)
             sum += weight * regionColor(ASSET recent, paint, point, pixel);
     }
     return sum;
@@ -38,7 +37,7 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel, fl
 #else
 
 // Twin of pieces_fragment.glsl.
-vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel, float leastSteep) {
+vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
     vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
     vec4 sum = seg(a, b) * solidColor(ASSET low(leaf.z)) + seg(b, c) * solidColor(ASSET high(leaf.z)) +
                seg(c, d) * solidColor(ASSET low(leaf.w)) + seg(d, a) * solidColor(ASSET high(leaf.w));
