@@ -78,8 +78,8 @@ struct Patch {
 
 /// What patches are cut from.
 struct PatchSource {
-    asset::AssetView asset;
-    asset::Map map;
+    asset::AssetView asset;  ///< its paints
+    const asset::PlanarIndex& pieces;
     std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::span<const asset::PaintChange> changes;  ///< by paint
     std::uint32_t maxTurns = turnsPerPixel;
