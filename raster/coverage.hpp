@@ -1,6 +1,6 @@
 /// \file
 /// Areas by Green's theorem, in a pixel's own coordinates: its box is [0, 1]², x right and y up in
-/// the numbers (docs/coverage.md). Single precision; twin of backend_gl/shaders/coverage.glsl.
+/// the numbers (docs/coverage.md). Single precision; twin of backend_gl/shaders/shared/coverage.glsl.
 #pragma once
 
 #include <array>

@@ -207,7 +207,7 @@ def self_test():
         ("svg/src/allowed_shared.cpp", '#include "scene/shared.hpp"', False),
         ("svg/src/error.cpp", "#include <vtm/error.hpp>", False),
         ("svg/tests/wide.cpp", "#include <vtm/asset/asset.hpp>", False),
-        ("backend_gl/src/own.cpp", "#include <vtm/gl/context.hpp>", False),
+        ("backend_gl/core/own.cpp", "#include <vtm/gl/context.hpp>", False),
         ("api/include/vtm/svg/allowed.hpp", "#include <vtm/scene/path.hpp>", False),
         ("api/include/vtm/svg/glm.hpp", "#include <glm/vec2.hpp>", False),
         ("scene/src/upwards.cpp", "#include <vtm/svg/load.hpp>", True),

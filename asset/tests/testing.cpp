@@ -179,8 +179,7 @@ image::Raster steepHalvesByPoints(double length, int width, int height, const gl
             glm::dvec4 sum(0);
             for (int i = 0; i < side * side; ++i) {
                 const glm::dvec2 within(i % side + 0.5, i / side + 0.5);
-                sum += steepColor(length,
-                                  inverse * (glm::dvec2(x, y) + within / double(side) - toPixels[2]));
+                sum += steepColor(length, inverse * (glm::dvec2(x, y) + within / double(side) - toPixels[2]));
             }
             for (int c = 0; c < 4; ++c)
                 raster.pixel(x, y)[c] = float(sum[c] / (side * side));

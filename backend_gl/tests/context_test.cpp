@@ -6,8 +6,8 @@
 
 #include <vtm/gl/sampled_texture.hpp>
 #include "asset/testing.hpp"
-#include "backend_gl/src/gl.hpp"
-#include "backend_gl/src/requirements.hpp"
+#include "backend_gl/core/gl.hpp"
+#include "backend_gl/core/requirements.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
 #include "raster/testing_views.hpp"

@@ -13,7 +13,7 @@
 #include <vtm/compiler/pick.hpp>
 #include <vtm/raster/paint_at.hpp>
 #include "asset/testing.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
 #include "raster/testing_views.hpp"

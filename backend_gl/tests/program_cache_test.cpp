@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "asset/testing.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "raster/testing_views.hpp"
 

@@ -1,4 +1,4 @@
-#include "backend_gl/src/programs.hpp"
+#include "backend_gl/core/programs.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 #include <glm/common.hpp>
 
 #include "asset/testing.hpp"
-#include "backend_gl/src/shelves.hpp"
+#include "backend_gl/layers/shelves.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "paper/gl/programs.hpp"
 

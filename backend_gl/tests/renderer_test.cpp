@@ -94,16 +94,6 @@ TEST_F(Gl, SteepGradients) {
     }
 }
 
-/// Drawn by leaves, as commands other than DrawMap want it.
-TEST_F(Gl, SteepGradientsInLayers) {
-    for (Asset asset : {steepHalves(1), everyPaint()}) {
-        for (const auto kind : {asset::Command::Kind::Push, asset::Command::Kind::Pop})
-            asset.commands.push_back({kind, {}, 1, 0, 0});
-        ASSERT_FALSE(asset::isSumOfMaps(asset));
-        expectTwins(*renderer, asset, 12);
-    }
-}
-
 TEST_F(Gl, EveryBlendMode) {
     for (unsigned mode = 0; mode <= unsigned(asset::Blend::PlusLighter); ++mode) {
         SCOPED_TRACE(mode);
@@ -210,14 +200,6 @@ TEST_F(Gl, MapsThatAddUp) {
         const View view = randomView(random);
         EXPECT_LE(worst(scanner.draw(view), asset::evaluate(asset, view)).difference, twinTolerance);
     }
-}
-
-TEST_F(Gl, LayersInExactModeAreDrawnAsLayers) {
-    Asset asset = layers();
-    asset.mode = asset::Mode::Exact;
-    expectTwins(*renderer, asset, 5);
-    EXPECT_FALSE(asset::isSumOfMaps(asset));
-    EXPECT_THROW(asset::Scanner{asset}, std::invalid_argument);
 }
 
 TEST_F(Gl, PicturesLeaveNothingBehind) {

@@ -8,7 +8,7 @@
 #include <vtm/asset/container.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include "asset/testing.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "raster/testing_views.hpp"

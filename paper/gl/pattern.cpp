@@ -11,10 +11,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "backend_gl/src/placement.hpp"
-#include "backend_gl/src/program.hpp"
-#include "backend_gl/src/requirements.hpp"
-#include "backend_gl/src/state_guard.hpp"
+#include "backend_gl/core/placement.hpp"
+#include "backend_gl/core/program.hpp"
+#include "backend_gl/core/requirements.hpp"
+#include "backend_gl/core/state_guard.hpp"
 #include "paper/evaluate.hpp"
 #include "paper/gl/pattern_tables.hpp"
 #include "paper/gl/programs.hpp"

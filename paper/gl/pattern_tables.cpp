@@ -7,7 +7,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 
 namespace vtm::paper {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "backend_gl/src/materials.hpp"
-#include "backend_gl/src/shader_text.hpp"
+#include "backend_gl/core/materials.hpp"
+#include "backend_gl/core/shader_text.hpp"
 #include "paper/evaluate.hpp"
 #include "paper/gl/shader_text.hpp"
 

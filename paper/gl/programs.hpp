@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "backend_gl/src/features.hpp"
-#include "backend_gl/src/program.hpp"
+#include "backend_gl/core/features.hpp"
+#include "backend_gl/core/program.hpp"
 
 namespace vtm::paper {
 

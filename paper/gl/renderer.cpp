@@ -5,13 +5,13 @@
 
 #include <glm/matrix.hpp>
 
-#include "backend_gl/src/materials.hpp"
-#include "backend_gl/src/program.hpp"
-#include "backend_gl/src/programs.hpp"
-#include "backend_gl/src/requirements.hpp"
-#include "backend_gl/src/state_guard.hpp"
-#include "backend_gl/src/target.hpp"
-#include "backend_gl/src/upload.hpp"
+#include "backend_gl/core/materials.hpp"
+#include "backend_gl/core/program.hpp"
+#include "backend_gl/core/programs.hpp"
+#include "backend_gl/core/requirements.hpp"
+#include "backend_gl/core/state_guard.hpp"
+#include "backend_gl/output/target.hpp"
+#include "backend_gl/upload/upload.hpp"
 #include "paper/evaluate.hpp"
 #include "paper/gl/programs.hpp"
 #include "paper/gl/texels.hpp"
@@ -25,13 +25,13 @@ namespace {
 using glm::dmat2;
 using glm::dvec2;
 
-/// Larger views are drawn in tiles of at most this side.
-constexpr int largestTile = 4096;
+/// Larger views are drawn in parts of at most this side.
+constexpr int maxPartSide = 4096;
 
-int tileSide() {
+int partSide() {
     GLint viewport[2] = {0, 0};
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
-    return std::min({largestTile, limit(GL_MAX_TEXTURE_SIZE), viewport[0], viewport[1]});
+    return std::min({maxPartSide, limit(GL_MAX_TEXTURE_SIZE), viewport[0], viewport[1]});
 }
 
 asset::Asset packed(const Asset& asset, Sections& sections) {
@@ -130,18 +130,18 @@ struct Renderer::Impl {
         glUniform1ui(p.uniform("rootNode"), texture.root);
     }
 
-    void drawTile(const Texture::Impl& texture, const asset::View& tile, float* pixels, int rowLength) {
+    void drawPart(const Texture::Impl& texture, const asset::View& part, float* pixels, int rowLength) {
         glBindVertexArray(vertexArray.get());
-        glViewport(0, 0, tile.width, tile.height);
-        pool.resize({tile.width, tile.height});
+        glViewport(0, 0, part.width, part.height);
+        pool.resize({part.width, part.height});
         Target target = pool.take();
         bind(texture);
-        setUniforms(program(texture), tile);
+        setUniforms(program(texture), part);
         target.bind();
-        target.touch({{0, 0}, {tile.width, tile.height}});
+        target.touch({{0, 0}, {part.width, part.height}});
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glPixelStorei(GL_PACK_ROW_LENGTH, rowLength);
-        glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_FLOAT, pixels);
+        glReadPixels(0, 0, part.width, part.height, GL_RGBA, GL_FLOAT, pixels);
         pool.giveBack(std::move(target));
         checkErrors("drawing in paper mode");
     }
@@ -162,14 +162,14 @@ image::Raster Renderer::render(const Texture& texture, const asset::View& view) 
         return raster;
     dropErrors();
     const StateGuard guard(impl_->contract, true);
-    const int side = tileSide();
+    const int side = partSide();
     for (int y = 0; y < view.height; y += side)
         for (int x = 0; x < view.width; x += side) {
-            asset::View tile = view;
-            tile.width = std::min(side, view.width - x);
-            tile.height = std::min(side, view.height - y);
-            tile.toPixels[2] -= dvec2(x, y);
-            impl_->drawTile(*texture.impl_, tile, raster.pixel(x, y), view.width);
+            asset::View part = view;
+            part.width = std::min(side, view.width - x);
+            part.height = std::min(side, view.height - y);
+            part.toPixels[2] -= dvec2(x, y);
+            impl_->drawPart(*texture.impl_, part, raster.pixel(x, y), view.width);
         }
     std::ranges::transform(raster.rgba, raster.rgba.begin(),
                            [](float v) { return std::clamp(v, 0.0f, 1.0f); });

@@ -1,5 +1,5 @@
 /// \file
-/// Compositing of premultiplied colours; twin of backend_gl/shaders/blend.glsl.
+/// Compositing of premultiplied colours; twin of backend_gl/shaders/shared/blend.glsl.
 /// Source: W3C Compositing and Blending Level 1.
 #pragma once
 

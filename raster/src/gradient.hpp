@@ -1,5 +1,5 @@
 /// \file
-/// Gradients of paint programs; twin of backend_gl/shaders/gradient.glsl.
+/// Gradients of paint programs; twin of backend_gl/shaders/shared/gradient.glsl.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 /// \file
-/// Images of paint programs; twin of backend_gl/shaders/image.glsl.
+/// Images of paint programs; twin of backend_gl/shaders/shared/image.glsl.
 #pragma once
 
 #include <cstdint>

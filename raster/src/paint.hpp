@@ -1,5 +1,5 @@
 /// \file
-/// Paints and paint programs; twin of backend_gl/shaders/paint.glsl.
+/// Paints and paint programs; twin of backend_gl/shaders/shared/paint.glsl.
 #pragma once
 
 #include <span>

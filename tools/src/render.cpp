@@ -172,7 +172,7 @@ void addRender(CLI::App& app, int& exitCode) {
                         "A directory that keeps the GL driver's programs from run to run");
     command->add_option(
         "--debug-view", options->debugView,
-        "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, patches");
+        "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, tiles");
     command->add_flag("--json", options->json, "Print figures and times, a line of JSON a picture");
     command->add_flag("-v,--verbose", options->verbose, "Say for each picture which engine drew it");
     addSourceOptions(*command, options->source);

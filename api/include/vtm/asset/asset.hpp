@@ -232,9 +232,10 @@ inline constexpr std::size_t maxCommands = 1u << 22;
 /// One step of drawing, on a stack of pictures that starts with one transparent one and ends with one.
 struct Command {
     enum class Kind : std::uint32_t {
-        DrawMap,   ///< top += the map; its paints are Asset::paints (exact)
+        DrawMap,   ///< the picture += the map; its paints are Asset::paints. In exact mode, and nothing else
+                   ///< there
         FillMask,  ///< s = coverage(map) · paint; top = s over top. The map's paint indices
-                   ///< are 0 outside and 1 inside (compat)
+                   ///< are 0 outside and 1 inside
         Push,      ///< push a transparent picture
         Pop,       ///< s = pop · opacity; top = blend(top, s)
         PopMaskLuminance,
