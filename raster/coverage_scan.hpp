@@ -9,6 +9,7 @@
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/raster/view.hpp>
+#include "raster/planar_map.hpp"
 
 namespace vtm::asset {
 
@@ -18,11 +19,12 @@ struct CoverageRun {
     float share;  ///< in (0, 1]
 };
 
-/// Of all of an asset that is not paint 0. Safe to use from several threads at once.
+/// Of all that is not paint 0. Safe to use from several threads at once.
 class CoverageScanner {
 public:
     /// std::invalid_argument unless `mask` is a sum of maps. Keeps nothing of it.
     explicit CoverageScanner(const AssetView& mask);
+    explicit CoverageScanner(const PlanarMap& mask);
     ~CoverageScanner();
     CoverageScanner(CoverageScanner&&) noexcept;
     CoverageScanner& operator=(CoverageScanner&&) noexcept;
@@ -35,6 +37,9 @@ public:
 
 private:
     struct Drawn;
+
+    void add(const PlanarMap& mask);
+
     std::vector<Drawn> drawn_;
 };
 

@@ -1,5 +1,6 @@
 /// \file
-/// A map's pieces without its leaves: one planar map over the whole plane, in exact coordinates.
+/// A picture's boundaries as one planar map over the whole plane, in exact coordinates: what scanners, tiles
+/// and point queries read.
 ///
 /// Leaves are a way to store a picture, and their borders mean nothing to it. What is drawn needs the
 /// boundaries alone, and needs them to close: going round any point, the changes of paint must cancel. Inside
@@ -17,8 +18,8 @@
 
 namespace vtm::asset {
 
-/// Lattice coordinates: steps of a leaf of the deepest level, 0 to latticeExtent from one border of the
-/// map to the other. End points of every level lie on it exactly, and so in a double.
+/// The lattice of a map that was made of leaves: steps of a leaf of the deepest level. End points of every
+/// level lie on it exactly, and so in a double.
 inline constexpr std::int64_t latticeExtent = std::int64_t(leafExtent) << (2 * maxLevel);
 
 /// Where a point lies. Beyond the ends of a piece both are the chord's.
@@ -49,9 +50,29 @@ PlanarPiece planarPiece(const Piece& piece);
 
 inline double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
+/// Where a map's square lies in the picture: from `origin` on, `side` picture units or `extent` lattice
+/// steps.
+struct MapPlace {
+    glm::dvec2 origin{0};
+    double side = 0;
+    double extent = double(latticeExtent);
+};
+
+/// All boundaries in a square of the picture, those with paint 0 around it included; outside lies paint 0.
+/// Ends of pieces are whole numbers of lattice steps.
+struct PlanarMap : MapPlace {
+    std::vector<PlanarPiece> pieces;
+};
+
+PlanarMap planarMap(const AssetView& asset, const Map& map);
+/// Those that the asset's commands draw. std::invalid_argument unless it is a sum of maps.
+std::vector<PlanarMap> planarMaps(const AssetView& asset);
+
+// ---- Points ---------------------------------------------------------------------------------------
+
 /// A change of paint on the way from one point to another.
 struct Change {
-    std::uint32_t at;  ///< along a leaf's side: leaf steps from its first corner
+    std::uint32_t at;  ///< along a square's side: steps from its first corner
     std::uint32_t before, after;
 };
 
@@ -59,12 +80,46 @@ struct Change {
 /// that is entered once more often than left.
 std::uint32_t paintBehind(std::uint32_t paint, std::span<const Change> changes);
 
-/// All of a map's boundaries, those with paint 0 around it included; outside the map lies paint 0.
-std::vector<PlanarPiece> planarPieces(const AssetView& asset, const Map& map);
+/// Calls visit(from, to, paint) for the stretches of a square's side of `length` steps, from its first corner
+/// on, where `corner` is the paint. `changes` ascend.
+template <class Visit>
+void forEachStretch(std::uint32_t corner, std::span<const Change> changes, std::uint32_t length,
+                    Visit&& visit) {
+    std::uint32_t from = 0, paint = corner;
+    for (std::size_t i = 0; i < changes.size();) {
+        std::size_t end = i + 1;
+        while (end < changes.size() && changes[end].at == changes[i].at)
+            ++end;
+        if (changes[i].at > from)
+            visit(from, changes[i].at, paint);
+        from = changes[i].at;
+        paint = paintBehind(paint, changes.subspan(i, end - i));
+        i = end;
+    }
+    if (from < length)
+        visit(from, length, paint);
+}
 
-/// The paint at a point, lattice coordinates. Its y must not be that of any end point or corner: take one
-/// that is no whole number. `near`: at least the pieces with the point between curve and chord.
-std::uint32_t paintAt(const AssetView& asset, const Map& map, glm::dvec2 point,
-                      std::span<const PlanarPiece* const> near);
+/// Appends what changes at a piece on the way along a row from its left end to a point.
+void addChanges(const PlanarPiece& piece, glm::dvec2 point, std::vector<Change>& changes);
+
+/// A planar map with its pieces by rows, for asking which paint is at a point.
+class PlanarIndex {
+public:
+    explicit PlanarIndex(PlanarMap map);
+
+    const PlanarMap& map() const { return map_; }
+    /// At a point in lattice coordinates; 0 outside the map. Right unless the point is nearer to a boundary
+    /// than rounding, some 2^-50 of the map's side; there either side may be told. Proportional to the number
+    /// of pieces in a row, about the root of all.
+    std::uint32_t paintAt(glm::dvec2 point) const;
+
+private:
+    std::size_t rowOf(double y) const;
+
+    PlanarMap map_;
+    std::size_t rows_;
+    std::vector<std::uint32_t> firsts_, numbers_;  ///< of pieces: those of row r from firsts_[r] on
+};
 
 }  // namespace vtm::asset

@@ -15,7 +15,6 @@ namespace vtm::gl {
 
 namespace {
 
-using asset::latticeExtent;
 using asset::Texel;
 using glm::dvec2;
 
@@ -54,8 +53,8 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i
                                                                glm::i64vec2 max) const {
     const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
     std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
-    const double side = std::ldexp(double(latticeExtent), -level);
-    for (const PlanarPiece& piece : *pieces_) {
+    const double side = std::ldexp(pieces_->map().extent, -level);
+    for (const PlanarPiece& piece : pieces_->map().pieces) {
         limits::check();
         const double reach = tileMargin() + piece.bulge() / side;
         const dvec2 least = glm::floor(glm::min(piece.a, piece.b) / side - reach),
@@ -72,7 +71,7 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i
 }
 
 Atlas::Placed Atlas::place(const TilePlace& place, std::span<const PlanarPiece* const> near) {
-    const TileSource source{asset_->asset, map_, asset_->programTurns, asset_->changes, maxTurns_};
+    const TileSource source{asset_->asset, *pieces_, asset_->programTurns, asset_->changes, maxTurns_};
     return this->place(buildTile(source, place, tileMargin(), near));
 }
 
@@ -105,7 +104,7 @@ const Atlas::Placed& Atlas::prepareCrowded() {
 std::vector<const Atlas::Placed*> Atlas::prepare(int level, glm::i64vec2 min, glm::i64vec2 max) {
     makeRoom();
     if (!pieces_)
-        pieces_ = planarPieces(asset_->asset, map_);
+        pieces_.emplace(planarMap(asset_->asset, map_));
     std::vector<std::vector<const PlanarPiece*>> near;
     std::vector<const Placed*> tiles;
     for (std::int64_t y = min.y; y < max.y; ++y)

@@ -66,8 +66,8 @@ private:
     asset::Map map_;
     const KeptAsset* asset_;
     std::uint32_t maxTurns_;
-    ScannedPixels scanned_;                           ///< of crowded cells
-    std::optional<std::vector<PlanarPiece>> pieces_;  ///< once a view has asked
+    ScannedPixels scanned_;                     ///< of crowded cells
+    std::optional<asset::PlanarIndex> pieces_;  ///< once a view has asked
 
     std::map<TilePlace, Placed> placed_;
     std::optional<Placed> crowded_;

@@ -143,9 +143,6 @@ std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, bool programs)
     return pieces;
 }
 
-/// y is moved to the middle between two lattice rows, as paintAt wants it.
-dvec2 betweenRows(dvec2 lattice) { return {lattice.x, std::floor(lattice.y) + 0.5}; }
-
 bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* const> near) {
     const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset.paints[paint]); };
     return std::ranges::any_of(
@@ -156,8 +153,8 @@ bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* con
 class CellPlaces {
 public:
     CellPlaces(const TileSource& source, const TilePlace& place, double margin)
-        : side_(std::ldexp(source.map.side, -place.level)),
-          corner_(dvec2(source.map.x, source.map.y) + side_ * dvec2(double(place.x), double(place.y))),
+        : side_(std::ldexp(source.pieces.map().side, -place.level)),
+          corner_(source.pieces.map().origin + side_ * dvec2(double(place.x), double(place.y))),
           margin_(margin * side_) {}
 
     /// Corners of a pixel are no further from its centre than the margin, so it stretches what it maps by no
@@ -233,8 +230,7 @@ std::optional<Reference> startOf(const TileSource& source, const LocalPieces& lo
     const std::optional<dvec2> point = clearPoint(local, isEmpty ? 1 : cellSize, near);
     if (!point)
         return std::nullopt;
-    const dvec2 lattice = betweenRows(local.toLattice(*point));
-    return Reference{*point, 0, paintAt(source.asset, source.map, lattice, near)};
+    return Reference{*point, 0, source.pieces.paintAt(local.toLattice(*point))};
 }
 
 }  // namespace
@@ -251,7 +247,7 @@ Tile crowdedTile(std::span<const asset::Paint> paints) {
 
 Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                std::span<const PlanarPiece* const> near) {
-    const LocalPieces local(place, margin, near);
+    const LocalPieces local(source.pieces.map().extent, place, margin, near);
     const CellPlaces places(source, place, margin);
     const bool programs = hasPrograms(source.asset, near);
     const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);

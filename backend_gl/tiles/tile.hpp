@@ -78,8 +78,8 @@ struct Tile {
 
 /// What tiles are cut from.
 struct TileSource {
-    asset::AssetView asset;
-    asset::Map map;
+    asset::AssetView asset;  ///< its paints
+    const asset::PlanarIndex& pieces;
     std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::span<const asset::PaintChange> changes;  ///< by paint
     std::uint32_t maxTurns = turnsPerPixel;

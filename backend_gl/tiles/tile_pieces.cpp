@@ -10,7 +10,6 @@ namespace vtm::gl {
 namespace {
 
 using asset::cross;
-using asset::latticeExtent;
 using glm::dvec2;
 
 /// A piece longer than this many tiles is cut into parts, so that end points within reach lie in [-1, 3)
@@ -45,10 +44,9 @@ double rounded(double coordinate) {
 
 }  // namespace
 
-LocalPieces::LocalPieces(const TilePlace& place, double margin, std::span<const PlanarPiece* const> near)
-    : side_(std::ldexp(double(latticeExtent), -place.level)),
-      corner_(dvec2(place.x, place.y) * side_),
-      margin_(margin) {
+LocalPieces::LocalPieces(double extent, const TilePlace& place, double margin,
+                         std::span<const PlanarPiece* const> near)
+    : side_(std::ldexp(extent, -place.level)), corner_(dvec2(place.x, place.y) * side_), margin_(margin) {
     for (const PlanarPiece* piece : near)
         add(*piece);
 }

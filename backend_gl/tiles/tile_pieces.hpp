@@ -19,7 +19,8 @@ inline int slopeSteps(double slope) {
 /// Pieces as the shader will know them: in tile coordinates, rounded.
 class LocalPieces {
 public:
-    LocalPieces(const TilePlace& place, double margin, std::span<const PlanarPiece* const> near);
+    LocalPieces(double extent, const TilePlace& place, double margin,
+                std::span<const PlanarPiece* const> near);
 
     const std::vector<PlanarPiece>& pieces() const { return pieces_; }
     glm::dvec2 toLattice(glm::dvec2 local) const { return corner_ + local * side_; }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "raster/src/row_sums.hpp"
 
@@ -28,24 +27,28 @@ Scratch& scratchOfThread() {
 }  // namespace
 
 struct CoverageScanner::Drawn {
-    Map map;
+    MapPlace place;
     std::vector<Boundary> boundaries;  ///< with paint 1 on one side and 0 on the other
 };
 
 CoverageScanner::CoverageScanner(const AssetView& mask) {
-    if (!isSumOfMaps(mask))
-        throw std::invalid_argument("only pictures of disjoint regions can be summed along rows");
-    for (const Command& command : mask.commands) {
-        Drawn drawn{mask.maps[command.map], {}};
-        for (PlanarPiece& piece : planarPieces(mask, drawn.map)) {
-            if ((piece.left == 0) == (piece.right == 0))
-                continue;
-            piece.left = piece.left != 0;
-            piece.right = piece.right != 0;
-            drawn.boundaries.emplace_back(piece);
-        }
-        drawn_.push_back(std::move(drawn));
+    for (const PlanarMap& map : planarMaps(mask))
+        add(map);
+}
+
+CoverageScanner::CoverageScanner(const PlanarMap& mask) { add(mask); }
+
+void CoverageScanner::add(const PlanarMap& mask) {
+    Drawn drawn{mask, {}};
+    drawn.boundaries.reserve(mask.pieces.size());
+    for (PlanarPiece piece : mask.pieces) {
+        if ((piece.left == 0) == (piece.right == 0))
+            continue;
+        piece.left = piece.left != 0;
+        piece.right = piece.right != 0;
+        drawn.boundaries.emplace_back(piece);
     }
+    drawn_.push_back(std::move(drawn));
 }
 
 CoverageScanner::~CoverageScanner() = default;
@@ -62,7 +65,7 @@ void CoverageScanner::scan(const View& view,
     scratch.isWhole = false;
     scratch.bands.clear(view.height);
     for (const Drawn& drawn : drawn_) {
-        Chords chords(drawn.map, view, scratch.bands);
+        Chords chords(drawn.place, view, scratch.bands);
         for (const Boundary& boundary : drawn.boundaries)
             chords.add(boundary);
     }

@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <stdexcept>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -65,24 +68,6 @@ void changesOf(std::span<const Piece> pieces, ChangesBySide& sides) {
         std::ranges::sort(side, {}, &Change::at);
 }
 
-/// Calls visit(from, to, paint) for the stretches of a side, in leaf steps from its first corner.
-template <class Visit>
-void forEachStretch(std::uint32_t corner, std::span<const Change> changes, Visit&& visit) {
-    std::uint32_t from = 0, paint = corner;
-    for (std::size_t i = 0; i < changes.size();) {
-        std::size_t end = i + 1;
-        while (end < changes.size() && changes[end].at == changes[i].at)
-            ++end;
-        if (changes[i].at > from)
-            visit(from, changes[i].at, paint);
-        from = changes[i].at;
-        paint = paintBehind(paint, changes.subspan(i, end - i));
-        i = end;
-    }
-    if (from < leafExtent)
-        visit(from, leafExtent, paint);
-}
-
 /// What a square shows along a part of one of its borders.
 struct Stretch {
     /// The border's line, counted in cells of the deepest level, above fromBits; then where the part begins,
@@ -108,18 +93,19 @@ void addStretches(Cell cell, std::uint32_t corner, std::span<const Change> chang
     const std::uint64_t step = stepOf(cell);
     const std::uint64_t first = step * leafExtent * (horizontal ? cell.x : cell.y),
                         last = first + step * leafExtent;
-    const std::uint64_t least = step * (horizontal ? cell.y : cell.x);
-    // The square lies above its own least border; of the other, the line before is the number.
+    const std::uint64_t low = step * (horizontal ? cell.y : cell.x);
+    // The square lies above its own lower border; of the other, the line before is the number.
     const bool above = side == 0 || side == 3;
     Borders& borderLines = borders[horizontal ? 0 : 1];
     std::vector<Stretch>& stretches = above ? borderLines.above : borderLines.below;
-    const std::uint64_t line = (above ? least : least + step - 1) << Stretch::fromBits;
-    forEachStretch(corner, changes, [&](std::uint32_t from, std::uint32_t to, std::uint32_t paint) {
-        if (forward)
-            stretches.push_back({line | (first + from * step), first + to * step, paint});
-        else
-            stretches.push_back({line | (last - to * step), last - from * step, paint});
-    });
+    const std::uint64_t line = (above ? low : low + step - 1) << Stretch::fromBits;
+    forEachStretch(corner, changes, leafExtent,
+                   [&](std::uint32_t from, std::uint32_t to, std::uint32_t paint) {
+                       if (forward)
+                           stretches.push_back({line | (first + from * step), first + to * step, paint});
+                       else
+                           stretches.push_back({line | (last - to * step), last - from * step, paint});
+                   });
 }
 
 /// A piece wherever the two sides of a border show different paints.
@@ -136,14 +122,14 @@ void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& piece
         else
             pieces.push_back({{line, from}, {line, to}, 0, 0, below, above});
     };
-    constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+    constexpr std::uint64_t noLine = std::numeric_limits<std::uint64_t>::max();
     std::size_t i = 0, j = 0;
     const auto &low = borders.below, &high = borders.above;
     // Both lists tile their lines; where one has nothing, paint 0 is.
-    std::uint64_t line = none, done = 0;
+    std::uint64_t line = noLine, done = 0;
     while (i < low.size() || j < high.size()) {
-        const std::uint64_t lowLine = i < low.size() ? low[i].line() + 1 : none,
-                            highLine = j < high.size() ? high[j].line() : none;
+        const std::uint64_t lowLine = i < low.size() ? low[i].line() + 1 : noLine,
+                            highLine = j < high.size() ? high[j].line() : noLine;
         const std::uint64_t next = std::min(lowLine, highLine);
         if (next != line) {
             line = next;
@@ -151,10 +137,10 @@ void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& piece
         }
         const Stretch* a = lowLine == line ? &low[i] : nullptr;
         const Stretch* b = highLine == line ? &high[j] : nullptr;
-        const std::uint64_t startA = a ? std::max(a->from(), done) : none,
-                            startB = b ? std::max(b->from(), done) : none;
+        const std::uint64_t startA = a ? std::max(a->from(), done) : noLine,
+                            startB = b ? std::max(b->from(), done) : noLine;
         const std::uint64_t from = std::min(startA, startB);
-        std::uint64_t to = none;
+        std::uint64_t to = noLine;
         if (a)
             to = std::min(to, startA > from ? startA : a->to);
         if (b)
@@ -166,28 +152,6 @@ void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& piece
         if (b && b->to <= done)
             ++j;
     }
-}
-
-// ---- Points ---------------------------------------------------------------------------------------
-
-/// On the leaf's border of least x.
-std::uint32_t paintOnLeft(Cell cell, const Leaf& leaf, std::span<const Piece> own, double y) {
-    ChangesBySide sides;
-    changesOf(own, sides);
-    const double fromTop = (onLattice(cell, 0, leafExtent).y - y) / double(stepOf(cell));
-    std::uint32_t paint = leaf.corners[3];
-    forEachStretch(leaf.corners[3], sides[3], [&](std::uint32_t from, std::uint32_t to, std::uint32_t here) {
-        if (from < fromTop && fromTop < to)
-            paint = here;
-    });
-    return paint;
-}
-
-/// Whether the way to the point along its y crosses the chord.
-bool isChordOnLeft(const PlanarPiece& p, dvec2 point) {
-    if ((p.a.y < point.y) == (p.b.y < point.y))
-        return false;
-    return p.a.x + (p.b.x - p.a.x) * (point.y - p.a.y) / (p.b.y - p.a.y) < point.x;
 }
 
 }  // namespace
@@ -236,11 +200,12 @@ double PlanarPiece::bulge() const {
     return 4.0 / 27 * (std::abs(slopeA) + std::abs(slopeB)) * glm::length(b - a);
 }
 
-std::vector<PlanarPiece> planarPieces(const AssetView& asset, const Map& map) {
+PlanarMap planarMap(const AssetView& asset, const Map& map) {
     // What the maps have on average, so that mostly nothing is moved.
     const std::size_t maps = std::max<std::size_t>(asset.maps.size(), 1);
     const std::size_t squares = 16 * asset.nodes.size() / maps, count = asset.pieces.size() / maps;
-    std::vector<PlanarPiece> pieces;
+    PlanarMap result{{{map.x, map.y}, map.side}, {}};
+    std::vector<PlanarPiece>& pieces = result.pieces;
     pieces.reserve(count + count / 4);
     std::array<Borders, 2> borders;
     for (Borders& lines : borders) {
@@ -268,32 +233,69 @@ std::vector<PlanarPiece> planarPieces(const AssetView& asset, const Map& map) {
     });
     addSeams(borders[0], true, pieces);
     addSeams(borders[1], false, pieces);
-    return pieces;
+    return result;
 }
 
-/// The paint on the leaf's border at the left of the point, and the changes on the way from there: the leaf's
-/// chords between, and the curves, some of which bulge over from other leaves, that lie on the point's other
-/// side than their chords.
-std::uint32_t paintAt(const AssetView& asset, const Map& map, dvec2 point,
-                      std::span<const PlanarPiece* const> near) {
-    const double extent = double(latticeExtent);
-    if (!(point.x >= 0 && point.y >= 0 && point.x <= extent && point.y <= extent))
+std::vector<PlanarMap> planarMaps(const AssetView& asset) {
+    if (!isSumOfMaps(asset))
+        throw std::invalid_argument("only pictures of disjoint regions can be summed along rows");
+    std::vector<PlanarMap> maps;
+    for (const Command& command : asset.commands)
+        maps.push_back(planarMap(asset, asset.maps[command.map]));
+    return maps;
+}
+
+// ---- Points ---------------------------------------------------------------------------------------
+
+/// A point's row is that just above it, so that it has no end points. The point's side of the chord is asked
+/// for once: where rounding turns it, both of what follows from it turn.
+void addChanges(const PlanarPiece& piece, dvec2 point, std::vector<Change>& changes) {
+    const bool aIsBelow = piece.a.y <= point.y, bIsBelow = piece.b.y <= point.y;
+    const Sides at = piece.sidesOf(point);
+    // The chord lies between the row's left end and the point.
+    if (aIsBelow != bIsBelow && at.leftOfChord != aIsBelow)
+        changes.push_back(aIsBelow ? Change{0, piece.left, piece.right} : Change{0, piece.right, piece.left});
+    if (at.leftOfCurve != at.leftOfChord)
+        changes.push_back(
+            {0, at.leftOfChord ? piece.left : piece.right, at.leftOfCurve ? piece.left : piece.right});
+}
+
+namespace {
+
+/// Rows for so many pieces: a piece of a picture of many is short, so it is in few of them.
+std::size_t rowsFor(std::size_t pieces) { return std::size_t(4 * std::sqrt(double(pieces))) + 1; }
+
+}  // namespace
+
+std::size_t PlanarIndex::rowOf(double y) const {
+    return std::size_t(std::clamp(y / map_.extent * double(rows_), 0.0, double(rows_ - 1)));
+}
+
+PlanarIndex::PlanarIndex(PlanarMap map)
+    : map_(std::move(map)), rows_(rowsFor(map_.pieces.size())), firsts_(rows_ + 1) {
+    const auto forEachRow = [&](const PlanarPiece& p, auto&& visit) {
+        const double bulge = p.bulge();
+        const std::size_t last = rowOf(std::max(p.a.y, p.b.y) + bulge);
+        for (std::size_t row = rowOf(std::min(p.a.y, p.b.y) - bulge); row <= last; ++row)
+            visit(row);
+    };
+    for (const PlanarPiece& p : map_.pieces)
+        forEachRow(p, [&](std::size_t row) { ++firsts_[row + 1]; });
+    std::partial_sum(firsts_.begin(), firsts_.end(), firsts_.begin());
+    numbers_.resize(firsts_.back());
+    std::vector<std::uint32_t> next(firsts_.begin(), firsts_.end() - 1);
+    for (std::uint32_t i = 0; i < map_.pieces.size(); ++i)
+        forEachRow(map_.pieces[i], [&](std::size_t row) { numbers_[next[row]++] = i; });
+}
+
+std::uint32_t PlanarIndex::paintAt(dvec2 point) const {
+    if (!(point.x >= 0 && point.y >= 0 && point.x <= map_.extent && point.y <= map_.extent))
         return 0;
-    const auto [cell, entry, within] = squareAt(asset, map.root, point / extent);
-    std::uint32_t paint = entry.payload();
+    const std::size_t row = rowOf(point.y);
     std::vector<Change> changes;
-    if (entry.kind() == Entry::Kind::Leaf) {
-        const Leaf& leaf = asset.leaves[entry.payload()];
-        const auto own = asset.pieces.subspan(leaf.firstPiece, leaf.pieceCount);
-        paint = paintOnLeft(cell, leaf, own, point.y);
-        for (const Piece& piece : own)
-            if (const PlanarPiece p = planar(cell, piece); isChordOnLeft(p, point))
-                changes.push_back(p.a.y < p.b.y ? Change{0, p.left, p.right} : Change{0, p.right, p.left});
-    }
-    for (const PlanarPiece* p : near)
-        if (const Sides at = p->sidesOf(point); at.leftOfCurve != at.leftOfChord)
-            changes.push_back({0, at.leftOfChord ? p->left : p->right, at.leftOfCurve ? p->left : p->right});
-    return paintBehind(paint, changes);
+    for (std::uint32_t i = firsts_[row]; i < firsts_[row + 1]; ++i)
+        addChanges(map_.pieces[numbers_[i]], point, changes);
+    return paintBehind(0, changes);
 }
 
 }  // namespace vtm::asset

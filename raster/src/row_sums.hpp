@@ -83,11 +83,11 @@ private:
 /// Appends the chords of all pieces that can change a pixel of the view.
 class Chords {
 public:
-    Chords(const Map& map, const View& view, Bands& bands)
+    Chords(const MapPlace& map, const View& view, Bands& bands)
         : width_(float(view.width)), height_(float(view.height)), bands_(bands) {
-        const double step = map.side / double(latticeExtent);
+        const double step = map.side / map.extent;
         linear_ = glm::dmat2(view.toPixels[0] * step, view.toPixels[1] * step);
-        origin_ = view.toPixels * glm::dvec3(map.x, map.y, 1);
+        origin_ = view.toPixels * glm::dvec3(map.origin, 1);
         const double determinant = glm::determinant(linear_);
         mirrored_ = determinant < 0;
         // The largest singular value.

@@ -39,7 +39,7 @@ struct Scratch {
 /// What is kept of an asset.
 struct Picture {
     struct Drawn {
-        Map map;
+        MapPlace place;
         std::vector<Boundary> boundaries;
     };
     Asset asset;                   ///< without trees: paints and what they need
@@ -121,7 +121,7 @@ public:
 
     void addPicture() {
         for (const Picture::Drawn& drawn : of_.drawn) {
-            Chords chords(drawn.map, view_, scratch_.bands);
+            Chords chords(drawn.place, view_, scratch_.bands);
             for (const Boundary& boundary : drawn.boundaries) {
                 limits::check();
                 chords.add(boundary);
@@ -263,14 +263,13 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     giveBack(std::move(scratch));
 }
 
-Scanner::Scanner(const AssetView& asset, Sums sums) : impl_(std::make_unique<Impl>()) {
+Scanner::Scanner(const AssetView& asset, Sums sums) : Scanner(planarMaps(asset), asset, sums) {}
+
+Scanner::Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums)
+    : impl_(std::make_unique<Impl>()) {
     impl_->sums = sums;
-    if (!isSumOfMaps(asset))
-        throw std::invalid_argument("only pictures of disjoint regions can be summed along rows");
-    for (const Command& command : asset.commands) {
-        const std::vector<PlanarPiece> pieces = planarPieces(asset, asset.maps[command.map]);
-        impl_->drawn.push_back({asset.maps[command.map], {pieces.begin(), pieces.end()}});
-    }
+    for (const PlanarMap& map : maps)
+        impl_->drawn.push_back({map, {map.pieces.begin(), map.pieces.end()}});
     Asset& kept = impl_->asset;
     kept.paints.assign(asset.paints.begin(), asset.paints.end());
     kept.data.assign(asset.data.begin(), asset.data.end());

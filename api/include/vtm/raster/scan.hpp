@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include <glm/vec4.hpp>
 
@@ -21,6 +22,8 @@
 #pragma GCC visibility push(default)
 
 namespace vtm::asset {
+
+struct PlanarMap;
 
 /// Premultiplied bytes red, green, blue, alpha, in the scanner's numbers; rows from the top.
 struct ByteTarget {
@@ -45,6 +48,8 @@ class Scanner {
 public:
     /// `asset` must be valid; std::invalid_argument unless it is a sum of maps.
     explicit Scanner(const AssetView& asset, Sums sums = Sums::Encoded);
+    /// Of planar maps (raster/planar_map.hpp) with the paints of `asset`, whose trees are not read.
+    Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums = Sums::Encoded);
     ~Scanner();
     Scanner(Scanner&&) noexcept;
     Scanner& operator=(Scanner&&) noexcept;
