@@ -8,6 +8,8 @@
 /// or a leaf may end where the picture does; there the *seams* stand, straight pieces along the border.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -100,7 +102,13 @@ void forEachStretch(std::uint32_t corner, std::span<const Change> changes, std::
         visit(from, length, paint);
 }
 
-/// Appends what changes at a piece on the way along a row from its left end to a point.
+/// On the upper border of a square of that extent: just below it, for the row of a point is just above.
+inline glm::dvec2 belowTop(glm::dvec2 point, double extent) {
+    return {point.x, std::min(point.y, std::nextafter(extent, 0.0))};
+}
+
+/// Appends what changes at a piece on the way along a row from its left end to a point. The row is just above
+/// the point, so that it has no end points.
 void addChanges(const PlanarPiece& piece, glm::dvec2 point, std::vector<Change>& changes);
 
 /// A planar map with its pieces by rows, for asking which paint is at a point.

@@ -40,6 +40,7 @@ std::uint32_t paintOnLeft(const Leaf& leaf, std::span<const Piece> pieces, doubl
 
 std::uint32_t paintInLeaf(const AssetView& asset, const Leaf& leaf, dvec2 point) {
     const std::span<const Piece> pieces = asset.pieces.subspan(leaf.firstPiece, leaf.pieceCount);
+    point = belowTop(point, leafExtent);
     std::vector<Change> changes;
     for (const Piece& piece : pieces)
         addChanges(planarPiece(piece), point, changes);

@@ -247,7 +247,7 @@ std::vector<PlanarMap> planarMaps(const AssetView& asset) {
 
 // ---- Points ---------------------------------------------------------------------------------------
 
-/// A point's row is that just above it, so that it has no end points. The point's side of the chord is asked
+/// The point's side of the chord is asked
 /// for once: where rounding turns it, both of what follows from it turn.
 void addChanges(const PlanarPiece& piece, dvec2 point, std::vector<Change>& changes) {
     const bool aIsBelow = piece.a.y <= point.y, bIsBelow = piece.b.y <= point.y;
@@ -291,6 +291,7 @@ PlanarIndex::PlanarIndex(PlanarMap map)
 std::uint32_t PlanarIndex::paintAt(dvec2 point) const {
     if (!(point.x >= 0 && point.y >= 0 && point.x <= map_.extent && point.y <= map_.extent))
         return 0;
+    point = belowTop(point, map_.extent);
     const std::size_t row = rowOf(point.y);
     std::vector<Change> changes;
     for (std::uint32_t i = firsts_[row]; i < firsts_[row + 1]; ++i)
