@@ -62,9 +62,10 @@ scene::Color overWhite(const scene::Color& color) {
     return {channel(color.r), channel(color.g), channel(color.b), 1};
 }
 
-Sheet sheetFor(const Job& job, const RenderOptions& options, const scene::Color& ground) {
+image::PixelWriter writerFor(const Job& job, const RenderOptions& options, const scene::Color& ground) {
     const bool isOpaque = !image::hasAlpha(formatOf(job.output, options.file));
-    return {isOpaque ? overWhite(ground) : ground, options.file.encoding.depth};
+    const scene::Color under = isOpaque ? overWhite(ground) : ground;
+    return image::PixelWriter({under.r, under.g, under.b, under.a}, options.file.encoding.depth);
 }
 
 /// What --export-id draws is what is seen of it, where no --view says otherwise.
@@ -75,11 +76,11 @@ scene::Framing framingOf(const RenderOptions& options, const Source& source) {
     return framing;
 }
 
-void drawDebugView(const DebugView debug, Source& source, const asset::View& view, const Sheet& sheet,
-                   Engine& engine, PictureFile& file) {
-    image::Bitmap bitmap = drawBitmap(engine, source, view, sheet.ground);
+void drawDebugView(const DebugView debug, Source& source, const asset::View& view,
+                   const image::PixelWriter& writer, Engine& engine, PictureFile& file) {
+    image::Bitmap bitmap = drawBitmap(engine, source, view, writer);
     layLines(bitmap, debug, source, view);
-    giveRows(bitmap, {0, 0, 0, 0}, file.sink());
+    image::giveRows(bitmap, image::PixelWriter(), file.sink());
 }
 
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
@@ -88,12 +89,12 @@ void renderOne(const Job& job, const RenderOptions& options, const scene::Color&
         prepareView(source, options.source, framingOf(options, source), engine.needsAsset());
     const DebugView debug = parseDebugView(options.debugView);
     prepare(source, debug);
-    const Sheet sheet = sheetFor(job, options, ground);
+    const image::PixelWriter writer = writerFor(job, options, ground);
     PictureFile file(job.output, options.file, view.width, view.height);
     if (debug == DebugView::None)
-        engine.draw(source, view, sheet, file.sink());
+        engine.draw(source, view, writer, file.sink());
     else
-        drawDebugView(debug, source, view, sheet, engine, file);
+        drawDebugView(debug, source, view, writer, engine, file);
     if (options.source.strict)
         refuseLeftOut(source);
     file.write();

@@ -19,9 +19,10 @@ AutomaticEngine::AutomaticEngine(asset::Mode mode, const std::string& programCac
       twin_(makeEngine("asset", mode)),
       drawing_(scanner_.get()) {}
 
-void AutomaticEngine::draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) {
+void AutomaticEngine::draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+                           const image::RowSink& sink) {
     drawing_ = &engineFor(source);
-    drawing_->draw(source, view, sheet, sink);
+    drawing_->draw(source, view, writer, sink);
 }
 
 Engine& AutomaticEngine::engineFor(Source& source) {

@@ -17,7 +17,8 @@ class AutomaticEngine : public Engine {
 public:
     AutomaticEngine(asset::Mode mode, const std::string& programCache);
     std::string name() const override { return drawing_->name(); }
-    void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) override;
+    void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink) override;
 
 private:
     Engine& engineFor(Source& source);

@@ -10,7 +10,8 @@ namespace vtm::tools {
 class CpuEngine : public Engine {
 public:
     std::string name() const override { return "cpu"; }
-    void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) override;
+    void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink) override;
 };
 
 }  // namespace vtm::tools

@@ -59,17 +59,18 @@ void warnOfMaterials(Source& source) {
 }
 
 image::Bitmap drawBitmap(Engine& engine, Source& source, const asset::View& view,
-                         const scene::Color& ground) {
+                         const image::PixelWriter& writer) {
     image::Bitmap bitmap{view.width, view.height, {}};
     bitmap.rgba.reserve(std::size_t(view.width) * std::size_t(view.height) * 4);
-    engine.draw(source, view, {ground}, [&](std::span<const std::uint8_t> row) {
+    engine.draw(source, view, writer, [&](std::span<const std::uint8_t> row) {
         bitmap.rgba.insert(bitmap.rgba.end(), row.begin(), row.end());
     });
     return bitmap;
 }
 
-void RasterEngine::draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) {
-    giveRows(render(source, view), sheet, sink);
+void RasterEngine::draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+                        const image::RowSink& sink) {
+    image::giveRows(render(source, view), writer, sink);
 }
 
 std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode,

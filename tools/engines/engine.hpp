@@ -7,8 +7,8 @@
 
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/view.hpp>
+#include "image/pixel_writer.hpp"
 #include "tools/input/source.hpp"
-#include "tools/output/rows.hpp"
 
 namespace vtm::tools {
 
@@ -21,16 +21,19 @@ public:
     virtual bool needsAsset() const { return true; }
     /// Gives every row of the view to the sink. Adds its stages to the source's, without the sink's time.
     /// Throws its module's exceptions.
-    virtual void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) = 0;
+    virtual void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+                      const image::RowSink& sink) = 0;
 };
 
-/// The whole picture, 8 bits a channel.
-image::Bitmap drawBitmap(Engine& engine, Source& source, const asset::View& view, const scene::Color& ground);
+/// The whole picture; the writer has 8 bits a channel.
+image::Bitmap drawBitmap(Engine& engine, Source& source, const asset::View& view,
+                         const image::PixelWriter& writer);
 
 /// One that makes floats of transparent ground.
 class RasterEngine : public Engine {
 public:
-    void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) override;
+    void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink) override;
 
 protected:
     virtual image::Raster render(Source& source, const asset::View& view) = 0;

@@ -7,15 +7,16 @@ void GlEngine::start(Stages& stages) {
         gl_ = timed(stages, "start", [&] { return std::make_unique<Gl>(options_); });
 }
 
-void GlEngine::draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) {
+void GlEngine::draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+                    const image::RowSink& sink) {
     start(source.stages);
-    if (source.paper || sheet.depth > 8)
-        return RasterEngine::draw(source, view, sheet, sink);
+    if (source.paper || writer.depth() > 8)
+        return RasterEngine::draw(source, view, writer, sink);
     const gl::Texture texture =
         timed(source.stages, "upload", [&] { return gl_->renderer.upload(*source.asset); });
     const image::Bitmap bitmap =
         timed(source.stages, "render", [&] { return gl_->renderer.renderBitmap(texture, view); });
-    giveRows(bitmap, sheet.ground, sink);
+    image::giveRows(bitmap, writer, sink);
 }
 
 image::Raster GlEngine::render(Source& source, const asset::View& view) {

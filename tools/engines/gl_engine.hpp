@@ -12,7 +12,8 @@ class GlEngine : public RasterEngine {
 public:
     explicit GlEngine(const std::string& programCache) { options_.programCache = programCache; }
     std::string name() const override { return "gl"; }
-    void draw(Source& source, const asset::View& view, const Sheet& sheet, const RowSink& sink) override;
+    void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink) override;
 
     /// Makes the context and the renderers, once. Throws gl::GlError.
     void start(Stages& stages);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <vtm/asset/container.hpp>
+#include "tools/input/bounds.hpp"
 #include "tools/process/messages.hpp"
 
 namespace vtm::tools {
@@ -69,6 +70,12 @@ std::string readStyleSheet(const std::string& path) {
     return {sheet.bytes.begin(), sheet.bytes.end()};
 }
 
+scene::Rect exportedBounds(const svg::Document& document, const std::string& id) {
+    if (const auto bounds = drawnBounds(document.scene))
+        return *bounds;
+    throw std::runtime_error(fmt::format("#{}: nothing of it is drawn in the picture", id));
+}
+
 void parseSvg(Source& source, const Input& input, const SourceOptions& given) {
     svg::Options options = given.svg;
     if (!given.styleSheet.empty())
@@ -79,7 +86,8 @@ void parseSvg(Source& source, const Input& input, const SourceOptions& given) {
     warnOf(source, document.warnings);
     source.width = document.scene.width;
     source.height = document.scene.height;
-    source.exported = document.exported;
+    if (!options.exportId.empty())
+        source.exported = exportedBounds(document, options.exportId);
     source.scene = std::move(document.scene);
 }
 

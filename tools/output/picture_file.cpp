@@ -58,7 +58,7 @@ PictureFile::PictureFile(const std::string& output, const FileOptions& options, 
     : output_(output),
       encoder_(image::makeEncoder(formatOf(output, options), width, height, options.encoding)) {}
 
-RowSink PictureFile::sink() {
+image::RowSink PictureFile::sink() {
     return [this](std::span<const std::uint8_t> row) {
         milliseconds_ += millisecondsOf([&] { encoder_->add(row); });
     };

@@ -7,7 +7,7 @@
 #include <string>
 
 #include <vtm/image/encode.hpp>
-#include "tools/output/rows.hpp"
+#include "image/pixel_writer.hpp"
 
 namespace vtm::tools {
 
@@ -29,7 +29,7 @@ class PictureFile {
 public:
     PictureFile(const std::string& output, const FileOptions& options, int width, int height);
 
-    RowSink sink();
+    image::RowSink sink();
     /// Throws image::CodecError, StandardOutputError.
     void write();
     /// Encoding and writing so far.

@@ -1,23 +1,22 @@
-#include "tools/output/rows.hpp"
+#include "image/pixel_writer.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace vtm::tools {
-
+namespace vtm::image {
 namespace {
 
-unsigned rounded(float value, float max) {
-    return unsigned(std::lround(std::clamp(value, 0.0f, 1.0f) * max));
-}
+/// NaN becomes 0.
+float clamped(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
+
+unsigned rounded(float value, float max) { return unsigned(std::lround(clamped(value) * max)); }
 
 }  // namespace
 
-PixelWriter::PixelWriter(const Sheet& sheet)
-    : ground_{sheet.ground.r * sheet.ground.a, sheet.ground.g * sheet.ground.a,
-              sheet.ground.b * sheet.ground.a, sheet.ground.a},
-      depth_(sheet.depth) {}
+PixelWriter::PixelWriter(const std::array<float, 4>& ground, int depth)
+    : ground_{ground[0] * ground[3], ground[1] * ground[3], ground[2] * ground[3], ground[3]},
+      depth_(depth) {}
 
 void PixelWriter::write(const float* premultiplied, std::uint8_t* to) const {
     const float through = 1 - premultiplied[3], alpha = premultiplied[3] + through * ground_[3];
@@ -34,25 +33,24 @@ void PixelWriter::write(const float* premultiplied, std::uint8_t* to) const {
     }
 }
 
-void giveRows(const image::Raster& picture, const Sheet& sheet, const RowSink& sink) {
-    const PixelWriter writer(sheet);
-    std::vector<std::uint8_t> row(std::size_t(picture.width) * sheet.pixelBytes());
+void giveRows(const Raster& picture, const PixelWriter& writer, const RowSink& sink) {
+    std::vector<std::uint8_t> row(std::size_t(picture.width) * writer.pixelBytes());
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x)
-            writer.write(picture.pixel(x, y), &row[std::size_t(x) * sheet.pixelBytes()]);
+            writer.write(picture.pixel(x, y), &row[std::size_t(x) * writer.pixelBytes()]);
         sink(row);
     }
 }
 
-void giveRows(const image::Bitmap& picture, const scene::Color& ground, const RowSink& sink) {
+void giveRows(const Bitmap& picture, const PixelWriter& writer, const RowSink& sink) {
     const std::size_t rowBytes = std::size_t(picture.width) * 4;
     for (std::size_t y = 0; y < std::size_t(picture.height); ++y) {
         const auto row = std::span(picture.rgba).subspan(y * rowBytes, rowBytes);
-        if (ground.a == 0)
+        if (!writer.hasGround() && writer.depth() == 8)
             sink(row);
         else
-            giveRows(image::toRaster({picture.width, 1, {row.begin(), row.end()}}), {ground}, sink);
+            giveRows(toRaster({picture.width, 1, {row.begin(), row.end()}}), writer, sink);
     }
 }
 
-}  // namespace vtm::tools
+}  // namespace vtm::image
