@@ -3,8 +3,8 @@
 #pragma once
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 
 namespace vtm {
 

@@ -6,11 +6,11 @@
 #include <initializer_list>
 #include <vector>
 
+#include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
 
 namespace vtm::asset::test {
@@ -109,7 +109,7 @@ Asset blendAsset(Blend mode);
 /// A slanting edge between a linear and a radial gradient, each to and fro between black and a colour, in
 /// `length` units of the picture; and what that is by 32 × 32 points a pixel, where the map is.
 Asset steepHalves(double length);
-image::Raster steepHalvesByPoints(double length, const View& view);
+image::Raster steepHalvesByPoints(double length, int width, int height, const glm::dmat3x2& toPixels);
 
 /// Every command of compat mode, with nested groups, masks and clips.
 Asset layers();

@@ -3,17 +3,17 @@
 #pragma once
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 
 namespace vtm::gl {
 
 /// Squares of `side` picture units, one with its corner at the map's, each of `cells` × `cells` cells.
-struct PatchGrid {
+struct TileGrid {
     double side = 0;
     unsigned cells = 0;
 };
 
 /// What an exact picture is drawn by under an invertible view.
-PatchGrid patchGrid(const asset::Map& map, const asset::View& view);
+TileGrid tileGrid(const asset::Map& map, const asset::View& view);
 
 }  // namespace vtm::gl

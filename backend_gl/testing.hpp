@@ -8,9 +8,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/gl/sampled_texture.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 
 namespace vtm::gl::test {
 

@@ -10,10 +10,10 @@
 #include <random>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/prefilter.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/image/codec.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/prefilter.hpp>
 #include <vtm/svg/load.hpp>
 #include "asset/testing_files.hpp"
 #include "conformance/generate/damage.hpp"

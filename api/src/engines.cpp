@@ -2,10 +2,10 @@
 
 #include <dlfcn.h>
 
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/error.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "api/gl_entry.hpp"
-#include "asset/scan_rows.hpp"
+#include "raster/scan_rows.hpp"
 
 /// Null unless the program itself is linked with libvtm_gl.
 #pragma weak vtm_gl_draw

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/scan.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/scan.hpp>
+#include <vtm/raster/view.hpp>
 #include "image/pixel_writer.hpp"
 
 namespace vtm {

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
 #include <vtm/vtm.hpp>
 #include "api/src/engines.hpp"

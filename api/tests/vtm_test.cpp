@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 
 namespace vtm {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "asset/src/records.hpp"
+#include "asset/records.hpp"
 
 namespace vtm::asset {
 

@@ -108,6 +108,9 @@ void validateCommand(const AssetView& asset, const std::vector<Extent>& maps, st
     require(!drawsMap(command.kind) || command.map < maps.size(), "commands", i, "names no map");
     require(command.kind != Command::Kind::FillMask || command.paint < asset.paints.size(), "commands", i,
             "names no paint");
+    const bool isDrawMap = command.kind == Command::Kind::DrawMap;
+    require(isDrawMap == (asset.mode == Mode::Exact), "commands", i,
+            isDrawMap ? "draws a map in compat mode" : "draws layers in exact mode");
     if (command.kind == Command::Kind::FillMask || command.kind == Command::Kind::ClipMask)
         require(maps[command.map].largestPaint <= 1, "commands", i, "its map is no mask: a paint is above 1");
 }

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include <vtm/image/codec.hpp>
-#include "asset/src/records.hpp"
+#include "asset/records.hpp"
 #include "asset/src/validate.hpp"
 
 namespace vtm::asset {

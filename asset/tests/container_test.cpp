@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "asset/testing_files.hpp"
-#include "asset/testing_views.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::asset::test {
 namespace {

@@ -170,17 +170,16 @@ Asset steepHalves(double length) {
     return asset;
 }
 
-image::Raster steepHalvesByPoints(double length, const View& view) {
+image::Raster steepHalvesByPoints(double length, int width, int height, const glm::dmat3x2& toPixels) {
     constexpr int side = 32;
-    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    image::Raster raster(view.width, view.height);
-    for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x) {
+    const glm::dmat2 inverse = glm::inverse(glm::dmat2(toPixels[0], toPixels[1]));
+    image::Raster raster(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
             glm::dvec4 sum(0);
             for (int i = 0; i < side * side; ++i) {
                 const glm::dvec2 within(i % side + 0.5, i / side + 0.5);
-                sum += steepColor(length,
-                                  inverse * (glm::dvec2(x, y) + within / double(side) - view.toPixels[2]));
+                sum += steepColor(length, inverse * (glm::dvec2(x, y) + within / double(side) - toPixels[2]));
             }
             for (int c = 0; c < 4; ++c)
                 raster.pixel(x, y)[c] = float(sum[c] / (side * side));

@@ -91,16 +91,25 @@ const std::vector<Breach> breaches{
          a.paints[1] = {0, maxStack, 0, programTag};
      }},
     {"commands[0]: kind is unknown", disc, [](Asset& a) { a.commands[0].kind = Command::Kind(8); }},
+    {"commands[0]: draws layers in exact mode", layers, [](Asset& a) { a.mode = Mode::Exact; }},
+    {"commands[0]: draws a map in compat mode", disc, [](Asset& a) { a.mode = Mode::Compat; }},
+    {"commands[1]: draws layers in exact mode", disc,
+     [](Asset& a) {
+         a.commands.push_back({Command::Kind::Push, {}, 1, 0, 0});
+     }},
     {"commands[0]: blend mode is unknown", disc, [](Asset& a) { a.commands[0].blend = Blend(17); }},
     {"commands[0]: opacity is out of range", disc, [](Asset& a) { a.commands[0].opacity = 2; }},
     {"commands[0]: names no map", disc, [](Asset& a) { a.commands[0].map = 1; }},
     {"commands[0]: names no paint", layers, [](Asset& a) { a.commands[0].paint = 6; }},
     {"commands[0]: its map is no mask: a paint is above 1", layers,
      [](Asset& a) { a.maps[a.commands[0].map].root = Entry::make(Entry::Kind::Solid, 2); }},
-    {"commands[0]: pops the last picture", disc, [](Asset& a) { a.commands[0].kind = Command::Kind::Pop; }},
-    {"commands[1]: groups are left open at the end", disc,
-     [](Asset& a) { a.commands[0].kind = Command::Kind::Push; }},
-    {"commands[63]: stack of pictures overflows", disc,
+    {"commands[0]: pops the last picture", layers, [](Asset& a) { a.commands[0].kind = Command::Kind::Pop; }},
+    {"commands[1]: groups are left open at the end", layers,
+     [](Asset& a) {
+         a.commands.resize(1);
+         a.commands[0].kind = Command::Kind::Push;
+     }},
+    {"commands[63]: stack of pictures overflows", layers,
      [](Asset& a) {
          a.commands.assign(maxPictures, {Command::Kind::Push, {}, 1, 0, 0});
      }},

@@ -6,11 +6,11 @@
 
 #include <vtm/gl/sampled_texture.hpp>
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
-#include "backend_gl/src/requirements.hpp"
+#include "backend_gl/core/gl.hpp"
+#include "backend_gl/core/requirements.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -5,14 +5,14 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/scan.hpp>
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
-#include "backend_gl/src/turns.hpp"
+#include "backend_gl/core/gl.hpp"
+#include "backend_gl/core/turns.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {
@@ -94,7 +94,7 @@ View stretchedView(double ratio, double axis) {
     return view;
 }
 
-/// Patches are as fine as the smaller stretch asks for; beyond maxStretchRatio the scanner draws.
+/// Tiles are as fine as the smaller stretch asks for; beyond maxStretchRatio the scanner draws.
 TEST_F(Gl, StretchedViewsAreExact) {
     for (const Asset& asset : {halfPlane(), threeRegions(), disc(), twoLevels()}) {
         const Texture texture = renderer->upload(asset);

@@ -1,4 +1,4 @@
-#include "backend_gl/src/destination.hpp"
+#include "backend_gl/output/destination.hpp"
 
 #include <array>
 #include <random>

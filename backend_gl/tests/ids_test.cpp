@@ -10,13 +10,13 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
-#include <vtm/asset/paint_at.hpp>
 #include <vtm/compiler/pick.hpp>
+#include <vtm/raster/paint_at.hpp>
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
-#include "backend_gl/src/programs.hpp"
+#include "backend_gl/core/programs.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {
@@ -161,9 +161,9 @@ TEST_F(Gl, MaterialsAreCompiledOncePerList) {
     EXPECT_NE(first, programs.materialSet({}));
     EXPECT_EQ(first, programs.materialSet(std::vector{checker}));
     const Features features(Features::Material);
-    const Program& program = programs.leaf(CostClass::General, features, first);
-    EXPECT_EQ(&program, &programs.leaf(CostClass::General, features, first));
-    EXPECT_NE(&program, &programs.leaf(CostClass::General, features, second));
+    const Program& program = programs.fill(features, first);
+    EXPECT_EQ(&program, &programs.fill(features, first));
+    EXPECT_NE(&program, &programs.fill(features, second));
 }
 
 TEST(Materials, PlacesAreFoundInTheLogsOfSeveralDrivers) {

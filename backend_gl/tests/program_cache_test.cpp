@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/scan.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {
@@ -89,18 +89,8 @@ TEST_F(Gl, SteepGradients) {
         // A quarter of all shades a pixel.
         const View view = turnedView(24, 18, {29.5, 31.5}, 4 / length, 0.4);
         const Worst w = worst(renderer->render(renderer->upload(steepHalves(length)), view),
-                              steepHalvesByPoints(length, view));
+                              steepHalvesByPoints(length, view.width, view.height, view.toPixels));
         EXPECT_LE(w.difference, 4.0 / 255) << w.x << ", " << w.y;
-    }
-}
-
-/// Drawn by leaves, as commands other than DrawMap want it.
-TEST_F(Gl, SteepGradientsInLayers) {
-    for (Asset asset : {steepHalves(1), everyPaint()}) {
-        for (const auto kind : {asset::Command::Kind::Push, asset::Command::Kind::Pop})
-            asset.commands.push_back({kind, {}, 1, 0, 0});
-        ASSERT_FALSE(asset::isSumOfMaps(asset));
-        expectTwins(*renderer, asset, 12);
     }
 }
 
@@ -210,14 +200,6 @@ TEST_F(Gl, MapsThatAddUp) {
         const View view = randomView(random);
         EXPECT_LE(worst(scanner.draw(view), asset::evaluate(asset, view)).difference, twinTolerance);
     }
-}
-
-TEST_F(Gl, LayersInExactModeAreDrawnAsLayers) {
-    Asset asset = layers();
-    asset.mode = asset::Mode::Exact;
-    expectTwins(*renderer, asset, 5);
-    EXPECT_FALSE(asset::isSumOfMaps(asset));
-    EXPECT_THROW(asset::Scanner{asset}, std::invalid_argument);
 }
 
 TEST_F(Gl, PicturesLeaveNothingBehind) {

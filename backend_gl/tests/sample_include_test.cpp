@@ -1,6 +1,6 @@
 // The include's text: every permutation compiles, here and by the reference compiler, and it shares no name
 // with anybody.
-#include "backend_gl/src/sample_include.hpp"
+#include "backend_gl/texture/sample_include.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 #include <vtm/gl/sampled_texture.hpp>
 #include "asset/testing.hpp"
-#include "backend_gl/src/gl.hpp"
-#include "backend_gl/src/prefixed.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "backend_gl/texture/prefixed.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "asset/testing.hpp"
-#include "asset/testing_views.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "backend_gl/tests/user_framebuffer.hpp"
+#include "raster/testing_views.hpp"
 
 namespace vtm::gl {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <vtm/image/bitmap.hpp>
-#include "backend_gl/src/gl.hpp"
+#include "backend_gl/core/gl.hpp"
 
 namespace vtm::gl {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
 #include "bench/src/files.hpp"
 

@@ -1,6 +1,6 @@
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/gl/renderer.hpp>
+#include <vtm/raster/scan.hpp>
 #include "bench/src/engine.hpp"
 #include "bench/src/measure.hpp"
 

@@ -6,17 +6,17 @@
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/stroke.hpp>
-#include "asset/coverage.hpp"
-#include "asset/coverage_scan.hpp"
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include "bench/src/files.hpp"
 #include "bench/src/google.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
 #include "bench/src/synthetic.hpp"
+#include "raster/coverage.hpp"
+#include "raster/coverage_scan.hpp"
 
 namespace vtm::bench {
 namespace {

@@ -10,20 +10,20 @@
 
 #include <vtm/gl/context.hpp>
 #include <vtm/image/codec.hpp>
-#include "backend_gl/paper_pattern.hpp"
 #include "bench/src/measure.hpp"
 #include "bench/src/reports.hpp"
 #include "bench/src/shader_count.hpp"
-#include "compiler/paper.hpp"
+#include "paper/compile.hpp"
+#include "paper/gl/pattern.hpp"
 
 namespace vtm::bench {
 namespace {
 
-using gl::PaperPattern;
-using gl::PaperPatternForm;
+using paper::Pattern;
+using paper::PatternForm;
 
 /// A tile of n × n stars with bent sides, as one mask.
-compiler::PaperResult stars(int n, unsigned depth) {
+paper::CompileResult stars(int n, unsigned depth) {
     scene::Path path;
     for (int star = 0; star < n * n; ++star) {
         const scene::Point middle(16 + 32 * (star % n), 16 + 32 * (star / n));
@@ -40,7 +40,7 @@ compiler::PaperResult stars(int n, unsigned depth) {
     scene.root.children.push_back(
         {scene::Item{std::make_shared<const scene::Path>(std::move(path)), scene::identity,
                      scene::FillRule::NonZero, scene::Color{}, 1}});
-    return compiler::compilePaper(scene, {1.0 / 4096, depth, 6});
+    return paper::compile(scene, {1.0 / 4096, depth, 6});
 }
 
 /// Levels of nodes as the paper's.
@@ -61,8 +61,8 @@ void addCount(Report& report, const std::string& step, const ShaderCost& cost, c
 
 /// Counts, path by path; false without the compiler.
 bool count(Report& report) {
-    const auto counted = [](PaperPatternForm form) {
-        return countShader(gl::paperPatternShader(form, paperDepth));
+    const auto counted = [](paper::PatternForm form) {
+        return countShader(paper::patternShader(form, paperDepth));
     };
     const auto plain = counted({false, false, false}), linear = counted({false, false, true}),
                filtered = counted({false, true, false}), compressed = counted({true, false, false}),
@@ -88,7 +88,7 @@ bool count(Report& report) {
 
 struct Form {
     const char* name;
-    PaperPatternForm form;
+    paper::PatternForm form;
     const char* paper;  ///< over the first
 };
 constexpr std::array forms{Form{"unfiltered, uncompressed", {false, false, false}, "1"},
@@ -105,15 +105,15 @@ asset::View viewOf(int side, double periods, int round) {
 
 constexpr int manyRounds = 80, quickRounds = 24;
 
-void timeForms(const std::string& tile, const compiler::PaperResult& compiled, const Options& options,
+void timeForms(const std::string& tile, const paper::CompileResult& compiled, const Options& options,
                Report& report) {
     const int side = options.side;
-    const asset::PaperMask& mask = compiled.asset.masks.at(0);
+    const paper::Mask& mask = compiled.asset.masks.at(0);
     report.text += fmt::format("\n\nTile \"{}\": {} cells, of which {} would need more than two functions.",
                                tile, mask.cells.size(), compiled.approximatedCells());
-    std::vector<std::unique_ptr<PaperPattern>> patterns;
+    std::vector<std::unique_ptr<paper::Pattern>> patterns;
     for (const Form& form : forms) {
-        patterns.push_back(std::make_unique<PaperPattern>(mask, form.form));
+        patterns.push_back(std::make_unique<paper::Pattern>(mask, form.form));
         if (options.pictures.empty())
             continue;
         std::filesystem::create_directories(options.pictures);
@@ -165,7 +165,7 @@ Report paper(const Options& options) {
     report.name = "paper";
     report.title = "The paper's lookup: rows 9 to 11";
     report.text = fmt::format(
-        "One mask, a tile of stars, repeated over {0} × {0} pixels by `gl::PaperPattern`. Rows 6 to 10: "
+        "One mask, a tile of stars, repeated over {0} × {0} pixels by `paper::Pattern`. Rows 6 to 10: "
         "texture lookups and "
         "instructions in the SPIR-V of its fragment shader as `glslangValidator` writes it, step by step "
         "(loads, stores and "

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 
 namespace vtm::bench {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <vtm/asset/paint_at.hpp>
+#include <vtm/raster/paint_at.hpp>
 
 namespace vtm::compiler {
 

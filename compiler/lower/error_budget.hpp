@@ -47,6 +47,8 @@ public:
         return outlineShare * tolerance_ + lattice(bend) +
                (slivers ? std::max(fitted, sliver(level)) : fitted);
     }
+    /// The sum of all stages for a planar map whose edges are drawn as they are, snapped with that bend.
+    double planar(double bend) const { return outlineShare * tolerance_ + lattice(bend); }
     /// Of a leaf that is filled with one colour: an outline runs through it, so all of it is within its
     /// diagonal of that.
     double mean(unsigned level) const {

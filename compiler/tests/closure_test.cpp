@@ -8,7 +8,7 @@
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/compiler/compile.hpp>
-#include "asset/planar_map.hpp"
+#include "raster/planar_map.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -53,7 +53,7 @@ void expectClosed(const Asset& asset) {
 /// the wrong order, a border is missing there.
 void expectMapClosed(const Asset& asset) {
     std::map<std::pair<double, double>, std::uint64_t> flows;
-    for (const asset::PlanarPiece& p : asset::planarPieces(asset, asset.maps[0])) {
+    for (const asset::PlanarPiece& p : asset::planarMap(asset, asset.maps[0]).pieces) {
         const std::uint64_t step = weight(p.left) - weight(p.right);
         flows[{p.b.x, p.b.y}] += step;
         flows[{p.a.x, p.a.y}] -= step;

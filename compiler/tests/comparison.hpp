@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include <vtm/scene/path.hpp>
 
 namespace vtm::compiler::test {

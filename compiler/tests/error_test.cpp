@@ -5,10 +5,10 @@
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/stroke.hpp>
-#include "asset/coverage.hpp"
 #include "asset/walk.hpp"
 #include "compiler/stroke/chords.hpp"
 #include "compiler/tests/leaf_support.hpp"
+#include "raster/coverage.hpp"
 
 namespace vtm::compiler {
 namespace {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/session.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include "compiler/tree/encode.hpp"
 
 namespace vtm::compiler {

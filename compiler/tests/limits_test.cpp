@@ -8,8 +8,8 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/pick.hpp>
 #include <vtm/compiler/session.hpp>
-#include "compiler/paper.hpp"
 #include "limits/testing.hpp"
+#include "paper/compile.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -83,7 +83,7 @@ TEST(CompilerLimits, EveryWayOfCompilingHolds) {
     Options compat;
     compat.mode = asset::Mode::Compat;
     EXPECT_TRUE(exceededBy({.seconds = 0.1}, [&] { compile(scene, compat); }));
-    EXPECT_TRUE(exceededBy({.seconds = 0.1}, [&] { compilePaper(scene); }));
+    EXPECT_TRUE(exceededBy({.seconds = 0.1}, [&] { paper::compile(scene); }));
     EXPECT_TRUE(exceededBy({.seconds = 0.1}, [&] { compilePickMap(scene); }));
     EXPECT_TRUE(exceededBy({.seconds = 0.1}, [&] { Session{scene}; }));
 }
@@ -130,7 +130,7 @@ TEST(CompilerLimits, ScenesNestedAMillionLevels) {
     const Scene scene = nested(1'000'000);
     onSmallStack([&] {
         EXPECT_THROW(compile(scene), scene::InvalidScene);
-        EXPECT_THROW(compilePaper(scene), scene::InvalidScene);
+        EXPECT_THROW(paper::compile(scene), scene::InvalidScene);
         EXPECT_THROW(compilePickMap(scene), scene::InvalidScene);
         EXPECT_THROW(Session{scene}, scene::InvalidScene);
     });
@@ -140,7 +140,7 @@ TEST(CompilerLimits, AsDeepAsScenesMayBeOnASmallStack) {
     const Scene scene = nested(scene::maxNesting - 1);
     onSmallStack([&] {
         EXPECT_NO_THROW(compile(scene));
-        EXPECT_NO_THROW(compilePaper(scene));
+        EXPECT_NO_THROW(paper::compile(scene));
         EXPECT_NO_THROW(compilePickMap(scene));
         EXPECT_NO_THROW(Session{scene});
     });

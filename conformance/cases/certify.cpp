@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/path_points.hpp"
 
 namespace vtm::cases {

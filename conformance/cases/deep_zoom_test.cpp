@@ -11,8 +11,8 @@
 #include <fmt/core.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/view.hpp>
+#include <vtm/raster/scan.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"

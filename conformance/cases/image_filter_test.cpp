@@ -13,9 +13,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include "backend_gl/testing.hpp"
 #include "conformance/cases/measure.hpp"
 #include "conformance/reference/reference.hpp"

@@ -7,8 +7,8 @@
 #include <random>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/measure.hpp"
 #include "conformance/reference/reference.hpp"
 

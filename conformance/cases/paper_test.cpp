@@ -6,11 +6,12 @@
 #include <numbers>
 #include <random>
 
-#include "backend_gl/paper.hpp"
-#include "compiler/paper.hpp"
 #include "conformance/cases/measure.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"
+#include "paper/compile.hpp"
+#include "paper/evaluate.hpp"
+#include "paper/gl/renderer.hpp"
 
 namespace vtm::cases {
 namespace {
@@ -27,7 +28,7 @@ struct Errors {
 
 /// Over random views in which a unit is `zoom` pixels, give or take a quarter.
 Errors errorsOf(const Path& path, Point focus, double zoom) {
-    const auto paper = compiler::compilePaper(sceneOf(path, scene::FillRule::EvenOdd, side));
+    const auto paper = paper::compile(sceneOf(path, scene::FillRule::EvenOdd, side));
     EXPECT_EQ(paper.approximatedCells(), 0u);
     std::mt19937 random(1);  // fixed, so that a failure can be repeated
     std::uniform_real_distribution<double> unit(0, 1);
@@ -39,7 +40,7 @@ Errors errorsOf(const Path& path, Point focus, double zoom) {
         const Point x = scale * Point(std::cos(angle), std::sin(angle)), y(-x.y, x.x);
         const Point to = Point(raster / 2 + unit(random), raster / 2 + unit(random));
         const asset::View view{raster, raster, {x, y, to - focus.x * x - focus.y * y}};
-        const auto drawn = asset::evaluate(paper.asset, view);
+        const auto drawn = paper::evaluate(paper.asset, view);
         const auto truth = reference::fillCoverage(path, scene::identity, scene::FillRule::EvenOdd,
                                                    {raster, raster, view.toPixels});
         for (std::size_t p = 0; p < truth.size(); ++p) {
@@ -73,7 +74,7 @@ constexpr Point onDisc{128 + 100 * 0.5403, 128 + 100 * 0.8415};
 
 /// 0.5 - h is off by 10.9 on a half plane at 22.5 degrees; the compiler's tolerance moves the edge by
 /// some pixels, of which each counts 255.
-double edgeBound(double zoom) { return 10.9 + 255 * 1.25 * zoom * side * compiler::PaperOptions().tolerance; }
+double edgeBound(double zoom) { return 10.9 + 255 * 1.25 * zoom * side * paper::CompileOptions().tolerance; }
 
 TEST(PaperRow6, EdgesAreOffByTheEstimatorAlone) {
     for (const double zoom : {1.0, 2.0, 4.0})
@@ -106,7 +107,7 @@ TEST(PaperRow7, MinifiedShapesAreSoftAndNotAliased) {
 /// the frame of the picture, some pixels in size, cuts the filter off.)
 TEST(PaperRow7, ThinRingsKeepTheirArea) {
     const Path ring = annulus(100, 98);
-    const auto paper = compiler::compilePaper(sceneOf(ring, scene::FillRule::EvenOdd, side));
+    const auto paper = paper::compile(sceneOf(ring, scene::FillRule::EvenOdd, side));
     for (const double zoom : {0.05, 0.1, 0.2}) {
         const double truth = pi * (100 * 100 - 98 * 98) * zoom * zoom;
         double sum = 0;
@@ -114,7 +115,7 @@ TEST(PaperRow7, ThinRingsKeepTheirArea) {
         for (int i = 0; i < places * places; ++i) {
             const Point shift(double(i % places) / places, double(i / places) / places);
             const asset::View view{64, 64, {zoom, 0, 0, zoom, 3 + shift.x, 5 + shift.y}};
-            const auto drawn = asset::evaluate(paper.asset, view);
+            const auto drawn = paper::evaluate(paper.asset, view);
             double ink = 0;
             for (std::size_t p = 3; p < drawn.rgba.size(); p += 4)
                 ink += drawn.rgba[p];
@@ -139,8 +140,8 @@ INSTANTIATE_TEST_SUITE_P(Drawing, PaperPicture,
 TEST_P(PaperPicture, IsRecognised) {
     const scene::Scene scene = loadScene(examplesDirectory() / (std::string(GetParam()) + ".svg"));
     const asset::View view = wholePicture(scene, 256);
-    const auto paper = compiler::compilePaper(scene);
-    EXPECT_LE(compare::compare(asset::evaluate(paper.asset, view), reference(scene, view)).mean, 0.6);
+    const auto paper = paper::compile(scene);
+    EXPECT_LE(compare::compare(paper::evaluate(paper.asset, view), reference(scene, view)).mean, 0.6);
 }
 
 /// Turned, magnified and minified: the shader and its twin on the CPU.
@@ -155,13 +156,13 @@ std::vector<asset::View> viewsOf(const scene::Scene& scene) {
 
 TEST_P(PaperPicture, IsTheSameOnTheGpu) {
     const gl::Context context;
-    gl::PaperRenderer renderer;
+    paper::Renderer renderer;
     const scene::Scene scene = loadScene(examplesDirectory() / (std::string(GetParam()) + ".svg"));
-    const auto paper = compiler::compilePaper(scene);
-    const gl::PaperTexture texture(paper.asset);
+    const auto paper = paper::compile(scene);
+    const paper::Texture texture(paper.asset);
     for (const asset::View& view : viewsOf(scene)) {
         const compare::Difference d =
-            compare::compare(renderer.render(texture, view), asset::evaluate(paper.asset, view));
+            compare::compare(renderer.render(texture, view), paper::evaluate(paper.asset, view));
         EXPECT_LE(d.max, assetMax) << "at " << d.worstX << ", " << d.worstY;
     }
 }
@@ -172,12 +173,12 @@ TEST(PaperCorpus, TheTigerIsRecognised) {
     if (!std::filesystem::exists(path))
         GTEST_SKIP() << path << " is absent";
     const scene::Scene scene = loadScene(path);
-    const auto paper = compiler::compilePaper(scene);
-    EXPECT_LE(paper.approximatedCells(), 0.02 * double(asset::summarize(paper.asset).cells));
+    const auto paper = paper::compile(scene);
+    EXPECT_LE(paper.approximatedCells(), 0.02 * double(paper::summarize(paper.asset).cells));
     for (const auto& [size, mean] : {std::pair(512, 2.0), std::pair(64, 12.0)}) {
         const asset::View view = wholePicture(scene, size);
         const double error =
-            compare::compare(asset::evaluate(paper.asset, view), reference(scene, view)).mean;
+            compare::compare(paper::evaluate(paper.asset, view), reference(scene, view)).mean;
         EXPECT_LE(error, mean) << size << " px";
     }
 }

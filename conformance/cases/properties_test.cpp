@@ -13,8 +13,8 @@
 #include <fmt/core.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/asset_properties.hpp"
 #include "conformance/cases/certify.hpp"
 #include "conformance/cases/support.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/gl/renderer.hpp>
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
 
 namespace vtm::cases {

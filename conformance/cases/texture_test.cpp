@@ -14,8 +14,8 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "backend_gl/testing.hpp"
 #include "conformance/cases/measure.hpp"
 #include "conformance/cases/texture_views.hpp"

@@ -8,7 +8,7 @@
 #include <glm/mat2x2.hpp>
 #include <glm/vec3.hpp>
 
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 
 namespace vtm::cases {
 

@@ -9,8 +9,8 @@
 #include <glm/vec2.hpp>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 
 namespace vtm::cases {
 

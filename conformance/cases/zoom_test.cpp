@@ -9,8 +9,8 @@
 
 #include <fmt/core.h>
 
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/certify.hpp"
 #include "conformance/cases/distances.hpp"
 #include "conformance/cases/drawn_boundary.hpp"

@@ -1,10 +1,10 @@
 #include <stdexcept>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/prefilter.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/limits/limits.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/prefilter.hpp>
+#include <vtm/raster/scan.hpp>
 
 #include "asset/testing_files.hpp"
 

@@ -1,8 +1,8 @@
 // Writes the files that the fuzz target `asset` starts from into a folder: one of each kind of record.
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/prefilter.hpp>
 #include <vtm/image/codec.hpp>
+#include <vtm/raster/prefilter.hpp>
 #include "asset/testing.hpp"
 
 namespace {

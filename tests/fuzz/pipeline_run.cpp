@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/prefilter.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/prefilter.hpp>
+#include <vtm/raster/scan.hpp>
 #include <vtm/svg/load.hpp>
 #include "conformance/reference/reference.hpp"
 #include "tests/fuzz/scene_of_bytes.hpp"

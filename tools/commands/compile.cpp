@@ -4,10 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/prefilter.hpp>
+#include <vtm/raster/prefilter.hpp>
 #include "tools/commands/commands.hpp"
 #include "tools/commands/report.hpp"
 #include "tools/input/input.hpp"
+#include "tools/input/source.hpp"
 #include "tools/options/options.hpp"
 #include "tools/output/output.hpp"
 #include "tools/process/errors.hpp"

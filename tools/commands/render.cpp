@@ -179,7 +179,7 @@ void addRender(CLI::App& app, int& exitCode) {
                         "A directory where the GL driver's compiled programs are kept between runs");
     command->add_option(
         "--debug-view", options->debugView,
-        "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, patches");
+        "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, tiles");
     command->add_flag("--json", options->json, "Print figures and times as JSON, one line per picture");
     command->add_flag("-v,--verbose", options->verbose, "Say which engine drew each picture");
     addSourceOptions(*command, options->source);

@@ -59,8 +59,8 @@ Json figures(const Proof& proof) {
             {"sampled_strokes", proof.sampledStrokes}};
 }
 
-Json figures(const compiler::PaperResult& paper) {
-    const asset::PaperSummary summary = asset::summarize(paper.asset);
+Json figures(const paper::CompileResult& paper) {
+    const paper::Summary summary = paper::summarize(paper.asset);
     return {{"bytes", summary.bytes},
             {"prefilter_bytes", summary.mipBytes},
             {"tree_bytes", summary.treeBytes},
@@ -73,7 +73,7 @@ Json figures(const compiler::PaperResult& paper) {
             {"approximated_cells", paper.approximatedCells()}};
 }
 
-Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels) {
+Json perPixel(const paper::Cost& cost, std::uint64_t pixels) {
     const auto share = [&](std::uint64_t count) { return double(count) / double(pixels); };
     return {{"nodes", share(cost.nodes)},
             {"masks", share(cost.masks)},

@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <vtm/asset/asset.hpp>
-#include "compiler/paper.hpp"
+#include "paper/compile.hpp"
 #include "tools/input/source.hpp"
 #include "tools/process/stages.hpp"
 
@@ -24,9 +24,9 @@ Json figures(const asset::Asset& asset);
 /// How far boundaries may be off, and where that could not be proven.
 Json figures(const Proof& proof);
 /// Those of paper mode.
-Json figures(const compiler::PaperResult& paper);
+Json figures(const paper::CompileResult& paper);
 /// What a pixel's lookup touched, on the mean.
-Json perPixel(const asset::PaperCost& cost, std::uint64_t pixels);
+Json perPixel(const paper::Cost& cost, std::uint64_t pixels);
 
 /// As JSON with a line end: on one line, or indented. What is no UTF-8, in names of files, is replaced.
 std::string jsonLine(const Json& object);

@@ -1,6 +1,6 @@
 #include "tools/engines/automatic_engine.hpp"
 
-#include <vtm/asset/scan.hpp>
+#include <vtm/raster/scan.hpp>
 #include "tools/process/messages.hpp"
 
 namespace vtm::tools {

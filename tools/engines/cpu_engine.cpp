@@ -2,7 +2,9 @@
 
 #include <stdexcept>
 
-#include "asset/scan_rows.hpp"
+#include <vtm/limits/limits.hpp>
+#include <vtm/raster/scan.hpp>
+#include "raster/scan_rows.hpp"
 
 namespace vtm::tools {
 

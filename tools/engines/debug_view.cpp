@@ -201,9 +201,9 @@ void drawCells(Canvas& canvas, const Asset& asset) {
         });
 }
 
-void drawPatches(Canvas& canvas, const Asset& asset, const asset::View& view) {
+void drawTiles(Canvas& canvas, const Asset& asset, const asset::View& view) {
     for (const asset::Map& map : asset.maps) {
-        const gl::PatchGrid grid = gl::patchGrid(map, view);
+        const gl::TileGrid grid = gl::tileGrid(map, view);
         const glm::dvec2 scale(view.toPixels[0].x, view.toPixels[1].y), origin = view.toPixels[2];
         const glm::dvec2 corner(map.x, map.y), size(view.width, view.height);
         const glm::dvec2 from = glm::floor((-origin / scale - corner) / grid.side),
@@ -224,11 +224,11 @@ DebugView parseDebugView(const std::string& name) {
                                       {"cost", DebugView::Cost},
                                       {"regions", DebugView::Regions},
                                       {"fallback", DebugView::Fallback},
-                                      {"patches", DebugView::Patches}})
+                                      {"tiles", DebugView::Tiles}})
         if (name == known)
             return view;
     throw UsageError("--debug-view: '" + name +
-                     "' is not one of cells, depth, pieces, cost, regions, fallback, patches");
+                     "' is not one of cells, depth, pieces, cost, regions, fallback, tiles");
 }
 
 void prepare(Source& source, DebugView view) {
@@ -250,12 +250,12 @@ void prepare(Source& source, DebugView view) {
 
 void layLines(image::Bitmap& picture, DebugView view, const Source& source, const asset::View& to) {
     Canvas canvas(picture, to);
-    if (view == DebugView::Cells || view == DebugView::Fallback || view == DebugView::Patches)
+    if (view == DebugView::Cells || view == DebugView::Fallback || view == DebugView::Tiles)
         canvas.fade();
     if (view == DebugView::Cells)
         drawCells(canvas, *source.asset);
-    if (view == DebugView::Patches)
-        drawPatches(canvas, *source.asset, to);
+    if (view == DebugView::Tiles)
+        drawTiles(canvas, *source.asset, to);
     if (view == DebugView::Fallback)
         for (const compiler::UnprovenSquare& square : source.proof->unproven)
             canvas.mark(square.x, square.y, square.side, heat(1));

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 #include "tools/input/source.hpp"
 
 namespace vtm::tools {
 
-enum class DebugView { None, Cells, Depth, Pieces, Cost, Regions, Fallback, Patches };
+enum class DebugView { None, Cells, Depth, Pieces, Cost, Regions, Fallback, Tiles };
 
 /// Throws UsageError for an unknown name; "" is None.
 DebugView parseDebugView(const std::string& name);
@@ -21,7 +21,7 @@ DebugView parseDebugView(const std::string& name);
 /// before.
 void prepare(Source& source, DebugView view);
 
-/// Lays over a drawn picture what is made of lines: Cells, Fallback, Patches.
+/// Lays over a drawn picture what is made of lines: Cells, Fallback, Tiles.
 /// The view scales and moves only.
 void layLines(image::Bitmap& picture, DebugView view, const Source& source, const asset::View& to);
 

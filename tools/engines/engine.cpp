@@ -3,9 +3,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include <vtm/asset/evaluate.hpp>
-#include <vtm/asset/scan.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include "conformance/reference/reference.hpp"
+#include "paper/evaluate.hpp"
 #include "tools/engines/automatic_engine.hpp"
 #include "tools/engines/cpu_engine.hpp"
 #include "tools/engines/gl_engine.hpp"
@@ -24,7 +25,7 @@ protected:
         if (!source.paper && !source.asset->materials.empty())
             warnOfMaterials(source);
         return timed(source.stages, "render", [&] {
-            return source.paper ? asset::evaluate(source.paper->asset, view, &source.cost.emplace())
+            return source.paper ? paper::evaluate(source.paper->asset, view, &source.cost.emplace())
                                 : asset::evaluate(*source.asset, view);
         });
     }

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include <vtm/asset/view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 #include "image/pixel_writer.hpp"
 #include "tools/input/source.hpp"
 

@@ -21,8 +21,8 @@ void GlEngine::draw(Source& source, const asset::View& view, const image::PixelW
 
 image::Raster GlEngine::render(Source& source, const asset::View& view) {
     if (source.paper) {
-        const gl::PaperTexture texture =
-            timed(source.stages, "upload", [&] { return gl::PaperTexture(source.paper->asset); });
+        const paper::Texture texture =
+            timed(source.stages, "upload", [&] { return paper::Texture(source.paper->asset); });
         return timed(source.stages, "render", [&] { return gl_->paper.render(texture, view); });
     }
     const gl::Texture texture =

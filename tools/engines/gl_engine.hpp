@@ -3,7 +3,7 @@
 #pragma once
 
 #include <vtm/gl/renderer.hpp>
-#include "backend_gl/paper.hpp"
+#include "paper/gl/renderer.hpp"
 #include "tools/engines/engine.hpp"
 
 namespace vtm::tools {
@@ -31,7 +31,7 @@ private:
 
         gl::Context context;
         gl::Renderer renderer;
-        gl::PaperRenderer paper;
+        paper::Renderer paper;
     };
     gl::RendererOptions options_;
     std::unique_ptr<Gl> gl_;

@@ -92,10 +92,10 @@ void parseSvg(Source& source, const Input& input, const SourceOptions& given) {
 }
 
 void compilePaper(Source& source, const compiler::Options& options) {
-    compiler::PaperOptions paper;
+    paper::CompileOptions paper;
     paper.tolerance = options.tolerance;
-    compiler::PaperResult result =
-        timed(source.stages, "compile", [&] { return compiler::compilePaper(*source.scene, paper); });
+    paper::CompileResult result =
+        timed(source.stages, "compile", [&] { return paper::compile(*source.scene, paper); });
     for (const std::string& warning : result.warnings)
         warnOf(source, fmt::format("{}: warning: {}", source.name, warning));
     source.paper = std::move(result);

@@ -10,7 +10,8 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/scene/scene.hpp>
 #include <vtm/svg/load.hpp>
-#include "compiler/paper.hpp"
+#include "paper/compile.hpp"
+#include "paper/evaluate.hpp"
 #include "tools/input/input.hpp"
 #include "tools/process/stages.hpp"
 
@@ -41,9 +42,9 @@ struct Source {
     std::optional<scene::Rect> exported;  ///< what --export-id draws
     std::optional<scene::Scene> scene;    ///< not where the file is an asset
     std::optional<asset::Asset> asset;
-    std::optional<compiler::PaperResult> paper;  ///< in place of `asset` in paper mode
-    std::optional<Proof> proof;                  ///< not where the file is an asset
-    std::optional<asset::PaperCost> cost;        ///< of drawing `paper` on the CPU
+    std::optional<paper::CompileResult> paper;  ///< in place of `asset` in paper mode
+    std::optional<Proof> proof;                 ///< not where the file is an asset
+    std::optional<paper::Cost> cost;            ///< of drawing `paper` on the CPU
     Stages stages;
 };
 

@@ -2,7 +2,7 @@
 /// Pictures that are as fine as the view wants.
 #pragma once
 
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/fit.hpp>
 #include "tools/input/source.hpp"
 

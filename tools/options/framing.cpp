@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include "tools/options/options.hpp"
 #include "tools/process/errors.hpp"
 

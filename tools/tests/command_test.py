@@ -74,7 +74,7 @@ class Render(Drawing):
 
     def test_debug_views(self):
         plain = list(self.draw("--width", "80").getdata())
-        for name in ("cells", "depth", "pieces", "cost", "regions", "fallback", "patches"):
+        for name in ("cells", "depth", "pieces", "cost", "regions", "fallback", "tiles"):
             with self.subTest(name=name):
                 pictures = [list(self.draw("--debug-view", name, "--width", "80", engine=e).getdata())
                             for e in ("gl", "asset")]

@@ -6,7 +6,7 @@
 ///     vtm::gl::Texture texture = picture.texture();  // with <vtm/gl/renderer.hpp>, linked with vtm::gl
 ///
 /// The parts that this puts together have headers of their own: <vtm/svg/load.hpp>,
-/// <vtm/compiler/compile.hpp>, <vtm/asset/scan.hpp>, <vtm/gl/renderer.hpp>.
+/// <vtm/compiler/compile.hpp>, <vtm/raster/scan.hpp>, <vtm/gl/renderer.hpp>.
 #pragma once
 
 #include <array>

@@ -11,10 +11,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <vtm/compiler/compile.hpp>
-#include <vtm/scene/scene.hpp>
 #include "api/openvg/path/flatten.hpp"
 #include "api/openvg/state/matrix.hpp"
+#include "compiler/coverage_map.hpp"
 
 namespace vtm::openvg {
 
@@ -35,26 +34,17 @@ constexpr double viewTolerance = 1.0 / (1 << 20);
 /// worst, and the compiler's typical error is a tenth of its bound.
 constexpr double pixelTolerance = 1.0 / 64;
 
-/// One leaf where it can be: a scanner wants few pieces, not short lists.
+/// Of outlines that take leaves: few pieces make a scanner fast, not short lists.
 constexpr unsigned piecesPerLeaf = 4096;
 
 /// Of one mask, in pairs of chords: a few seconds. No call may take a program's minute.
-constexpr std::size_t mostWork = 1'000'000'000;
+constexpr std::size_t maxWork = 1'000'000'000;
 
-asset::CoverageScanner compiled(std::shared_ptr<const scene::Path> outline, scene::FillRule rule,
+asset::CoverageScanner compiled(const std::shared_ptr<const scene::Path>& outline, scene::FillRule rule,
                                 const scene::Affine& toPicture, dvec2 picture, double tolerance) {
-    scene::Item item;
-    item.path = std::move(outline);
-    item.transform = toPicture;
-    item.geometry = rule;
-    item.paint = scene::Color{0, 0, 0, 1};
-    scene::Scene scene;
-    scene.width = picture.x;
-    scene.height = picture.y;
-    scene.root.children.push_back({std::move(item)});
-    const compiler::Result result = compiler::compile(
-        scene, {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf, .maxWork = mostWork});
-    return asset::CoverageScanner(result.asset);
+    return asset::CoverageScanner(
+        compiler::coverageMap(outline, rule, toPicture, picture,
+                              {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf, .maxWork = maxWork}));
 }
 
 /// The subpaths whose boxes meet a picture: all others wind round no point of it. Of a stroke with dashes
@@ -80,7 +70,7 @@ std::shared_ptr<const scene::Path> partSeen(const scene::Path& outline, const sc
 
 /// Of an outline so many pixels wide doubles do not tell a curve from its rounding: it is drawn as lines, few
 /// of them, where the compiler would cut it finer and finer.
-constexpr double mostPixels = double(1LL << 40);
+constexpr double maxPixels = double(1LL << 40);
 
 std::shared_ptr<const scene::Path> asLines(const scene::Path& outline, const glm::mat3& toSurface) {
     auto lines = std::make_shared<scene::Path>();
@@ -109,17 +99,17 @@ Fit fitted(dvec2 min, dvec2 max) {
 
 Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Rectangle& clip) {
     const glm::dmat3 m(toSurface);
-    dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+    dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const dvec2 corner : {min, max, dvec2(min.x, max.y), dvec2(max.x, min.y)}) {
         const dvec2 p(m * glm::dvec3(corner, 1));
         if (!(std::isfinite(p.x) && std::isfinite(p.y)))
             return {};
-        least = glm::min(least, p);
-        most = glm::max(most, p);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
     }
     const auto whole = [](double v) { return int(std::clamp(v, -1e6, 1e6)); };
-    return Rectangle{whole(std::floor(least.x)), whole(std::floor(least.y)), whole(std::ceil(most.x)),
-                     whole(std::ceil(most.y))}
+    return Rectangle{whole(std::floor(low.x)), whole(std::floor(low.y)), whole(std::ceil(high.x)),
+                     whole(std::ceil(high.y))}
         .intersected(clip);
 }
 
@@ -171,7 +161,7 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
         const scene::Affine toView{dvec2(m[0]), dvec2(m[1]), origin};
         const dvec2 picture(view.width, view.height);
         view.toPixels = scene::identity;
-        if (stretch * std::max(extent.x, extent.y) > mostPixels)
+        if (stretch * std::max(extent.x, extent.y) > maxPixels)
             return compiled(asLines(*outline_, toSurface), rule_,
                             scene::translation(-double(seen.x0), -double(seen.y0)), picture, viewTolerance)
                 .scan(view, onSurface);

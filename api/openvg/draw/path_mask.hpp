@@ -1,5 +1,5 @@
 /// \file
-/// Which pixels an outline covers, and how much: a Vector Texture Map with two sides, inside and outside.
+/// Which pixels an outline covers, and how much: a planar map with two sides, inside and outside.
 ///
 /// It is compiled once, in the path's own space, and drawn under any matrix. The tolerance is a share of the
 /// outline's size, so where a view magnifies it further than that allows, a finer one is made, and beyond
@@ -16,7 +16,7 @@
 
 #include <vtm/scene/path.hpp>
 #include "api/openvg/image/pixels.hpp"
-#include "asset/coverage_scan.hpp"
+#include "raster/coverage_scan.hpp"
 
 namespace vtm::openvg {
 
@@ -47,7 +47,7 @@ private:
     std::array<std::optional<asset::CoverageScanner>, 5> scanners_;  ///< from coarse to fine
 };
 
-/// The pixels that the image of a box may meet, within `clip`. Empty for what is no number.
+/// The pixels that the image of a box may meet, within `clip`. Empty for NaN.
 Rectangle pixelsOf(const glm::mat3& toSurface, glm::dvec2 min, glm::dvec2 max, const Rectangle& clip);
 
 }  // namespace vtm::openvg

@@ -6,8 +6,8 @@
 #include <string>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/scan.hpp>
 #include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/record/record.hpp"
 #include "api/openvg/state/matrix.hpp"

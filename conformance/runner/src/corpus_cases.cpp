@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include <vtm/asset/evaluate.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/measure.hpp"
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/src/kinds.hpp"

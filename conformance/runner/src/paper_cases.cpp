@@ -3,13 +3,14 @@
 
 #include <fmt/core.h>
 
-#include "backend_gl/paper.hpp"
-#include "compiler/paper.hpp"
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/src/kinds.hpp"
 #include "conformance/runner/src/paper_rows.hpp"
 #include "conformance/runner/src/scene_subject.hpp"
 #include "conformance/runner/src/svg_files.hpp"
+#include "paper/compile.hpp"
+#include "paper/evaluate.hpp"
+#include "paper/gl/renderer.hpp"
 
 namespace vtm::conformance {
 namespace {
@@ -22,7 +23,7 @@ public:
         : scene_(scene),
           settings_(settings),
           views_(viewsOf(settings.views, scene_, salt)),
-          paper_(compiler::compilePaper(scene_).asset) {}
+          paper_(paper::compile(scene_).asset) {}
 
     std::size_t views() const override { return views_.size(); }
     std::string labelOf(std::size_t view) const override { return views_[view].label; }
@@ -34,16 +35,16 @@ public:
     }
     Raster drawn(std::size_t view, Engine engine) override {
         if (engine == Engine::Asset)
-            return asset::evaluate(paper_, views_[view].view);
+            return paper::evaluate(paper_, views_[view].view);
         renderer();  // a current context
-        return gl::PaperRenderer().render(gl::PaperTexture(paper_), views_[view].view);
+        return paper::Renderer().render(paper::Texture(paper_), views_[view].view);
     }
 
 private:
     scene::Scene scene_;
     SceneSettings settings_;
     std::vector<LabelledView> views_;
-    asset::PaperAsset paper_;
+    paper::Asset paper_;
 };
 
 Outcome run(const SvgCase& made, int row, const SceneSettings& settings, const Setting& setting) {

@@ -6,9 +6,9 @@
 #include <fmt/core.h>
 
 #include <vtm/asset/container.hpp>
-#include <vtm/asset/evaluate.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/image/codec.hpp>
+#include <vtm/raster/evaluate.hpp>
 #include <vtm/svg/load.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/generate/damage.hpp"

@@ -5,11 +5,12 @@
 
 #include <fmt/core.h>
 
-#include <vtm/asset/evaluate.hpp>
-#include "compiler/paper.hpp"
+#include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/cases/texture_views.hpp"
 #include "conformance/reference/reference.hpp"
+#include "paper/compile.hpp"
+#include "paper/evaluate.hpp"
 
 namespace vtm::conformance {
 namespace {
@@ -131,8 +132,8 @@ Raster SceneSubject::drawn(std::size_t index, Engine engine) {
     const asset::View& view = views_[index].view;
     if (fault_ == Fault::HalfDistance) {
         if (!paper_)
-            paper_ = compiler::compilePaper(scene_).asset;
-        return asset::evaluate(*paper_, view);
+            paper_ = paper::compile(scene_).asset;
+        return paper::evaluate(*paper_, view);
     }
     switch (engine) {
         case Engine::Gl:

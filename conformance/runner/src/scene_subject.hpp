@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include <vtm/asset/scan.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/gl/renderer.hpp>
-#include "asset/paper.hpp"
+#include <vtm/raster/scan.hpp>
 #include "conformance/runner/src/judge.hpp"
 #include "conformance/runner/src/suite.hpp"
 #include "conformance/runner/src/views.hpp"
+#include "paper/model.hpp"
 
 namespace vtm::conformance {
 
@@ -48,7 +48,7 @@ private:
     asset::Asset asset_;
     std::optional<asset::Scanner> scanner_;
     std::optional<gl::Texture> texture_;
-    std::optional<asset::PaperAsset> paper_;  ///< for Fault::HalfDistance
+    std::optional<paper::Asset> paper_;  ///< for Fault::HalfDistance
 };
 
 /// This thread's renderer, made when it is first asked for. Throws gl::GlError.

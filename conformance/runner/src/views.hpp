@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <nlohmann/json_fwd.hpp>
 
-#include <vtm/asset/view.hpp>
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
 
 namespace vtm::conformance {

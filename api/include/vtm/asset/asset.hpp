@@ -232,9 +232,10 @@ inline constexpr std::size_t maxCommands = 1u << 22;
 /// One step of drawing, on a stack of pictures that starts with one transparent one and ends with one.
 struct Command {
     enum class Kind : std::uint32_t {
-        DrawMap,   ///< top += the map; its paints are Asset::paints (exact)
+        DrawMap,   ///< the picture += the map; its paints are Asset::paints. In exact mode, and nothing else
+                   ///< there
         FillMask,  ///< s = coverage(map) · paint; top = s over top. The map's paint indices
-                   ///< are 0 outside and 1 inside (compat)
+                   ///< are 0 outside and 1 inside
         Push,      ///< push a transparent picture
         Pop,       ///< s = pop · opacity; top = blend(top, s)
         PopMaskLuminance,
@@ -268,7 +269,7 @@ struct Asset {
     std::vector<image::Bitmap> images;
     std::vector<Material> materials;
     std::uint32_t fallbackLeaves = 0;  ///< averaged from samples and too large for the tolerance
-    Prefilter prefilter;               ///< for minification, optional (vtm/asset/prefilter.hpp)
+    Prefilter prefilter;               ///< for minification, optional (vtm/raster/prefilter.hpp)
     /// How far it may be magnified: the side, in user units, of the smallest pixels for which no drawn
     /// boundary lies farther than a sixteenth of one from the scene's. 0: of any size. Nothing where it is
     /// unknown, as in files that were written before it was stored. Images and gradients have limits of their

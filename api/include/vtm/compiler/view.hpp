@@ -7,8 +7,8 @@
 /// rounded.
 #pragma once
 
-#include <vtm/asset/view.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/affine.hpp>
 #include <vtm/scene/fit.hpp>
 #include <vtm/scene/scene.hpp>
@@ -48,7 +48,7 @@ ViewResult compileView(const scene::Scene& scene, const Part& part, int width, i
                        const Options& options = {});
 
 /// The frame's view of an asset of the whole picture. Throws std::length_error where the raster or a number
-/// is beyond the limits of vtm/asset/view.hpp.
+/// is beyond the limits of vtm/raster/view.hpp.
 asset::View viewOf(const scene::Frame& frame);
 
 }  // namespace vtm::compiler

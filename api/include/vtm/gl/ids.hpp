@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/gl/context.hpp>
+#include <vtm/raster/view.hpp>
 
 #pragma GCC visibility push(default)
 

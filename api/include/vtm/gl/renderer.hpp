@@ -10,10 +10,10 @@
 #include <string>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/view.hpp>
 #include <vtm/gl/context.hpp>
 #include <vtm/gl/output.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/view.hpp>
 
 #pragma GCC visibility push(default)
 
@@ -23,7 +23,7 @@ namespace vtm::gl {
 enum class Pixels {
     Automatic,  ///< Scanned where the driver runs shaders on the CPU (llvmpipe and the like), else Shaders
     Shaders,
-    Scanned  ///< vtm/asset/scan.hpp, on the CPU, several times faster there; pictures with materials take
+    Scanned  ///< vtm/raster/scan.hpp, on the CPU, several times faster there; pictures with materials take
              ///< Shaders
 };
 

@@ -14,8 +14,8 @@
 #include <string>
 
 #include <vtm/asset/asset.hpp>
-#include <vtm/asset/prefilter.hpp>
 #include <vtm/gl/context.hpp>
+#include <vtm/raster/prefilter.hpp>
 
 #pragma GCC visibility push(default)
 

@@ -53,7 +53,7 @@ struct Framing {
 /// A raster and what it shows. The numbers are kept apart, instead of as one matrix, so that deep zooms lose
 /// nothing.
 struct Frame {
-    double width = 1, height = 1;  ///< whole numbers above 0; engines have limits (vtm/asset/view.hpp)
+    double width = 1, height = 1;  ///< whole numbers above 0; engines have limits (vtm/raster/view.hpp)
     Point pixel{1, 1};             ///< a pixel's width and height, in turned user units
     Point turn{1, 0};              ///< cosine and sine of the rotation
     Point origin{0, 0};            ///< a point in user units

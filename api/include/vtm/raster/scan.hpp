@@ -1,0 +1,77 @@
+/// \file
+/// Drawing exact pictures on the CPU, fast: every piece of boundary adds the change of colour that it means
+/// for the pixels on its right, and running sums along the rows make pixels of the changes. The work is that
+/// of the boundaries' pixels; all others are filled. Any affine view, no index, nothing prepared for a scale.
+/// docs/coverage.md has the sum; the idea of summing along rows is old (accumulation buffers of glyph
+/// rasterizers), colours instead of coverage are what disjoint regions allow.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <glm/vec4.hpp>
+
+#include <vtm/asset/asset.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/view.hpp>
+
+#pragma GCC visibility push(default)
+
+namespace vtm::asset {
+
+struct PlanarMap;
+
+/// Premultiplied bytes red, green, blue, alpha, in the scanner's numbers; rows from the top.
+struct ByteTarget {
+    std::uint8_t* pixels = nullptr;
+    std::size_t rowBytes = 0;  ///< from one row to the next, at least 4 · view.width
+};
+
+/// Pixels first to end - 1 of a row.
+struct ColorRun {
+    int first, end;
+    glm::vec4 color;
+};
+
+/// In which numbers the shares of regions in a pixel are added, and what comes out.
+enum class Sums {
+    Encoded,  ///< c·a, sRGB-encoded, as evaluate() draws
+    Light     ///< lin(c)·a, of every region's colour: what covers half a pixel gives half the light
+};
+
+/// Of one asset; keeps what it needs of it. Safe to use from several threads at once.
+class Scanner {
+public:
+    /// `asset` must be valid; std::invalid_argument unless it is a sum of maps.
+    explicit Scanner(const AssetView& asset, Sums sums = Sums::Encoded);
+    /// Of planar maps (raster/planar_map.hpp) with the paints of `asset`, whose trees are not read.
+    Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums = Sums::Encoded);
+    ~Scanner();
+    Scanner(Scanner&&) noexcept;
+    Scanner& operator=(Scanner&&) noexcept;
+
+    /// How far the asset may be magnified: Asset::finestPixel.
+    std::optional<double> finestPixel() const;
+
+    /// Replaces every pixel, rounded to nearest. Throws std::length_error if the view is beyond its limits.
+    void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
+    /// The same in floats.
+    image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
+
+    /// The same as runs of pixels of one colour, which is not clamped: row by row, from left to right, every
+    /// pixel once.
+    void scan(const View& view, const std::function<void(int y, const ColorRun& run)>& take,
+              const MaterialFunction& materials = {}) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vtm::asset
+
+#pragma GCC visibility pop

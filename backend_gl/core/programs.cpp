@@ -1,0 +1,149 @@
+#include "backend_gl/core/programs.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "backend_gl/core/shader_text.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+void bindUnits(const Program& program) {
+    program.use();
+    glUniform1i(program.uniform("texels"), int(Unit::Texels));
+    glUniform1i(program.uniform("images"), int(Unit::Images));
+    glUniform1i(program.uniform("placements"), int(Unit::Placements));
+    glUniform1i(program.uniform("tiles"), int(Unit::Tiles));
+    glUniform1i(program.uniform("layer"), int(Unit::Layer));
+    glUniform1i(program.uniform("backdrop"), int(Unit::Backdrop));
+    checkErrors("program");
+}
+
+}  // namespace
+
+unsigned Programs::materialSet(std::span<const asset::Material> materials) {
+    std::string source = materialsSource(materials);
+    for (unsigned i = 0; i < materialSets_.size(); ++i)
+        if (materialSets_[i].source == source)
+            return i;
+    materialSets_.push_back({{materials.begin(), materials.end()}, std::move(source)});
+    return unsigned(materialSets_.size() - 1);
+}
+
+const Program& Programs::leaf(LeafProgram program) {
+    return get(program == LeafProgram::Solid ? Kind::Solid : Kind::Pieces, {});
+}
+
+const Program& Programs::flat(Finish finish) { return get(Kind::Flat, {}, 0, finish); }
+const Program& Programs::tile(Features features, unsigned materialSet, Finish finish, bool crowded) {
+    return get(crowded ? Kind::CrowdedTile : Kind::Tile, features, materialSet, finish);
+}
+const Program& Programs::fill(Features features, unsigned materialSet) {
+    return get(Kind::Fill, features, materialSet);
+}
+const Program& Programs::layer() { return get(Kind::Layer, {}); }
+const Program& Programs::blend() { return get(Kind::Blend, {}); }
+
+const Program& Programs::compose(Finish finish) { return get(Kind::Compose, {}, 0, finish); }
+
+const Program& Programs::get(Kind kind, Features features, unsigned materialSet, Finish finish) {
+    const std::tuple key(kind, features.flags(), features.has(Features::Material) ? materialSet : 0,
+                         finish.flags());
+    auto found = programs_.find(key);
+    if (found == programs_.end()) {
+        try {
+            const std::string_view materials =
+                features.has(Features::Material) ? std::string_view(materialSets_[materialSet].source) : "";
+            found = programs_.emplace(key, Program(source(kind, features, finish, materials), cache_)).first;
+        } catch (const GlError& error) {
+            throw GlError(blamedOnMaterial(materialSets_[materialSet].materials, error.what()));
+        }
+        bindUnits(found->second);
+    }
+    return found->second;
+}
+
+ProgramSource Programs::source(Kind kind, Features features, Finish finish, std::string_view materials) {
+    using namespace shaders;
+    const std::string defines = features.defines(), finishes = finish.defines();
+    const std::string_view crowded =
+        kind == Kind::CrowdedTile ? "#define CROWDED 1\n" : "#define CROWDED 0\n";
+    const std::string_view finishBlend = finish.flags() == 0 ? std::string_view("") : shaders::blend;
+    switch (kind) {
+        case Kind::Solid:
+            return {"solid", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, solid_fragment}};
+        case Kind::Pieces:
+            return {"pieces", {fetch, leaf_vertex}, {fetch, coverage, leaf_placement, pieces_fragment}};
+        case Kind::Flat:
+            return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
+        case Kind::Tile:
+        case Kind::CrowdedTile:
+            if (features.flags() == 0)
+                return {"tile",
+                        {tile_vertex},
+                        {crowded, finishes, fetch, shadow, cell, finishBlend, output, tile_fragment}};
+            return {"tile with programs",
+                    {tile_vertex},
+                    {crowded, defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint,
+                     output, tile_programs_fragment, materials}};
+        case Kind::Fill:
+            return {"fill",
+                    {box_vertex},
+                    {defines, fetch, shaders::blend, gradient, image, paint, fill_fragment, materials}};
+        case Kind::Layer:
+            return {"layer", {box_vertex}, {shaders::blend, layer_fragment}};
+        case Kind::Compose:
+            return {"compose", {box_vertex}, {finishes, finishBlend, output, compose_fragment}};
+        default:
+            return {"blend", {box_vertex}, {shaders::blend, blend_fragment}};
+    }
+}
+
+ProgramSource idsSource() {
+    using namespace shaders;
+    return {"ids", {screen_vertex}, {fetch, id_fragment}};
+}
+
+std::vector<ProgramSource> Programs::everySource() {
+    std::vector<ProgramSource> sources;
+    const std::string materials = materialsSource({});
+    const auto add = [&](Kind kind, unsigned features, unsigned finish) {
+        const bool uses = Features(features).has(Features::Material);
+        sources.push_back(source(kind, Features(features), Finish(finish), uses ? materials : ""));
+    };
+    constexpr unsigned allFeatures = Features::combinations - 1, allFinishes = Finish::combinations - 1;
+    for (const Kind kind : {Kind::Solid, Kind::Pieces, Kind::Layer, Kind::Blend})
+        add(kind, 0, 0);
+    // Of long ramps, which only gradients know, those without and with everything else.
+    std::vector<unsigned> featureSets{Features::Linear | Features::LongRamps, allFeatures};
+    for (unsigned features = 0; features < Features::LongRamps; ++features)
+        featureSets.push_back(features);
+    for (const unsigned features : featureSets) {
+        add(Kind::Fill, features, 0);
+        add(Kind::Tile, features, 0);
+        add(Kind::Tile, features, allFinishes);
+    }
+    sources.push_back(idsSource());
+    for (unsigned finish = 0; finish <= allFinishes; ++finish) {
+        add(Kind::Flat, 0, finish);
+        add(Kind::Compose, 0, finish);
+        add(Kind::Tile, 0, finish);
+        add(Kind::Tile, allFeatures, finish);
+        add(Kind::CrowdedTile, 0, finish);
+        add(Kind::CrowdedTile, allFeatures, finish);
+    }
+    return sources;
+}
+
+ProgramFigures Programs::figures() const {
+    ProgramFigures figures;
+    for (const auto& [key, program] : programs_) {
+        ++figures.made;
+        figures.compiled += program.compiled() ? 1 : 0;
+    }
+    return figures;
+}
+
+}  // namespace vtm::gl

@@ -1,0 +1,71 @@
+/// \file
+/// The backend's programs, each compiled when it is first needed.
+#pragma once
+
+#include <map>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include <vtm/gl/renderer.hpp>
+#include "backend_gl/core/features.hpp"
+#include "backend_gl/core/finish.hpp"
+#include "backend_gl/core/materials.hpp"
+#include "backend_gl/core/program.hpp"
+
+namespace vtm::gl {
+
+/// Programs of a mask's leaves.
+enum class LeafProgram : unsigned {
+    Solid,  ///< all inside
+    Pieces
+};
+inline constexpr unsigned leafProgramCount = 2;
+
+/// Texture units, the same in every program.
+enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Tiles };
+inline constexpr std::size_t unitCount = 6;
+
+/// Of numbers, which have one program only.
+ProgramSource idsSource();
+
+/// Each throws GlError with the driver's log where a program does not compile.
+class Programs {
+public:
+    explicit Programs(const std::string& cacheDirectory = {}) : cache_(cacheDirectory) {}
+
+    /// Materials that programs are compiled with, each list once. Number 0 is none.
+    unsigned materialSet(std::span<const asset::Material> materials);
+
+    const Program& leaf(LeafProgram program);
+    /// Of a picture: tiles of one colour, and others.
+    const Program& flat(Finish finish);
+    /// `crowded`: some cells' pixels come from a texture.
+    const Program& tile(Features features, unsigned materialSet, Finish finish, bool crowded = false);
+    const Program& fill(Features features, unsigned materialSet = 0);
+    const Program& layer();
+    const Program& blend();
+    /// A finished picture into a user's framebuffer.
+    const Program& compose(Finish finish);
+
+    ProgramFigures figures() const;
+
+    /// The text of every program that there can be, numbers' too, with no materials.
+    /// Features and finishes, which have no names in common, are combined with none and all of the others.
+    static std::vector<ProgramSource> everySource();
+
+private:
+    enum class Kind : unsigned { Solid, Pieces, Flat, Tile, CrowdedTile, Fill, Layer, Blend, Compose };
+    const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
+    static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
+
+    struct MaterialSet {
+        std::vector<asset::Material> materials;
+        std::string source;
+    };
+    ProgramCache cache_;
+    std::vector<MaterialSet> materialSets_{{{}, materialsSource({})}};
+    std::map<std::tuple<Kind, unsigned, unsigned, unsigned>, Program> programs_;
+};
+
+}  // namespace vtm::gl

@@ -1,0 +1,76 @@
+#include "backend_gl/core/requirements.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+
+#include <EGL/egl.h>
+#include <fmt/format.h>
+
+#include "backend_gl/core/constants.hpp"
+#include "backend_gl/core/programs.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+/// Of GL_KHR_robustness, GL_EXT_robustness.
+constexpr GLenum resetNotificationStrategy = 0x8256, loseContextOnReset = 0x8252;
+
+struct Limit {
+    GLenum name;
+    const char* text;
+    int least;
+};
+constexpr Limit limits[] = {
+    {GL_MAX_TEXTURE_SIZE, "GL_MAX_TEXTURE_SIZE", 1 << texelColumnsLog2},
+    {GL_MAX_TEXTURE_IMAGE_UNITS, "GL_MAX_TEXTURE_IMAGE_UNITS", int(unitCount)},
+    {GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS, "GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS", int(unitCount)},
+};
+
+/// As GL_RENDERER begins or tells: Mesa's, ANGLE's, Apple's.
+constexpr std::string_view softwareDrivers[] = {"llvmpipe", "softpipe", "SwiftShader", "Software"};
+
+}  // namespace
+
+void requireCurrentContext() {
+    if (glGetString(GL_VERSION) == nullptr)
+        throw GlError("no GL context is current");
+}
+
+void requireContext() {
+    requireCurrentContext();
+    const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+    int major = 0;
+    if (std::sscanf(version, "OpenGL ES %d", &major) != 1 || major < 3)
+        throw GlError(fmt::format("the current context is '{}': OpenGL ES 3.0 or later is needed", version));
+    dropErrors();
+    for (const Limit& l : limits)
+        if (limit(l.name) < l.least)
+            throw GlError(fmt::format("the driver's {} is {}: {} is needed", l.text, limit(l.name), l.least));
+}
+
+bool isSoftwareDriver() {
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return name != nullptr && runsOnCpu(name);
+}
+
+bool runsOnCpu(std::string_view renderer) {
+    return std::ranges::any_of(softwareDrivers, [&](std::string_view driver) {
+        return renderer.find(driver) != std::string_view::npos;
+    });
+}
+
+std::function<unsigned()> driversResetStatus() {
+    for (const auto& [extension, function] :
+         {std::pair{"GL_KHR_robustness", "glGetGraphicsResetStatusKHR"},
+          std::pair{"GL_EXT_robustness", "glGetGraphicsResetStatusEXT"}}) {
+        const auto get = reinterpret_cast<GLenum (*)()>(eglGetProcAddress(function));
+        if (get != nullptr && hasExtension(extension) &&
+            GLenum(limit(resetNotificationStrategy)) == loseContextOnReset)
+            return [get] { return unsigned(get()); };
+    }
+    return {};
+}
+
+}  // namespace vtm::gl

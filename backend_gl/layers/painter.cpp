@@ -1,0 +1,280 @@
+#include "backend_gl/layers/painter.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::Command;
+
+void bindTexture(Unit unit, const TextureHandle& texture) {
+    glActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+}
+
+GLuint maskOp(Command::Kind kind) {
+    switch (kind) {
+        case Command::Kind::PopMaskLuminance:
+            return GLuint(asset::Op::PopMaskLuminance);
+        case Command::Kind::PopMaskLinear:
+            return GLuint(asset::Op::PopMaskLinear);
+        default:
+            return GLuint(asset::Op::PopMaskAlpha);
+    }
+}
+
+/// Runs of instances, neighbours joined.
+std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint32_t>& drawn,
+                          LeafProgram program) {
+    std::vector<Range> runs;
+    for (const std::uint32_t d : drawn) {
+        const Range& range = list.drawn[d].ranges[unsigned(program)];
+        if (range.count == 0)
+            continue;
+        if (!runs.empty() && runs.back().first + runs.back().count == range.first)
+            runs.back().count += range.count;
+        else
+            runs.push_back(range);
+    }
+    return runs;
+}
+
+}  // namespace
+
+Workshop::Workshop(const std::string& cacheDirectory)
+    : programs(cacheDirectory), vertexArray(makeVertexArray()), boxes(makeBuffer()) {}
+
+Painter::Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& view)
+    : workshop_(workshop),
+      asset_(asset),
+      view_(view),
+      shelves_({view.width, view.height}),
+      isPending_(asset.list.drawn.size()) {}
+
+Target Painter::paint() {
+    glBindVertexArray(workshop_.vertexArray.get());
+    glViewport(0, 0, view_.width, view_.height);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    bindAsset();
+    stack_.push_back(workshop_.pool.take());
+    for (const Command& command : asset_.commands)
+        execute(command);
+    flushFills();
+    if (coverage_.texture.get() != 0)
+        workshop_.pool.giveBack(std::move(coverage_));
+    Target picture = std::move(stack_.back());
+    stack_.clear();
+    return picture;
+}
+
+void Painter::bindAsset() {
+    bindTexture(Unit::Texels, asset_.texels);
+    bindTexture(Unit::Images, asset_.images);
+    bindTexture(Unit::Placements, asset_.placementTexels);
+}
+
+void Painter::execute(const Command& command) {
+    if (command.kind == Command::Kind::FillMask)
+        return fill(command);
+    flushFills();
+    switch (command.kind) {
+        case Command::Kind::ClipMask:
+            return clip(*asset_.list.drawnOfMap[command.map]);
+        case Command::Kind::Push:
+            return stack_.push_back(workshop_.pool.take());
+        default:
+            return pop(command);
+    }
+}
+
+// ---- Masks ----------------------------------------------------------------------------------------
+
+/// Adds to the bound target: sums over undilated leaves need no order.
+void Painter::drawInstances(const std::vector<std::uint32_t>& drawn) {
+    glBlendFunc(GL_ONE, GL_ONE);
+    glBindBuffer(GL_ARRAY_BUFFER, asset_.instances.get());
+    glDisableVertexAttribArray(1);
+    for (const LeafProgram kind : {LeafProgram::Solid, LeafProgram::Pieces}) {
+        const std::vector<Range> runs = runsOf(asset_.list, drawn, kind);
+        if (runs.empty())
+            continue;
+        const Program& program = workshop_.programs.leaf(kind);
+        use(program);
+        for (const Range& run : runs) {
+            pointAttribute(0, GL_UNSIGNED_INT, sizeof(Instance), run.first * sizeof(Instance));
+            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(run.count));
+        }
+    }
+}
+
+void Painter::fill(const Command& command) {
+    const std::uint32_t drawn = *asset_.list.drawnOfMap[command.map];
+    const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[command.map], view_);
+    if (box.empty())
+        return;
+    std::optional<glm::ivec2> place;
+    if (!isPending_[drawn])
+        place = shelves_.place(box.size());
+    if (!place) {
+        flushFills();
+        place = shelves_.place(box.size());  // empty shelves have the view's size
+    }
+    pending_.push_back({drawn, box, *place, command.paint});
+    isPending_[drawn] = true;
+}
+
+void Painter::flushFills() {
+    if (pending_.empty())
+        return;
+    drawCoverage();
+    std::vector<Box> boxes;
+    for (const PendingFill& fill : pending_) {
+        boxes.push_back(boxOf(fill.box, fill.place - fill.box.min, fill.paint));
+        stack_.back().touch(fill.box);
+        isPending_[fill.drawn] = false;
+    }
+    useFill();
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    drawBoxes(workshop_.boxes, boxes);
+    pending_.clear();
+    shelves_.clear();
+}
+
+/// Of all pending fills, into the coverage target.
+void Painter::drawCoverage() {
+    if (coverage_.texture.get() == 0)
+        coverage_ = workshop_.pool.take();
+    clear(coverage_, coverage_.touched);
+    std::vector<std::uint32_t> drawn;
+    std::uint32_t first = ~0u, last = 0;
+    for (const PendingFill& fill : pending_) {
+        const std::uint32_t map = asset_.list.drawn[fill.drawn].map;
+        asset_.placements[map] = placementOf(asset_.maps[map], view_, fill.place - fill.box.min,
+                                             {fill.place, fill.place + fill.box.size()});
+        first = std::min(first, map);
+        last = std::max(last, map);
+        drawn.push_back(fill.drawn);
+    }
+    bindTexture(Unit::Placements, asset_.placementTexels);
+    asset_.uploadPlacements(first, last);
+    coverage_.bind();
+    coverage_.touched = {{0, 0}, {view_.width, shelves_.height()}};
+    drawInstances(drawn);
+}
+
+void Painter::clip(std::uint32_t drawn) {
+    const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[asset_.list.drawn[drawn].map], view_);
+    if (box.empty()) {
+        clear(stack_.back(), stack_.back().touched);
+        return;
+    }
+    const glm::ivec2 place = *shelves_.place(box.size());
+    pending_.push_back({drawn, box, place, 0});
+    drawCoverage();
+    pending_.clear();
+    shelves_.clear();
+    const Program& program = useLayer(Action::Clip, coverage_);
+    glUniform4i(program.uniform("maskBox"), box.min.x, box.min.y, box.max.x, box.max.y);
+    glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
+    drawBoxes(workshop_.boxes, {boxOf(stack_.back().touched, place - box.min)});
+}
+
+// ---- Groups ---------------------------------------------------------------------------------------
+
+void Painter::pop(const Command& command) {
+    Target popped = std::move(stack_.back());
+    stack_.pop_back();
+    if (command.kind != Command::Kind::Pop)
+        popMask(command, popped);
+    else if (command.blend == asset::Blend::Normal)
+        popOver(command, popped);
+    else
+        popBlend(command, popped);
+    workshop_.pool.giveBack(std::move(popped));
+}
+
+void Painter::popMask(const Command& command, const Target& popped) {
+    const Program& program = useLayer(Action::Mask, popped);
+    glUniform1ui(program.uniform("maskOp"), maskOp(command.kind));
+    glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
+    drawBoxes(workshop_.boxes, {boxOf(stack_.back().touched)});
+}
+
+void Painter::popOver(const Command& command, const Target& popped) {
+    const Program& program = useLayer(Action::Over, popped);
+    glUniform1f(program.uniform("opacity"), command.opacity);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    drawBoxes(workshop_.boxes, {boxOf(popped.touched)});
+    stack_.back().touch(popped.touched);
+}
+
+/// The shader reads the backdrop from a copy, since a target cannot be read while it is drawn into.
+void Painter::popBlend(const Command& command, const Target& popped) {
+    const PixelBox& box = popped.touched;
+    if (box.empty())
+        return;
+    Target backdrop = workshop_.pool.take();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, stack_.back().framebuffer.get());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, backdrop.framebuffer.get());
+    glBlitFramebuffer(box.min.x, box.min.y, box.max.x, box.max.y, box.min.x, box.min.y, box.max.x, box.max.y,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    backdrop.touch(box);
+    const Program& program = workshop_.programs.blend();
+    use(program);
+    bindTexture(Unit::Layer, popped.texture);
+    bindTexture(Unit::Backdrop, backdrop.texture);
+    stack_.back().bind();
+    glUniform1f(program.uniform("opacity"), command.opacity);
+    glUniform1ui(program.uniform("blendMode"), GLuint(command.blend));
+    glDisable(GL_BLEND);
+    drawBoxes(workshop_.boxes, {boxOf(box)});
+    glEnable(GL_BLEND);
+    stack_.back().touch(box);
+    workshop_.pool.giveBack(std::move(backdrop));
+}
+
+// ---- Composition ----------------------------------------------------------------------------------
+
+/// With what every program may ask for.
+void Painter::use(const Program& program) const {
+    const Sections& s = asset_.sections;
+    program.use();
+    glUniform2f(program.uniform("targetSize"), float(view_.width), float(view_.height));
+    glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
+    glUniform1ui(program.uniform("imageSection"), s.images);
+    glUniform1ui(program.uniform("rampSums"), s.rampSums);
+}
+
+void Painter::useFill() {
+    const bool programs = std::ranges::any_of(
+        pending_, [&](const PendingFill& fill) { return asset::isProgram(asset_.paints[fill.paint]); });
+    const Program& program =
+        workshop_.programs.fill(programs ? asset_.features : Features(), asset_.materialSet);
+    use(program);
+    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view_.toPixels[0], view_.toPixels[1]));
+    const glm::dvec2 pixel = glm::dvec2(view_.width, view_.height) * 0.5;
+    const glm::dvec2 picture = inverse * (pixel - view_.toPixels[2]);
+    glUniform4f(program.uniform("pixelToPicture"), float(inverse[0].x), float(inverse[0].y),
+                float(inverse[1].x), float(inverse[1].y));
+    glUniform4f(program.uniform("pictureAnchor"), float(picture.x), float(picture.y), float(pixel.x),
+                float(pixel.y));
+    bindTexture(Unit::Layer, coverage_.texture);
+    stack_.back().bind();
+}
+
+const Program& Painter::useLayer(Action action, const Target& layer) {
+    const Program& program = workshop_.programs.layer();
+    use(program);
+    glUniform1ui(program.uniform("action"), GLuint(action));
+    bindTexture(Unit::Layer, layer.texture);
+    stack_.back().bind();
+    return program;
+}
+
+}  // namespace vtm::gl

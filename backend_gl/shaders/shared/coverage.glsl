@@ -1,0 +1,119 @@
+// Areas by Green's theorem in the pixel's own coordinates, its box being [0, 1]² (docs/coverage.md).
+// Requires: low, high; constants leafExtent, slopeScale, chordCount, smallestSpan.
+// Twin of: raster/src/coverage.cpp.
+// Exports: Frame, toPixel, seg, quadArea, pieceSum.
+
+// Leaf coordinates to the pixel's: p -> linear · p + origin.
+struct Frame {
+    mat2 linear;
+    vec2 origin;
+};
+
+vec2 toPixel(Frame frame, vec2 p) { return frame.linear * p + frame.origin; }
+
+// Split at x = 1 instead of subtracting antiderivatives, whose leading digits cancel for large |x|.
+float meanOfClamp(float a, float b) {
+    float lowest = min(a, b), highest = max(a, b), span = highest - lowest;
+    float from = clamp(lowest, 0.0, 1.0), to = clamp(highest, 0.0, 1.0);
+    if (span < smallestSpan)
+        return from;
+    float ramp = (to - from) * (to + from) * 0.5;
+    float above = max(highest, 1.0) - max(lowest, 1.0);
+    return (ramp + above) / span;
+}
+
+// ∫ clamp(x, 0, 1) dy along P -> Q inside 0 <= y <= 1.
+float seg(vec2 p, vec2 q) {
+    float y0 = clamp(p.y, 0.0, 1.0), y1 = clamp(q.y, 0.0, 1.0);
+    if (y0 == y1)
+        return 0.0;
+    vec2 d = q - p;
+    float x0 = p.x + d.x * ((y0 - p.y) / d.y), x1 = q.x + d.x * ((y1 - q.y) / d.y);
+    return (y1 - y0) * meanOfClamp(x0, x1);
+}
+
+vec2 cornerOf(Frame frame, int k) {
+    bvec2 far = bvec2(k == 1 || k == 2, k == 2 || k == 3);
+    return toPixel(frame, mix(vec2(0.0), vec2(leafExtent), far));
+}
+
+// Signed area of the leaf's part of the box.
+float quadArea(Frame frame) {
+    vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
+    return seg(a, b) + seg(b, c) + seg(c, d) + seg(d, a);
+}
+
+float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+struct Curve {
+    vec2 a, b, chord, normal;
+    float slopeA, slopeB;
+};
+
+vec2 curveAt(Curve c, float s) {
+    float r = 1.0 - s;
+    return c.a + s * c.chord + s * r * (c.slopeA * r - c.slopeB * s) * c.normal;
+}
+
+// Off the curve by -h² t''(s) / 12, the mean of what a chord of that step h between its points misses.
+vec2 curveLifted(Curve c, float s, float h) {
+    return curveAt(c, s) + h * h / 6.0 * (2.0 * c.slopeA + c.slopeB - 3.0 * s * (c.slopeA + c.slopeB)) * c.normal;
+}
+
+float signedLow(uint word) { return float(int(word << 16) >> 16); }
+float signedHigh(uint word) { return float(int(word) >> 16); }
+
+Curve curveOf(Frame frame, uvec4 piece) {
+    vec2 a = vec2(low(piece.x), high(piece.x)), b = vec2(low(piece.y), high(piece.y)), d = b - a;
+    return Curve(toPixel(frame, a), toPixel(frame, b), frame.linear * d, frame.linear * vec2(-d.y, d.x),
+                 signedLow(piece.z) / slopeScale, signedHigh(piece.z) / slopeScale);
+}
+
+// The s for which the curve can lie in the box, as (from, to); empty unless from < to.
+vec2 rangeInBox(Curve c) {
+    float area = cross2(c.chord, c.normal);
+    float bulge = 4.0 / 27.0 * (abs(c.slopeA) + abs(c.slopeB));
+    if (area == 0.0 || bulge == 0.0)
+        return vec2(0.0);
+    vec2 toCentre = vec2(0.5) - c.a;
+    float halfS = 0.5 * (abs(c.normal.x) + abs(c.normal.y)) / abs(area);
+    float halfT = 0.5 * (abs(c.chord.x) + abs(c.chord.y)) / abs(area);
+    if (abs(cross2(c.chord, toCentre) / area) > bulge + halfT)
+        return vec2(0.0);
+    float s = cross2(toCentre, c.normal) / area;
+    return clamp(vec2(s - halfS, s + halfS), 0.0, 1.0);
+}
+
+// Side of the leaf on which an end point lies, decided on the stored integers; -1: inside.
+int sideOf(uint point) {
+    uvec2 p = uvec2(low(point), high(point));
+    if (p.y == 0u && p.x < leafExtent)
+        return 0;
+    if (p.x == leafExtent && p.y < leafExtent)
+        return 1;
+    if (p.y == leafExtent && p.x > 0u)
+        return 2;
+    return p.x == 0u && p.y > 0u ? 3 : -1;
+}
+
+// What a piece adds to the loop of the region on its left: the sum along corner - A - curve - B -
+// corner, where the corners end the sides on which A and B lie. Outside the box one chord stands for
+// the curve. One loop of as many steps as needed: some drivers run both sides of every branch.
+float pieceSum(Frame frame, uvec4 piece) {
+    Curve c = curveOf(frame, piece);
+    vec2 range = rangeInBox(c);
+    int sideA = sideOf(piece.x), sideB = sideOf(piece.y);
+    int inner = range.x < range.y ? chordCount + 1 : 0;  // points between A and B
+    int end = inner + (sideB < 0 ? 1 : 2);
+    vec2 last = sideA < 0 ? c.a : cornerOf(frame, (sideA + 1) & 3);
+    vec2 cornerB = cornerOf(frame, (sideB + 1) & 3);
+    float sum = 0.0;
+    for (int i = sideA < 0 ? 1 : 0; i <= end; ++i) {
+        vec2 next = curveLifted(c, mix(range.x, range.y, float(i - 1) / float(chordCount)),
+                                (range.y - range.x) / float(chordCount));
+        next = i == 0 ? c.a : i <= inner ? next : i == inner + 1 ? c.b : cornerB;
+        sum += seg(last, next);
+        last = next;
+    }
+    return sum;
+}

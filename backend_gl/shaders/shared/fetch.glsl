@@ -1,0 +1,36 @@
+// The asset's texels, addressed by one index.
+// Requires: constants texelColumnsLog2, programTag. Twin of: asset/records.hpp.
+// Exports: spend, texelAt, low, high, sections, isProgram, isSteep, solidColor; ASSET_IN, ASSET, ASSET_PART.
+
+// Which asset? One a program, whose parts are uniforms; or, in the include, one of several, a parameter of every
+// function that reads texels: ASSET_IN declares it, ASSET hands it on.
+#ifndef ASSET_PART
+#define ONE_ASSET
+#define ASSET_IN
+#define ASSET
+#define ASSET_PART(name) name
+uniform usampler2D texels;
+// First texels of the leaves, pieces, paints and data.
+uniform uvec4 sections;
+
+// Pictures' loops are counted before they are drawn (src/turns.hpp).
+bool spend(float turns) { return true; }
+#endif
+
+ivec2 texelPlace(uint index) {
+    return ivec2(index & ((1u << texelColumnsLog2) - 1u), index >> texelColumnsLog2);
+}
+
+uvec4 texelAt(ASSET_IN uint index) { return texelFetch(ASSET_PART(texels), texelPlace(index), 0); }
+
+uint low(uint word) { return word & 0xFFFFu; }
+uint high(uint word) { return word >> 16; }
+
+uvec4 paintAt(ASSET_IN uint paint) { return texelAt(ASSET ASSET_PART(sections).z + paint); }
+bool isProgram(uvec4 paint) { return paint.w == programTag; }
+// Whether a unit of the picture changes a program by more (raster/steepness.hpp).
+bool isSteep(ASSET_IN uint paint, float least) {
+    uvec4 texel = paintAt(ASSET paint);
+    return isProgram(texel) && uintBitsToFloat(texel.z) > least;
+}
+vec4 solidColor(ASSET_IN uint paint) { return uintBitsToFloat(paintAt(ASSET paint)); }

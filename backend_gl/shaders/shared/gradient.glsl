@@ -1,0 +1,209 @@
+// Gradients of paint programs.
+// Requires: fetch.glsl; constants spread*, longRamp; LONG_RAMPS defined as 1 where a gradient has more stops than longRamp, else 0.
+// Twin of: raster/src/gradient.cpp.
+// Exports: applyMatrix, gradientColor.
+
+// Columns (a.xy), (a.zw), (b.xy), applied to a picture point.
+vec2 applyMatrix(uvec4 a, uvec4 b, vec2 p) {
+    vec4 linear = uintBitsToFloat(a);
+    return linear.xy * p.x + linear.zw * p.y + uintBitsToFloat(b.xy);
+}
+
+float spreadOffset(uint spread, float u) {
+    switch (spread) {
+        case spreadReflect: return 1.0 - abs(1.0 - (u - 2.0 * floor(u / 2.0)));
+        case spreadRepeat: return u - floor(u);
+        default: return clamp(u, 0.0, 1.0);
+    }
+}
+
+// How many stops have an offset <= u; of several at one offset the last counts from there on.
+uint stopsUpTo(ASSET_IN uint firstStop, uint count, float u) {
+    uint from = 0u, to = count;
+    while (from < to) {
+        uint middle = (from + to) / 2u;
+        if (uintBitsToFloat(texelAt(ASSET firstStop + middle).x) <= u)
+            from = middle + 1u;
+        else
+            to = middle;
+    }
+    return from;
+}
+
+vec4 stopColor(uvec4 stop) { return vec4(low(stop.y), high(stop.y), low(stop.z), high(stop.z)) / 65535.0; }
+
+vec4 premultiplied(vec4 c) { return vec4(c.rgb * c.a, c.a); }
+
+// Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
+vec4 colorBetween(uvec4 before, uvec4 after, float u) {
+    float start = uintBitsToFloat(before.x), gap = uintBitsToFloat(after.x) - start;
+    return premultiplied(mix(stopColor(before), stopColor(after), gap > 0.0 ? (u - start) / gap : 0.0));
+}
+
+// ---- Means over pixels
+
+#if LONG_RAMPS
+#ifdef ONE_ASSET
+// First texel of the integrals from stop to stop (src/ramp_sums.hpp).
+uniform uint rampSums;
+#endif
+
+vec4 integralBetween(ASSET_IN uint from, uint to) {
+    uint sums = ASSET_PART(rampSums) - ASSET_PART(sections).w;
+    return vec4(texelAt(ASSET sums + to) - texelAt(ASSET sums + from)) * exp2(-31.0);
+}
+#endif
+
+// How much of a pixel has u at a distance d from that in its middle, u being the sum of two that are even over their
+// boxes: |d| is at most `reach`, and up to `even` all are alike.
+float pixelWeight(float d, float reach, float even) {
+    float rest = reach - abs(d), slope = reach - even;
+    return rest < slope ? rest / slope : 1.0;
+}
+
+// Adds what the padded ramp differs from a colour at middle + d for d from `from` to `last`, times weights, and the
+// weights: colours that are all alike stay what they are, where blend modes may jump. Between stops and bends of the
+// weight it is a quadratic times a straight line, which Simpson's rule integrates exactly; at the same time that serves
+// what lies before the first stop and behind the last.
+void addRamp(ASSET_IN uint firstStop, uint count, float middle, float from, float last, float reach, float even,
+             vec4 base, inout vec4 sum, inout float weights) {
+    uint next = stopsUpTo(ASSET firstStop, count, middle + from);
+    while (from < last) {
+        uvec4 before = texelAt(ASSET firstStop + (next == 0u ? 0u : next - 1u));
+        uvec4 after = texelAt(ASSET firstStop + min(next, count - 1u));
+        float end = next == count ? last : min(last, uintBitsToFloat(after.x) - middle);
+        float bend = from < -even ? -even : from < even ? even : last, to = min(end, bend);
+        if (from < to) {
+            float at = 0.5 * (from + to), sixth = (to - from) / 6.0;
+            vec3 shares = sixth * vec3(pixelWeight(from, reach, even), 4.0 * pixelWeight(at, reach, even),
+                                       pixelWeight(to, reach, even));
+            sum += shares.x * (colorBetween(before, after, middle + from) - base) +
+                   shares.y * (colorBetween(before, after, middle + at) - base) +
+                   shares.z * (colorBetween(before, after, middle + to) - base);
+            weights += shares.x + shares.y + shares.z;
+            from = to;
+        }
+        next += to == end ? 1u : 0u;
+#if LONG_RAMPS
+        // On to the last stop, instead of from stop to stop: all weights are 1 there.
+        uint upTo = stopsUpTo(ASSET firstStop, from < last && count > longRamp ? count : 0u, middle + last);
+        if (upTo > next) {
+            float end = uintBitsToFloat(texelAt(ASSET firstStop + upTo - 1u).x) - middle;
+            sum += integralBetween(ASSET firstStop + next - 1u, firstStop + upTo - 1u) - (end - from) * base;
+            weights += end - from;
+            from = end;
+            next = upTo;
+        }
+#endif
+    }
+}
+
+// The mean over a pixel whose sides change u by `longer` > 0 and `shorter`, and in whose middle `base` is. A reflected ramp
+// repeats after two, so no mean is over more; a padded one is all but two colours beyond 1024.
+vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float longer, float shorter,
+              vec4 base) {
+    bool periodic = spread == spreadReflect || spread == spreadRepeat;
+    float widest = periodic ? 2.0 : 1024.0;
+    longer = min(longer, widest);
+    shorter = min(shorter, widest);
+    float reach = 0.5 * (longer + shorter), even = 0.5 * (longer - shorter), weights = 0.0;
+    u -= periodic ? 2.0 * floor(0.5 * u) : 0.0;
+    vec4 sum = vec4(0.0);
+    // One turn with the whole stretch where the ramp is padded.
+    float first = periodic ? floor(u - reach) : 0.0, last = periodic ? u + reach : 1.0;
+    for (float n = first; n < last; ++n) {
+        float a = periodic ? max(-reach, n - u) : -reach, b = periodic ? min(reach, n + 1.0 - u) : reach;
+        bool mirrored = spread == spreadReflect && mod(n, 2.0) != 0.0;
+        addRamp(ASSET firstStop, count, mirrored ? n + 1.0 - u : periodic ? u - n : u, mirrored ? -b : a,
+                mirrored ? -a : b, reach, even, base, sum, weights);
+    }
+    return weights > 0.0 ? base + sum / weights : base;
+}
+
+// Ramps narrower than this in a pixel are as good as straight there, but for stops. Where alpha does not change they are
+// straight, and so beyond the ends of padded ones.
+const float straightWidth = 1.0 / 16.0;
+
+// The mean over a pixel whose sides change u by `sides`, exactly; of long ramps the shorter side's box is replaced by two
+// points with the same variance. Where the pixel has nothing but a little of one stretch between two stops, it is the
+// colour in the middle.
+vec4 colorOver(ASSET_IN uint firstStop, uint count, uint spread, float u, vec2 sides) {
+    sides = min(abs(sides), vec2(1024.0));
+    float longer = max(sides.x, sides.y), shorter = min(sides.x, sides.y), width = longer + shorter;
+    bool padded = spread != spreadReflect && spread != spreadRepeat;
+    float v = spreadOffset(spread, u), unclamped = padded ? u : v;
+    uint upTo = stopsUpTo(ASSET firstStop, count, unclamped);
+    uvec4 before = texelAt(ASSET firstStop + (upTo == 0u ? 0u : upTo - 1u));
+    uvec4 after = texelAt(ASSET firstStop + min(upTo, count - 1u));
+    bool isLine = high(before.z) == high(after.z);
+    float low = upTo > 0u ? uintBitsToFloat(before.x) : 0.0, high = upTo < count ? uintBitsToFloat(after.x) : 1.0;
+    vec4 middle = colorBetween(before, after, v);
+    if ((width <= straightWidth || isLine) && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
+        (padded && upTo == count || unclamped + 0.5 * width <= high))
+        return middle;
+#if LONG_RAMPS
+    if (count > longRamp) {
+        float apart = 0.28867513 * shorter;  // 1 / sqrt(12)
+        return 0.5 * (rampMean(ASSET firstStop, count, spread, u - apart, longer, 0.0, middle) +
+                      rampMean(ASSET firstStop, count, spread, u + apart, longer, 0.0, middle));
+    }
+#endif
+    return rampMean(ASSET firstStop, count, spread, u, longer, shorter, middle);
+}
+
+// ---- Radial gradients
+
+// The larger root u of |p - (1-u) f| = (1-u) fr + u with (1-u) fr + u >= 0, and whether there is one.
+// With d = p - f: a u² - 2 b u - c = 0; the roots are q / a and -c / q, q = b ± sqrt(b² + a c) with the
+// sign that cancels nothing. Its slope is (u f + d) / (a u - b).
+bool radialOffset(vec2 p, vec2 f, float fr, out float u, out vec2 slope) {
+    vec2 d = p - f;
+    float grow = 1.0 - fr;
+    float a = grow * grow - dot(f, f), b = dot(d, f) - fr * grow, c = dot(d, d) - fr * fr;
+    float discriminant = b * b + a * c;
+    u = 0.0;
+    slope = vec2(0.0);
+    if (discriminant < 0.0)
+        return false;
+    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant);
+    float one = q == 0.0 ? 0.0 : -c / q, other = a == 0.0 ? one : q / a;
+    float larger = max(one, other), smaller = min(one, other);
+    u = fr + larger * grow >= 0.0 ? larger : smaller;
+    slope = (u * f + d) / max(abs(a * u - b), 1e-6);
+    return fr + u * grow >= 0.0;
+}
+
+// A radial gradient is a cone over the plane, about its focus: the mean of u over a pixel is not that in the middle. Moves
+// u, and scales what the pixel's sides change it by, to mean and variance; the formula stands in the twin.
+void overCone(vec2 slope, vec2 d, mat2 sides, inout float u, out vec2 along) {
+    along = slope * sides;
+    float steep = dot(slope, slope), above = steep * dot(d, d);
+    float all = steep * (dot(sides[0], sides[0]) + dot(sides[1], sides[1])), radial = dot(along, along);
+    if (!(radial > 0.0) || above > 64.0 * all)  // far from the tip
+        return;
+    float near = 1.0 / (1.0 + 6.6 * above / all), tip = 0.0315 * all * near * near;
+    u += sqrt(above + max(all - radial, 0.0) / 12.0 + tip) - sqrt(above);
+    along *= sqrt(max(0.0, 1.0 - 12.0 * tip / radial));
+}
+
+// Where the middle of a pixel is nearer to the focus than this share of its side, it is put there: at the focus itself
+// there is no slope.
+const float besideFocus = 1e-3;
+
+// The mean over a pixel whose middle is `point`, where the ramp bends within it.
+vec4 gradientColor(ASSET_IN bool radial, uint gradient, vec2 point, mat3x2 pixel) {
+    uvec4 a = texelAt(ASSET gradient), b = texelAt(ASSET gradient + 1u);
+    vec4 linear = uintBitsToFloat(a);
+    mat2 sides = mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]);
+    vec2 p = applyMatrix(a, b, point), along = vec2(sides[0].x, sides[1].x);
+    float u = p.x;
+    if (radial) {
+        vec4 focus = uintBitsToFloat(texelAt(ASSET gradient + 2u));
+        vec2 d = p - focus.xy, slope;
+        d = length(d) < besideFocus * length(sides[0]) ? besideFocus * sides[0] : d;
+        if (!radialOffset(focus.xy + d, focus.xy, focus.z, u, slope))
+            return vec4(0.0);
+        overCone(slope, d, sides, u, along);
+    }
+    return colorOver(ASSET gradient + 3u, b.w, b.z, u, along);
+}

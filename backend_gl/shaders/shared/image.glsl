@@ -1,0 +1,108 @@
+// Pictures of paint programs and their levels (image/levels.hpp), all in one texture, row after row.
+// Requires: fetch.glsl (spend, too), gradient.glsl; constants imageColumnsLog2, filter*. Twin of: raster/src/image_fill.cpp.
+// Exports: imageColor.
+
+#ifdef ONE_ASSET
+uniform sampler2D images;
+// First texel of the list of pictures: first pixel, width, height, 0.
+uniform uint imageSection;
+#endif
+
+// The level that is so much coarser, or the last. Each stands behind the one before: first texel, width, height, number.
+uvec4 levelOf(uvec4 picture, uint number) {
+    while (picture.w < number && picture.y * picture.z > 1u)
+        picture = uvec4(picture.x + picture.y * picture.z, (picture.yz + 1u) / 2u, picture.w + 1u);
+    return picture;
+}
+
+// The picture itself is stored straight, means are premultiplied.
+vec4 levelTexel(ASSET_IN uvec4 level, ivec2 p) {
+    p = clamp(p, ivec2(0), ivec2(level.yz) - 1);
+    uint index = level.x + uint(p.y) * level.y + uint(p.x);
+    ivec2 place = ivec2(index & ((1u << imageColumnsLog2) - 1u), index >> imageColumnsLog2);
+    vec4 c = texelFetch(ASSET_PART(images), place, 0);
+    return vec4(level.w == 0u ? c.rgb * c.a : c.rgb, c.a);
+}
+
+// Weights of texels at these distances, of 1, 2 or 4 next to the point along one axis: box, tent, and Catmull-Rom's
+// cubic (Keys 1981, a = -1/2): it passes through the pixels, and through the points of any quadratic.
+vec2 kernel(int taps, vec2 d) {
+    d = abs(d);
+    if (taps == 1)
+        return vec2(1.0);
+    if (taps == 2)
+        return 1.0 - d;
+    return mix((1.5 * d - 2.5) * d * d + 1.0, ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0, step(1.0, d));
+}
+
+// Premultiplied neighbours are summed, so that transparent pixels lend no colour.
+vec4 filtered(ASSET_IN uvec4 level, vec2 p, int tapsLog2) {
+    // Keeps the conversion to int defined; the edge goes on beyond the border anyway.
+    p = clamp(p * exp2(-float(level.w)), vec2(-2.0), vec2(level.yz) + 2.0);
+    int taps = 1 << tapsLog2;
+    vec2 corner = floor(p - 0.5 * float(taps - 1));
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < taps * taps; ++i) {
+        ivec2 tap = ivec2(i & (taps - 1), i >> tapsLog2);
+        vec2 weights = kernel(taps, corner + vec2(tap) + 0.5 - p);
+        sum += weights.x * weights.y * levelTexel(ASSET level, ivec2(corner) + tap);
+    }
+    return sum;
+}
+
+// Where a pixel's footprint is read (docs/scene.md, filters of images): at 2 side + 1 points along its longer axis, a
+// step apart, each for a square `width` wide. The outermost two count `outer`, and all of them `all`.
+struct Probes {
+    int side;
+    float width, outer, all;
+    vec2 step;
+};
+
+const float mostOblong = 16.0, nearlyRound = 1.0 / 64.0;
+
+// m: a pixel's sides in the image. Its singular values are the axes of the ellipse that it makes of a circle.
+Probes probesOf(mat2 m) {
+    float a = m[0].x * m[0].x + m[1].x * m[1].x, b = m[0].x * m[0].y + m[1].x * m[1].y;
+    float c = m[0].y * m[0].y + m[1].y * m[1].y;
+    float halved = 0.5 * (a - c), root = length(vec2(halved, b)), longer = sqrt(0.5 * (a + c) + root);
+    float shorter = abs(m[0].x * m[1].y - m[0].y * m[1].x) / max(longer, 1e-20);
+    vec2 along = halved > 0.0 ? vec2(halved + root, b) : vec2(b, root - halved);
+    float width = max(1.0, max(shorter, longer / mostOblong));
+    float all = clamp(longer / width - nearlyRound, 1.0, mostOblong);
+    int side = int(ceil(0.5 * (all - 1.0)));
+    return Probes(side, width, side == 0 ? 1.0 : 0.5 * (all - float(2 * side - 1)), all,
+                  along * (width / max(length(along), 1e-20)));
+}
+
+// Nearest and bilinear at the point. The others filter for a pixel, so they are asked at its centre, wherever in it the
+// point lies. One loop over levels and points, because compilers inline what is in it.
+vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
+    uvec4 a = texelAt(ASSET fill), b = texelAt(ASSET fill + 1u);
+    uvec4 picture = texelAt(ASSET ASSET_PART(imageSection) + b.z);
+    bool ofPixel = b.w >= filterTrilinear;
+    vec2 p = applyMatrix(a, b, ofPixel ? pixel[2] : point);
+    vec4 linear = uintBitsToFloat(a);
+    Probes probes = Probes(0, 1.0, 1.0, 1.0, vec2(0.0));
+    if (ofPixel)
+        probes = probesOf(mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]));
+    float lod = min(log2(probes.width), 30.0), share = fract(lod);
+    int tapsLog2 = b.w == filterNearest ? 0 : b.w == filterBicubic ? 2 : 1;
+    vec4 sum = vec4(0.0);
+    int levels = share > 0.0 ? 2 : 1;
+    // At each point: the loop itself, down to its level, the texels.
+    int turnsOfPoint = 1 + int(lod) + 3 + (1 << (2 * tapsLog2)) + 1;
+    if (!spend(float(levels * (2 * probes.side + 1) * turnsOfPoint)))
+        return sum;
+    for (int i = levels * -probes.side; i < levels * (probes.side + 1); ++i) {
+        // The two levels take turns at each of the points.
+        bool coarser = levels == 2 && (i & 1) == 1;
+        int probe = levels == 2 ? i >> 1 : i;
+        uvec4 level = levelOf(picture, uint(lod) + (coarser ? 1u : 0u));
+        float weight = (abs(probe) == probes.side ? probes.outer : 1.0) / probes.all;
+        sum += weight * (coarser ? share : 1.0 - share) *
+               filtered(ASSET level, p + float(probe) * probes.step, level.w == 0u ? tapsLog2 : 1);
+    }
+    // Catmull-Rom overshoots beside edges.
+    sum.a = clamp(sum.a, 0.0, 1.0);
+    return vec4(clamp(sum.rgb, 0.0, sum.a), sum.a);
+}

@@ -1,0 +1,54 @@
+// The integral of a leaf's colour over the pixel's box, but for the sign of the frame.
+// Requires: fetch.glsl, coverage.glsl, region_color.glsl; LINEAR, RADIAL, IMAGE, GROUPS, MATERIAL.
+// Exports: leafIntegral.
+
+// Of pieceSum()'s loop, at most: straight pieces are one chord.
+float pieceTurns(uvec4 piece) { return piece.z == 0u ? 4.0 : float(chordCount) + 5.0; }
+
+#if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
+
+// One loop over the four corners and both sides of every piece, so that the paint interpreter, which
+// compilers inline, stands in the program once.
+vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
+    Recent recent = nothingRecent();
+    uvec4 piece = uvec4(0u);
+    vec4 sum = vec4(0.0);
+    float weight = 0.0;
+    uint terms = 4u + 2u * low(leaf.y);
+    for (uint i = 0u; i < terms && spend(1.0); ++i) {
+        uint paint = high(piece.w);
+        if (i < 4u) {
+            weight = seg(cornerOf(frame, int(i)), cornerOf(frame, int((i + 1u) & 3u)));
+            uint word = i < 2u ? leaf.z : leaf.w;
+            paint = (i & 1u) == 0u ? low(word) : high(word);
+        } else if ((i & 1u) == 0u) {
+            piece = texelAt(ASSET ASSET_PART(sections).y + leaf.x + (i - 4u) / 2u);
+            weight = spend(pieceTurns(piece)) ? pieceSum(frame, piece) : 0.0;
+            paint = low(piece.w);
+        } else {
+            weight = -weight;
+        }
+        if (weight != 0.0)
+            sum += weight * regionColor(ASSET recent, paint, point, pixel);
+    }
+    return sum;
+}
+
+#else
+
+// Twin of pieces_fragment.glsl.
+vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
+    vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
+    vec4 sum = seg(a, b) * solidColor(ASSET low(leaf.z)) + seg(b, c) * solidColor(ASSET high(leaf.z)) +
+               seg(c, d) * solidColor(ASSET low(leaf.w)) + seg(d, a) * solidColor(ASSET high(leaf.w));
+    uint end = leaf.x + low(leaf.y);
+    for (uint i = leaf.x; i < end && spend(1.0); ++i) {
+        uvec4 piece = texelAt(ASSET ASSET_PART(sections).y + i);
+        float weight = spend(pieceTurns(piece)) ? pieceSum(frame, piece) : 0.0;
+        if (weight != 0.0)
+            sum += weight * (solidColor(ASSET low(piece.w)) - solidColor(ASSET high(piece.w)));
+    }
+    return sum;
+}
+
+#endif

@@ -1,0 +1,80 @@
+// The cell that a pixel's centre lies in, and its pieces. The only branches are loops: some drivers run both sides of
+// every other, fetches and all.
+// Requires: fetch.glsl, shadow.glsl; tile_vertex.glsl's outputs; constants of src/tile.hpp; CROWDED defined as 1 where the
+// tile has crowded cells, else 0.
+// Exports: tileOrigin, tileTexels, tilePicture, Cell, tilePoint, isFlatTile, cellAt, firstReferences,
+// referenceCount, referencesFrom, referenceAt, tileTexel, unpackColor, finishedSum.
+
+uniform usampler2D tiles;
+uniform vec4 pixelToTile;  // distances, by columns
+
+flat in vec2 tileOrigin;
+flat in uvec3 tileTexels;
+flat in vec4 tilePicture;
+
+uvec4 tileTexel(uint index) { return texelFetch(tiles, texelPlace(tileTexels.x + index), 0); }
+
+// Times 65535.
+vec4 unpackColor(uvec2 words) { return vec4(words.xxyy >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu); }
+
+struct Cell {
+    uvec4 texel;
+    vec2 o;    // the pixel's centre, tile sides
+    vec2 way;  // from the reference point to it
+};
+
+// Off the steps on which end points lie, and off the diagonals and axes through them, so that O is no end point,
+// which has no direction to itself, and lies on few chords of upright views.
+vec2 tilePoint(vec2 pixel) {
+    return (floor(times(pixelToTile, pixel - tileOrigin) / tileStep) + vec2(0.25, 0.625)) * tileStep;
+}
+
+bool isFlatTile() { return tileTexels.z != 0u; }
+
+Cell cellAt(vec2 pixel) {
+    const float side = float(1u << tileCellsLog2);
+    vec2 o = tilePoint(pixel);
+    vec2 place = clamp(floor(o * side), 0.0, side - 1.0);
+    uvec4 texel = tileTexel(tileTexels.y + (uint(place.y) << tileCellsLog2) + uint(place.x));
+    // A tile of one paint has no cells: what stands there is another tile's.
+    texel = isFlatTile() ? uvec4(0u) : texel;
+    uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;
+    return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) / side - referenceShift * tileStep);
+}
+
+// References, as a texel of them.
+uvec4 firstReferences(Cell cell) { return uvec4(cell.texel.x & ~referencesMask, cell.texel.w, 0u, cell.texel.w); }
+uint referenceCount(uvec4 references) { return references.x >> 20 & 7u; }
+
+// How many there are of the first texel on. That all were met has to be counted: compilers take it for granted that a
+// loop ends where the program says.
+uint referencesFrom(uvec4 references) { return max(references.x & referencesMask, referenceCount(references)); }
+
+// Number of the i-th piece << 2 | bits.
+uint referenceAt(uvec4 references, uint i) {
+    bool wide = (references.x & wideBit) != 0u;
+    uint halves = wide ? i * 2u : i;
+    uint word = halves < 2u ? references.y : halves < 4u ? references.z : references.w;
+    return wide ? word : word >> (halves << 4 & 16u) & 0xFFFFu;
+}
+
+// ---- Pixels that were too much ----------------------------------------------------------------------
+
+#if CROWDED
+uniform sampler2D layer;  // pixels of crowded cells (src/scanned_pixels.hpp)
+uniform ivec2 scannedCorner;
+#endif
+
+uniform bool markOverruns;
+
+// What a pixel shows: the sum over its cell's pieces; where the cell is crowded, which has none, the scanned pixel; and
+// where the driver ended the loops before the last piece, magenta, or the colour at the reference point, made opaque.
+vec4 finishedSum(Cell cell, vec4 sum, bool complete) {
+    vec4 near = unpackColor(cell.texel.yz) / 65535.0;
+    vec4 overrun = markOverruns ? vec4(1.0, 0.0, 1.0, 1.0) : vec4(near.rgb + 0.5 * (1.0 - near.a), 1.0);
+#if CROWDED
+    if ((cell.texel.x & crowdedBit) != 0u)
+        return texelFetch(layer, ivec2(gl_FragCoord.xy) - scannedCorner, 0);
+#endif
+    return complete ? sum : overrun;
+}

@@ -1,0 +1,163 @@
+// A tile with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl, output.glsl.
+
+uniform float minSteepness;  // paints above it are evaluated in the quarters of pixels, too
+
+out vec4 color;
+
+bool isSteep(uint paint) { return isSteep(paint, minSteepness); }
+
+// Smaller weights are rounding errors. A piece whose weight is not an integer cuts the pixel.
+const float minWeight = 1e-5;
+
+bool isFraction(float weight) { return abs(weight - floor(weight + 0.5)) > minWeight; }
+
+// ---- The pixel and its quarters -------------------------------------------------------------------
+
+// Part 0 is the whole pixel, parts 1 to 4 are its quarters.
+const uint quarterCount = 4u;
+
+// Centre of a part, tile sides.
+vec2 centreOf(uint part) {
+    uint quarter = part - 1u;
+    return tilePoint(gl_FragCoord.xy + (part == 0u ? vec2(0.0) : vec2(quarter & 1u, quarter >> 1) * 0.5 - 0.25));
+}
+
+// Weight of a piece in the whole pixel; in a quarter, a fourth of what it weighs more there than in the whole. The
+// pixel's centre is the quarter's reference point.
+float weightIn(uint part, TilePiece piece, uvec3 bits, uint reference, Cell cell) {
+    bool whole = part == 0u;
+    uint sides = sidesOf(piece);
+    float weight = pieceWeight(piece, whole ? cell.way : vec2(0.0), whole ? reference : sides, tileToBox);
+    if (whole)
+        return weight;
+    vec2 centre = centreOf(part);
+    return 0.25 * (pieceWeight(tilePiece(bits, centre), centre - cell.o, sides, 2.0 * tileToBox) - weight);
+}
+
+// ---- A cell's references, one after the other -----------------------------------------------------
+
+struct List {
+    uvec4 references;
+    uint i, left;
+};
+
+List listOf(Cell cell) {
+    uvec4 references = firstReferences(cell);
+    // Such a cell has no references of its own.
+    if ((references.x & moreBit) != 0u)
+        references = tileTexel(references.w);
+    return List(references, 0u, referencesFrom(references));
+}
+
+// Requires that some are left.
+uint nextReference(inout List list) {
+    if (list.i == referenceCount(list.references)) {
+        list.references = tileTexel(list.references.w);
+        list.i = 0u;
+    }
+    --list.left;
+    return referenceAt(list.references, list.i++);
+}
+
+// ---- Weights by paint -----------------------------------------------------------------------------
+
+// A paint, and the sum of the weights of pieces that have it on their left, less those that have it on their right.
+struct Share {
+    uint paint;
+    float weight;
+};
+
+const uint noPaint = 0xFFFFFFFFu;
+const Share noShare = Share(noPaint, 0.0);
+
+// The shares of the last two paints, mostly the two sides of a chain of pieces, are kept and added to. Another paint
+// evicts the older one; evicted shares wait to be shaded: two at most, since pieces are added while none waits.
+struct Shares {
+    Share newer, older;
+    Share waiting, last;
+};
+
+// An evicted share is shaded unless its weight is zero, and in quarters unless its paint is not steep.
+void evict(inout Shares shares, Share share, uint part) {
+    if (abs(share.weight) <= minWeight || part != 0u && !isSteep(share.paint))
+        return;
+    if (shares.waiting.paint == noPaint)
+        shares.waiting = share;
+    else
+        shares.last = share;
+}
+
+void add(inout Shares shares, Share term, uint part) {
+    if (term.paint == shares.newer.paint) {
+        shares.newer.weight += term.weight;
+        return;
+    }
+    Share older = shares.older;
+    shares.older = shares.newer;
+    shares.newer = term;
+    if (term.paint == older.paint)
+        shares.newer.weight += older.weight;
+    else
+        evict(shares, older, part);
+}
+
+void evictAll(inout Shares shares, uint part) {
+    evict(shares, shares.older, part);
+    evict(shares, shares.newer, part);
+    shares.older = shares.newer = noShare;
+}
+
+// What a share adds to the sum.
+vec4 valueOf(Share share, uint part) {
+    if (share.paint == noPaint)
+        return vec4(0.0);
+    vec2 point = tilePicture.xy + tilePicture.z * centreOf(part);
+    vec4 sides = (part == 0u ? 1.0 : 0.5) * tilePicture.z * pixelToTile;
+    return share.weight * regionValue(paintColor(share.paint, point, mat3x2(sides.xy, sides.zw, point)));
+}
+
+// First the whole pixel. Then, if a piece beside a steep paint cuts it, the quarters: steep paints have other colours
+// and other weights there. The inner loop adds up weights until a share has to be shaded, the outer one shades it: so
+// the paint interpreter, which compilers inline, stands in the program once, and outside of the loop over pieces. That
+// matters to drivers that run both sides of every branch. Such drivers also run a loop's body once more to find that
+// it has ended, unless the condition stands at the bottom.
+void main() {
+    Cell cell = cellAt(gl_FragCoord.xy);
+    uint paint = isFlatTile() ? tileTexels.z - 1u : low(cell.texel.x);
+    List all = listOf(cell), list = all;
+    // Each turn but the last of a part shades a share: at most two of a piece, and the two that are kept at the end.
+    uint turns = (1u + quarterCount) * (2u * all.left + 2u);
+    Shares shares = Shares(Share(paint, 1.0), noShare, noShare, noShare);
+    uint part = 0u;
+    bool cut = false, complete = false;
+    vec4 sum = vec4(0.0);
+    do {
+        do {
+            if (list.left != 0u && shares.waiting.paint == noPaint) {
+                uint reference = nextReference(list);
+                uvec4 bits = tileTexel(reference >> 2 << 1);
+                TilePiece piece = tilePiece(bits.xyz, cell.o);
+                uint left = low(bits.w), right = high(bits.w);
+                float weight = weightIn(part, piece, bits.xyz, reference, cell);
+                if (part == 0u)
+                    cut = cut || isFraction(weight) && (isSteep(left) || isSteep(right));
+                if (part == 0u ? weight != 0.0 : mayMeetPixel(piece)) {
+                    add(shares, Share(left, weight), part);
+                    add(shares, Share(right, -weight), part);
+                }
+            }
+        } while (list.left != 0u && shares.waiting.paint == noPaint);
+        if (shares.waiting.paint == noPaint)
+            evictAll(shares, part);
+        sum += valueOf(shares.waiting, part);
+        shares.waiting = shares.last;
+        shares.last = noShare;
+        if (list.left == 0u && shares.waiting.paint == noPaint && shares.newer.paint == noPaint) {
+            complete = part == (cut ? quarterCount : 0u);
+            ++part;
+            list = all;
+            shares.newer = Share(paint, 0.0);
+        }
+    } while (!complete && --turns != 0u);
+    color = outputColor(finishedSum(cell, sum, complete));
+}

@@ -1,0 +1,124 @@
+#include "backend_gl/texture/sample_include.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <vtm/gl/sampled_texture.hpp>
+#include <vtm/raster/prefilter.hpp>
+#include "backend_gl/core/constants.hpp"
+#include "backend_gl/core/materials.hpp"
+#include "backend_gl/core/shader_text.hpp"
+#include "backend_gl/core/turns.hpp"
+#include "backend_gl/texture/prefixed.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::Material;
+
+constexpr const char* head =
+    R"(// Vector Texture Maps: uniform Vtm NAME; premultiplied colours, t running down.
+//     vec4 vtm_sample(Vtm vtm, vec2 st)
+//     vec4 vtm_sample_proj(Vtm vtm, vec3 stq)
+//     vec4 vtm_sample_grad(Vtm vtm, vec2 st, vec2 dx, vec2 dy)
+// A fragment that takes many samples defines VTM_SAMPLES as their number before this.
+#ifndef VTM_SAMPLES
+#define VTM_SAMPLES 1
+#endif
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp usampler2D;
+)";
+
+/// Of the loops over taps in sample_prefilter.glsl: at most 4 rows of 16, for a footprint of 4 : 1.
+constexpr float prefilterTurns = 4 * (16 + 2) + 1;
+/// Footprints are widened to this share of their length.
+constexpr float largestAnisotropy = 16;
+/// In pictures: smaller ones lose their digits, of larger ones the mean is all that is left.
+constexpr float smallestFootprint = 0x1p-26f, largestFootprint = 1024;
+/// Largest magnitude of s and t: beyond, single precision has no fractions.
+constexpr float largestPlace = 0x1p23f;
+
+std::string constants() {
+    std::string text;
+    const auto add = [&](const char* name, float value) {
+        text += fmt::format("const float {} = {:.9e};\n", name, value);
+    };
+    const auto addWrap = [&](const char* name, asset::Wrap wrap) {
+        text += fmt::format("const int {} = {};\n", name, int(wrap));
+    };
+    add("turnsPerPixel", float(turnsPerPixel));
+    add("prefilterTurns", prefilterTurns);
+    add("largestAnisotropy", largestAnisotropy);
+    add("smallestFootprint", smallestFootprint);
+    add("largestFootprint", largestFootprint);
+    add("largestPlace", largestPlace);
+    add("fadeFrom", asset::fadeFrom);
+    add("fadeTo", asset::fadeTo);
+    addWrap("wrapBorder", asset::Wrap::Border);
+    addWrap("wrapClamp", asset::Wrap::Clamp);
+    addWrap("wrapRepeat", asset::Wrap::Repeat);
+    addWrap("wrapMirror", asset::Wrap::Mirror);
+    return text;
+}
+
+/// As materialsSource, but chosen by key; magenta where the program does without.
+std::string keyedMaterials(std::span<const Material> materials) {
+    std::string text, choice;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        text += fmt::format("#line 1 {}\n{}\n", materialString + int(i), materials[i].glsl);
+        choice +=
+            fmt::format("        case {}u: return {}(p);\n", materialKey(materials[i]), materials[i].name);
+    }
+    return text + "#line 1 0\nvec4 vtm_materialColor(uint material, vec2 p) {\n    switch (material) {\n" +
+           choice + "        default: return vec4(1.0, 0.0, 1.0, 1.0);\n    }\n}\n";
+}
+
+}  // namespace
+
+std::uint32_t materialKey(const Material& material) {
+    std::uint32_t hash = 2166136261u;  // FNV-1a
+    for (const unsigned char c : material.name + '\n' + material.glsl)
+        hash = (hash ^ c) * 16777619u;
+    return hash;
+}
+
+std::string sampleText(Features features, std::span<const Material> materials) {
+    using namespace shaders;
+    std::string text = features.defines() + fmt::format("#define FEATURES {}u\n", features.flags());
+    text += glslConstants() + constants();
+    const std::string_view images = features.has(Features::Image) ? image : std::string_view();
+    for (const std::string_view part : {sample_asset, fetch, coverage, blend, gradient, images, paint,
+                                        region_color, leaf_integral, sample_prefilter, sample})
+        text += part;
+    text = head + prefixed(text);
+    if (features.has(Features::Material))
+        text += keyedMaterials(materials);
+    return text + "#line 1 0\n";
+}
+
+std::string sampleInclude(std::initializer_list<asset::AssetView> assets) {
+    return sampleInclude(std::span(assets.begin(), assets.size()));
+}
+
+std::string sampleInclude(std::span<const asset::AssetView> assets) {
+    unsigned flags = 0;
+    std::vector<Material> materials;
+    for (const asset::AssetView& asset : assets) {
+        flags |= featuresOf(asset).flags();
+        for (const Material& material : asset.materials) {
+            const auto known = std::ranges::find(materials, material.name, &Material::name);
+            if (known == materials.end())
+                materials.push_back(material);
+            else if (known->glsl != material.glsl)
+                throw GlError(fmt::format("two different materials are named '{}'", material.name));
+        }
+    }
+    return sampleText(Features(flags), materials);
+}
+
+}  // namespace vtm::gl

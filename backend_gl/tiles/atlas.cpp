@@ -1,0 +1,149 @@
+#include "backend_gl/tiles/atlas.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include <vtm/limits/limits.hpp>
+#include "backend_gl/core/constants.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::Texel;
+using glm::dvec2;
+
+constexpr double cellsPerRadius = 2.83;
+/// What is kept before everything is thrown away: 64 MiB.
+constexpr std::size_t mostTexels = std::size_t(1) << 22;
+
+/// From a pixel's centre to the furthest of its corners, in sides of the map.
+double footprintRadius(const asset::Map& map, const asset::View& view) {
+    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    return 0.5 * std::max(glm::length(inverse * dvec2(1, 1)), glm::length(inverse * dvec2(1, -1))) / map.side;
+}
+
+}  // namespace
+
+int tileLevelFor(const asset::Map& map, const asset::View& view) {
+    const double cells = std::floor(-std::log2(cellsPerRadius * footprintRadius(map, view)));
+    return std::min(int(cells) - int(tileCellsLog2), maxTileLevel);
+}
+
+/// With s and t the stretches, s² + t² is the sum of the squares of the matrix and s t its determinant, and
+/// s / t + t / s grows with the ratio.
+bool isStretched(const asset::View& view) {
+    const dvec2 x = view.toPixels[0], y = view.toPixels[1];
+    const double squares = glm::dot(x, x) + glm::dot(y, y);
+    return squares > (maxStretchRatio + 1 / maxStretchRatio) * std::abs(x.x * y.y - x.y * y.x);
+}
+
+double tileMargin() { return std::ldexp(1 / cellsPerRadius, -int(tileCellsLog2)); }
+
+Atlas::Atlas(const KeptAsset& asset, const asset::Map& map, std::uint32_t maxTurns)
+    : map_(map), asset_(&asset), maxTurns_(maxTurns), scanned_(asset.asset, map) {}
+
+/// By square, row by row.
+std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i64vec2 min,
+                                                               glm::i64vec2 max) const {
+    const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
+    std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
+    const double side = std::ldexp(pieces_->map().extent, -level);
+    for (const PlanarPiece& piece : pieces_->map().pieces) {
+        limits::check();
+        const double reach = tileMargin() + piece.bulge() / side;
+        const dvec2 least = glm::floor(glm::min(piece.a, piece.b) / side - reach),
+                    most = glm::floor(glm::max(piece.a, piece.b) / side + reach);
+        if (!(most.x >= double(min.x) && most.y >= double(min.y) && least.x < double(max.x) &&
+              least.y < double(max.y)))
+            continue;
+        const glm::i64vec2 from(glm::max(least, dvec2(min))), to(glm::min(most, dvec2(max) - 1.0));
+        for (std::int64_t y = from.y; y <= to.y; ++y)
+            for (std::int64_t x = from.x; x <= to.x; ++x)
+                near[std::size_t(y - min.y) * columns + std::size_t(x - min.x)].push_back(&piece);
+    }
+    return near;
+}
+
+Atlas::Placed Atlas::place(const TilePlace& place, std::span<const PlanarPiece* const> near) {
+    const TileSource source{asset_->asset, *pieces_, asset_->programTurns, asset_->changes, maxTurns_};
+    return this->place(buildTile(source, place, tileMargin(), near));
+}
+
+Atlas::Placed Atlas::place(Tile tile) {
+    if (tile.texels.empty())
+        return {true, tile.programs, tile.paint, 0, 0, {}};
+    Placed placed{false,          tile.programs,          0, std::uint32_t(texels_.size()),
+                  tile.firstCell, std::move(tile.crowded)};
+    texels_.insert(texels_.end(), tile.texels.begin(), tile.texels.end());
+    return placed;
+}
+
+void Atlas::makeRoom() {
+    if (texels_.size() <= mostTexels)
+        return;
+    placed_.clear();
+    crowded_.reset();
+    texels_.clear();
+    uploaded_ = 0;
+}
+
+const Atlas::Placed& Atlas::prepareCrowded() {
+    makeRoom();
+    if (!crowded_)
+        crowded_ = place(crowdedTile(asset_->asset.paints));
+    upload();
+    return *crowded_;
+}
+
+std::vector<const Atlas::Placed*> Atlas::prepare(int level, glm::i64vec2 min, glm::i64vec2 max) {
+    makeRoom();
+    if (!pieces_)
+        pieces_.emplace(planarMap(asset_->asset, map_));
+    std::vector<std::vector<const PlanarPiece*>> near;
+    std::vector<const Placed*> tiles;
+    for (std::int64_t y = min.y; y < max.y; ++y)
+        for (std::int64_t x = min.x; x < max.x; ++x) {
+            const TilePlace at{level, x, y};
+            auto found = placed_.find(at);
+            if (found == placed_.end()) {
+                if (near.empty())
+                    near = piecesNear(level, min, max);
+                found = placed_.emplace(at, place(at, near[tiles.size()])).first;
+            }
+            tiles.push_back(&found->second);
+        }
+    upload();
+    return tiles;
+}
+
+/// Whole rows from the first that has new texels.
+void Atlas::upload() {
+    if (uploaded_ == texels_.size() && texture_.get() != 0)
+        return;
+    constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
+    const auto rowsOf = [](std::size_t texels) { return (texels + columns - 1) / columns; };
+    if (texture_.get() == 0 || texels_.size() > capacity_) {
+        const std::size_t rows = std::max<std::size_t>(rowsOf(texels_.size() + texels_.size() / 2), 1);
+        texture_ = makeTexture(GL_RGBA32UI, int(columns), int(rows));
+        capacity_ = rows * columns;
+        uploaded_ = 0;
+    }
+    const std::size_t first = uploaded_ / columns, end = rowsOf(texels_.size());
+    if (first < end) {
+        std::vector<Texel> rows(texels_.begin() + std::ptrdiff_t(first * columns), texels_.end());
+        rows.resize((end - first) * columns);
+        glBindTexture(GL_TEXTURE_2D, texture_.get());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, GLint(first), GLsizei(columns), GLsizei(end - first),
+                        GL_RGBA_INTEGER, GL_UNSIGNED_INT, rows.data());
+    }
+    checkErrors("tiles");
+    uploaded_ = texels_.size();
+}
+
+}  // namespace vtm::gl

@@ -1,0 +1,79 @@
+/// \file
+/// The tiles of one map on the GPU, made when a view first needs them and kept for the views that follow.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <vtm/asset/asset.hpp>
+#include <vtm/raster/view.hpp>
+#include "backend_gl/core/gl.hpp"
+#include "backend_gl/tiles/scanned_pixels.hpp"
+#include "backend_gl/tiles/tile.hpp"
+
+namespace vtm::gl {
+
+/// The level of the tiles for a view: their cells are at least `cellsPerRadius` footprints' radii wide and
+/// less than twice that, so that what is made for one scale serves a whole octave.
+int tileLevelFor(const asset::Map& map, const asset::View& view);
+/// The largest of those radii, tile sides.
+double tileMargin();
+
+/// The ratio ρ of a view's largest stretch to its smallest up to which tiles are exact. A tile is less
+/// than 64 of the pixels' longer sides wide, and 64 ρ of the shorter ones. So rounded ends, half a step each
+/// way, are off by 64 ρ · 2^-17 · sqrt(2) = 0.0007 ρ pixels at most, which is 0.25 ρ / 255 of a pixel that a
+/// boundary runs through; a slope's rounding, 7e-5 of 0.75 tiles, by 0.9 ρ / 255 in the middle of the
+/// longest curve; and where a curve leaves its tangent within a pixel by `flatEnough` ρ = 0.006 ρ, by
+/// (0.006 ρ)². That is 3.5/255 for ρ = 3 at the worst.
+inline constexpr double maxStretchRatio = 3;
+bool isStretched(const asset::View& view);
+
+class Atlas {
+public:
+    /// `asset` must outlive it. A cell that would take more than `maxTurns` is crowded.
+    Atlas(const KeptAsset& asset, const asset::Map& map, std::uint32_t maxTurns);
+
+    /// What is kept of a Tile.
+    struct Placed {
+        bool flat = false;      ///< one paint, no texels
+        bool programs = false;  ///< of its paints one is a program
+        std::uint32_t paint = 0;
+        std::uint32_t firstTexel = 0, firstCell = 0;
+        std::vector<std::uint8_t> crowded;  ///< cells whose pixels are scanned
+    };
+    /// All squares of a level that meet [min, max], in tiles, row by row. May move the texture.
+    std::vector<const Placed*> prepare(int level, glm::i64vec2 min, glm::i64vec2 max);
+    /// One that is crowded all over. May move the texture.
+    const Placed& prepareCrowded();
+    /// Whether tiles do not suffice for a view. They do where the scanner lacks the colours of materials.
+    bool isScanned(const asset::View& view) const {
+        return asset_->asset.materials.empty() && isStretched(view);
+    }
+
+    const asset::Map& map() const { return map_; }
+    const TextureHandle& texture() const { return texture_; }
+    ScannedPixels& scanned() { return scanned_; }
+
+private:
+    Placed place(const TilePlace& place, std::span<const PlanarPiece* const> near);
+    Placed place(Tile tile);
+    void makeRoom();
+    std::vector<std::vector<const PlanarPiece*>> piecesNear(int level, glm::i64vec2 min,
+                                                            glm::i64vec2 max) const;
+    void upload();
+
+    asset::Map map_;
+    const KeptAsset* asset_;
+    std::uint32_t maxTurns_;
+    ScannedPixels scanned_;                     ///< of crowded cells
+    std::optional<asset::PlanarIndex> pieces_;  ///< once a view has asked
+
+    std::map<TilePlace, Placed> placed_;
+    std::optional<Placed> crowded_;
+    std::vector<asset::Texel> texels_;
+    std::size_t uploaded_ = 0, capacity_ = 0;
+    TextureHandle texture_;
+};
+
+}  // namespace vtm::gl

@@ -1,0 +1,280 @@
+#include "backend_gl/tiles/picture.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include "raster/steepness.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using glm::dvec2;
+using glm::i64vec2;
+using Placed = Atlas::Placed;
+
+/// Of flat_vertex.glsl.
+struct FlatVertex {
+    float position[2];
+    float color[4];
+};
+
+/// Of tile_vertex.glsl.
+struct TileVertex {
+    float position[2];
+    float origin[2];
+    std::uint32_t texels[3];
+    float picture[4];
+};
+
+void pointFloats(GLuint index, GLint count, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, GLsizei(stride),
+                          reinterpret_cast<const void*>(offset));
+}
+
+/// Squares of one cut under one view, those that a box of pixels can meet.
+class Squares {
+public:
+    Squares(const asset::Map& map, const asset::View& view, const PixelBox& box, int level)
+        : side_(std::ldexp(map.side, -level)), corner_(map.x, map.y), view_(view), box_(box) {
+        const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        for (const dvec2 pixel :
+             {dvec2(box.min), dvec2(box.max.x, box.min.y), dvec2(box.min.x, box.max.y), dvec2(box.max)}) {
+            const dvec2 p = (inverse * (pixel - view.toPixels[2]) - corner_) / side_;
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        // The map's border belongs to pixels with centres up to a margin outside.
+        const double end = std::ceil(std::ldexp(1.0, level)) + 1;
+        min = i64vec2(glm::clamp(glm::floor(least), -1.0, end));
+        max = i64vec2(glm::clamp(glm::floor(most) + 1.0, -1.0, end));
+    }
+
+    dvec2 picture(std::int64_t x, std::int64_t y) const { return corner_ + dvec2(x, y) * side_; }
+    dvec2 pixel(std::int64_t x, std::int64_t y) const {
+        return view_.toPixels * glm::dvec3(picture(x, y), 1);
+    }
+    double side() const { return side_; }
+
+    /// Whether a square can show.
+    bool visible(i64vec2 at) const {
+        const auto [least, most] = bounds(dvec2(at), 1);
+        return most.x > box_.min.x && most.y > box_.min.y && least.x < box_.max.x && least.y < box_.max.y;
+    }
+
+    /// Pixels of the box that a square's cell can show in.
+    PixelBox pixelsOfCell(i64vec2 at, unsigned cell) const {
+        constexpr unsigned cells = 1u << tileCellsLog2;
+        return pixelsOf(dvec2(at) + dvec2(cell % cells, cell / cells) * cellSize, cellSize);
+    }
+    /// ... and the first square.
+    PixelBox pixelsOfFirst() const { return pixelsOf({0, 0}, 1); }
+
+    i64vec2 min, max;
+
+private:
+    PixelBox pixelsOf(dvec2 corner, double side) const {
+        const auto [least, most] = bounds(corner, side);
+        const dvec2 first(box_.min), end(box_.max);
+        return {glm::ivec2(glm::clamp(glm::floor(least), first, end)),
+                glm::ivec2(glm::clamp(glm::ceil(most), first, end))};
+    }
+
+    /// The least and the largest pixel coordinates of a square, whose corner and side are in tiles.
+    std::pair<dvec2, dvec2> bounds(dvec2 corner, double side) const {
+        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        for (const dvec2 to : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}) {
+            const dvec2 p = view_.toPixels * glm::dvec3(corner_ + (corner + to * side) * side_, 1);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        return {least, most};
+    }
+
+    double side_;
+    dvec2 corner_;
+    const asset::View& view_;
+    PixelBox box_;
+};
+
+/// Two triangles; where(corner) is a pixel.
+template <class Vertex, class Where>
+void addTriangles(std::vector<Vertex>& vertices, Vertex vertex, Where&& where) {
+    for (const i64vec2 corner :
+         {i64vec2(0, 0), i64vec2(1, 0), i64vec2(0, 1), i64vec2(0, 1), i64vec2(1, 0), i64vec2(1, 1)}) {
+        const dvec2 pixel = where(corner);
+        vertex.position[0] = float(pixel.x);
+        vertex.position[1] = float(pixel.y);
+        vertices.push_back(vertex);
+    }
+}
+
+template <class Vertex>
+void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at, const Vertex& vertex) {
+    addTriangles(vertices, vertex, [&](i64vec2 c) { return squares.pixel(at.x + c.x, at.y + c.y); });
+}
+
+struct Geometry {
+    std::vector<FlatVertex> flat;
+    std::vector<TileVertex> solid, programs;
+    PixelBox crowded;  ///< holds the pixels of crowded cells
+};
+
+FlatVertex flatVertex(const asset::Paint& paint) {
+    FlatVertex vertex{};
+    for (unsigned c = 0; c < 4; ++c)
+        vertex.color[c] = std::bit_cast<float>(paint[c]);
+    return vertex;
+}
+
+TileVertex tileVertex(const Squares& squares, const Placed& tile, std::int64_t x, std::int64_t y) {
+    const dvec2 origin = squares.pixel(x, y), picture = squares.picture(x, y);
+    return {{0, 0},
+            {float(origin.x), float(origin.y)},
+            {tile.firstTexel, tile.firstCell, tile.flat ? 1 + tile.paint : 0},
+            {float(picture.x), float(picture.y), float(squares.side()), 0}};
+}
+
+/// Each tile by itself: a longer rectangle would have corners of its neighbours on its edges, where rounding
+/// leaves gaps.
+Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
+                    const std::vector<const Placed*>& placed) {
+    Geometry geometry;
+    auto next = placed.begin();
+    for (std::int64_t y = squares.min.y; y < squares.max.y; ++y)
+        for (std::int64_t x = squares.min.x; x < squares.max.x; ++x) {
+            const Placed& tile = **next++;
+            if (!squares.visible({x, y}))
+                continue;
+            for (const std::uint8_t cell : tile.crowded)
+                geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, cell));
+            if (!tile.flat || tile.programs)
+                addSquare(tile.programs ? geometry.programs : geometry.solid, squares, {x, y},
+                          tileVertex(squares, tile, x, y));
+            else if (tile.paint != 0)
+                addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[tile.paint]));
+        }
+    return geometry;
+}
+
+/// All of the map's pixels from the scanner, as crowded ones.
+Geometry scannedGeometry(Atlas& atlas, const Squares& map) {
+    Geometry geometry;
+    geometry.crowded = map.pixelsOfFirst();
+    if (geometry.crowded.empty())
+        return geometry;
+    const Placed& tile = atlas.prepareCrowded();
+    const TileVertex vertex = tileVertex(map, tile, 0, 0);
+    addTriangles(geometry.solid, vertex, [&](i64vec2 c) {
+        const PixelBox& box = geometry.crowded;
+        return dvec2(box.min) + dvec2(c) * dvec2(box.size());
+    });
+    return geometry;
+}
+
+Geometry preparedGeometry(const UploadedAsset& asset, Atlas& atlas, const Squares& squares, int level) {
+    return geometryOf(asset, squares, atlas.prepare(level, squares.min, squares.max));
+}
+
+template <class Vertex>
+void draw(const VertexArrayHandle& array, const BufferHandle& buffer, const std::vector<Vertex>& vertices) {
+    glBindVertexArray(array.get());
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(),
+                 GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, GLsizei(vertices.size()));
+}
+
+void setMatrix(GLint uniform, const glm::dmat2& m) {
+    glUniform4f(uniform, float(m[0].x), float(m[0].y), float(m[1].x), float(m[1].y));
+}
+
+void use(const Program& program, const UploadedAsset& asset, const asset::View& view, double side) {
+    const Sections& s = asset.sections;
+    const glm::dmat2 toPixels(view.toPixels[0] * side, view.toPixels[1] * side);
+    program.use();
+    glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
+    glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
+    glUniform1ui(program.uniform("imageSection"), s.images);
+    glUniform1ui(program.uniform("rampSums"), s.rampSums);
+    const bool mirrored = glm::determinant(toPixels) < 0;
+    setMatrix(program.uniform("tileToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
+    setMatrix(program.uniform("pixelToTile"), glm::inverse(toPixels));
+    const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    glUniform1f(program.uniform("minSteepness"), asset::leastSteepness(pixel));
+}
+
+void bindTexture(Unit unit, const TextureHandle& texture) {
+    glActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+}
+
+}  // namespace
+
+PictureBuffers::PictureBuffers()
+    : flatArray(makeVertexArray()), tileArray(makeVertexArray()), flat(makeBuffer()), tile(makeBuffer()) {
+    glBindVertexArray(flatArray.get());
+    glBindBuffer(GL_ARRAY_BUFFER, flat.get());
+    pointFloats(0, 2, sizeof(FlatVertex), offsetof(FlatVertex, position));
+    pointFloats(1, 4, sizeof(FlatVertex), offsetof(FlatVertex, color));
+    glBindVertexArray(tileArray.get());
+    glBindBuffer(GL_ARRAY_BUFFER, tile.get());
+    pointFloats(0, 2, sizeof(TileVertex), offsetof(TileVertex, position));
+    pointFloats(1, 2, sizeof(TileVertex), offsetof(TileVertex, origin));
+    glEnableVertexAttribArray(2);
+    glVertexAttribIPointer(2, 3, GL_UNSIGNED_INT, sizeof(TileVertex),
+                           reinterpret_cast<const void*>(offsetof(TileVertex, texels)));
+    pointFloats(3, 4, sizeof(TileVertex), offsetof(TileVertex, picture));
+    glBindVertexArray(0);
+}
+
+void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
+                 const PixelBox& box, Finish finish, bool markOverruns) {
+    // The first map stands on what is there, the others add to it.
+    for (Atlas& atlas : asset.atlases) {
+        if (&atlas != &asset.atlases.front()) {
+            glEnable(GL_BLEND);
+            glBlendFunc(GL_ONE, GL_ONE);
+        }
+        const bool scanned = atlas.isScanned(view);
+        const int level = scanned ? 0 : tileLevelFor(atlas.map(), view);
+        const Squares squares(atlas.map(), view, box, level);
+        const Geometry geometry =
+            scanned ? scannedGeometry(atlas, squares) : preparedGeometry(asset, atlas, squares, level);
+        if (!geometry.crowded.empty()) {
+            const bool light = finish.has(Finish::LinearLight);
+            atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);
+            bindTexture(Unit::Layer, atlas.scanned().texture());
+        }
+        bindTexture(Unit::Texels, asset.texels);
+        bindTexture(Unit::Images, asset.images);
+        bindTexture(Unit::Tiles, atlas.texture());
+        if (!geometry.flat.empty()) {
+            use(programs.flat(finish), asset, view, squares.side());
+            draw(buffers.flatArray, buffers.flat, geometry.flat);
+        }
+        const bool crowded = !geometry.crowded.empty();
+        const auto drawTiles = [&](const Program& program, const std::vector<TileVertex>& vertices) {
+            use(program, asset, view, squares.side());
+            glUniform1i(program.uniform("markOverruns"), markOverruns);
+            glUniform2i(program.uniform("scannedCorner"), geometry.crowded.min.x, geometry.crowded.min.y);
+            draw(buffers.tileArray, buffers.tile, vertices);
+        };
+        if (!geometry.solid.empty())
+            drawTiles(programs.tile({}, 0, finish, crowded), geometry.solid);
+        if (!geometry.programs.empty())
+            drawTiles(programs.tile(asset.features, asset.materialSet, finish, crowded), geometry.programs);
+    }
+    if (asset.atlases.size() > 1)
+        glDisable(GL_BLEND);
+}
+
+}  // namespace vtm::gl

@@ -1,0 +1,26 @@
+/// \file
+/// Drawing an exact asset as a picture: every pixel once, by the tile that its centre lies in.
+#pragma once
+
+#include <vtm/raster/view.hpp>
+#include "backend_gl/core/programs.hpp"
+#include "backend_gl/upload/upload.hpp"
+
+namespace vtm::gl {
+
+/// Reused from picture to picture.
+struct PictureBuffers {
+    PictureBuffers();
+
+    VertexArrayHandle flatArray, tileArray;
+    BufferHandle flat, tile;
+};
+
+/// Draws into the bound framebuffer, `view` fitting the viewport, on what stands there if blending is on: all
+/// pixels of `box` that are not transparent, and others, too, unless the scissor keeps them. The view is
+/// invertible; GL is in the state of StateGuard.
+/// `markOverruns`: of RendererOptions.
+void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
+                 const PixelBox& box, Finish finish, bool markOverruns);
+
+}  // namespace vtm::gl

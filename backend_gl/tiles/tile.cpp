@@ -1,0 +1,296 @@
+#include "backend_gl/tiles/tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+
+#include <vtm/limits/limits.hpp>
+#include "backend_gl/core/turns.hpp"
+#include "backend_gl/tiles/rough_cells.hpp"
+#include "backend_gl/tiles/tile_pieces.hpp"
+#include "backend_gl/tiles/tile_references.hpp"
+#include "backend_gl/tiles/tile_texels.hpp"
+#include "backend_gl/tiles/tile_turns.hpp"
+#include "raster/steepness.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::Change;
+using asset::cross;
+using asset::Sides;
+using glm::dvec2;
+
+/// Cells a side.
+constexpr int cellCount = 1 << tileCellsLog2;
+
+// ---- Lists ----------------------------------------------------------------------------------------
+
+/// Pieces by cell: those of cell i are numbers[first[i]] to numbers[first[i + 1]], ascending.
+struct Lists {
+    std::vector<std::uint32_t> first, numbers;
+
+    std::span<const std::uint32_t> of(std::size_t cell) const {
+        return {numbers.data() + first[cell], numbers.data() + first[cell + 1]};
+    }
+};
+
+/// Calls visit(cell) for every cell that the piece can come nearer to than `margin`.
+template <class Visit>
+void forEachCell(const PlanarPiece& p, double margin, Visit&& visit) {
+    const dvec2 d = p.b - p.a;
+    const double inverse = 1 / glm::dot(d, d);
+    const double reach = margin + p.bulge();
+    const double fromCentre = reach + cellSize * std::sqrt(0.5);
+    const auto index = [&](double v) {
+        return int(std::clamp(std::floor(v * cellCount), 0.0, cellCount - 1.0));
+    };
+    if (std::max(p.a.y, p.b.y) + reach < 0 || std::min(p.a.y, p.b.y) - reach > 1)
+        return;
+    const int firstRow = index(std::min(p.a.y, p.b.y) - reach),
+              lastRow = index(std::max(p.a.y, p.b.y) + reach);
+    for (int row = firstRow; row <= lastRow; ++row) {
+        // The chord between the row's borders, moved outwards by the reach.
+        double from = 0, to = 1;
+        if (d.y != 0) {
+            const double u = (row * cellSize - reach - p.a.y) / d.y,
+                         v = ((row + 1) * cellSize + reach - p.a.y) / d.y;
+            from = std::max(from, std::min(u, v));
+            to = std::min(to, std::max(u, v));
+            if (from > to)
+                continue;
+        }
+        const double x0 = p.a.x + from * d.x, x1 = p.a.x + to * d.x;
+        const double least = std::min(x0, x1) - reach, most = std::max(x0, x1) + reach;
+        if (most < 0 || least > 1)
+            continue;
+        for (int column = index(least), last = index(most); column <= last; ++column)
+            if (distance2(p.a, d, inverse, (dvec2(column, row) + 0.5) * cellSize) <= fromCentre * fromCentre)
+                visit(std::uint32_t(row * cellCount + column));
+    }
+}
+
+Lists listsOf(const std::vector<PlanarPiece>& pieces, double margin) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // cell, piece
+    for (std::uint32_t i = 0; i < pieces.size(); ++i)
+        forEachCell(pieces[i], margin, [&](std::uint32_t cell) { found.emplace_back(cell, i); });
+    Lists lists;
+    lists.first.assign(cellCount * cellCount + 1, 0);
+    for (const auto& [cell, piece] : found)
+        ++lists.first[cell + 1];
+    for (std::size_t i = 1; i < lists.first.size(); ++i)
+        lists.first[i] += lists.first[i - 1];
+    std::vector<std::uint32_t> next(lists.first.begin(), lists.first.end() - 1);
+    lists.numbers.resize(found.size());
+    for (const auto& [cell, piece] : found)
+        lists.numbers[next[cell]++] = piece;
+    return lists;
+}
+
+// ---- Paints of reference points --------------------------------------------------------------------
+
+/// The net change of paint that a piece makes on the straight way from one point to another: 1 from right to
+/// left, -1 from left to right.
+int crossing(const PlanarPiece& p, dvec2 from, dvec2 to) {
+    const Sides start = p.sidesOf(from), end = p.sidesOf(to);
+    const dvec2 way = to - from;
+    const bool between = (cross(way, p.a - from) > 0) != (cross(way, p.b - from) > 0);
+    return (between ? int(end.leftOfChord) - int(start.leftOfChord) : 0) +
+           (int(end.leftOfCurve) - int(end.leftOfChord)) - (int(start.leftOfCurve) - int(start.leftOfChord));
+}
+
+/// The paint at one point, known that at another; `a`, `b`: the pieces near either.
+class Walk {
+public:
+    explicit Walk(const std::vector<PlanarPiece>& pieces) : pieces_(pieces) {}
+
+    std::uint32_t paintAt(dvec2 to, const Reference& from, std::span<const std::uint32_t> a,
+                          std::span<const std::uint32_t> b) {
+        if (a.empty() && b.empty())
+            return from.paint;
+        changes_.clear();
+        std::size_t i = 0, j = 0;
+        while (i < a.size() || j < b.size()) {
+            const std::uint32_t next = std::min(i < a.size() ? a[i] : ~0u, j < b.size() ? b[j] : ~0u);
+            i += i < a.size() && a[i] == next;
+            j += j < b.size() && b[j] == next;
+            const PlanarPiece& piece = pieces_[next];
+            if (const int change = crossing(piece, from.point, to); change > 0)
+                changes_.push_back({0, piece.right, piece.left});
+            else if (change < 0)
+                changes_.push_back({0, piece.left, piece.right});
+        }
+        return paintBehind(from.paint, changes_);
+    }
+
+private:
+    const std::vector<PlanarPiece>& pieces_;
+    std::vector<Change> changes_;
+};
+
+/// With those between the same two paints one after the other, where shaders gain from it: what asks paint
+/// programs for colours keeps the last two (tile_programs_fragment.glsl).
+std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, bool programs) {
+    if (programs)
+        std::ranges::stable_sort(pieces, {}, [](const PlanarPiece& p) {
+            return std::minmax({p.left, p.right});
+        });
+    return pieces;
+}
+
+bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* const> near) {
+    const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset.paints[paint]); };
+    return std::ranges::any_of(
+        near, [&](const PlanarPiece* p) { return isProgram(p->left) || isProgram(p->right); });
+}
+
+/// A tile's cells, in the picture.
+class CellPlaces {
+public:
+    CellPlaces(const TileSource& source, const TilePlace& place, double margin)
+        : side_(std::ldexp(source.pieces.map().side, -place.level)),
+          corner_(source.pieces.map().origin + side_ * dvec2(double(place.x), double(place.y))),
+          margin_(margin * side_) {}
+
+    /// Corners of a pixel are no further from its centre than the margin, so it stretches what it maps by no
+    /// more than twice that.
+    double stretch() const { return 2 * margin_; }
+    /// The pixels with centres in a cell.
+    asset::PixelsNear pixels(int column, int row) const {
+        const double cell = cellSize * side_;
+        return {corner_ + cell * dvec2(column + 0.5, row + 0.5), std::sqrt(0.5) * cell, stretch()};
+    }
+
+private:
+    double side_;
+    dvec2 corner_;
+    double margin_;
+};
+
+/// Which cells shaders do not draw: they would take too many turns, or not be exact.
+class HandedOver {
+public:
+    HandedOver(const TileSource& source, const CellPlaces& places, bool programs)
+        : maxTurns_(source.asset.materials.empty() ? source.maxTurns : source.maxTurns * materialFactor),
+          programs_(programs),
+          costs_{source.programTurns, source.changes, asset::leastSteepness(glm::dmat2(places.stretch()))} {
+        if (programs && source.asset.materials.empty())
+            rough_ = RoughCells(source.asset, source.changes);
+    }
+
+    bool operator()(const asset::PixelsNear& pixels, std::uint32_t paint,
+                    const std::vector<PlanarPiece>& pieces, std::span<const std::uint32_t> list) const {
+        const std::uint64_t turns =
+            programs_ ? turnsWithPrograms(costs_, paint, pieces, list) : solidTurns(list.size());
+        return turns > maxTurns_ || rough_.mayBe(pixels, paint, pieces, list);
+    }
+
+private:
+    /// The scanner has no colours of materials, so shaders take up to half of what a driver allows; pixels
+    /// that share an invocation have cells that are alike.
+    static constexpr std::uint64_t materialFactor = vectorPixels / 2;
+
+    std::uint64_t maxTurns_;
+    bool programs_;
+    PaintCosts costs_;
+    RoughCells rough_;
+};
+
+/// Of one paint: nothing but that, unless there are cells that shaders do not draw.
+Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
+    Tile tile;
+    tile.paint = paint;
+    tile.programs = asset::isProgram(source.asset.paints[paint]);
+    if (!tile.programs)
+        return tile;
+    const std::vector<PlanarPiece> none;
+    const HandedOver isHandedOver(source, places, true);
+    CellWriter writer(source.asset.paints, none, tile.texels);
+    std::vector<Texel> cells;
+    for (int cell = 0; cell < cellCount * cellCount; ++cell) {
+        const Reference here{dvec2(0.5), 0, paint};
+        const bool crowded = isHandedOver(places.pixels(cell % cellCount, cell / cellCount), paint, none, {});
+        cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
+        if (crowded)
+            tile.crowded.push_back(std::uint8_t(cell));
+    }
+    if (!tile.crowded.empty())
+        tile.texels = std::move(cells);
+    return tile;
+}
+
+/// A point that is clear of pieces, and its paint. Where there are pieces it lies in the first cell.
+std::optional<Reference> startOf(const TileSource& source, const LocalPieces& local, bool isEmpty,
+                                 std::span<const PlanarPiece* const> near) {
+    const std::optional<dvec2> point = clearPoint(local, isEmpty ? 1 : cellSize, near);
+    if (!point)
+        return std::nullopt;
+    return Reference{*point, 0, source.pieces.paintAt(local.toLattice(*point))};
+}
+
+}  // namespace
+
+Tile crowdedTile(std::span<const asset::Paint> paints) {
+    Tile tile;
+    const std::vector<PlanarPiece> none;
+    const CellWriter writer(paints, none, tile.texels);
+    for (int cell = 0; cell < cellCount * cellCount; ++cell)
+        tile.crowded.push_back(std::uint8_t(cell));
+    tile.texels.assign(tile.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
+    return tile;
+}
+
+Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
+               std::span<const PlanarPiece* const> near) {
+    const LocalPieces local(source.pieces.map().extent, place, margin, near);
+    const CellPlaces places(source, place, margin);
+    const bool programs = hasPrograms(source.asset, near);
+    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
+    const Lists lists = listsOf(pieces, margin);
+    const std::optional<Reference> start = startOf(source, local, lists.numbers.empty(), near);
+    if (!start)
+        return crowdedTile(source.asset.paints);
+    if (lists.numbers.empty())
+        return flatTile(source, places, start->paint);
+    const HandedOver isHandedOver(source, places, programs);
+    Tile tile;
+    tile.programs = programs;
+    for (const PlanarPiece& piece : pieces) {
+        limits::check();
+        tile.texels.push_back(geometryTexel(piece));
+        tile.texels.push_back(colorTexel(source.asset.paints[piece.left], source.asset.paints[piece.right]));
+    }
+    std::vector<Texel> cells;
+    cells.reserve(cellCount * cellCount);
+    CellWriter writer(source.asset.paints, pieces, tile.texels);
+    Walk walk(pieces);
+    Reference rowStart, last;
+    for (int row = 0; row < cellCount; ++row)
+        for (int column = 0; column < cellCount; ++column) {
+            const std::size_t i = cells.size();
+            Reference here = referenceIn(column, row, pieces, lists.of(i));
+            if (i == 0)
+                here.paint = walk.paintAt(here.point, *start, {}, lists.of(i));
+            else if (column == 0)
+                here.paint = walk.paintAt(here.point, rowStart, lists.of(i - cellCount), lists.of(i));
+            else
+                here.paint = walk.paintAt(here.point, last, lists.of(i - 1), lists.of(i));
+            const bool crowded = isHandedOver(places.pixels(column, row), here.paint, pieces, lists.of(i));
+            cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
+            if (crowded)
+                tile.crowded.push_back(std::uint8_t(i));
+            last = here;
+            if (column == 0)
+                rowStart = here;
+        }
+    tile.firstCell = std::uint32_t(tile.texels.size());
+    tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
+    return tile;
+}
+
+}  // namespace vtm::gl

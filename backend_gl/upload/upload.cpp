@@ -1,0 +1,118 @@
+#include "backend_gl/upload/upload.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "backend_gl/core/constants.hpp"
+#include "backend_gl/upload/asset_texels.hpp"
+#include "backend_gl/upload/ramp_sums.hpp"
+#include "raster/steepness.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::AssetView;
+using asset::Texel;
+
+constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
+
+/// All finite, as GLSL wants numbers.
+std::vector<float> finiteSteepness(const AssetView& asset) {
+    std::vector<float> steepness = asset::steepnessOf(asset);
+    for (float& s : steepness)
+        s = std::min(s, std::numeric_limits<float>::max());
+    return steepness;
+}
+
+/// Programs with their steepness in the word that is free.
+std::vector<asset::Paint> paintTexels(const AssetView& asset, std::span<const float> steepness) {
+    std::vector<asset::Paint> paints(asset.paints.begin(), asset.paints.end());
+    for (std::size_t i = 0; i < paints.size(); ++i)
+        if (asset::isProgram(paints[i]))
+            paints[i][2] = std::bit_cast<std::uint32_t>(steepness[i]);
+    return paints;
+}
+
+/// The trees themselves stay behind: instances stand for them, and tiles for the leaves of sums of maps.
+std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> steepness,
+                                std::span<const Texel> imageList, Sections& sections) {
+    std::vector<Texel> texels;
+    if (!isSumOfMaps(asset)) {
+        sections.leaves = appendTexels(texels, asset.leaves);
+        sections.pieces = appendTexels(texels, asset.pieces);
+    }
+    sections.paints = appendTexels<asset::Paint>(texels, paintTexels(asset, steepness));
+    sections.data = appendTexels(texels, asset.data);
+    sections.images = appendTexels<Texel>(texels, imageList);
+    sections.rampSums = appendTexels<Texel>(texels, rampSums(asset));
+    return texels;
+}
+
+BufferHandle uploadInstances(const std::vector<Instance>& instances) {
+    BufferHandle buffer = makeBuffer();
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(instances.size() * sizeof(Instance)), instances.data(),
+                 GL_STATIC_DRAW);
+    checkErrors("instances");
+    return buffer;
+}
+
+}  // namespace
+
+UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::uint32_t maxTurns)
+    : maps(asset.maps.begin(), asset.maps.end()),
+      commands(asset.commands.begin(), asset.commands.end()),
+      list(isSumOfMaps(asset) ? InstanceList{} : makeInstances(asset)),
+      features(featuresOf(asset)),
+      materialSet(materials),
+      paints(asset.paints.begin(), asset.paints.end()),
+      finestPixel(asset.finestPixel) {
+    if (isSumOfMaps(asset)) {
+        kept = keptOf(asset);
+        for (const asset::Command& command : asset.commands)
+            atlases.emplace_back(kept, asset.maps[command.map], maxTurns);
+    }
+    ImageTexels pictures = imageTexels(asset);
+    const std::vector<float> steepness = finiteSteepness(asset);
+    texels = texelTexture(joinedTexels(asset, steepness, pictures.list, sections));
+    images = imageTexture(std::move(pictures.rgba));
+    instances = uploadInstances(list.instances);
+    list.instances = {};
+    placements.resize((maps.size() / mapsPerRow + 1) * mapsPerRow);
+    placementTexels = makeTexture(GL_RGBA32F, placementColumns, int(placements.size() / mapsPerRow));
+}
+
+void UploadedAsset::uploadPlacements(std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t firstRow = first / mapsPerRow, rows = last / mapsPerRow - firstRow + 1;
+    glBindTexture(GL_TEXTURE_2D, placementTexels.get());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, GLint(firstRow), placementColumns, GLsizei(rows), GL_RGBA, GL_FLOAT,
+                    &placements[firstRow * mapsPerRow]);
+}
+
+Texture::Texture(std::unique_ptr<Impl> impl, Renderer& renderer)
+    : renderer_(&renderer), impl_(std::move(impl)) {}
+
+Texture::Texture(const asset::AssetView& asset, const RendererOptions& options)
+    : own_(std::make_unique<Renderer>(options)),
+      renderer_(own_.get()),
+      impl_(std::move(own_->upload(asset).impl_)) {}
+
+Texture::~Texture() = default;
+Texture::Texture(Texture&&) noexcept = default;
+
+Texture& Texture::operator=(Texture&& other) noexcept {
+    impl_ = std::move(other.impl_);  // the old one before its renderer
+    own_ = std::move(other.own_);
+    renderer_ = other.renderer_;
+    return *this;
+}
+
+void Texture::draw(const asset::View& view, const Output& output) const {
+    renderer_->draw(*this, view, output);
+}
+
+std::optional<double> Texture::finestPixel() const { return impl_->finestPixel; }
+
+}  // namespace vtm::gl

@@ -1,0 +1,217 @@
+// Paper mode: painter's order, clips and the opacity of groups folded into a graph of nodes.
+
+#include "paper/compile.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+#include <vtm/asset/container.hpp>
+#include "compiler/compile/clock.hpp"
+#include "compiler/lower/paints.hpp"
+#include "paper/compile/mask.hpp"
+
+namespace vtm::paper {
+
+namespace {
+
+MaskOptions maskOptions(const Asset& asset, const CompileOptions& o) {
+    return {{asset.width, asset.height},
+            o.tolerance * std::max(asset.width, asset.height),
+            o.maxDepth,
+            o.mipLog2};
+}
+
+/// The scene's paints as the palette of an asset.
+class Palette {
+public:
+    Palette(asset::Asset& palette, double side)
+        : palette_(palette), table_(picture_, {scene::identity, side, side, false}) {
+        palette_.paints.push_back({});
+    }
+
+    /// 0 where nothing can be painted.
+    std::uint32_t add(const scene::Paint& paint, const scene::Affine& transform) {
+        const auto index = table_.add(paint, transform);
+        if (!index)
+            return 0;
+        const compiler::Source& source = picture_.sources[*index];
+        if (source.op == asset::Op::Solid)
+            palette_.paints.push_back(std::bit_cast<asset::Paint>(source.color));
+        else
+            programs_.push_back({std::uint32_t(palette_.paints.size()), source}),
+                palette_.paints.push_back({});
+        return std::uint32_t(palette_.paints.size() - 1);
+    }
+
+    /// What the programs refer to first, then a program of one instruction for each.
+    void finish() {
+        palette_.data = std::move(picture_.data);
+        palette_.images = compiler::bitmapsOf(picture_);
+        palette_.materials = std::move(picture_.materials);
+        for (const auto& [paint, source] : programs_) {
+            palette_.paints[paint] = {std::uint32_t(palette_.data.size()), 1, 0, asset::programTag};
+            const asset::Instruction layer{source.op, asset::Blend::Normal, 1, source.data};
+            palette_.data.push_back(std::bit_cast<asset::Texel>(layer));
+        }
+    }
+
+private:
+    asset::Asset& palette_;
+    compiler::Picture picture_;
+    compiler::PaintTable table_;
+    std::vector<std::pair<std::uint32_t, compiler::Source>> programs_;
+};
+
+/// What the model cannot say, and what is done instead.
+struct Missing {
+    std::string what, instead;
+    auto operator<=>(const Missing&) const = default;
+};
+
+/// Each function returns the node that shows something over `rest`, or `rest` where nothing is to show.
+class Folding {
+public:
+    explicit Folding(CompileResult& result)
+        : result_(result),
+          palette_(result.asset.palette, std::max(result.asset.width, result.asset.height)) {}
+
+    void run(const scene::Scene& scene) {
+        result_.asset.root = group(scene.root, noIndex);
+        palette_.finish();
+        for (const auto& [missing, times] : missing_)
+            result_.warnings.push_back(std::string("the paper's model has no ") + missing.what + " (" +
+                                       std::to_string(times) + "): " + missing.instead);
+    }
+
+private:
+    std::uint32_t group(const scene::Group& g, std::uint32_t rest) {
+        if (g.blend != scene::BlendMode::Normal)
+            ++missing_[{"blend modes", "drawn as normal"}];
+        if (g.mask)
+            ++missing_[{"masks by luminance or alpha", "drawn without"}];
+        std::uint32_t inside = rest;
+        for (const scene::Node& node : g.children) {
+            limits::check();
+            if (const auto* item = std::get_if<scene::Item>(&node.value))
+                inside = this->item(*item, inside);
+            else if (const auto* chosen = std::get_if<scene::Select>(&node.value))
+                inside = select(*chosen, inside);
+            else
+                inside = group(std::get<scene::Group>(node.value), inside);
+        }
+        if (inside == rest)
+            return rest;
+        // A group with normal blending is as if its children stood in its place, so o G + (1 - o) T.
+        if (g.opacity < 1)
+            inside = push({noIndex, g.opacity, {0, inside, false}, {0, rest, false}});
+        return g.clip ? clipped(*g.clip, inside, rest) : inside;
+    }
+
+    /// The model itself: a mask and two sides.
+    std::uint32_t select(const scene::Select& s, std::uint32_t rest) {
+        const std::uint32_t inside = s.inside ? group(*s.inside, rest) : rest;
+        const std::uint32_t outside = s.outside ? group(*s.outside, rest) : rest;
+        if (inside == outside)
+            return rest;
+        const std::uint32_t shape = mask(*s.mask.path, s.mask.transform, s.mask.geometry);
+        return push({shape, 1, {0, inside, false}, {0, outside, false}});
+    }
+
+    std::uint32_t item(const scene::Item& item, std::uint32_t rest) {
+        const limits::Stage stage("making the mask of", item.place);
+        if (std::holds_alternative<scene::Pattern>(item.paint))
+            ++missing_[{"patterns", "not drawn"}];
+        const std::uint32_t paint = palette_.add(item.paint, item.transform);
+        const std::uint32_t shape = mask(*item.path, item.transform, item.geometry);
+        result_.maskOfItem.push_back(shape);
+        return push({shape, item.opacity, {paint, rest, false}, {0, rest, false}});
+    }
+
+    /// Union of the shapes: inside one of them `inside`, otherwise the next one decides.
+    std::uint32_t clipped(const scene::Clip& clip, std::uint32_t inside, std::uint32_t rest) {
+        std::uint32_t result = rest;
+        for (const scene::ClipShape& shape : clip.shapes) {
+            const std::uint32_t within = shape.clip ? clipped(*shape.clip, inside, result) : inside;
+            const std::uint32_t outline = mask(*shape.path, shape.transform, shape.rule);
+            result = push({outline, 1, {0, within, false}, {0, result, false}});
+        }
+        return clip.clip && result != rest ? clipped(*clip.clip, result, rest) : result;
+    }
+
+    std::uint32_t mask(const scene::Path& path, const scene::Affine& transform,
+                       const std::variant<scene::FillRule, scene::StrokeStyle>& geometry) {
+        if (result_.asset.masks.size() >= maxMasks)
+            throw compiler::LimitError("the picture would take more than " + std::to_string(maxMasks) +
+                                       " masks");
+        auto made = makeMask(path, transform, geometry, maskOptions(result_.asset, result_.options));
+        cells_ += made.mask.cells.size();
+        if (cells_ > maxCells)
+            throw compiler::LimitError("the picture would take more than " + std::to_string(maxCells) +
+                                       " cells");
+        result_.asset.masks.push_back(std::move(made.mask));
+        result_.approximated.push_back(made.approximated);
+        return std::uint32_t(result_.asset.masks.size() - 1);
+    }
+
+    std::uint32_t push(const Node& node) {
+        limits::check();
+        result_.asset.nodes.push_back(node);
+        return std::uint32_t(result_.asset.nodes.size() - 1);
+    }
+
+    CompileResult& result_;
+    Palette palette_;
+    std::size_t cells_ = 0;
+    std::map<Missing, std::size_t> missing_;
+};
+
+void checkOptions(const CompileOptions& o) {
+    if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
+        throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
+    if (o.maxDepth > 8)
+        throw std::invalid_argument("maxDepth must be at most 8");
+    if (o.mipLog2 > 10)
+        throw std::invalid_argument("mipLog2 must be at most 10");
+}
+
+}  // namespace
+
+std::size_t CompileResult::approximatedCells() const {
+    return std::accumulate(approximated.begin(), approximated.end(), std::size_t(0));
+}
+
+CompileResult compile(const scene::Scene& scene, const CompileOptions& options) {
+    checkOptions(options);
+    scene::validate(scene);
+    const auto start = compiler::Clock::now();
+    CompileResult result;
+    result.options = options;
+    result.asset.width = scene.width;
+    result.asset.height = scene.height;
+    Folding(result).run(scene);
+    try {
+        validate(result.asset);
+    } catch (const asset::FormatError& error) {
+        throw compiler::LimitError(std::string("the paper mode cannot hold this picture: ") + error.what());
+    }
+    if (const std::size_t cells = result.approximatedCells(); cells > 0)
+        result.warnings.push_back(std::to_string(cells) +
+                                  " cells would need more than two pieces and one operator; the best two "
+                                  "were kept");
+    result.stages = {{"masks", compiler::milliseconds(start, compiler::Clock::now())}};
+    return result;
+}
+
+void rebuildMask(CompileResult& result, std::size_t item, const scene::Item& changed) {
+    const std::uint32_t index = result.maskOfItem.at(item);
+    auto made = makeMask(*changed.path, changed.transform, changed.geometry,
+                         maskOptions(result.asset, result.options));
+    result.asset.masks[index] = std::move(made.mask);
+    result.approximated[index] = made.approximated;
+}
+
+}  // namespace vtm::paper

@@ -1,0 +1,31 @@
+/// \file
+/// Adding one map to a raster: the sum of all its leaves over every pixel.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <vtm/raster/view.hpp>
+#include "raster/src/paint.hpp"
+
+namespace vtm::asset {
+
+/// Pixels [min, max) of a raster.
+struct PixelBox {
+    glm::ivec2 min{0}, max{0};
+    bool empty() const { return min.x >= max.x || min.y >= max.y; }
+};
+
+/// The pixels of `view` whose boxes can meet the square with min corner `corner`.
+PixelBox pixelsOf(const View& view, glm::dvec2 corner, double side);
+
+/// The view that sees only `box` of `view`.
+View crop(const View& view, const PixelBox& box);
+
+/// target += coverage of each pixel's box, of a map with the paints 0 and 1.
+void addCoverage(const Paints& paints, const Map& map, const View& view, image::Raster& target);
+
+/// target += ∫ colour over each pixel's box; of rough pixels, so many levels finer (raster/src/rough.hpp).
+void addColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
+               int finerLevels, image::Raster& target);
+
+}  // namespace vtm::asset

@@ -1,0 +1,36 @@
+/// \file
+/// Gradients of paint programs; twin of backend_gl/shaders/shared/gradient.glsl.
+#pragma once
+
+#include <span>
+
+#include <glm/mat2x2.hpp>
+#include <glm/vec2.hpp>
+
+#include "asset/records.hpp"
+#include "raster/src/float4.hpp"
+
+namespace vtm::asset {
+
+/// (m0 m1), (m2 m3), (m4 m5) as columns, applied to a picture point.
+inline glm::vec2 applyMatrix(const std::array<float, 6>& m, glm::vec2 p) {
+    return {m[0] * p.x + m[2] * p.y + m[4], m[1] * p.x + m[3] * p.y + m[5]};
+}
+
+/// Colours of so many places are made together, at most.
+inline constexpr std::size_t longestRow = 64;
+
+/// Premultiplied mean colours over up to longestRow pixels, one after the other: the middle of the first one
+/// is a picture point, a step leads to the next one's, and their sides are `pixel`; 0: the colours at the
+/// points. Exact for linear gradients and pixels along their axis (docs/coverage.md).
+void linearColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
+                  std::span<Float4> colors);
+void radialColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
+                  std::span<Float4> colors);
+/// The same over pixels whose middles are anywhere.
+void linearColors(const GradientView& gradient, std::span<const glm::vec2> points, const glm::mat2& pixel,
+                  std::span<Float4> colors);
+void radialColors(const GradientView& gradient, std::span<const glm::vec2> points, const glm::mat2& pixel,
+                  std::span<Float4> colors);
+
+}  // namespace vtm::asset

@@ -1,0 +1,139 @@
+#include "raster/src/image_fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "raster/src/gradient.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+using glm::mat2;
+using glm::vec2;
+using glm::vec4;
+
+/// Texels of one level, beyond whose border the border's go on.
+struct Texels {
+    int width, height;
+    const std::uint8_t* rgba;
+    bool premultiplied;
+
+    vec4 at(int x, int y) const {
+        x = std::clamp(x, 0, width - 1);
+        y = std::clamp(y, 0, height - 1);
+        const std::uint8_t* p = rgba + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4;
+        const vec4 c = vec4(p[0], p[1], p[2], p[3]) / 255.0f;
+        return premultiplied ? c : vec4(glm::vec3(c) * c.a, c.a);
+    }
+};
+
+/// Weight of a texel at distance d along one axis, of 1, 2 or 4 next to the point: box, tent, and
+/// Catmull-Rom's cubic (Keys 1981, a = -1/2): it passes through the pixels, and through the points of any
+/// quadratic.
+float kernel(int taps, float d) {
+    d = std::abs(d);
+    if (taps == 1)
+        return 1;
+    if (taps == 2)
+        return 1 - d;
+    return d < 1 ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
+}
+
+/// Premultiplied neighbours are summed, so that transparent pixels lend no colour.
+vec4 filtered(const Texels& texels, vec2 place, int taps) {
+    // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes on
+    // anyway.
+    const vec2 p(std::fmax(-2.0f, std::fmin(place.x, float(texels.width) + 2)),
+                 std::fmax(-2.0f, std::fmin(place.y, float(texels.height) + 2)));
+    const vec2 corner = glm::floor(p - 0.5f * float(taps - 1));
+    vec4 sum(0);
+    for (int j = 0; j < taps; ++j)
+        for (int i = 0; i < taps; ++i) {
+            const vec2 d = corner + vec2(i, j) + 0.5f - p;
+            sum += kernel(taps, d.x) * kernel(taps, d.y) * texels.at(int(corner.x) + i, int(corner.y) + j);
+        }
+    return sum;
+}
+
+/// Where a pixel's footprint is read (docs/scene.md, filters of images): at 2 side + 1 points along its
+/// longer axis, a step apart, each for a square `width` wide. The outermost two count `outer`, and all of
+/// them `all`.
+struct Probes {
+    int side;
+    float width, outer, all;
+    vec2 step;
+};
+
+constexpr float mostOblong = 16, nearlyRound = 1.0f / 64;
+
+/// `m`: a pixel's sides in the image. Its singular values are the axes of the ellipse that it makes of a
+/// circle.
+Probes probesOf(const mat2& m) {
+    const float a = m[0].x * m[0].x + m[1].x * m[1].x, b = m[0].x * m[0].y + m[1].x * m[1].y,
+                c = m[0].y * m[0].y + m[1].y * m[1].y;
+    const float half = 0.5f * (a - c), root = glm::length(vec2(half, b));
+    const float longer = std::sqrt(0.5f * (a + c) + root), shorter = std::abs(glm::determinant(m)) / longer;
+    const vec2 along = half > 0 ? vec2(half + root, b) : vec2(b, root - half);
+    // fmax and fmin: what is no number gives way to the other.
+    const float width = std::fmax(1.0f, std::fmax(shorter, longer / mostOblong));
+    const float all = std::fmax(1.0f, std::fmin(longer / width - nearlyRound, mostOblong));
+    const int side = int(std::ceil(0.5f * (all - 1)));
+    return {side, width, side == 0 ? 1 : 0.5f * (all - float(2 * side - 1)), all,
+            side == 0 ? vec2(0) : along * (width / glm::length(along))};
+}
+
+/// Catmull-Rom overshoots beside edges.
+vec4 asColor(vec4 c) {
+    const float a = glm::clamp(c.a, 0.0f, 1.0f);
+    return {glm::clamp(glm::vec3(c), 0.0f, a), a};
+}
+
+int tapsOf(ImageFilter filter) {
+    return filter == ImageFilter::Nearest ? 1 : filter == ImageFilter::Bicubic ? 4 : 2;
+}
+
+}  // namespace
+
+Images::Images(const AssetView& asset) {
+    const std::vector<bool> wanted = imagesWithLevels(asset);
+    for (std::size_t i = 0; i < asset.images.size(); ++i)
+        pictures_.push_back(
+            {&asset.images[i], wanted[i] ? image::levelsOf(asset.images[i]) : std::vector<image::Level>()});
+}
+
+vec4 Images::color(const ImageFill& fill, vec2 point, const mat2& pixel) const {
+    const Picture& picture = pictures_[fill.image];
+    const vec2 p = applyMatrix(fill.matrix, point);
+    const auto level = [&](std::size_t l, vec2 place) {
+        if (l == 0)
+            return filtered(
+                {picture.bitmap->width, picture.bitmap->height, picture.bitmap->rgba.data(), false}, place,
+                tapsOf(fill.filter));
+        const image::Level& texels = picture.levels[l - 1];
+        return filtered({texels.width, texels.height, texels.rgba.data(), true},
+                        std::ldexp(1.0f, -int(l)) * place, 2);
+    };
+    if (fill.filter < ImageFilter::Trilinear)
+        return level(0, p);
+    const mat2 linear(fill.matrix[0], fill.matrix[1], fill.matrix[2], fill.matrix[3]);
+    const Probes probes = probesOf(linear * pixel);
+    const float last = float(picture.levels.size());
+    const float lod = std::fmin(std::log2(probes.width), last);
+    const auto finer = std::size_t(lod);
+    const float share = lod - float(finer);
+    vec4 sum(0);
+    for (int i = -probes.side; i <= probes.side; ++i) {
+        const vec2 place = p + float(i) * probes.step;
+        const vec4 color =
+            share == 0 ? level(finer, place) : glm::mix(level(finer, place), level(finer + 1, place), share);
+        sum += (std::abs(i) == probes.side ? probes.outer : 1) / probes.all * color;
+    }
+    return asColor(sum);
+}
+
+}  // namespace vtm::asset

@@ -1,0 +1,62 @@
+/// \file
+/// Paints and paint programs; twin of backend_gl/shaders/shared/paint.glsl.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/mat2x2.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <vtm/raster/evaluate.hpp>
+#include "raster/src/float4.hpp"
+#include "raster/src/image_fill.hpp"
+#include "raster/steepness.hpp"
+
+namespace vtm::asset {
+
+/// Where a paint is asked for its colour.
+struct PaintPlace {
+    glm::vec2 point{0};  ///< of the picture
+    glm::mat2 pixel{0};  ///< what a step of a pixel in x and in y is there; 0: as if magnified
+};
+
+/// An asset's paints, with what they need made once. The asset must outlive it.
+class Paints {
+public:
+    explicit Paints(const AssetView& asset);
+
+    /// Premultiplied.
+    glm::vec4 color(std::uint32_t paint, const PaintPlace& place,
+                    const MaterialFunction& materials = {}) const;
+    /// At places that are `step` apart, of which `place` is the first.
+    void colors(std::uint32_t paint, const PaintPlace& place, glm::vec2 step, std::span<Float4> colors,
+                const MaterialFunction& materials = {}) const;
+
+    /// At places anywhere, of pixels of one size.
+    void colors(std::uint32_t paint, std::span<const glm::vec2> points, const glm::mat2& pixel,
+                std::span<Float4> colors, const MaterialFunction& materials = {}) const;
+
+    const AssetView& asset() const { return asset_; }
+    const Images& images() const { return images_; }
+    /// By paint (raster/steepness.hpp).
+    std::span<const PaintChange> changes() const { return changes_; }
+    /// Of gradients: by texel of the asset's data, straight, where a stop stands.
+    std::span<const glm::vec4> stopColors() const { return stopColors_; }
+
+private:
+    template <class Places>
+    void run(const Paint& program, Places places, std::span<Float4> colors,
+             const MaterialFunction& materials) const;
+
+    AssetView asset_;
+    Images images_;
+    std::vector<PaintChange> changes_;
+    std::vector<glm::vec4> stopColors_;
+};
+
+/// As evaluate(asset, view, materials), for drawing several views.
+image::Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials = {});
+
+}  // namespace vtm::asset

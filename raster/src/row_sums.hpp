@@ -1,0 +1,315 @@
+/// \file
+/// Running sums along rows: every piece of boundary adds what changes at it, going along a row, to the pixels
+/// that it meets (docs/coverage.md).
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <vtm/raster/view.hpp>
+#include "raster/planar_map.hpp"
+#include "raster/src/float4.hpp"
+
+namespace vtm::asset {
+
+/// Rows that are summed at a time: their changes stay in the cache.
+inline constexpr int bandRows = 16;
+
+/// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
+inline constexpr float leastShare = 1e-5f;
+
+/// A chord is nowhere further from its curve, pixels: half a 255th of a pixel's area. Chords lie on both
+/// sides of the curve, so that what they miss cancels within a pixel where it holds more than one.
+inline constexpr double chordTolerance = 1.0 / 512;
+
+/// A piece with what does not depend on the view: how far it is from its chord, and how much it bends.
+struct Boundary {
+    PlanarPiece piece;
+    double bulge;
+    double steps;  ///< as many chords are needed where a lattice step is a pixel
+
+    explicit Boundary(const PlanarPiece& p) : piece(p), bulge(p.bulge()) {
+        // Over a step h of s a chord between points of the curve is off by h² |t''| / 8, by 2/3 of that in
+        // the mean. Moved outwards by the mean, its points are off by h² |t''| / 12, and it is nowhere by
+        // more. t'' is linear: |t''| is largest at an end.
+        const double bend = std::max(std::abs(p.bend(0)), std::abs(p.bend(1))) * glm::length(p.b - p.a);
+        steps = std::sqrt(bend / (12 * chordTolerance));
+    }
+};
+
+/// A straight part of a piece, in pixels. Left and right are the pixels'.
+struct Chord {
+    glm::vec2 a, b;
+    std::uint16_t left, right;
+};
+
+/// Chords by the band of rows that they meet; those of several bands are in each of them.
+class Bands {
+public:
+    void clear(int height) {
+        chords_.resize(std::size_t((height + bandRows - 1) / bandRows));
+        for (std::vector<Chord>& band : chords_)
+            band.clear();
+    }
+    /// Nothing if the chord changes no pixel of a picture of that size.
+    void add(const Chord& chord, float width, float height) {
+        const float top = std::min(chord.a.y, chord.b.y), bottom = std::max(chord.a.y, chord.b.y);
+        if (top == bottom || bottom <= 0 || top >= height || std::min(chord.a.x, chord.b.x) >= width)
+            return;
+        const auto last = unsigned(std::min(bottom, height - 1)) / bandRows;
+        for (unsigned band = unsigned(std::max(top, 0.0f)) / bandRows; band <= last; ++band)
+            chords_[band].push_back(chord);
+    }
+    std::span<const Chord> of(int band) const { return chords_[std::size_t(band)]; }
+
+private:
+    std::vector<std::vector<Chord>> chords_;
+};
+
+// ---- Chords ---------------------------------------------------------------------------------------
+
+/// Appends the chords of all pieces that can change a pixel of the view.
+class Chords {
+public:
+    Chords(const MapPlace& map, const View& view, Bands& bands)
+        : width_(float(view.width)), height_(float(view.height)), bands_(bands) {
+        const double step = map.side / map.extent;
+        linear_ = glm::dmat2(view.toPixels[0] * step, view.toPixels[1] * step);
+        origin_ = view.toPixels * glm::dvec3(map.origin, 1);
+        const double determinant = glm::determinant(linear_);
+        mirrored_ = determinant < 0;
+        // The largest singular value.
+        const double x = glm::dot(linear_[0], linear_[0]), y = glm::dot(linear_[1], linear_[1]);
+        stretch_ = std::sqrt(0.5 * (x + y) + std::hypot(0.5 * (x - y), glm::dot(linear_[0], linear_[1])));
+        stretchRoot_ = std::sqrt(stretch_);
+    }
+
+    void add(const Boundary& boundary) {
+        const PlanarPiece& piece = boundary.piece;
+        const glm::dvec2 a = linear_ * piece.a + origin_, b = linear_ * piece.b + origin_;
+        const double bulge = boundary.bulge * stretch_;
+        if (std::max(a.y, b.y) + bulge <= 0 || std::min(a.y, b.y) - bulge >= height_ ||
+            std::min(a.x, b.x) - bulge >= width_)
+            return;
+        const double steps = boundary.steps * stretchRoot_;
+        if (steps <= 1)
+            return addChord(glm::vec2(a), glm::vec2(b), piece);
+        addChords(int(std::min(steps, mostChords)) + 1, a, b, piece);
+    }
+
+private:
+    /// Of one piece: a quarter turn as long as the largest view has fewer.
+    static constexpr double mostChords = 4096;
+
+    void addChords(int count, glm::dvec2 a, glm::dvec2 b, const PlanarPiece& piece) {
+        // t - outwards t'' as a polynomial of s.
+        const double step = 1.0 / count, outwards = step * step / 12;
+        const double c3 = piece.slopeA + piece.slopeB, c2 = -piece.slopeA - c3;
+        const double c1 = piece.slopeA - 6 * outwards * c3, c0 = -2 * outwards * c2;
+        const glm::dvec2 d = piece.b - piece.a, across = linear_ * glm::dvec2(-d.y, d.x);
+        const glm::dvec2 p0 = a + c0 * across, p1 = b - a + c1 * across, p2 = c2 * across, p3 = c3 * across;
+        glm::vec2 last(a);
+        for (int i = 1; i < count; ++i) {
+            const double s = i * step;
+            const glm::vec2 next(p0 + s * (p1 + s * (p2 + s * p3)));
+            addChord(last, next, piece);
+            last = next;
+        }
+        addChord(last, glm::vec2(b), piece);
+    }
+
+    void addChord(glm::vec2 a, glm::vec2 b, const PlanarPiece& piece) {
+        const auto left = std::uint16_t(mirrored_ ? piece.right : piece.left),
+                   right = std::uint16_t(mirrored_ ? piece.left : piece.right);
+        bands_.add({a, b, left, right}, width_, height_);
+    }
+
+    float width_, height_;
+    Bands& bands_;
+    glm::dmat2 linear_;
+    glm::dvec2 origin_;
+    bool mirrored_;
+    double stretch_, stretchRoot_;
+};
+
+// ---- Sums -----------------------------------------------------------------------------------------
+
+/// How an amount is added to a pixel: `Value` is a Float4, or the coverage of one paint.
+template <class V>
+struct Wholes {
+    using Value = V;
+    using Amount = V;
+    static constexpr unsigned perSide = 1;
+
+    static void add(Value* row, unsigned, int column, Amount amount) { row[column] += amount; }
+};
+
+/// Coverage by quarters of pixels: left and right of the upper half, then of the lower one.
+struct Quarters {
+    using Value = Float4;
+    using Amount = float;
+    static constexpr unsigned perSide = 2;
+
+    /// `row`: of pixels, `half` of it; what changes in a right quarter changes the left one of the next
+    /// pixel.
+    static void add(Value* row, unsigned half, int column, Amount amount) {
+        static constexpr Float4 here[4]{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 0, 1}};
+        static constexpr Float4 next[4]{{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}};
+        const unsigned part = 2 * half + unsigned(column) % 2;
+        row[column / 2] += amount * here[part];
+        row[column / 2 + 1] += amount * next[part];
+    }
+};
+
+/// The changes of a band, summed on a grid of `perSide` rows and columns a pixel.
+template <class Grid>
+class Accumulator {
+    using Value = typename Grid::Value;
+    using Amount = typename Grid::Amount;
+    static constexpr unsigned perSide = Grid::perSide;
+
+public:
+    /// All is zero between pictures, so that a row as wide as before costs nothing to prepare.
+    void resize(int width) {
+        width_ = width;
+        words_ = (std::size_t(width) + 2) / 64 + 2;
+        changes_.resize(stride() * bandRows, Value{});
+        touched_.resize(words_ * bandRows);
+    }
+
+    /// Adds what changes at a chord on the way along each row from left to right: `change` is the value on
+    /// its left, going from a to b with y up, minus that on its right. `top`: the first row's y.
+    void add(const Chord& chord, float top, int rows, Amount change) {
+        glm::vec2 a = float(perSide) * chord.a, b = float(perSide) * chord.b;
+        // ∫ (1 - clamp(x)) dy along the chord is what the pixel has of its right side.
+        if (a.y > b.y)
+            std::swap(a, b);
+        else
+            change = -change;
+        a.y -= float(perSide) * top;
+        b.y -= float(perSide) * top;
+        const float end = std::min(b.y, float(perSide) * float(rows));
+        float y = std::max(a.y, 0.0f);
+        if (!(y < end))
+            return;
+        const float slope = (b.x - a.x) / (b.y - a.y);
+        float x = y > a.y ? a.x + (y - a.y) * slope : a.x;
+        auto row = std::size_t(y);
+        for (float nextY = float(row + 1); nextY < end; nextY += 1) {
+            const float nextX = a.x + (nextY - a.y) * slope;
+            addInRow(row++, std::min(x, nextX), std::max(x, nextX), change * (nextY - y));
+            y = nextY;
+            x = nextX;
+        }
+        const float lastX = end < b.y ? a.x + (end - a.y) * slope : b.x;
+        addInRow(row, std::min(x, lastX), std::max(x, lastX), change * (end - y));
+    }
+
+    /// Calls run(first column, end, value) for the row's stretches of one value, in order, and clears it.
+    template <class Run>
+    void resolve(std::size_t row, Run&& run) {
+        Value value{};
+        Value* changes = &changes_[row * stride()];
+        std::uint64_t* touched = &touched_[row * words_];
+        int done = 0;
+        for (std::size_t w = 0; w < words_; ++w) {
+            for (std::uint64_t bits = std::exchange(touched[w], 0); bits != 0; bits &= bits - 1) {
+                const int column = int(w * 64) + std::countr_zero(bits);
+                if (column >= width_)
+                    break;
+                if (column > done)
+                    run(done, column, value);
+                value += changes[column];
+                done = column;
+                changes[column] = Value{};
+            }
+        }
+        changes[width_] = changes[width_ + 1] = Value{};
+        if (done < width_)
+            run(done, width_, value);
+    }
+
+private:
+    std::size_t stride() const { return std::size_t(width_) + 2; }
+
+    void touch(std::size_t row, unsigned first, unsigned last) {
+        std::uint64_t* touched = &touched_[row * words_];
+        for (; last - first >= 64; first += 63)
+            touchFew(touched, first, 63);
+        touchFew(touched, first, last - first);
+    }
+    static void touchFew(std::uint64_t* touched, unsigned first, unsigned more) {
+        const std::uint64_t bits = (std::uint64_t(2) << more) - 1;
+        const unsigned shift = first % 64;
+        touched[first / 64] |= bits << shift;
+        touched[first / 64 + 1] |= bits >> 1 >> (63 - shift);
+    }
+
+    /// A straight line from x0 to x1 >= x0; `amount`: the change times the height.
+    void addInRow(std::size_t row, float x0, float x1, Amount amount) {
+        if (x0 >= 0 && x1 <= float(perSide) * float(width_))
+            addInside(row, x0, x1, amount);
+        else
+            addCut(row, x0, x1, amount);
+    }
+
+    /// What is left of the picture changes its first column, what is right nothing.
+    void addCut(std::size_t row, float x0, float x1, Amount amount) {
+        const auto right = float(perSide) * float(width_);
+        if (x0 >= right)
+            return;
+        if (x1 <= 0)
+            return addInside(row, 0, 0, amount);
+        const float inverse = 1 / (x1 - x0);
+        if (x0 < 0)
+            addInside(row, 0, 0, amount * (-x0 * inverse));
+        const float from = std::max(x0, 0.0f), to = std::min(x1, right);
+        addInside(row, from, to, amount * ((to - from) * inverse));
+    }
+
+    void addInside(std::size_t row, float x0, float x1, Amount amount) {
+        const int first = int(x0), last = int(x1);
+        Value* changes = &changes_[row / perSide * stride()];
+        const auto add = [&](int column, Amount change) {
+            Grid::add(changes, unsigned(row % perSide), column, change);
+        };
+        touch(row / perSide, unsigned(first) / perSide, unsigned(last) / perSide + 1);
+        if (first == last) {
+            const Amount later = amount * ((x0 + x1) * 0.5f - float(first));
+            add(first, amount - later);
+            return add(first + 1, later);
+        }
+        // covered(i): what column i has of the amount, growing from 0 to 1.
+        const float inverse = 1 / (x1 - x0), start = float(first + 1) - x0;
+        float before = 0.5f * start * start * inverse;
+        add(first, amount * before);
+        for (int i = first + 1; i < last; ++i) {
+            const float covered = (float(i) - x0 + 0.5f) * inverse;
+            add(i, amount * (covered - before));
+            before = covered;
+        }
+        const float rest = x1 - float(last);
+        const float covered = 1 - 0.5f * rest * rest * inverse;
+        add(last, amount * (covered - before));
+        add(last + 1, amount * (1 - covered));
+    }
+
+    int width_ = 0;
+    std::size_t words_ = 0;
+    std::vector<Value> changes_;
+    std::vector<std::uint64_t> touched_;
+};
+
+}  // namespace vtm::asset

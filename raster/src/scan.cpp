@@ -1,0 +1,315 @@
+#include <vtm/raster/scan.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <vtm/limits/limits.hpp>
+#include "raster/src/blend.hpp"
+#include "raster/src/paint.hpp"
+#include "raster/src/rough.hpp"
+#include "raster/src/row_sums.hpp"
+#include "raster/src/scan_programs.hpp"
+#include "raster/src/scan_stores.hpp"
+#include "raster/steepness.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+using glm::vec4;
+
+/// What one picture needs and the next uses again.
+struct Scratch {
+    Bands bands;
+    Accumulator<Wholes<Float4>> colors;
+    BandPrograms programs;
+    std::unique_ptr<Scratch> finer;  ///< for what is drawn finer
+};
+
+/// What is kept of an asset.
+struct Picture {
+    struct Drawn {
+        MapPlace place;
+        std::vector<Boundary> boundaries;
+    };
+    Asset asset;                   ///< without trees: paints and what they need
+    std::optional<Paints> paints;  ///< of `asset`
+    std::vector<Drawn> drawn;
+    Sums sums = Sums::Encoded;
+    std::vector<Float4> solid;            ///< by paint, as it is added; nothing for programs
+    std::vector<std::uint8_t> isProgram;  ///< by paint
+
+    vec4 added(vec4 color) const { return sums == Sums::Light ? light(color) : color; }
+};
+
+/// Rough pixels in a row are drawn together across gaps of fewer columns.
+constexpr int maxFinerGap = 4;
+
+/// Pixels first to end - 1 of rows top to bottom - 1 of a band.
+struct BandBox {
+    int first, end, top, bottom;
+
+    int width() const { return end - first; }
+    int height() const { return bottom - top; }
+};
+
+/// Boxes around all of the pixels, which are sorted by column, disjoint and from left to right.
+std::vector<BandBox> boxesAround(std::span<const BandPixel> pixels) {
+    std::vector<BandBox> boxes;
+    for (const BandPixel& p : pixels) {
+        if (boxes.empty() || p.x >= boxes.back().end + maxFinerGap)
+            boxes.push_back({p.x, p.x + 1, p.row, p.row + 1});
+        BandBox& box = boxes.back();
+        box = {box.first, p.x + 1, std::min(box.top, p.row), std::max(box.bottom, p.row + 1)};
+    }
+    return boxes;
+}
+
+/// Adds up colours that are finer: the mean over each pixel of a box.
+class MeanStore {
+public:
+    explicit MeanStore(const BandBox& box)
+        : box_(box), means_(std::size_t(box.width()) * std::size_t(box.height())) {}
+
+    void operator()(int row, int first, int end, Float4 color) {
+        while (first < end) {
+            const int next = std::min(end, (first / finerSide + 1) * finerSide);
+            mean(first / finerSide, row / finerSide) += float(next - first) * share * color;
+            first = next;
+        }
+    }
+    void operator()(int row, int first, std::span<const Float4> colors) {
+        for (const Float4& color : colors)
+            mean(first++ / finerSide, row / finerSide) += share * color;
+    }
+    /// In the band.
+    Float4 at(const BandPixel& p) { return mean(p.x - box_.first, p.row - box_.top); }
+
+private:
+    static constexpr float share = 1.0f / (finerSide * finerSide);
+
+    Float4& mean(int x, int y) { return means_[std::size_t(y) * std::size_t(box_.width()) + std::size_t(x)]; }
+
+    BandBox box_;
+    std::vector<Float4> means_;
+};
+
+/// The chords of a picture under a view, band by band.
+class Drawing {
+public:
+    Drawing(const Picture& of, const View& view, const MaterialFunction& materials, Scratch& scratch,
+            int finerLevels, float roughness = 1)
+        : of_(of),
+          view_(view),
+          scratch_(scratch),
+          programs_(programView(of, view_, materials, roughness, finerLevels > 0)),
+          finerLevels_(finerLevels) {
+        scratch_.bands.clear(view.height);
+        scratch_.colors.resize(view.width);
+        scratch_.programs.resize(of.solid.size(), view.width);
+    }
+
+    void addPicture() {
+        for (const Picture::Drawn& drawn : of_.drawn) {
+            Chords chords(drawn.place, view_, scratch_.bands);
+            for (const Boundary& boundary : drawn.boundaries) {
+                limits::check();
+                chords.add(boundary);
+            }
+        }
+    }
+    void addChord(const Chord& chord) { scratch_.bands.add(chord, float(view_.width), float(view_.height)); }
+
+    template <class Store>
+    void draw(Store& store) {
+        for (int band = 0; band * bandRows < view_.height; ++band)
+            drawBand(band, store);
+    }
+
+private:
+    template <class Store>
+    void drawBand(int band, Store& store) {
+        limits::check();
+        const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
+        BandPrograms& programs = scratch_.programs;
+        programs.clear();
+        const std::uint8_t* isProgram = of_.isProgram.data();
+        const Float4* solid = of_.solid.data();
+        for (const Chord& c : scratch_.bands.of(band)) {
+            if (isProgram[c.left] + isProgram[c.right] != 0) {
+                if (isProgram[c.left])
+                    programs.addSide(c, c.left, 1);
+                if (isProgram[c.right])
+                    programs.addSide(c, c.right, -1);
+                if (isProgram[c.left] && isProgram[c.right])
+                    continue;
+            }
+            scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
+        }
+        programs.draw(programs_, top, rows);
+        if (!programs.rough().empty())
+            drawFiner(band);
+        for (int row = 0; row < rows; ++row)
+            scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
+                if (programs.empty())
+                    store(top + row, first, end, color);
+                else
+                    programs.pixels().finish(top, row, first, end, color, store);
+            });
+    }
+
+    // ---- Rough pixels ----
+
+    void drawFiner(int band) {
+        std::vector<BandPixel>& rough = scratch_.programs.rough();
+        std::ranges::sort(rough, {}, &BandPixel::x);
+        std::vector<std::pair<BandPixel, Float4>> colors;
+        auto next = rough.begin();
+        for (const BandBox& box : boxesAround(rough)) {
+            MeanStore means = drawBox(band, box);
+            for (; next != rough.end() && next->x < box.end; ++next)
+                colors.emplace_back(*next, means.at(*next));
+        }
+        std::ranges::sort(colors, {}, [](const auto& c) { return c.first; });
+        const auto isSamePixel = [](const auto& a, const auto& b) { return a.first == b.first; };
+        colors.erase(std::unique(colors.begin(), colors.end(), isSamePixel), colors.end());
+        for (const auto& [pixel, color] : colors)
+            scratch_.programs.pixels().replace(pixel.row, pixel.x, color);
+    }
+
+    /// Chords are within chordTolerance of a pixel of their curves here, and finer pixels need no finer ones.
+    MeanStore drawBox(int band, const BandBox& box) {
+        const glm::dvec2 corner(box.first, band * bandRows + box.top);
+        View finer{box.width() * finerSide, box.height() * finerSide, view_.toPixels};
+        finer.toPixels[2] -= corner;
+        for (int i = 0; i < 3; ++i)
+            finer.toPixels[i] *= double(finerSide);
+        if (!scratch_.finer)
+            scratch_.finer = std::make_unique<Scratch>();
+        Drawing drawing(of_, finer, programs_.materials, *scratch_.finer, finerLevels_ - 1,
+                        finerTolerance * programs_.rough.times);
+        for (const Chord& c : scratch_.bands.of(band))
+            drawing.addChord({float(finerSide) * (c.a - glm::vec2(corner)),
+                              float(finerSide) * (c.b - glm::vec2(corner)), c.left, c.right});
+        MeanStore means(box);
+        drawing.draw(means);
+        return means;
+    }
+
+    static ProgramView programView(const Picture& of, const View& view, const MaterialFunction& materials,
+                                   float roughness, bool findsRough) {
+        const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+        const float leastSteep = leastSteepness(inverse);
+        return {*of.paints, of.sums, view, inverse, leastSteep, materials, roughBounds(leastSteep, roughness),
+                findsRough};
+    }
+
+    const Picture& of_;
+    const View view_;
+    Scratch& scratch_;
+    ProgramView programs_;
+    int finerLevels_;
+};
+
+}  // namespace
+
+struct Scanner::Impl : Picture {
+    template <class Store>
+    void draw(const View& view, const MaterialFunction& materials, const Store& store);
+
+    std::unique_ptr<Scratch> takeScratch() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty())
+            return std::make_unique<Scratch>();
+        std::unique_ptr<Scratch> scratch = std::move(free_.back());
+        free_.pop_back();
+        return scratch;
+    }
+    void giveBack(std::unique_ptr<Scratch> scratch) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(std::move(scratch));
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Scratch>> free_;
+};
+
+template <class Store>
+void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, const Store& store) {
+    validate(view);
+    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    if (drawn.empty() || !(std::abs(determinant) > std::numeric_limits<double>::min())) {
+        for (int y = 0; y < view.height; ++y)
+            store(y, 0, view.width, Float4{});
+        return;
+    }
+    // An exception loses the scratch, whose sums may be half done.
+    std::unique_ptr<Scratch> scratch = takeScratch();
+    const limits::Stage stage("scanning");
+    Drawing drawing(*this, view, materials, *scratch, sums == Sums::Encoded ? finerLevels(asset, view) : 0);
+    drawing.addPicture();
+    drawing.draw(store);
+    giveBack(std::move(scratch));
+}
+
+Scanner::Scanner(const AssetView& asset, Sums sums) : Scanner(planarMaps(asset), asset, sums) {}
+
+Scanner::Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums)
+    : impl_(std::make_unique<Impl>()) {
+    impl_->sums = sums;
+    for (const PlanarMap& map : maps)
+        impl_->drawn.push_back({map, {map.pieces.begin(), map.pieces.end()}});
+    Asset& kept = impl_->asset;
+    kept.paints.assign(asset.paints.begin(), asset.paints.end());
+    kept.data.assign(asset.data.begin(), asset.data.end());
+    kept.images.assign(asset.images.begin(), asset.images.end());
+    kept.materials.assign(asset.materials.begin(), asset.materials.end());
+    kept.finestPixel = asset.finestPixel;
+    impl_->paints.emplace(kept);
+    for (const Paint& paint : kept.paints) {
+        impl_->isProgram.push_back(asset::isProgram(paint));
+        impl_->solid.push_back(asset::isProgram(paint) ? Float4{}
+                                                       : float4(impl_->added(std::bit_cast<vec4>(paint))));
+    }
+}
+
+Scanner::~Scanner() = default;
+Scanner::Scanner(Scanner&&) noexcept = default;
+Scanner& Scanner::operator=(Scanner&&) noexcept = default;
+
+std::optional<double> Scanner::finestPixel() const { return impl_->asset.finestPixel; }
+
+void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
+    impl_->draw(view, materials, ByteStore(target, view.width));
+}
+
+void Scanner::scan(const View& view, const std::function<void(int, const ColorRun&)>& take,
+                   const MaterialFunction& materials) const {
+    impl_->draw(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {
+                    take(row, {first, end, color});
+                }));
+}
+
+image::Raster Scanner::draw(const View& view, const MaterialFunction& materials) const {
+    validate(view);
+    image::Raster raster(view.width, view.height);
+    impl_->draw(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {
+                    for (int x = first; x < end; ++x)
+                        for (int c = 0; c < 4; ++c)
+                            raster.pixel(x, row)[c] = unit(color[c]);
+                }));
+    return raster;
+}
+
+}  // namespace vtm::asset

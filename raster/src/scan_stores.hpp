@@ -1,0 +1,121 @@
+/// \file
+/// Where the scanner's colours go: a store takes the runs and the rows of pixels of a picture, from the top,
+/// in every row from the left.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include <glm/common.hpp>
+
+#include <vtm/raster/scan.hpp>
+#include "raster/src/float4.hpp"
+
+namespace vtm::asset {
+
+// ---- Bytes ----------------------------------------------------------------------------------------
+
+#if defined(__SSE2__)
+
+/// Rounded to nearest.
+inline __m128i toBytes(Float4 color) {
+    // max first: it makes 0 of what is no number.
+    const __m128 unit = _mm_min_ps(_mm_max_ps(color, _mm_setzero_ps()), _mm_set1_ps(1));
+    return _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(unit, _mm_set1_ps(255)), _mm_set1_ps(0.5f)));
+}
+
+inline std::uint32_t packed(Float4 color) {
+    const __m128i words = toBytes(color), halves = _mm_packs_epi32(words, words);
+    return std::uint32_t(_mm_cvtsi128_si32(_mm_packus_epi16(halves, halves)));
+}
+
+inline void packFour(const Float4* colors, std::uint8_t* bytes) {
+    const __m128i low = _mm_packs_epi32(toBytes(colors[0]), toBytes(colors[1]));
+    const __m128i high = _mm_packs_epi32(toBytes(colors[2]), toBytes(colors[3]));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(bytes), _mm_packus_epi16(low, high));
+}
+
+#else
+
+inline std::uint32_t packed(Float4 color) {
+    std::uint32_t word;
+    std::uint8_t bytes[4];
+    for (int c = 0; c < 4; ++c)
+        bytes[c] = std::uint8_t(unit(color[c]) * 255.0f + 0.5f);
+    std::memcpy(&word, bytes, 4);
+    return word;
+}
+
+inline void packFour(const Float4* colors, std::uint8_t* bytes) {
+    for (int i = 0; i < 4; ++i) {
+        const std::uint32_t word = packed(colors[i]);
+        std::memcpy(bytes + 4 * i, &word, 4);
+    }
+}
+
+#endif
+
+// ---- Stores ---------------------------------------------------------------------------------------
+
+class ByteStore {
+public:
+    ByteStore(const ByteTarget& target, int width) : target_(target), width_(width) {}
+
+    /// Four pixels at a time, of which the next run overwrites those that are too many.
+    void operator()(int row, int first, int end, Float4 color) const {
+        std::uint8_t* at = place(row, first);
+        const std::uint32_t word = packed(color), four[]{word, word, word, word};
+        const int last = std::min(end, width_ - 3);
+        for (; first < last; first += 4, at += 16)
+            std::memcpy(at, four, 16);
+        for (; first < end; ++first, at += 4)
+            std::memcpy(at, &word, 4);
+    }
+
+    void operator()(int row, int first, std::span<const Float4> colors) const {
+        std::uint8_t* at = place(row, first);
+        std::size_t i = 0;
+        for (; i + 4 <= colors.size(); i += 4, at += 16)
+            packFour(&colors[i], at);
+        for (; i < colors.size(); ++i, at += 4) {
+            const std::uint32_t word = packed(colors[i]);
+            std::memcpy(at, &word, 4);
+        }
+    }
+
+private:
+    std::uint8_t* place(int row, int first) const {
+        return target_.pixels + std::size_t(row) * target_.rowBytes + std::size_t(first) * 4;
+    }
+
+    ByteTarget target_;
+    int width_;
+};
+
+/// Calls pixels(row, first, end, colour), for single pixels too.
+template <class Run>
+class RunStore {
+public:
+    explicit RunStore(Run run) : run_(std::move(run)) {}
+
+    void operator()(int row, int first, int end, Float4 color) const { run_(row, first, end, toVec4(color)); }
+    void operator()(int row, int first, std::span<const Float4> colors) const {
+        for (const Float4& color : colors) {
+            run_(row, first, first + 1, toVec4(color));
+            ++first;
+        }
+    }
+
+private:
+    Run run_;
+};
+
+}  // namespace vtm::asset

@@ -1,0 +1,389 @@
+// How fast paints change, and what that is for: a part of a pixel has the colours of that part.
+
+#include "raster/steepness.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
+#include "asset/testing.hpp"
+#include "raster/src/paint.hpp"
+#include "raster/src/row_sums.hpp"
+#include "raster/testing_views.hpp"
+
+namespace vtm::asset::test {
+namespace {
+
+using glm::dmat2;
+using glm::vec2;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+GradientStop grey(float offset, float value, float alpha = 1) {
+    const auto word = [](float v) { return std::uint16_t(std::lround(v * 65535)); };
+    return {offset, {word(value), word(value), word(value), word(alpha)}, 0};
+}
+
+Gradient gradient(Spread spread = Spread::Pad, float scale = 1) {
+    Gradient g;
+    g.matrix = {scale, 0, 0, scale, 0, 0};
+    g.spread = spread;
+    return g;
+}
+
+/// Of a program, the map's only paint.
+float steepnessOfProgram(const std::vector<Instruction>& program, const std::vector<Texel>& data) {
+    const Asset asset = programAsset(program, data);
+    return steepnessOf(asset)[asset.maps[0].root.payload()];
+}
+
+float steepness(Op op, Gradient g, const std::vector<GradientStop>& stops, float opacity = 1) {
+    g.stopCount = std::uint32_t(stops.size());
+    std::vector<Texel> data;
+    addGradient(data, g, stops);
+    return steepnessOfProgram({{op, Blend::Normal, opacity, 0}}, data);
+}
+
+const std::vector<GradientStop> blackToWhite{grey(0, 0), grey(1, 1)};
+
+TEST(Steepness, OfLinearGradientsIsTheSteepestStretch) {
+    EXPECT_FLOAT_EQ(steepness(Op::Linear, gradient(), blackToWhite), 1);
+    EXPECT_FLOAT_EQ(steepness(Op::Linear, gradient(Spread::Pad, 3), blackToWhite, 0.5f), 1.5f);
+    EXPECT_FLOAT_EQ(
+        steepness(Op::Linear, gradient(Spread::Reflect), {grey(0, 0), grey(0.25f, 1), grey(1, 0)}), 4);
+    Gradient turned = gradient();
+    turned.matrix = {3, 7, 4, 9, 1, 1};
+    EXPECT_FLOAT_EQ(steepness(Op::Linear, turned, blackToWhite), 5);
+}
+
+TEST(Steepness, OfRadialGradientsGrowsWithTheFocus) {
+    EXPECT_FLOAT_EQ(steepness(Op::Radial, gradient(Spread::Pad, 2), blackToWhite), 2);
+    Gradient g = gradient(Spread::Pad, 2);
+    g.fx = 0.3f;
+    g.fy = 0.4f;
+    EXPECT_FLOAT_EQ(steepness(Op::Radial, g, blackToWhite), 4);
+    g.fx = 0.9f;
+    EXPECT_EQ(steepness(Op::Radial, g, blackToWhite), infinity);
+}
+
+TEST(Steepness, OfWhatHasNoBoundIsInfinite) {
+    const std::vector<GradientStop> hard{grey(0, 0), grey(0.5f, 0), grey(0.5f, 1), grey(1, 1)};
+    EXPECT_EQ(steepness(Op::Linear, gradient(), hard), infinity);
+    EXPECT_EQ(steepness(Op::Linear, gradient(Spread::Repeat), blackToWhite), infinity);
+    EXPECT_EQ(steepness(Op::Linear, gradient(), std::vector(300, grey(0, 0))), infinity);
+    EXPECT_EQ(steepnessOfProgram({{Op::Material, Blend::Normal, 1, 0}}, {}), infinity);
+    EXPECT_EQ(steepnessOfProgram({{Op::Material, Blend::Normal, 0, 0}}, {}), 0);
+}
+
+TEST(Steepness, OfProgramsWithImagesIsNothing) {
+    std::vector<Texel> data;
+    addImage(data, {{1, 0, 0, 1, 0, 0}, 0, ImageFilter::Bilinear});
+    EXPECT_EQ(steepnessOfProgram({{Op::Image, Blend::Normal, 1, 0}}, data), 0);
+    Gradient g = gradient();
+    g.stopCount = 2;
+    const std::uint32_t ramp = addGradient(data, g, blackToWhite);
+    EXPECT_EQ(
+        steepnessOfProgram({{Op::Linear, Blend::Normal, 1, ramp}, {Op::Image, Blend::Normal, 1, 0}}, data),
+        0);
+}
+
+TEST(Steepness, OfLittleChangeIsNothing) {
+    EXPECT_EQ(steepness(Op::Linear, gradient(), {grey(0, 0.5f), grey(0.5f, 0.5f), grey(0.5f, 0.52f)}), 0);
+    EXPECT_EQ(steepness(Op::Linear, gradient(Spread::Repeat), {grey(0, 0.5f), grey(1, 0.5f)}), 0);
+    for (const float s : steepnessOf(halfPlane()))
+        EXPECT_EQ(s, 0);
+}
+
+/// Blend modes may make anything of a change, but not of none.
+TEST(Steepness, OfGroups) {
+    std::vector<Texel> data;
+    Gradient g = gradient();
+    g.stopCount = 2;
+    const std::uint32_t ramp = addGradient(data, g, blackToWhite), color = addColor(data, haze);
+    const auto inGroup = [&](Op op, std::uint32_t argument, Blend blend) {
+        return steepnessOfProgram({{Op::Linear, Blend::Normal, argument == color ? 0.0f : 1.0f, ramp},
+                                   {Op::Push, Blend::Normal, 1, 0},
+                                   {op, Blend::Normal, 1, argument},
+                                   {Op::Pop, blend, 1, 0}},
+                                  data);
+    };
+    EXPECT_FLOAT_EQ(inGroup(Op::Linear, ramp, Blend::Normal), 2);
+    EXPECT_EQ(inGroup(Op::Linear, ramp, Blend::ColorDodge), infinity);
+    EXPECT_EQ(inGroup(Op::Solid, color, Blend::ColorDodge), 0);
+}
+
+/// No two points of a picture with every kind of paint differ by more.
+TEST(Steepness, BoundsEveryPaint) {
+    const Asset asset = everyPaint();
+    const Paints paints(asset);
+    const std::vector<float> steepness = steepnessOf(asset);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    int bounded = 0;
+    for (std::uint32_t paint = 0; paint < asset.paints.size(); ++paint) {
+        if (!isProgram(asset.paints[paint]) || steepness[paint] == infinity || steepness[paint] == 0)
+            continue;  // 0: programs with images, and others that do not change
+        ++bounded;
+        for (int i = 0; i < 3000; ++i) {
+            const vec2 p(64 * unit(random), 64 * unit(random));
+            const vec2 q = p + 0.25f * (vec2(unit(random), unit(random)) - 0.5f);
+            const glm::vec4 change = paints.color(paint, {p}) - paints.color(paint, {q});
+            for (int c = 0; c < 4; ++c)
+                ASSERT_LE(std::abs(change[c]), steepness[paint] * glm::length(p - q) + 1e-4f) << paint;
+        }
+    }
+    EXPECT_GE(bounded, 3);
+}
+
+// ---- Near a place ---------------------------------------------------------------------------------
+
+NearChange nearOf(const std::vector<Instruction>& program, const std::vector<Texel>& data,
+                  const PixelsNear& pixels) {
+    const Asset asset = programAsset(program, data);
+    return changeNear(asset, asset.maps[0].root.payload(), pixels);
+}
+
+NearChange near(Op op, Gradient g, const std::vector<GradientStop>& stops, const PixelsNear& pixels) {
+    g.stopCount = std::uint32_t(stops.size());
+    std::vector<Texel> data;
+    addGradient(data, g, stops);
+    return nearOf({{op, Blend::Normal, 1, 0}}, data, pixels);
+}
+
+const std::vector<GradientStop> jumpAtHalf{grey(0, 0), grey(0.5f, 0), grey(0.5f, 1), grey(1, 1)};
+
+TEST(NearChange, HardStopsCountWhereTheyAre) {
+    const Gradient g = gradient(Spread::Pad, 0.1f);  // the stop lies at x = 5
+    EXPECT_FLOAT_EQ(near(Op::Linear, g, jumpAtHalf, {{4.5, 70}, 0.5, 0.1}).sum, 1);
+    EXPECT_EQ(near(Op::Linear, g, jumpAtHalf, {{4, 70}, 0.5, 0.1}).sum, 0);
+    EXPECT_EQ(near(Op::Linear, g, jumpAtHalf, {{-5, 70}, 0.5, 0.1}).sum, 0);
+    EXPECT_FLOAT_EQ(near(Op::Radial, g, jumpAtHalf, {{3, 4}, 0.1, 0.1}).sum, 1);
+    EXPECT_EQ(near(Op::Radial, g, jumpAtHalf, {{4, 4}, 0.1, 0.1}).sum, 0);
+}
+
+TEST(NearChange, PeriodsHaveTheirStopsAgain) {
+    const Gradient repeated = gradient(Spread::Repeat, 0.1f), reflected = gradient(Spread::Reflect, 0.1f);
+    for (const double x : {-5.0, 15.0, 25.0, 20.0, 0.0})
+        EXPECT_FLOAT_EQ(near(Op::Linear, repeated, jumpAtHalf, {{x, 0}, 0.5, 0.1}).sum, 1) << x;
+    for (const double x : {-5.0, 15.0, 25.0})
+        EXPECT_FLOAT_EQ(near(Op::Linear, reflected, jumpAtHalf, {{x, 0}, 0.5, 0.1}).sum, 1) << x;
+    for (const double x : {-10.0, 0.0, 10.0, 20.0})
+        EXPECT_EQ(near(Op::Linear, reflected, jumpAtHalf, {{x, 0}, 0.5, 0.1}).sum, 0) << x;
+    EXPECT_FLOAT_EQ(near(Op::Linear, repeated, jumpAtHalf, {{7.5, 0}, 50, 0.1}).sum, 2);
+}
+
+TEST(NearChange, JointIsAFourthOfTheProduct) {
+    std::vector<Texel> data;
+    Gradient g = gradient(Spread::Pad, 0.1f);
+    g.stopCount = 4;
+    const std::uint32_t ramp = addGradient(data, g, jumpAtHalf);
+    const std::vector<Instruction> twice{{Op::Linear, Blend::Normal, 1, ramp},
+                                         {Op::Linear, Blend::Normal, 0.5f, ramp}};
+    EXPECT_FLOAT_EQ(nearOf(twice, data, {{5, 0}, 0.5, 0.1}).sum, 1.5f);
+    EXPECT_FLOAT_EQ(nearOf(twice, data, {{5, 0}, 0.5, 0.1}).joint, 0.125f);
+    EXPECT_EQ(nearOf(twice, data, {{8, 0}, 0.5, 0.1}).joint, 0);
+    EXPECT_EQ(nearOf({twice[0]}, data, {{5, 0}, 0.5, 0.1}).joint, 0);
+}
+
+/// No two points of a pixel differ by more.
+TEST(NearChange, BoundsGradients) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 400; ++i) {
+        Gradient g = gradient(Spread(i % 3));
+        for (float& m : g.matrix)
+            m = 0.4f * (unit(random) - 0.5f);
+        g.fx = 0.8f * (unit(random) - 0.5f);
+        g.stopCount = 5;
+        std::vector<GradientStop> stops{grey(0, unit(random), unit(random))};
+        for (const float offset : {0.2f, 0.2f + 0.1f * unit(random), 0.7f, 1.0f})
+            stops.push_back(grey(offset, unit(random), unit(random)));
+        std::vector<Texel> data;
+        addGradient(data, g, stops);
+        const Asset asset = programAsset({{i % 2 ? Op::Linear : Op::Radial, Blend::Normal, 1, 0}}, data);
+        const Paints paints(asset);
+        const std::uint32_t paint = asset.maps[0].root.payload();
+        const vec2 middle(20 * unit(random), 20 * unit(random));
+        const float radius = 2 * unit(random), pixel = 2 * unit(random);
+        const auto inDisc = [&](float r) {
+            const float angle = 6.2831853f * unit(random);
+            return r * std::sqrt(unit(random)) * vec2(std::cos(angle), std::sin(angle));
+        };
+        const float most = changeNear(asset, paint, {middle, radius, pixel}).sum;
+        for (int k = 0; k < 200; ++k) {
+            const vec2 p = middle + inDisc(radius);
+            const glm::vec4 change = paints.color(paint, {p + inDisc(0.5f * pixel)}) -
+                                     paints.color(paint, {p + inDisc(0.5f * pixel)});
+            for (int c = 0; c < 4; ++c)
+                ASSERT_LE(std::abs(change[c]), most + 1e-4f) << i;
+        }
+    }
+}
+
+TEST(Steepness, LeastIsThatOfAPixelsLongestStep) {
+    EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.5, 0, 0, 0.25)), float(2 * leastSteepChange));
+    EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.6, 0.8, -0.8, 0.6)), float(leastSteepChange));
+}
+
+// ---- Parts of pixels ------------------------------------------------------------------------------
+
+/// Triangles that reach beyond the picture, against 64 × 64 points a quarter: off by less than what a row of
+/// points is for each of three edges.
+TEST(Quarters, AreThoseOfDensePoints) {
+    constexpr int width = 7, height = 5, side = 64;
+    std::mt19937 random(23);
+    std::uniform_real_distribution<float> unit(0, 1);
+    Accumulator<Quarters> quarters;
+    quarters.resize(width);
+    for (int i = 0; i < 60; ++i) {
+        std::array<vec2, 3> p;
+        for (vec2& corner : p)
+            corner = vec2(-2, -2) + vec2(width + 4, height + 4) * vec2(unit(random), unit(random));
+        const auto side2 = [](vec2 a, vec2 b, vec2 q) {
+            return (b.x - a.x) * (q.y - a.y) - (b.y - a.y) * (q.x - a.x);
+        };
+        const float sign = side2(p[0], p[1], p[2]) > 0 ? 1.0f : -1.0f;
+        for (std::size_t k = 0; k < 3; ++k)
+            quarters.add({p[k], p[(k + 1) % 3], 1, 0}, 0, height, sign);
+        for (int y = 0; y < height; ++y)
+            quarters.resolve(std::size_t(y), [&](int first, int end, Float4 shares) {
+                for (int x = first; x < end; ++x)
+                    for (int q = 0; q < 4; ++q) {
+                        int within = 0;
+                        for (int n = 0; n < side * side; ++n) {
+                            const vec2 inQuarter = (vec2(n % side, n / side) + 0.5f) / float(side);
+                            const vec2 point = vec2(x, y) + 0.5f * (vec2(q % 2, q / 2) + inQuarter);
+                            within += sign * side2(p[0], p[1], point) > 0 &&
+                                      sign * side2(p[1], p[2], point) > 0 &&
+                                      sign * side2(p[2], p[0], point) > 0;
+                        }
+                        ASSERT_NEAR(shares[q], float(within) / (side * side), 1.5f / side) << x << ' ' << y;
+                    }
+            });
+    }
+}
+
+double worst(const image::Raster& a, const image::Raster& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        worst = std::max(worst, std::abs(double(a.rgba[i]) - double(b.rgba[i])));
+    return worst;
+}
+
+/// `change`: of shades over a pixel; `bound`: in 1/255.
+void expectPartsToHaveTheirColors(double change, double bound) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 24; ++i) {
+        const double zoom = std::exp2(1 + 5 * unit(random)), length = 1 / (change * zoom);
+        const View view = turnedView(24, 18, {29 + unit(random), 31 + unit(random)}, zoom,
+                                     6.28 * unit(random), i % 2 == 0 ? 0 : 0.4, i % 3 == 0);
+        const Asset asset = steepHalves(length);
+        const image::Raster points = steepHalvesByPoints(length, view.width, view.height, view.toPixels);
+        EXPECT_LE(255 * worst(evaluate(asset, view), points), bound) << "evaluator, view " << i;
+        EXPECT_LE(255 * worst(Scanner(asset).draw(view), points), bound) << "scanner, view " << i;
+    }
+}
+
+TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSteep) { expectPartsToHaveTheirColors(0.25, 3); }
+TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsSmall) { expectPartsToHaveTheirColors(0.8, 3); }
+TEST(Steepness, PartsHaveTheirColorsWhereAGradientIsAsSmallAsAPixel) { expectPartsToHaveTheirColors(1, 4); }
+
+// ---- Hard stops -----------------------------------------------------------------------------------
+
+/// What of a pixel lies where dot(p, normal) < offset: a polygon's area, by cutting the pixel.
+double shareBelow(glm::dvec2 pixel, glm::dvec2 normal, double offset) {
+    const std::array<glm::dvec2, 4> corners{pixel, pixel + glm::dvec2(1, 0), pixel + glm::dvec2(1, 1),
+                                            pixel + glm::dvec2(0, 1)};
+    std::vector<glm::dvec2> part;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % 4];
+        const double atA = glm::dot(a, normal) - offset, atB = glm::dot(b, normal) - offset;
+        if (atA < 0)
+            part.push_back(a);
+        if ((atA < 0) != (atB < 0))
+            part.push_back(a + (b - a) * (atA / (atA - atB)));
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const glm::dvec2 a = part[i], b = part[(i + 1) % part.size()];
+        area += 0.5 * (a.x * b.y - a.y * b.x);
+    }
+    return area;
+}
+
+TEST(HardStops, CutTurnedPixelsExactly) {
+    std::vector<Texel> data;
+    for (int i = 0; i < 64; ++i) {
+        const double angle = i * 0.0981 + 0.01;
+        const glm::dvec2 normal(std::cos(angle), std::sin(angle));
+        const double scale = 1.0 / (1 << i % 8), offset = 32 * (normal.x + normal.y) + 0.3;
+        Gradient g;
+        g.matrix = {float(scale * normal.x), 0, float(scale * normal.y), 0, float(0.5 - scale * offset), 0};
+        g.stopCount = 4;
+        data.clear();
+        addGradient(data, g, jumpAtHalf);
+        const Asset asset = programAsset({{Op::Linear, Blend::Normal, 1, 0}}, data);
+        const View view{64, 64, {1, 0, 0, 1, 0, 0}};
+        const image::Raster drawn = evaluate(asset, view), scanned = Scanner(asset).draw(view);
+        for (int y = 29; y < 35; ++y)
+            for (int x = 29; x < 35; ++x) {
+                const double white = 1 - shareBelow({x, y}, normal, offset);
+                ASSERT_NEAR(drawn.pixel(x, y)[0], white, 0.25 / 255) << i << ' ' << x << ' ' << y;
+                ASSERT_NEAR(scanned.pixel(x, y)[0], white, 0.25 / 255) << i << ' ' << x << ' ' << y;
+            }
+    }
+}
+
+// ---- Rough pixels ---------------------------------------------------------------------------------
+
+constexpr int truthSide = 32;
+
+/// Every pixel the mean of truthSide² of the scanner's, which are so fine that nothing is rough in them.
+image::Raster meanOfFinePicture(const Scanner& scanner, const View& view) {
+    View fine = view;
+    fine.width *= truthSide;
+    fine.height *= truthSide;
+    for (int i = 0; i < 3; ++i)
+        fine.toPixels[i] *= double(truthSide);
+    const image::Raster points = scanner.draw(fine);
+    image::Raster mean(view.width, view.height);
+    for (int y = 0; y < fine.height; ++y)
+        for (int x = 0; x < fine.width; ++x)
+            for (int c = 0; c < 4; ++c)
+                mean.pixel(x / truthSide, y / truthSide)[c] +=
+                    points.pixel(x, y)[c] / float(truthSide * truthSide);
+    return mean;
+}
+
+/// Layers of gradients that change together, and blend modes, in pixels that hold much of them.
+void expectMeans(const Asset& asset, double bound) {
+    const Scanner scanner(asset);
+    std::mt19937 random(29);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 12; ++i) {
+        const View view =
+            turnedView(12, 9, {29 + unit(random), 31 + unit(random)}, std::exp2(-2 + 3 * unit(random)),
+                       6.28 * unit(random), i % 2 == 0 ? 0 : 0.4, i % 3 == 0);
+        const image::Raster truth = meanOfFinePicture(scanner, view);
+        EXPECT_LE(255 * worst(scanner.draw(view), truth), bound) << "scanner, view " << i;
+        EXPECT_LE(255 * worst(evaluate(asset, view), truth), bound) << "evaluator, view " << i;
+    }
+}
+
+TEST(Rough, BlendedLayersAreTheirMean) {
+    for (unsigned mode = 0; mode <= unsigned(Blend::PlusLighter); ++mode) {
+        SCOPED_TRACE(mode);
+        expectMeans(blendAsset(Blend(mode)), 4);
+    }
+}
+TEST(Rough, LayersUnderAnEdgeAreTheirMean) { expectMeans(steepHalves(8), 4); }
+
+}  // namespace
+}  // namespace vtm::asset::test
