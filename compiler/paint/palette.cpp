@@ -97,7 +97,7 @@ PaintId Palette::intern(const PaintProgram& program) {
 
 PaintId Palette::solid(const Color& c) {
     const auto bits = std::bit_cast<std::array<std::uint64_t, 2>>(c);
-    for (std::uint64_t key = mixed(bits[0], bits[1]);; key = mixed(key, 1)) {
+    for (std::uint64_t key = hashCombine(bits[0], bits[1]);; key = hashCombine(key, 1)) {
         PaintId& id = solids_[key];
         if (id == NumberMap::unknown) {
             id = static_cast<PaintId>(paints_.size());

@@ -26,7 +26,7 @@ PaintProgram programOf(const Picture& picture, const LayerNames& names, const St
     std::vector<PaintProgram> programs;
     std::vector<std::uint32_t> items;
     for (std::size_t i = 0; i <= stack.size(); ++i) {
-        if (i < stack.size() && stack[i] != none) {
+        if (i < stack.size() && stack[i] != noIndex) {
             items.push_back(picture.itemOfLayer[names.layers()[stack[i]]]);
             continue;
         }
@@ -74,7 +74,7 @@ std::size_t StackPaints::update(const Picture& picture, const LayerNames& names,
         bits |= changed[name] ? bitOf(name) : 0;
     const auto holdsChanged = [&](const Stack& stack) {
         return std::any_of(stack.begin(), stack.end(),
-                           [&](std::uint32_t name) { return name != none && changed[name]; });
+                           [&](std::uint32_t name) { return name != noIndex && changed[name]; });
     };
     std::size_t count = 0;
     for (Entry& entry : entries_) {

@@ -57,7 +57,7 @@ TEST(Error, snappingTellsHowFarItBendsEdges) {
     double most = 0;
     for (unsigned seed = 0; seed < 60; ++seed) {
         const TestLeaf leaf = tangle(seed);
-        const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.strands);
+        const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.clippedRuns);
         ASSERT_TRUE(set);
         const double moved = farthest(leaf, *set);
         EXPECT_LE(moved, set->bend + 1e-9) << "seed " << seed;
@@ -70,7 +70,7 @@ TEST(Error, crossingsOnTheLatticeBendNothing) {
     const TestLeaf leaf =
         leafOf(square, {{{0, 0}, {200, 200}, {0, 200}}, {{0, 100}, {300, 100}, {300, 300}}});
     Snapper snapper;
-    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.strands);
+    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.clippedRuns);
     ASSERT_TRUE(set);
     EXPECT_EQ(set->bend, 0);
 }

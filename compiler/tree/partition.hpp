@@ -33,8 +33,8 @@ public:
         std::vector<Top> children;  ///< 16 if it is not a block
     };
 
-    /// Nothing in one block; blocks will have `most` strands at most where they can be split.
-    /// `most`: strands of a block that is not of the last level. No block is deeper than `maxDepth`.
+    /// Nothing in one block; blocks will have `most` clipped runs at most where they can be split.
+    /// `most`: clipped runs of a block that is not of the last level. No block is deeper than `maxDepth`.
     Partition(const Square& root, std::size_t most, unsigned maxDepth);
 
     /// Takes layers out and in, and marks the blocks that they or the layers `touched` (indices now) pass
