@@ -16,18 +16,41 @@ if(VTM_WERROR)
     target_compile_options(vtm_warnings INTERFACE -Werror)
 endif()
 
-# vtm_library(module SOURCES ... DEPENDS ... LINK ...): the module's library, vtm::module.
-# DEPENDS: what its headers need too. LINK: what only its sources need.
+option(VTM_PRECOMPILE_HEADERS "Precompile what most files include: a whole build takes half the time" OFF)
+set(vtm_precompiled
+    <algorithm> <array> <bit> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <mutex> <numbers> <optional>
+    <random> <span> <stdexcept> <string> <string_view> <unordered_map> <utility> <variant> <vector>
+    <fmt/format.h>
+    <glm/common.hpp> <glm/geometric.hpp> <glm/mat2x2.hpp> <glm/mat3x2.hpp> <glm/matrix.hpp> <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
+
+# vtm_precompile(target flags): targets of the same flags share what the first of them compiles.
+function(vtm_precompile target flags)
+    string(MAKE_C_IDENTIFIER "vtm_precompiled_${flags}" first)
+    get_property(known GLOBAL PROPERTY ${first})
+    if(known)
+        target_precompile_headers(${target} REUSE_FROM ${known})
+    else()
+        target_precompile_headers(${target} PRIVATE ${vtm_precompiled})
+        set_property(GLOBAL PROPERTY ${first} ${target})
+    endif()
+    target_link_libraries(${target} PRIVATE fmt::fmt)  # its definitions are those of the precompiled headers
+endfunction()
+
+# vtm_library(module SOURCES ... DEPENDS ... LINK ... FLAGS ...): the module's library, vtm::module.
+# DEPENDS: what its headers need too. LINK: what only its sources need. FLAGS: the compiler's.
 function(vtm_library name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK;FLAGS" ${ARGN})
     add_library(vtm_${name} STATIC ${ARG_SOURCES})
     add_library(vtm::${name} ALIAS vtm_${name})
     # Public headers make what they declare visible; nothing else leaves the libraries that are made of these.
     set_target_properties(vtm_${name} PROPERTIES
         POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     # Nobody replaces single functions of ours when a program is loaded, so they may be inlined where they are public.
-    target_compile_options(vtm_${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>")
+    target_compile_options(vtm_${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>" ${ARG_FLAGS})
     target_link_libraries(vtm_${name} PUBLIC vtm_settings ${ARG_DEPENDS} PRIVATE vtm_warnings ${ARG_LINK})
+    if(VTM_PRECOMPILE_HEADERS)
+        vtm_precompile(vtm_${name} "${ARG_FLAGS}")
+    endif()
 endfunction()
 
 # vtm_test(module SOURCES ... LINK ...): the module's tests, each registered with CTest by name.

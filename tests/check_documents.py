@@ -6,7 +6,7 @@ check_documents.py --self-test: the check must catch planted ones.
 
 - [text](target): a relative target exists (anchors and web addresses are not followed).
 - `path` and words of fenced code: what starts with a folder or file of the root exists; `*` matches.
-- ./dev COMMAND: the command stands in the script. vtm SUBCOMMAND: its file stands in tools/src.
+- ./dev COMMAND: the command stands in the script. vtm SUBCOMMAND: its file stands in tools/commands.
 """
 import argparse
 import pathlib
@@ -47,7 +47,7 @@ def dead_commands(root, code):
         if command not in commands:
             yield f"./dev {command}: no such command"
     for sub in re.findall(r"^(?:\$ )?(?:\./dev )?vtm ([a-z]+)", code):
-        if not (root / f"tools/src/{sub}.cpp").is_file():
+        if not (root / f"tools/commands/{sub}.cpp").is_file():
             yield f"vtm {sub}: no such subcommand"
 
 
@@ -85,10 +85,10 @@ def self_test():
            "```\n./dev setup docs/gone.svg\n```", "```\nvtm gone x\n```"]
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for name in ("docs", "tools/src"):
+        for name in ("docs", "tools/commands"):
             (root / name).mkdir(parents=True)
         (root / "dev").write_text(script)
-        (root / "tools/src/render.cpp").touch()
+        (root / "tools/commands/render.cpp").touch()
         (root / "docs/a.md").touch()
         wrong = []
         for text, expected in [(t, 0) for t in good] + [(t, 1) for t in bad]:

@@ -5,6 +5,7 @@
 #include <vtm/error.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include "api/gl_entry.hpp"
+#include "raster/scan_rows.hpp"
 
 /// Null unless the program itself is linked with libvtm_gl.
 #pragma weak vtm_gl_draw
@@ -36,8 +37,12 @@ CpuEngine::CpuEngine(const asset::Asset& asset) : asset_(asset) {
         scanner_.emplace(asset);
 }
 
-image::Raster CpuEngine::draw(const asset::View& view) const {
-    return scanner_ ? scanner_->draw(view) : asset::evaluate(asset_, view);
+void CpuEngine::draw(const asset::View& view, const image::PixelWriter& writer,
+                     const image::RowSink& sink) const {
+    if (scanner_)
+        asset::scanRows(*scanner_, view, writer, sink);
+    else
+        image::giveRows(asset::evaluate(asset_, view), writer, sink);
 }
 
 std::optional<image::Raster> drawWithGl(const asset::Asset& asset, const asset::View& view, bool required) {

@@ -8,6 +8,7 @@
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/scan.hpp>
 #include <vtm/raster/view.hpp>
+#include "image/pixel_writer.hpp"
 
 namespace vtm {
 
@@ -15,7 +16,8 @@ namespace vtm {
 class CpuEngine {
 public:
     explicit CpuEngine(const asset::Asset& asset);
-    image::Raster draw(const asset::View& view) const;
+    /// Row by row.
+    void draw(const asset::View& view, const image::PixelWriter& writer, const image::RowSink& sink) const;
 
 private:
     const asset::Asset& asset_;

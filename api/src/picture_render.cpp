@@ -18,7 +18,7 @@ void checkSize(double width, double height) {
     if (width > asset::maxViewSide || height > asset::maxViewSide ||
         width * height > double(asset::maxViewPixels))
         throw std::length_error(
-            fmt::format("{:.0f} x {:.0f} pixels are too many (at most {} a side and {} in all)", width,
+            fmt::format("{:.10g} x {:.10g} pixels are too many (at most {} a side and {} in all)", width,
                         height, asset::maxViewSide, asset::maxViewPixels));
 }
 
@@ -43,18 +43,6 @@ void check(const RenderOptions& options) {
             "a matrix stands in place of view, rotation and scale");
     for (const double number : *options.matrix)
         require(std::isfinite(number), "the matrix must be finite");
-}
-
-/// Premultiplied.
-void layOver(image::Raster& picture, const Rgba& ground) {
-    if (ground.a == 0)
-        return;
-    const float under[4] = {ground.r * ground.a, ground.g * ground.a, ground.b * ground.a, ground.a};
-    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-        const float through = 1 - picture.rgba[i + 3];
-        for (std::size_t c = 0; c < 4; ++c)
-            picture.rgba[i + c] += through * under[c];
-    }
 }
 
 std::optional<image::Raster> shaded(const Seen& seen, Engine engine) {
@@ -85,19 +73,31 @@ Shot shotOf(const RenderOptions& options, double pictureWidth, double pictureHei
     return {compiler::viewOf(frame), frame};
 }
 
+void Picture::State::drawOnCpu(const Seen& seen, const image::PixelWriter& writer,
+                               const image::RowSink& sink) {
+    if (!seen.compiled->asset.materials.empty())
+        warn("no GLSL runs on the CPU; materials have their fallback colours");
+    seen.compiled->cpu.draw(seen.view, writer, sink);
+}
+
 Image Picture::render(const RenderOptions& options) const {
     const Shot shot = shotOf(options, state_->width, state_->height);
     const Seen seen = state_->compileFor(shot);
-    auto raster = shaded(seen, options.engine);
+    const auto raster = shaded(seen, options.engine);
     Image image;
     image.engine = raster ? Engine::Gl : Engine::Cpu;
-    if (!raster) {
-        if (!seen.compiled->asset.materials.empty())
-            state_->warn("no GLSL runs on the CPU; materials have their fallback colours");
-        raster = seen.compiled->cpu.draw(seen.view);
-    }
-    layOver(*raster, options.background);
-    static_cast<image::Bitmap&>(image) = image::toBitmap(*raster);
+    image.width = seen.view.width;
+    image.height = seen.view.height;
+    image.rgba.reserve(std::size_t(image.width) * std::size_t(image.height) * 4);
+    const Rgba& ground = options.background;
+    const image::PixelWriter writer({ground.r, ground.g, ground.b, ground.a});
+    const auto append = [&](std::span<const std::uint8_t> row) {
+        image.rgba.insert(image.rgba.end(), row.begin(), row.end());
+    };
+    if (raster)
+        image::giveRows(*raster, writer, append);
+    else
+        state_->drawOnCpu(seen, writer, append);
     return image;
 }
 

@@ -43,6 +43,7 @@ struct __attribute__((visibility("hidden"))) Picture::State {
     std::shared_ptr<const Compiled> whole();
     /// Fine enough, if the scene is there.
     Seen compileFor(const Shot& shot);
+    void drawOnCpu(const Seen& seen, const image::PixelWriter& writer, const image::RowSink& sink);
     void warn(std::string message);
     std::vector<std::string> warnings();
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <vtm/asset/asset.hpp>
@@ -161,6 +162,31 @@ TEST(Picture, OptionsThatContradictThemselvesAreRefused) {
     EXPECT_THROW(picture.render({.width = 2, .height = 2, .matrix = {{1e300, 0, 0, 1e300, 0, 0}}}),
                  std::length_error);
     EXPECT_EQ(row(picture.render({.width = 2, .height = 1, .matrix = {{0, 0, 0, 0, 0, 0}}}), 0), "none none");
+}
+
+TEST(Picture, HugeSizesAreToldInFewDigits) {
+    try {
+        halves().render({.scale = 1e60});
+        FAIL();
+    } catch (const std::length_error& error) {
+        EXPECT_NE(std::string(error.what()).find("e+60 x "), std::string::npos) << error.what();
+    }
+}
+
+/// Of this process so far, bytes.
+std::size_t peakMemory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::size_t(usage.ru_maxrss) * 1024;
+}
+
+TEST(Picture, DrawingOnTheCpuHoldsBytesNotFloats) {
+    const Picture picture = halves();
+    picture.render({.width = 16, .engine = Engine::Cpu});
+    const std::size_t before = peakMemory();
+    const Image image = picture.render({.width = 4096, .height = 4096, .engine = Engine::Cpu});
+    constexpr std::size_t rest = 32 << 20;  // whatever else the process takes
+    EXPECT_LT(peakMemory() - before, image.rgba.size() + rest);
 }
 
 TEST(Picture, ThreadsShareOne) {

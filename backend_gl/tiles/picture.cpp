@@ -209,7 +209,7 @@ void use(const Program& program, const UploadedAsset& asset, const asset::View& 
     setMatrix(program.uniform("tileToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
     setMatrix(program.uniform("pixelToTile"), glm::inverse(toPixels));
     const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    glUniform1f(program.uniform("leastSteep"), asset::leastSteepness(pixel));
+    glUniform1f(program.uniform("minSteepness"), asset::leastSteepness(pixel));
 }
 
 void bindTexture(Unit unit, const TextureHandle& texture) {

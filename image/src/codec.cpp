@@ -1,7 +1,7 @@
 #include <vtm/image/codec.hpp>
 
 #include <vtm/limits/limits.hpp>
-#include "image/src/decoders.hpp"
+#include "image/src/formats.hpp"
 
 namespace vtm::image {
 

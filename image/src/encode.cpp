@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "image/src/encoders.hpp"
+#include "image/src/formats.hpp"
 
 namespace vtm::image {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include <vtm/image/codec.hpp>
-#include "image/src/decoders.hpp"
+#include "image/src/formats.hpp"
 
 namespace vtm::image {
 namespace {

@@ -1,11 +1,12 @@
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 
 #include <jpeglib.h>
 
 #include <vtm/image/codec.hpp>
 #include <vtm/limits/limits.hpp>
-#include "image/src/decoders.hpp"
+#include "image/src/formats.hpp"
 
 namespace vtm::image {
 namespace {
@@ -48,6 +49,49 @@ void cmykToRgba(std::uint8_t* row, int width) {
     }
 }
 
+/// libjpeg's encoder; its errors become exceptions, which Debian's build unwinds through.
+class JpegEncoder : public Encoder {
+public:
+    JpegEncoder(int width, int height, int quality) {
+        info_.err = jpeg_std_error(&errors_);
+        errors_.error_exit = throwError;
+        jpeg_create_compress(&info_);
+        jpeg_mem_dest(&info_, &bytes_, &size_);
+        info_.image_width = JDIMENSION(width);
+        info_.image_height = JDIMENSION(height);
+        info_.input_components = 4;
+        info_.in_color_space = JCS_EXT_RGBX;
+        jpeg_set_defaults(&info_);
+        jpeg_set_quality(&info_, quality, TRUE);
+        info_.optimize_coding = TRUE;
+        // Colours at full resolution: the edges of vector pictures are sharp in colour, too.
+        info_.comp_info[0].h_samp_factor = info_.comp_info[0].v_samp_factor = 1;
+        jpeg_start_compress(&info_, TRUE);
+    }
+    JpegEncoder(const JpegEncoder&) = delete;
+    JpegEncoder& operator=(const JpegEncoder&) = delete;
+    ~JpegEncoder() override {
+        jpeg_destroy_compress(&info_);
+        std::free(bytes_);  // NOLINT: libjpeg allocated it
+    }
+
+    void add(std::span<const std::uint8_t> row) override {
+        limits::check();
+        JSAMPROW line = const_cast<JSAMPROW>(row.data());  // libjpeg reads it only
+        jpeg_write_scanlines(&info_, &line, 1);
+    }
+    std::vector<std::uint8_t> finish() override {
+        jpeg_finish_compress(&info_);
+        return {bytes_, bytes_ + size_};
+    }
+
+private:
+    jpeg_error_mgr errors_{};
+    jpeg_compress_struct info_{};
+    unsigned char* bytes_ = nullptr;
+    unsigned long size_ = 0;
+};
+
 }  // namespace
 
 bool isJpeg(Bytes bytes) {
@@ -70,6 +114,10 @@ Bitmap decodeJpeg(Bytes bytes) {
             cmykToRgba(row, bitmap.width);
     }
     return bitmap;
+}
+
+std::unique_ptr<Encoder> makeJpegEncoder(int width, int height, int quality) {
+    return std::make_unique<JpegEncoder>(width, height, quality);
 }
 
 }  // namespace vtm::image

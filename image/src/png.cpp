@@ -4,7 +4,7 @@
 #include <array>
 
 #include <vtm/image/codec.hpp>
-#include "image/src/decoders.hpp"
+#include "image/src/formats.hpp"
 
 namespace vtm::image {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <vtm/image/codec.hpp>
 #include <vtm/limits/limits.hpp>
-#include "image/src/encoders.hpp"
+#include "image/src/formats.hpp"
 
 namespace vtm::image {
 namespace {

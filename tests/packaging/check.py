@@ -6,7 +6,7 @@ check.py WAY BUILD SOURCE FOLDER: BUILD is a finished build of SOURCE; all is wr
   find_package     consumer/ against the prefix, by CMake
   pkg_config       the same by pkg-config alone
   add_subdirectory the same with SOURCE as a part of its own build
-  fetch_content    the same through FetchContent: configured, its targets looked at
+  fetch_content    the same through FetchContent
   debian           cpack; the packages, unpacked, are a prefix; lintian has no errors
   python           the Python module of the prefix
   readme           README.md's code compiles against the prefix
@@ -91,13 +91,10 @@ class Check:
         self.same(folder / "draw.cpp.png", folder / "draw.c.png")
 
     def add_subdirectory(self):
-        build = self.configure_part("add_subdirectory")
-        run("cmake", "--build", build, "--parallel", os.environ.get("VTM_PACKAGING_JOBS", "2"))
-        self.run_consumer(build)
+        self.build_part("add_subdirectory")
 
     def fetch_content(self):
-        build = self.configure_part("fetch_content")
-        run("cmake", "--build", build, "--target", "vtm_limits")
+        self.build_part("fetch_content")
 
     def debian(self):
         if not shutil.which("dpkg-shlibdeps"):
@@ -143,6 +140,11 @@ class Check:
         strange = [line for line in steps.splitlines() if NOT_THE_LIBRARY.search(line.replace(str(self.source), ""))]
         require(not strange, "the consumer's build compiles more than the library:\n" + "\n".join(strange[:10]))
         return build
+
+    def build_part(self, way):
+        build = self.configure_part(way)
+        run("cmake", "--build", build, "--parallel", os.environ.get("VTM_PACKAGING_JOBS", "2"))
+        self.run_consumer(build)
 
     def build_consumer(self, name, prefix):
         """By find_package."""

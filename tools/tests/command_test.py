@@ -169,6 +169,10 @@ class BadInput(Drawing):
         self.assertIn("100,000 x 100,000 pixels are too many (at most 16,384 a side and 134,217,728 in all)", done.stderr)
         self.assertEqual(self.draw("--width", "64").size, (64, 32))
 
+    def test_huge_sizes_are_readable(self):
+        done = self.vtm("render", self.svg, "-o", "out.png", "--zoom", "1e60", expect=1)
+        self.assertIn("4e+61 x 2e+61 pixels are too many", done.stderr)
+
     def test_batch_line_without_tab(self):
         batch = self.write("list.tsv", "a.svg b.png\n")
         self.assertIn("list.tsv:1:1: ", self.vtm("render", "--batch", batch, expect=1).stderr)

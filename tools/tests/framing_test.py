@@ -100,6 +100,26 @@ class SingleElements(Command):
         drawn = [p for p in self.picture("out.png").getdata() if p[3] > 0]
         self.assertEqual((len(drawn), set(drawn)), (20 * 4, {GREEN}))
 
+    def test_bounds_of_strokes_are_tight(self):
+        # A mitre reaches sqrt(2) times half the width beyond its right angle; butt ends do not reach along the line.
+        shapes = {"mitre": ('<path id="{}" d="M20 40L40 20L60 40" stroke-width="10" fill="none"/>',
+                            (20 - 5 / 2**.5, 20 - 5 * 2**.5, 60 + 5 / 2**.5, 40 + 5 / 2**.5)),
+                  "bevel": ('<path id="{}" d="M20 40L40 20L60 40" stroke-width="10" stroke-miterlimit="1" fill="none"/>',
+                            (20 - 5 / 2**.5, 20 - 5 / 2**.5, 60 + 5 / 2**.5, 40 + 5 / 2**.5)),
+                  "square": ('<path id="{}" d="M20 40H60" stroke-width="10" stroke-linecap="square"/>', (15, 35, 65, 45)),
+                  "circle": ('<circle id="{}" cx="50" cy="50" r="20" stroke-width="10"/>', (25, 25, 75, 75)),
+                  "dashes": ('<path id="{}" d="M10 40H60" stroke-width="10" stroke-dasharray="10 20"/>', (10, 35, 50, 45)),
+                  "scaled": ('<circle id="{}" r="1" transform="matrix(20 0 0 10 50 50)"/>', (20, 35, 80, 65))}
+        for name, (shape, expected) in shapes.items():
+            with self.subTest(name=name):
+                svg = self.write("s.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100" stroke="red">'
+                                 + shape.format("it") + "</svg>")
+                scale = 16
+                self.vtm("render", svg, "-o", "s.png", "-i", "it", "-z", scale)
+                size = (expected[2] - expected[0], expected[3] - expected[1])
+                for drawn, wanted in zip(self.picture("s.png").size, size):
+                    self.assertLessEqual(abs(drawn - scale * wanted), 1, (name, self.picture("s.png").size, size))
+
     def test_on_its_place_in_the_picture(self):
         self.draw("one", "--view", "0,0,100,60")
         image = self.picture("out.png")

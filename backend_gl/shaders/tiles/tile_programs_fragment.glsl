@@ -1,145 +1,163 @@
 // A tile with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl, output.glsl.
 
-uniform float leastSteep;  // the steepness from which on a paint is asked for quarters of pixels
+uniform float minSteepness;  // paints above it are evaluated in the quarters of pixels, too
 
 out vec4 color;
 
-bool isSteep(uint paint) { return isSteep(paint, leastSteep); }
+bool isSteep(uint paint) { return isSteep(paint, minSteepness); }
 
-// Weights nearer to 0 are roundings. A piece whose weight is no whole number cuts the pixel.
-const float leastShare = 1e-5;
+// Smaller weights are rounding errors. A piece whose weight is not an integer cuts the pixel.
+const float minWeight = 1e-5;
 
-bool isPart(float weight) { return abs(weight - floor(weight + 0.5)) > leastShare; }
+bool isFraction(float weight) { return abs(weight - floor(weight + 0.5)) > minWeight; }
 
-// Where a quarter's middle lies, tile sides.
-vec2 quarterPoint(int k) { return tilePoint(gl_FragCoord.xy + vec2(k & 1, k >> 1) * 0.5 - 0.25); }
+// ---- The pixel and its quarters -------------------------------------------------------------------
 
-// A fourth of what a piece weighs more in each quarter than in the whole: R is the pixel's own middle here.
-vec4 moreInQuarters(uvec3 bits, vec2 o) {
-    TilePiece piece = tilePiece(bits, o);
-    uint sides = sidesOf(piece);
-    vec4 weights = vec4(0.0);
-    for (int k = 0;; ++k) {
-        vec2 quarter = quarterPoint(k);
-        weights[k] = pieceWeight(tilePiece(bits, quarter), quarter - o, sides, 2.0 * tileToBox);
-        if (k == 3)
-            break;
-    }
-    return 0.25 * (weights - pieceWeight(piece, vec2(0.0), sides, tileToBox));
+// Part 0 is the whole pixel, parts 1 to 4 are its quarters.
+const uint quarterCount = 4u;
+
+// Centre of a part, tile sides.
+vec2 centreOf(uint part) {
+    uint quarter = part - 1u;
+    return tilePoint(gl_FragCoord.xy + (part == 0u ? vec2(0.0) : vec2(quarter & 1u, quarter >> 1) * 0.5 - 0.25));
 }
 
-// A cell's references, one after the other.
+// Weight of a piece in the whole pixel; in a quarter, a fourth of what it weighs more there than in the whole. The
+// pixel's centre is the quarter's reference point.
+float weightIn(uint part, TilePiece piece, uvec3 bits, uint reference, Cell cell) {
+    bool whole = part == 0u;
+    uint sides = sidesOf(piece);
+    float weight = pieceWeight(piece, whole ? cell.way : vec2(0.0), whole ? reference : sides, tileToBox);
+    if (whole)
+        return weight;
+    vec2 centre = centreOf(part);
+    return 0.25 * (pieceWeight(tilePiece(bits, centre), centre - cell.o, sides, 2.0 * tileToBox) - weight);
+}
+
+// ---- A cell's references, one after the other -----------------------------------------------------
+
 struct List {
     uvec4 references;
-    uint i;
-    bool atEnd;
-    uint met, all;
+    uint i, left;
 };
 
-// 0 at the end.
-uint nextReference(inout List list) {
-    if (list.i == referenceCount(list.references) && (list.references.x & moreBit) != 0u) {
-        list.references = tileTexel(list.references.w);
-        list.i = 0u;
-        list.all = max(list.all, referencesFrom(list.references));
-    }
-    list.atEnd = list.i == referenceCount(list.references);
-    list.met += list.atEnd ? 0u : 1u;
-    return list.atEnd ? 0u : referenceAt(list.references, list.i++);
+List listOf(Cell cell) {
+    uvec4 references = firstReferences(cell);
+    // Such a cell has no references of its own.
+    if ((references.x & moreBit) != 0u)
+        references = tileTexel(references.w);
+    return List(references, 0u, referencesFrom(references));
 }
 
-// A paint and what pieces weigh that have it on their left, less those that have it on their right: in the pixel, or in
-// its quarters.
+// Requires that some are left.
+uint nextReference(inout List list) {
+    if (list.i == referenceCount(list.references)) {
+        list.references = tileTexel(list.references.w);
+        list.i = 0u;
+    }
+    --list.left;
+    return referenceAt(list.references, list.i++);
+}
+
+// ---- Weights by paint -----------------------------------------------------------------------------
+
+// A paint, and the sum of the weights of pieces that have it on their left, less those that have it on their right.
 struct Share {
     uint paint;
-    vec4 weights;
+    float weight;
 };
 
 const uint noPaint = 0xFFFFFFFFu;
+const Share noShare = Share(noPaint, 0.0);
 
-bool isSomething(Share share) { return any(greaterThan(abs(share.weights), vec4(leastShare))); }
+// The shares of the last two paints, mostly the two sides of a chain of pieces, are kept and added to. Another paint
+// evicts the older one; evicted shares wait to be shaded: two at most, since pieces are added while none waits.
+struct Shares {
+    Share newer, older;
+    Share waiting, last;
+};
 
-// Times the colours there, of the pixel or of its quarters.
-vec4 valueOf(Share share, Cell cell, bool quarters) {
-    vec4 sum = vec4(0.0);
-    for (int k = 0;; ++k) {
-        vec2 point = tilePicture.xy + tilePicture.z * (quarters ? quarterPoint(k) : cell.o);
-        vec4 sides = (quarters ? 0.5 : 1.0) * tilePicture.z * pixelToTile;
-        if (abs(share.weights[k]) > leastShare)
-            sum += share.weights[k] * regionValue(paintColor(share.paint, point, mat3x2(sides.xy, sides.zw, point)));
-        if (!quarters || k == 3)
-            break;
-    }
-    return sum;
+// An evicted share is shaded unless its weight is zero, and in quarters unless its paint is not steep.
+void evict(inout Shares shares, Share share, uint part) {
+    if (abs(share.weight) <= minWeight || part != 0u && !isSteep(share.paint))
+        return;
+    if (shares.waiting.paint == noPaint)
+        shares.waiting = share;
+    else
+        shares.last = share;
 }
 
-// First the whole pixel. Then, where a piece beside a steep paint cuts it, what its quarters make of that: steep paints
-// have other colours and other shares there. The last two paints, mostly the two sides of a chain of pieces, are kept
-// while they go on; one that is driven out is drawn, unless nothing is left of it. So the paint interpreter, which
-// compilers inline, stands in the program once, and beside the loop over pieces: some drivers run both sides of every
-// branch, and loops once after their end unless that is told at the bottom.
+void add(inout Shares shares, Share term, uint part) {
+    if (term.paint == shares.newer.paint) {
+        shares.newer.weight += term.weight;
+        return;
+    }
+    Share older = shares.older;
+    shares.older = shares.newer;
+    shares.newer = term;
+    if (term.paint == older.paint)
+        shares.newer.weight += older.weight;
+    else
+        evict(shares, older, part);
+}
+
+void evictAll(inout Shares shares, uint part) {
+    evict(shares, shares.older, part);
+    evict(shares, shares.newer, part);
+    shares.older = shares.newer = noShare;
+}
+
+// What a share adds to the sum.
+vec4 valueOf(Share share, uint part) {
+    if (share.paint == noPaint)
+        return vec4(0.0);
+    vec2 point = tilePicture.xy + tilePicture.z * centreOf(part);
+    vec4 sides = (part == 0u ? 1.0 : 0.5) * tilePicture.z * pixelToTile;
+    return share.weight * regionValue(paintColor(share.paint, point, mat3x2(sides.xy, sides.zw, point)));
+}
+
+// First the whole pixel. Then, if a piece beside a steep paint cuts it, the quarters: steep paints have other colours
+// and other weights there. The inner loop adds up weights until a share has to be shaded, the outer one shades it: so
+// the paint interpreter, which compilers inline, stands in the program once, and outside of the loop over pieces. That
+// matters to drivers that run both sides of every branch. Such drivers also run a loop's body once more to find that
+// it has ended, unless the condition stands at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
-    bool cut = false, quarters = false;
-    uint passes = 0u;
+    uint paint = isFlatTile() ? tileTexels.z - 1u : low(cell.texel.x);
+    List all = listOf(cell), list = all;
+    // Each turn but the last of a part shades a share: at most two of a piece, and the two that are kept at the end.
+    uint turns = (1u + quarterCount) * (2u * all.left + 2u);
+    Shares shares = Shares(Share(paint, 1.0), noShare, noShare, noShare);
+    uint part = 0u;
+    bool cut = false, complete = false;
     vec4 sum = vec4(0.0);
-    for (;;) {
-        List list = List(firstReferences(cell), 0u, false, 0u, 0u);
-        list.all = referencesFrom(list.references);
-        Share recent = Share(isFlatTile() ? tileTexels.z - 1u : low(cell.texel.x), vec4(quarters ? 0.0 : 1.0));
-        Share older = Share(noPaint, vec4(0.0));
-        uvec2 paints = uvec2(noPaint);
-        vec4 weights = vec4(0.0);
-        uint side = 1u;
-        for (;;) {
-            Share drawn = Share(noPaint, vec4(0.0));
-            for (;;) {
-                side ^= 1u;
-                if (side == 0u) {
-                    uvec4 piece = uvec4(0u);
-                    for (;;) {
-                        bool matters = true;
-                        uint reference = nextReference(list);
-                        if (!list.atEnd) {
-                            piece = tileTexel(reference >> 2 << 1);
-                            TilePiece p = tilePiece(piece.xyz, cell.o);
-                            float weight = quarters ? 0.0 : pieceWeight(p, cell.way, reference, tileToBox);
-                            weights = vec4(weight);
-                            cut = cut || isPart(weight) && (isSteep(low(piece.w)) || isSteep(high(piece.w)));
-                            matters = quarters ? mayMeetPixel(p) : weight != 0.0;
-                        }
-                        if (matters)
-                            break;
-                    }
-                    // After the last piece one of no paints drives out what is there.
-                    paints = list.atEnd ? uvec2(noPaint, noPaint - 1u) : uvec2(low(piece.w), high(piece.w));
-                    if (list.atEnd)
-                        weights = vec4(0.0);
-                    else if (quarters)
-                        weights = moreInQuarters(piece.xyz, cell.o);
+    do {
+        do {
+            if (list.left != 0u && shares.waiting.paint == noPaint) {
+                uint reference = nextReference(list);
+                uvec4 bits = tileTexel(reference >> 2 << 1);
+                TilePiece piece = tilePiece(bits.xyz, cell.o);
+                uint left = low(bits.w), right = high(bits.w);
+                float weight = weightIn(part, piece, bits.xyz, reference, cell);
+                if (part == 0u)
+                    cut = cut || isFraction(weight) && (isSteep(left) || isSteep(right));
+                if (part == 0u ? weight != 0.0 : mayMeetPixel(piece)) {
+                    add(shares, Share(left, weight), part);
+                    add(shares, Share(right, -weight), part);
                 }
-                Share term = Share(paints[side], side == 0u ? weights : -weights), last = older;
-                if (term.paint == recent.paint) {
-                    recent.weights += term.weights;
-                } else {
-                    older = recent;
-                    recent = term;
-                    if (term.paint == last.paint)
-                        recent.weights += last.weights;
-                    else if (isSomething(last) && (!quarters || isSteep(last.paint)))
-                        drawn = last;
-                }
-                if (drawn.paint != noPaint || list.atEnd && side == 1u)
-                    break;
             }
-            sum += valueOf(drawn, cell, quarters);
-            if (list.atEnd && side == 1u)
-                break;
+        } while (list.left != 0u && shares.waiting.paint == noPaint);
+        if (shares.waiting.paint == noPaint)
+            evictAll(shares, part);
+        sum += valueOf(shares.waiting, part);
+        shares.waiting = shares.last;
+        shares.last = noShare;
+        if (list.left == 0u && shares.waiting.paint == noPaint && shares.newer.paint == noPaint) {
+            complete = part == (cut ? quarterCount : 0u);
+            ++part;
+            list = all;
+            shares.newer = Share(paint, 0.0);
         }
-        passes += list.met == list.all ? 1u : 0u;
-        if (quarters || !cut)
-            break;
-        quarters = true;
-    }
-    color = outputColor(finishedSum(cell, sum, passes == (cut ? 2u : 1u)));
+    } while (!complete && --turns != 0u);
+    color = outputColor(finishedSum(cell, sum, complete));
 }

@@ -1,0 +1,15 @@
+/// \file
+/// Scanned pictures as rows of bytes: a large picture need not be held as floats.
+#pragma once
+
+#include <vtm/raster/scan.hpp>
+#include "image/pixel_writer.hpp"
+
+namespace vtm::asset {
+
+/// Gives every row of the view to the sink as soon as it is drawn; holds one. Calls limits::progress().
+/// Throws as Scanner::scan and the sink do.
+void scanRows(const Scanner& scanner, const View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink);
+
+}  // namespace vtm::asset

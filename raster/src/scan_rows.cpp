@@ -1,0 +1,45 @@
+#include "raster/scan_rows.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include <vtm/limits/limits.hpp>
+
+namespace vtm::asset {
+namespace {
+
+/// Puts one pixel into all of `run`, by doubling what is there: few copies, most of them long.
+void repeat(std::span<std::uint8_t> run, std::size_t pixelBytes) {
+    for (std::size_t there = pixelBytes; there < run.size(); there *= 2)
+        std::memcpy(&run[there], run.data(), std::min(there, run.size() - there));
+}
+
+/// As image::Raster has them; NaN becomes 0.
+glm::vec4 clamped(const glm::vec4& color) {
+    glm::vec4 result;
+    for (int c = 0; c < 4; ++c)
+        result[c] = color[c] > 0 ? std::min(color[c], 1.0f) : 0.0f;
+    return result;
+}
+
+}  // namespace
+
+void scanRows(const Scanner& scanner, const View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink) {
+    const std::size_t pixelBytes = writer.pixelBytes();
+    std::vector<std::uint8_t> row(std::size_t(std::max(view.width, 0)) * pixelBytes);
+    scanner.scan(view, [&](int y, const ColorRun& run) {
+        const std::span bytes = std::span(row).subspan(std::size_t(run.first) * pixelBytes,
+                                                       std::size_t(run.end - run.first) * pixelBytes);
+        const glm::vec4 color = clamped(run.color);
+        writer.write(&color[0], bytes.data());
+        repeat(bytes, pixelBytes);
+        if (run.end != view.width)
+            return;
+        limits::progress(double(y + 1) / view.height);
+        sink(row);
+    });
+}
+
+}  // namespace vtm::asset

@@ -1,0 +1,194 @@
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <vtm/image/codec.hpp>
+#include "tools/commands/commands.hpp"
+#include "tools/commands/jobs.hpp"
+#include "tools/commands/report.hpp"
+#include "tools/engines/debug_view.hpp"
+#include "tools/engines/engine.hpp"
+#include "tools/input/view.hpp"
+#include "tools/options/options.hpp"
+#include "tools/output/output.hpp"
+#include "tools/output/picture_file.hpp"
+#include "tools/process/errors.hpp"
+#include "tools/process/limits.hpp"
+#include "tools/process/messages.hpp"
+
+namespace vtm::tools {
+
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  vtm render tiger.svg -o tiger.png -w 800\n"
+    "  vtm render tiger.svg -o tiger.jpg -w 800 -h 600 --fit cover -b white\n"
+    "  vtm render tiger.svg -o nose.png --view 150,200,100,100 --zoom 8\n"
+    "  vtm render icons/*.svg -o png/ -z 2\n"
+    "  vtm render - -o - < in.svg > out.png";
+
+struct RenderOptions {
+    std::vector<std::string> inputs;
+    std::string output, batch;
+    std::string engine = "auto", background = "transparent", programCache, debugView;
+    SourceOptions source;
+    scene::Framing framing;
+    FileOptions file;
+    bool json = false, verbose = false;
+};
+
+void printReport(const Job& job, const Source& source, const asset::View& view, const Engine& engine) {
+    Json report = {{"input", job.input},
+                   {"output", job.output},
+                   {"width", view.width},
+                   {"height", view.height},
+                   {"engine", engine.name()}};
+    if (source.asset)
+        report.update(figures(*source.asset));
+    if (source.paper)
+        report.update(figures(*source.paper));
+    if (source.cost)
+        report["lookups"] = perPixel(*source.cost, std::uint64_t(view.width) * std::uint64_t(view.height));
+    report["stages_ms"] = toJson(source.stages);
+    print(jsonLine(report));
+}
+
+/// For files that have no alpha.
+scene::Color overWhite(const scene::Color& color) {
+    const auto channel = [&](float c) { return c * color.a + (1 - color.a); };
+    return {channel(color.r), channel(color.g), channel(color.b), 1};
+}
+
+image::PixelWriter writerFor(const Job& job, const RenderOptions& options, const scene::Color& ground) {
+    const bool isOpaque = !image::hasAlpha(formatOf(job.output, options.file));
+    const scene::Color under = isOpaque ? overWhite(ground) : ground;
+    return image::PixelWriter({under.r, under.g, under.b, under.a}, options.file.encoding.depth);
+}
+
+/// What --export-id draws is what is seen of it, where no --view says otherwise.
+scene::Framing framingOf(const RenderOptions& options, const Source& source) {
+    scene::Framing framing = options.framing;
+    if (!framing.part)
+        framing.part = source.exported;
+    return framing;
+}
+
+void drawDebugView(const DebugView debug, Source& source, const asset::View& view,
+                   const image::PixelWriter& writer, Engine& engine, PictureFile& file) {
+    image::Bitmap bitmap = drawBitmap(engine, source, view, writer);
+    layLines(bitmap, debug, source, view);
+    image::giveRows(bitmap, image::PixelWriter(), file.sink());
+}
+
+void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
+    Source source = loadSource(readInput(job.input), options.source, false);
+    const asset::View view =
+        prepareView(source, options.source, framingOf(options, source), engine.needsAsset());
+    const DebugView debug = parseDebugView(options.debugView);
+    prepare(source, debug);
+    const image::PixelWriter writer = writerFor(job, options, ground);
+    PictureFile file(job.output, options.file, view.width, view.height);
+    if (debug == DebugView::None)
+        engine.draw(source, view, writer, file.sink());
+    else
+        drawDebugView(debug, source, view, writer, engine, file);
+    if (options.source.strict)
+        refuseLeftOut(source);
+    file.write();
+    source.stages.emplace_back("write", file.milliseconds());
+    if (options.verbose)
+        say(fmt::format("{}: {} x {} pixels, drawn by {}", source.name, readable(view.width),
+                        readable(view.height), engine.name()));
+    if (options.json)
+        printReport(job, source, view, engine);
+}
+
+bool succeeds(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine,
+              bool alone) {
+    const PictureLimits limits(nameOf(job.input), alone);
+    try {
+        renderOne(job, options, ground, engine);
+        return true;
+    } catch (...) {
+        say(describeError(nameOf(job.input)));
+        return false;
+    }
+}
+
+std::vector<Job> checkedJobs(const RenderOptions& options) {
+    const std::vector<Job> jobs = options.batch.empty()
+                                      ? jobsOf(options.inputs, options.output, suffixFor(options.file))
+                                      : readBatch(options.batch);
+    for (const Job& job : jobs) {
+        formatOf(job.output, options.file);
+        if (options.json)
+            refuseMixture(job.output, "the figures of --json");
+    }
+    refuseLoss(jobs, options.batch);
+    return jobs;
+}
+
+int render(const RenderOptions& options) {
+    if (parseDebugView(options.debugView) != DebugView::None && options.framing.rotation != 0)
+        throw UsageError("--debug-view: shows pictures that are not turned");
+    if (!options.debugView.empty() && options.file.encoding.depth != 8)
+        throw UsageError("--debug-view: has 8 bits a channel");
+    const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
+    const scene::Color ground = parseColor(options.background);
+    const std::vector<Job> jobs = checkedJobs(options);
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        showProgress(i, jobs.size());
+        failed += succeeds(jobs[i], options, ground, *engine, jobs.size() == 1) ? 0 : 1;
+    }
+    clearProgress();
+    if (jobs.size() > 1 || !options.batch.empty())
+        warn(fmt::format("{} of {} drawn, {} failed", readable(double(jobs.size() - failed)),
+                         readable(double(jobs.size())), readable(double(failed))));
+    return failed == 0 ? done : badInput;
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, int& exitCode) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Draw SVG or .vtm files as PNG, JPEG, WebP or PPM");
+    auto* inputs = command->add_option("IN", options->inputs, "SVG or .vtm files, or - for standard input");
+    auto* output =
+        command->add_option("-o,--output", options->output,
+                            ".png, .jpg, .webp or .ppm file, a directory, or - for standard output");
+    command->add_option("--batch", options->batch, "A file of lines IN<TAB>OUT, or - for standard input")
+        ->excludes(inputs)
+        ->excludes(output);
+    addFramingOptions(*command, options->framing);
+    addFileOptions(*command, options->file);
+    command
+        ->add_option("-b,--background,--background-color", options->background,
+                     "Any colour that SVG knows; a JPEG or PPM file has it on white")
+        ->capture_default_str();
+    command
+        ->add_option("--engine", options->engine,
+                     "auto (gl where there is a GPU, else cpu for all that it can draw), gl (shaders), cpu "
+                     "(fast without "
+                     "a GPU, exact mode), asset (the shaders' twin, slow) or reference (exact, slower)")
+        ->capture_default_str();
+    command->add_option("--program-cache", options->programCache,
+                        "A directory that keeps the GL driver's programs from run to run");
+    command->add_option(
+        "--debug-view", options->debugView,
+        "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, tiles");
+    command->add_flag("--json", options->json, "Print figures and times, a line of JSON a picture");
+    command->add_flag("-v,--verbose", options->verbose, "Say for each picture which engine drew it");
+    addSourceOptions(*command, options->source);
+    command
+        ->add_option("-i,--export-id", options->source.svg.exportId,
+                     "Draw only the element with this id; without --view it fills the raster")
+        ->check([](const std::string& id) { return std::string(id.empty() ? "the id is empty" : ""); });
+    command->footer(examples);
+    command->callback([options, &exitCode] { exitCode = render(*options); });
+}
+
+}  // namespace vtm::tools

@@ -1,0 +1,32 @@
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "tools/options/options.hpp"
+#include "tools/process/errors.hpp"
+
+namespace vtm::tools {
+
+namespace {
+
+image::FileFormat parseFormat(const std::string& name) {
+    if (const auto format = image::formatOfSuffix("." + name))
+        return *format;
+    throw UsageError(fmt::format("--format: '{}' is none of png, jpeg, webp, ppm", name));
+}
+
+}  // namespace
+
+void addFileOptions(CLI::App& command, FileOptions& options) {
+    command.add_option_function<std::string>(
+        "-f,--format", [&options](const std::string& name) { options.format = parseFormat(name); },
+        "png (default), jpeg, webp or ppm, where no suffix says it: directories, standard output");
+    command.add_option("--depth", options.encoding.depth, "Bits a channel, of PNG and PPM: 8 or 16")
+        ->check(CLI::IsMember({8, 16}))
+        ->capture_default_str();
+    command
+        .add_option("--quality", options.encoding.quality,
+                    "Of JPEG (90 without), or makes WebP lossy, which else keeps every pixel")
+        ->check(CLI::Range(1, 100));
+}
+
+}  // namespace vtm::tools
