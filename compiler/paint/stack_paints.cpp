@@ -94,7 +94,7 @@ bool StackPaints::encode(const Picture& picture, bool dataChanged, const asset::
                          asset::Asset& after, float& error) {
     error = 0;
     bool moved = false;
-    if (dataChanged || programsChanged_ || entries_.size() > mostPaints) {
+    if (dataChanged || programsChanged_ || entries_.size() > maxPaints) {
         moved = encodeAll(picture, after, error);
     } else {
         after.data = before.data;
@@ -115,7 +115,7 @@ bool StackPaints::encode(const Picture& picture, bool dataChanged, const asset::
 bool StackPaints::encodeAll(const Picture& picture, asset::Asset& after, float& error) {
     after.data = picture.data;
     std::vector<std::uint16_t> indices;
-    if (entries_.size() > mostPaints) {  // not every stack can have a place of its own
+    if (entries_.size() > maxPaints) {  // not every stack can have a place of its own
         Palette palette;
         std::vector<PaintId> ids;
         for (const Entry& entry : entries_)

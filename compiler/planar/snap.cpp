@@ -54,10 +54,10 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
 // ---- clip -------------------------------------------------------------------------------------
 
 void Snapper::clip(const Square& square, Points points, std::span<const ClippedRun> clippedRuns) {
-    std::size_t most = 0;
+    std::size_t maximum = 0;
     for (const ClippedRun& s : clippedRuns)
-        most += s.last + 1 - s.first;
-    set_.vertices.resize(most);
+        maximum += s.last + 1 - s.first;
+    set_.vertices.resize(maximum);
     std::uint32_t first = 0;
     for (const ClippedRun& s : clippedRuns) {
         const LatticePoint from = points[s.first], to = points[s.last];

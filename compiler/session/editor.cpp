@@ -214,8 +214,8 @@ Kept::Kept(double pictureWidth, double pictureHeight, const Options& options)
 
 bool Kept::isWorn() const {
     constexpr std::size_t factor = 4;  // seldom enough to be paid for by the edits in between
-    const std::size_t wanted = runsPerBlock(cache.usedRuns()), most = partition->most();
-    return wanted > factor * most || most > factor * wanted || cache.isWorn(picture.outlines);
+    const std::size_t wanted = runsPerBlock(cache.usedRuns()), maximum = partition->maximum();
+    return wanted > factor * maximum || maximum > factor * wanted || cache.isWorn(picture.outlines);
 }
 
 Update edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options) {

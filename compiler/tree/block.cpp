@@ -29,8 +29,8 @@ bool isInside(const Layer& layer, int winding) {
 }  // namespace
 
 void WorkLimit::spend(std::size_t work) {
-    if (spent_.fetch_add(work, std::memory_order_relaxed) + work > most_)
-        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(most_) +
+    if (spent_.fetch_add(work, std::memory_order_relaxed) + work > maximum_)
+        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maximum_) +
                          " pairs of chords");
 }
 
@@ -161,7 +161,7 @@ BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
             return false;
         if (!spread)
             spread = spreadOf(cell);
-        if (cost <= sureShare * leastSplitCost(*spread, cell.level, perRun))
+        if (cost <= sureShare * minSplitCost(*spread, cell.level, perRun))
             return false;
         if (!children)
             children = &push(cell);
@@ -203,7 +203,7 @@ BlockBuilder::Spread BlockBuilder::spreadOf(const Cell& cell) const {
 
 /// What the children of a cell of the given level would cost if nothing were hidden in them, and no more of
 /// them had clipped runs than those where some end.
-double BlockBuilder::leastSplitCost(const Spread& spread, unsigned level, double piecesPerRun) const {
+double BlockBuilder::minSplitCost(const Spread& spread, unsigned level, double piecesPerRun) const {
     const CostModel& model = options_.cost;
     const double piece = model.leaf(2, level + 1) - model.leaf(1, level + 1);
     return model.node() + (16 - spread.leaves) * model.leaf(0, level + 1) +
@@ -220,10 +220,10 @@ bool BlockBuilder::canTry(const Cell& cell) {
 }
 
 /// Equal clipped runs of many layers (a shape repeated) count once: snapping merges them at once. Stops
-/// counting beyond `most`.
-std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) const {
+/// counting beyond `maximum`.
+std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t maximum) const {
     const std::size_t all = cell.chordCount();
-    if (all <= most)
+    if (all <= maximum)
         return all;
     NumberMap seen;
     std::size_t count = 0;
@@ -233,7 +233,7 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) con
         std::uint32_t& known = seen[hashCombine(sortKey(a)) + hashCombine(hashCombine(sortKey(b)) + chords)];
         if (known == NumberMap::unknown)
             count += known = chords;
-        if (count > most)
+        if (count > maximum)
             break;
     }
     return count;

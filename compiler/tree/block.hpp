@@ -16,13 +16,13 @@ namespace vtm::compiler {
 /// Pairs of chords looked at before the picture is refused.
 class WorkLimit {
 public:
-    explicit WorkLimit(std::size_t most) : most_(most) {}
+    explicit WorkLimit(std::size_t maximum) : maximum_(maximum) {}
 
     /// Throws LimitError beyond the limit.
     void spend(std::size_t work);
 
 private:
-    const std::size_t most_;
+    const std::size_t maximum_;
     std::atomic<std::size_t> spent_{0};
 };
 
@@ -104,11 +104,11 @@ private:
     Children& push(const Cell& cell);
     bool mayBeWorthSplitting(double pieces, unsigned level) const;
     Spread spreadOf(const Cell& cell) const;
-    double leastSplitCost(const Spread& spread, unsigned level, double piecesPerRun) const;
+    double minSplitCost(const Spread& spread, unsigned level, double piecesPerRun) const;
     double splitCost(const Children& children, double piecesPerRun) const;
     Built solid(PaintId paint, unsigned level) const;
     bool canTry(const Cell& cell);
-    std::size_t distinctChords(const Cell& cell, std::size_t most) const;
+    std::size_t distinctChords(const Cell& cell, std::size_t maximum) const;
     /// A leaf and how far its boundaries may be off, lattice steps.
     struct Made {
         const FittedLeaf* leaf = nullptr;

@@ -41,7 +41,7 @@ public:
         : picture_(picture),
           points_(picture.outlines.points),
           cullers_([&] { return CullerOfThread(picture, painter); }),
-          most_(std::max(blockRuns, clippedRuns / blockShare)),
+          maximum_(std::max(blockRuns, clippedRuns / blockShare)),
           deepest_(std::min(blockLevel, maxDepth)) {}
 
     Top run(Cell cell) {
@@ -50,7 +50,7 @@ public:
         Top top;
         if (!cell.clippedRuns.empty())
             cullers_.local().culler.run(cell);
-        if (cell.clippedRuns.size() <= most_ || cell.level >= deepest_) {
+        if (cell.clippedRuns.size() <= maximum_ || cell.level >= deepest_) {
             top.cell = std::move(cell);
             return top;
         }
@@ -82,7 +82,7 @@ private:
     const Picture& picture_;
     const Points points_;
     tbb::enumerable_thread_specific<CullerOfThread> cullers_;
-    const std::size_t most_;
+    const std::size_t maximum_;
     const unsigned deepest_;
 };
 

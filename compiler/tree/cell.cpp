@@ -188,13 +188,13 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
 limits::Place AtCell::place(const void* self) {
     const auto& [picture, cell, stage] = *static_cast<const AtCell*>(self);
     std::uint32_t largest = noIndex;
-    std::size_t most = 0, count = 0;
+    std::size_t maximum = 0, count = 0;
     for (std::size_t i = 0; i < cell.clippedRuns.size(); ++i) {
         const ClippedRun& s = cell.clippedRuns[i];
         const bool isNew = i == 0 || cell.clippedRuns[i - 1].layer != s.layer;
         count = (isNew ? 0 : count) + s.last - s.first;
-        if (count > most)
-            most = count, largest = s.layer;
+        if (count > maximum)
+            maximum = count, largest = s.layer;
     }
     return largest == noIndex ? limits::Place{} : picture.layers[largest].place;
 }

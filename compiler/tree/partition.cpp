@@ -20,8 +20,8 @@ struct LayerBox {
 };
 
 LayerBox boxOf(const Outlines& outlines, const Layer& layer, std::uint32_t index) {
-    constexpr Coord least = std::numeric_limits<Coord>::min(), most = std::numeric_limits<Coord>::max();
-    LayerBox box{index, {most, most}, {least, least}};
+    constexpr Coord minimum = std::numeric_limits<Coord>::min(), maximum = std::numeric_limits<Coord>::max();
+    LayerBox box{index, {maximum, maximum}, {minimum, minimum}};
     for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r)
         for (const LatticePoint p :
              {outlines.points[outlines.runs[r].first], outlines.points[outlines.runs[r].last]}) {
@@ -65,8 +65,8 @@ void merge(Entries& into, const Entries& added) {
 
 }  // namespace
 
-Partition::Partition(const Square& root, std::size_t most, unsigned maxDepth)
-    : root_(root), most_(most), deepest_(std::min(lastLevel, maxDepth)), top_{0, {}}, blocks_(1) {
+Partition::Partition(const Square& root, std::size_t maximum, unsigned maxDepth)
+    : root_(root), maximum_(maximum), deepest_(std::min(lastLevel, maxDepth)), top_{0, {}}, blocks_(1) {
     blocks_[0].cell.square = root;
 }
 
@@ -127,11 +127,11 @@ void Partition::splitLarge(Points points, Culler& culler, Top& top) {
     if (top.block) {
         const std::size_t first = *top.block;
         const Cell& whole = blocks_[first].cell;
-        if (!blocks_[first].dirty || whole.level >= deepest_ || whole.clippedRuns.size() <= most_)
+        if (!blocks_[first].dirty || whole.level >= deepest_ || whole.clippedRuns.size() <= maximum_)
             return;
         Cell culled = whole;
         culler.run(culled);
-        if (culled.clippedRuns.size() <= most_)
+        if (culled.clippedRuns.size() <= maximum_)
             return;
         std::array<Cell, 16> children;
         splitCell(points, whole, children);

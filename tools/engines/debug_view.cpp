@@ -40,9 +40,9 @@ vec3 heat(double t) {
     return glm::mix(color(i), color(i + 1), float(at - double(i)));
 }
 
-constexpr double deepest = 6;      ///< level that is red
-constexpr double mostPieces = 64;  ///< pieces of a leaf that are red, by their logarithm
-constexpr double mostNanoseconds = 2000;
+constexpr double deepest = 6;     ///< level that is red
+constexpr double maxPieces = 64;  ///< pieces of a leaf that are red, by their logarithm
+constexpr double maxNanoseconds = 2000;
 const vec3 pale(0.92f);
 
 asset::Paint paintOf(vec3 c) {
@@ -58,7 +58,7 @@ vec3 depthColor(const Asset&, Entry, unsigned level) { return heat(level / deepe
 
 vec3 piecesColor(const Asset& asset, Entry entry, unsigned) {
     const std::uint32_t pieces = piecesOf(asset, entry);
-    return pieces == 0 ? pale : heat(std::log2(pieces) / std::log2(mostPieces));
+    return pieces == 0 ? pale : heat(std::log2(pieces) / std::log2(maxPieces));
 }
 
 /// Nanoseconds a pixel by the compiler's model, each leaf alone.
@@ -67,7 +67,7 @@ vec3 costColor(const Asset& asset, Entry entry, unsigned level) {
     const double side = CostModel::nominalPixels / std::exp2(2.0 * level);
     const double perPixel = CostModel::drawing(piecesOf(asset, entry), level) / (side * side);
     return heat(std::log2(perPixel / CostModel::perSolidFragment) /
-                std::log2(mostNanoseconds / CostModel::perSolidFragment));
+                std::log2(maxNanoseconds / CostModel::perSolidFragment));
 }
 
 // ---- Squares of one colour ------------------------------------------------------------------------
@@ -161,9 +161,9 @@ public:
     }
     /// At least some pixels wide, so that it can be seen.
     void mark(double x, double y, double side, vec3 color) {
-        constexpr double least = 5;
+        constexpr double minimum = 5;
         const glm::dvec2 from = pixel(x, y), to = pixel(x + side, y + side);
-        const glm::dvec2 middle = (from + to) * 0.5, half = glm::max((to - from) * 0.5, least / 2);
+        const glm::dvec2 middle = (from + to) * 0.5, half = glm::max((to - from) * 0.5, minimum / 2);
         fill(glm::ivec2(glm::floor(limited(middle - half))), glm::ivec2(glm::ceil(limited(middle + half))),
              color);
     }

@@ -46,14 +46,14 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
         sides = mat2(unit * smallestFootprint);
         axes = vec2(unit * smallestFootprint);
     }
-    float least = axes.x / largestAnisotropy;
-    if (axes.y < least) {
+    float minimum = axes.x / largestAnisotropy;
+    if (axes.y < minimum) {
         sides = turned(sides, turnToAxes(sides));
         bool firstIsLonger = dot(sides[0], sides[0]) > dot(sides[1], sides[1]);
         vec2 along = firstIsLonger ? sides[0] : sides[1];
         vec2 across = vec2(-along.y, along.x) / largestAnisotropy;
         sides = firstIsLonger ? mat2(along, across) : mat2(across, along);
-        axes.y = least;
+        axes.y = minimum;
     }
     // Clamp: the footprint's box stays inside the picture.
     vec2 halfBox = 0.5 * (abs(sides[0]) + abs(sides[1])) / vtm.size;
