@@ -134,7 +134,7 @@ class Check:
         build = self.configure(way, f"-DVTM_FROM={way}", f"-DVTM_SOURCE={self.source}", f"-DCMAKE_BUILD_TYPE={kind}",
                                *(f"-D{name}={self.cached(name)}" for name in
                                  ("CMAKE_CXX_FLAGS", "CMAKE_CXX_FLAGS_RELWITHDEBINFO",
-                                  "CMAKE_CXX_COMPILER", "CMAKE_CXX_COMPILER_LAUNCHER")))
+                                  "CMAKE_CXX_COMPILER", "CMAKE_CXX_COMPILER_LAUNCHER", "VTM_WERROR")))
         steps = run("cmake", "--build", build, "--", "-n")
         require("compiler/" in steps, "the consumer's build does not compile the library")
         strange = [line for line in steps.splitlines() if NOT_THE_LIBRARY.search(line.replace(str(self.source), ""))]

@@ -27,7 +27,8 @@ struct CompileOptions {
 
 int compile(const CompileOptions& options) {
     if (options.source.paper)
-        throw UsageError("compile: a .vtm file holds no paper mode; see render and info --mode paper");
+        throw UsageError(
+            "compile: paper mode cannot be written to a .vtm file; see render and info --mode paper");
     requireSuffix(options.output, {".vtm"});
     if (options.json)
         refuseMixture(options.output, "the figures of --json");

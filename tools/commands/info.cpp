@@ -95,8 +95,7 @@ int info(const InfoOptions& options) {
 
 void addInfo(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<InfoOptions>();
-    CLI::App* command =
-        app.add_subcommand("info", "Say what a file holds, compiled (an SVG is compiled first)");
+    CLI::App* command = app.add_subcommand("info", "Show what a file contains (an SVG is compiled first)");
     command->add_option("FILE", options->input, "SVG or .vtm file, or - for standard input")->required();
     command->add_flag("--json", options->json, "As JSON");
     addSourceOptions(*command, options->source);

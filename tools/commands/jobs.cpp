@@ -36,7 +36,7 @@ std::vector<Job> readBatch(const std::string& path) {
             continue;
         const std::size_t tab = line.find('\t');
         if (tab == std::string::npos || tab == 0 || tab + 1 == line.size())
-            throw std::runtime_error(fmt::format("{}:{}:1: wants IN<TAB>OUT", list.name, number));
+            throw std::runtime_error(fmt::format("{}:{}:1: needs IN<TAB>OUT", list.name, number));
         jobs.push_back({line.substr(0, tab), line.substr(tab + 1)});
     }
     return jobs;
@@ -45,12 +45,12 @@ std::vector<Job> readBatch(const std::string& path) {
 std::vector<Job> jobsOf(const std::vector<std::string>& inputs, const std::string& output,
                         const std::string& suffix) {
     if (inputs.empty() || output.empty())
-        throw UsageError("render: wants IN... and -o OUT, or --batch LIST");
+        throw UsageError("render: needs IN... and -o OUT, or --batch LIST");
     const bool directory = meansDirectory(output);
     if (!directory && inputs.size() == 1)
         return {{inputs[0], output}};
     if (!directory && (fs::path(output).has_extension() || isStandardOutput(output)))
-        throw UsageError("-o: many inputs want a directory, not " + output);
+        throw UsageError("-o: several inputs need a directory, not " + output);
     std::vector<Job> jobs;
     for (const std::string& input : inputs)
         jobs.push_back({input, fileFor(input, output, suffix)});

@@ -25,9 +25,8 @@ constexpr const char* exitCodes =
     "  vtm compile tiger.svg -o tiger.vtm\n"
     "  vtm diff a.png b.png --max 2\n"
     "  vtm render --help\n\n"
-    "Exit codes: 0 done; 1 bad input, or something could not be read, drawn or written; 2 bad usage; 141 "
-    "nobody reads "
-    "standard output any more.\n"
+    "Exit codes: 0 done; 1 bad input, or something could not be read, drawn or written; 2 bad usage; 141 the "
+    "reader of standard output closed the pipe.\n"
     "A file is written whole or not at all. - is standard input or standard output; messages go to standard "
     "error.";
 
@@ -78,11 +77,12 @@ std::size_t distance(const std::string& a, const std::string& b) {
 /// The nearest of `known`, if it is near: at most a third of the word's letters are wrong, missing, too many
 /// or swapped with their neighbour. Else "".
 std::string nearestOf(const std::string& word, const std::vector<std::string>& known) {
-    constexpr std::size_t longest = 64;  // nobody mistypes that much; the cost is the product of the lengths
+    constexpr std::size_t maxLength =
+        64;  // nobody mistypes that much; the cost is the product of the lengths
     std::string nearest;
     std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : known)
-        if (const std::size_t d = word.size() > longest ? best : distance(word, candidate); d < best) {
+        if (const std::size_t d = word.size() > maxLength ? best : distance(word, candidate); d < best) {
             best = d;
             nearest = candidate;
         }
@@ -121,7 +121,7 @@ void proposeOption(const CLI::App& app, int argc, char** argv) {
 }
 
 void addQuiet(CLI::App& command) {
-    command.add_flag_callback("-q,--quiet", beQuiet, "Say nothing but errors: no warnings, no progress");
+    command.add_flag_callback("-q,--quiet", beQuiet, "Print errors only: no warnings, no progress");
 }
 
 void addSubcommands(CLI::App& app, int& exitCode) {

@@ -133,9 +133,9 @@ std::vector<Job> checkedJobs(const RenderOptions& options) {
 
 int render(const RenderOptions& options) {
     if (parseDebugView(options.debugView) != DebugView::None && options.framing.rotation != 0)
-        throw UsageError("--debug-view: shows pictures that are not turned");
+        throw UsageError("--debug-view: works without --rotate only");
     if (!options.debugView.empty() && options.file.encoding.depth != 8)
-        throw UsageError("--debug-view: has 8 bits a channel");
+        throw UsageError("--debug-view: needs 8 bits per channel");
     const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
     const scene::Color ground = parseColor(options.background);
     const std::vector<Job> jobs = checkedJobs(options);
@@ -167,7 +167,7 @@ void addRender(CLI::App& app, int& exitCode) {
     addFileOptions(*command, options->file);
     command
         ->add_option("-b,--background,--background-color", options->background,
-                     "Any colour that SVG knows; a JPEG or PPM file has it on white")
+                     "Any SVG colour; in JPEG and PPM files it lies over white")
         ->capture_default_str();
     command
         ->add_option("--engine", options->engine,
@@ -176,12 +176,12 @@ void addRender(CLI::App& app, int& exitCode) {
                      "a GPU, exact mode), asset (the shaders' twin, slow) or reference (exact, slower)")
         ->capture_default_str();
     command->add_option("--program-cache", options->programCache,
-                        "A directory that keeps the GL driver's programs from run to run");
+                        "A directory where the GL driver's compiled programs are kept between runs");
     command->add_option(
         "--debug-view", options->debugView,
         "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, tiles");
-    command->add_flag("--json", options->json, "Print figures and times, a line of JSON a picture");
-    command->add_flag("-v,--verbose", options->verbose, "Say for each picture which engine drew it");
+    command->add_flag("--json", options->json, "Print figures and times as JSON, one line per picture");
+    command->add_flag("-v,--verbose", options->verbose, "Say which engine drew each picture");
     addSourceOptions(*command, options->source);
     command
         ->add_option("-i,--export-id", options->source.svg.exportId,

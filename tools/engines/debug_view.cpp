@@ -40,7 +40,7 @@ vec3 heat(double t) {
     return glm::mix(color(i), color(i + 1), float(at - double(i)));
 }
 
-constexpr double deepest = 6;     ///< level that is red
+constexpr double maxLevel = 6;    ///< level that is red
 constexpr double maxPieces = 64;  ///< pieces of a leaf that are red, by their logarithm
 constexpr double maxNanoseconds = 2000;
 const vec3 pale(0.92f);
@@ -54,7 +54,7 @@ std::uint32_t piecesOf(const Asset& asset, Entry entry) {
     return entry.kind() == Entry::Kind::Leaf ? asset.leaves[entry.payload()].pieceCount : 0;
 }
 
-vec3 depthColor(const Asset&, Entry, unsigned level) { return heat(level / deepest); }
+vec3 depthColor(const Asset&, Entry, unsigned level) { return heat(level / maxLevel); }
 
 vec3 piecesColor(const Asset& asset, Entry entry, unsigned) {
     const std::uint32_t pieces = piecesOf(asset, entry);
@@ -197,7 +197,7 @@ void drawCells(Canvas& canvas, const Asset& asset) {
     for (const asset::Map& map : asset.maps)
         asset::walk(asset, map.root, [&](asset::Cell cell, Entry) {
             const double side = map.side / std::exp2(2.0 * cell.level);
-            canvas.outline(map.x + cell.x * side, map.y + cell.y * side, side, heat(cell.level / deepest));
+            canvas.outline(map.x + cell.x * side, map.y + cell.y * side, side, heat(cell.level / maxLevel));
         });
 }
 
@@ -228,7 +228,7 @@ DebugView parseDebugView(const std::string& name) {
         if (name == known)
             return view;
     throw UsageError("--debug-view: '" + name +
-                     "' is none of cells, depth, pieces, cost, regions, fallback, tiles");
+                     "' is not one of cells, depth, pieces, cost, regions, fallback, tiles");
 }
 
 void prepare(Source& source, DebugView view) {

@@ -85,7 +85,7 @@ std::unique_ptr<Engine> makeEngine(const std::string& name, asset::Mode mode,
         return std::make_unique<AssetEngine>();
     if (name == "reference")
         return std::make_unique<ReferenceEngine>(mode);
-    throw UsageError("--engine: '" + name + "' is none of auto, gl, cpu, asset, reference");
+    throw UsageError("--engine: '" + name + "' is not one of auto, gl, cpu, asset, reference");
 }
 
 }  // namespace vtm::tools

@@ -57,7 +57,7 @@ void loadAsset(Source& source, const Input& input, const SourceOptions& options)
     if (options.paper)
         throw std::runtime_error("is compiled; paper mode draws SVG files only");
     if (!options.svg.exportId.empty() || !options.styleSheet.empty())
-        throw std::runtime_error("is compiled; --export-id and --stylesheet want an SVG file");
+        throw std::runtime_error("is compiled; --export-id and --stylesheet need an SVG file");
     source.asset = timed(source.stages, "parse", [&] { return asset::read(input.bytes); });
     if (options.mode && *options.mode != source.asset->mode)
         throw std::runtime_error("was compiled in the other mode than --mode asks for");

@@ -38,7 +38,8 @@ compiler::ViewResult compileInTime(const Source& source, const scene::Frame& fra
     constexpr double coarsest = 0x1p-6;  // compiler::Options::tolerance; a raster wants a finer one
     options.tolerance = coarsest;
     compiler::ViewResult result = compile();
-    warn(fmt::format("{}: warning: takes long; edges may be off by a sixteenth of a pixel", source.name));
+    warn(fmt::format("{}: warning: takes long, so edges may be off by up to a sixteenth of a pixel",
+                     source.name));
     return result;
 }
 
@@ -72,7 +73,7 @@ void warnIfTooCoarse(const Source& source, const SourceOptions& options, const a
                          asset::finestShare * finest / pixel,
                          source.scene ? options.paper ? "paper mode does not follow the view"
                                                       : "without --tolerance they would not be"
-                                      : "compile it anew with a finer --tolerance, or draw the SVG"));
+                                      : "compile it again with a finer --tolerance, or draw the SVG"));
 }
 
 /// Throws std::length_error beyond asset::maxViewSide and maxViewPixels, with what to do about it.

@@ -49,7 +49,7 @@ scene::Color parseColor(const std::string& text) {
             return color;
         }
     }
-    throw UsageError(fmt::format("--background: '{}' is no colour", text));
+    throw UsageError(fmt::format("--background: '{}' is not a colour", text));
 }
 
 }  // namespace vtm::tools

@@ -11,7 +11,7 @@ namespace {
 image::FileFormat parseFormat(const std::string& name) {
     if (const auto format = image::formatOfSuffix("." + name))
         return *format;
-    throw UsageError(fmt::format("--format: '{}' is none of png, jpeg, webp, ppm", name));
+    throw UsageError(fmt::format("--format: '{}' is not one of png, jpeg, webp, ppm", name));
 }
 
 }  // namespace
@@ -19,13 +19,13 @@ image::FileFormat parseFormat(const std::string& name) {
 void addFileOptions(CLI::App& command, FileOptions& options) {
     command.add_option_function<std::string>(
         "-f,--format", [&options](const std::string& name) { options.format = parseFormat(name); },
-        "png (default), jpeg, webp or ppm, where no suffix says it: directories, standard output");
-    command.add_option("--depth", options.encoding.depth, "Bits a channel, of PNG and PPM: 8 or 16")
+        "png (default), jpeg, webp or ppm, for names without a suffix: directories, standard output");
+    command.add_option("--depth", options.encoding.depth, "Bits per channel of PNG and PPM: 8 or 16")
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
     command
         .add_option("--quality", options.encoding.quality,
-                    "Of JPEG (90 without), or makes WebP lossy, which else keeps every pixel")
+                    "Quality of JPEG (default 90), or of lossy WebP (lossless by default)")
         ->check(CLI::Range(1, 100));
 }
 

@@ -18,7 +18,7 @@ double parseNumber(const char*& at, const char* end) {
     double value = 0;
     const auto [next, error] = std::from_chars(at, end, value);
     if (error != std::errc() || !std::isfinite(value))
-        throw UsageError("--view: wants four numbers: x,y,width,height");
+        throw UsageError("--view: needs four numbers: x,y,width,height");
     at = next;
     return value;
 }
@@ -29,11 +29,11 @@ scene::Rect parseView(const std::string& text) {
     double numbers[4];
     for (int i = 0; i < 4; ++i) {
         if (i > 0 && (at == end || *at++ != ','))
-            throw UsageError("--view: wants four numbers: x,y,width,height");
+            throw UsageError("--view: needs four numbers: x,y,width,height");
         numbers[i] = parseNumber(at, end);
     }
     if (at != end || numbers[2] <= 0 || numbers[3] <= 0)
-        throw UsageError("--view: wants x,y,width,height with width and height above zero");
+        throw UsageError("--view: needs x,y,width,height with width and height above zero");
     return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
@@ -43,7 +43,7 @@ const std::map<std::string, scene::Fit> fits{
 scene::Fit parseFit(const std::string& name) {
     const auto fit = fits.find(name);
     if (fit == fits.end())
-        throw UsageError(fmt::format("--fit: '{}' is none of contain, cover, stretch", name));
+        throw UsageError(fmt::format("--fit: '{}' is not one of contain, cover, stretch", name));
     return fit->second;
 }
 
@@ -58,11 +58,13 @@ double parseRotation(const std::string& text) {
 
 void addSize(CLI::App& command, scene::Framing& framing) {
     const auto side = CLI::Range(1, asset::maxViewSide);
-    auto* width = command.add_option("-w,--width", framing.width, "Pixels; alone it keeps the aspect");
-    auto* height = command.add_option("-h,--height", framing.height, "Pixels; alone it keeps the aspect");
+    auto* width =
+        command.add_option("-w,--width", framing.width, "Width in pixels; alone it keeps the aspect ratio");
+    auto* height = command.add_option("-h,--height", framing.height,
+                                      "Height in pixels; alone it keeps the aspect ratio");
     width->check(side);
     height->check(side);
-    command.add_option("-z,--zoom,--scale", framing.scale, "Pixels a user unit")
+    command.add_option("-z,--zoom,--scale", framing.scale, "Pixels per user unit")
         ->check(CLI::PositiveNumber)
         ->excludes(width)
         ->excludes(height);
@@ -84,7 +86,7 @@ void addFramingOptions(CLI::App& command, scene::Framing& framing) {
         "x,y,width,height in user units: the part that is drawn, instead of the whole picture");
     command.add_option_function<std::string>(
         "--rotate", [&framing](const std::string& text) { framing.rotation = parseRotation(text); },
-        "Degrees, clockwise; the raster is as large as what it turns needs");
+        "Degrees clockwise; the raster grows to hold the rotated picture");
 }
 
 }  // namespace vtm::tools

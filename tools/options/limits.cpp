@@ -18,7 +18,7 @@ double parseLimit(const char* option, const std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !(value >= 0 && value <= 1e12))
-        throw UsageError(fmt::format("{}: '{}' is neither a number from 0 on nor 'none'", option, text));
+        throw UsageError(fmt::format("{}: '{}' is neither a number >= 0 nor 'none'", option, text));
     return value;
 }
 
@@ -30,13 +30,13 @@ void addLimitOptions(CLI::App& command) {
         .add_option_function<std::string>(
             "--max-seconds",
             [](const std::string& text) { setMaxSeconds(parseLimit("--max-seconds", text)); },
-            "Give a picture up after so much CPU or wall time, 0 or none: never (default 60)")
+            "Give up a picture after this many seconds of CPU or wall time; 0 or none: no limit (default 60)")
         ->group(group);
     command
         .add_option_function<std::string>(
             "--max-memory",
             [](const std::string& text) { setMaxMegabytes(parseLimit("--max-memory", text)); },
-            "Give a picture up at so many MB of resident memory, 0 or none: never (default 4096)")
+            "Give up a picture at this many MB of resident memory; 0 or none: no limit (default 4096)")
         ->group(group);
 }
 

@@ -25,7 +25,7 @@ void chooseMode(SourceOptions& options, const std::string& name) {
         return;
     const auto mode = modes.find(name);
     if (mode == modes.end())
-        throw UsageError(fmt::format("--mode: '{}' is none of exact, compat, paper", name));
+        throw UsageError(fmt::format("--mode: '{}' is not one of exact, compat, paper", name));
     options.mode = mode->second;
     options.compiler.mode = mode->second;
 }
@@ -45,18 +45,18 @@ void warnOf(const Unused& options) {
 
 Unused addFonts(CLI::App& command, svg::Options& svg) {
     Unused options{
-        command.add_option("--font-dir", svg.fontDirectories, "Take fonts from here too (not yet)")
+        command.add_option("--font-dir", svg.fontDirectories, "Also take fonts from here (not yet)")
             ->check(CLI::ExistingDirectory),
-        command.add_flag("!--no-system-fonts", svg.systemFonts, "Do without the system's fonts (not yet)")};
+        command.add_flag("!--no-system-fonts", svg.systemFonts, "Do not use the system's fonts (not yet)")};
     for (const auto& [name, family, generic] : {std::tuple("--serif-family", &svg.serifFamily, "serif"),
                                                 {"--sans-serif-family", &svg.sansSerifFamily, "sans-serif"},
                                                 {"--cursive-family", &svg.cursiveFamily, "cursive"},
                                                 {"--fantasy-family", &svg.fantasyFamily, "fantasy"},
                                                 {"--monospace-family", &svg.monospaceFamily, "monospace"}})
         options.push_back(
-            command.add_option(name, *family, fmt::format("What '{}' means (not yet)", generic)));
-    options.push_back(
-        command.add_option("--default-family", svg.defaultFamily, "Where none is named (not yet)"));
+            command.add_option(name, *family, fmt::format("Font family for '{}' (not yet)", generic)));
+    options.push_back(command.add_option("--default-family", svg.defaultFamily,
+                                         "Font family where none is named (not yet)"));
     return options;
 }
 
@@ -69,7 +69,7 @@ void addTextOptions(CLI::App& command, svg::Options& svg) {
         command.get_option(option->get_name())->group(group);
     command
         .add_option("--default-font-size", svg.defaultFontSize,
-                    "In px, where none is given; lengths in em use it")
+                    "Font size in px where none is given; lengths in em use it")
         ->check(CLI::PositiveNumber)
         ->group(group);
     command.add_option("--language", svg.language, "For systemLanguage, such as en or de-AT")->group(group);
@@ -92,16 +92,16 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
         ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
         ->capture_default_str();
-    command.add_option("--dpi", options.svg.dpi, "Pixels an inch")
+    command.add_option("--dpi", options.svg.dpi, "Pixels per inch")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_flag("--strict", options.strict,
-                     "What is left out or repaired is an error: exit code 1, and nothing is written");
+                     "Fail with exit code 1 and write nothing if anything is left out or repaired");
     command.add_option("-s,--stylesheet", options.styleSheet,
-                       "A CSS file that comes before the style sheets of the SVG");
+                       "A CSS file that is read before the SVG's own style sheets");
     for (const auto& [name, side] : {std::pair("--default-width", &options.svg.defaultWidth),
                                      {"--default-height", &options.svg.defaultHeight}})
-        command.add_option(name, *side, "Of an SVG that has neither size nor viewBox, in user units")
+        command.add_option(name, *side, "Side in user units of an SVG with neither size nor viewBox")
             ->check(CLI::PositiveNumber)
             ->capture_default_str();
     addTextOptions(command, options.svg);

@@ -104,7 +104,7 @@ void refuseLoss(const std::vector<std::string>& inputs, const std::vector<std::s
 
 void refuseMixture(const std::string& output, std::string_view figures) {
     if (isStandardOutput(output))
-        throw UsageError(fmt::format("-o {}: {} go to standard output, too", output, figures));
+        throw UsageError(fmt::format("-o {}: {} go to standard output as well", output, figures));
 }
 
 void print(std::string_view text) {

@@ -32,9 +32,9 @@ const Known& knownOf(FileFormat format) { return *std::ranges::find(known, forma
 void requireOptions(FileFormat format, const FileOptions& options) {
     const char* const name = knownOf(format).name;
     if (!image::hasDepth(format, options.encoding.depth))
-        throw UsageError(fmt::format("--depth {}: a {} file does not have it", options.encoding.depth, name));
+        throw UsageError(fmt::format("--depth {}: {} files do not have it", options.encoding.depth, name));
     if (options.encoding.quality && format != FileFormat::Jpeg && format != FileFormat::Webp)
-        throw UsageError(fmt::format("--quality: a {} file keeps every pixel", name));
+        throw UsageError(fmt::format("--quality: {} files keep every pixel", name));
 }
 
 }  // namespace

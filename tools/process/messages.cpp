@@ -57,8 +57,8 @@ std::string describeError(const std::string& path) {
 }
 
 std::string readable(double number) {
-    constexpr double longest = 1e15;  // beyond it nobody counts digits, nor are all of them exact
-    if (!(std::abs(number) < longest))
+    constexpr double max = 1e15;  // beyond it nobody counts digits, nor are all of them exact
+    if (!(std::abs(number) < max))
         return fmt::format("{:.2g}", number);
     std::string digits = fmt::format("{:.0f}", number);
     const std::size_t first = digits.starts_with('-') ? 1 : 0;

@@ -94,7 +94,7 @@ class Render(Drawing):
 
     def test_debug_views_that_there_are_not(self):
         out = ("render", self.svg, "-o", "out.png", "--debug-view")
-        self.assertIn("none of cells", self.vtm(*out, "lines", expect=2).stderr)
+        self.assertIn("not one of cells", self.vtm(*out, "lines", expect=2).stderr)
         for arguments in (("depth", "--mode", "compat"), ("depth", "--mode", "paper"),
                           ("depth", "--engine", "reference")):
             self.assertIn("exact pictures", self.vtm(*out, *arguments, expect=1).stderr)

@@ -56,7 +56,7 @@ class Framing(Command):
 
     def test_bad_values(self):
         out = ("render", self.svg, "-o", "out.png")
-        self.assertIn("none of contain, cover, stretch", self.vtm(*out, "--fit", "meet", expect=2).stderr)
+        self.assertIn("not one of contain, cover, stretch", self.vtm(*out, "--fit", "meet", expect=2).stderr)
         for value in ("north", "nan", "1e999", "90deg"):
             self.assertIn("degrees", self.vtm(*out, "--rotate", value, expect=2).stderr)
         self.vtm(*out, "--rotate", "45", "--debug-view", "cells", expect=2)

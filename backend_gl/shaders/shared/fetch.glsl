@@ -13,7 +13,7 @@ uniform usampler2D texels;
 // First texels of the leaves, pieces, paints and data.
 uniform uvec4 sections;
 
-// Pictures' loops are counted before they are drawn (src/turns.hpp).
+// Pictures' loops are counted before they are drawn (backend_gl/core/turns.hpp).
 bool spend(float turns) { return true; }
 #endif
 

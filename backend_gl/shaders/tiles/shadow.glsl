@@ -9,7 +9,7 @@ uniform vec4 tileToBox;
 vec2 times(vec4 matrix, vec2 v) { return matrix.xy * v.x + matrix.zw * v.y; }
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// A piece of src/tile.hpp relative to O, in tile sides.
+// A piece of backend_gl/tiles/tile.hpp relative to O, in tile sides.
 struct TilePiece {
     vec2 a, b, chord;
     float slopeA, slopeB;
