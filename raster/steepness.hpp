@@ -51,14 +51,14 @@ struct NearChange {
 NearChange changeNear(const AssetView& asset, std::uint32_t paint, const PixelsNear& pixels);
 
 /// Two layers that each change by c over a pixel are off by c² / 12 at most, some 2/255 here.
-inline constexpr double leastRoughChange = 80.0 / 255;
+inline constexpr double minRoughChange = 80.0 / 255;
 
 /// A paint is steep that changes by more over a pixel. A part of a pixel is at most an eighth of a pixel's
 /// side, times its area, away from the middle (half a pixel is), so what remains of others is below 2/255.
-inline constexpr double leastSteepChange = 16.0 / 255;
+inline constexpr double minSteepChange = 16.0 / 255;
 
 /// The steepness from which on a paint is steep. `pixel`: what a pixel's step in x and in y is in the
 /// picture.
-float leastSteepness(const glm::dmat2& pixel);
+float minSteepness(const glm::dmat2& pixel);
 
 }  // namespace vtm::asset

@@ -215,7 +215,6 @@ Outcome drawAsset(const Bytes& bytes) {
     try {
         const asset::Asset asset = asset::read(bytes);
         asset::evaluate(asset, {8, 8, {8 / asset.width, 0, 0, 8 / asset.height, 0, 0}});
-        asset::samplePrefilter(asset, {0.4f, 0.7f}, glm::mat2(0.2f));
         asset::summarize(asset);
         return Outcome::Picture;
     } catch (const asset::FormatError& error) {

@@ -30,11 +30,11 @@ std::vector<std::uint8_t> inflated(std::span<const std::uint8_t> bytes, std::siz
 }
 
 image::Bitmap decodeImage(const ImageRecord& record, std::span<const std::uint8_t> bytes, std::size_t index) {
-    constexpr auto most = std::uint64_t(image::maxDecodedPixels);
+    constexpr auto maximum = std::uint64_t(image::maxDecodedPixels);
     require(record.unused == 0, "images", index, "unused word is not zero");
-    require(
-        record.width > 0 && record.height > 0 && record.width <= most && record.height <= most / record.width,
-        "images", index, "size is out of range");
+    require(record.width > 0 && record.height > 0 && record.width <= maximum &&
+                record.height <= maximum / record.width,
+            "images", index, "size is out of range");
     const std::size_t size = std::size_t(record.width) * record.height * 4;
     image::Bitmap bitmap{int(record.width), int(record.height), {}};
     if (record.coding == ImageCoding::Zlib) {

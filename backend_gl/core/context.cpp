@@ -44,10 +44,10 @@ bool softwareWanted() {
 /// Nothing where EGL cannot list them.
 std::optional<std::vector<EGLDeviceEXT>> devices() {
     const auto query = extensionFunction<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    constexpr EGLint most = 32;
-    std::vector<EGLDeviceEXT> list(most);
+    constexpr EGLint maximum = 32;
+    std::vector<EGLDeviceEXT> list(maximum);
     EGLint count = 0;
-    if (query == nullptr || !query(most, list.data(), &count))
+    if (query == nullptr || !query(maximum, list.data(), &count))
         return std::nullopt;
     list.resize(std::size_t(count));
     return list;

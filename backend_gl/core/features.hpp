@@ -18,7 +18,7 @@ public:
         Groups = 8,
         Mixing = 16,
         Material = 32,
-        LongRamps = 64  ///< gradients with many stops (src/ramp_sums.hpp)
+        LongRamps = 64  ///< gradients with many stops (backend_gl/upload/ramp_sums.hpp)
     };
     static constexpr unsigned combinations = 128;
 

@@ -38,10 +38,10 @@ PixelBox pixelsOf(const DrawnMask& drawn, const asset::Map& map, const asset::Vi
     const dvec2 size = dvec2(drawn.max - drawn.min) * unit, zero(0), raster(view.width, view.height);
     const dvec2 origin = view.toPixels * glm::dvec3(corner, 1);
     const dvec2 x = view.toPixels[0] * size.x, y = view.toPixels[1] * size.y;
-    const dvec2 least = origin + glm::min(x, zero) + glm::min(y, zero);
-    const dvec2 most = origin + glm::max(x, zero) + glm::max(y, zero);
-    return {glm::ivec2(glm::clamp(glm::floor(least), zero, raster)),
-            glm::ivec2(glm::clamp(glm::ceil(most), zero, raster))};
+    const dvec2 minimum = origin + glm::min(x, zero) + glm::min(y, zero);
+    const dvec2 maximum = origin + glm::max(x, zero) + glm::max(y, zero);
+    return {glm::ivec2(glm::clamp(glm::floor(minimum), zero, raster)),
+            glm::ivec2(glm::clamp(glm::ceil(maximum), zero, raster))};
 }
 
 Placement placementOf(const asset::Map& map, const asset::View& view, glm::ivec2 shift, const PixelBox& box) {

@@ -20,7 +20,7 @@ constexpr GLenum resetNotificationStrategy = 0x8256, loseContextOnReset = 0x8252
 struct Limit {
     GLenum name;
     const char* text;
-    int least;
+    int minimum;
 };
 constexpr Limit limits[] = {
     {GL_MAX_TEXTURE_SIZE, "GL_MAX_TEXTURE_SIZE", 1 << texelColumnsLog2},
@@ -46,8 +46,9 @@ void requireContext() {
         throw GlError(fmt::format("the current context is '{}': OpenGL ES 3.0 or later is needed", version));
     dropErrors();
     for (const Limit& l : limits)
-        if (limit(l.name) < l.least)
-            throw GlError(fmt::format("the driver's {} is {}: {} is needed", l.text, limit(l.name), l.least));
+        if (limit(l.name) < l.minimum)
+            throw GlError(
+                fmt::format("the driver's {} is {}: {} is needed", l.text, limit(l.name), l.minimum));
 }
 
 bool isSoftwareDriver() {

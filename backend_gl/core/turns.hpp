@@ -19,7 +19,7 @@ inline constexpr std::uint32_t vectorPixels = 16;
 /// What a pixel may take on every driver, whatever its neighbours do.
 inline constexpr std::uint32_t turnsPerPixel = driverTurns / vectorPixels;
 
-/// Ramps of more stops are integrated by sums from stop to stop (src/ramp_sums.hpp) instead of a loop over
+/// Ramps of more stops are integrated by sums from stop to stop (backend_gl/upload/ramp_sums.hpp) instead of a loop over
 /// the stops.
 inline constexpr std::uint32_t longRamp = 16;
 

@@ -64,15 +64,16 @@ void refuseContradictions(const Output& output, const Attachment& attachment) {
 /// Pixels of the view in the framebuffer.
 PixelBox placed(const PixelRectangle& r, const asset::View& view, const Output& output) {
     const glm::i64vec2 view0(0), view1(view.width, view.height), corner(r.x, r.y), size(r.width, r.height);
-    glm::i64vec2 least = glm::clamp(corner, view0, view1), most = glm::clamp(corner + size, view0, view1);
+    glm::i64vec2 minimum = glm::clamp(corner, view0, view1),
+                 maximum = glm::clamp(corner + size, view0, view1);
     if (output.firstRow == Output::FirstRow::Top) {
-        std::swap(least.y, most.y);
-        least.y = view.height - least.y;
-        most.y = view.height - most.y;
+        std::swap(minimum.y, maximum.y);
+        minimum.y = view.height - minimum.y;
+        maximum.y = view.height - maximum.y;
     }
     const glm::i64vec2 origin(output.x, output.y), none(0), largest(1 << 30);
-    return {glm::ivec2(glm::clamp(least + origin, none, largest)),
-            glm::ivec2(glm::clamp(most + origin, none, largest))};
+    return {glm::ivec2(glm::clamp(minimum + origin, none, largest)),
+            glm::ivec2(glm::clamp(maximum + origin, none, largest))};
 }
 
 asset::View viewOf(const asset::View& view, const Output& output, glm::ivec2 size) {
@@ -91,11 +92,11 @@ asset::View viewOf(const asset::View& view, const Output& output, glm::ivec2 siz
 /// Calls use(part) for what `from` has and `hole`, which it overlaps, has not.
 template <class Use>
 void subtract(const PixelBox& from, const PixelBox& hole, Use&& use) {
-    const glm::ivec2 least = glm::max(from.min, hole.min), most = glm::min(from.max, hole.max);
+    const glm::ivec2 minimum = glm::max(from.min, hole.min), maximum = glm::min(from.max, hole.max);
     for (const PixelBox& part :
-         {PixelBox{from.min, {from.max.x, least.y}}, PixelBox{{from.min.x, most.y}, from.max},
-          PixelBox{{from.min.x, least.y}, {least.x, most.y}},
-          PixelBox{{most.x, least.y}, {from.max.x, most.y}}})
+         {PixelBox{from.min, {from.max.x, minimum.y}}, PixelBox{{from.min.x, maximum.y}, from.max},
+          PixelBox{{from.min.x, minimum.y}, {minimum.x, maximum.y}},
+          PixelBox{{maximum.x, minimum.y}, {from.max.x, maximum.y}}})
         if (!part.empty())
             use(part);
 }
@@ -146,15 +147,15 @@ Destination destinationOf(const asset::View& view, const Output& output, GLuint 
         boxes.push_back(placed(r, view, output));
     destination.boxes = disjoint(boxes);
     // A larger viewport would be cut by GL, and no framebuffer has more pixels.
-    glm::ivec2 most(0), largest(0);
+    glm::ivec2 maximum(0), largest(0);
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largest.x);
     for (PixelBox& box : destination.boxes) {
         box.min = glm::min(box.min, largest);
         box.max = glm::min(box.max, largest);
-        most = glm::max(most, box.max);
+        maximum = glm::max(maximum, box.max);
     }
     std::erase_if(destination.boxes, [](const PixelBox& box) { return box.empty(); });
-    destination.view = viewOf(view, output, most);
+    destination.view = viewOf(view, output, maximum);
     return destination;
 }
 

@@ -63,14 +63,14 @@ inline std::vector<Asset> assets() { return {disc(), everyPaint(), layers()}; }
 /// The largest difference of the target's pixels to made(colour of render()).
 inline double worst(const image::Raster& drawn, const image::Raster& picture,
                     const std::function<Color(const Color&)>& made) {
-    double most = 0;
+    double maximum = 0;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
             const Color expected = made(pixelOf(picture, x, y)), got = pixelOf(drawn, x, y);
             for (std::size_t c = 0; c < 4; ++c)
-                most = std::max(most, std::abs(got[c] - expected[c]));
+                maximum = std::max(maximum, std::abs(got[c] - expected[c]));
         }
-    return most;
+    return maximum;
 }
 
 }  // namespace vtm::gl

@@ -22,7 +22,7 @@ using namespace asset::test;
 // ---- Every permutation ----------------------------------------------------------------------------
 
 /// WebGL 2's least limits (GLSL ES 3.00's, OpenGL ES 3.0 table 6.32).
-constexpr int leastUniformVectors = 224, leastVaryingVectors = 15, leastTextureUnits = 16;
+constexpr int minUniformVectors = 224, minVaryingVectors = 15, minTextureUnits = 16;
 
 struct UniformCost {
     int vectors = 0, textures = 0;
@@ -68,9 +68,9 @@ TEST_F(Gl, EveryPermutationCompilesWithinTheLeastLimits) {
         SCOPED_TRACE(joined(source.fragment).substr(0, 400) + source.name);
         const Program program(source);
         const UniformCost cost = costOf(program);
-        EXPECT_LE(cost.vectors, leastUniformVectors);
-        EXPECT_LE(cost.textures, leastTextureUnits);
-        EXPECT_LE(varyingsOf(source), leastVaryingVectors);
+        EXPECT_LE(cost.vectors, minUniformVectors);
+        EXPECT_LE(cost.textures, minTextureUnits);
+        EXPECT_LE(varyingsOf(source), minVaryingVectors);
         varyings = std::max(varyings, varyingsOf(source));
     }
     EXPECT_EQ(varyings, 4);  // those of leaves (leaf_placement.glsl): declarations are counted

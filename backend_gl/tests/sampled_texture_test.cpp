@@ -11,6 +11,7 @@
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_prefilter.hpp"
 #include "raster/testing_views.hpp"
 
 namespace vtm::gl {

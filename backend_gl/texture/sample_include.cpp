@@ -37,7 +37,7 @@ precision highp usampler2D;
 /// Of the loops over taps in sample_prefilter.glsl: at most 4 rows of 16, for a footprint of 4 : 1.
 constexpr float prefilterTurns = 4 * (16 + 2) + 1;
 /// Footprints are widened to this share of their length.
-constexpr float largestAnisotropy = 16;
+constexpr float maxAnisotropy = 16;
 /// In pictures: smaller ones lose their digits, of larger ones the mean is all that is left.
 constexpr float smallestFootprint = 0x1p-26f, largestFootprint = 1024;
 /// Largest magnitude of s and t: beyond, single precision has no fractions.
@@ -53,7 +53,7 @@ std::string constants() {
     };
     add("turnsPerPixel", float(turnsPerPixel));
     add("prefilterTurns", prefilterTurns);
-    add("largestAnisotropy", largestAnisotropy);
+    add("maxAnisotropy", maxAnisotropy);
     add("smallestFootprint", smallestFootprint);
     add("largestFootprint", largestFootprint);
     add("largestPlace", largestPlace);

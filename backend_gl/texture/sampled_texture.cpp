@@ -210,10 +210,10 @@ unsigned SampledTexture::units() const { return impl_->images.get() != 0 ? 3 : 2
 
 void SampledTexture::bind(unsigned program, const std::string& name, unsigned firstUnit, Wrapping wrapping) {
     checkErrors("something before a texture was bound");
-    const unsigned most = unsigned(limit(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
-    if (firstUnit + units() > most || firstUnit > most)
+    const unsigned maximum = unsigned(limit(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
+    if (firstUnit + units() > maximum || firstUnit > maximum)
         throw GlError(fmt::format("'{}' needs texture units {} to {}: the driver has {}", name, firstUnit,
-                                  firstUnit + units() - 1, most));
+                                  firstUnit + units() - 1, maximum));
     if (glGetUniformLocation(program, (name + ".texels").c_str()) < 0)
         throw GlError(fmt::format("program {} samples no 'uniform Vtm {}'", program, name));
     const SavedBindState saved;

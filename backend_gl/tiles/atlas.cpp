@@ -20,7 +20,7 @@ using glm::dvec2;
 
 constexpr double cellsPerRadius = 2.83;
 /// What is kept before everything is thrown away: 64 MiB.
-constexpr std::size_t mostTexels = std::size_t(1) << 22;
+constexpr std::size_t maxTexels = std::size_t(1) << 22;
 
 /// From a pixel's centre to the furthest of its corners, in sides of the map.
 double footprintRadius(const asset::Map& map, const asset::View& view) {
@@ -57,12 +57,12 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i
     for (const PlanarPiece& piece : pieces_->map().pieces) {
         limits::check();
         const double reach = tileMargin() + piece.bulge() / side;
-        const dvec2 least = glm::floor(glm::min(piece.a, piece.b) / side - reach),
-                    most = glm::floor(glm::max(piece.a, piece.b) / side + reach);
-        if (!(most.x >= double(min.x) && most.y >= double(min.y) && least.x < double(max.x) &&
-              least.y < double(max.y)))
+        const dvec2 minimum = glm::floor(glm::min(piece.a, piece.b) / side - reach),
+                    maximum = glm::floor(glm::max(piece.a, piece.b) / side + reach);
+        if (!(maximum.x >= double(min.x) && maximum.y >= double(min.y) && minimum.x < double(max.x) &&
+              minimum.y < double(max.y)))
             continue;
-        const glm::i64vec2 from(glm::max(least, dvec2(min))), to(glm::min(most, dvec2(max) - 1.0));
+        const glm::i64vec2 from(glm::max(minimum, dvec2(min))), to(glm::min(maximum, dvec2(max) - 1.0));
         for (std::int64_t y = from.y; y <= to.y; ++y)
             for (std::int64_t x = from.x; x <= to.x; ++x)
                 near[std::size_t(y - min.y) * columns + std::size_t(x - min.x)].push_back(&piece);
@@ -85,7 +85,7 @@ Atlas::Placed Atlas::place(Tile tile) {
 }
 
 void Atlas::makeRoom() {
-    if (texels_.size() <= mostTexels)
+    if (texels_.size() <= maxTexels)
         return;
     placed_.clear();
     crowded_.reset();

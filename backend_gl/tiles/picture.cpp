@@ -45,17 +45,17 @@ public:
     Squares(const asset::Map& map, const asset::View& view, const PixelBox& box, int level)
         : side_(std::ldexp(map.side, -level)), corner_(map.x, map.y), view_(view), box_(box) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        dvec2 minimum(HUGE_VAL), maximum(-HUGE_VAL);
         for (const dvec2 pixel :
              {dvec2(box.min), dvec2(box.max.x, box.min.y), dvec2(box.min.x, box.max.y), dvec2(box.max)}) {
             const dvec2 p = (inverse * (pixel - view.toPixels[2]) - corner_) / side_;
-            least = glm::min(least, p);
-            most = glm::max(most, p);
+            minimum = glm::min(minimum, p);
+            maximum = glm::max(maximum, p);
         }
         // The map's border belongs to pixels with centres up to a margin outside.
         const double end = std::ceil(std::ldexp(1.0, level)) + 1;
-        min = i64vec2(glm::clamp(glm::floor(least), -1.0, end));
-        max = i64vec2(glm::clamp(glm::floor(most) + 1.0, -1.0, end));
+        min = i64vec2(glm::clamp(glm::floor(minimum), -1.0, end));
+        max = i64vec2(glm::clamp(glm::floor(maximum) + 1.0, -1.0, end));
     }
 
     dvec2 picture(std::int64_t x, std::int64_t y) const { return corner_ + dvec2(x, y) * side_; }
@@ -66,8 +66,9 @@ public:
 
     /// Whether a square can show.
     bool visible(i64vec2 at) const {
-        const auto [least, most] = bounds(dvec2(at), 1);
-        return most.x > box_.min.x && most.y > box_.min.y && least.x < box_.max.x && least.y < box_.max.y;
+        const auto [minimum, maximum] = bounds(dvec2(at), 1);
+        return maximum.x > box_.min.x && maximum.y > box_.min.y && minimum.x < box_.max.x &&
+               minimum.y < box_.max.y;
     }
 
     /// Pixels of the box that a square's cell can show in.
@@ -82,21 +83,21 @@ public:
 
 private:
     PixelBox pixelsOf(dvec2 corner, double side) const {
-        const auto [least, most] = bounds(corner, side);
+        const auto [minimum, maximum] = bounds(corner, side);
         const dvec2 first(box_.min), end(box_.max);
-        return {glm::ivec2(glm::clamp(glm::floor(least), first, end)),
-                glm::ivec2(glm::clamp(glm::ceil(most), first, end))};
+        return {glm::ivec2(glm::clamp(glm::floor(minimum), first, end)),
+                glm::ivec2(glm::clamp(glm::ceil(maximum), first, end))};
     }
 
     /// The least and the largest pixel coordinates of a square, whose corner and side are in tiles.
     std::pair<dvec2, dvec2> bounds(dvec2 corner, double side) const {
-        dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+        dvec2 minimum(HUGE_VAL), maximum(-HUGE_VAL);
         for (const dvec2 to : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}) {
             const dvec2 p = view_.toPixels * glm::dvec3(corner_ + (corner + to * side) * side_, 1);
-            least = glm::min(least, p);
-            most = glm::max(most, p);
+            minimum = glm::min(minimum, p);
+            maximum = glm::max(maximum, p);
         }
-        return {least, most};
+        return {minimum, maximum};
     }
 
     double side_;
@@ -209,7 +210,7 @@ void use(const Program& program, const UploadedAsset& asset, const asset::View& 
     setMatrix(program.uniform("tileToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
     setMatrix(program.uniform("pixelToTile"), glm::inverse(toPixels));
     const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    glUniform1f(program.uniform("minSteepness"), asset::leastSteepness(pixel));
+    glUniform1f(program.uniform("minSteepness"), asset::minSteepness(pixel));
 }
 
 void bindTexture(Unit unit, const TextureHandle& texture) {

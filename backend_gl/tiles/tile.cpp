@@ -66,10 +66,10 @@ void forEachCell(const PlanarPiece& p, double margin, Visit&& visit) {
                 continue;
         }
         const double x0 = p.a.x + from * d.x, x1 = p.a.x + to * d.x;
-        const double least = std::min(x0, x1) - reach, most = std::max(x0, x1) + reach;
-        if (most < 0 || least > 1)
+        const double minimum = std::min(x0, x1) - reach, maximum = std::max(x0, x1) + reach;
+        if (maximum < 0 || minimum > 1)
             continue;
-        for (int column = index(least), last = index(most); column <= last; ++column)
+        for (int column = index(minimum), last = index(maximum); column <= last; ++column)
             if (distance2(p.a, d, inverse, (dvec2(column, row) + 0.5) * cellSize) <= fromCentre * fromCentre)
                 visit(std::uint32_t(row * cellCount + column));
     }
@@ -178,7 +178,7 @@ public:
     HandedOver(const TileSource& source, const CellPlaces& places, bool programs)
         : maxTurns_(source.asset.materials.empty() ? source.maxTurns : source.maxTurns * materialFactor),
           programs_(programs),
-          costs_{source.programTurns, source.changes, asset::leastSteepness(glm::dmat2(places.stretch()))} {
+          costs_{source.programTurns, source.changes, asset::minSteepness(glm::dmat2(places.stretch()))} {
         if (programs && source.asset.materials.empty())
             rough_ = RoughCells(source.asset, source.changes);
     }

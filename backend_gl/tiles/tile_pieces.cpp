@@ -17,7 +17,7 @@ using glm::dvec2;
 constexpr double longestPiece = 0.75, longestPart = 0.5;
 /// Into at least so many: the part of a cubic over its own chord is a cubic no more, but within L (1/8)^4 · 4
 /// / 384 = 2.5e-6 of the length L.
-constexpr double fewestParts = 8;
+constexpr double minParts = 8;
 
 /// What a curve may leave its tangent by within a pixel, in pixels: the shader looks for the ends of the part
 /// in the box on the tangent, and what it misses there is about the square of that.
@@ -62,7 +62,7 @@ void LocalPieces::add(const PlanarPiece& piece) {
     const PlanarPiece local = toTile(piece);
     const double length = glm::length(local.b - local.a);
     const double parts =
-        std::max(length <= longestPiece ? 1.0 : std::max(fewestParts, std::ceil(length / longestPart)),
+        std::max(length <= longestPiece ? 1.0 : std::max(minParts, std::ceil(length / longestPart)),
                  std::ceil(length / longestBend(local, length)));
     if (parts == 1)
         return addRounded(local);
@@ -74,15 +74,15 @@ void LocalPieces::add(const PlanarPiece& piece) {
 double LocalPieces::longestBend(const PlanarPiece& piece, double length) const {
     const double turn = std::abs(piece.slopeA - piece.slopeB) + std::abs(piece.slopeA + piece.slopeB);
     const double pixel = margin_ * std::numbers::sqrt2, curvature = turn / length;
-    const double most = flatEnough * pixel * 8 / curvature;
+    const double maximum = flatEnough * pixel * 8 / curvature;
     // Within a box of one pixel nothing longer matters.
-    return most >= pixel * pixel ? HUGE_VAL : std::sqrt(most);
+    return maximum >= pixel * pixel ? HUGE_VAL : std::sqrt(maximum);
 }
 
 void LocalPieces::addRounded(PlanarPiece piece) {
     const double reach = margin_ + piece.bulge();
-    const dvec2 least = glm::min(piece.a, piece.b) - reach, most = glm::max(piece.a, piece.b) + reach;
-    if (!(least.x <= 1 && least.y <= 1 && most.x >= 0 && most.y >= 0))
+    const dvec2 minimum = glm::min(piece.a, piece.b) - reach, maximum = glm::max(piece.a, piece.b) + reach;
+    if (!(minimum.x <= 1 && minimum.y <= 1 && maximum.x >= 0 && maximum.y >= 0))
         return;
     // Both pieces at a point round it alike, so that the map stays closed.
     piece.a = {rounded(piece.a.x), rounded(piece.a.y)};

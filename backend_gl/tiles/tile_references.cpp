@@ -79,8 +79,8 @@ std::optional<dvec2> clearPoint(const LocalPieces& local, double side,
     for (const PlanarPiece* piece : near) {
         const PlanarPiece p = local.toTile(*piece);
         const double reach = surelyClear + p.bulge();
-        const dvec2 least = glm::min(p.a, p.b) - reach, most = glm::max(p.a, p.b) + reach;
-        if (least.x <= side && least.y <= side && most.x >= 0 && most.y >= 0)
+        const dvec2 minimum = glm::min(p.a, p.b) - reach, maximum = glm::max(p.a, p.b) + reach;
+        if (minimum.x <= side && minimum.y <= side && maximum.x >= 0 && maximum.y >= 0)
             pieces.push_back(p);
     }
     for (int i = 0; i < tries; ++i) {

@@ -18,9 +18,9 @@ std::uint64_t solidTurns(std::size_t pieces);
 struct PaintCosts {
     std::span<const std::uint32_t> turns;  ///< of turns.hpp
     std::span<const asset::PaintChange> changes;
-    float leastSteep = 0;  ///< no pixel of the tile has a smaller one
+    float minSteep = 0;  ///< no pixel of the tile has a smaller one
 
-    bool mayBeSteep(std::uint32_t paint) const { return changes[paint].steepness > leastSteep; }
+    bool mayBeSteep(std::uint32_t paint) const { return changes[paint].steepness > minSteep; }
 };
 
 /// Of tile_programs_fragment.glsl, for pieces `list` and the paint at the reference point.

@@ -160,8 +160,8 @@ void takeTurns(Contenders& all, const Picture& picture, const Kind& kind, int si
     }
     double spent = 0;
     const int fewest = kind.zooming ? zoomRounds : patience.fewest,
-              most = kind.zooming ? zoomRounds : patience.most;
-    for (int round = -1; round < fewest || (spent < patience.budget && round < most); ++round) {
+              maximum = kind.zooming ? zoomRounds : patience.maximum;
+    for (int round = -1; round < fewest || (spent < patience.budget && round < maximum); ++round) {
         const asset::View view = viewOf(picture.scene, side, kind, kind.moving ? std::max(round, 0) : 0);
         for (Contender& one : all) {
             std::optional<double> time;

@@ -34,9 +34,9 @@ inline constexpr int zoomRounds = 11;
 
 /// How long turns are taken.
 struct Patience {
-    double budget;     ///< CPU milliseconds of a file and a kind of views, all engines
-    int fewest, most;  ///< rounds
-    double longest;    ///< CPU milliseconds of one drawing: who takes longer is out, and is noted
+    double budget;        ///< CPU milliseconds of a file and a kind of views, all engines
+    int fewest, maximum;  ///< rounds
+    double longest;       ///< CPU milliseconds of one drawing: who takes longer is out, and is noted
 };
 Patience patienceOf(const Options& options);
 

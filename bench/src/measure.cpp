@@ -38,11 +38,11 @@ double quantile(std::vector<double> values, double share) {
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 Paired pairwise(const std::function<void()>& first, const std::function<void()>& second, double budget,
-                int most) {
+                int maximum) {
     first();
     second();
     std::vector<double> firsts, seconds, ratios;
-    for (double spent = 0; int(ratios.size()) < 5 || (spent < budget && int(ratios.size()) < most);) {
+    for (double spent = 0; int(ratios.size()) < 5 || (spent < budget && int(ratios.size()) < maximum);) {
         firsts.push_back(cpuTime(first));
         seconds.push_back(cpuTime(second));
         ratios.push_back(seconds.back() / firsts.back());

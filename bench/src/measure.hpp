@@ -36,10 +36,10 @@ struct Paired {
     int pairs = 0;
 };
 
-/// Pairs until `budget` (CPU milliseconds) is spent, at least five, at most `most`. One pair before them is
-/// not counted.
+/// Pairs until `budget` (CPU milliseconds) is spent, at least five, at most `maximum`. One pair before them
+/// is not counted.
 Paired pairwise(const std::function<void()>& first, const std::function<void()>& second, double budget,
-                int most);
+                int maximum);
 
 /// What a child process used.
 struct ChildUse {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int width = 1024;                          ///< pixels
 constexpr double budget = 4000, quickBudget = 1000;  ///< CPU milliseconds a file
-constexpr int mostPairs = 41;
+constexpr int maxPairs = 41;
 
 /// The whole picture, `width` pixels wide.
 asset::View viewOf(const scene::Scene& scene) {
@@ -33,7 +33,7 @@ double wallTime(const scene::Scene& scene) {
 
 /// Compiles on one core while it lives.
 class OneCore {
-    tbb::global_control most_{tbb::global_control::max_allowed_parallelism, 1};
+    tbb::global_control maximum_{tbb::global_control::max_allowed_parallelism, 1};
 };
 
 void addCompared(const File& file, double spend, Report& report) {
@@ -42,7 +42,7 @@ void addCompared(const File& file, double spend, Report& report) {
     Rsvg rsvg(file.path, scene.width, scene.height);
     const Paired time = [&] {
         const OneCore one;
-        return pairwise([&] { rsvg.draw(view); }, [&] { compiler::compile(scene); }, spend, mostPairs);
+        return pairwise([&] { rsvg.draw(view); }, [&] { compiler::compile(scene); }, spend, maxPairs);
     }();
     const asset::Summary summary = asset::summarize(compiler::compile(scene).asset);
     report.rows.push_back({{"file", file.name},

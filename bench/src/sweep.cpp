@@ -67,20 +67,20 @@ std::vector<Point> measureAll(const scene::Scene& scene, const std::vector<Setti
 }
 
 /// The smallest of the model's assets that cost no more to draw and have no more averaged leaves: its number,
-/// or none.
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+/// or noIndex.
+constexpr std::size_t noIndex = std::numeric_limits<std::size_t>::max();
 std::size_t smallestAt(const Point& fixed, const std::vector<Point>& model) {
-    std::size_t best = none;
+    std::size_t best = noIndex;
     for (std::size_t i = 0; i < model.size(); ++i)
         if (model[i].cost <= fixed.cost && model[i].fallback <= fixed.fallback &&
-            (best == none || model[i].bytes < model[best].bytes))
+            (best == noIndex || model[i].bytes < model[best].bytes))
             best = i;
     return best;
 }
 
 double ratioAt(const Point& fixed, const std::vector<Point>& model) {
     const std::size_t best = smallestAt(fixed, model);
-    return best == none ? std::numeric_limits<double>::quiet_NaN() : model[best].bytes / fixed.bytes;
+    return best == noIndex ? std::numeric_limits<double>::quiet_NaN() : model[best].bytes / fixed.bytes;
 }
 
 void add(std::vector<Point>& sums, const std::vector<Point>& points) {
@@ -131,7 +131,7 @@ Report sweep(const Options& options) {
         report.summary.push_back({{"fixed", fixed[i].name},
                                   {"KB", std::round(fixedSums[i].bytes / 1024)},
                                   {"cost", fixedSums[i].cost / double(files.size())},
-                                  {"the model at", best == none ? "none" : model[best].name},
+                                  {"the model at", best == noIndex ? "none" : model[best].name},
                                   {"bytes of one model / fixed", ratioAt(fixedSums[i], modelSums)},
                                   {"file by file: median", median(ratios[i])},
                                   {"worst", ratios[i].empty() ? 0 : std::ranges::max(ratios[i])},

@@ -15,7 +15,7 @@ namespace vtm::bench {
 namespace {
 
 constexpr double budget = 3000, quickBudget = 800;  ///< CPU milliseconds a view
-constexpr int mostPixels = 512;  ///< along a side: a software driver takes seconds for more
+constexpr int maxPixels = 512;  ///< along a side: a software driver takes seconds for more
 
 /// A plane of repeated pictures, by vtm_sample.
 class Plane {
@@ -75,7 +75,7 @@ constexpr Sampling samplings[] = {
 }  // namespace
 
 Report texture(const Options& options) {
-    const int side = std::min(options.side, mostPixels);
+    const int side = std::min(options.side, maxPixels);
     Options few = options;
     few.quick = true;
     const gl::Context context;

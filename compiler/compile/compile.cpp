@@ -7,6 +7,7 @@
 #include "compiler/compile/settings.hpp"
 #include "compiler/lower/walk_items.hpp"
 #include "compiler/paint/painters.hpp"
+#include "compiler/tree/build_tree.hpp"
 #include "compiler/tree/encode.hpp"
 
 namespace vtm::compiler {
@@ -89,7 +90,7 @@ public:
     }
 
     void item(const PictureItem& item) {
-        MaskPainter painter(picture_, item.layer, none);
+        MaskPainter painter(picture_, item.layer, noIndex);
         Command& fill = emit(Command::Kind::FillMask);
         fill.paint = paintOf(item);
         const std::uint32_t layer[] = {item.layer};
@@ -104,7 +105,7 @@ public:
     void close(std::uint32_t index) {
         --depth_;
         const PictureGroup& group = picture_.groups[index];
-        if (group.clip != none)
+        if (group.clip != noIndex)
             emit(Command::Kind::ClipMask).map = clipMap(group.clip);
         if (group.role != GroupRole::Plain) {
             emit(group.role == GroupRole::AlphaMask       ? Command::Kind::PopMaskAlpha
@@ -154,12 +155,12 @@ private:
         std::vector<std::uint32_t> layers;
         collectLayers(clip, layers);
         std::sort(layers.begin(), layers.end());
-        MaskPainter painter(picture_, none, clip);
+        MaskPainter painter(picture_, noIndex, clip);
         return addMask(layers, painter);
     }
 
     void collectLayers(std::uint32_t clip, std::vector<std::uint32_t>& into) const {
-        if (clip == none)
+        if (clip == noIndex)
             return;
         for (const ClipExpression::Term& term : picture_.clips[clip].terms) {
             into.push_back(term.layer);

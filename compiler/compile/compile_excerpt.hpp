@@ -3,7 +3,7 @@
 #pragma once
 
 #include <vtm/compiler/compile.hpp>
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lower.hpp"
 
 namespace vtm::compiler {
 

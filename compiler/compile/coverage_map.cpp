@@ -16,7 +16,7 @@ using asset::PlanarMap;
 using glm::dvec2;
 
 /// A square with more is divided: monotone runs are compared in pairs, and chords in order.
-constexpr std::size_t maxRuns = 400, maxChords = 4096;
+constexpr std::size_t maxSquareRuns = 400, maxSquareChords = 4096;
 
 scene::Scene sceneOf(const std::shared_ptr<const scene::Path>& outline, scene::FillRule rule,
                      const scene::Affine& toPicture, dvec2 picture) {
@@ -97,14 +97,15 @@ std::optional<PlanarMap> inOneSquare(const scene::Path& outline, scene::FillRule
     lowered.layers.push_back({rule, 0, std::uint32_t(lowered.outlines.runs.size()), {}});
     const std::array<std::uint32_t, 1> layer{0};
     Cell cell = rootCell(lowered, lattice.square(), layer);
-    if (cell.strands.empty() || cell.strands.size() > maxRuns || cell.chordCount() > maxChords)
+    if (cell.clippedRuns.empty() || cell.clippedRuns.size() > maxSquareRuns ||
+        cell.chordCount() > maxSquareChords)
         return std::nullopt;
-    MaskPainter painter(lowered, 0, none);
+    MaskPainter painter(lowered, 0, noIndex);
     LeafRegions regions(lowered, painter);
     Palette palette;
     regions.enter(cell, palette);
     thread_local Planariser planariser;
-    const PlanarLeaf& leaf = planariser.run(cell.square, lowered.outlines.points, cell.strands, regions);
+    const PlanarLeaf& leaf = planariser.run(cell.square, lowered.outlines.points, cell.clippedRuns, regions);
     if (!leaf.certified || !budget.holds(budget.planar(leaf.set->bend)))
         return std::nullopt;
     return SquareMap(cell.square, std::max(picture.x, picture.y)).run(leaf);

@@ -14,7 +14,7 @@ public:
     static constexpr std::uint32_t unknown = 0xFFFFFFFFu;
 
     void clear() {
-        slots_.assign(leastSlots, {});
+        slots_.assign(minSlots, {});
         count_ = 0;
     }
 
@@ -35,7 +35,7 @@ private:
         std::uint64_t key = 0;
         std::uint32_t number = unknown;
     };
-    static constexpr std::size_t leastSlots = 64;  ///< a power of two, as all sizes
+    static constexpr std::size_t minSlots = 64;  ///< a power of two, as all sizes
 
     Slot& find(std::uint64_t key) {
         std::size_t at = key & (slots_.size() - 1);
@@ -52,7 +52,7 @@ private:
                 find(slot.key) = slot;
     }
 
-    std::vector<Slot> slots_{leastSlots};
+    std::vector<Slot> slots_{minSlots};
     std::size_t count_ = 0;
 };
 

@@ -109,13 +109,13 @@ std::uint32_t Fitter::reach(std::uint32_t from, std::uint32_t last) const {
     const auto areFlat = [&](std::uint32_t to) {
         const double count = to;
         const Pair n{count, count + 1},
-            most = maxSlope * (n - 0.5), wholeX = load(x + to) - x[0], wholeY = load(y + to) - y[0],
+            maximum = maxSlope * (n - 0.5), wholeX = load(x + to) - x[0], wholeY = load(y + to) - y[0],
             lastX = load(x + to) - load(x + to - 1), lastY = load(y + to) - load(y + to - 1),
             acrossFirst = wholeX * firstY - wholeY * firstX, acrossLast = wholeX * lastY - wholeY * lastX;
-        return (n * magnitude(acrossFirst) <= most * (wholeX * firstX + wholeY * firstY)) &
-               (n * magnitude(acrossLast) <= most * (wholeX * lastX + wholeY * lastY));
+        return (n * magnitude(acrossFirst) <= maximum * (wholeX * firstX + wholeY * firstY)) &
+               (n * magnitude(acrossLast) <= maximum * (wholeX * lastX + wholeY * lastY));
     };
-    last = std::min(last, LocalPoints::mostChords);
+    last = std::min(last, LocalPoints::maxChords);
     if (areFlat(last)[0])
         return last;
     for (std::uint32_t to = 2; to < last; to += 2) {

@@ -35,13 +35,13 @@ bool place(LocalPoints& points, const double* x, const double* y, std::uint32_t 
 /// The slopes that come closest to the means of the chords by some of the points 1 .. last - 1: chords lie on
 /// the inner side of points by up to a quarter of what these stray from the line of their neighbours, on
 /// average by half of that.
-Pair leastSquares(const LocalPoints& points, std::uint32_t last) {
+Pair minSquares(const LocalPoints& points, std::uint32_t last) {
     // Normal equations of t(s_i) = mA p_i + mB q_i; a whisper of regularisation keeps the case of one inner
     // point solvable and prefers small slopes.
     constexpr double whisper = 1e-9;
-    constexpr std::uint32_t mostSamples = 8;
+    constexpr std::uint32_t maxSamples = 8;
     constexpr double inwards = 1.0 / 8;
-    const std::uint32_t stride = (last - 1 + mostSamples) / mostSamples;
+    const std::uint32_t stride = (last - 1 + maxSamples) / maxSamples;
     Pair pp{}, pq{}, qq{}, pt{}, qt{};
     for (std::uint32_t i = 1 + (stride - 1) / 2; i < last; i += 2 * stride) {
         // With no second point the end stands in, which counts for nothing.
@@ -92,15 +92,15 @@ double PieceFit::run(const double* x, const double* y, std::uint32_t last, Pair 
     const double length2 = ab[0] * ab[0] + ab[1] * ab[1];
     if (length2 == 0 || !place(local_, x, y, last, a, ab / length2))
         return beyond;
-    const Pair m = leastSquares(local_, last);
+    const Pair m = minSquares(local_, last);
     const double steepest = std::max(std::abs(m[0]), std::abs(m[1]));
     if (!(steepest <= maxSlope))
         return std::max(steepest / maxSlope, 1.01);
     slopes_ = {stored(m[0]), stored(m[1])};
-    const double most = tolerance / std::sqrt(length2),
+    const double maximum = tolerance / std::sqrt(length2),
                  worst = stray(local_, Pair{double(slopes_.a), double(slopes_.b)} / double{asset::slopeScale},
                                last);
-    return worst <= most ? 1 : std::clamp(std::sqrt(std::sqrt(worst / most)), 1.01, beyond);
+    return worst <= maximum ? 1 : std::clamp(std::sqrt(std::sqrt(worst / maximum)), 1.01, beyond);
 }
 
 }  // namespace vtm::compiler

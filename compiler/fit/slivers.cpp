@@ -33,8 +33,8 @@ void Fitter::cutSlivers() {
 
 /// Within twice the reach of a sliver from the border.
 bool Fitter::isNearBorder(Pair u) const {
-    const double margin = 2 * (sliverReach() + scale_), most = asset::leafExtent - margin;
-    return (u[0] <= margin) | (u[0] >= most) | (u[1] <= margin) | (u[1] >= most);
+    const double margin = 2 * (sliverReach() + scale_), maximum = asset::leafExtent - margin;
+    return (u[0] <= margin) | (u[0] >= maximum) | (u[1] <= margin) | (u[1] >= maximum);
 }
 
 bool Fitter::isSliver(const Chain& chain) {

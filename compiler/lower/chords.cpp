@@ -19,14 +19,14 @@ double dot(scene::Point a, scene::Point b) { return a.x * b.x + a.y * b.y; }
 /// accelerations p and q at the ends it strays by f(s) = h² s (1 - s) (d × p (2 - s) + d × q (1 + s)) / (6
 /// |d|), so by h² (|d × p| + |d × q|) / (9 √3 |d|) at most.
 struct ChordCutter::Proof {
-    double ax, ay, bx, by, most;
+    double ax, ay, bx, by, maximum;
 
     Proof(const Curve& curve, double tolerance)
         : ax(3 * curve.a.x),
           ay(3 * curve.a.y),
           bx(curve.b.x),
           by(curve.b.y),
-          most(60.75 * tolerance * tolerance) {}
+          maximum(60.75 * tolerance * tolerance) {}
 
     /// A truth value for each number.
     template <class Number>
@@ -34,14 +34,14 @@ struct ChordCutter::Proof {
         const Number h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
         const Number a = dx * ay - dy * ax, b = dx * by - dy * bx;  // d × P'' / 2 = a t + b
         const Number across = h * h * (magnitude(a * from.t + b) + magnitude(a * to.t + b));
-        return across * across <= most * (dx * dx + dy * dy);
+        return across * across <= maximum * (dx * dx + dy * dy);
     }
 };
 
 std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
     curve_ = {p.p3 - p.p0 + 3.0 * (p.p1 - p.p2), 3.0 * (p.p0 - 2.0 * p.p1 + p.p2), 3.0 * (p.p1 - p.p0), p.p0};
     const double needed = guess();
-    if (!(needed <= mostChords) || !isResolved())
+    if (!(needed <= maxChords) || !isResolved())
         return {};
     const int whole = static_cast<int>(needed), count = std::max(1, whole + (whole < needed));
     findVertices(count, p.p3);
@@ -62,15 +62,15 @@ bool ChordCutter::isResolved() const {
 
 /// The number of chords that will do if each of them has an equal share of it.
 double ChordCutter::guess() {
-    constexpr double sure = 0.9;  // of the tolerance: steps are not small
-    constexpr double leastSpeed = std::numeric_limits<double>::min();  // no division by zero
+    constexpr double sure = 0.9;                                     // of the tolerance: steps are not small
+    constexpr double minSpeed = std::numeric_limits<double>::min();  // no division by zero
     const auto [a, b, c, start] = curve_;
     const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
     const double ax = 3 * a.x, ay = 3 * a.y, bx = 2 * b.x, by = 2 * b.y, cx = c.x, cy = c.y;
     const double per = 1 / (8 * sure * tolerance_);
     return shares_.integrate(0, 1, [=](Pair t) {
         const Pair x = (t * ax + bx) * t + cx, y = (t * ay + by) * t + cy;
-        const Pair speed = squareRoot(x * x + y * y) + leastSpeed;
+        const Pair speed = squareRoot(x * x + y * y) + minSpeed;
         return squareRoot(per * magnitude((c2 * t + c1) * t + c0) / speed);
     });
 }

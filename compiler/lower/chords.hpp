@@ -21,7 +21,7 @@ namespace vtm::compiler {
 class ChordCutter {
 public:
     /// Guessed for one cubic.
-    static constexpr int mostChords = 256;
+    static constexpr int maxChords = 256;
 
     explicit ChordCutter(double tolerance) : tolerance_(tolerance) {}
 
@@ -61,7 +61,7 @@ private:
     Curve curve_;
     EvenShares shares_;
     /// Vertices, and one more for loops over two at once.
-    std::array<double, mostChords + 2> t_, x_, y_;
+    std::array<double, maxChords + 2> t_, x_, y_;
     bool runForward_ = false;  ///< all chords, proven
     std::vector<Point> ends_;
 };

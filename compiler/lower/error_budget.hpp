@@ -32,7 +32,7 @@ public:
     /// proven.
     double fit() const {
         return std::clamp((1 - outlineShare - quantisationShare) * tolerance_ - lattice(usualBend),
-                          leastFitShare * tolerance_, mostFitShare * tolerance_);
+                          minFitShare * tolerance_, maxFitShare * tolerance_);
     }
     /// The coarsest level on which rounding the ends of pieces keeps to its share.
     unsigned coarsestLevel() const {
@@ -63,10 +63,10 @@ public:
 private:
     static constexpr double diagonal = std::numbers::sqrt2;
     static constexpr double outlineShare = 1.0 / 4, strokeShare = 1.0 / 16, quantisationShare = 3.0 / 16;
-    static constexpr double mostFitShare = 1.0 / 2, leastFitShare = 1.0 / 8;
+    static constexpr double maxFitShare = 1.0 / 2, minFitShare = 1.0 / 8;
     static constexpr double usualBend = 1.5;  ///< one round; two or more are rare
 
-    /// Rounding vertices to even coordinates and stretching the picture (src/lattice.hpp) move a point by at
+    /// Rounding vertices to even coordinates and stretching the picture (compiler/lower/lattice.hpp) move a point by at
     /// most a step in each axis, clipping moves it by one along a border.
     static double lattice(double bend) { return arcSteps + 2 * diagonal + 1 + bend; }
     double leafSteps(unsigned level) const { return std::ldexp(1.0, bits_ - 2 * static_cast<int>(level)); }

@@ -26,7 +26,7 @@ public:
         for (std::size_t i = 2; i < few; i += 2)
             fewer += 2 * density_[i];
         if (!(std::abs(sums_[few] - fewer) * step_ <= tame))
-            sample(most, (to - from) / most, density);
+            sample(maximum, (to - from) / maximum, density);
         return sums_[std::size_t(steps_)] * step_;
     }
 
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    static constexpr int most = 16;
+    static constexpr int maximum = 16;
 
     template <class Density>
     void sample(int steps, double step, const Density& density) {
@@ -69,7 +69,7 @@ private:
     double from_ = 0, step_ = 0;
     int steps_ = 0;
     /// At the ends of steps, and one more for loops over two at once; sums in steps.
-    std::array<double, most + 2> density_, sums_;
+    std::array<double, maximum + 2> density_, sums_;
 };
 
 }  // namespace vtm::compiler

@@ -1,5 +1,5 @@
-/// \file
-/// Scene to picture: strokes become outlines, patterns become groups of tiles, curves become chords.
+#include "compiler/lower/lower.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +10,6 @@
 #include <vtm/compiler/stroke.hpp>
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/lower/paints.hpp"
-#include "compiler/lower/picture.hpp"
 #include "geometry/box.hpp"
 
 namespace vtm::compiler {
@@ -84,8 +83,8 @@ private:
         place_ = {};
         const std::uint32_t both = openGroup(into);
         const std::uint32_t mask = geometryLayer(s.mask, compose(outer, s.mask.transform));
-        side(s.inside, {mask, none, false}, outer, both);
-        side(s.outside, {mask, none, true}, outer, both);
+        side(s.inside, {mask, noIndex, false}, outer, both);
+        side(s.outside, {mask, noIndex, true}, outer, both);
     }
 
     void side(const std::shared_ptr<const scene::Group>& content, ClipExpression::Term term,
@@ -94,7 +93,7 @@ private:
             return;
         const std::uint32_t index = openGroup(into);
         picture_.groups[index].adds = term.inverted;
-        picture_.groups[index].clip = push({{term}, none});
+        picture_.groups[index].clip = push({{term}, noIndex});
         // The side's own opacity, clip and mask belong to its content: one group further in.
         group(*content, outer, openGroup(index));
     }
@@ -194,7 +193,7 @@ private:
         const std::uint32_t index = openGroup(into);
         const std::uint32_t shape = geometryLayer(item, transform);
         picture_.groups[index].opacity = item.opacity;
-        picture_.groups[index].clip = push({{{shape, none, false}}, none});
+        picture_.groups[index].clip = push({{{shape, noIndex, false}}, noIndex});
         const Affine toPicture = compose(transform, pattern.transform);
         const auto toPattern = scene::inverse(toPicture);
         const Box seen = bounds(picture_.layers[shape]).intersection(frame_);
@@ -221,7 +220,7 @@ private:
         limits::check();
         const std::uint32_t index = openGroup(into);
         const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
-        picture_.groups[index].clip = push({{{cut, none, false}}, none});
+        picture_.groups[index].clip = push({{{cut, noIndex, false}}, noIndex});
         group(*pattern.content, toPicture, openGroup(index));
     }
 
@@ -248,7 +247,7 @@ private:
     std::uint32_t addLayer(RunRange runs, scene::FillRule rule) {
         picture_.layers.push_back({rule, runs.first, runs.count, place_});
         checkLimits();
-        picture_.itemOfLayer.push_back(none);
+        picture_.itemOfLayer.push_back(noIndex);
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
     }
 

@@ -47,7 +47,7 @@ Range shown(const Affine& toRamp, glm::dvec2 size) {
     return {range.low - more, range.high + more};
 }
 
-Color mixed(const Color& a, const Color& b, double share) {
+Color hashCombine(const Color& a, const Color& b, double share) {
     const auto mix = [&](float x, float y) { return float(double(x) + (double(y) - double(x)) * share); };
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b), mix(a.a, b.a)};
 }
@@ -86,7 +86,7 @@ Color colorAt(const std::vector<Stop>& stops, double u) {
     const Stop& below = *(above - 1);
     if (above == stops.end())
         return below.color;
-    return mixed(below.color, above->color, (u - below.at) / (above->at - below.at));
+    return hashCombine(below.color, above->color, (u - below.at) / (above->at - below.at));
 }
 
 std::vector<GradientStop> within(const std::vector<Stop>& stops, const Range& range) {

@@ -19,10 +19,10 @@ bool OutlineCache::matches(const Entry& e, const OutlineOrigin& o) {
 
 /// Strokes of one path under one transform share a value.
 std::size_t OutlineCache::hash(const OutlineOrigin& o) {
-    std::uint64_t h = mixed(reinterpret_cast<std::uintptr_t>(o.path.get()), o.stroke != nullptr);
+    std::uint64_t h = hashCombine(reinterpret_cast<std::uintptr_t>(o.path.get()), o.stroke != nullptr);
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 2; ++row)
-            h = mixed(h, bits(o.transform[column][row] + 0.0));  // -0 is 0
+            h = hashCombine(h, bits(o.transform[column][row] + 0.0));  // -0 is 0
     return h;
 }
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
+#include "compiler/lower/lower.hpp"
 #include "compiler/lower/narrow_gradient.hpp"
-#include "compiler/lower/picture.hpp"
 
 namespace vtm::compiler {
 

@@ -15,25 +15,11 @@
 #include <vtm/asset/asset.hpp>
 #include <vtm/limits/limits.hpp>
 #include <vtm/scene/scene.hpp>
-#include "compiler/lower/error_budget.hpp"
 #include "compiler/lower/outline.hpp"
 
 namespace vtm::compiler {
 
-class OutlineCache;
-
-/// What becomes the picture: what `fromScene` maps from the scene into [0, width] × [0, height].
-struct Excerpt {
-    scene::Affine fromScene = scene::identity;
-    double width = 0, height = 0;
-    /// A small part of the scene: strokes are cut down to what is near, and gradients to the colours in it.
-    bool isPart = false;
-};
-inline Excerpt wholeOf(const scene::Scene& scene) {
-    return {scene::identity, scene.width, scene.height, false};
-}
-
-inline constexpr std::uint32_t none = 0xFFFFFFFFu;
+inline constexpr std::uint32_t noIndex = 0xFFFFFFFFu;
 
 struct Layer {
     scene::FillRule rule = scene::FillRule::NonZero;
@@ -60,22 +46,22 @@ struct PictureItem {
 struct ClipExpression {
     struct Term {
         std::uint32_t layer = 0;
-        std::uint32_t clip = none;
+        std::uint32_t clip = noIndex;
         bool inverted = false;  ///< outside the layer instead of inside
     };
     std::vector<Term> terms;
-    std::uint32_t outer = none;
+    std::uint32_t outer = noIndex;
 };
 
 enum class GroupRole : std::uint8_t { Plain, LuminanceMask, LinearMask, AlphaMask };
 
 struct PictureGroup {
-    std::uint32_t parent = none;
+    std::uint32_t parent = noIndex;
     GroupRole role = GroupRole::Plain;
     float opacity = 1;
     scene::BlendMode blend = scene::BlendMode::Normal;
-    std::uint32_t clip = none;
-    std::uint32_t mask = none;  ///< the mask's group, a child of this one that comes after the items
+    std::uint32_t clip = noIndex;
+    std::uint32_t mask = noIndex;  ///< the mask's group, a child of this one that comes after the items
     unsigned depth = 0;
     /// The outside of a selection. Where regions are disjoint it is a group like any other; where coverage is
     /// a factor (compat mode) it is added to the inside, so that their shares add up to one.
@@ -93,7 +79,7 @@ struct Picture {
     std::vector<asset::Texel> data;  ///< gradients, image and material fills
     std::vector<std::shared_ptr<const image::Bitmap>> images;
     std::vector<asset::Material> materials;
-    std::vector<std::uint32_t> itemOfLayer;  ///< none: a clip's layer
+    std::vector<std::uint32_t> itemOfLayer;  ///< noIndex: a clip's layer
     std::size_t sampledStrokes = 0;          ///< Result::sampledStrokes
 };
 
@@ -104,20 +90,5 @@ inline std::vector<image::Bitmap> bitmapsOf(const Picture& picture) {
         bitmaps.push_back(*image);
     return bitmaps;
 }
-
-/// Limits of lowering; beyond them a LimitError.
-inline constexpr std::size_t maxChords = 50'000'000;
-inline constexpr std::size_t maxLayers = 4'000'000;
-inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
-
-/// Outlines: a fill right below an opaque stroke of its own path may take an outline of the stroke's for its
-/// own, where that hides the difference (docs/regions.md).
-enum class Sharing : std::uint8_t { None, Outlines };
-
-/// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a
-/// `cache`, outlines that it holds are taken from it and others added to it; its store of outlines becomes
-/// the picture's; then nothing is shared.
-Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr);
 
 }  // namespace vtm::compiler

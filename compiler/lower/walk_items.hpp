@@ -44,7 +44,7 @@ private:
         while (open_.size() > depth) {
             const Open top = open_.back();
             open_.pop_back();
-            if (picture_.groups[top.group].mask != none && !top.masked)
+            if (picture_.groups[top.group].mask != noIndex && !top.masked)
                 visitor_.emptyMask(top.group);
             visitor_.close(top.group);
         }

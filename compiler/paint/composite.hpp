@@ -23,7 +23,7 @@ PaintProgram compositeItems(const Picture& picture, std::span<const std::uint32_
 /// Whether a clip lets a point through, given what `inside(layer)` says of it.
 template <class Inside>
 bool insideClip(const Picture& picture, std::uint32_t clip, const Inside& inside) {
-    if (clip == none)
+    if (clip == noIndex)
         return true;
     const ClipExpression& e = picture.clips[clip];
     const bool any = std::any_of(e.terms.begin(), e.terms.end(), [&](const ClipExpression::Term& term) {
@@ -35,7 +35,7 @@ bool insideClip(const Picture& picture, std::uint32_t clip, const Inside& inside
 /// Whether all clips of a group and round it let a point through.
 template <class Inside>
 bool insideClips(const Picture& picture, std::uint32_t group, const Inside& inside) {
-    for (; group != none; group = picture.groups[group].parent)
+    for (; group != noIndex; group = picture.groups[group].parent)
         if (!insideClip(picture, picture.groups[group].clip, inside))
             return false;
     return true;

@@ -14,7 +14,7 @@ EditablePainter::EditablePainter(const Picture& picture, const std::vector<std::
       clipped_(picture.groups.size()) {
     for (std::uint32_t g = 0; g < clipped_.size(); ++g) {  // parents come first
         const PictureGroup& group = picture.groups[g];
-        clipped_[g] = group.clip != none || (group.parent != none && clipped_[group.parent]);
+        clipped_[g] = group.clip != noIndex || (group.parent != noIndex && clipped_[group.parent]);
     }
 }
 
@@ -24,7 +24,7 @@ PaintId EditablePainter::paint(std::span<const std::uint32_t> layers, const std:
     stack_.clear();
     for (std::size_t i = layers.size(); i-- > 0;) {
         const std::uint32_t index = picture_.itemOfLayer[layers[i]];
-        if (index == none || !in(layers[i]))
+        if (index == noIndex || !in(layers[i]))
             continue;
         const PictureItem& item = picture_.items[index];
         if (clipped_[item.group] && !insideClips(picture_, item.group, in))
@@ -43,7 +43,7 @@ PaintId EditablePainter::mean(std::span<const PaintId> paints, Palette& palette)
     stack_.clear();
     for (std::size_t i = 0; i < paints.size(); ++i) {
         if (i > 0)
-            stack_.push_back(none);
+            stack_.push_back(noIndex);
         const Stack& sample = palette.stacks[paints[i]];
         stack_.insert(stack_.end(), sample.begin(), sample.end());
     }

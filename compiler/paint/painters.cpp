@@ -25,7 +25,7 @@ std::unique_ptr<Painter> PicturePainter::clone() const { return std::make_unique
 bool PicturePainter::isPlain(std::uint32_t index) const {
     const PictureGroup& g = picture_.groups[index];
     return g.role == GroupRole::Plain && g.opacity >= 1 && g.blend == scene::BlendMode::Normal &&
-           g.clip == none && g.mask == none && (g.parent == none || plain_[g.parent]);
+           g.clip == noIndex && g.mask == noIndex && (g.parent == noIndex || plain_[g.parent]);
 }
 
 PaintId PicturePainter::paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
@@ -34,7 +34,7 @@ PaintId PicturePainter::paint(std::span<const std::uint32_t> layers, const std::
         return palette.solid(color);
     items_.clear();
     for (std::uint32_t layer : layers)
-        if (picture_.itemOfLayer[layer] != none)
+        if (picture_.itemOfLayer[layer] != noIndex)
             items_.push_back(picture_.itemOfLayer[layer]);
     return composite(picture_, items_, inside, palette);
 }
@@ -72,7 +72,7 @@ Cover termCover(const ClipExpression::Term& term, const std::vector<Cover>& cove
 
 // Cover is ordered Out < Edge < In: a union covers like its best term, an intersection like its worst.
 Cover PicturePainter::clipCover(std::uint32_t clip, const std::vector<Cover>& covers) const {
-    if (clip == none)
+    if (clip == noIndex)
         return Cover::In;
     const ClipExpression& e = picture_.clips[clip];
     Cover any = Cover::Out;
@@ -83,7 +83,7 @@ Cover PicturePainter::clipCover(std::uint32_t clip, const std::vector<Cover>& co
 
 Cover PicturePainter::groupCover(std::uint32_t group, const std::vector<Cover>& covers) const {
     Cover cover = Cover::In;
-    for (; group != none; group = picture_.groups[group].parent)
+    for (; group != noIndex; group = picture_.groups[group].parent)
         cover = std::min(cover, clipCover(picture_.groups[group].clip, covers));
     return cover;
 }
@@ -93,10 +93,10 @@ bool PicturePainter::hidesAllBelow(const PictureItem& item, const std::vector<Co
         return false;
     if (plain_[item.group])
         return true;
-    for (std::uint32_t g = item.group; g != none; g = picture_.groups[g].parent) {
+    for (std::uint32_t g = item.group; g != noIndex; g = picture_.groups[g].parent) {
         const PictureGroup& group = picture_.groups[g];
         if (group.role != GroupRole::Plain || group.opacity < 1 || group.blend != scene::BlendMode::Normal ||
-            group.mask != none || clipCover(group.clip, covers) != Cover::In)
+            group.mask != noIndex || clipCover(group.clip, covers) != Cover::In)
             return false;
     }
     return true;
@@ -108,12 +108,12 @@ void PicturePainter::want(std::uint32_t layer) {
 }
 
 void PicturePainter::markClips(std::uint32_t group) {
-    for (; group != none; group = picture_.groups[group].parent)
+    for (; group != noIndex; group = picture_.groups[group].parent)
         markClip(picture_.groups[group].clip);
 }
 
 void PicturePainter::markClip(std::uint32_t clip) {
-    if (clip == none)
+    if (clip == noIndex)
         return;
     const ClipExpression& e = picture_.clips[clip];
     for (const ClipExpression::Term& term : e.terms) {
@@ -128,7 +128,7 @@ void PicturePainter::cull(std::span<const std::uint32_t> layers, const std::vect
     bool hidden = false;
     for (std::size_t i = layers.size(); i-- > 0;) {
         const std::uint32_t index = picture_.itemOfLayer[layers[i]];
-        if (index == none)
+        if (index == noIndex)
             continue;
         const PictureItem& item = picture_.items[index];
         const bool clipped = !plain_[item.group];
@@ -162,7 +162,7 @@ PaintId PicturePainter::mean(std::span<const PaintId> paints, Palette& palette) 
 PaintId MaskPainter::paint(std::span<const std::uint32_t>, const std::vector<std::uint8_t>& inside,
                            Palette&) {
     const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };
-    return layer_ != none ? in(layer_) : insideClip(picture_, clip_, in);
+    return layer_ != noIndex ? in(layer_) : insideClip(picture_, clip_, in);
 }
 
 PaintId MaskPainter::mean(std::span<const PaintId> paints, Palette&) {

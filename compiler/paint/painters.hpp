@@ -57,7 +57,7 @@ public:
 
 private:
     const Picture& picture_;
-    const std::uint32_t layer_, clip_;  ///< `none` for the one that is not meant
+    const std::uint32_t layer_, clip_;  ///< `noIndex` for the one that is not meant
 };
 
 }  // namespace vtm::compiler

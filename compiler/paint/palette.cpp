@@ -66,11 +66,11 @@ Color rounded(Color c, float levels) {
 /// The finest grid on which the solid colours are few enough, as its number of levels; 0: no grid is
 /// needed.
 float gridFor(const Palette& palette) {
-    if (palette.size() <= mostPaints)
+    if (palette.size() <= maxPaints)
         return 0;
     for (float levels = 4095;; levels = (levels + 1) / 2 - 1) {
         Palette coarse;
-        for (PaintId i = 0; i < palette.size() && coarse.size() <= mostPaints; ++i) {
+        for (PaintId i = 0; i < palette.size() && coarse.size() <= maxPaints; ++i) {
             limits::check();
             const PaintProgram& p = palette[i];
             if (Palette::isConstant(p))
@@ -78,7 +78,7 @@ float gridFor(const Palette& palette) {
             else
                 coarse.add(p);
         }
-        if (coarse.size() <= mostPaints)
+        if (coarse.size() <= maxPaints)
             return levels;
         if (levels < 8)
             throw LimitError("the picture has more than 65536 distinct region paints that are not solid");
@@ -97,7 +97,7 @@ PaintId Palette::intern(const PaintProgram& program) {
 
 PaintId Palette::solid(const Color& c) {
     const auto bits = std::bit_cast<std::array<std::uint64_t, 2>>(c);
-    for (std::uint64_t key = mixed(bits[0], bits[1]);; key = mixed(key, 1)) {
+    for (std::uint64_t key = hashCombine(bits[0], bits[1]);; key = hashCombine(key, 1)) {
         PaintId& id = solids_[key];
         if (id == NumberMap::unknown) {
             id = static_cast<PaintId>(paints_.size());

@@ -67,7 +67,7 @@ private:
 asset::Paint encodePaint(const PaintProgram& program, std::vector<asset::Texel>& data);
 
 /// More paints than this the format cannot name.
-inline constexpr std::size_t mostPaints = 0x10000;
+inline constexpr std::size_t maxPaints = 0x10000;
 
 /// Writes the palette as the asset's paints, programs to its data. Solid colours beyond the 65536
 /// paints that the format can name are merged, each with the nearest of a coarser grid of colours;

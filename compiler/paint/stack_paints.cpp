@@ -26,7 +26,7 @@ PaintProgram programOf(const Picture& picture, const LayerNames& names, const St
     std::vector<PaintProgram> programs;
     std::vector<std::uint32_t> items;
     for (std::size_t i = 0; i <= stack.size(); ++i) {
-        if (i < stack.size() && stack[i] != none) {
+        if (i < stack.size() && stack[i] != noIndex) {
             items.push_back(picture.itemOfLayer[names.layers()[stack[i]]]);
             continue;
         }
@@ -74,7 +74,7 @@ std::size_t StackPaints::update(const Picture& picture, const LayerNames& names,
         bits |= changed[name] ? bitOf(name) : 0;
     const auto holdsChanged = [&](const Stack& stack) {
         return std::any_of(stack.begin(), stack.end(),
-                           [&](std::uint32_t name) { return name != none && changed[name]; });
+                           [&](std::uint32_t name) { return name != noIndex && changed[name]; });
     };
     std::size_t count = 0;
     for (Entry& entry : entries_) {
@@ -94,7 +94,7 @@ bool StackPaints::encode(const Picture& picture, bool dataChanged, const asset::
                          asset::Asset& after, float& error) {
     error = 0;
     bool moved = false;
-    if (dataChanged || programsChanged_ || entries_.size() > mostPaints) {
+    if (dataChanged || programsChanged_ || entries_.size() > maxPaints) {
         moved = encodeAll(picture, after, error);
     } else {
         after.data = before.data;
@@ -115,7 +115,7 @@ bool StackPaints::encode(const Picture& picture, bool dataChanged, const asset::
 bool StackPaints::encodeAll(const Picture& picture, asset::Asset& after, float& error) {
     after.data = picture.data;
     std::vector<std::uint16_t> indices;
-    if (entries_.size() > mostPaints) {  // not every stack can have a place of its own
+    if (entries_.size() > maxPaints) {  // not every stack can have a place of its own
         Palette palette;
         std::vector<PaintId> ids;
         for (const Entry& entry : entries_)

@@ -7,7 +7,7 @@ namespace vtm::compiler {
 std::size_t StackHash::operator()(const Stack& stack) const {
     std::uint64_t h = stack.size();
     for (std::uint32_t name : stack)
-        h = mixed(h, name);
+        h = hashCombine(h, name);
     return h;
 }
 

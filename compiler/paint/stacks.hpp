@@ -10,7 +10,7 @@
 namespace vtm::compiler {
 
 /// The items that show in a region, from the bottom, by the names of their layers (LayerNames); or several
-/// such lists with `none` between them, for the mean of their paints.
+/// such lists with `noIndex` between them, for the mean of their paints.
 using Stack = std::vector<std::uint32_t>;
 
 struct StackHash {

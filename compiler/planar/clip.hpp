@@ -1,5 +1,5 @@
 /// \file
-/// Cutting strands at a square: cuts are rounded to even positions of the odd border, so they keep
+/// Cutting clipped runs at a square: cuts are rounded to even positions of the odd border, so they keep
 /// their order along it and never meet a corner.
 #pragma once
 

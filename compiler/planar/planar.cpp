@@ -28,12 +28,12 @@ struct Planariser::Axis {
     bool meets(const Edge& e, Coord m) const { return (v(e.a) <= m) != (v(e.b) <= m); }
 };
 
-const PlanarLeaf& Planariser::run(const Square& square, Points points, std::span<const Strand> strands,
-                                  RegionPaints& regions) {
+const PlanarLeaf& Planariser::run(const Square& square, Points points,
+                                  std::span<const ClippedRun> clippedRuns, RegionPaints& regions) {
     square_ = square;
     regions_ = &regions;
     leaf_.certified = false;
-    leaf_.set = snapper_.run(square, points, strands);
+    leaf_.set = snapper_.run(square, points, clippedRuns);
     if (!leaf_.set)
         return leaf_;
     leaf_.sides.assign(leaf_.set->edges.size(), {});
@@ -232,11 +232,11 @@ bool Planariser::labelFromBorder() {
 
 // ---- certify ----------------------------------------------------------------------------------
 
-/// Of each edge: mixed(left) - mixed(right), as seen going from a to b.
+/// Of each edge: hashCombine(left) - hashCombine(right), as seen going from a to b.
 void Planariser::findFlows() {
     flows_.resize(leaf_.sides.size());
     std::transform(leaf_.sides.begin(), leaf_.sides.end(), flows_.begin(), [](const Sides& sides) {
-        return sides.left == sides.right ? 0 : mixed(sides.left) - mixed(sides.right);
+        return sides.left == sides.right ? 0 : hashCombine(sides.left) - hashCombine(sides.right);
     });
 }
 
@@ -259,7 +259,7 @@ bool Planariser::certifyVertices() const {
 
 bool Planariser::certifySides() const {
     for (std::size_t side = 0; side < 4; ++side) {
-        std::uint64_t sum = mixed(leaf_.corners[side]) - mixed(leaf_.corners[(side + 1) % 4]);
+        std::uint64_t sum = hashCombine(leaf_.corners[side]) - hashCombine(leaf_.corners[(side + 1) % 4]);
         for (const EdgeEnd end : leaf_.vertices.border(side))
             sum += flow(end);
         if (sum != 0)

@@ -42,9 +42,9 @@ struct PlanarLeaf {
 /// Makes planar leaves; keeps its memory from leaf to leaf.
 class Planariser {
 public:
-    /// `strands` by layer, numbered as `regions`, which stands in this leaf, numbers them. Valid until
+    /// `clipped runs` by layer, numbered as `regions`, which stands in this leaf, numbers them. Valid until
     /// the next call.
-    const PlanarLeaf& run(const Square& square, Points points, std::span<const Strand> strands,
+    const PlanarLeaf& run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns,
                           RegionPaints& regions);
 
 private:

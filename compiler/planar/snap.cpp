@@ -28,12 +28,12 @@ LatticePoint crossing(LatticePoint a, LatticePoint b, std::int64_t atA, std::int
 
 }  // namespace
 
-const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const Strand> strands) {
+const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns) {
     set_.vertices.clear();
     set_.edges.clear();
     set_.changes.clear();
     set_.bend = 0;
-    clip(square, points, strands);
+    clip(square, points, clippedRuns);
     sortAndMerge();
     for (int round = 0; round < maxSnapRounds; ++round) {
         if (set_.edges.size() > maxLeafEdges || !meetAll())
@@ -53,13 +53,13 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
 
 // ---- clip -------------------------------------------------------------------------------------
 
-void Snapper::clip(const Square& square, Points points, std::span<const Strand> strands) {
-    std::size_t most = 0;
-    for (const Strand& s : strands)
-        most += s.last + 1 - s.first;
-    set_.vertices.resize(most);
+void Snapper::clip(const Square& square, Points points, std::span<const ClippedRun> clippedRuns) {
+    std::size_t maximum = 0;
+    for (const ClippedRun& s : clippedRuns)
+        maximum += s.last + 1 - s.first;
+    set_.vertices.resize(maximum);
     std::uint32_t first = 0;
-    for (const Strand& s : strands) {
+    for (const ClippedRun& s : clippedRuns) {
         const LatticePoint from = points[s.first], to = points[s.last];
         LatticePoint a = from, b = to;
         if (!isInside(square, from))

@@ -1,11 +1,11 @@
 /// \file
-/// Clipping, snapping and merging: from strands to edges that meet only in vertices.
+/// Clipping, snapping and merging: from clipped runs to edges that meet only in vertices.
 #pragma once
 
 #include <vector>
 
 #include "compiler/containers/slots.hpp"
-#include "compiler/planar/strand.hpp"
+#include "compiler/planar/clipped_run.hpp"
 
 namespace vtm::compiler {
 
@@ -50,12 +50,12 @@ struct EdgeSet {
 inline constexpr std::size_t maxLeafEdges = 6000;
 inline constexpr int maxSnapRounds = 60;
 
-/// Turns strands into edges; keeps its memory from leaf to leaf.
+/// Turns clipped runs into edges; keeps its memory from leaf to leaf.
 class Snapper {
 public:
-    /// The edges of the strands, which all pass through the square's inside; their layers are places in the
-    /// leaf's own list. Nothing if the leaf is beyond its limits. Valid until the next call.
-    const EdgeSet* run(const Square& square, Points points, std::span<const Strand> strands);
+    /// The edges of the clipped runs, which all pass through the square's inside; their layers are places in
+    /// the leaf's own list. Nothing if the leaf is beyond its limits. Valid until the next call.
+    const EdgeSet* run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns);
 
 private:
     /// A place where an edge has to be cut: a vertex, or a point on chord `chord` (from vertex `chord`
@@ -91,7 +91,7 @@ private:
         std::uint32_t edge;
     };
 
-    void clip(const Square& square, Points points, std::span<const Strand> strands);
+    void clip(const Square& square, Points points, std::span<const ClippedRun> clippedRuns);
     void findBoxes();
     Band bandOf(const Edge& e) const;
     bool areApart(std::uint32_t e, std::uint32_t f) const;

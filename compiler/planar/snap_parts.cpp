@@ -234,15 +234,15 @@ void Snapper::sortAndMerge() {
 
 /// The same, but leaves the edges in the order in which they stand.
 void Snapper::mergeParts() {
-    constexpr std::uint32_t taken = Slots::none - 1;
+    constexpr std::uint32_t taken = Slots::noIndex - 1;
     const std::vector<Edge>& edges = set_.edges;
     slots_.reset(edges.size());
-    nextEqual_.assign(edges.size(), Slots::none);
+    nextEqual_.assign(edges.size(), Slots::noIndex);
     bool areDifferent = true;
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
         std::uint32_t& last = slots_.find(sortKey(edges[i].a) + 3 * sortKey(edges[i].b),
                                           [&](std::uint32_t k) { return compare(edges[k], edges[i]) == 0; });
-        if (last != Slots::none) {
+        if (last != Slots::noIndex) {
             nextEqual_[last] = i;
             areDifferent = false;
         }
@@ -255,9 +255,9 @@ void Snapper::mergeParts() {
         if (nextEqual_[i] == taken)
             continue;
         Edge e = edges[i];
-        if (nextEqual_[i] != Slots::none) {
+        if (nextEqual_[i] != Slots::noIndex) {
             sum_.clear();
-            for (std::uint32_t k = i; k != Slots::none;) {
+            for (std::uint32_t k = i; k != Slots::noIndex;) {
                 collect(edges[k]);
                 k = std::exchange(nextEqual_[k], taken);
             }

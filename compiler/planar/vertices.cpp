@@ -49,7 +49,7 @@ void Vertices::findVertices(const EdgeSet& set) {
 /// The vertex at a point, and one end more for it.
 std::uint32_t Vertices::numberOf(LatticePoint at) {
     std::uint32_t& number = slots_.find(sortKey(at), [&](std::uint32_t i) { return vertices_[i].at == at; });
-    if (number == Slots::none) {
+    if (number == Slots::noIndex) {
         number = static_cast<std::uint32_t>(vertices_.size());
         vertices_.push_back({at, 0, 0});
     }

@@ -8,7 +8,7 @@
 namespace vtm::compiler {
 namespace {
 
-bool isItem(const Picture& picture, std::uint32_t layer) { return picture.itemOfLayer[layer] != none; }
+bool isItem(const Picture& picture, std::uint32_t layer) { return picture.itemOfLayer[layer] != noIndex; }
 
 bool sameLayer(const Picture& p, std::uint32_t a, const Picture& q, std::uint32_t b) {
     const Layer &x = p.layers[a], &y = q.layers[b];
@@ -18,8 +18,8 @@ bool sameLayer(const Picture& p, std::uint32_t a, const Picture& q, std::uint32_
 
 std::uint64_t hashOf(const Picture& p, std::uint32_t layer) {
     const Layer& l = p.layers[layer];
-    return mixed(mixed(l.firstRun, l.runCount),
-                 (l.rule == scene::FillRule::NonZero ? 0 : 1) + (isItem(p, layer) ? 2 : 0));
+    return hashCombine(hashCombine(l.firstRun, l.runCount),
+                       (l.rule == scene::FillRule::NonZero ? 0 : 1) + (isItem(p, layer) ? 2 : 0));
 }
 
 /// Matches the layers between `first` and the ends, greedily: each with the next equal one.
@@ -47,7 +47,7 @@ void matchMiddle(const Picture& before, std::uint32_t endBefore, const Picture& 
 
 bool LayerChanges::renumbers() const {
     for (std::uint32_t i = 0; i < after.size(); ++i)
-        if (after[i] != none && after[i] != i)
+        if (after[i] != noIndex && after[i] != i)
             return true;
     return false;
 }
@@ -55,8 +55,8 @@ bool LayerChanges::renumbers() const {
 LayerChanges matchLayers(const Picture& before, const Picture& after) {
     auto endBefore = static_cast<std::uint32_t>(before.layers.size()),
          endAfter = static_cast<std::uint32_t>(after.layers.size());
-    LayerChanges changes{std::vector<std::uint32_t>(endBefore, none),
-                         std::vector<std::uint32_t>(endAfter, none)};
+    LayerChanges changes{std::vector<std::uint32_t>(endBefore, noIndex),
+                         std::vector<std::uint32_t>(endAfter, noIndex)};
     std::uint32_t first = 0;
     for (; first < std::min(endBefore, endAfter) && sameLayer(before, first, after, first); ++first)
         changes.after[first] = first;
@@ -66,7 +66,7 @@ LayerChanges matchLayers(const Picture& before, const Picture& after) {
     }
     matchMiddle(before, endBefore, after, endAfter, first, changes);
     for (std::uint32_t i = 0; i < changes.after.size(); ++i)
-        if (changes.after[i] != none)
+        if (changes.after[i] != noIndex)
             changes.before[changes.after[i]] = i;
     return changes;
 }
@@ -75,7 +75,7 @@ LayerChanges matchLayers(const Picture& before, const Picture& after) {
 
 std::uint32_t LayerNames::fresh() {
     if (free_.empty()) {
-        layers_.push_back(none);
+        layers_.push_back(noIndex);
         return static_cast<std::uint32_t>(layers_.size() - 1);
     }
     const std::uint32_t name = free_.back();
@@ -84,17 +84,17 @@ std::uint32_t LayerNames::fresh() {
 }
 
 void LayerNames::update(const Picture& after, const LayerChanges& changes) {
-    std::vector<std::uint32_t> names(changes.before.size(), none);
+    std::vector<std::uint32_t> names(changes.before.size(), noIndex);
     std::vector<std::uint8_t> items(names.size());
     std::vector<std::uint32_t> left;  // names whose layers are gone, and nobody has taken them
     std::uint32_t i = 0;              // all layers before it are dealt with
     for (std::uint32_t j = 0; j < names.size(); ++j) {
         items[j] = isItem(after, j);
-        if (changes.before[j] != none) {
+        if (changes.before[j] != noIndex) {
             for (; i < changes.before[j]; ++i)
                 left.push_back(names_[i]);
             names[j] = names_[i++];
-        } else if (i < changes.after.size() && changes.after[i] == none && isItem_[i] == items[j]) {
+        } else if (i < changes.after.size() && changes.after[i] == noIndex && isItem_[i] == items[j]) {
             names[j] = names_[i++];
         }
     }
@@ -102,9 +102,9 @@ void LayerNames::update(const Picture& after, const LayerChanges& changes) {
         left.push_back(names_[i]);
     // What a new layer is called must not be in any stack that is kept: names are free only now.
     for (std::uint32_t name : left)
-        layers_[name] = none;
+        layers_[name] = noIndex;
     for (std::uint32_t j = 0; j < names.size(); ++j) {
-        if (names[j] == none)
+        if (names[j] == noIndex)
             names[j] = fresh();
         layers_[names[j]] = j;
     }
@@ -125,9 +125,9 @@ public:
           hides_(groupsThatHide(picture)),
           clips_(picture.groups.size()),
           paints_(picture.groups.size()),
-          firstItem_(picture.groups.size(), none) {
+          firstItem_(picture.groups.size(), noIndex) {
         for (const PictureItem& item : picture.items)
-            for (std::uint32_t g = item.group; g != none && firstItem_[g] == none;
+            for (std::uint32_t g = item.group; g != noIndex && firstItem_[g] == noIndex;
                  g = picture.groups[g].parent)
                 firstItem_[g] = names[item.layer];
         for (std::uint32_t g = 0; g < picture.groups.size(); ++g)  // parents come first
@@ -137,35 +137,35 @@ public:
     LayerMeaning of(const PictureItem& item) const {
         const Source& source = picture_.sources[item.source];
         const auto& c = source.color;
-        std::uint64_t paint = mixed(paints_[item.group], bits(item.opacity) << 32 | source.data);
-        paint = mixed(paint, std::uint64_t{static_cast<std::uint32_t>(source.op)} << 1 | source.opaque);
-        paint = mixed(mixed(paint, bits(c[0]) << 32 | bits(c[1])), bits(c[2]) << 32 | bits(c[3]));
-        return {mixed(clips_[item.group], hides(picture_, item, hides_[item.group])), paint};
+        std::uint64_t paint = hashCombine(paints_[item.group], bits(item.opacity) << 32 | source.data);
+        paint = hashCombine(paint, std::uint64_t{static_cast<std::uint32_t>(source.op)} << 1 | source.opaque);
+        paint = hashCombine(hashCombine(paint, bits(c[0]) << 32 | bits(c[1])), bits(c[2]) << 32 | bits(c[3]));
+        return {hashCombine(clips_[item.group], hides(picture_, item, hides_[item.group])), paint};
     }
 
 private:
     /// A group is called after its first item.
     void group(std::uint32_t index) {
         const PictureGroup& g = picture_.groups[index];
-        const bool root = g.parent == none;
+        const bool root = g.parent == noIndex;
         clips_[index] = root ? 0 : clips_[g.parent];
-        if (g.clip != none)
-            clips_[index] = mixed(clips_[index], clip(g.clip));
-        std::uint64_t h = mixed(root ? 0 : paints_[g.parent], firstItem_[index]);
-        h = mixed(
+        if (g.clip != noIndex)
+            clips_[index] = hashCombine(clips_[index], clip(g.clip));
+        std::uint64_t h = hashCombine(root ? 0 : paints_[g.parent], firstItem_[index]);
+        h = hashCombine(
             h, std::uint64_t{static_cast<std::uint32_t>(g.role)} << 32 | static_cast<std::uint32_t>(g.blend));
-        h = mixed(h, bits(g.opacity));
-        paints_[index] = mixed(h, g.mask != none);
+        h = hashCombine(h, bits(g.opacity));
+        paints_[index] = hashCombine(h, g.mask != noIndex);
     }
 
     std::uint64_t clip(std::uint32_t index) const {
-        if (index == none)
+        if (index == noIndex)
             return 0;
         const ClipExpression& e = picture_.clips[index];
-        std::uint64_t h = mixed(clip(e.outer), e.terms.size());
+        std::uint64_t h = hashCombine(clip(e.outer), e.terms.size());
         for (const ClipExpression::Term& term : e.terms)
-            h = mixed(mixed(mixed(h, names_[term.layer]), term.inverted), clip(term.clip));
-        return mixed(h, 1);
+            h = hashCombine(hashCombine(hashCombine(h, names_[term.layer]), term.inverted), clip(term.clip));
+        return hashCombine(h, 1);
     }
 
     const Picture& picture_;
@@ -190,8 +190,8 @@ std::vector<std::uint8_t> groupsThatHide(const Picture& picture) {
     for (std::uint32_t g = 0; g < hide.size(); ++g) {
         const PictureGroup& group = picture.groups[g];
         hide[g] = group.role == GroupRole::Plain && group.opacity >= 1 &&
-                  group.blend == scene::BlendMode::Normal && group.mask == none &&
-                  (group.parent == none || hide[group.parent]);
+                  group.blend == scene::BlendMode::Normal && group.mask == noIndex &&
+                  (group.parent == noIndex || hide[group.parent]);
     }
     return hide;
 }

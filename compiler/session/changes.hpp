@@ -13,8 +13,8 @@ namespace vtm::compiler {
 /// Two pictures whose outlines are in one store (OutlineCache). Layers are the same if outline, rule and use
 /// (item or clip) are; those that have kept their order are matched.
 struct LayerChanges {
-    std::vector<std::uint32_t> after;   ///< of each layer before: its index now; `none`: gone
-    std::vector<std::uint32_t> before;  ///< of each layer now: its index before; `none`: added
+    std::vector<std::uint32_t> after;   ///< of each layer before: its index now; `noIndex`: gone
+    std::vector<std::uint32_t> before;  ///< of each layer now: its index before; `noIndex`: added
 
     /// Whether layers that stayed have other indices now.
     bool renumbers() const;
@@ -31,7 +31,7 @@ public:
 
     /// By layer.
     const std::vector<std::uint32_t>& names() const { return names_; }
-    /// By name; `none` if there is no such layer now.
+    /// By name; `noIndex` if there is no such layer now.
     const std::vector<std::uint32_t>& layers() const { return layers_; }
 
 private:

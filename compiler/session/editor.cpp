@@ -7,6 +7,7 @@
 
 #include "compiler/compile/clock.hpp"
 #include "compiler/compile/settings.hpp"
+#include "compiler/lower/lower.hpp"
 #include "compiler/paint/editable.hpp"
 #include "compiler/tree/encode.hpp"
 #include "compiler/tree/join.hpp"
@@ -14,10 +15,10 @@
 namespace vtm::compiler {
 namespace {
 
-/// A block has this part of the picture's strands, but at least so many.
-constexpr std::size_t blockShare = 256, leastBlock = 16;
+/// A block has this part of the picture's clipped runs, but at least so many.
+constexpr std::size_t blockShare = 256, minBlock = 16;
 
-std::size_t strandsPerBlock(std::size_t runs) { return std::max(leastBlock, runs / blockShare); }
+std::size_t runsPerBlock(std::size_t runs) { return std::max(minBlock, runs / blockShare); }
 
 /// Culls and builds blocks, one after the other.
 class Worker {
@@ -53,7 +54,7 @@ public:
         update.outlines = kept_.cache.added();
         compare();
         if (update.anew)
-            kept_.partition.emplace(kept_.lattice.square(), strandsPerBlock(kept_.cache.usedRuns()),
+            kept_.partition.emplace(kept_.lattice.square(), runsPerBlock(kept_.cache.usedRuns()),
                                     treeOptions_.maxDepth);
         if (update.anew || geometryChanged_)
             update.blocks = build();
@@ -73,12 +74,12 @@ private:
         std::vector<LayerMeaning> now = meanings(picture_, names);
         repainted_.assign(kept_.names.layers().size(), false);
         geometryChanged_ =
-            std::find(changes_.after.begin(), changes_.after.end(), none) != changes_.after.end();
+            std::find(changes_.after.begin(), changes_.after.end(), noIndex) != changes_.after.end();
         for (std::uint32_t layer = 0; layer < now.size(); ++layer) {
             const std::uint32_t before = changes_.before[layer];
-            if (before == none || now[layer].paint != kept_.meanings[before].paint)
+            if (before == noIndex || now[layer].paint != kept_.meanings[before].paint)
                 repainted_[names[layer]] = true;
-            if (before == none)
+            if (before == noIndex)
                 geometryChanged_ = true;
             else if (now[layer].shape != kept_.meanings[before].shape)
                 touched_.push_back(layer);
@@ -120,9 +121,9 @@ private:
         const StackTable stacks = std::move(tree.palette.stacks);
         const std::vector<PaintId> before = std::move(block.paints);
         block.paints.clear();
-        std::vector<PaintId> places(stacks.size(), none);
+        std::vector<PaintId> places(stacks.size(), noIndex);
         const auto place = [&](PaintId local) {
-            if (places[local] == none)
+            if (places[local] == noIndex)
                 block.paints.push_back(places[local] = kept_.paints.use(stacks[local]));
             return places[local];
         };
@@ -213,8 +214,8 @@ Kept::Kept(double pictureWidth, double pictureHeight, const Options& options)
 
 bool Kept::isWorn() const {
     constexpr std::size_t factor = 4;  // seldom enough to be paid for by the edits in between
-    const std::size_t wanted = strandsPerBlock(cache.usedRuns()), most = partition->most();
-    return wanted > factor * most || most > factor * wanted || cache.isWorn(picture.outlines);
+    const std::size_t wanted = runsPerBlock(cache.usedRuns()), maximum = partition->maximum();
+    return wanted > factor * maximum || maximum > factor * wanted || cache.isWorn(picture.outlines);
 }
 
 Update edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options) {

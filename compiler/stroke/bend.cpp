@@ -56,9 +56,9 @@ double turnBetween(const Cubic& c, double t0, double t1) {
 bool isMonotone(const Curvature& k) {
     const auto& [c, q] = k;
     constexpr double vanishing = 1e-12;
-    const double least = vanishing * *std::max_element(q.begin(), q.end());
+    const double minimum = vanishing * *std::max_element(q.begin(), q.end());
     const auto [low, high] = std::minmax({c[0], c[1], c[2]});
-    if (!(q.front() > least && q.back() > least && (low >= 0 || high <= 0)))
+    if (!(q.front() > minimum && q.back() > minimum && (low >= 0 || high <= 0)))
         return false;
     constexpr std::array<double, 5> four{1, 4, 6, 4, 1};
     constexpr std::array<double, 4> three{1, 3, 3, 1};
@@ -95,13 +95,13 @@ private:
 
     bool gentle(const Curvature& k) const {
         const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
-        const double least = *std::min_element(k.speedSquared.begin(), k.speedSquared.end());
-        return std::max(-low, high) * o_.radius <= cube(least) * o_.slack;
+        const double minimum = *std::min_element(k.speedSquared.begin(), k.speedSquared.end());
+        return std::max(-low, high) * o_.radius <= cube(minimum) * o_.slack;
     }
     bool tight(const Curvature& k) const {
         const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
-        const double most = *std::max_element(k.speedSquared.begin(), k.speedSquared.end());
-        return std::max(low, -high) * o_.radius >= cube(most);
+        const double maximum = *std::max_element(k.speedSquared.begin(), k.speedSquared.end());
+        return std::max(low, -high) * o_.radius >= cube(maximum);
     }
 
     bool tightInTheMiddle(const Curvature& k) const {

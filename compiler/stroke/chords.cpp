@@ -15,9 +15,9 @@ namespace {
 /// Halvings of a chord that was guessed too long.
 constexpr int maxHalvings = 12;
 /// Chords of a curve; where more are guessed, halving makes them.
-constexpr double mostDensity = 4096;
+constexpr double maxDensity = 4096;
 /// Of these, so many are placed at once.
-constexpr int mostChords = 256;
+constexpr int maxChords = 256;
 
 /// One coordinate of a curve and its velocity at two places.
 struct Coordinate {
@@ -47,9 +47,9 @@ public:
 
     void run(double t0, double t1) {
         const std::array<double, 3> turns = curvature(curve_).cross;
-        const auto [least, most] = std::minmax({turns[0], turns[1], turns[2]});
+        const auto [minimum, maximum] = std::minmax({turns[0], turns[1], turns[2]});
         double from = t0;
-        if (least < 0 && most > 0)
+        if (minimum < 0 && maximum > 0)
             for (const double inflection : rootsInside(powers(turns)))
                 if (inflection > t0 && inflection < t1) {
                     convex(from, inflection);
@@ -77,9 +77,9 @@ private:
 
     /// Inside the curve.
     Vertices vertices(Pair t) const {
-        constexpr double least = 1e-280;  // smaller squares lose digits; the vertex becomes infinite
+        constexpr double minimum = 1e-280;  // smaller squares lose digits; the vertex becomes infinite
         const Pair x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
-        const Pair share = distance_ / squareRoot(square > least ? square : 0.0);
+        const Pair share = distance_ / squareRoot(square > minimum ? square : 0.0);
         return {xs_.at(t) - y * share, ys_.at(t) + x * share, x, y};
     }
 
@@ -96,14 +96,14 @@ private:
             const Pair x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
             const Pair turn = ((c2 * t + c1) * t + c0) / square;
             const Pair chords = squareRoot(per * magnitude((squareRoot(square) - distance_ * turn) * turn));
-            return chords < mostDensity ? chords : 0.0;
+            return chords < maxDensity ? chords : 0.0;
         });
     }
 
     /// Between which the curve has no inflection.
     void convex(double from, double to) {
         const double needed = guess(from, to);
-        if (needed > mostChords) {
+        if (needed > maxChords) {
             const double middle = (from + to) / 2;
             convex(from, middle);
             convex(middle, to);
@@ -170,8 +170,8 @@ private:
         const Pair x = bx - ax, y = by - ay, mx = m.x - ax, my = m.y - ay;
         const Pair square = x * x + y * y, along = mx * x + my * y, rest = square - along;
         const Pair slope = magnitude((m.alongX * y - m.alongY * x) / (m.alongX * x + m.alongY * y));
-        const Pair most = magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
-        return most < tolerance_ * squareRoot(square);
+        const Pair maximum = magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
+        return maximum < tolerance_ * squareRoot(square);
     }
 
     const Cubic& curve_;
@@ -181,7 +181,7 @@ private:
     Side& side_;
     EvenShares shares_;
     /// Vertices, and one more for loops over two at once.
-    std::array<double, mostChords + 3> t_, x_, y_;
+    std::array<double, maxChords + 3> t_, x_, y_;
 };
 
 }  // namespace

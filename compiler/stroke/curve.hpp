@@ -21,8 +21,8 @@ inline Point perp(Point v) { return {-v.y, v.x}; }
 inline Point unit(Point v) {
     const double square = v.x * v.x + v.y * v.y;
     // Beyond these, squares lose digits or overflow.
-    constexpr double least = 1e-280, most = 1e280;
-    if (square > least && square < most)
+    constexpr double minimum = 1e-280, maximum = 1e280;
+    if (square > minimum && square < maximum)
         return v * (1 / std::sqrt(square));
     return v / std::hypot(v.x, v.y);
 }

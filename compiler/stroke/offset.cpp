@@ -96,9 +96,9 @@ bool hidesBackwardOffsets(const Cubic& c, const OffsetOptions& o, const std::vec
 /// of the evolute is a straight edge: it strays from its chord by no more than a quarter of its length times
 /// its turn.
 bool isFold(const Cubic& c, const Span& span, const OffsetOptions& o) {
-    constexpr double mostTurn = std::numbers::pi / 4;
+    constexpr double maxTurn = std::numbers::pi / 4;
     const double turn = turnOf(c, span);
-    if (turn > mostTurn)
+    if (turn > maxTurn)
         return false;
     const Stretch stretch(c, span);
     return turn * Evolute(c, stretch, span.bend == Bend::Left ? o.radius : -o.radius, o).depth() <=

@@ -277,10 +277,11 @@ private:
     /// Goes to the arc's start first, if need be.
     void arc(Side& side, Point center, Point from, double angle) const {
         go(side, center + from);
-        const double sagitta = glm::length(from) * (1 - std::cos(angle / 2)), most = tolerance_ * roundShare;
-        if (sagitta <= most && std::abs(angle) < std::numbers::pi / 2)
+        const double sagitta = glm::length(from) * (1 - std::cos(angle / 2)),
+                     maximum = tolerance_ * roundShare;
+        if (sagitta <= maximum && std::abs(angle) < std::numbers::pi / 2)
             return go(side, center + rotate(from, angle));
-        for (const Cubic& c : circleArc(center, from, angle, most))
+        for (const Cubic& c : circleArc(center, from, angle, maximum))
             side.cubicTo(c.p1, c.p2, c.p3);
     }
 

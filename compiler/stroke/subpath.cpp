@@ -44,10 +44,10 @@ bool runsForward(const Cubic& c) {
 Roots<3> cusps(const Cubic& c) {
     if (runsForward(c))
         return {};
-    const double least = cuspSpeed * extent(c);
+    const double minimum = cuspSpeed * extent(c);
     Roots<3> result;
     for (const double t : rootsInside(derivative(powers(curvature(c).speedSquared))))
-        if (glm::length(c.derivative(t)) <= least)
+        if (glm::length(c.derivative(t)) <= minimum)
             result.add(t);
     return result;
 }

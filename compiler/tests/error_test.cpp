@@ -54,23 +54,23 @@ double farthest(const TestLeaf& leaf, const EdgeSet& set) {
 
 TEST(Error, snappingTellsHowFarItBendsEdges) {
     Snapper snapper;
-    double most = 0;
+    double maximum = 0;
     for (unsigned seed = 0; seed < 60; ++seed) {
         const TestLeaf leaf = tangle(seed);
-        const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.strands);
+        const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.clippedRuns);
         ASSERT_TRUE(set);
         const double moved = farthest(leaf, *set);
         EXPECT_LE(moved, set->bend + 1e-9) << "seed " << seed;
-        most = std::max(most, moved);
+        maximum = std::max(maximum, moved);
     }
-    EXPECT_GT(most, 1);  // steps: the test looks at something
+    EXPECT_GT(maximum, 1);  // steps: the test looks at something
 }
 
 TEST(Error, crossingsOnTheLatticeBendNothing) {
     const TestLeaf leaf =
         leafOf(square, {{{0, 0}, {200, 200}, {0, 200}}, {{0, 100}, {300, 100}, {300, 300}}});
     Snapper snapper;
-    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.strands);
+    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.clippedRuns);
     ASSERT_TRUE(set);
     EXPECT_EQ(set->bend, 0);
 }

@@ -111,7 +111,7 @@ struct Arc {
 TEST(PieceFit, seesEveryPoint) {
     constexpr double length = 10000, tolerance = 60;
     PieceFit piece;
-    for (std::uint32_t last = 4; last <= LocalPoints::mostChords; ++last) {
+    for (std::uint32_t last = 4; last <= LocalPoints::maxChords; ++last) {
         const Arc arc(last, length);
         EXPECT_LE(arc.fit(piece, tolerance), 1) << last;
         for (std::uint32_t i = 1; i < last; ++i) {
@@ -128,7 +128,7 @@ TEST(PieceFit, seesEveryPoint) {
 TEST(PieceFit, keepsToTheToleranceBetweenPoints) {
     constexpr double length = 10000;
     PieceFit piece;
-    for (std::uint32_t last = 2; last <= LocalPoints::mostChords; ++last) {
+    for (std::uint32_t last = 2; last <= LocalPoints::maxChords; ++last) {
         const Arc arc(last, length);
         double tolerance = 0.01;
         while (arc.fit(piece, tolerance) > 1)

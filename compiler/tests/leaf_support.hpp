@@ -87,7 +87,7 @@ public:
     explicit BitPaints(std::span<const int> corner) : layers_(static_cast<std::uint32_t>(corner.size())) {
         std::vector<Layer> layers;
         for (int winding : corner)
-            layers.push_back({scene::FillRule::NonZero, winding, mixed(layers.size())});
+            layers.push_back({scene::FillRule::NonZero, winding, hashCombine(layers.size())});
         enter(layers);
     }
 
@@ -108,7 +108,7 @@ struct Planned {
     const PlanarLeaf& leaf;
 
     explicit Planned(const TestLeaf& t)
-        : bits(t.corner), leaf(planariser.run(t.square, t.points(), t.cell.strands, bits)) {}
+        : bits(t.corner), leaf(planariser.run(t.square, t.points(), t.cell.clippedRuns, bits)) {}
 };
 
 }  // namespace vtm::compiler

@@ -64,8 +64,8 @@ TEST(CompilerLimits, SecondsNameTheElement) {
 
 TEST(CompilerLimits, Memory) {
     const Scene scene = crowd();
-    const std::size_t most = limits::residentBytes() + (60u << 20);
-    const auto exceeded = exceededBy({.memoryBytes = most}, [&] { compile(scene); });
+    const std::size_t maximum = limits::residentBytes() + (60u << 20);
+    const auto exceeded = exceededBy({.memoryBytes = maximum}, [&] { compile(scene); });
     ASSERT_TRUE(exceeded);
     EXPECT_EQ(exceeded->limit(), limits::Limit::Memory);
 }

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "compiler/lower/even_shares.hpp"
-#include "compiler/planar/strand.hpp"
+#include "compiler/planar/clipped_run.hpp"
 #include "compiler/stroke/chords.hpp"
 
 namespace vtm::compiler {
@@ -55,14 +55,14 @@ TEST(Winding, isTheSameByEveryWay) {
         }
 }
 
-TEST(Strand, holdsExactlyTheChordsThatPassThroughASquare) {
+TEST(ClippedRun, holdsExactlyTheChordsThatPassThroughASquare) {
     const Outlines outlines = outlineInBox(wave);
     for (const Coord side : {16, 64, 256})
         for (Coord y = -1; y < 1000; y += side)
             for (Coord x = -1; x < 1000; x += side) {
                 const Square square{x, y, side};
                 for (const auto& run : outlines.runs) {
-                    const Strand s = narrowed(outlines.points, {run.first, run.last, 0}, square);
+                    const ClippedRun s = narrowed(outlines.points, {run.first, run.last, 0}, square);
                     for (std::uint32_t i = run.first; i < run.last; ++i)
                         EXPECT_EQ(i >= s.first && i < s.last,
                                   meets(outlines.points[i], outlines.points[i + 1], square));

@@ -171,7 +171,7 @@ TEST_P(RandomPolygons, afterSnappingEdgesMeetOnlyInVertices) {
             polygon.push_back({random.even(0, 200), random.even(0, 200)});  // a coarse lattice: much rounding
     const TestLeaf leaf = leafOf(square, polygons);
     Snapper snapper;
-    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.strands);
+    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.clippedRuns);
     ASSERT_TRUE(set);
     std::vector<Chord> chords;
     for (const Edge& e : set->edges)
@@ -192,7 +192,7 @@ TEST(Planar, uprightChordsInOneColumnMeet) {
         leafOf(square, {{{1000, 900}, {1500, 1400}, {1500, 2600}, {2200, 3500}, {200, 3600}, {200, 900}},
                         {{1100, 500}, {1500, 1000}, {1500, 2000}, {2500, 3000}, {3800, 2900}, {3800, 400}}});
     Snapper snapper;
-    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.strands);
+    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.clippedRuns);
     ASSERT_TRUE(set);
     std::vector<std::pair<Coord, Coord>> upright;  // y from and to
     for (const Edge& e : set->edges)
@@ -222,18 +222,18 @@ TEST(Planar, boundariesBetweenEqualPaintsAreNotVisible) {
     } one;
     const TestLeaf test =
         leafOf(square, {{{500, 500}, {2000, 900}, {1900, 3000}}, {{700, 400}, {2100, 1900}, {400, 3100}}});
-    const RegionPaints::Layer layers[] = {{scene::FillRule::NonZero, test.corner[0], mixed(0)},
-                                          {scene::FillRule::NonZero, test.corner[1], mixed(1)}};
+    const RegionPaints::Layer layers[] = {{scene::FillRule::NonZero, test.corner[0], hashCombine(0)},
+                                          {scene::FillRule::NonZero, test.corner[1], hashCombine(1)}};
     one.enter(layers);
     Planariser planariser;
-    const PlanarLeaf& leaf = planariser.run(square, test.points(), test.cell.strands, one);
+    const PlanarLeaf& leaf = planariser.run(square, test.points(), test.cell.clippedRuns, one);
     EXPECT_TRUE(leaf.certified);
     EXPECT_EQ(visibleEdges(leaf), 0u);
 }
 
 TEST(Planar, aContourThatDoesNotCloseIsNotCertified) {
     TestLeaf test = leafOf(square, {{{500, 500}, {3500, 700}, {1900, 3000}}});
-    test.cell.strands.pop_back();
+    test.cell.clippedRuns.pop_back();
     EXPECT_FALSE(Planned(test).leaf.certified);
 }
 

@@ -7,6 +7,7 @@
 #include <vtm/asset/container.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/scene/scene.hpp>
+#include "compiler/lower/lower.hpp"
 #include "compiler/lower/picture.hpp"
 #include "compiler/tests/comparison.hpp"
 

@@ -330,10 +330,10 @@ TEST(StrokeEdges, LineTakesFour) {
 }
 
 TEST(StrokeEdges, CircleTakesFewCubics) {
-    for (const auto& [tolerance, most] : {std::pair{1e-1, 8u}, {1e-2, 16u}, {1e-3, 18u}, {1e-5, 40u}}) {
+    for (const auto& [tolerance, maximum] : {std::pair{1e-1, 8u}, {1e-2, 16u}, {1e-3, 18u}, {1e-5, 40u}}) {
         const Path outline = strokeOutline(circle({50, 50}, 40), style(10), tolerance);
         EXPECT_EQ(contours(outline), 2u);
-        EXPECT_LE(edges(outline), most + 2u) << tolerance;  // and two Close
+        EXPECT_LE(edges(outline), maximum + 2u) << tolerance;  // and two Close
         EXPECT_NEAR(area(outline), pi * (45 * 45 - 35 * 35), 2 * pi * 80 * tolerance);
     }
 }

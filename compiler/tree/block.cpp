@@ -29,8 +29,8 @@ bool isInside(const Layer& layer, int winding) {
 }  // namespace
 
 void WorkLimit::spend(std::size_t work) {
-    if (spent_.fetch_add(work, std::memory_order_relaxed) + work > most_)
-        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(most_) +
+    if (spent_.fetch_add(work, std::memory_order_relaxed) + work > maximum_)
+        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maximum_) +
                          " pairs of chords");
 }
 
@@ -40,14 +40,14 @@ void Culler::run(Cell& cell) {
     listLayers(cell, layers_);
     for (const LayerWinding& w : cell.windings)
         covers_[w.layer] = isInside(picture_.layers[w.layer], w.winding) ? Cover::In : Cover::Out;
-    for (const Strand& s : cell.strands)
+    for (const ClippedRun& s : cell.clippedRuns)
         covers_[s.layer] = Cover::Edge;
     keep_.assign(layers_.size(), true);
     painter_.cull(layers_, covers_, keep_);
     for (std::size_t i = 0; i < layers_.size(); ++i)
         covers_[layers_[i]] = keep_[i] ? Cover::In : Cover::Out;  // from here on: kept or not
     if (std::find(keep_.begin(), keep_.end(), false) != keep_.end()) {
-        std::erase_if(cell.strands, [&](const Strand& s) { return covers_[s.layer] == Cover::Out; });
+        std::erase_if(cell.clippedRuns, [&](const ClippedRun& s) { return covers_[s.layer] == Cover::Out; });
         std::erase_if(cell.windings, [&](const LayerWinding& w) { return covers_[w.layer] == Cover::Out; });
     }
     for (std::uint32_t layer : layers_)
@@ -63,7 +63,8 @@ void LeafRegions::enter(const Cell& cell, Palette& palette) {
     auto known = cell.windings.begin();
     for (std::uint32_t layer : layers) {
         const bool isKnown = known != cell.windings.end() && known->layer == layer;
-        entered_.push_back({picture_.layers[layer].rule, isKnown ? (known++)->winding : 0, mixed(layer)});
+        entered_.push_back(
+            {picture_.layers[layer].rule, isKnown ? (known++)->winding : 0, hashCombine(layer)});
     }
     RegionPaints::enter(entered_);
 }
@@ -72,7 +73,7 @@ PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
     std::uint64_t key = 0;
     for (const LayerWinding& w : cell.windings)
         if (compiler::isInside(picture_.layers[w.layer], w.winding))
-            key ^= mixed(w.layer);
+            key ^= hashCombine(w.layer);
     if (const PaintId paint = known(key); paint != NumberMap::unknown)
         return paint;
     culler.run(cell);
@@ -94,8 +95,8 @@ Tree BlockBuilder::run(Cell cell, bool timed) {
     const Clock::time_point start = lastLap_ = Clock::now();
     tree_ = {};
     constexpr std::size_t usualLeaves = 32, usualPieces = 256;
-    tree_.leaves.reserve(cell.strands.empty() ? 0 : usualLeaves);
-    tree_.pieces.reserve(cell.strands.empty() ? 0 : usualPieces);
+    tree_.leaves.reserve(cell.clippedRuns.empty() ? 0 : usualLeaves);
+    tree_.pieces.reserve(cell.clippedRuns.empty() ? 0 : usualPieces);
     firstLevel_ = cell.level;
     regions_.forget();
     tree_.root = build(cell).entry;
@@ -113,12 +114,12 @@ void BlockBuilder::lap(double& stage) {
     lastLap_ = now;
 }
 
-/// `cell` is culled already if it has strands.
+/// `cell` is culled already if it has clipped runs.
 BlockBuilder::Built BlockBuilder::build(Cell& cell) {
     const AtCell at("planarising", picture_, cell);
     limits::check();
-    work_.spend(cell.strands.size() * visitWork);
-    if (cell.strands.empty())
+    work_.spend(cell.clippedRuns.size() * visitWork);
+    if (cell.clippedRuns.empty())
         return solid(regions_.solid(cell, culler_, tree_.palette), cell.level);
     if (cell.level >= options_.maxDepth)
         return buildLast(cell);
@@ -146,27 +147,27 @@ BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
     return buildNode(cell, push(cell));
 }
 
-/// A leaf if it costs less than its children would, guessed from the number of strands first (about as
+/// A leaf if it costs less than its children would, guessed from the number of clipped runs first (about as
 /// many as pieces), then known. Where outlines hide each other the guess can be too high by far, so
 /// children that turn out cheap to join are tried as one leaf after all.
 BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
-    const auto strands = static_cast<double>(cell.strands.size());
+    const auto clippedRuns = static_cast<double>(cell.clippedRuns.size());
     Children* children = nullptr;
     std::optional<Spread> spread;
     const auto paysToSplit = [&](double pieces) {
         const double cost = options_.cost.leaf(pieces, cell.level),
-                     perStrand = std::max(1.0, pieces / strands);
+                     perRun = std::max(1.0, pieces / clippedRuns);
         if (!mayBeWorthSplitting(pieces, cell.level))
             return false;
         if (!spread)
             spread = spreadOf(cell);
-        if (cost <= sureShare * leastSplitCost(*spread, cell.level, perStrand))
+        if (cost <= sureShare * minSplitCost(*spread, cell.level, perRun))
             return false;
         if (!children)
             children = &push(cell);
-        return cost > splitCost(*children, perStrand);
+        return cost > splitCost(*children, perRun);
     };
-    if (!paysToSplit(strands) && canTry(cell))
+    if (!paysToSplit(clippedRuns) && canTry(cell))
         if (const Made made = makeLeaf(cell); made && !paysToSplit(static_cast<double>(made.pieceCount())))
             return emit(made, cell.level);
     return buildNode(cell, children ? *children : push(cell));
@@ -177,10 +178,10 @@ bool BlockBuilder::mayBeWorthSplitting(double pieces, unsigned level) const {
     return CostModel::drawing(pieces, level) > options_.cost.node();
 }
 
-double BlockBuilder::splitCost(const Children& children, double piecesPerStrand) const {
+double BlockBuilder::splitCost(const Children& children, double piecesPerRun) const {
     double cost = options_.cost.node();
     for (const Cell& child : children)
-        cost += options_.cost.leaf(static_cast<double>(child.strands.size()) * piecesPerStrand, child.level);
+        cost += options_.cost.leaf(static_cast<double>(child.clippedRuns.size()) * piecesPerRun, child.level);
     return cost;
 }
 
@@ -189,7 +190,7 @@ BlockBuilder::Spread BlockBuilder::spreadOf(const Cell& cell) const {
     const auto place = [shift](Coord offset) { return std::clamp(offset >> shift, 0, 3); };
     unsigned reached = 0;
     Spread spread;
-    for (const Strand& s : cell.strands) {
+    for (const ClippedRun& s : cell.clippedRuns) {
         const LatticePoint from = points_[s.first], to = points_[s.last];
         const int i = place(from.x - cell.square.x0), j = place(from.y - cell.square.y0),
                   iEnd = place(to.x - cell.square.x0), jEnd = place(to.y - cell.square.y0);
@@ -201,12 +202,12 @@ BlockBuilder::Spread BlockBuilder::spreadOf(const Cell& cell) const {
 }
 
 /// What the children of a cell of the given level would cost if nothing were hidden in them, and no more of
-/// them had strands than those where some end.
-double BlockBuilder::leastSplitCost(const Spread& spread, unsigned level, double piecesPerStrand) const {
+/// them had clipped runs than those where some end.
+double BlockBuilder::minSplitCost(const Spread& spread, unsigned level, double piecesPerRun) const {
     const CostModel& model = options_.cost;
     const double piece = model.leaf(2, level + 1) - model.leaf(1, level + 1);
     return model.node() + (16 - spread.leaves) * model.leaf(0, level + 1) +
-           spread.leaves * (model.leaf(1, level + 1) - piece) + spread.visits * piecesPerStrand * piece;
+           spread.leaves * (model.leaf(1, level + 1) - piece) + spread.visits * piecesPerRun * piece;
 }
 
 /// Whether the cell is within the limits of a leaf that may still be split.
@@ -218,27 +219,27 @@ bool BlockBuilder::canTry(const Cell& cell) {
     return true;
 }
 
-/// Equal strands of many layers (a shape repeated) count once: snapping merges them at once. Stops
-/// counting beyond `most`.
-std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t most) const {
+/// Equal clipped runs of many layers (a shape repeated) count once: snapping merges them at once. Stops
+/// counting beyond `maximum`.
+std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t maximum) const {
     const std::size_t all = cell.chordCount();
-    if (all <= most)
+    if (all <= maximum)
         return all;
     NumberMap seen;
     std::size_t count = 0;
-    for (const Strand& s : cell.strands) {
+    for (const ClippedRun& s : cell.clippedRuns) {
         const auto [a, b] = std::minmax(points_[s.first], points_[s.last]);
         const std::uint32_t chords = s.last - s.first;
-        std::uint32_t& known = seen[mixed(sortKey(a)) + mixed(mixed(sortKey(b)) + chords)];
+        std::uint32_t& known = seen[hashCombine(sortKey(a)) + hashCombine(hashCombine(sortKey(b)) + chords)];
         if (known == NumberMap::unknown)
             count += known = chords;
-        if (count > most)
+        if (count > maximum)
             break;
     }
     return count;
 }
 
-/// What of the cell is in its children; in those with strands, without what cannot show there.
+/// What of the cell is in its children; in those with clipped runs, without what cannot show there.
 BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
     const std::size_t depth = cell.level - firstLevel_;
     while (children_.size() <= depth)
@@ -246,7 +247,7 @@ BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
     Children& children = children_[depth];
     splitCell(points_, cell, children);
     for (Cell& child : children)
-        if (!child.strands.empty())
+        if (!child.clippedRuns.empty())
             culler_.run(child);
     lap(times_.push);
     return children;
@@ -272,14 +273,14 @@ BlockBuilder::Built BlockBuilder::solid(PaintId paint, unsigned level) const {
 /// tolerance and that of smaller leaves would not be.
 BlockBuilder::Made BlockBuilder::makeLeaf(const Cell& cell) {
     regions_.enter(cell, tree_.palette);
-    strands_ = cell.strands;
+    runs_ = cell.clippedRuns;
     std::uint32_t local = 0;
-    for (Strand& s : strands_) {
+    for (ClippedRun& s : runs_) {
         while (regions_.layers[local] != s.layer)
             ++local;
         s.layer = local;
     }
-    const PlanarLeaf& planar = planariser_.run(cell.square, points_, strands_, regions_);
+    const PlanarLeaf& planar = planariser_.run(cell.square, points_, runs_, regions_);
     lap(times_.planarise);
     if (!planar.certified)
         return {};
@@ -311,7 +312,7 @@ BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
     tree_.error = std::max(tree_.error, error);
     if (!options_.budget.holds(error))
         tree_.unproven.push_back(cell.square);
-    work_.spend(16 * cell.strands.size() * visitWork);
+    work_.spend(16 * cell.clippedRuns.size() * visitWork);
     regions_.enter(cell, tree_.palette);
     std::vector<PaintId> paints;
     const Coord step = cell.square.side / 8;
@@ -320,7 +321,7 @@ BlockBuilder::Built BlockBuilder::emitMean(const Cell& cell) {
                              (cell.square.y0 + (2 * (i / 4) + 1) * step) | 1};
         regions_.toCorner();
         std::uint32_t local = 0;
-        for (const Strand& s : cell.strands) {
+        for (const ClippedRun& s : cell.clippedRuns) {
             limits::check();
             while (regions_.layers[local] != s.layer)
                 ++local;

@@ -16,13 +16,13 @@ namespace vtm::compiler {
 /// Pairs of chords looked at before the picture is refused.
 class WorkLimit {
 public:
-    explicit WorkLimit(std::size_t most) : most_(most) {}
+    explicit WorkLimit(std::size_t maximum) : maximum_(maximum) {}
 
     /// Throws LimitError beyond the limit.
     void spend(std::size_t work);
 
 private:
-    const std::size_t most_;
+    const std::size_t maximum_;
     std::atomic<std::size_t> spent_{0};
 };
 
@@ -51,7 +51,7 @@ public:
     LeafRegions(const Picture& picture, Painter& painter)
         : picture_(picture), painter_(painter), inside_(picture.layers.size()) {}
     void enter(const Cell& cell, Palette& palette);
-    /// The paint of a cell without strands, which need not be culled yet.
+    /// The paint of a cell without clipped runs, which need not be culled yet.
     PaintId solid(Cell& cell, Culler& culler, Palette& palette);
 
     std::vector<std::uint32_t> layers;  ///< of the cell, ascending: the others are numbered by them
@@ -89,8 +89,8 @@ private:
         double cost = 0;
     };
     using Children = std::array<Cell, 16>;
-    /// How a cell's strands spread over its children: how many of these they end in, and how many visits they
-    /// pay them.
+    /// How a cell's clipped runs spread over its children: how many of these they end in, and how many visits
+    /// they pay them.
     struct Spread {
         int leaves = 0, visits = 0;
     };
@@ -104,11 +104,11 @@ private:
     Children& push(const Cell& cell);
     bool mayBeWorthSplitting(double pieces, unsigned level) const;
     Spread spreadOf(const Cell& cell) const;
-    double leastSplitCost(const Spread& spread, unsigned level, double piecesPerStrand) const;
-    double splitCost(const Children& children, double piecesPerStrand) const;
+    double minSplitCost(const Spread& spread, unsigned level, double piecesPerRun) const;
+    double splitCost(const Children& children, double piecesPerRun) const;
     Built solid(PaintId paint, unsigned level) const;
     bool canTry(const Cell& cell);
-    std::size_t distinctChords(const Cell& cell, std::size_t most) const;
+    std::size_t distinctChords(const Cell& cell, std::size_t maximum) const;
     /// A leaf and how far its boundaries may be off, lattice steps.
     struct Made {
         const FittedLeaf* leaf = nullptr;
@@ -129,7 +129,7 @@ private:
     LeafRegions regions_;
     Planariser planariser_;
     Fitter fitter_;
-    std::vector<Strand> strands_;
+    std::vector<ClippedRun> runs_;
     std::deque<Children> children_;  ///< by level; a deque, so that growing moves none
     unsigned firstLevel_ = 0;
     Tree tree_;

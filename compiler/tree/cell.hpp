@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/lower/picture.hpp"
-#include "compiler/planar/strand.hpp"
+#include "compiler/planar/clipped_run.hpp"
 
 namespace vtm::compiler {
 
@@ -18,8 +18,8 @@ struct LayerWinding {
 struct Cell {
     Square square;
     unsigned level = 0;
-    std::vector<Strand> strands;         ///< what passes through, ascending by layer
-    std::vector<LayerWinding> windings;  ///< at the first corner, ascending by layer, zero left out
+    std::vector<ClippedRun> clippedRuns;  ///< what passes through, ascending by layer
+    std::vector<LayerWinding> windings;   ///< at the first corner, ascending by layer, zero left out
 
     /// Chords in the cell.
     std::size_t chordCount() const;

@@ -20,8 +20,8 @@ struct LayerBox {
 };
 
 LayerBox boxOf(const Outlines& outlines, const Layer& layer, std::uint32_t index) {
-    constexpr Coord least = std::numeric_limits<Coord>::min(), most = std::numeric_limits<Coord>::max();
-    LayerBox box{index, {most, most}, {least, least}};
+    constexpr Coord minimum = std::numeric_limits<Coord>::min(), maximum = std::numeric_limits<Coord>::max();
+    LayerBox box{index, {maximum, maximum}, {minimum, minimum}};
     for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r)
         for (const LatticePoint p :
              {outlines.points[outlines.runs[r].first], outlines.points[outlines.runs[r].last]}) {
@@ -42,7 +42,7 @@ bool contains(const Entries& entries, std::uint32_t layer) {
 std::vector<std::uint32_t> nowhere(const std::vector<std::uint32_t>& indices) {
     std::vector<std::uint32_t> layers;
     for (std::uint32_t i = 0; i < indices.size(); ++i)
-        if (indices[i] == none)
+        if (indices[i] == noIndex)
             layers.push_back(i);
     return layers;
 }
@@ -51,7 +51,7 @@ template <class Entries>
 void renumber(Entries& entries, const std::vector<std::uint32_t>& after) {
     std::erase_if(entries, [&](auto& e) {
         e.layer = after[e.layer];
-        return e.layer == none;
+        return e.layer == noIndex;
     });
 }
 
@@ -65,8 +65,8 @@ void merge(Entries& into, const Entries& added) {
 
 }  // namespace
 
-Partition::Partition(const Square& root, std::size_t most, unsigned maxDepth)
-    : root_(root), most_(most), deepest_(std::min(lastLevel, maxDepth)), top_{0, {}}, blocks_(1) {
+Partition::Partition(const Square& root, std::size_t maximum, unsigned maxDepth)
+    : root_(root), maximum_(maximum), deepest_(std::min(lastLevel, maxDepth)), top_{0, {}}, blocks_(1) {
     blocks_[0].cell.square = root;
 }
 
@@ -93,7 +93,7 @@ void Partition::mark(const Outlines& outlines, const std::vector<Layer>& layers,
     for (Block& block : blocks_)
         block.dirty |= std::any_of(boxes.begin(), boxes.end(), [&](const LayerBox& box) {
             return box.reaches(block.cell.square) &&
-                   (contains(block.cell.strands, box.layer) || contains(block.cell.windings, box.layer));
+                   (contains(block.cell.clippedRuns, box.layer) || contains(block.cell.windings, box.layer));
         });
 }
 
@@ -102,17 +102,17 @@ void Partition::renumber(const LayerChanges& changes) {
     const bool all = changes.renumbers();
     for (Block& block : blocks_)
         if (all || block.dirty) {
-            compiler::renumber(block.cell.strands, changes.after);
+            compiler::renumber(block.cell.clippedRuns, changes.after);
             compiler::renumber(block.cell.windings, changes.after);
         }
 }
 
 void Partition::insert(Points points, Top& top, Cell& cell) {
-    if (cell.strands.empty() && cell.windings.empty())
+    if (cell.clippedRuns.empty() && cell.windings.empty())
         return;
     if (top.block) {
         Block& block = blocks_[*top.block];
-        merge(block.cell.strands, cell.strands);
+        merge(block.cell.clippedRuns, cell.clippedRuns);
         merge(block.cell.windings, cell.windings);
         block.dirty = true;
         return;
@@ -127,11 +127,11 @@ void Partition::splitLarge(Points points, Culler& culler, Top& top) {
     if (top.block) {
         const std::size_t first = *top.block;
         const Cell& whole = blocks_[first].cell;
-        if (!blocks_[first].dirty || whole.level >= deepest_ || whole.strands.size() <= most_)
+        if (!blocks_[first].dirty || whole.level >= deepest_ || whole.clippedRuns.size() <= maximum_)
             return;
         Cell culled = whole;
         culler.run(culled);
-        if (culled.strands.size() <= most_)
+        if (culled.clippedRuns.size() <= maximum_)
             return;
         std::array<Cell, 16> children;
         splitCell(points, whole, children);

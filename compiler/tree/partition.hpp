@@ -33,9 +33,9 @@ public:
         std::vector<Top> children;  ///< 16 if it is not a block
     };
 
-    /// Nothing in one block; blocks will have `most` strands at most where they can be split.
-    /// `most`: strands of a block that is not of the last level. No block is deeper than `maxDepth`.
-    Partition(const Square& root, std::size_t most, unsigned maxDepth);
+    /// Nothing in one block; blocks will have `maximum` clipped runs at most where they can be split.
+    /// `maximum`: clipped runs of a block that is not of the last level. No block is deeper than `maxDepth`.
+    Partition(const Square& root, std::size_t maximum, unsigned maxDepth);
 
     /// Takes layers out and in, and marks the blocks that they or the layers `touched` (indices now) pass
     /// through. Blocks that have grown too large are split. `before`: the layers before, whose outlines are
@@ -43,7 +43,7 @@ public:
     void update(const std::vector<Layer>& before, const Picture& picture, const LayerChanges& changes,
                 const std::vector<std::uint32_t>& touched, Painter& painter);
 
-    std::size_t most() const { return most_; }
+    std::size_t maximum() const { return maximum_; }
     const Top& top() const { return top_; }
     std::vector<Block>& blocks() { return blocks_; }
     const std::vector<Block>& blocks() const { return blocks_; }
@@ -56,7 +56,7 @@ private:
     void splitLarge(Points points, Culler& culler, Top& top);
 
     Square root_;
-    std::size_t most_;
+    std::size_t maximum_;
     unsigned deepest_;
     Top top_;
     std::vector<Block> blocks_;

@@ -1,5 +1,5 @@
 /// \file
-/// Cells and tree: outlines are pushed down a 16-tree until each leaf's planar map is small.
+/// A map's tree as the compiler has it, what it is built by, and the painters that its regions ask.
 #pragma once
 
 #include <memory>
@@ -84,10 +84,5 @@ struct Tree {
     double error = 0;              ///< the largest ErrorBudget::leaf or mean of the leaves
     std::vector<Square> unproven;  ///< leaves that are means of samples and too large for the tolerance
 };
-
-/// Builds the tree over `root` for the given layers (ascending), on all processors; the result does not
-/// depend on their number. Throws LimitError if the outlines are too tangled for the work limit.
-Tree buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
-               const Painter& painter, const TreeOptions& options, TreeTimes& times);
 
 }  // namespace vtm::compiler

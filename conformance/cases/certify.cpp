@@ -221,13 +221,13 @@ bool Outlines::isNear(Point point, double reach) const {
                                [&](const Shape* shape) { return isNear(*shape, point, reach, rim); });
 }
 
-double Outlines::distance(Point from, double most) const {
-    const double rim = rimShare * most;
-    std::vector<const Shape*> shapes = shapesIn({from, 2 * most, 1, rim});
-    std::erase_if(shapes, [&](const Shape* shape) { return !isNear(*shape, from, most, rim); });
+double Outlines::distance(Point from, double maximum) const {
+    const double rim = rimShare * maximum;
+    std::vector<const Shape*> shapes = shapesIn({from, 2 * maximum, 1, rim});
+    std::erase_if(shapes, [&](const Shape* shape) { return !isNear(*shape, from, maximum, rim); });
     if (shapes.empty())
         return std::numeric_limits<double>::infinity();
-    double low = 0, high = most;
+    double low = 0, high = maximum;
     constexpr int halvings = 7;
     for (int i = 0; i < halvings; ++i) {
         const double middle = (low + high) / 2;

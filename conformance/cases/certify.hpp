@@ -39,9 +39,9 @@ public:
     /// How much of each pixel lies, at most, within the window's tolerance of an outline: as so many parts a
     /// side show it, the pixel itself but for a rim of pixels round the window.
     std::vector<double> nearShares(const Window& window, int parts) const;
-    /// Distance of a point from the nearest outline, up to `most`, beyond which it is infinite. By octagons
-    /// about the point: up to 8 % less than the true one, and by a 64th of `most` more or less.
-    double distance(scene::Point from, double most) const;
+    /// Distance of a point from the nearest outline, up to `maximum`, beyond which it is infinite. By
+    /// octagons about the point: up to 8 % less than the true one, and by a 64th of `maximum` more or less.
+    double distance(scene::Point from, double maximum) const;
     /// Whether an outline is as near to a point, to the same precision: much faster than distance().
     bool isNear(scene::Point point, double reach) const;
     /// Whether an outline runs through the square with this centre and half its side.

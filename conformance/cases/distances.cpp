@@ -50,7 +50,7 @@ FarPoints farPoints(const scene::Scene& scene, const asset::Asset& asset, double
 
 Distances measure(const scene::Scene& scene, const asset::Asset& asset, double tolerance, std::uint64_t seed,
                   int drawn, int truths) {
-    constexpr double most = 2;  // tolerances
+    constexpr double maximum = 2;  // tolerances
     const Outlines outlines(scene);
     const DrawnBoundary boundary(asset);
     Distances found;
@@ -58,11 +58,13 @@ Distances measure(const scene::Scene& scene, const asset::Asset& asset, double t
         ++found.drawn;
         const bool isFarther = found.fromDrawn == 0 || !outlines.isNear(p, found.fromDrawn * tolerance);
         if (isFarther && !looksEqualAbout(asset, p, tolerance / 8))
-            found.fromDrawn = std::max(found.fromDrawn, outlines.distance(p, most * tolerance) / tolerance);
+            found.fromDrawn =
+                std::max(found.fromDrawn, outlines.distance(p, maximum * tolerance) / tolerance);
     }
     for (const OutlinePoint& p : outlines.pointsOn(seed, truths))
         if (isInside(scene, p.at, 2 * tolerance) && partsTwoColours(scene, p, tolerance)) {
-            found.fromTrue = std::max(found.fromTrue, boundary.distance(p.at, most * tolerance) / tolerance);
+            found.fromTrue =
+                std::max(found.fromTrue, boundary.distance(p.at, maximum * tolerance) / tolerance);
             ++found.truths;
         }
     return found;

@@ -64,16 +64,16 @@ DrawnBoundary::DrawnBoundary(const asset::Asset& asset) {
     }
 }
 
-double DrawnBoundary::distance(dvec2 from, double most) const {
+double DrawnBoundary::distance(dvec2 from, double maximum) const {
     double best = std::numeric_limits<double>::infinity();
     for (const Curve& curve : curves_) {
         // Slopes within tan 22.5° keep the curve within an eighth of its length of the chord.
         const dvec2 b = curve.a + curve.ab,
                     off = glm::max(glm::min(curve.a, b) - from, from - glm::max(curve.a, b));
-        if (std::max(off.x, off.y) <= most + glm::length(curve.ab) / 8)
+        if (std::max(off.x, off.y) <= maximum + glm::length(curve.ab) / 8)
             best = std::min(best, curve.distance(from));
     }
-    return best <= most ? best : std::numeric_limits<double>::infinity();
+    return best <= maximum ? best : std::numeric_limits<double>::infinity();
 }
 
 std::vector<dvec2> DrawnBoundary::somePoints(std::uint64_t seed, int count) const {

@@ -16,8 +16,8 @@ public:
     /// Of maps of colours, whose pieces part different ones; the asset is closed.
     explicit DrawnBoundary(const asset::Asset& asset);
 
-    /// From a point to the nearest boundary, up to `most`, beyond which it is infinite. Never too small.
-    double distance(glm::dvec2 from, double most) const;
+    /// From a point to the nearest boundary, up to `maximum`, beyond which it is infinite. Never too small.
+    double distance(glm::dvec2 from, double maximum) const;
     /// Points anywhere on the pieces.
     std::vector<glm::dvec2> somePoints(std::uint64_t seed, int count) const;
     /// Where pieces end on the borders of their leaves.

@@ -63,11 +63,11 @@ TEST_P(CorpusTexture, MatchesTheTruth) {
     for (const CorpusFile::Limit& limit : file.limits) {
         const Raster drawn = texture.draw(wholePicture(measured.scene(), limit.size));
         const Difference d = compare::compare(asWritten(drawn), truthOf(file.name, limit.size));
-        const double most = limit.size == 1024 ? 3 * limit.floor : limit.best / 3;
-        EXPECT_TRUE(d.mean <= most || !file.expectedFailure.empty())
-            << file.name << " at " << limit.size << " px: mean " << d.mean << " (at most " << most << ')';
-        matches = matches && d.mean <= most;
-        RecordProperty(fmt::format("mean_{}", limit.size), fmt::format("{:.4f} of {:.4f}", d.mean, most));
+        const double maximum = limit.size == 1024 ? 3 * limit.floor : limit.best / 3;
+        EXPECT_TRUE(d.mean <= maximum || !file.expectedFailure.empty())
+            << file.name << " at " << limit.size << " px: mean " << d.mean << " (at most " << maximum << ')';
+        matches = matches && d.mean <= maximum;
+        RecordProperty(fmt::format("mean_{}", limit.size), fmt::format("{:.4f} of {:.4f}", d.mean, maximum));
     }
     EXPECT_EQ(matches, file.expectedFailure.empty()) << file.name << ": " << file.expectedFailure;
 }
@@ -145,24 +145,24 @@ TEST_P(Texture, StaysRightWhileItTurns) {
 
 /// Footprints of one shape: an affine view, which the evaluator draws exactly.
 TEST_P(Texture, StretchedFootprintsAreExactEnough) {
-    for (const auto& [ratio, most] : {std::pair{4.0, 1.0}, {16.0, 3.0}})
+    for (const auto& [ratio, maximum] : {std::pair{4.0, 1.0}, {16.0, 3.0}})
         for (const int pixels : {1024, 256, 64})
             for (int i = 0; i < 4; ++i) {
                 const asset::View view = stretched(size(), 160, pixels, ratio, 0.1 + 0.9 * i, 0.4 * i);
-                EXPECT_LE(compare::compare(texture->draw(view), exact(view)).rms, most)
+                EXPECT_LE(compare::compare(texture->draw(view), exact(view)).rms, maximum)
                     << ratio << " : 1, " << pixels << " px, " << i;
             }
 }
 
 /// A floor of copies up to the horizon, footprints up to 1 : 4 or 1 : 16, against 8 × 8 samples each.
 TEST_P(Texture, PerspectiveIsExactEnough) {
-    for (const auto& [floor, most] : {std::pair{mildFloor, 1.0}, {steepFloor, 3.0}}) {
+    for (const auto& [floor, maximum] : {std::pair{mildFloor, 1.0}, {steepFloor, 3.0}}) {
         const gl::Wrapping repeated{asset::Wrap::Repeat, asset::Wrap::Repeat};
         constexpr int samples = 8;
         const Raster drawn = texture->draw(floor.toPicture(1), floor.width, floor.height, repeated);
         const Raster fine =
             texture->draw(floor.toPicture(samples), floor.width * samples, floor.height * samples, repeated);
-        EXPECT_LE(compare::compare(drawn, averaged(fine, samples)).rms, most) << floor.ratio;
+        EXPECT_LE(compare::compare(drawn, averaged(fine, samples)).rms, maximum) << floor.ratio;
     }
 }
 

@@ -54,10 +54,11 @@ Raster grown(const Raster& frame, double factor) {
 dvec2 nearestEdge(const Raster& raster) {
     const auto differs = [&](int x, int y) {
         const float *p = raster.pixel(x, y), *right = raster.pixel(x + 1, y), *below = raster.pixel(x, y + 1);
-        double most = 0;
+        double maximum = 0;
         for (int c = 0; c < 4; ++c)
-            most = std::max({most, std::abs(double(p[c]) - right[c]), std::abs(double(p[c]) - below[c])});
-        return most > 0.15;
+            maximum =
+                std::max({maximum, std::abs(double(p[c]) - right[c]), std::abs(double(p[c]) - below[c])});
+        return maximum > 0.15;
     };
     dvec2 nearest(0);
     double distance = raster.width;
@@ -83,16 +84,16 @@ dvec2 pointOnOutline(dvec2 picture, double largest, const Draw& exact) {
 }
 
 double contrastOf(const Raster& raster) {
-    double most = 0;
+    double maximum = 0;
     for (std::size_t c = 0; c < 4; ++c) {
         float low = 1, high = 0;
         for (std::size_t i = c; i < raster.rgba.size(); i += 4) {
             low = std::min(low, raster.rgba[i]);
             high = std::max(high, raster.rgba[i]);
         }
-        most = std::max(most, double(high) - low);
+        maximum = std::max(maximum, double(high) - low);
     }
-    return most;
+    return maximum;
 }
 
 }  // namespace

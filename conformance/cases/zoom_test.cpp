@@ -172,13 +172,13 @@ TEST_P(Zoom, IsDrawnAlikeByTheGpu) {
     Gl gl;
     const auto uploaded = gl.renderer.upload(zoomed.result.asset);
     constexpr int views = 24, pixels = 256;
-    constexpr double most = 2;  // 255ths
+    constexpr double maximum = 2;  // 255ths
     double worst = 0;
     for (const Window& window : zoomed.windows(views, pixels, 2)) {
         const image::Raster drawn = gl.renderer.render(uploaded, {pixels, pixels, toPixels(window)});
         const compare::Difference d = compare::compare(drawn, draw(zoomed.result.asset, window));
-        EXPECT_LE(d.max, most) << "at " << d.worstX << ", " << d.worstY << " of the view at "
-                               << window.centre.x << ", " << window.centre.y;
+        EXPECT_LE(d.max, maximum) << "at " << d.worstX << ", " << d.worstY << " of the view at "
+                                  << window.centre.x << ", " << window.centre.y;
         worst = std::max(worst, d.max);
     }
     RecordProperty("largest_difference_255ths", std::to_string(worst));

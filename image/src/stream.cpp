@@ -35,7 +35,7 @@ std::size_t expectedSize(int descriptor) {
 }  // namespace
 
 std::vector<std::uint8_t> readStream(int descriptor, const std::string& name) {
-    const std::size_t expected = expectedSize(descriptor), most = std::max(expected, maxStreamBytes);
+    const std::size_t expected = expectedSize(descriptor), maximum = std::max(expected, maxStreamBytes);
     // One byte more, so that the end is seen without growing.
     std::vector<std::uint8_t> bytes(expected > 0 ? expected + 1 : portion);
     std::size_t end = 0;
@@ -46,8 +46,8 @@ std::vector<std::uint8_t> readStream(int descriptor, const std::string& name) {
         if (count < 0 && !again(descriptor, POLLIN))
             throw CodecError(name + ": cannot be read: " + std::generic_category().message(errno));
         end += count > 0 ? std::size_t(count) : 0;
-        if (end > most)
-            throw CodecError(name + ": is longer than " + std::to_string(most >> 20) + " MiB");
+        if (end > maximum)
+            throw CodecError(name + ": is longer than " + std::to_string(maximum >> 20) + " MiB");
     }
     bytes.resize(end);
     return bytes;

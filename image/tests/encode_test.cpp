@@ -61,10 +61,10 @@ Bitmap noise(int width, int height) {
 }
 
 int worst(const Bitmap& a, const Bitmap& b) {
-    int most = 0;
+    int maximum = 0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i)
-        most = std::max(most, std::abs(a.rgba[i] - b.rgba[i]));
-    return most;
+        maximum = std::max(maximum, std::abs(a.rgba[i] - b.rgba[i]));
+    return maximum;
 }
 
 TEST(PngEncoder, KeepsEveryPixel) {

@@ -80,7 +80,7 @@ void CoverageScanner::scan(const View& view,
         for (int y = 0; y < rows; ++y) {
             scratch.runs.clear();
             scratch.coverage.resolve(std::size_t(y), [&](int first, int end, float share) {
-                if (share > leastShare)
+                if (share > minShare)
                     scratch.runs.push_back({first, end, std::min(share, 1.0f)});
             });
             if (!scratch.runs.empty())

@@ -90,13 +90,13 @@ struct Drawn {
     const Paints& paints;
     PaintMeaning meaning;
     const MaterialFunction& materials;
-    float leastSteep;
+    float minSteep;
     RoughBounds rough;
     bool findsRough;  ///< whether rough pixels are looked for
 
     const AssetView& asset() const { return paints.asset(); }
     bool isSteep(std::uint32_t paint) const {
-        return meaning == PaintMeaning::Color && paints.changes()[paint].steepness > leastSteep;
+        return meaning == PaintMeaning::Color && paints.changes()[paint].steepness > minSteep;
     }
     bool mayBeRough(std::uint32_t paint) const { return rough.mayBeRough(paints.changes()[paint]); }
     /// Those of a square.
@@ -254,7 +254,7 @@ bool isRough(const Drawn& drawn, Entry entry, std::span<const std::uint32_t> ste
             shares[std::size_t(at - steep.begin())] += weight;
     });
     for (std::size_t i = 0; i < steep.size(); ++i)
-        if (std::abs(shares[i]) > leastShare && mayBe(steep[i]) &&
+        if (std::abs(shares[i]) > minShare && mayBe(steep[i]) &&
             isRough(drawn, steep[i], isCut, placed, frame))
             return true;
     return false;
@@ -386,9 +386,9 @@ vec4 meanOfFiner(const image::Raster& finer, int x, int y) {
 void drawColors(const Paints& paints, const Map& map, const View& view, const MaterialFunction& materials,
                 int levels, float roughness, image::Raster& colors) {
     const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    const float leastSteep = leastSteepness(pixel);
-    const Drawn drawn{
-        paints, PaintMeaning::Color, materials, leastSteep, roughBounds(leastSteep, roughness), levels > 0};
+    const float minSteep = minSteepness(pixel);
+    const Drawn drawn{paints,    PaintMeaning::Color, materials, minSteep, roughBounds(minSteep, roughness),
+                      levels > 0};
     const RoughPixels rough = addMap(drawn, map, view, colors);
     if (levels == 0)
         return;

@@ -128,16 +128,16 @@ struct RadialRow : RadialPixels {
         const float rest = farSquared() - glm::dot(d, d);
         if (!(rest >= 0))
             return {0, 0};
-        const float half = steps > 0 ? std::sqrt(rest / steps) : 0, most = float(count);
-        return {std::size_t(std::clamp(std::floor(middle - half), 0.0f, most)),
-                std::size_t(std::clamp(std::ceil(middle + half) + 1, 0.0f, most))};
+        const float half = steps > 0 ? std::sqrt(rest / steps) : 0, maximum = float(count);
+        return {std::size_t(std::clamp(std::floor(middle - half), 0.0f, maximum)),
+                std::size_t(std::clamp(std::ceil(middle + half) + 1, 0.0f, maximum))};
     }
 };
 
 /// Circles that lie within each other fill the plane: everywhere there is a root, the larger one, and u
 /// changes by no more than 1 / (1 - fr - |f|) with the point. This is the least 1 - fr - |f| where
 /// single precision has them, without care for what cancels.
-constexpr float leastGap = 0.1f;
+constexpr float minGap = 0.1f;
 
 /// u in such circles: u = b + sqrt(b² + c), each of radialOffset()'s divided by a. Along the row b and the
 /// discriminant are polynomials of the step.
@@ -216,7 +216,7 @@ void radialColors(const GradientView& view, vec2 point, vec2 step, const glm::ma
     Ramp ramp(view);
     const std::size_t count = colors.size();
     const float gap = 1 - gradient.fr - glm::length(row.focus);
-    const Range near = gap < leastGap ? Range{0, count} : row.nearTip(count);
+    const Range near = gap < minGap ? Range{0, count} : row.nearTip(count);
     for (std::size_t i = near.first; i < near.end; ++i)
         colors[i] = row.color(row.fromFocus(i), gradient.spread, ramp);
     if (near.first == 0 && near.end == count)
@@ -245,7 +245,7 @@ void radialColors(const GradientView& view, std::span<const vec2> points, const 
     std::array<float, longestRow> offsets;
     const std::span<float> places = std::span(offsets).first(colors.size());
     const float gap = 1 - gradient.fr - glm::length(pixels.focus);
-    if (gap < leastGap || !nestedOffsets(pixels, gradient.matrix, points, places)) {
+    if (gap < minGap || !nestedOffsets(pixels, gradient.matrix, points, places)) {
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = colorAt(i);
         return;

@@ -69,7 +69,7 @@ struct Probes {
     vec2 step;
 };
 
-constexpr float mostOblong = 16, nearlyRound = 1.0f / 64;
+constexpr float maxOblong = 16, nearlyRound = 1.0f / 64;
 
 /// `m`: a pixel's sides in the image. Its singular values are the axes of the ellipse that it makes of a
 /// circle.
@@ -80,8 +80,8 @@ Probes probesOf(const mat2& m) {
     const float longer = std::sqrt(0.5f * (a + c) + root), shorter = std::abs(glm::determinant(m)) / longer;
     const vec2 along = half > 0 ? vec2(half + root, b) : vec2(b, root - half);
     // fmax and fmin: what is no number gives way to the other.
-    const float width = std::fmax(1.0f, std::fmax(shorter, longer / mostOblong));
-    const float all = std::fmax(1.0f, std::fmin(longer / width - nearlyRound, mostOblong));
+    const float width = std::fmax(1.0f, std::fmax(shorter, longer / maxOblong));
+    const float all = std::fmax(1.0f, std::fmin(longer / width - nearlyRound, maxOblong));
     const int side = int(std::ceil(0.5f * (all - 1)));
     return {side, width, side == 0 ? 1 : 0.5f * (all - float(2 * side - 1)), all,
             side == 0 ? vec2(0) : along * (width / glm::length(along))};

@@ -13,7 +13,7 @@
 
 namespace vtm::asset {
 
-inline bool isNothing(Float4 color) { return largest(color) < leastShare; }
+inline bool isNothing(Float4 color) { return largest(color) < minShare; }
 
 /// What programs have in a band. Pixels are in blocks; all of those that no program touches are zero.
 class ProgramPixels {

@@ -70,7 +70,7 @@ struct RoughBounds {
 
     /// Whether pixels may be that no edge cuts.
     bool mayBeRough(const PaintChange& paint) const {
-        return paint.roughness * pixel > float(leastRoughChange);
+        return paint.roughness * pixel > float(minRoughChange);
     }
     bool isRoughCut(const PaintChange& paint, QuarterColors q) const {
         return paint.variation * pixel > times * maxCutVariation || rangeOf(q) > times * maxQuarterRange;
@@ -84,9 +84,9 @@ struct RoughBounds {
     }
 };
 
-/// `leastSteep`: leastSteepness() of the view.
-inline RoughBounds roughBounds(float leastSteep, float times) {
-    return {float(leastSteepChange) / leastSteep, times};
+/// `minSteep`: minSteepness() of the view.
+inline RoughBounds roughBounds(float minSteep, float times) {
+    return {float(minSteepChange) / minSteep, times};
 }
 
 }  // namespace vtm::asset

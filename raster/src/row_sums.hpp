@@ -28,7 +28,7 @@ namespace vtm::asset {
 inline constexpr int bandRows = 16;
 
 /// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
-inline constexpr float leastShare = 1e-5f;
+inline constexpr float minShare = 1e-5f;
 
 /// A chord is nowhere further from its curve, pixels: half a 255th of a pixel's area. Chords lie on both
 /// sides of the curve, so that what they miss cancels within a pixel where it holds more than one.
@@ -106,12 +106,12 @@ public:
         const double steps = boundary.steps * stretchRoot_;
         if (steps <= 1)
             return addChord(glm::vec2(a), glm::vec2(b), piece);
-        addChords(int(std::min(steps, mostChords)) + 1, a, b, piece);
+        addChords(int(std::min(steps, maxChords)) + 1, a, b, piece);
     }
 
 private:
     /// Of one piece: a quarter turn as long as the largest view has fewer.
-    static constexpr double mostChords = 4096;
+    static constexpr double maxChords = 4096;
 
     void addChords(int count, glm::dvec2 a, glm::dvec2 b, const PlanarPiece& piece) {
         // t - outwards t'' as a polynomial of s.

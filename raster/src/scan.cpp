@@ -209,8 +209,8 @@ private:
     static ProgramView programView(const Picture& of, const View& view, const MaterialFunction& materials,
                                    float roughness, bool findsRough) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-        const float leastSteep = leastSteepness(inverse);
-        return {*of.paints, of.sums, view, inverse, leastSteep, materials, roughBounds(leastSteep, roughness),
+        const float minSteep = minSteepness(inverse);
+        return {*of.paints, of.sums, view, inverse, minSteep, materials, roughBounds(minSteep, roughness),
                 findsRough};
     }
 

@@ -30,7 +30,7 @@ struct ProgramView {
     Sums sums;
     const View& view;
     glm::dmat2 inverse;  ///< pixels to the picture
-    float leastSteep;    ///< of raster/steepness.hpp
+    float minSteep;      ///< of raster/steepness.hpp
     const MaterialFunction& materials;
     RoughBounds rough;
     bool findsRough;  ///< whether rough pixels are looked for
@@ -46,7 +46,7 @@ struct BandPixel {
 };
 
 /// What is not made better where quarters differ: a tenth of a step of 8 bits.
-inline constexpr float leastPart = 0.1f / 255;
+inline constexpr float minPart = 0.1f / 255;
 
 /// Those of one band at a time.
 class BandPrograms {
@@ -83,7 +83,7 @@ public:
         rows_ = rows;
         pixels_.resize(width_);
         for (const std::uint16_t paint : programs_) {
-            if (of.paints.changes()[paint].steepness > of.leastSteep)
+            if (of.paints.changes()[paint].steepness > of.minSteep)
                 drawSteep(of, paint);
             else
                 drawWholes(of, paint, coverage_, [](int, int, int, float share) { return share; });
@@ -120,7 +120,7 @@ private:
             int begin = 0;
             coverage.resolve(std::size_t(row), [&](int first, int end, auto sum) {
                 const float share = shareOf(row, first, end, sum);
-                if (std::abs(share) < leastShare)
+                if (std::abs(share) < minShare)
                     return addShares(of, paint, row, begin);
                 if (shares_.empty())
                     begin = first;
@@ -157,15 +157,15 @@ private:
     void drawSteep(const ProgramView& of, std::uint16_t paint) {
         // The first moment of the program's part, times what the colour changes by over a pixel, is about
         // what the quarters make better.
-        const float change = float(leastSteepChange) / of.leastSteep * of.paints.changes()[paint].steepness;
-        const float leastMoment = std::max(leastPart / change, leastShare);
+        const float change = float(minSteepChange) / of.minSteep * of.paints.changes()[paint].steepness;
+        const float minMoment = std::max(minPart / change, minShare);
         const bool mayBeRough = of.findsRough && of.rough.mayBeRough(of.paints.changes()[paint]);
         drawWholes(of, paint, quarters_, [&](int row, int first, int end, Float4 q) {
             const float share = 0.25f * (q[0] + q[1] + q[2] + q[3]);
             const float momentX = (q[1] + q[3] - q[0] - q[2]) / 16,
                         momentY = (q[2] + q[3] - q[0] - q[1]) / 16;
-            const bool isCut = momentX * momentX + momentY * momentY > leastMoment * leastMoment;
-            if (isCut || (mayBeRough && std::abs(share) > leastShare))
+            const bool isCut = momentX * momentX + momentY * momentY > minMoment * minMoment;
+            if (isCut || (mayBeRough && std::abs(share) > minShare))
                 for (int x = first; x < end; ++x)
                     cuts_.push_back({row, x, isCut ? 0.25f * (q - share) : Float4{}});
             return share;

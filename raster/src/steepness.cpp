@@ -22,10 +22,10 @@ using glm::vec4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Colours that differ by less are one: half a pixel against the whole is off by a quarter of it.
-constexpr double leastRange = 8.0 / 255;
+constexpr double minRange = 8.0 / 255;
 
 /// Circles nearer to touching than this have no useful bound: as in gradient.cpp.
-constexpr double leastGap = 0.1;
+constexpr double minGap = 0.1;
 
 /// The largest singular value.
 double stretchOf(const glm::dmat2& m) {
@@ -35,15 +35,15 @@ double stretchOf(const glm::dmat2& m) {
 
 /// What premultiplied channels change by, at most, while straight colours go from one to another.
 double changeBetween(const vec4& a, const vec4& b) {
-    const double alpha = std::abs(a.a - b.a), mostAlpha = std::max(a.a, b.a);
+    const double alpha = std::abs(a.a - b.a), maxAlpha = std::max(a.a, b.a);
     double change = alpha;
     for (int c = 0; c < 3; ++c)
-        change = std::max(change, mostAlpha * std::abs(a[c] - b[c]) + alpha * std::max(a[c], b[c]));
+        change = std::max(change, maxAlpha * std::abs(a[c] - b[c]) + alpha * std::max(a[c], b[c]));
     return change;
 }
 
 /// More stops are not looked at: gradients of a hostile file may overlap as they like.
-constexpr std::uint32_t mostStops = 256;
+constexpr std::uint32_t maxStops = 256;
 
 /// What premultiplied channels change by, at most, along a gradient's ramp.
 struct Ramp {
@@ -67,7 +67,7 @@ void forEachStretch(const AssetView& asset, const Gradient& gradient, std::uint3
 }
 
 Ramp rampOf(const AssetView& asset, const Gradient& gradient, std::uint32_t firstStop) {
-    if (gradient.stopCount > mostStops)
+    if (gradient.stopCount > maxStops)
         return {infinity, infinity};
     double slope = 0, all = 0;
     forEachStretch(asset, gradient, firstStop, [&](double change, double from, double to) {
@@ -75,7 +75,7 @@ Ramp rampOf(const AssetView& asset, const Gradient& gradient, std::uint32_t firs
         if (change > 0)
             slope = std::max(slope, to > from ? change / (to - from) : infinity);
     });
-    return all < leastRange ? Ramp{} : Ramp{slope, all};
+    return all < minRange ? Ramp{} : Ramp{slope, all};
 }
 
 /// What u changes by, at most, over a unit of the picture.
@@ -84,7 +84,7 @@ double offsetSlope(const Gradient& gradient, bool isRadial) {
     if (!isRadial)
         return glm::length(dvec2(m[0], m[2]));
     const double gap = 1 - gradient.fr - glm::length(dvec2(gradient.fx, gradient.fy));
-    return gap < leastGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
+    return gap < minGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
 }
 
 /// Of one paint, in doubles.
@@ -201,7 +201,7 @@ double radialOffset(const Gradient& gradient, dvec2 p) {
 /// What a gradient's ramp changes by over one of the pixels.
 double changeNear(const AssetView& asset, std::uint32_t texel, bool isRadial, const PixelsNear& pixels) {
     const auto gradient = recordAt<Gradient>(asset.data, texel);
-    if (gradient.stopCount > mostStops)
+    if (gradient.stopCount > maxStops)
         return infinity;
     const std::array<float, 6>& m = gradient.matrix;
     const dvec2 p(m[0] * pixels.middle.x + m[2] * pixels.middle.y + m[4],
@@ -214,8 +214,8 @@ double changeNear(const AssetView& asset, std::uint32_t texel, bool isRadial, co
     const auto add = [&](double change, double from, double to) {
         if (!offsets.meet(from, to))
             return;
-        const double most = to - from > width ? change / (to - from) * width : change;
-        sum += most;
+        const double maximum = to - from > width ? change / (to - from) * width : change;
+        sum += maximum;
         steepest = std::max(steepest, to > from ? change / (to - from) * width : change > 0 ? infinity : 0);
     };
     forEachStretch(asset, gradient, texel + std::uint32_t(GradientView::headTexels), add);
@@ -266,6 +266,6 @@ std::vector<float> steepnessOf(const AssetView& asset) {
     return steepness;
 }
 
-float leastSteepness(const glm::dmat2& pixel) { return float(leastSteepChange / stretchOf(pixel)); }
+float minSteepness(const glm::dmat2& pixel) { return float(minSteepChange / stretchOf(pixel)); }
 
 }  // namespace vtm::asset

@@ -6,6 +6,7 @@
 
 #include <vtm/raster/evaluate.hpp>
 #include "asset/testing.hpp"
+#include "raster/testing_prefilter.hpp"
 
 namespace vtm::asset::test {
 namespace {

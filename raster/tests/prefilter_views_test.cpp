@@ -13,6 +13,7 @@
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/prefilter.hpp>
 #include <vtm/svg/load.hpp>
+#include "raster/testing_prefilter.hpp"
 
 namespace vtm::asset::test {
 namespace {

@@ -146,7 +146,7 @@ TEST(Scan, SumsOfLight) {
 
 /// Of a valid file numbers are finite, no more: what overflows on the way is some colour.
 TEST(Scan, NumbersAtTheEndsOfSinglePrecisionMakeColours) {
-    const float most = std::numeric_limits<float>::max();
+    const float maximum = std::numeric_limits<float>::max();
     std::mt19937 random(11);
     for (int i = 0; i < 60; ++i) {
         Asset asset = everyPaint();
@@ -157,7 +157,7 @@ TEST(Scan, NumbersAtTheEndsOfSinglePrecisionMakeColours) {
                     for (std::size_t m = 0; m < 6; ++m) {
                         constexpr float scales[] = {1, -1, 1e-30f, 1e-8f, -1e-20f, 0};
                         asset.data[in.argument + m / 4][m % 4] =
-                            std::bit_cast<std::uint32_t>(most * scales[random() % 6]);
+                            std::bit_cast<std::uint32_t>(maximum * scales[random() % 6]);
                     }
         ASSERT_NO_THROW(validate(asset));
         const View view = randomView(random);

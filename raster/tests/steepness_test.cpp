@@ -215,20 +215,20 @@ TEST(NearChange, BoundsGradients) {
             const float angle = 6.2831853f * unit(random);
             return r * std::sqrt(unit(random)) * vec2(std::cos(angle), std::sin(angle));
         };
-        const float most = changeNear(asset, paint, {middle, radius, pixel}).sum;
+        const float maximum = changeNear(asset, paint, {middle, radius, pixel}).sum;
         for (int k = 0; k < 200; ++k) {
             const vec2 p = middle + inDisc(radius);
             const glm::vec4 change = paints.color(paint, {p + inDisc(0.5f * pixel)}) -
                                      paints.color(paint, {p + inDisc(0.5f * pixel)});
             for (int c = 0; c < 4; ++c)
-                ASSERT_LE(std::abs(change[c]), most + 1e-4f) << i;
+                ASSERT_LE(std::abs(change[c]), maximum + 1e-4f) << i;
         }
     }
 }
 
 TEST(Steepness, LeastIsThatOfAPixelsLongestStep) {
-    EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.5, 0, 0, 0.25)), float(2 * leastSteepChange));
-    EXPECT_FLOAT_EQ(leastSteepness(dmat2(0.6, 0.8, -0.8, 0.6)), float(leastSteepChange));
+    EXPECT_FLOAT_EQ(minSteepness(dmat2(0.5, 0, 0, 0.25)), float(2 * minSteepChange));
+    EXPECT_FLOAT_EQ(minSteepness(dmat2(0.6, 0.8, -0.8, 0.6)), float(minSteepChange));
 }
 
 // ---- Parts of pixels ------------------------------------------------------------------------------

@@ -66,9 +66,9 @@ scene::Paint radial(const Coordinates& at, std::vector<scene::GradientStop> stop
     if (!(radius > 0) || focal >= radius)
         return stops.back().color;
     scene::Point focus(at.find("fx", Axis::X).value_or(center.x), at.find("fy", Axis::Y).value_or(center.y));
-    const double distance = glm::distance(focus, center), most = (radius - focal) * focusLimit;
-    if (distance > most)
-        focus = center + (focus - center) * (most / distance);
+    const double distance = glm::distance(focus, center), maximum = (radius - focal) * focusLimit;
+    if (distance > maximum)
+        focus = center + (focus - center) * (maximum / distance);
     return scene::RadialGradient{center, radius, focus, focal, std::move(stops), spread, transform};
 }
 

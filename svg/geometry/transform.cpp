@@ -27,8 +27,8 @@ struct Arguments {
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 std::optional<Affine> makeTransform(std::string_view name, const Arguments& a) {
-    const auto is = [&](std::string_view other, std::size_t least, std::size_t most) {
-        return equalsIgnoringCase(name, other) && a.count() >= least && a.count() <= most;
+    const auto is = [&](std::string_view other, std::size_t minimum, std::size_t maximum) {
+        return equalsIgnoringCase(name, other) && a.count() >= minimum && a.count() <= maximum;
     };
     if (is("matrix", 6, 6))
         return Affine{a[0], a[1], a[2], a[3], a[4], a[5]};

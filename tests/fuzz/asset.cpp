@@ -34,7 +34,6 @@ void use(const Asset& asset) {
     if (isSumOfMaps(asset))
         checkColors(Scanner(asset).draw(view));
     summarize(asset);
-    samplePrefilter(asset, {0.4f, 0.7f}, glm::mat2(0.2f));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace vtm::fuzz {
 
 /// Sides of images and surfaces are at most this.
-inline constexpr int mostSide = 40;
+inline constexpr int maxSide = 40;
 
 struct Area {
     VGint x, y, width, height;
@@ -43,7 +43,7 @@ public:
                                                  255,       256,           16384,  16385, 65536, INT32_MAX};
         return rarely() ? extremes[byte() % extremes.size()] : VGint(byte() % 48) - 4;
     }
-    VGint side() { return rarely() ? integer() : VGint(byte() % mostSide) + 1; }
+    VGint side() { return rarely() ? integer() : VGint(byte() % maxSide) + 1; }
     Area area() { return {integer(), integer(), side(), side()}; }
 
     VGfloat number() {
@@ -117,7 +117,7 @@ public:
     VGint* integerResults() { return reinterpret_cast<VGint*>(pointer(memory_.data())); }
 
     /// Pixels in memory that a call with this area may touch: those of an image or surface of at most
-    /// mostSide.
+    /// maxSide.
     struct Memory {
         void* data;
         VGint stride;

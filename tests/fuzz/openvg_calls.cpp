@@ -35,7 +35,7 @@ constexpr Call table[] = {
     },
     [](World& w, Arguments& a) {
         VtmSurface* const surface = w.surface();
-        vtmResizeSurface(surface, VGint(a.byte() % (mostSide + 1)), VGint(a.byte() % (mostSide + 1)));
+        vtmResizeSurface(surface, VGint(a.byte() % (maxSide + 1)), VGint(a.byte() % (maxSide + 1)));
         std::vector<std::uint8_t> pixels(std::size_t(vtmSurfaceWidth(surface)) *
                                          std::size_t(vtmSurfaceHeight(surface)) * 4);
         vtmReadSurface(surface, pixels.data(), std::size_t(vtmSurfaceWidth(surface)) * 4);

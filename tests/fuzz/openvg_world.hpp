@@ -42,14 +42,14 @@ struct World {
                                                            {4, 4, 4, 4, 0, 0, VG_FALSE, VG_FALSE},
                                                            {0, 0, 0, 8, 0, 8, VG_FALSE, VG_FALSE},
                                                            {0, 0, 0, 0, 1, 8, VG_FALSE, VG_FALSE}}};
-        return vtmCreateSurface(VGint(a.byte() % mostSide) + 1, VGint(a.byte() % mostSide) + 1,
+        return vtmCreateSurface(VGint(a.byte() % maxSide) + 1, VGint(a.byte() % maxSide) + 1,
                                 &formats[a.byte() % formats.size()]);
     }
 
     VGHandle keep(Pool& pool, VGHandle handle) {
         if (handle != VG_INVALID_HANDLE)
             pool.handles.push_back(handle);
-        if (pool.handles.size() > mostHandles) {
+        if (pool.handles.size() > maxHandles) {
             dead = pool.handles.front();
             pool.handles.erase(pool.handles.begin());
             return dead;
@@ -79,7 +79,7 @@ struct World {
     VtmContext*& context() { return contexts[a.byte() % contexts.size()]; }
     VtmSurface*& surface() { return surfaces[a.byte() % surfaces.size()]; }
 
-    static constexpr std::size_t mostHandles = 6;
+    static constexpr std::size_t maxHandles = 6;
 
     Arguments a;
     std::array<VtmContext*, 3> contexts{};

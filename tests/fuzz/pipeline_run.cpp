@@ -45,7 +45,7 @@ struct Settings {
         // Boundaries lie within 1/64 of a pixel.
         const double side = std::max(scene.width, scene.height),
                      finest = std::min(1 << 12, 1 << (bits[byte(0) % 4] - 6));
-        const double most = std::max(1.0, finest / raster), zoom = 1 + (most - 1) * byte(3) / 255;
+        const double maximum = std::max(1.0, finest / raster), zoom = 1 + (maximum - 1) * byte(3) / 255;
         whole = {raster, raster, {raster / side, 0, 0, raster / side, 0, 0}};
         const double scale = raster * zoom / side, angle = byte(4) / 40.0;
         const glm::dvec2 x = scale * glm::dvec2(std::cos(angle), std::sin(angle)), y{-x.y, x.x},
@@ -90,9 +90,10 @@ void checkColors(const image::Raster& drawn, const char* engine) {
             throw Disagreement(fmt::format("{}: a channel is {}", engine, value));
 }
 
-void compare(const image::Raster& drawn, const image::Raster& wanted, double most, const char* what) {
+void compare(const image::Raster& drawn, const image::Raster& wanted, double maximum, const char* what) {
     for (std::size_t i = 0; i < drawn.rgba.size(); ++i)
-        if (const double off = 255 * std::abs(double(drawn.rgba[i]) - double(wanted.rgba[i])); !(off <= most))
+        if (const double off = 255 * std::abs(double(drawn.rgba[i]) - double(wanted.rgba[i]));
+            !(off <= maximum))
             throw Disagreement(fmt::format("{}: off by {:.2f}/255 at pixel {}, {}", what, off,
                                            i / 4 % std::size_t(drawn.width),
                                            i / 4 / std::size_t(drawn.width)));

@@ -14,7 +14,7 @@ using namespace scene;
 constexpr int maxItems = 8, maxCommands = 24, maxLevels = 3;
 /// A dash pattern's period and a tile's side are not below this share of the picture's side: hundreds of
 /// dashes or tiles, not thousands.
-constexpr double leastPeriod = 1.0 / 16;
+constexpr double minPeriod = 1.0 / 16;
 
 bool jumpsWithRounding(BlendMode mode) {
     return mode == BlendMode::ColorDodge || mode == BlendMode::ColorBurn || mode == BlendMode::SoftLight ||
@@ -153,7 +153,7 @@ private:
         if (in_.rarely(4))
             for (unsigned i = 1 + in_.below(2); i > 0; --i) {
                 style.dashes.push_back(side_ * double(in_.byte()) / 512);
-                style.dashes.push_back(side_ * std::max(leastPeriod, double(in_.byte()) / 512));
+                style.dashes.push_back(side_ * std::max(minPeriod, double(in_.byte()) / 512));
                 style.dashPhase = in_.coordinate(side_);
             }
         return style;
@@ -216,8 +216,8 @@ private:
 
     Paint pattern(int levels) {
         const Point min = in_.point(side_);
-        const double least = 2 * leastPeriod * side_;
-        const Point size{std::max(least, in_.coordinate(side_)), std::max(least, in_.coordinate(side_))};
+        const double minimum = 2 * minPeriod * side_;
+        const Point size{std::max(minimum, in_.coordinate(side_)), std::max(minimum, in_.coordinate(side_))};
         if (!(min.x + size.x > min.x && min.y + size.y > min.y))
             return color();
         result_.isSteady = false;

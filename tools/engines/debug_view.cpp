@@ -161,9 +161,9 @@ public:
     }
     /// At least some pixels wide, so that it can be seen.
     void mark(double x, double y, double side, vec3 color) {
-        constexpr double least = 5;
+        constexpr double minimum = 5;
         const glm::dvec2 from = pixel(x, y), to = pixel(x + side, y + side);
-        const glm::dvec2 middle = (from + to) * 0.5, half = glm::max((to - from) * 0.5, least / 2);
+        const glm::dvec2 middle = (from + to) * 0.5, half = glm::max((to - from) * 0.5, minimum / 2);
         fill(glm::ivec2(glm::floor(limited(middle - half))), glm::ivec2(glm::ceil(limited(middle + half))),
              color);
     }

@@ -64,7 +64,7 @@ std::vector<Sample> samplesOf(const image::Bitmap& bitmap) {
     std::vector<Sample> samples;
     for (std::size_t i = 0; i < bitmap.rgba.size(); i += 4) {
         const std::uint8_t* p = &bitmap.rgba[i];
-        if (p[3] < leastAlpha)
+        if (p[3] < minAlpha)
             continue;
         const auto [place, isNew] = places.try_emplace(keyOf(p), samples.size());
         if (isNew)
@@ -117,10 +117,10 @@ std::vector<dvec3> medianCut(std::vector<Sample>& samples, int count) {
 
 std::size_t nearest(const std::vector<dvec3>& centres, const dvec3& lab) {
     std::size_t best = 0;
-    double least = HUGE_VAL;
+    double minimum = HUGE_VAL;
     for (std::size_t i = 0; i < centres.size(); ++i)
-        if (const dvec3 d = centres[i] - lab; glm::dot(d, d) < least)
-            least = glm::dot(d, d), best = i;
+        if (const dvec3 d = centres[i] - lab; glm::dot(d, d) < minimum)
+            minimum = glm::dot(d, d), best = i;
     return best;
 }
 
@@ -169,7 +169,7 @@ Palette quantise(const image::Bitmap& bitmap, int count) {
         }
     for (std::size_t i = 0; i < bitmap.rgba.size(); i += 4) {
         const std::uint8_t* p = &bitmap.rgba[i];
-        palette.indices.push_back(p[3] < leastAlpha ? -1 : places[std::size_t(indices[keyOf(p)])]);
+        palette.indices.push_back(p[3] < minAlpha ? -1 : places[std::size_t(indices[keyOf(p)])]);
     }
     return palette;
 }

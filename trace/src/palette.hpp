@@ -13,7 +13,7 @@ namespace vtm::trace {
 using Rgb = std::array<std::uint8_t, 3>;
 
 /// Alpha from which on a pixel counts as there.
-inline constexpr std::uint8_t leastAlpha = 128;
+inline constexpr std::uint8_t minAlpha = 128;
 
 struct Palette {
     std::vector<Rgb> colors;  ///< from light to dark

@@ -62,14 +62,14 @@ TEST_F(Surfaces, EveryFormatInEverySpaceIsDrawnInto) {
 
 TEST_F(Surfaces, TooLargeOnesAreRefusedOrMadeSmaller) {
     const EGLConfig c = config(8, 8, 8, 8);
-    const EGLint most = value(c, EGL_MAX_PBUFFER_WIDTH);
-    EXPECT_EQ(pbuffer(c, most + 1, 1), EGL_NO_SURFACE);
+    const EGLint maximum = value(c, EGL_MAX_PBUFFER_WIDTH);
+    EXPECT_EQ(pbuffer(c, maximum + 1, 1), EGL_NO_SURFACE);
     EXPECT_EGL_ERROR(EGL_BAD_ALLOC);
     EXPECT_EQ(pbuffer(c, INT_MAX, INT_MAX), EGL_NO_SURFACE);
     EXPECT_EGL_ERROR(EGL_BAD_ALLOC);
-    const EGLSurface s = pbuffer(c, most + 1, 2, {EGL_LARGEST_PBUFFER, EGL_TRUE});
+    const EGLSurface s = pbuffer(c, maximum + 1, 2, {EGL_LARGEST_PBUFFER, EGL_TRUE});
     ASSERT_NE(s, EGL_NO_SURFACE);
-    EXPECT_EQ(query(s, EGL_WIDTH), most);
+    EXPECT_EQ(query(s, EGL_WIDTH), maximum);
     EXPECT_EQ(query(s, EGL_HEIGHT), 2);
 }
 

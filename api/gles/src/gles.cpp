@@ -60,8 +60,8 @@ std::vector<gl::PixelRectangle> damageOf(const VtmGlTarget& target, int width, i
     std::vector<gl::PixelRectangle> result;
     for (const VGint* r = target.damage; r != target.damage + 4 * std::ptrdiff_t(target.damageCount);
          r += 4) {
-        const auto end = [](VGint start, VGint size, int most) {
-            return int(std::min(std::int64_t(start) + size, std::int64_t(most)));
+        const auto end = [](VGint start, VGint size, int maximum) {
+            return int(std::min(std::int64_t(start) + size, std::int64_t(maximum)));
         };
         const int x = std::max(r[0], 0), y = std::max(r[1], 0);
         const int columns = end(r[0], r[2], width) - x, rows = end(r[1], r[3], height) - y;

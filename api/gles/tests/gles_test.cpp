@@ -94,10 +94,10 @@ protected:
     }
     static int distance(const Bytes& a, const Bytes& b) {
         EXPECT_EQ(a.size(), b.size());
-        int most = 0;
+        int maximum = 0;
         for (std::size_t i = 0; i < a.size(); ++i)
-            most = std::max(most, std::abs(int(a[i]) - int(b[i])));
-        return most;
+            maximum = std::max(maximum, std::abs(int(a[i]) - int(b[i])));
+        return maximum;
     }
 
     VtmGlTarget plain() const {

@@ -22,8 +22,8 @@ void coverRectangle(glm::dvec2 min, glm::dvec2 max, const Rectangle& clip, const
     const auto share = [](double low, double high, int i) {
         return std::min(high, i + 1.0) - std::max(low, double(i));
     };
-    const auto within = [](double v, int least, int most) {
-        return int(std::clamp(v, double(least), double(most)));
+    const auto within = [](double v, int minimum, int maximum) {
+        return int(std::clamp(v, double(minimum), double(maximum)));
     };
     if (clip.empty())
         return;

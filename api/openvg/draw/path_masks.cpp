@@ -19,7 +19,7 @@ namespace vtm::openvg {
 namespace {
 
 /// Styles of one path whose masks are kept.
-constexpr std::size_t mostStrokes = 4;
+constexpr std::size_t maxStrokes = 4;
 
 /// Of the size of the outline: a 64th of a pixel at 65536 pixels. Strokes beyond that are as exact as this,
 /// whatever their mask is.
@@ -27,7 +27,7 @@ constexpr double strokeTolerance = 1.0 / (1 << 22);
 
 /// A path that reaches farther than this many widths is stroked as lines: the stroker would fit curves to a
 /// share of the width, near to what doubles hold.
-constexpr double mostWidths = 1 << 26;
+constexpr double maxWidths = 1 << 26;
 /// Lines for a curve then. They are off by 6 / (8 · 1024²) of its controls' polygon at most, 2^-20.
 constexpr int linesPerCurve = 1024;
 
@@ -36,14 +36,14 @@ constexpr int linesPerCurve = 1024;
 constexpr double nearestPoints = 1.0 / (1LL << 48);
 
 /// About a second and 200 megabytes, where all of them are seen.
-constexpr double mostDashes = 100'000;
+constexpr double maxDashes = 100'000;
 
 /// Throws std::length_error.
 void requireFewDashes(std::span<const Segment> segments, const std::vector<double>& dashes) {
     if (dashes.empty())
         return;
     const double period = std::accumulate(dashes.begin(), dashes.end(), 0.0);
-    if (!(length(segments) / period * double(dashes.size() / 2) <= mostDashes))
+    if (!(length(segments) / period * double(dashes.size() / 2) <= maxDashes))
         throw std::length_error("too many dashes");
 }
 
@@ -52,12 +52,12 @@ double reachOf(const geometry::Box& box) {
     return std::max(far.x, far.y);
 }
 
-/// Curves that are a point, but for `least`, become lines, and controls lie on ends that near.
-void snapCurves(std::vector<Segment>& segments, double least) {
-    const auto isNear = [&](Point a, Point b) { return glm::distance(a, b) < least; };
+/// Curves that are a point, but for `minimum`, become lines, and controls lie on ends that near.
+void snapCurves(std::vector<Segment>& segments, double minimum) {
+    const auto isNear = [&](Point a, Point b) { return glm::distance(a, b) < minimum; };
     for (Segment& s : segments) {
         if (const auto arc = arcOf(s)) {
-            if (glm::length(arc->axisX) < least && glm::length(arc->axisY) < least)
+            if (glm::length(arc->axisX) < minimum && glm::length(arc->axisY) < minimum)
                 s.type = VG_LINE_TO;
             continue;
         }
@@ -107,7 +107,7 @@ std::vector<Segment> asLines(const std::vector<Segment>& segments) {
 std::vector<Segment> strokable(std::vector<Segment> segments, const geometry::Box& box, double width) {
     const double reach = reachOf(box);
     snapCurves(segments, nearestPoints * std::max(reach, width));
-    return reach > mostWidths * width ? asLines(segments) : segments;
+    return reach > maxWidths * width ? asLines(segments) : segments;
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ PathMask& PathMasks::stroked(const PathData& path, const StrokeParameters& param
     auto it = std::ranges::find(strokes_, parameters, &Stroke::parameters);
     if (it == strokes_.end()) {
         auto mask = std::make_unique<PathMask>(strokeOutline(path, parameters), scene::FillRule::NonZero);
-        if (strokes_.size() == mostStrokes)
+        if (strokes_.size() == maxStrokes)
             strokes_.pop_back();
         strokes_.push_front({parameters, std::move(mask)});
         it = strokes_.begin();

@@ -166,7 +166,7 @@ public:
 
 private:
     /// Samples along each side of a pixel's footprint, at most.
-    static constexpr int mostSamples = 16;
+    static constexpr int maxSamples = 16;
 
     dvec2 mapped(double x, double y) const {
         const glm::dvec3 p = fromSurface_ * glm::dvec3(x, y, 1);
@@ -191,7 +191,7 @@ private:
     /// A side longer than a texel is sampled at least once a texel. A little longer is not longer.
     static int samples(dvec2 side) {
         const double length = glm::length(side);
-        return length > 1.001 ? int(std::min(std::ceil(length), double(mostSamples))) : 1;
+        return length > 1.001 ? int(std::min(std::ceil(length), double(maxSamples))) : 1;
     }
 
     Color bilinear(dvec2 p) const {
@@ -235,10 +235,10 @@ private:
 
 glm::dvec2 insideFocus(const Paint& paint) {
     // By a little, so that the gradient has a value everywhere.
-    constexpr double mostOff = 0.999;
+    constexpr double maxOff = 0.999;
     const dvec2 center(paint.radial[0], paint.radial[1]), focus(paint.radial[2], paint.radial[3]);
-    const double distance = glm::distance(focus, center), most = mostOff * double(paint.radial[4]);
-    return distance > most ? center + (focus - center) * (most / distance) : focus;
+    const double distance = glm::distance(focus, center), maximum = maxOff * double(paint.radial[4]);
+    return distance > maximum ? center + (focus - center) * (maximum / distance) : focus;
 }
 
 bool isSmooth(const Image& image, const State& state) {

@@ -8,17 +8,17 @@ namespace vtm::openvg {
 namespace {
 
 float decodedChannel(Channel channel, std::uint32_t word) {
-    const std::uint32_t most = (1u << channel.bits) - 1;
-    return float((word >> channel.shift) & most) / float(most);
+    const std::uint32_t maximum = (1u << channel.bits) - 1;
+    return float((word >> channel.shift) & maximum) / float(maximum);
 }
 
 std::uint32_t encodedChannel(Channel channel, float value) {
     if (channel.bits == 0)
         return 0;
-    const std::uint32_t most = (1u << channel.bits) - 1;
+    const std::uint32_t maximum = (1u << channel.bits) - 1;
     // max first: it makes 0 of what is no number.
     const float unit = std::min(std::max(0.0f, value), 1.0f);
-    return std::uint32_t(unit * float(most) + 0.5f) << channel.shift;
+    return std::uint32_t(unit * float(maximum) + 0.5f) << channel.shift;
 }
 
 }  // namespace

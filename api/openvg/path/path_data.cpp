@@ -36,7 +36,7 @@ void PathData::clear() {
 }
 
 void PathData::requireRoomFor(std::size_t segments) const {
-    if (segments > mostSegments - commands_.size())
+    if (segments > maxSegments - commands_.size())
         throw std::length_error("too much path data");
 }
 
@@ -85,8 +85,8 @@ double PathData::scaled(std::size_t i) const {
 
 double PathData::stored(double coordinate) const {
     const double v = tame((coordinate - double(bias_)) / double(scale_));
-    const auto rounded = [&](double least, double most) {
-        return std::clamp(std::floor(v + 0.5), least, most);
+    const auto rounded = [&](double minimum, double maximum) {
+        return std::clamp(std::floor(v + 0.5), minimum, maximum);
     };
     switch (datatype_) {
         case VG_PATH_DATATYPE_S_8:

@@ -12,7 +12,7 @@
 namespace vtm::openvg {
 
 /// Of one path. What goes beyond throws std::length_error, and changes nothing.
-inline constexpr std::size_t mostSegments = std::size_t(1) << 20;
+inline constexpr std::size_t maxSegments = std::size_t(1) << 20;
 
 /// Coordinates are kept as what the datatype can hold; scaled ones are scale · v + bias.
 class PathData {

@@ -37,8 +37,8 @@ void requireRange(const PathData& data, VGint first, VGint count) {
 
 /// The nearest that there is.
 VGfloat toVgFloat(double v) {
-    constexpr double most = std::numeric_limits<VGfloat>::max();
-    return VGfloat(std::clamp(v, -most, most));
+    constexpr double maximum = std::numeric_limits<VGfloat>::max();
+    return VGfloat(std::clamp(v, -maximum, maximum));
 }
 
 /// Of an empty path: width and height -1 (section 8.6.12).

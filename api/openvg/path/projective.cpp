@@ -20,7 +20,7 @@ constexpr double pixelTolerance = 1.0 / 256;
 /// Around what is drawn: lines along the border of the view must not touch its pixels.
 constexpr double viewMargin = 2;
 /// Of a curve where it meets a line; halving as often leaves nothing between.
-constexpr int mostHalvings = 50;
+constexpr int maxHalvings = 50;
 
 /// Numbers of Bernstein's form over [first, last].
 struct Values {
@@ -62,7 +62,7 @@ void addRoots(const Values& values, int halvings, std::vector<double>& roots) {
                         (values.last - values.first) * values.at[0] / (values.at[0] - values.at[1]));
         return;
     }
-    if (halvings == mostHalvings) {
+    if (halvings == maxHalvings) {
         roots.push_back(values.first);
         return;
     }
@@ -175,9 +175,9 @@ RationalPath byLine(const RationalPath& path, ClipLine line, bool isArea) {
 }
 
 /// Before all four lies nothing that is not before the viewer too: of opposite ones the sum says w >= 0.
-std::array<ClipLine, 4> viewLines(glm::dvec2 least, glm::dvec2 most) {
-    return {ClipLine(1, 0, -least.x), ClipLine(-1, 0, most.x), ClipLine(0, 1, -least.y),
-            ClipLine(0, -1, most.y)};
+std::array<ClipLine, 4> viewLines(glm::dvec2 minimum, glm::dvec2 maximum) {
+    return {ClipLine(1, 0, -minimum.x), ClipLine(-1, 0, maximum.x), ClipLine(0, 1, -minimum.y),
+            ClipLine(0, -1, maximum.y)};
 }
 
 }  // namespace
@@ -241,10 +241,10 @@ RationalPath clippedLine(RationalPath path, std::span<const ClipLine> lines) {
 
 scene::Path projectedOutline(const scene::Path& outline, const glm::mat3& toSurface,
                              std::span<const ClipLine> lines, const Rectangle& clip) {
-    const glm::dvec2 least = glm::dvec2(clip.x0, clip.y0) - viewMargin,
-                     most = glm::dvec2(clip.x1, clip.y1) + viewMargin;
+    const glm::dvec2 minimum = glm::dvec2(clip.x0, clip.y0) - viewMargin,
+                     maximum = glm::dvec2(clip.x1, clip.y1) + viewMargin;
     const RationalPath path =
-        clippedArea(clippedArea(mapped(segmentsOf(outline), toSurface), lines), viewLines(least, most));
+        clippedArea(clippedArea(mapped(segmentsOf(outline), toSurface), lines), viewLines(minimum, maximum));
     std::vector<Segment> segments;
     for (const RationalSubpath& subpath : path) {
         Segment move;
@@ -256,7 +256,7 @@ scene::Path projectedOutline(const scene::Path& outline, const glm::mat3& toSurf
     }
     // At the viewer, where w is 0, rounding decides what x / w is.
     for (Segment& s : segments)
-        s.to = glm::clamp(s.to, least, most);
+        s.to = glm::clamp(s.to, minimum, maximum);
     return vtm::openvg::outline(segments);
 }
 

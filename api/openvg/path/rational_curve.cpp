@@ -16,7 +16,7 @@ using glm::dvec3;
 
 constexpr double plainTolerance = 1.0 / (1 << 22);
 /// A curve that reaches into the infinite is cut into 8 pieces: no number would be enough.
-constexpr int mostEndlessHalvings = 3;
+constexpr int maxEndlessHalvings = 3;
 /// And followed so many sizes of its points' box.
 constexpr double endlessReach = 64;
 
@@ -178,17 +178,17 @@ std::vector<Segment> withoutRationals(std::span<const Segment> segments) {
             continue;
         }
         const Point last = s.type == VG_RCUBIC_TO_NDS ? s.control2 : s.control1;
-        const Point least = glm::min(glm::min(s.from, s.to), glm::min(s.control1, last)),
-                    most = glm::max(glm::max(s.from, s.to), glm::max(s.control1, last));
+        const Point minimum = glm::min(glm::min(s.from, s.to), glm::min(s.control1, last)),
+                    maximum = glm::max(glm::max(s.from, s.to), glm::max(s.control1, last));
         const std::size_t first = plain.size();
         const RationalCurve curve = rationalCurves(s).front();
-        appendAsPlain(plain, curve, plainTolerance * glm::distance(least, most),
-                      isEndless(curve) ? mostEndlessHalvings : mostHalvings);
+        appendAsPlain(plain, curve, plainTolerance * glm::distance(minimum, maximum),
+                      isEndless(curve) ? maxEndlessHalvings : maxHalvings);
         // A curve with weights above 0 stays in its points' box.
-        const Point reach = endlessReach * (most - least);
+        const Point reach = endlessReach * (maximum - minimum);
         for (std::size_t i = first; i < plain.size(); ++i)
             for (Point* p : {&plain[i].control1, &plain[i].control2, &plain[i].to})
-                *p = glm::clamp(*p, tame(least - reach), tame(most + reach));
+                *p = glm::clamp(*p, tame(minimum - reach), tame(maximum + reach));
         // Just where the segment ends, though its last weight be 0.
         plain.back().to = s.to;
     }

@@ -40,9 +40,9 @@ Segment segmentOf(const RationalCurve& curve);
 
 /// Appends plain curves that are the curve but for `tolerance`, tested at three points each; what is not as
 /// near after `halvings` becomes a line.
-inline constexpr int mostHalvings = 10;
+inline constexpr int maxHalvings = 10;
 void appendAsPlain(std::vector<Segment>& segments, const RationalCurve& curve, double tolerance,
-                   int halvings = mostHalvings);
+                   int halvings = maxHalvings);
 
 /// All rational curves as plain ones, within 2^-22 of the size of their points' box; where not all weights
 /// are above 0 a curve may reach into the infinite, and is drawn by a few pieces.

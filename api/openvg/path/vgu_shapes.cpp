@@ -118,7 +118,7 @@ VGUErrorCode vguEllipse(VGPath path, VGfloat cx, VGfloat cy, VGfloat width, VGfl
 VGUErrorCode vguArc(VGPath path, VGfloat x, VGfloat y, VGfloat width, VGfloat height, VGfloat startAngle,
                     VGfloat angleExtent, VGUArcType arcType) {
     // More turns than anybody can see would take for ever.
-    constexpr double mostExtent = 360.0 * 1000;
+    constexpr double maxExtent = 360.0 * 1000;
     const bool isLegal =
         width > 0 && height > 0 && VGint(arcType) >= VGU_ARC_OPEN && VGint(arcType) <= VGU_ARC_PIE;
     return append(path, isLegal, [&](Shape& shape) {
@@ -126,7 +126,7 @@ VGUErrorCode vguArc(VGPath path, VGfloat x, VGfloat y, VGfloat width, VGfloat he
         // Within a turn, where half turns still count.
         const double start = std::isfinite(startAngle) ? std::fmod(double(startAngle), 360.0) : 0;
         const double extent =
-            std::isnan(angleExtent) ? 0 : std::clamp(double(angleExtent), -mostExtent, mostExtent);
+            std::isnan(angleExtent) ? 0 : std::clamp(double(angleExtent), -maxExtent, maxExtent);
         const double last = start + extent;
         const auto px = [&](double degrees) { return double(x) + rx * std::cos(glm::radians(degrees)); };
         const auto py = [&](double degrees) { return double(y) + ry * std::sin(glm::radians(degrees)); };

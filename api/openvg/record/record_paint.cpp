@@ -35,7 +35,7 @@ Color finished(Color color, ColorSpace from, const State& state) {
 /// Stops of a scene are mixed straight and in sRGB. Where a ramp is mixed otherwise it is halved until both
 /// agree, premultiplied, within this at three places: a quarter of a byte's step.
 constexpr float rampTolerance = 1.0f / 1024;
-constexpr int mostHalvings = 6;
+constexpr int maxHalvings = 6;
 
 /// A colour without alpha has none to show. So near to a stop its neighbourhood's is taken.
 constexpr float besideStop = 1.0f / 1024;
@@ -47,7 +47,7 @@ public:
         for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
             const Color first = at(stops[i], stops[i + 1], 0), last = at(stops[i], stops[i + 1], 1);
             add(stops[i].offset, first);
-            divide(stops[i], stops[i + 1], 0, first, 1, last, mostHalvings);
+            divide(stops[i], stops[i + 1], 0, first, 1, last, maxHalvings);
             add(stops[i + 1].offset, last);
         }
     }

@@ -37,7 +37,7 @@ struct VtmRecording {
 
 namespace {
 
-constexpr VGfloat mostSide = 1e6f;
+constexpr VGfloat maxSide = 1e6f;
 
 /// A picture's colours on a part of a surface: of what is covered of each pixel, the mean in linear light. So
 /// the compositor mixes it at its border as it does a path's paint.
@@ -134,7 +134,7 @@ void draw(Context& context, const VtmRecording& recording) {
 
 void vtmBeginRecording(VGfloat width, VGfloat height) {
     call([&](Context& context) {
-        require(!context.recorder && width > 0 && height > 0 && width <= mostSide && height <= mostSide);
+        require(!context.recorder && width > 0 && height > 0 && width <= maxSide && height <= maxSide);
         context.recorder = std::make_shared<Recorder>(double(width), double(height));
         context.recordingFault.clear();
     });

@@ -124,10 +124,10 @@ Values get(const State& s, VGint type) {
     }
 }
 
-/// Keeps the first `most` of them.
+/// Keeps the first `maximum` of them.
 template <class T, class Convert>
-std::vector<T> firstOf(std::span<const double> values, std::size_t most, Convert&& convert) {
-    std::vector<T> kept(std::min(values.size(), most));
+std::vector<T> firstOf(std::span<const double> values, std::size_t maximum, Convert&& convert) {
+    std::vector<T> kept(std::min(values.size(), maximum));
     std::transform(values.begin(), values.begin() + std::ptrdiff_t(kept.size()), kept.begin(), convert);
     return kept;
 }

@@ -162,19 +162,19 @@ TEST_F(AverageBlur, WritesWhereBothImagesAreAndChannelsThatTheMaskNames) {
 TEST_F(AverageBlur, NamesErrors) {
     const VGImage src = image(sRGBA, 4, 4, Bytes(64)), dst = image(sRGBA, 4, 4, Bytes(64));
     const VGImage half = vgChildImage(src, 0, 0, 2, 4);
-    const VGfloat most = vgGetf(maxDimension);
+    const VGfloat maximum = vgGetf(maxDimension);
     const auto iterations = VGuint(vgGeti(maxIterations));
     const auto error = [&](VGImage to, VGImage from, VGfloat x, VGfloat y, VGuint n, VGTilingMode mode) {
         vgIterativeAverageBlurKHR(to, from, x, y, n, mode);
         return vgGetError();
     };
-    EXPECT_EQ(error(dst, src, most, most, iterations, VG_TILE_FILL), VG_NO_ERROR);
+    EXPECT_EQ(error(dst, src, maximum, maximum, iterations, VG_TILE_FILL), VG_NO_ERROR);
     EXPECT_EQ(error(dst, VG_INVALID_HANDLE, 2, 2, 1, VG_TILE_PAD), VG_BAD_HANDLE_ERROR);
     EXPECT_EQ(error(dst + 100, src, 2, 2, 1, VG_TILE_PAD), VG_BAD_HANDLE_ERROR);
     EXPECT_EQ(error(half, src, 2, 2, 1, VG_TILE_PAD), VG_ILLEGAL_ARGUMENT_ERROR);
     EXPECT_EQ(error(dst, src, -1, 2, 1, VG_TILE_PAD), VG_ILLEGAL_ARGUMENT_ERROR);
     EXPECT_EQ(error(dst, src, 2, NAN, 1, VG_TILE_PAD), VG_ILLEGAL_ARGUMENT_ERROR);
-    EXPECT_EQ(error(dst, src, 2, most + 1, 1, VG_TILE_PAD), VG_ILLEGAL_ARGUMENT_ERROR);
+    EXPECT_EQ(error(dst, src, 2, maximum + 1, 1, VG_TILE_PAD), VG_ILLEGAL_ARGUMENT_ERROR);
     EXPECT_EQ(error(dst, src, 2, 2, iterations + 1, VG_TILE_PAD), VG_ILLEGAL_ARGUMENT_ERROR);
     EXPECT_EQ(error(dst, src, 2, 2, 1, VGTilingMode(VG_TILE_REFLECT + 1)), VG_ILLEGAL_ARGUMENT_ERROR);
 }

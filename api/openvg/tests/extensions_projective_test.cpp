@@ -8,23 +8,23 @@ namespace {
 TEST_F(Projective, HasParameters) {
     EXPECT_EQ(vgGeti(VGParamType(VG_CLIP_MODE_NDS)), VG_CLIPMODE_NONE_NDS);
     EXPECT_EQ(vgGetVectorSize(VGParamType(VG_CLIP_LINES_NDS)), 0);
-    const VGint most = vgGeti(VGParamType(VG_MAX_CLIP_LINES_NDS));
-    EXPECT_GE(most, 6);
+    const VGint maximum = vgGeti(VGParamType(VG_MAX_CLIP_LINES_NDS));
+    EXPECT_GE(maximum, 6);
     for (VGint mode = VG_CLIPMODE_NONE_NDS; mode <= VG_CLIPMODE_CULL_NDS; ++mode) {
         vgSeti(VGParamType(VG_CLIP_MODE_NDS), mode);
         EXPECT_EQ(vgGeti(VGParamType(VG_CLIP_MODE_NDS)), mode);
     }
     vgSeti(VGParamType(VG_CLIP_MODE_NDS), VG_CLIPMODE_CULL_NDS + 1);
     EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
-    const std::vector<VGfloat> lines(std::size_t(3 * most + 3), 0.5f);
-    vgSetfv(VGParamType(VG_CLIP_LINES_NDS), 3 * most + 3, lines.data());
-    EXPECT_EQ(vgGetVectorSize(VGParamType(VG_CLIP_LINES_NDS)), 3 * most);
+    const std::vector<VGfloat> lines(std::size_t(3 * maximum + 3), 0.5f);
+    vgSetfv(VGParamType(VG_CLIP_LINES_NDS), 3 * maximum + 3, lines.data());
+    EXPECT_EQ(vgGetVectorSize(VGParamType(VG_CLIP_LINES_NDS)), 3 * maximum);
     vgSetfv(VGParamType(VG_CLIP_LINES_NDS), 4, lines.data());
     EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
     vgSeti(VGParamType(VG_CLIP_LINES_NDS), 1);
     EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
     vgSeti(VGParamType(VG_MAX_CLIP_LINES_NDS), 1);
-    EXPECT_EQ(vgGeti(VGParamType(VG_MAX_CLIP_LINES_NDS)), most);
+    EXPECT_EQ(vgGeti(VGParamType(VG_MAX_CLIP_LINES_NDS)), maximum);
 }
 
 TEST_F(Projective, KeepsTheLastRowOfMatricesWhereItIsEnabled) {

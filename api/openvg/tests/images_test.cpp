@@ -9,7 +9,7 @@ namespace vtm::openvg::testing {
 
 namespace {
 
-constexpr VGint greatest = std::numeric_limits<VGint>::max(), least = std::numeric_limits<VGint>::min();
+constexpr VGint greatest = std::numeric_limits<VGint>::max(), minimum = std::numeric_limits<VGint>::min();
 
 struct Format {
     VGImageFormat name;
@@ -187,8 +187,8 @@ TEST_F(ImagesTest, AreasAreClippedWhateverTheirNumbers) {
     EXPECT_EQ(texel(image, 1, 3)[3], 0);
     vgImageSubData(image, data.data(), 4, VG_A_8, -2, -2, 4, 4);
     EXPECT_EQ(texel(image, 0, 0)[3], 11);
-    for (const VGint x : {least, greatest, -16})
-        for (const VGint y : {least, greatest, 0}) {
+    for (const VGint x : {minimum, greatest, -16})
+        for (const VGint y : {minimum, greatest, 0}) {
             vgImageSubData(image, data.data(), 4, VG_A_8, x, y, 4, 4);
             vgGetImageSubData(image, data.data(), 4, VG_A_8, x, y, 4, 4);
             vgClearImage(image, x, y, 4, 4);

@@ -9,7 +9,7 @@ namespace vtm::openvg::testing {
 
 namespace {
 
-constexpr VGint greatest = std::numeric_limits<VGint>::max(), least = std::numeric_limits<VGint>::min();
+constexpr VGint greatest = std::numeric_limits<VGint>::max(), minimum = std::numeric_limits<VGint>::min();
 
 class MasksTest : public VgTest {
 protected:
@@ -92,7 +92,7 @@ TEST_F(MasksTest, RectanglesAreClippedWhateverTheirNumbers) {
     EXPECT_EQ(maskAt(2, 14), 255);
     EXPECT_EQ(maskAt(0, 13), 255);
     vgMask(layer, VG_SET_MASK, greatest, 0, greatest, 1);
-    vgMask(layer, VG_SET_MASK, least, least, greatest, greatest);
+    vgMask(layer, VG_SET_MASK, minimum, minimum, greatest, greatest);
     vgMask(VG_INVALID_HANDLE, VG_CLEAR_MASK, 12, -1, greatest, 2);
     EXPECT_EQ(maskAt(12, 0), 0);
     EXPECT_EQ(maskAt(15, 0), 0);
@@ -207,7 +207,7 @@ TEST_F(ScissorTest, DrawsInTheUnionOfRectangles) {
     EXPECT_EQ(cleared(), 1) << "sides of 0 or less are empty";
     scissor({-5, -5, greatest, greatest});
     EXPECT_EQ(cleared(), 256);
-    scissor({least, 0, greatest, 1, greatest, 0, greatest, 1});
+    scissor({minimum, 0, greatest, 1, greatest, 0, greatest, 1});
     EXPECT_EQ(cleared(), 0);
     scissor({14, 15, greatest, greatest});
     EXPECT_EQ(cleared(), 2);
@@ -253,7 +253,7 @@ TEST_F(ScissorTest, ClearIsNotMaskedAndTakesAnyRectangle) {
     EXPECT_EQ(pixel(1, 15), (Rgba{51, 255, 0, 255}));
     EXPECT_EQ(pixel(2, 15), (Rgba{0, 0, 0, 0}));
     EXPECT_EQ(pixel(1, 14), (Rgba{0, 0, 0, 0}));
-    vgClear(greatest, least, greatest, greatest);
+    vgClear(greatest, minimum, greatest, greatest);
     EXPECT_EQ(vgGetError(), VG_NO_ERROR);
 }
 

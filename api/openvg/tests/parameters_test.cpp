@@ -147,12 +147,12 @@ TEST_F(ParametersTest, EveryEnumeratorComesBack) {
 }
 
 TEST_F(ParametersTest, VectorsKeepWhatFits) {
-    const VGint most = vgGeti(VG_MAX_DASH_COUNT);
-    std::vector<VGfloat> dashes(std::size_t(most) + 3);
+    const VGint maximum = vgGeti(VG_MAX_DASH_COUNT);
+    std::vector<VGfloat> dashes(std::size_t(maximum) + 3);
     for (std::size_t i = 0; i < dashes.size(); ++i)
         dashes[i] = VGfloat(i) - 1.5f;
     vgSetfv(VG_STROKE_DASH_PATTERN, VGint(dashes.size()), dashes.data());
-    EXPECT_EQ(vgGetVectorSize(VG_STROKE_DASH_PATTERN), most);
+    EXPECT_EQ(vgGetVectorSize(VG_STROKE_DASH_PATTERN), maximum);
     std::vector<VGfloat> read(2);
     vgGetfv(VG_STROKE_DASH_PATTERN, 2, read.data());  // the first ones only
     EXPECT_EQ(read, (std::vector<VGfloat>{-1.5f, -0.5f}));

@@ -64,10 +64,10 @@ protected:
     }
 
     static int largestDifference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
-        int most = 0;
+        int maximum = 0;
         for (std::size_t i = 0; i < a.size(); ++i)
-            most = std::max(most, std::abs(int(a[i]) - int(b[i])));
-        return most;
+            maximum = std::max(maximum, std::abs(int(a[i]) - int(b[i])));
+        return maximum;
     }
 
     /// An error that a call leaves in a recording, and why.

@@ -279,11 +279,11 @@ TEST_F(Recordings, ShapesThatAbutLeaveNoSeam) {
                      {-20, -20, 80, 90, -20, 100}));
     };
     const auto leak = [&] {
-        int most = 0;
+        int maximum = 0;
         for (int y = 4; y < 60; ++y)
             for (int x = 4; x < 60; ++x)
-                most = std::max(most, pixel(x, y)[2]);
-        return most - 26;
+                maximum = std::max(maximum, pixel(x, y)[2]);
+        return maximum - 26;
     };
     resetState();
     clear({1, 1, 1, 1});

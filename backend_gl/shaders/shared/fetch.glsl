@@ -13,7 +13,7 @@ uniform usampler2D texels;
 // First texels of the leaves, pieces, paints and data.
 uniform uvec4 sections;
 
-// Pictures' loops are counted before they are drawn (src/turns.hpp).
+// Pictures' loops are counted before they are drawn (backend_gl/core/turns.hpp).
 bool spend(float turns) { return true; }
 #endif
 
@@ -29,8 +29,8 @@ uint high(uint word) { return word >> 16; }
 uvec4 paintAt(ASSET_IN uint paint) { return texelAt(ASSET ASSET_PART(sections).z + paint); }
 bool isProgram(uvec4 paint) { return paint.w == programTag; }
 // Whether a unit of the picture changes a program by more (raster/steepness.hpp).
-bool isSteep(ASSET_IN uint paint, float least) {
+bool isSteep(ASSET_IN uint paint, float minimum) {
     uvec4 texel = paintAt(ASSET paint);
-    return isProgram(texel) && uintBitsToFloat(texel.z) > least;
+    return isProgram(texel) && uintBitsToFloat(texel.z) > minimum;
 }
 vec4 solidColor(ASSET_IN uint paint) { return uintBitsToFloat(paintAt(ASSET paint)); }

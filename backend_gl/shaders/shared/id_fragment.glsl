@@ -122,9 +122,9 @@ uint paintAtUnit(uvec2 unit, vec2 rest) {
 }
 
 void main() {
-    const float most = 33554432.0;  // beyond it nothing of the map lies; keeps the conversion to int defined
+    const float maximum = 33554432.0;  // beyond it nothing of the map lies; keeps the conversion to int defined
     vec2 d = gl_FragCoord.xy - unitAnchor.zw;
-    vec2 offset = clamp(unitAnchor.xy + pixelToUnit.xy * d.x + pixelToUnit.zw * d.y, -most, most), whole = floor(offset);
+    vec2 offset = clamp(unitAnchor.xy + pixelToUnit.xy * d.x + pixelToUnit.zw * d.y, -maximum, maximum), whole = floor(offset);
     ivec2 unit = baseUnit + ivec2(whole), end = ivec2(1 << int(2u * maxLevel));
     bool inside = all(greaterThanEqual(unit, ivec2(0))) && all(lessThan(unit, end));
     id = texelAt(sections.z + (inside ? paintAtUnit(uvec2(unit), offset - whole) : 0u)).x;

@@ -58,7 +58,7 @@ struct Probes {
     vec2 step;
 };
 
-const float mostOblong = 16.0, nearlyRound = 1.0 / 64.0;
+const float maxOblong = 16.0, nearlyRound = 1.0 / 64.0;
 
 // m: a pixel's sides in the image. Its singular values are the axes of the ellipse that it makes of a circle.
 Probes probesOf(mat2 m) {
@@ -67,8 +67,8 @@ Probes probesOf(mat2 m) {
     float halved = 0.5 * (a - c), root = length(vec2(halved, b)), longer = sqrt(0.5 * (a + c) + root);
     float shorter = abs(m[0].x * m[1].y - m[0].y * m[1].x) / max(longer, 1e-20);
     vec2 along = halved > 0.0 ? vec2(halved + root, b) : vec2(b, root - halved);
-    float width = max(1.0, max(shorter, longer / mostOblong));
-    float all = clamp(longer / width - nearlyRound, 1.0, mostOblong);
+    float width = max(1.0, max(shorter, longer / maxOblong));
+    float all = clamp(longer / width - nearlyRound, 1.0, maxOblong);
     int side = int(ceil(0.5 * (all - 1.0)));
     return Probes(side, width, side == 0 ? 1.0 : 0.5 * (all - float(2 * side - 1)), all,
                   along * (width / max(length(along), 1e-20)));

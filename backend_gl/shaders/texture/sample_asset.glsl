@@ -1,4 +1,4 @@
-// An asset as a uniform: `uniform Vtm sign;`. src/sampled_texture.cpp binds it.
+// An asset as a uniform: `uniform Vtm sign;`. backend_gl/texture/sampled_texture.cpp binds it.
 // Requires: IMAGE. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART, spend for fetch.glsl; turnsLeft.
 
 struct Vtm {
@@ -23,7 +23,7 @@ struct Vtm {
 #define ASSET vtm,
 #define ASSET_PART(name) vtm.name
 
-// Turns of loops that a pixel may still take (src/turns.hpp). What would take more is not done: spend() says so.
+// Turns of loops that a pixel may still take (backend_gl/core/turns.hpp). What would take more is not done: spend() says so.
 float turnsLeft = 0.0;
 
 bool spend(float turns) {

@@ -1,6 +1,6 @@
 // A pixel's footprint in the picture, and its mean from the pyramid of means. docs/texture.md, docs/prefilter.md.
-// Requires: sample_asset.glsl, coverage.glsl; constants wrap*, fadeFrom, fadeTo, largestAnisotropy,
-// largestFootprint, smallestFootprint, largestPlace. Twin of: raster/src/prefilter_sample.cpp.
+// Requires: sample_asset.glsl, coverage.glsl; constants wrap*, fadeFrom, fadeTo, maxAnisotropy,
+// largestFootprint, smallestFootprint, largestPlace. Twin of: raster/tests/prefilter_sampler.cpp.
 // Exports: Footprint, footprintOf, prefilterShare, prefiltered.
 
 // Where a pixel's box lies: a parallelogram.
@@ -46,14 +46,14 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
         sides = mat2(unit * smallestFootprint);
         axes = vec2(unit * smallestFootprint);
     }
-    float least = axes.x / largestAnisotropy;
-    if (axes.y < least) {
+    float minimum = axes.x / maxAnisotropy;
+    if (axes.y < minimum) {
         sides = turned(sides, turnToAxes(sides));
         bool firstIsLonger = dot(sides[0], sides[0]) > dot(sides[1], sides[1]);
         vec2 along = firstIsLonger ? sides[0] : sides[1];
-        vec2 across = vec2(-along.y, along.x) / largestAnisotropy;
+        vec2 across = vec2(-along.y, along.x) / maxAnisotropy;
         sides = firstIsLonger ? mat2(along, across) : mat2(across, along);
-        axes.y = least;
+        axes.y = minimum;
     }
     // Clamp: the footprint's box stays inside the picture.
     vec2 halfBox = 0.5 * (abs(sides[0]) + abs(sides[1])) / vtm.size;
@@ -92,7 +92,7 @@ vec4 prefiltered(Vtm vtm, Footprint footprint) {
         sides = mat2(sides[1], sides[0]);
         lengths = lengths.yx;
     }
-    float parts = clamp(round(lengths.x / lengths.y), 1.0, largestAnisotropy);
+    float parts = clamp(round(lengths.x / lengths.y), 1.0, maxAnisotropy);
     // 64 in all at most; where texels a fifth as large exist, a few more.
     float taps = parts > 7.0 ? 2.0 : parts > 4.0 ? 3.0 : parts > 1.0 || lengths.y < 5.0 ? 4.0 : 5.0;
     float lod = max(0.0, log2(max(lengths.x / parts, lengths.y) / taps));

@@ -1,6 +1,6 @@
 // The cell that a pixel's centre lies in, and its pieces. The only branches are loops: some drivers run both sides of
 // every other, fetches and all.
-// Requires: fetch.glsl, shadow.glsl; tile_vertex.glsl's outputs; constants of src/tile.hpp; CROWDED defined as 1 where the
+// Requires: fetch.glsl, shadow.glsl; tile_vertex.glsl's outputs; constants of backend_gl/tiles/tile.hpp; CROWDED defined as 1 where the
 // tile has crowded cells, else 0.
 // Exports: tileOrigin, tileTexels, tilePicture, Cell, tilePoint, isFlatTile, cellAt, firstReferences,
 // referenceCount, referencesFrom, referenceAt, tileTexel, unpackColor, finishedSum.
@@ -61,7 +61,7 @@ uint referenceAt(uvec4 references, uint i) {
 // ---- Pixels that were too much ----------------------------------------------------------------------
 
 #if CROWDED
-uniform sampler2D layer;  // pixels of crowded cells (src/scanned_pixels.hpp)
+uniform sampler2D layer;  // pixels of crowded cells (backend_gl/tiles/scanned_pixels.hpp)
 uniform ivec2 scannedCorner;
 #endif
 

@@ -9,7 +9,7 @@ uniform vec4 tileToBox;
 vec2 times(vec4 matrix, vec2 v) { return matrix.xy * v.x + matrix.zw * v.y; }
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// A piece of src/tile.hpp relative to O, in tile sides.
+// A piece of backend_gl/tiles/tile.hpp relative to O, in tile sides.
 struct TilePiece {
     vec2 a, b, chord;
     float slopeA, slopeB;
@@ -91,8 +91,8 @@ float pieceWeight(TilePiece p, vec2 way, uint bits, vec4 toBox) {
     vec2 tangent = times(toBox, p.chord + foot.slope * normal), across = times(toBox, normal);
     vec2 inverse = 1.0 / mix(tangent, vec2(1e-20), vec2(lessThan(abs(tangent), vec2(1e-20))));
     vec2 ends = (vec2(-0.5) - middle) * inverse, others = (vec2(0.5) - middle) * inverse;
-    vec2 least = min(ends, others), most = max(ends, others);
-    vec2 range = vec2(max(least.x, least.y), min(most.x, most.y));
+    vec2 minimum = min(ends, others), maximum = max(ends, others);
+    vec2 range = vec2(max(minimum.x, minimum.y), min(maximum.x, maximum.y));
     float shadow = shadowOf(middle, tangent, across, bend, third, clamp(range, -foot.s, rest),
                             !foot.inside ? 0.0 : foot.leftOfCurve ? 1.0 : -1.0);
     return crossings - (range.x < range.y ? shadow : 0.0);

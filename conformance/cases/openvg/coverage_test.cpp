@@ -90,10 +90,10 @@ protected:
 
     double worst(const std::vector<double>& coverage) {
         const std::vector<std::uint32_t> words = pixels(VG_lRGBA_8888_PRE);
-        double most = 0;
+        double maximum = 0;
         for (std::size_t i = 0; i < words.size(); ++i)
-            most = std::max(most, std::abs(double(words[i] & 255) - 255 * coverage[i]));
-        return most;
+            maximum = std::max(maximum, std::abs(double(words[i] & 255) - 255 * coverage[i]));
+        return maximum;
     }
 };
 

@@ -79,7 +79,7 @@ struct RowCanvas {
         const Coverage share = shareOf(group);
         for (std::size_t x = 0; x < row.size(); ++x)
             row[x] *= share[x];
-        if (group.parent == none) {
+        if (group.parent == noIndex) {
             stack.push_back(std::move(row));
             return;
         }
@@ -98,9 +98,9 @@ struct RowCanvas {
     /// Opacity, clip and mask together.
     Coverage shareOf(const GroupNode& group) {
         Coverage share(std::size_t(picture.width), group.opacity);
-        if (group.clip != none)
+        if (group.clip != noIndex)
             multiply(share, group.outside ? complement(clipShare(group.clip)) : clipShare(group.clip));
-        if (group.mask != none)
+        if (group.mask != noIndex)
             multiply(share, maskShare(group.mask));
         return share;
     }
@@ -124,12 +124,12 @@ struct RowCanvas {
             if (!coverages.of(part.shape))
                 continue;
             Coverage shape = *coverages.of(part.shape);
-            if (part.clip != none)
+            if (part.clip != noIndex)
                 multiply(shape, clipShare(part.clip));
             for (std::size_t x = 0; x < share.size(); ++x)
                 share[x] += shape[x] * (1 - share[x]);
         }
-        if (clip.clip != none)
+        if (clip.clip != noIndex)
             multiply(share, clipShare(clip.clip));
         return share;
     }

@@ -73,7 +73,7 @@ private:
     int newTree(const std::shared_ptr<const scene::Clip>& clip) {
         const int tree = int(picture_.trees.size());
         picture_.trees.emplace_back();
-        GroupNode root{none, 0};
+        GroupNode root{noIndex, 0};
         root.clip = clipOf(clip);
         picture_.trees[std::size_t(tree)].groups.push_back(root);
         return tree;
@@ -102,7 +102,7 @@ private:
 
     /// Two groups in one, cut by the mask and by its complement, whose shares of a pixel add up.
     void addSelect(const scene::Select& select, int tree, int parent) {
-        const int both = pushGroup(tree, parent, none);
+        const int both = pushGroup(tree, parent, noIndex);
         const int mask =
             clipOf(scene::Item{select.mask.path, select.mask.transform, select.mask.geometry, {}});
         const int inside = pushGroup(tree, both, mask);
@@ -187,14 +187,14 @@ private:
     /// By an item's outline.
     int clipOf(const scene::Item& item) {
         const int clip = int(picture_.clips.size());
-        picture_.clips.push_back({{{addShape({ruleOf(item), true, clip, 0}), none}}, none});
+        picture_.clips.push_back({{{addShape({ruleOf(item), true, clip, 0}), noIndex}}, noIndex});
         addOutline(item, picture_.clips.back().parts[0].shape, edges_);
         return clip;
     }
 
     int clipOf(const std::shared_ptr<const scene::Clip>& clip) {
         if (!clip)
-            return none;
+            return noIndex;
         if (const auto known = clips_.find(clip.get()); known != clips_.end())
             return known->second;
         ClipNode node;
@@ -217,7 +217,7 @@ private:
 
     int maskOf(const std::shared_ptr<const scene::Mask>& mask) {
         if (!mask)
-            return none;
+            return noIndex;
         if (const auto known = masks_.find(mask.get()); known != masks_.end())
             return known->second;
         const int tree = newTree(nullptr);

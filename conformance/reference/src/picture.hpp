@@ -11,7 +11,7 @@
 
 namespace vtm::reference {
 
-inline constexpr int none = -1;
+inline constexpr int noIndex = -1;
 
 /// An outline with an inside. It belongs to a tree, where it is a layer, or to a clip.
 struct Shape {
@@ -32,7 +32,7 @@ struct GroupNode {
     int parent, depth;
     double opacity = 1;
     scene::BlendMode blend = scene::BlendMode::Normal;
-    int clip = none, mask = none;
+    int clip = noIndex, mask = noIndex;
     bool outside = false;  ///< shown where the clip is not
 };
 
@@ -47,7 +47,7 @@ struct ClipNode {
         int shape, clip;
     };
     std::vector<Part> parts;
-    int clip = none;
+    int clip = noIndex;
 };
 
 struct MaskNode {

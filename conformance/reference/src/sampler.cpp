@@ -36,11 +36,11 @@ struct PointCanvas {
     void close(const GroupNode& group) {
         Colour colour = sampler.stack_.back() * group.opacity;
         sampler.stack_.pop_back();
-        if (colour.a > 0 && group.clip != none && sampler.insideClip(group.clip) == group.outside)
+        if (colour.a > 0 && group.clip != noIndex && sampler.insideClip(group.clip) == group.outside)
             colour = Colour(0);
-        if (colour.a > 0 && group.mask != none)
+        if (colour.a > 0 && group.mask != noIndex)
             colour *= sampler.maskOver(group.mask, spot);
-        if (group.parent == none)
+        if (group.parent == noIndex)
             sampler.stack_.push_back(colour);
         else
             sampler.stack_.back() = blend(group.blend, sampler.stack_.back(), colour);
@@ -86,9 +86,9 @@ bool Sampler::insideClip(int index) const {
     const std::vector<int>& around = parts_[std::size_t(index)];
     const bool inside = std::any_of(around.begin(), around.end(), [&](int part) {
         const int inner = clip.parts[std::size_t(part)].clip;
-        return inner == none || insideClip(inner);
+        return inner == noIndex || insideClip(inner);
     });
-    return inside && (clip.clip == none || insideClip(clip.clip));
+    return inside && (clip.clip == noIndex || insideClip(clip.clip));
 }
 
 double Sampler::maskOver(int index, const Spot& spot) {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include <vtm/limits/limits.hpp>
-#include "conformance/reference/src/strand.hpp"
+#include "conformance/reference/src/stroke_line.hpp"
 
 namespace vtm::reference {
 namespace {
@@ -66,14 +66,14 @@ public:
                 style_.dashes.empty() ? wholePiece : hiddenTolerance};
     }
 
-    void stroke(const Strand& strand) {
-        const std::vector<Run>& runs = strand.runs;
+    void stroke(const StrokeLine& line) {
+        const std::vector<Run>& runs = line.runs;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             body(runs[i]);
             if (i + 1 < runs.size())
                 join(runs[i].back(), runs[i + 1].front());
         }
-        if (strand.closed) {
+        if (line.closed) {
             join(runs.back().back(), runs.front().front());
         } else {
             cap(runs.front().front().at, -runs.front().front().direction);
@@ -264,13 +264,13 @@ void addStroke(const scene::Path& path, const scene::StrokeStyle& style, const A
                const View& view, double flatness, int shape, EdgeList& edges) {
     Stroker stroker(style, toPixels, view, flatness, shape, edges);
     const Fineness fineness = stroker.fineness(flatness);
-    std::vector<Strand> strands = strandsOf(path, fineness);
+    std::vector<StrokeLine> lines = strokeLinesOf(path, fineness);
     if (!style.dashes.empty())
-        if (auto dashes = dash(strands, style, fineness))
-            strands = std::move(*dashes);
-    for (const Strand& strand : strands) {
+        if (auto dashes = dash(lines, style, fineness))
+            lines = std::move(*dashes);
+    for (const StrokeLine& line : lines) {
         limits::check();
-        stroker.stroke(strand);
+        stroker.stroke(line);
     }
 }
 

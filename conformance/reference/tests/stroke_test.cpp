@@ -176,12 +176,12 @@ Point cubicAt(const std::array<Point, 4>& p, double t) {
 }
 
 double distanceTo(const std::array<Point, 4>& curve, Point at) {
-    double least = 1e9;
+    double minimum = 1e9;
     for (int i = 0; i <= 2000; ++i) {
         const Point d = cubicAt(curve, i / 2000.0) - at;
-        least = std::min(least, std::hypot(d.x, d.y));
+        minimum = std::min(minimum, std::hypot(d.x, d.y));
     }
-    return least;
+    return minimum;
 }
 
 /// With round caps a stroke is all that lies within half its width of the line.

@@ -61,7 +61,7 @@ std::vector<Point> focuses(const scene::Scene& scene) {
 
 LabelledView affineView(const ViewPlan& plan, const scene::Scene& scene, const std::vector<Point>& focuses,
                         Random& random) {
-    const double pixels = std::exp2(random.uniform(std::log2(plan.fewest), std::log2(plan.most)));
+    const double pixels = std::exp2(random.uniform(std::log2(plan.fewest), std::log2(plan.maximum)));
     const double scale = pixels / std::max(scene.width, scene.height);
     const double angle = random.uniform(0, 2 * std::numbers::pi),
                  lean = random.uniform(-plan.shear, plan.shear);
@@ -97,7 +97,7 @@ LabelledView wholeView(const scene::Scene& scene, int size) {
             {}};
 }
 
-/// Whole pictures, and turned parts of the same rasters magnified up to `most` pixels.
+/// Whole pictures, and turned parts of the same rasters magnified up to `maximum` pixels.
 std::vector<LabelledView> viewsAtSizes(const ViewPlan& plan, const scene::Scene& scene,
                                        const std::vector<Point>& focuses, Random& random) {
     std::vector<LabelledView> views;
@@ -136,7 +136,7 @@ ViewPlan viewPlan(const nlohmann::json& json) {
         else if (key == "raster")
             plan.raster = value.get<int>();
         else if (key == "pixels")
-            plan.fewest = value.at(0).get<double>(), plan.most = value.at(1).get<double>();
+            plan.fewest = value.at(0).get<double>(), plan.maximum = value.at(1).get<double>();
         else if (key == "sizes")
             plan.sizes = value.get<std::vector<int>>();
         else if (key == "shear")
@@ -148,7 +148,7 @@ ViewPlan viewPlan(const nlohmann::json& json) {
         else
             throw std::runtime_error("views: there is no '" + key + "'");
     }
-    if (plan.count < 1 || plan.raster < 1 || !(plan.fewest > 0) || !(plan.most >= plan.fewest))
+    if (plan.count < 1 || plan.raster < 1 || !(plan.fewest > 0) || !(plan.maximum >= plan.fewest))
         throw std::runtime_error("views: count and raster are at least 1, pixels are [fewest, most]");
     return plan;
 }

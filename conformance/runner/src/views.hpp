@@ -25,11 +25,11 @@ struct ViewPlan {
     };
     Way way = Way::Affine;
     int count = 20;
-    int raster = 96;                  ///< pixels a side; Whole: of the picture's width
-    double fewest = 48, most = 1448;  ///< pixels that the picture's longer side takes, log-uniform
-    double shear = 0.3;               ///< radians by which the axes lean at most
-    std::vector<int> sizes;           ///< Sizes: pixels of the picture's longer side, and a side of the part
-    double ratio = 4;                 ///< Perspective: of the longest footprint's sides
+    int raster = 96;                     ///< pixels a side; Whole: of the picture's width
+    double fewest = 48, maximum = 1448;  ///< pixels that the picture's longer side takes, log-uniform
+    double shear = 0.3;                  ///< radians by which the axes lean at most
+    std::vector<int> sizes;  ///< Sizes: pixels of the picture's longer side, and a side of the part
+    double ratio = 4;        ///< Perspective: of the longest footprint's sides
     std::uint64_t seed = 2005;
 };
 /// Throws std::runtime_error that names what is wrong.

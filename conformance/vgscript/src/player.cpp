@@ -216,10 +216,10 @@ private:
 
     /// The largest difference of a byte.
     static double distance(std::uint32_t a, std::uint32_t b) {
-        int most = 0;
+        int maximum = 0;
         for (int shift = 0; shift < 32; shift += 8)
-            most = std::max(most, std::abs(int(a >> shift & 255) - int(b >> shift & 255)));
-        return most;
+            maximum = std::max(maximum, std::abs(int(a >> shift & 255) - int(b >> shift & 255)));
+        return maximum;
     }
 
     void miss(const std::string& what) {

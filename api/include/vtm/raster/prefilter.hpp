@@ -1,13 +1,9 @@
 /// \file
-/// Minification: pyramids of exact means, built from exact coverage, and the filter that samples them.
-/// Masks cannot be averaged and composited afterwards, so what is averaged is the composited,
-/// premultiplied colour.
-/// Sources: Ray et al. 2005 (mipmap of the classification function); the rest is ours: docs/prefilter.md.
+/// Minification: pyramids of exact means, built from exact coverage. `vtm_sample`
+/// (vtm/gl/sampled_texture.hpp) samples them. Masks cannot be averaged and composited afterwards, so what is
+/// averaged is the composited, premultiplied colour. Sources: Ray et al. 2005 (mipmap of the classification
+/// function); the rest is ours: docs/prefilter.md.
 #pragma once
-
-#include <glm/mat2x2.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
 
 #include <vtm/asset/asset.hpp>
 
@@ -41,12 +37,6 @@ Prefilter buildPrefilter(const AssetView& asset, PyramidSize size, unsigned thre
 
 // ---- Sampling -------------------------------------------------------------------------------------
 
-enum class Minification {
-    Trilinear,  ///< one tap where a texel is as large as the footprint
-    Taps2,      ///< 2 × 2 taps, texels half as large
-    Taps4       ///< 4 × 4 taps, texels a quarter as large
-};
-
 enum class Wrap {
     Border,  ///< transparent beyond the picture, as the evaluator has it
     Clamp,   ///< its border's texels go on
@@ -55,21 +45,9 @@ enum class Wrap {
 };
 
 /// Base texels that a footprint is wide where the tree alone draws, and where the prefilter alone does.
+/// Between them the prefilter's share rises with the logarithm: 4 × 4 taps find texels as fine as they want
+/// at its end.
 inline constexpr float fadeFrom = 2, fadeTo = 4;
-
-/// How much of a footprint's colour the prefilter should give, in [0, 1]: rising over the octave from
-/// fadeFrom to fadeTo, at whose end the 4 × 4 taps find texels as fine as they want. The rest is drawn from
-/// the tree.
-float prefilterShare(const AssetView& asset, const glm::mat2& footprint);
-
-/// Max number of sub-footprints along the longer axis of a footprint.
-inline constexpr int largestAnisotropy = 4;
-
-/// Mean colour, premultiplied, over the parallelogram round `st` with the sides footprint[0] and
-/// footprint[1]: where a pixel lies in the picture, both in shares of its width and height.
-/// An asset without prefilter is transparent.
-glm::vec4 samplePrefilter(const AssetView& asset, glm::vec2 st, const glm::mat2& footprint,
-                          Minification filter = Minification::Taps4, Wrap wrap = Wrap::Border);
 
 }  // namespace vtm::asset
 

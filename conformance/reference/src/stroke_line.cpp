@@ -1,4 +1,4 @@
-#include "conformance/reference/src/strand.hpp"
+#include "conformance/reference/src/stroke_line.hpp"
 
 #include <iterator>
 #include <numeric>
@@ -23,18 +23,18 @@ bool hasLength(const Run& run) {
     return std::any_of(run.begin(), run.end(), [&](const Sample& s) { return length(s.at - p) > near; });
 }
 
-Strand strandOf(const Subpath& subpath, const Fineness& fineness) {
-    Strand strand{{}, subpath.closed};
+StrokeLine strokeLineOf(const Subpath& subpath, const Fineness& fineness) {
+    StrokeLine line{{}, subpath.closed};
     for (const Curve& curve : subpath.curves) {
         Run run = flatten(curve, fineness);
         if (hasLength(run))
-            strand.runs.push_back(std::move(run));
+            line.runs.push_back(std::move(run));
     }
-    if (strand.runs.empty()) {
+    if (line.runs.empty()) {
         const Sample dot{subpath.start, {1, 0}};
-        strand = {{{dot, dot}}, false};
+        line = {{{dot, dot}}, false};
     }
-    return strand;
+    return line;
 }
 
 Sample between(const Sample& a, const Sample& b, double share) {
@@ -64,7 +64,7 @@ Interval visibleShare(Point a, Point b, const Box& box) {
     return share;
 }
 
-/// Walks along strands with the pattern's dashes and gaps.
+/// Walks along lines with the pattern's dashes and gaps.
 class Dasher {
 public:
     Dasher(const scene::StrokeStyle& style, const Fineness& fineness)
@@ -77,9 +77,9 @@ public:
     }
 
     /// False once there are too many dashes.
-    bool walk(const Strand& strand) {
-        if (isDot(strand)) {
-            dashes_.push_back(strand);
+    bool walk(const StrokeLine& line) {
+        if (isDot(line)) {
+            dashes_.push_back(line);
             return dashes_.size() <= maxDashes;
         }
         index_ = 0;
@@ -88,26 +88,26 @@ public:
         advance(phase_);
         const bool startsOn = on();
         const std::size_t first = dashes_.size();
-        start(strand.runs.front().front());
-        for (const Run& run : strand.runs) {
+        start(line.runs.front().front());
+        for (const Run& run : line.runs) {
             continueWith(run.front());
             for (std::size_t i = 0; i + 1 < run.size() && dashes_.size() <= maxDashes; ++i)
                 walkChord(run[i], run[i + 1]);
         }
-        const bool runsOn = strand.closed && startsOn && on() && left_ > endSlack * walked_;
+        const bool runsOn = line.closed && startsOn && on() && left_ > endSlack * walked_;
         finish();
         if (runsOn)
             joinEnds(first);
         return dashes_.size() <= maxDashes;
     }
 
-    std::vector<Strand> take() { return std::move(dashes_); }
+    std::vector<StrokeLine> take() { return std::move(dashes_); }
 
 private:
     /// Dots are drawn wherever the pattern stands.
-    static bool isDot(const Strand& strand) {
-        return strand.runs.size() == 1 && strand.runs.front().size() == 2 &&
-               strand.runs.front().front().at == strand.runs.front().back().at;
+    static bool isDot(const StrokeLine& line) {
+        return line.runs.size() == 1 && line.runs.front().size() == 2 &&
+               line.runs.front().front().at == line.runs.front().back().at;
     }
     bool on() const { return index_ % 2 == 0; }
 
@@ -152,13 +152,13 @@ private:
         current_ = {};
     }
 
-    /// The last dash of a closed strand goes on with the one that began at its start, `first`.
+    /// The last dash of a closed line goes on with the one that began at its start, `first`.
     void joinEnds(std::size_t first) {
         if (dashes_.size() == first + 1) {  // the only one: it has gone all the way round
             dashes_.back().closed = true;
             return;
         }
-        Strand last = std::move(dashes_.back());
+        StrokeLine last = std::move(dashes_.back());
         dashes_.pop_back();
         if (!isDot(dashes_[first]))
             std::move(dashes_[first].runs.begin(), dashes_[first].runs.end(), std::back_inserter(last.runs));
@@ -211,27 +211,27 @@ private:
     double period_, phase_;
     const Fineness& fineness_;
     std::size_t index_ = 0;
-    double left_ = 0;    ///< of the element at `index_`
-    double walked_ = 0;  ///< along this strand
-    Strand current_;     ///< the dash being made; no runs in a gap
-    std::vector<Strand> dashes_;
+    double left_ = 0;     ///< of the element at `index_`
+    double walked_ = 0;   ///< along this line
+    StrokeLine current_;  ///< the dash being made; no runs in a gap
+    std::vector<StrokeLine> dashes_;
 };
 
 }  // namespace
 
-std::vector<Strand> strandsOf(const scene::Path& path, const Fineness& fineness) {
-    std::vector<Strand> strands;
+std::vector<StrokeLine> strokeLinesOf(const scene::Path& path, const Fineness& fineness) {
+    std::vector<StrokeLine> lines;
     for (const Subpath& subpath : subpaths(path))
         if (subpath.closed || !subpath.curves.empty())
-            strands.push_back(strandOf(subpath, fineness));
-    return strands;
+            lines.push_back(strokeLineOf(subpath, fineness));
+    return lines;
 }
 
-std::optional<std::vector<Strand>> dash(const std::vector<Strand>& strands, const scene::StrokeStyle& style,
-                                        const Fineness& fineness) {
+std::optional<std::vector<StrokeLine>> dash(const std::vector<StrokeLine>& lines,
+                                            const scene::StrokeStyle& style, const Fineness& fineness) {
     Dasher dasher(style, fineness);
-    for (const Strand& strand : strands)
-        if (!dasher.walk(strand))
+    for (const StrokeLine& line : lines)
+        if (!dasher.walk(line))
             return std::nullopt;
     return dasher.take();
 }

@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <vtm/raster/prefilter.hpp>
+#include "raster/testing_prefilter.hpp"
 
 namespace vtm::asset {
 
@@ -103,7 +103,7 @@ struct Footprint {
     float side() const { return std::max(u / float(across), v / float(down)); }
 
 private:
-    static int partsOf(float ratio) { return int(std::min(std::round(ratio), float(largestAnisotropy))); }
+    static int partsOf(float ratio) { return int(std::min(std::round(ratio), float(maxAnisotropy))); }
 };
 
 int tapsOf(Minification filter) {

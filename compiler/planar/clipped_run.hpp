@@ -1,5 +1,5 @@
 /// \file
-/// Strands: what of a layer's monotone runs passes through a cell, and how it changes the layer's
+/// Clipped runs: what of a layer's monotone runs passes through a cell, and how it changes the layer's
 /// winding number between corners of cells.
 ///
 /// Going along +x across an edge that runs upward (dy > 0) one steps from its left to its right: the
@@ -15,7 +15,7 @@
 namespace vtm::compiler {
 
 /// Chords first .. last - 1 of one run: points[first] to points[last], monotone in x and in y.
-struct Strand {
+struct ClippedRun {
     std::uint32_t first = 0, last = 0;
     std::uint32_t layer = 0;
 };
@@ -42,50 +42,50 @@ std::uint32_t firstWhere(std::uint32_t first, std::uint32_t last, const Holds& h
     return first + (count == 1 && !holds(first));
 }
 
-/// The part of the strand whose chords pass through the square's inside; empty (first == last) if
+/// The part of the clipped run whose chords pass through the square's inside; empty (first == last) if
 /// there is none. Two or more neighbours whose boxes meet the square share a vertex inside it, so only a
 /// single chord can miss it.
-Strand narrowed(Points points, Strand strand, const Square& square);
+ClippedRun narrowed(Points points, ClippedRun clippedRun, const Square& square);
 
-/// The chord of the strand that crosses the line y = `y` (odd), or `strand.last` if none does.
-inline std::uint32_t chordAtY(Points points, const Strand& strand, Coord y) {
-    const bool below = points[strand.first].y < y;
-    if (below == (points[strand.last].y < y))
-        return strand.last;
-    return firstWhere(strand.first, strand.last,
+/// The chord of the clipped run that crosses the line y = `y` (odd), or `clippedRun.last` if none does.
+inline std::uint32_t chordAtY(Points points, const ClippedRun& clippedRun, Coord y) {
+    const bool below = points[clippedRun.first].y < y;
+    if (below == (points[clippedRun.last].y < y))
+        return clippedRun.last;
+    return firstWhere(clippedRun.first, clippedRun.last,
                       [&](std::uint32_t i) { return (points[i + 1].y < y) != below; });
 }
 
-inline std::uint32_t chordAtX(Points points, const Strand& strand, Coord x) {
-    const bool before = points[strand.first].x < x;
-    if (before == (points[strand.last].x < x))
-        return strand.last;
-    return firstWhere(strand.first, strand.last,
+inline std::uint32_t chordAtX(Points points, const ClippedRun& clippedRun, Coord x) {
+    const bool before = points[clippedRun.first].x < x;
+    if (before == (points[clippedRun.last].x < x))
+        return clippedRun.last;
+    return firstWhere(clippedRun.first, clippedRun.last,
                       [&](std::uint32_t i) { return (points[i + 1].x < x) != before; });
 }
 
 /// From (x, y0) to (x, y1), y0 < y1, all odd.
-inline int windingAlongY(Points points, const Strand& strand, Coord x, Coord y0, Coord y1) {
-    const std::uint32_t i = chordAtX(points, strand, x);
-    if (i == strand.last)
+inline int windingAlongY(Points points, const ClippedRun& clippedRun, Coord x, Coord y0, Coord y1) {
+    const std::uint32_t i = chordAtX(points, clippedRun, x);
+    if (i == clippedRun.last)
         return 0;
     const LatticePoint a = points[i], b = points[i + 1];
     return int{cornerOnLeft(a, b, {x, y1})} - int{cornerOnLeft(a, b, {x, y0})};
 }
 
 /// From (x0, y) to (x1, y), x0 < x1, all odd.
-inline int windingAlongX(Points points, const Strand& strand, Coord y, Coord x0, Coord x1) {
-    const std::uint32_t i = chordAtY(points, strand, y);
-    if (i == strand.last)
+inline int windingAlongX(Points points, const ClippedRun& clippedRun, Coord y, Coord x0, Coord x1) {
+    const std::uint32_t i = chordAtY(points, clippedRun, y);
+    if (i == clippedRun.last)
         return 0;
     const LatticePoint a = points[i], b = points[i + 1];
     return int{cornerOnLeft(a, b, {x1, y})} - int{cornerOnLeft(a, b, {x0, y})};
 }
 
 /// From (from.x, from.y) along y, then along x, to `to`; to.x >= from.x, to.y >= from.y.
-inline int windingBetween(Points points, const Strand& strand, LatticePoint from, LatticePoint to) {
-    return (to.y > from.y ? windingAlongY(points, strand, from.x, from.y, to.y) : 0) +
-           (to.x > from.x ? windingAlongX(points, strand, to.y, from.x, to.x) : 0);
+inline int windingBetween(Points points, const ClippedRun& clippedRun, LatticePoint from, LatticePoint to) {
+    return (to.y > from.y ? windingAlongY(points, clippedRun, from.x, from.y, to.y) : 0) +
+           (to.x > from.x ? windingAlongX(points, clippedRun, to.y, from.x, to.x) : 0);
 }
 
 }  // namespace vtm::compiler

@@ -1,4 +1,4 @@
-#include "compiler/tree/tree.hpp"
+#include "compiler/tree/build_tree.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -16,47 +16,47 @@ namespace {
 
 using asset::Entry;
 
-/// A cell with no more strands than this, or than this part of the picture's, or on this level, is a
+/// A cell with no more clipped runs than this, or than this part of the picture's, or on this level, is a
 /// block: small enough to keep all processors busy, large enough to be worth a thread's while.
-constexpr std::size_t blockStrands = 256;
+constexpr std::size_t blockRuns = 256;
 constexpr std::size_t blockShare = 24;
 constexpr unsigned blockLevel = 3;
 
 /// One of so many blocks is timed: enough to tell the stages' shares, and clocks are not free.
 constexpr std::size_t timedBlocks = 8;
 
-/// A cell with more strands hands them to its children's cells on all processors.
-constexpr std::size_t strandsForAll = 4096;
+/// A cell with more clipped runs hands them to its children's cells on all processors.
+constexpr std::size_t runsForAll = 4096;
 
 /// The tree above the blocks.
 struct Top {
-    std::optional<Cell> cell;   ///< of a block, culled if it has strands; taken by numberBlocks
+    std::optional<Cell> cell;   ///< of a block, culled if it has clipped runs; taken by numberBlocks
     std::size_t block = 0;      ///< its number, in walking order
     std::vector<Top> children;  ///< 16 if it is not a block
 };
 
 class TopBuilder {
 public:
-    TopBuilder(const Picture& picture, const Painter& painter, unsigned maxDepth, std::size_t strands)
+    TopBuilder(const Picture& picture, const Painter& painter, unsigned maxDepth, std::size_t clippedRuns)
         : picture_(picture),
           points_(picture.outlines.points),
           cullers_([&] { return CullerOfThread(picture, painter); }),
-          most_(std::max(blockStrands, strands / blockShare)),
+          maximum_(std::max(blockRuns, clippedRuns / blockShare)),
           deepest_(std::min(blockLevel, maxDepth)) {}
 
     Top run(Cell cell) {
         const AtCell at("dividing the picture", picture_, cell);
         limits::check();
         Top top;
-        if (!cell.strands.empty())
+        if (!cell.clippedRuns.empty())
             cullers_.local().culler.run(cell);
-        if (cell.strands.size() <= most_ || cell.level >= deepest_) {
+        if (cell.clippedRuns.size() <= maximum_ || cell.level >= deepest_) {
             top.cell = std::move(cell);
             return top;
         }
         const auto children = std::make_unique<std::array<Cell, 16>>();
         splitCell(points_, cell, *children);
-        const bool onAll = cell.strands.size() > strandsForAll;
+        const bool onAll = cell.clippedRuns.size() > runsForAll;
         cell = {};
         top.children.resize(16);
         const auto build = [&, holding = limits::current()](std::size_t i) {
@@ -82,7 +82,7 @@ private:
     const Picture& picture_;
     const Points points_;
     tbb::enumerable_thread_specific<CullerOfThread> cullers_;
-    const std::size_t most_;
+    const std::size_t maximum_;
     const unsigned deepest_;
 };
 
@@ -176,7 +176,7 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
     const auto start = Clock::now();
     WorkLimit work(options.maxWork);
     Cell cell = rootCell(picture, root, layers);
-    TopBuilder topBuilder(picture, painter, options.maxDepth, cell.strands.size());
+    TopBuilder topBuilder(picture, painter, options.maxDepth, cell.clippedRuns.size());
     Top top = topBuilder.run(std::move(cell));
     std::vector<Cell> cells;
     numberBlocks(top, cells);
