@@ -6,8 +6,8 @@
 ///     const compiler::Result result = compile(sign, 64, 64);
 ///
 /// Source: Ray et al. 2005, the shader algebra b·c1 + (1-b)·c2 and VTMs of VTMs. Pictures in painter's order
-/// are the same thing: T_i = select(mask_i, over(paint_i, T_{i-1}), T_{i-1}), which fromScene makes of what
-/// importers hand over and toScene undoes.
+/// have the same form: T_i = select(mask_i, over(paint_i, T_{i-1}), T_{i-1}). fromScene converts the
+/// importers' scenes to it, and toScene converts back.
 #pragma once
 
 #include <memory>
@@ -21,13 +21,13 @@
 
 namespace vtm {
 
-/// Where a mask is inside. Its path must be there.
+/// The shape of a mask. Its path must not be null.
 using Mask = scene::Shape;
 
 Mask filled(scene::Path path, scene::FillRule rule = scene::FillRule::NonZero);
 Mask stroked(scene::Path path, scene::StrokeStyle style);
 
-/// How a layer meets what lies below it; a scene::Group without its children.
+/// How a layer is composited with the content below it: a scene::Group without its children.
 struct Compositing {
     float opacity = 1;
     scene::BlendMode blend = scene::BlendMode::Normal;
@@ -37,39 +37,40 @@ struct Compositing {
 
 struct VtmNode;
 
-/// An immutable value, cheap to copy: copies share their parts, and a part may stand in a tree many times.
-/// Values are not checked before a scene is made of them.
+/// An immutable value, cheap to copy: copies share their parts, and a tree may contain a part many times.
+/// Values are checked only when they become a scene.
 class Vtm {
 public:
-    /// Nothing: transparent everywhere. As one side of a selection it makes the other a primitive of its own.
+    /// The empty VTM, transparent everywhere. As one side of a selection it turns the other side into a
+    /// primitive.
     Vtm() = default;
 
     /// A colour, gradient, pattern, image or material over the whole plane.
     static Vtm paint(scene::Paint paint, float opacity = 1);
-    /// `glsl` defines `vec4 NAME(vec2 p)`: scene::Material.
+    /// A procedural paint over the whole plane. `glsl` defines `vec4 NAME(vec2 p)` as in scene::Material.
     static Vtm material(std::string name, std::string glsl, const scene::Color& fallback);
     static Vtm image(image::Bitmap bitmap, scene::ImageFilter filter = scene::ImageFilter::Trilinear);
 
-    /// `inside` where the mask is inside, `outside` elsewhere: a choice, so a translucent inside does not
-    /// show the outside.
+    /// Shows `inside` inside the mask and `outside` elsewhere. It is a choice, not a layer: a translucent
+    /// `inside` does not show `outside`.
     static Vtm select(Mask mask, Vtm inside, Vtm outside = {});
     static Vtm over(Vtm top, Vtm below);
-    /// `top`, isolated, and composited with what is below.
+    /// `top` as an isolated group, composited with `below`.
     static Vtm layer(Vtm top, Vtm below, Compositing how);
 
-    /// Moved, masks and paints together: `transform` maps it to where it now stands.
+    /// This VTM, masks and paints, mapped by `transform`.
     Vtm placed(const scene::Affine& transform) const;
 
-    /// The scene, which must be valid, as selections in painter's order; its size is forgotten.
+    /// Converts a scene to selections in painter's order. The scene must be valid; its size is dropped.
     static Vtm fromScene(const scene::Scene& scene);
-    /// A picture of what lies in [0, width] × [0, height]. Layers of a chain as fromScene makes it become a
-    /// scene's items again, one each. Throws scene::InvalidScene where selections nest beyond
+    /// Returns a scene of the part in [0, width] × [0, height] (user units). A chain of layers as made by
+    /// fromScene becomes one item per layer again. Throws scene::InvalidScene if selections nest deeper than
     /// scene::maxNesting; the scene is not checked otherwise.
     scene::Scene toScene(double width, double height) const;
 
-    /// For looking inside; null for nothing.
+    /// The root node, for inspection; null for the empty VTM. Owned by this value.
     const VtmNode* node() const { return node_.get(); }
-    /// The same node, not one that looks alike.
+    /// Compares identity: equal only if both share the same node.
     friend bool operator==(const Vtm&, const Vtm&) = default;
 
 private:
@@ -101,10 +102,10 @@ struct VtmNode {
     explicit VtmNode(std::variant<PaintNode, SelectNode, LayerNode, PlacedNode> v) : value(std::move(v)) {}
     VtmNode(VtmNode&&) = default;
     VtmNode& operator=(VtmNode&&) = default;
-    ~VtmNode();  ///< without recursion: a picture of a million items is a chain of as many nodes
+    ~VtmNode();  ///< iterative: a picture of a million items is a chain of a million nodes
 };
 
-/// The part [0, width] × [0, height] of the plane as an asset. Throws what compiler::compile throws.
+/// Compiles the part [0, width] × [0, height] of the plane, user units. Throws as compiler::compile does.
 compiler::Result compile(const Vtm& vtm, double width, double height, const compiler::Options& options = {});
 
 }  // namespace vtm

@@ -1,5 +1,5 @@
 /// \file
-/// What every error of the library is: catch vtm::Error, or one of the modules' own classes.
+/// vtm::Error, the base class of the errors of every module.
 #pragma once
 
 #include <stdexcept>
@@ -8,9 +8,9 @@
 
 namespace vtm {
 
-/// Bad input, a limit, or something that could not be read, drawn or written. what() names the place and the
-/// cause. Beside it only the standard library's exceptions are thrown: std::invalid_argument,
-/// std::length_error and std::out_of_range for arguments outside the ranges that headers state,
+/// Bad input, an exceeded limit, or a failure to read, draw or write. what() names the place and the cause.
+/// The only other exceptions thrown are those of the standard library: std::invalid_argument,
+/// std::length_error and std::out_of_range for arguments outside the ranges that the headers state, and
 /// std::bad_alloc.
 class Error : public std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -37,10 +37,10 @@ typedef struct VtmGlTarget {
     VGint damageCount;     /* of rectangles */
 } VtmGlTarget;
 
-/* NULL without a context that will do. */
+/* Returns NULL if no suitable context is current. */
 VG_API_CALL VtmGl *VG_API_ENTRY vtmCreateGl(void) VG_API_EXIT;
 
-/* Pictures must be destroyed before. After the context's end, or while another one is current, nothing of GL is deleted. */
+/* Destroy its pictures first. If its context has ended or another one is current, no GL objects are deleted. */
 VG_API_CALL void VG_API_ENTRY vtmDestroyGl(VtmGl *gl) VG_API_EXIT;
 
 /* Shows a surface: all of it, or what is damaged, of which alone memory is read and sent. No other thread may draw on it
@@ -57,7 +57,7 @@ VG_API_CALL void VG_API_ENTRY vtmDestroyPictureGl(VtmGlPicture *picture) VG_API_
 VG_API_CALL VGboolean VG_API_ENTRY vtmDrawPictureGl(VtmGl *gl, const VtmGlPicture *picture, VGint width, VGint height,
                                                     const VGfloat matrix[9], const VtmGlTarget *target) VG_API_EXIT;
 
-/* Why the last function failed that did in this thread. */
+/* Returns the message of the last failure in this thread. */
 VG_API_CALL const char *VG_API_ENTRY vtmGetGlFault(void) VG_API_EXIT;
 
 #ifdef __cplusplus

@@ -47,7 +47,7 @@ VG_API_CALL VtmSurface *VG_API_ENTRY vtmCreateSurface(VGint width, VGint height,
 VG_API_CALL VtmSurface *VG_API_ENTRY vtmCreateImageSurface(VtmContext *context, VGImage image, VGint maskBits,
                                                            VGErrorCode *error) VG_API_EXIT;
 
-/* A surface that is current stays until it no longer is. */
+/* Destroys a surface; one that is current is destroyed when it stops being current. */
 VG_API_CALL void VG_API_ENTRY vtmDestroySurface(VtmSurface *surface) VG_API_EXIT;
 
 /* Keeps the pixels that both sizes have; new pixels are 0, new mask values 1. False where vtmCreateSurface would
@@ -57,7 +57,7 @@ VG_API_CALL VGboolean VG_API_ENTRY vtmResizeSurface(VtmSurface *surface, VGint w
 VG_API_CALL VGint VG_API_ENTRY vtmSurfaceWidth(const VtmSurface *surface) VG_API_EXIT;
 VG_API_CALL VGint VG_API_ENTRY vtmSurfaceHeight(const VtmSurface *surface) VG_API_EXIT;
 
-/* Of an image too. */
+/* Returns the format of a surface, including one that draws into an image. */
 VG_API_CALL void VG_API_ENTRY vtmGetSurfaceFormat(const VtmSurface *surface, VtmSurfaceFormat *format) VG_API_EXIT;
 
 /* All pixels as sRGB-encoded, premultiplied bytes red, green, blue, alpha, rows from the TOP (y = height - 1 first),
@@ -74,7 +74,7 @@ VG_API_CALL void VG_API_ENTRY vtmWriteSurface(VtmSurface *surface, const void *p
 /* `share`: a context whose objects the new one shares, or NULL. NULL if there is no memory. */
 VG_API_CALL VtmContext *VG_API_ENTRY vtmCreateContext(VtmContext *share) VG_API_EXIT;
 
-/* A context that is current in some thread stays until it no longer is. */
+/* Destroys a context; one that is current in a thread is destroyed when it stops being current. */
 VG_API_CALL void VG_API_ENTRY vtmDestroyContext(VtmContext *context) VG_API_EXIT;
 
 /* Makes both current in this thread, in place of what was; NULL, NULL makes nothing current. A context that gets another
@@ -96,7 +96,7 @@ VG_API_CALL VtmSurface *VG_API_ENTRY vtmGetCurrentSurface(void) VG_API_EXIT;
  */
 typedef struct VtmRecording VtmRecording;
 
-/* A call that no picture can hold. */
+/* The error of a call that cannot be recorded. */
 #define VTM_NOT_RECORDABLE_ERROR ((VGErrorCode)0x1F00)
 
 /* From here on vgClear and what draws paths, glyphs and images on the current context is kept instead: what would appear
@@ -116,8 +116,9 @@ VG_API_CALL VtmRecording *VG_API_ENTRY vtmEndRecording(void) VG_API_EXIT;
  * next recording begins. */
 VG_API_CALL const char *VG_API_ENTRY vtmGetRecordingFault(void) VG_API_EXIT;
 
-/* A recording of the bytes of a .vtm file, wherever it was made. NULL if they are none (whatever they are, no harm comes of
- * it), or a picture in compat mode, which has no regions. Materials, which are GLSL, show their fallback colours. */
+/* A recording of the bytes of a .vtm file, wherever it was made. Returns NULL if the bytes are not a valid file (untrusted
+ * bytes are safe) or hold a picture in compat mode, which has no regions. Materials, which are GLSL, show their fallback
+ * colours. */
 VG_API_CALL VtmRecording *VG_API_ENTRY vtmLoadRecording(const void *bytes, size_t size) VG_API_EXIT;
 
 /* A recording never changes, and belongs to no context: any thread may use it at any time. */

@@ -29,7 +29,7 @@ typedef struct VtmSharedImage VtmSharedImage;
 VG_API_CALL VtmSharedImage *VG_API_ENTRY vtmShareImage(VtmContext *context, VGImage image,
                                                        VGErrorCode *error) VG_API_EXIT;
 
-/* Its name is none any more. Siblings stay. */
+/* Destroys the shared image and frees its name. Siblings stay. */
 VG_API_CALL void VG_API_ENTRY vtmDestroySharedImage(VtmSharedImage *image) VG_API_EXIT;
 
 /* What vgCreateEGLImageTargetKHR knows it by, in place of the name it had: any address. False, and nothing changed, if

@@ -30,10 +30,10 @@ extern "C" {
 typedef struct VtmPicture VtmPicture;
 typedef struct VtmImage VtmImage;
 
-/* As "0.2.0". */
+/* Returns the version, for example "0.2.0". */
 const char *vtmVersion(void);
 
-/* Why the last function failed that did in this thread; empty if none did. Valid until the next one fails. */
+/* Returns the message of the last failure in this thread; empty if there was none. Valid until the next failure. */
 const char *vtmGetError(void);
 
 /* An SVG file, gzip-compressed or not, or a compiled .vtm file. */
@@ -56,7 +56,7 @@ size_t vtmPictureWarningCount(const VtmPicture *picture);
  * index. */
 size_t vtmGetPictureWarning(const VtmPicture *picture, size_t index, char *text, size_t size);
 
-/* Compiled, into a .vtm file. */
+/* Compiles the picture and writes it to a .vtm file. Returns 0 on failure. */
 int vtmSavePicture(const VtmPicture *picture, const char *path);
 
 typedef enum VtmFit {
@@ -92,7 +92,7 @@ void vtmDestroyImage(VtmImage *image);
 int vtmImageWidth(const VtmImage *image);
 int vtmImageHeight(const VtmImage *image);
 
-/* VTM_ENGINE_CPU or VTM_ENGINE_GL: who drew it. */
+/* Returns the engine that drew the image: VTM_ENGINE_CPU or VTM_ENGINE_GL. */
 VtmEngine vtmImageEngine(const VtmImage *image);
 
 /* 8-bit straight sRGB red, green, blue, alpha; rows from the top, 4 * width bytes each. Valid as long as the image. */

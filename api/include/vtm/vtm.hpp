@@ -54,7 +54,7 @@ struct LoadOptions {
     std::string language = "en";  ///< for systemLanguage
 };
 
-/// Who draws.
+/// The engine that draws.
 enum class Engine {
     Auto,  ///< shaders where there is a GPU, else the CPU
     Cpu,
@@ -75,10 +75,10 @@ struct RenderOptions {
     Engine engine = Engine::Auto;
 };
 
-/// What was drawn: 8-bit straight sRGB with alpha, rows from the top, no padding.
+/// A rendered image: 8-bit straight sRGB with alpha, rows from the top, no padding.
 class Image : public image::Bitmap {
 public:
-    Engine engine = Engine::Cpu;  ///< who drew it: Cpu or Gl
+    Engine engine = Engine::Cpu;  ///< the engine that drew it: Cpu or Gl
 
     /// Into a file in the format of its suffix: .png, .jpg, .webp (without loss) or .ppm. JPEG and PPM have
     /// no alpha: draw on a background for them. Written whole or not at all. Throws image::CodecError.
@@ -96,7 +96,7 @@ public:
     static Picture load(std::span<const std::uint8_t> bytes, const LoadOptions& options = {});
     /// Throws scene::InvalidScene.
     explicit Picture(scene::Scene scene);
-    /// Valid (asset::validate).
+    /// The asset must be valid (asset::validate).
     explicit Picture(asset::Asset asset);
 
     double width() const;   ///< user units
@@ -110,14 +110,14 @@ public:
     /// than asset::maxViewSide and maxViewPixels, compiler::LimitError, gl::GlError with Engine::Gl.
     Image render(const RenderOptions& options = {}) const;
 
-    /// For the parts of the library: compiled as compiler::Options has it, to 1/65536 of the longer side.
-    /// Valid as long as a copy of the picture lives.
+    /// Returns the compiled asset for use with the library's parts, made with the default compiler::Options
+    /// (1/65536 of the longer side). Valid while a copy of the picture lives.
     const asset::Asset& asset() const;
 
-    /// Into a .vtm file.
+    /// Compiles the picture and writes it to a .vtm file.
     void save(const std::string& path) const;
 
-    /// In the GL context that is current, for drawing it there under any view: gl::Texture::draw. In the
+    /// Uploads the picture to the current GL context, for drawing with gl::Texture::draw. Part of the
     /// component gl.
     gl::Texture texture() const;
 
@@ -126,7 +126,7 @@ private:
     std::shared_ptr<State> state_;
 };
 
-/// As "0.2.0".
+/// Returns the version, for example "0.2.0".
 const char* version();
 
 }  // namespace vtm

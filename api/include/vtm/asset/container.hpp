@@ -1,5 +1,5 @@
 /// \file
-/// The `.vtm` file: docs/asset_format.md, versioned and checksummed.
+/// The `.vtm` file, versioned and checksummed; docs/asset_format.md specifies it.
 #pragma once
 
 #include <cstdint>
@@ -14,38 +14,39 @@
 
 namespace vtm::asset {
 
-/// Says what is wrong with the bytes and where: an offset, a section, a record.
+/// The bytes are not a valid asset. The message names the cause and the offset, section or record.
 class FormatError : public Error {
     using Error::Error;
 };
 
-/// Throws FormatError where read() would refuse the file: write() validates first, by the same rules.
+/// Returns the bytes of a file. Validates the asset first and throws FormatError wherever read() would.
 std::vector<std::uint8_t> write(const AssetView& asset);
 
-/// Whether they begin as a `.vtm` file does, whole or not.
+/// Returns whether the bytes begin with the signature of a `.vtm` file; the rest is not checked.
 bool isContainer(std::span<const std::uint8_t> bytes);
 
-/// Reads and validates hostile bytes: whatever they are, a valid asset or a FormatError.
+/// Reads and validates a file. Safe for untrusted bytes: returns a valid asset or throws FormatError.
 Asset read(std::span<const std::uint8_t> bytes);
 
-/// A line of a file's section table.
+/// An entry of a file's section table.
 struct SectionInfo {
     std::string name;
     std::uint64_t offset = 0;
     std::uint32_t recordBytes = 0;
     std::uint64_t count = 0;
-    std::uint32_t checksum = 0;  ///< as stored
-    std::uint32_t found = 0;     ///< of the section's bytes
+    std::uint32_t checksum = 0;  ///< stored in the file
+    std::uint32_t found = 0;     ///< computed from the section's bytes
 
     std::uint64_t bytes() const { return recordBytes * count; }
     bool intact() const { return checksum == found; }
 };
 
-/// Also for a file whose sections are damaged; throws FormatError where its header or table is.
+/// Returns the section table, also of a file with damaged sections. Throws FormatError if the header or the
+/// table is damaged.
 std::vector<SectionInfo> sectionsOf(std::span<const std::uint8_t> bytes);
 
-/// Throws FormatError unless every index, count and number is in range, so that no renderer can be
-/// led astray: tree entries without cycles, piece ranges, paints, programs, stack depths, commands.
+/// Throws FormatError unless every index, count and number is in range, so that a renderer can trust the
+/// asset: tree entries (without cycles), piece ranges, paints, programs, stack depths, commands.
 void validate(const AssetView& asset);
 
 }  // namespace vtm::asset

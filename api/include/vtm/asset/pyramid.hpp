@@ -1,5 +1,6 @@
 /// \file
-/// Pyramids of means: a grid over the whole picture and ever coarser ones, down to one texel.
+/// Mip pyramids of mean colours: grids over the whole picture, each coarser than the one before, down to one
+/// texel.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +15,15 @@
 
 namespace vtm::asset {
 
-/// Largest side of a pyramid, texels.
+/// Max side of a pyramid, texels.
 inline constexpr std::uint32_t maxPyramidSide = 4096;
 
 /// Premultiplied sRGB-encoded red, green, blue, alpha.
 using Rgba8 = std::array<std::uint8_t, 4>;
 
-/// Level l has max(1, width >> l) by max(1, height >> l) texels, as OpenGL's mipmaps have, and covers
-/// the picture [0, width] × [0, height] exactly. Sides are 2^k or 3·2^k, so a texel of one level is
-/// made of whole texels of the level before (1, 2 or, once, 3 a side) and its mean of theirs.
+/// Level l has max(1, width >> l) by max(1, height >> l) texels, as OpenGL's mipmaps have, and covers the
+/// picture [0, width] × [0, height] exactly. Sides are 2^k or 3·2^k, so each texel covers whole texels of the
+/// finer level (1, 2 or, once, 3 along each axis) and its mean is the mean of theirs.
 struct PyramidSize {
     std::uint32_t width = 0, height = 0;
 
@@ -30,7 +31,7 @@ struct PyramidSize {
     unsigned levels() const { return unsigned(std::bit_width(std::max(width, height))); }
     PyramidSize level(unsigned l) const { return {std::max(1u, width >> l), std::max(1u, height >> l)}; }
     std::size_t texels() const { return std::size_t(width) * height; }
-    /// Texels of the levels before l; with l = levels(), of all.
+    /// Number of texels in the levels before l; l = levels() gives all of them.
     std::size_t texelsBefore(unsigned l) const {
         std::size_t sum = 0;
         for (unsigned i = 0; i < l; ++i)
@@ -40,13 +41,13 @@ struct PyramidSize {
     bool operator==(const PyramidSize&) const = default;
 };
 
-/// Whether a pyramid may have this side: 2^k or 3·2^k, at most maxPyramidSide.
+/// Returns whether a pyramid may have this side: 2^k or 3·2^k, at most maxPyramidSide.
 constexpr bool isPyramidSide(std::uint32_t side) {
     return side > 0 && side <= maxPyramidSide &&
            (std::has_single_bit(side) || (side % 3 == 0 && std::has_single_bit(side / 3)));
 }
 
-/// The picture's mean colour over each texel, level after level, finest first, rows from the top.
+/// The picture's mean colour over each texel: levels from fine to coarse, rows from the top.
 struct Prefilter {
     PyramidSize size;
     std::vector<Rgba8> texels;

@@ -17,59 +17,59 @@ namespace vtm::compiler {
 
 struct Options {
     asset::Mode mode = asset::Mode::Exact;
-    /// Largest distance between a drawn boundary and the scene's, as a share of the picture's longer
-    /// side. In [2^-26, 2^-6]; below 2^-24 it is aimed at but not proven (Result::provenError).
+    /// Largest distance between a drawn boundary and the scene's, as a share of the picture's longer side. In
+    /// [2^-26, 2^-6]. Below 2^-24 the compiler aims at it but cannot prove it (Result::provenError).
     double tolerance = 1.0 / 65536;
-    /// How large an asset may get for being drawn fast: the nanoseconds of drawing at 1024 pixels (of a
-    /// software rasteriser, docs/regions.md) that are worth a byte. Cells are split or not, and lists of
-    /// pieces long or short, as this makes cheapest. In [1, 1e6].
+    /// The trade-off between drawing time and size of the asset: the nanoseconds of drawing at 1024 pixels
+    /// (by a software rasteriser, docs/regions.md) that are worth one byte. The compiler splits cells where
+    /// this makes the sum of both costs smallest. In [1, 1e6].
     double nanosecondsPerByte = 700;
-    /// A fixed rule instead, for comparison: a leaf with more pieces is split while the tree may grow
-    /// deeper. In [1, 4096].
+    /// Replaces the cost model by a fixed rule, for comparison: splits every leaf with more pieces, down to
+    /// maxDepth. In [1, 4096].
     std::optional<unsigned> piecesPerLeaf = std::nullopt;
-    /// Levels of the 16-tree, at most. In [0, asset::maxLevel]. Below level 8 there are only leaves that were
-    /// not proven to be within the tolerance where they were larger.
+    /// Max depth of the 16-tree. In [0, asset::maxLevel]. Leaves below level 8 exist only where a larger leaf
+    /// could not be proven to be within the tolerance.
     unsigned maxDepth = asset::maxLevel;
-    /// Pairs of chords looked at before the picture is a LimitError: a minute or so.
+    /// Max number of pairs of chords to test, about a minute of work; beyond it compile() throws LimitError.
     std::size_t maxWork = 20'000'000'000;
 };
 
-/// Milliseconds of wall time a stage took.
+/// Wall time of a stage, milliseconds.
 struct StageTime {
     std::string stage;
     double milliseconds;
 };
 
-/// A square of the picture, picture units.
+/// A square with its min corner at (x, y), user units.
 struct UnprovenSquare {
     double x, y, side;
 };
 
 struct Result {
     asset::Asset asset;
-    /// No drawn boundary lies farther from the scene's than this share of the picture's longer side: what
-    /// is farther from every outline that shows has its true colour. docs/regions.md says what is
-    /// proven and how. 0 where nothing is drawn but whole squares. Beyond the tolerance only where the
-    /// warnings say so: it is finer than can be proven, or outlines are too tangled for leaves that may be
-    /// made.
+    /// Every drawn boundary lies within this share of the picture's longer side of the scene's boundary;
+    /// points farther from every visible outline have their true colour. docs/regions.md says what is proven
+    /// and how. 0 if only whole squares are drawn. Larger than the tolerance only with a warning: the
+    /// tolerance is finer than can be proven, or the outlines are too tangled for the permitted leaves.
     double provenError = 0;
-    /// Leaves filled with the mean of samples (Asset::fallbackLeaves) that are too large for the tolerance:
-    /// no boundary is told apart within them.
+    /// Leaves filled with a mean of samples (Asset::fallbackLeaves) that are larger than the tolerance.
+    /// Boundaries inside them are not resolved.
     std::vector<UnprovenSquare> unproven;
-    /// Strokes along curves other than circles. Where such a curve is tighter than half the stroke's width,
-    /// that its offset curves lie within the tolerance is tested at fifteen points of every piece, not proven
-    /// between them. Where it is gentler that is proven, too, as is everything after.
+    /// Number of strokes along curves other than circles. Where such a curve is tighter than half the
+    /// stroke's width, the error of its offset curves is tested at fifteen points of every piece and not
+    /// proven between them. Elsewhere it is proven, as are all later stages.
     std::size_t sampledStrokes = 0;
     std::vector<StageTime> stages;      ///< in order: lower, push, planarise, fit, encode
-    std::vector<std::string> warnings;  ///< what a limit took away or an approximation changed
+    std::vector<std::string> warnings;  ///< what a limit removed or an approximation changed
 };
 
-/// The scene asks for more than a stated limit allows; says which.
+/// The scene exceeds a stated limit; the message says which.
 class LimitError : public Error {
     using Error::Error;
 };
 
-/// Throws scene::InvalidScene, LimitError, std::invalid_argument (options out of range).
+/// Compiles a scene. Throws scene::InvalidScene, LimitError, std::invalid_argument (options out of range)
+/// and, under a budget, limits::Exceeded.
 Result compile(const scene::Scene& scene, const Options& options = {});
 
 }  // namespace vtm::compiler

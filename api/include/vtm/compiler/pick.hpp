@@ -1,8 +1,8 @@
 /// \file
-/// Which item of a scene covers a point: the scene again, with numbers for paints.
+/// Picking: which item of a scene covers a point.
 ///
-/// The compiler merges regions of equal paint, so the asset that is drawn does not know its items. A pick map
-/// is the same geometry through the same compiler, each item filled with a paint of its own.
+/// The compiler merges regions of equal paint, so an asset for drawing does not know its items. A pick map is
+/// made from the same geometry by the same compiler, with a paint of its own for each item.
 #pragma once
 
 #include <cstdint>
@@ -19,27 +19,30 @@
 
 namespace vtm::compiler {
 
-/// Items that one pick map can tell apart.
+/// Max number of items in a pick map.
 inline constexpr std::size_t maxPickItems = 65535;
 
 struct PickMap {
-    /// Exact, every region one solid paint. Its paints mean items; drawn, it is a picture in false colours.
+    /// An asset of exact mode in which every region has one solid paint that stands for an item. Drawn, it is
+    /// a picture in false colours.
     asset::Asset asset;
-    /// In painter's order, groups' and both sides' of selections; strokes and fills are items of their own.
-    /// They point into the scene that was compiled.
+    /// All items in painter's order, including those in groups and on both sides of selections. A stroke and
+    /// a fill are separate items. The pointers refer to the compiled scene, which must outlive them.
     std::vector<const scene::Item*> items;
-    /// By paint of the asset: an index of `items`, or nothing.
+    /// For each paint of the asset an index into `items`, or empty.
     std::vector<std::optional<std::uint32_t>> itemOfPaint;
 };
 
-/// As SVG's pointer events see it: an item counts wherever its geometry is, however transparent its paint,
-/// its group or a pattern is; the topmost one covers those below. Clips cut. So do masks, where they let
-/// nothing through: an item of a mask hides if it is black, and shows if it has any light (luminance), or any
-/// paint (alpha). Throws as compile() does, and LimitError beyond maxPickItems; options.mode must be exact.
+/// Follows SVG's pointer events: an item counts wherever its geometry is, whatever the opacity of its paint,
+/// group or pattern, and the topmost item covers those below. Clips cut items. Masks cut them where they let
+/// nothing through: an item of a mask hides if it is black, and shows if it has any light (luminance) or any
+/// paint (alpha). Throws as compile() does, LimitError for more than maxPickItems items, and
+/// std::invalid_argument unless options.mode is Exact.
 PickMap compilePickMap(const scene::Scene& scene, const Options& options = {});
 
-/// The topmost item at a point of the picture, user units (asset::paintAt says how exactly); an index of
-/// `items`. Where the compiler filled a leaf with a mean of samples (Asset::fallbackLeaves), nothing.
+/// Returns the index into `items` of the topmost item at a point in user units, with the accuracy of
+/// asset::paintAt. Empty if no item is there, or where the compiler filled a leaf with a mean of samples
+/// (Asset::fallbackLeaves).
 std::optional<std::uint32_t> itemAt(const PickMap& map, glm::dvec2 point);
 
 }  // namespace vtm::compiler

@@ -1,5 +1,6 @@
 /// \file
-/// A picture that is edited: after each change only what it concerns is compiled again.
+/// Incremental compilation of a picture that is edited: an update recompiles only the parts that a change
+/// affects.
 #pragma once
 
 #include <cstddef>
@@ -11,38 +12,39 @@
 
 namespace vtm::compiler {
 
-/// What an update did.
+/// The work that an update did.
 struct Update {
-    bool anew = false;            ///< all was compiled from nothing
-    std::size_t outlines = 0;     ///< made: flattened, stroked
-    std::size_t blocks = 0;       ///< squares of the picture that were built
-    std::size_t blocksInAll = 0;  ///< into which the picture is divided
-    std::size_t paints = 0;       ///< composited
+    bool anew = false;            ///< everything was compiled from scratch
+    std::size_t outlines = 0;     ///< outlines flattened or stroked
+    std::size_t blocks = 0;       ///< squares of the picture that were rebuilt
+    std::size_t blocksInAll = 0;  ///< squares that the picture is divided into
+    std::size_t paints = 0;       ///< paints composited
 };
 
-/// Keeps what compiling a scene found, so that the next scene, which differs in little, costs little
-/// (docs/session.md). Scenes are values: an edited scene shares its unchanged paths with the one before, and
-/// a path or bitmap is known again by its pointer, so it must not be changed in place. Everything else is
+/// Keeps the intermediate results of a compilation, so that a scene with few changes compiles quickly
+/// (docs/session.md). Scenes are values: an edited scene shares its unchanged paths with the previous one. A
+/// path or bitmap is recognised by its pointer, so it must not be modified in place. Everything else is
 /// compared by value.
 ///
-/// The result draws what `compile` of the same scene draws; it is larger by the boundaries between regions
-/// that have the same colour now and may have different ones later. In compat mode every update compiles
-/// anew. Not for use by several threads at once; it uses all processors itself.
+/// The result draws the same picture as `compile` of the same scene. It is larger, because it keeps
+/// boundaries between regions whose colours are equal now and may differ later. In compat mode every update
+/// compiles from scratch. A session must not be used by several threads at once; it uses all processors
+/// itself.
 class Session {
 public:
-    /// Throws what `compile` throws.
+    /// Compiles the scene. Throws as `compile` does.
     explicit Session(const scene::Scene& scene, const Options& options = {});
     ~Session();
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
 
-    /// Valid until the next update. Its asset has no prefilter.
+    /// The current result, valid until the next update. Its asset has no prefilter.
     const Result& result() const;
-    /// Of the last `update` that did not throw, or the constructor.
+    /// The work done by the last `update` that did not throw, or by the constructor.
     const Update& lastUpdate() const;
 
-    /// Compiles `scene` in place of the last. If it throws, what `compile` throws, the result stays as it was
-    /// and the next update may compile anew.
+    /// Compiles `scene`, which replaces the previous one. Throws as `compile` does; the result then stays as
+    /// it was, and the next update may compile from scratch.
     const Result& update(const scene::Scene& scene);
 
 private:

@@ -1,10 +1,9 @@
 /// \file
-/// Compiling for a raster: boundaries within a sixteenth of a pixel, at any zoom.
+/// Compiling for a raster: boundaries are within a sixteenth of a pixel at any zoom.
 ///
-/// An asset is as fine as a share of its longer side (Options::tolerance), of which 2^-24 can be proven.
-/// Where a view wants more than the whole picture is compiled with, the part that it shows is compiled for
-/// itself: scenes are doubles, so the part is moved to the origin, enlarged and cut out before anything is
-/// rounded.
+/// The accuracy of an asset is a share of its longer side (Options::tolerance), down to a provable 2^-24. If
+/// a view needs more, the visible part is compiled on its own: it is moved to the origin, enlarged and
+/// clipped in double precision, before anything is rounded.
 #pragma once
 
 #include <vtm/compiler/compile.hpp>
@@ -17,38 +16,38 @@
 
 namespace vtm::compiler {
 
-/// A rectangle in user units. It may reach beyond the picture, or lie outside.
+/// A rectangle in user units. It may extend beyond the picture or lie outside it.
 struct Part {
     double x = 0, y = 0, width = 0, height = 0;  ///< finite; width and height > 0
 };
 
 struct ViewResult {
-    /// Of the whole picture, or of what the view shows of it and a little more. Lengths and places in it are
-    /// those of the asset's space.
+    /// The result for the whole picture, or for the visible part and a small margin. Its lengths and
+    /// positions are in the asset's space.
     Result result;
-    /// Draws the part into the raster from this asset.
+    /// The view that draws the part of this asset into the raster.
     asset::View view;
-    /// From the scene to the asset's space: scales by powers of two and moves. The identity for whole
-    /// pictures.
+    /// Maps the scene to the asset's space: a scaling by powers of two and a translation. The identity if the
+    /// whole picture was compiled.
     scene::Affine fromScene = scene::identity;
 };
 
-/// The asset for a frame (scene::frame). Options::tolerance is the coarsest
-/// that is used; where that is not a sixteenth of a pixel's shorter side, it is made so. Asset::finestPixel
-/// says what was reached, and result.warnings where it was not: beyond some 10^11 times, when roundings of
-/// the scene's own doubles show. Not made finer by it: images with ImageFilter::Nearest and materials, which
-/// are drawn from single precision. Throws as compile does; std::length_error where the raster is beyond
-/// asset::maxViewSide or maxViewPixels, std::invalid_argument where a number of the frame is not finite or
-/// its pixels are not above 0.
+/// Compiles the asset for a frame (scene::frame). Options::tolerance is the coarsest tolerance used; it is
+/// reduced to a sixteenth of a pixel's shorter side where it is larger than that. Asset::finestPixel says
+/// what was reached. result.warnings says if the goal was missed, which happens beyond a magnification of
+/// about 10^11, where the rounding of the scene's own doubles shows. Images with ImageFilter::Nearest and
+/// materials are drawn in single precision and do not become finer. Throws as compile does, std::length_error
+/// if the raster exceeds asset::maxViewSide or maxViewPixels, and std::invalid_argument if a number of the
+/// frame is not finite or a pixel's size is not above 0.
 ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options = {});
 
-/// The same for a raster of `width` by `height` pixels that `part` fills; std::invalid_argument where it is
-/// empty or `part` is not as above.
+/// The same for a raster of `width` by `height` pixels that `part` fills. Also throws std::invalid_argument
+/// if the raster is empty or `part` violates the ranges above.
 ViewResult compileView(const scene::Scene& scene, const Part& part, int width, int height,
                        const Options& options = {});
 
-/// The frame's view of an asset of the whole picture. Throws std::length_error where the raster or a number
-/// is beyond the limits of vtm/raster/view.hpp.
+/// Returns the frame's view of an asset of the whole picture. Throws std::length_error if the raster or a
+/// number exceeds the limits in vtm/raster/view.hpp.
 asset::View viewOf(const scene::Frame& frame);
 
 }  // namespace vtm::compiler

@@ -11,52 +11,53 @@
 
 namespace vtm::gl {
 
-/// What EGL or GL refused, with its error code.
+/// EGL or GL rejected a call. The message has its error code.
 class GlError : public Error {
     using Error::Error;
 };
 
-/// GL_OUT_OF_MEMORY. What was asked for is not there; the renderer goes on working.
+/// GL_OUT_OF_MEMORY. The requested object was not made; the renderer remains usable.
 class OutOfMemory : public GlError {
     using GlError::GlError;
 };
 
-/// The context was reset, and all that was in it is gone: make a new one, a new renderer, and upload again.
+/// The context was reset and all its objects are lost: make a new context and a new renderer, and upload
+/// again.
 class ContextLost : public GlError {
     using GlError::GlError;
 };
 
-/// What EGL has to offer.
+/// The kind of driver that EGL offers.
 enum class Driver {
-    None,       ///< no device: every Context would fail
+    None,       ///< no device: no Context can be made
     Software,   ///< shaders run on the CPU
-    PerhapsGpu  ///< a context will tell
+    PerhapsGpu  ///< only a context can tell
 };
 
-/// From EGL's list of devices, in a millisecond or two and without a context, which takes Mesa's software
-/// driver some fifty. LIBGL_ALWAYS_SOFTWARE is respected.
+/// Reads EGL's list of devices, which takes 1 to 2 ms; making a context takes about 50 ms with Mesa's
+/// software driver. Respects LIBGL_ALWAYS_SOFTWARE.
 Driver likelyDriver();
 
 class Context;
 
 struct ContextOptions {
-    /// Shares its objects, on its display.
+    /// A context to share objects with, on the same display; null: none.
     const Context* share = nullptr;
-    /// Asks for notice of resets, where the driver can give it (GL_KHR_robustness, GL_EXT_robustness).
+    /// Asks the driver to report resets if it can (GL_KHR_robustness, GL_EXT_robustness).
     bool robust = true;
 };
 
-/// Made surfaceless: on a real GPU where EGL's device list has one, else on Mesa's software driver;
-/// EGL_PLATFORM and LIBGL_ALWAYS_SOFTWARE are respected. Current on the thread that made it.
+/// A surfaceless context: on a GPU if EGL's device list has one, else on Mesa's software driver. Respects
+/// EGL_PLATFORM and LIBGL_ALWAYS_SOFTWARE. It is current on the thread that made it.
 class Context {
 public:
     explicit Context(const ContextOptions& options = {});
-    /// No context is current afterwards, if this one was.
+    /// If this context was current, none is current afterwards.
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// On this thread. Throws GlError.
+    /// Makes the context current on this thread. Throws GlError.
     void makeCurrent() const;
 
     const std::string& renderer() const;  ///< GL_RENDERER

@@ -1,5 +1,5 @@
 /// \file
-/// Which region shows at each pixel's centre: a buffer of numbers instead of colours, for picking on the GPU.
+/// Picking on the GPU: a buffer of ids, one for the region at each pixel's centre, instead of colours.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace vtm::gl {
 
-/// An exact asset on the GPU with a number for each of its paints. Belongs to its renderer's context.
+/// An exact asset on the GPU with an id for each of its paints. Its objects belong to its renderer's context.
 class IdTexture {
 public:
     ~IdTexture();
@@ -30,9 +30,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// The GPU's asset::paintAt: no coverage, no blending, so a number is always one of the numbers given. In
-/// single precision: pixels whose centre is nearer to a boundary than 2^-20 of the leaf's or the view's side
-/// may have the number of its other side. Contexts and state as with Renderer.
+/// asset::paintAt on the GPU, without coverage or blending, so every result is one of the given ids. Works in
+/// single precision: a pixel whose centre is nearer to a boundary than 2^-20 of the side of the leaf or view
+/// may get the id of the other side. Handles contexts and state as Renderer does.
 class IdRenderer {
 public:
     IdRenderer();
@@ -40,15 +40,15 @@ public:
     IdRenderer(const IdRenderer&) = delete;
     IdRenderer& operator=(const IdRenderer&) = delete;
 
-    /// `asset` must be valid (asset::validate) and exact, std::invalid_argument otherwise; `idOfPaint` has a
-    /// number for each paint.
+    /// `asset` must be valid (asset::validate). `idOfPaint` has an id for each paint. Throws
+    /// std::invalid_argument for an asset of compat mode.
     IdTexture upload(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint);
 
-    /// By pixel, row by row; where nothing is, paint 0's.
+    /// Returns the ids of the pixels, row by row; pixels outside the picture have the id of paint 0.
     std::vector<std::uint32_t> render(const IdTexture& texture, const asset::View& view);
 
-    /// Into the view's rectangle, from pixel (0, 0), of a framebuffer of the user's whose first draw buffer
-    /// holds unsigned integers (GL_R32UI); nothing: the one bound for drawing.
+    /// Draws the ids into the view's rectangle, from pixel (0, 0), of the caller's framebuffer, whose first
+    /// draw buffer must hold unsigned integers (GL_R32UI). Empty: the framebuffer bound for drawing.
     void draw(const IdTexture& texture, const asset::View& view, std::optional<unsigned> framebuffer = {});
 
 private:

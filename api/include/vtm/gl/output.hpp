@@ -1,5 +1,5 @@
 /// \file
-/// Where a picture is drawn and in which numbers (docs/backend.md).
+/// The target of a drawing and its colour encoding (docs/backend.md).
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ struct PixelRectangle {
 };
 
 struct Output {
-    /// A framebuffer object, or 0, the window's; nothing: the one that is bound for drawing. Its first draw
-    /// buffer is drawn into: of any normalised or float format, with one sample a pixel or several.
+    /// A framebuffer object, or 0 for the window's; empty: the one bound for drawing. Its first draw buffer
+    /// may have any normalised or float format and any number of samples per pixel.
     std::optional<unsigned> framebuffer;
 
-    /// The view's rectangle of pixels begins here: GL's coordinates, y upwards in a window. What lies outside
-    /// the framebuffer is not drawn.
+    /// The corner of the view's rectangle in GL's pixel coordinates (y upwards in a window). Parts outside
+    /// the framebuffer are not drawn.
     int x = 0, y = 0;
 
     enum class FirstRow {
@@ -30,23 +30,22 @@ struct Output {
 
     enum class Alpha { Premultiplied, Straight } alpha = Alpha::Premultiplied;
 
-    /// Into sRGB formats goes linear light whatever is said here: GL encodes it on its way.
+    /// Ignored for sRGB formats: they are written with linear light, which GL encodes.
     enum class Encoding { Srgb, Linear } encoding = Encoding::Srgb;
 
     enum class Write {
         Replace,  ///< transparent where the picture is
-        Over      ///< blended over what is there, in the target's numbers; premultiplied only
+        Over      ///< blended over the target's content in its own encoding; premultiplied only
     } write = Write::Replace;
 
-    /// Nothing: the whole view. Else only these pixels of the view change; they may overlap.
+    /// If set, only these pixels of the view change; the rectangles may overlap. Empty: the whole view.
     std::optional<std::vector<PixelRectangle>> damage;
 
-    /// Ordered, by less than half a step of an 8-bit target; colours that it can hold stay as they are. Other
-    /// targets are not dithered.
+    /// Ordered dithering by less than half a step of an 8-bit target; representable colours do not change.
+    /// Other targets are not dithered.
     bool dither = false;
 
-    /// Whether the shares of regions in a pixel are added in linear light instead of encoded (exact mode
-    /// only).
+    /// Whether coverage is accumulated in linear light instead of sRGB-encoded colour (exact mode only).
     bool linearLight = false;
 };
 

@@ -19,7 +19,7 @@
 
 namespace vtm::gl {
 
-/// Who makes the pixels of exact pictures that are drawn into 8-bit framebuffers without conversions.
+/// Selects what computes the pixels of exact pictures drawn into 8-bit framebuffers without conversion.
 enum class Pixels {
     Automatic,  ///< Scanned where the driver runs shaders on the CPU (llvmpipe and the like), else Shaders
     Shaders,
@@ -35,20 +35,20 @@ struct BytePixels {
 };
 
 struct RendererOptions {
-    /// Of draw(). render() and renderBitmap() show what the shaders make.
+    /// Applies to draw(); render() and renderBitmap() always use the shaders.
     Pixels pixels = Pixels::Automatic;
 
-    /// Whether every call leaves GL's state as it found it (docs/backend.md). Without, what a call may touch
-    /// is anything afterwards.
+    /// Whether every call restores GL's state (docs/backend.md). If false, the state that a call may touch is
+    /// undefined afterwards.
     bool restoreState = true;
     /// Keeps the driver's binaries of programs in this directory, if it has formats for them, and loads them
     /// from there; made if missing. Empty: no files. Only the user may be able to write there.
     std::string programCache;
-    /// Paints pixels magenta whose shader was stopped by the driver before its end, which is a fault of ours;
-    /// else they are opaque, in about the colour of the place (docs/backend.md).
+    /// Paints a pixel magenta if the driver stopped its shader early, which is a bug in this library.
+    /// Otherwise such a pixel is opaque with approximately the right colour (docs/backend.md).
     bool markOverruns = false;
-    /// Turns of loops that a pixel may take before the CPU makes it; 0: what every driver allows. Others are
-    /// for tests.
+    /// Max loop iterations for a pixel in a shader before the CPU computes it; 0: a number that every driver
+    /// allows. Other values are for tests.
     unsigned maxTurns = 0;
 
     /// Returns GL's graphics reset status, 0 for none; empty: the driver's own, where it has one.
@@ -57,11 +57,11 @@ struct RendererOptions {
 
 class Renderer;
 
-/// An asset on the GPU. It must not outlive the renderer that uploaded it, unless it has one of its own.
+/// An asset on the GPU. It must not outlive the renderer that uploaded it, unless it owns its renderer.
 class Texture {
 public:
-    /// With a renderer of its own, in the context that is current. Several pictures are better uploaded by
-    /// one renderer, which compiles its programs once. Throws as Renderer and Renderer::upload do.
+    /// Makes a renderer of its own in the current context. To draw several pictures, upload them with one
+    /// Renderer, which compiles its programs once. Throws as Renderer and Renderer::upload do.
     explicit Texture(const asset::AssetView& asset, const RendererOptions& options = {});
     ~Texture();
     Texture(Texture&&) noexcept;
@@ -82,54 +82,56 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Programs so far.
+/// Number of GL programs made so far.
 struct ProgramFigures {
     unsigned made = 0;
     unsigned compiled = 0;  ///< of these; the others came from the cache
 };
 
-/// The programs, each compiled once, when first needed; GlError with the driver's log where one does
-/// not compile.
+/// Draws assets with programs that are compiled once, when first needed. Throws GlError with the driver's log
+/// if one does not compile.
 ///
-/// Works in the context that is current when it is made, ours or the user's, which must be current in every
-/// call: GlError otherwise. GL's state may be anything. Destroyed with its context current it frees its
-/// objects; without, they are left to the context's end. Destroy renderers of a context that is gone before
-/// making the next: EGL may use its name again.
+/// A renderer belongs to the context that is current when it is made, a vtm::gl::Context or the caller's own.
+/// That context must be current in every call; otherwise the call throws GlError. GL's state may be
+/// arbitrary. The destructor frees GL objects if the context is current; otherwise they live until the
+/// context ends. Destroy the renderers of a lost context before you make another context: EGL may reuse its
+/// handle.
 ///
-/// Every call may throw OutOfMemory, after which the renderer goes on working, and ContextLost, after which
-/// every other does, too.
+/// Every call may throw OutOfMemory, after which the renderer remains usable, and ContextLost, after which
+/// every later call throws it too.
 class Renderer {
 public:
-    /// Throws GlError if no context is current or what it can do is not enough.
+    /// Throws GlError if no context is current or the context lacks a required feature.
     explicit Renderer(const RendererOptions& options = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// `asset` must be valid (asset::validate). Compiles its materials, each list of them once; what is wrong
-    /// in one is a GlError that begins "material 'NAME', line L: ", or with all names where the driver's log
-    /// does not say which.
+    /// `asset` must be valid (asset::validate). Compiles its materials, each distinct list once. An error in
+    /// a material throws GlError with a message that begins "material 'NAME', line L: ", or with all names if
+    /// the driver's log does not say which.
     Texture upload(const asset::AssetView& asset);
 
     /// Draws on transparent black into a texture of the renderer's own and reads it back.
     image::Raster render(const Texture& texture, const asset::View& view);
 
-    /// The same in 8 bits, which is faster: within 1/255 of image::toBitmap(render()) where alpha is not 0.
+    /// The same in 8 bits, which is faster. Differs from image::toBitmap(render()) by at most 1/255 where
+    /// alpha is not 0.
     image::Bitmap renderBitmap(const Texture& texture, const asset::View& view);
 
-    /// Draws into a framebuffer of the user's. Does not wait for the GPU. Throws std::invalid_argument for an
-    /// Output that contradicts itself.
+    /// Draws into the caller's framebuffer and does not wait for the GPU. Throws std::invalid_argument if
+    /// members of `output` contradict each other.
     void draw(const Texture& texture, const asset::View& view, const Output& output);
 
-    /// Pixels that others made, as a view of their size. Of `output.damage` only these pixels are read.
-    /// Throws std::invalid_argument for an Output that contradicts itself or wants linear light: they are
-    /// mixed already.
+    /// Draws given pixels as a view of their size. If `output.damage` is set, reads only those pixels. Throws
+    /// std::invalid_argument if members of `output` contradict each other or ask for linear light, since the
+    /// pixels are already composited.
     void draw(const BytePixels& pixels, const Output& output);
 
-    /// Draws into 8 bits of the renderer's own and waits for the GPU, without reading back (for measuring).
+    /// Draws into an internal 8-bit target and waits for the GPU, without reading back; for measuring.
     void draw(const Texture& texture, const asset::View& view);
 
-    /// Whether the context was reset, as far as the driver tells.
+    /// Returns whether the context was reset, as far as the driver reports it.
     bool lost() const;
 
     ProgramFigures programs() const;

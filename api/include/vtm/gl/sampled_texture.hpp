@@ -1,6 +1,6 @@
 /// \file
-/// Assets as textures in the user's own programs, in the user's own context: an include for shaders, and what
-/// its uniforms are bound to. docs/texture.md says how to use both, and what they cost.
+/// Assets as textures in the caller's own programs and context: GLSL to include in a shader, and the textures
+/// to bind to its uniforms. docs/texture.md explains their use and cost.
 ///
 ///     uniform Vtm sign;
 ///     vec4 c = vtm_sample(sign, st);   // premultiplied; (0, 0) is the picture's upper left corner, t runs
@@ -21,16 +21,16 @@
 
 namespace vtm::gl {
 
-/// GLSL ES 3.00 that a fragment shader has between its `#version 300 es` and its own text: the type Vtm and
-/// the functions vtm_sample, vtm_sample_grad, for these assets (and any with the same kinds of paints and the
-/// same materials). Every other name begins with `vtm_` or `VTM_`, but for those in the assets' materials.
-/// Sets the default precision of everything to highp. Lines are counted from 1 again behind it; material
-/// i is source string 30000 + i in a driver's log.
-/// Throws GlError if two different materials have one name.
+/// Returns GLSL ES 3.00 to insert in a fragment shader after `#version 300 es` and before its own text. It
+/// defines the type Vtm and the functions vtm_sample and vtm_sample_grad for these assets (and any with the
+/// same kinds of paints and the same materials). Every other name begins with `vtm_` or `VTM_`, but for those
+/// in the assets' materials. Sets the default precision of everything to highp. Lines are counted from 1
+/// again behind it; material i is source string 30000 + i in a driver's log. Throws GlError if two different
+/// materials have one name.
 std::string sampleInclude(std::span<const asset::AssetView> assets);
 std::string sampleInclude(std::initializer_list<asset::AssetView> assets);
 
-/// What lies beyond [0, 1], along each axis.
+/// How coordinates beyond [0, 1] are treated along each axis.
 struct Wrapping {
     asset::Wrap s = asset::Wrap::Border, t = asset::Wrap::Border;
 };
@@ -40,9 +40,9 @@ struct Wrapping {
 class SampledTexture {
 public:
     /// `asset` must be valid (asset::validate) and is not needed afterwards; without a prefilter, one is
-    /// built. Leaves GL's state as it was. Throws GlError: without a current context, for an asset of compat
-    /// mode, where a texture would be larger than the driver allows, and for errors of GL (earlier ones that
-    /// nobody asked for among them).
+    /// built. Leaves GL's state as it was. Throws GlError if no context is current, the asset is in compat
+    /// mode, a texture would be larger than the driver allows, or GL reports an error (which may be an
+    /// earlier, unqueried one).
     explicit SampledTexture(const asset::AssetView& asset, const asset::PrefilterOptions& options = {});
     ~SampledTexture();
     SampledTexture(SampledTexture&&) noexcept;
@@ -53,13 +53,13 @@ public:
     /// that may be off by more than a sixteenth of it.
     std::optional<double> finestPixel() const;
 
-    /// Texture units that bind takes: two, three for an asset with images.
+    /// Number of texture units that bind() uses: two, or three for an asset with images.
     unsigned units() const;
 
     /// Sets `uniform Vtm NAME` of a linked program and binds textures and sampler objects to the units from
     /// firstUnit on; the rest of GL's state (current program, active unit) stays as it was. Each Vtm of a
     /// program must be bound, to units of its own. `name` may be an element of an array: "signs[1]". Throws
-    /// GlError where the program has no such uniform or the driver no such unit.
+    /// GlError if the program has no such uniform or the driver no such unit.
     void bind(unsigned program, const std::string& name, unsigned firstUnit, Wrapping wrapping = {});
 
 private:

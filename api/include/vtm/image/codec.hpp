@@ -14,7 +14,7 @@
 
 namespace vtm::image {
 
-/// Says what is wrong with the encoded data or the file.
+/// The encoded data or the file is invalid or inaccessible; the message says why.
 class CodecError : public Error {
     using Error::Error;
 };
@@ -27,10 +27,10 @@ Bitmap decode(std::span<const std::uint8_t> bytes);
 
 std::vector<std::uint8_t> encodePng(const Bitmap& bitmap);
 
-/// A file, or what a pipe or device gives until it ends, at most maxStreamBytes of that. Errors name the
-/// path.
+/// Reads a file, or a pipe or device to its end; more than maxStreamBytes from these is an error. Throws
+/// CodecError, which names the path.
 std::vector<std::uint8_t> readFile(const std::string& path);
-/// The same of an open descriptor, which `name` stands for in errors.
+/// The same from an open descriptor; errors call it `name`.
 std::vector<std::uint8_t> readStream(int descriptor, const std::string& name);
 inline constexpr std::size_t maxStreamBytes = 256u << 20;  ///< as long as an SVG file may be
 
@@ -43,11 +43,11 @@ inline constexpr std::size_t maxStreamBytes = 256u << 20;  ///< as long as an SV
 /// ignore SIGXFSZ to get an error.
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
-/// All of them into an open descriptor; 0, or errno.
+/// Writes all bytes to an open descriptor. Returns 0, or errno.
 [[nodiscard]] int writeStream(int descriptor, std::span<const std::uint8_t> bytes) noexcept;
 
-/// Removes the new files of writeFile calls that have not ended, which then fail. For handlers of signals
-/// that end the process: async-signal-safe.
+/// Removes the temporary files of writeFile calls in progress, which then fail. Async-signal-safe, for
+/// handlers of signals that end the process.
 void removeTemporaries() noexcept;
 
 }  // namespace vtm::image

@@ -1,6 +1,6 @@
 /// \file
-/// Limits of time and memory for whatever the library is asked to do on a thread, a callback that shows
-/// progress and may cancel, and where the work stands (docs/limits.md).
+/// Limits of time and memory for the library's work on a thread, a callback for progress and cancellation,
+/// and the current stage of the work (docs/limits.md).
 ///
 ///     limits::Budget budget({.seconds = 4, .memoryBytes = 900 << 20});
 ///     const limits::Scope scope(budget);
@@ -26,23 +26,23 @@
 
 namespace vtm::limits {
 
-/// Where in a source file something stands. Lines and columns count from 1; 0 where unknown.
+/// A position in a source file. Lines and columns count from 1; 0 means unknown.
 struct Place {
     std::uint32_t line = 0, column = 0;
-    const char* element = "";  ///< its name, a string of static storage
+    const char* element = "";  ///< the element's name, a string with static storage duration
 };
 
 enum class Limit { Seconds, Memory, Cancelled };
 
-/// A limit was passed, or the callback cancelled. What was being made is lost, nothing else.
+/// A limit was exceeded, or the callback cancelled. Only the result in progress is lost.
 class Exceeded : public Error {
 public:
     Exceeded(Limit limit, double value, std::string stage, Place place);
     Limit limit() const { return limit_; }
-    double value() const { return value_; }              ///< of the limit: seconds or bytes
-    const std::string& stage() const { return stage_; }  ///< "stroking"; may be empty
+    double value() const { return value_; }              ///< the limit, in seconds or bytes
+    const std::string& stage() const { return stage_; }  ///< for example "stroking"; may be empty
     const Place& place() const { return place_; }
-    /// ` while stroking <path>`; empty where nothing is known.
+    /// Returns text such as ` while stroking <path>`; empty if the stage is unknown.
     std::string during() const;
 
 private:
@@ -53,29 +53,29 @@ private:
 };
 
 struct Progress {
-    const char* stage = "";  ///< the last that any of the budget's threads began; may be empty
+    const char* stage = "";  ///< the stage that a thread of the budget began last; may be empty
     double done = 0;         ///< share of that stage, in [0, 1]
-    double seconds = 0;      ///< used up so far
-    std::size_t bytes = 0;   ///< resident now
+    double seconds = 0;      ///< time used so far
+    std::size_t bytes = 0;   ///< resident memory now
 };
 
-/// 0 and empty: no such limit.
+/// The limits of a budget; 0 or empty means no such limit.
 struct Limits {
-    /// CPU time of all threads of the process, or wall time, whichever is more, since the budget began.
+    /// Max of CPU time (all threads of the process) and wall time since the budget began, seconds.
     double seconds = 0;
-    /// Resident memory of the whole process, what was there before included.
+    /// Resident memory of the whole process, including what it used before.
     std::size_t memoryBytes = 0;
-    /// Called every 20 ms or so on a thread of the budget's own; false cancels. Must not throw.
+    /// Called about every 20 ms on the budget's own thread; returning false cancels. Must not throw.
     std::function<bool(const Progress&)> proceed = {};
     /// A last resort: called once on the budget's own thread if the budget still lives at `overrun` times a
-    /// limit. `isEnding`: Exceeded was thrown, but not everything is given up yet; otherwise the work is in
-    /// somebody else's code.
+    /// limit. `isEnding`: Exceeded was thrown and the stack is still unwinding; otherwise the thread is
+    /// inside code of another library.
     std::function<void(const Exceeded&, bool isEnding)> overrunHandler = {};
 
     static constexpr double overrun = 1.08;
 };
 
-/// Limits that are being held. A thread of its own measures every few milliseconds.
+/// Enforces limits. A thread of its own measures every few milliseconds.
 class Budget {
 public:
     explicit Budget(Limits limits);
@@ -84,10 +84,10 @@ public:
     Budget& operator=(const Budget&) = delete;
 
     const Limits& limits() const { return limits_; }
-    /// Used up since it began.
+    /// Time used since the budget began, as Limits::seconds counts it.
     double seconds() const;
     bool isExceeded() const { return state_.load(std::memory_order_relaxed) != held; }
-    /// From another thread.
+    /// Cancels the work; may be called from any thread.
     void cancel() { stop(Limit::Cancelled); }
 
     // What follows is for the library itself.
@@ -107,7 +107,7 @@ private:
 
     const Limits limits_;
     const double startWall_, startCpu_;
-    std::atomic<int> state_{held};  ///< a Limit, once one is passed
+    std::atomic<int> state_{held};  ///< a Limit, once one is exceeded
     mutable std::atomic<const char*> stage_{""};
     mutable std::atomic<double> done_{0};
     double lastCall_ = 0;
@@ -120,22 +120,22 @@ private:
     std::thread watcher_;
 };
 
-/// Where a thread's work stands: the stage, and a way to ask for the place only when it is wanted.
+/// A thread's current work: the stage, and a function that finds the place only when it is needed.
 struct Work {
     const char* stage = "";
     Place (*place)(const void*) = nullptr;
     const void* of = nullptr;
 };
 
-/// What holds on a thread. For handing it on to threads that work for it.
+/// The budget and work of a thread, to be passed on to its worker threads.
 struct Context {
     Budget* budget = nullptr;
     Work work;
 };
 Context current();
 
-/// Holds a budget, or what held on another thread, on this thread for as long as it lives. Of several inside
-/// each other the innermost holds. The budget must outlive it.
+/// Applies a budget, or the context of another thread, to this thread while the Scope lives. The innermost of
+/// nested scopes applies. The budget must outlive the Scope.
 class Scope {
 public:
     explicit Scope(Budget& budget);
@@ -148,7 +148,7 @@ private:
     const Context before_;
 };
 
-/// Says what this thread works at for as long as it lives. `of` must live as long.
+/// Names this thread's work while the Stage lives. `of` must outlive it.
 class Stage {
 public:
     explicit Stage(const char* stage);
@@ -162,17 +162,17 @@ private:
     const Work before_;
 };
 
-/// Budgets in the process that are exceeded and not yet gone.
+/// Number of exceeded budgets in the process that still exist.
 inline constinit std::atomic<int> exceededBudgets{0};
 void throwIfExceeded();
 
-/// Throws Exceeded if this thread's budget is used up. One relaxed load: it may stand in any loop.
+/// Throws Exceeded if this thread's budget is exceeded. Costs one relaxed load, so any loop may call it.
 inline void check() {
     if (exceededBudgets.load(std::memory_order_relaxed) != 0) [[unlikely]]
         throwIfExceeded();
 }
 
-/// The same, for loops whose bodies take a nanosecond: looks every 4096th time.
+/// The same for loops whose bodies take a nanosecond: checks on every 4096th call.
 class Check {
 public:
     void operator()() {
@@ -184,11 +184,11 @@ private:
     unsigned count_ = 0;
 };
 
-/// Throws Exceeded if so much more memory would pass this thread's limit. To be asked before single large
-/// allocations; small sizes cost nothing.
+/// Throws Exceeded if allocating `bytes` more would exceed this thread's limit. Call it before a single large
+/// allocation; small sizes cost nothing.
 void need(std::size_t bytes);
 
-/// Tells this thread's budget which share of the stage is done.
+/// Reports the share of the stage that is done, in [0, 1], to this thread's budget.
 void progress(double done);
 
 /// Resident memory of this process in bytes, as the kernel says or, without /proc, as the allocator knows.

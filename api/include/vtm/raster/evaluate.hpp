@@ -1,6 +1,6 @@
 /// \file
-/// The CPU evaluator: the fragment shaders' twin, in the same single precision, for finding which
-/// side of the backend is wrong and for drawing where there is no GPU.
+/// The CPU evaluator: the counterpart of the fragment shaders, in the same single precision. It helps to
+/// locate faults in the backend and draws where there is no GPU.
 #pragma once
 
 #include <functional>
@@ -15,15 +15,15 @@
 
 namespace vtm::asset {
 
-/// The premultiplied colour of Asset::materials[material] at point p of its own space: the twin of its GLSL.
+/// Returns the premultiplied colour of Asset::materials[material] at point p of the material's space, as its
+/// GLSL does.
 using MaterialFunction = std::function<glm::vec4(std::uint32_t material, glm::vec2 p)>;
 
-/// Draws the asset on transparent black; materials in their fallback colours unless there is a function for
-/// them. Throws std::length_error if the view is beyond its limits.
+/// Draws the asset on transparent black. Materials get their fallback colours unless `materials` is set.
+/// Throws std::length_error if the view exceeds the limits in vtm/raster/view.hpp.
 image::Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials = {});
 
-/// The same as shaders draw it, which have nothing finer than quarters of pixels (docs/coverage.md, rough
-/// pixels).
+/// The same with the shaders' resolution of a quarter of a pixel (docs/coverage.md, rough pixels).
 image::Raster evaluateAsShaders(const AssetView& asset, const View& view,
                                 const MaterialFunction& materials = {});
 

@@ -1,5 +1,5 @@
 /// \file
-/// Which region holds a point: by the curves themselves, not by pixels.
+/// Finds the region that contains a point from the curves themselves, not from pixels.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace vtm::asset {
 
-/// The paint index at a point of the plane of an exact asset, picture units; 0 outside its maps. `asset` must
-/// be valid. In double precision: right unless the point is nearer to a boundary than rounding (some 2^-50 of
-/// the map's side, 2^-36 of a leaf's); there either side may be told. Throws std::invalid_argument in compat
-/// mode.
+/// Returns the paint index at a point of an exact asset, user units; 0 outside its maps. `asset` must be
+/// valid. In double precision: right unless the point is nearer to a boundary than rounding (some 2^-50 of
+/// the map's side, 2^-36 of a leaf's); there it may return either side. Throws std::invalid_argument in
+/// compat mode.
 std::uint32_t paintAt(const AssetView& asset, glm::dvec2 point);
 
 }  // namespace vtm::asset

@@ -20,7 +20,7 @@ struct PrefilterOptions {
     double squaresPerFootprint = 3.6;
     /// Upper limit of a side, texels; at most maxPyramidSide.
     std::uint32_t largestSide = 512;
-    /// 0: as many as there are cores. The result does not depend on it.
+    /// Number of threads; 0: one per core. The result does not depend on it.
     unsigned threads = 0;
 };
 
@@ -32,7 +32,7 @@ PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& option
 /// by the evaluator's rules (on a grid four times finer) for gradients, images and groups. Throws
 /// std::invalid_argument if an option is out of range.
 Prefilter buildPrefilter(const AssetView& asset, const PrefilterOptions& options = {});
-/// Of a given size. Throws std::invalid_argument if that is not allowed.
+/// Builds a pyramid of the given size. Throws std::invalid_argument if isPyramidSide rejects a side.
 Prefilter buildPrefilter(const AssetView& asset, PyramidSize size, unsigned threads = 0);
 
 // ---- Sampling -------------------------------------------------------------------------------------

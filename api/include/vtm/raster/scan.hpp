@@ -37,16 +37,17 @@ struct ColorRun {
     glm::vec4 color;
 };
 
-/// In which numbers the shares of regions in a pixel are added, and what comes out.
+/// The colour space in which coverage is accumulated, and of the result.
 enum class Sums {
     Encoded,  ///< c·a, sRGB-encoded, as evaluate() draws
-    Light     ///< lin(c)·a, of every region's colour: what covers half a pixel gives half the light
+    Light     ///< lin(c)·a, of every region's colour: half a pixel's coverage gives half the light
 };
 
-/// Of one asset; keeps what it needs of it. Safe to use from several threads at once.
+/// Draws one asset. Copies the data that it needs, so the asset may go. Safe to use from several threads at
+/// once.
 class Scanner {
 public:
-    /// `asset` must be valid; std::invalid_argument unless it is a sum of maps.
+    /// `asset` must be valid (asset::validate). Throws std::invalid_argument unless it is a sum of maps.
     explicit Scanner(const AssetView& asset, Sums sums = Sums::Encoded);
     /// Of planar maps (raster/planar_map.hpp) with the paints of `asset`, whose trees are not read.
     Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums = Sums::Encoded);

@@ -1,5 +1,5 @@
 /// \file
-/// Which part of a picture lands on which raster.
+/// The mapping from a picture to a raster.
 #pragma once
 
 #include <glm/mat3x2.hpp>
@@ -15,7 +15,7 @@ struct View {
     glm::dmat3x2 toPixels{1, 0, 0, 1, 0, 0};
 };
 
-/// The largest raster that engines accept, in pixels a side and in all.
+/// Max side of a raster in pixels, and max number of pixels in it.
 inline constexpr int maxViewSide = 16384;
 inline constexpr long long maxViewPixels = 1LL << 27;
 

@@ -13,13 +13,13 @@
 
 namespace vtm::scene {
 
-/// From (x, y), y downwards; of user units or of pixels.
+/// A rectangle with its min corner at (x, y), y downwards; in user units or pixels.
 struct Rect {
     double x = 0, y = 0, width = 0, height = 0;
 };
 
-/// What happens to a shape that is not the viewport's. The words are those of CSS's object-fit; SVG's are in
-/// brackets.
+/// How content is fitted into a viewport of another aspect. The names are those of CSS object-fit; SVG's are
+/// in brackets.
 enum class Fit {
     Contain,  ///< all of the content is seen, some of the viewport may be empty (meet)
     Cover,    ///< no viewport is left empty, some of the content may lie outside (slice)
@@ -33,7 +33,7 @@ struct Placement {
     double alignX = 0.5, alignY = 0.5;
 };
 
-/// Where content of that size lies in the viewport. All sizes must be above 0.
+/// Returns the rectangle of content of the given size in the viewport. All sizes must be above 0.
 Rect fittedRect(double contentWidth, double contentHeight, const Placement& placement, const Rect& viewport);
 
 /// Maps `content` to its place in the viewport.

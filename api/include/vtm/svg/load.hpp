@@ -16,13 +16,13 @@
 
 namespace vtm::svg {
 
-/// Where in which file. Lines and columns count from 1; 0 where unknown.
+/// A position in a file. Lines and columns count from 1; 0 means unknown.
 struct Location {
     std::string file;
     int line = 0, column = 0;
 };
 
-/// `file:line:column: what is wrong`. The document cannot be read at all.
+/// The document cannot be read. The message is `file:line:column: cause`.
 class ParseError : public Error {
 public:
     ParseError(Location where, const std::string& what);
@@ -81,13 +81,13 @@ struct Limits {
 
 struct Document {
     scene::Scene scene;  ///< valid (scene::validate)
-    /// Of Options::exportId: bounds, within the picture, of what it draws: of its outlines, with
-    /// as much room as strokes can need at joins and caps.
+    /// If Options::exportId is set: the bounds, clipped to the picture, of the exported element's outlines,
+    /// with enough room for the joins and caps of strokes.
     std::optional<scene::Rect> exported = {};
     std::vector<Warning> warnings;
 };
 
-/// Throws ParseError, also where Options::exportId names nothing that is drawn; and limits::Exceeded under a
+/// Throws ParseError, also if Options::exportId names nothing that is drawn, and limits::Exceeded under a
 /// budget (vtm/limits/limits.hpp). `bytes` may be gzip-compressed (SVGZ).
 Document load(std::span<const std::uint8_t> bytes, const Options& options = {});
 
