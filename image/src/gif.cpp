@@ -203,7 +203,7 @@ void readFrame(Reader& in, Bytes palette, int transparent, Bitmap& screen) {
         palette = local;
     const int literalBits = in.byte();
     if (literalBits < 1 || literalBits > 8)
-        throw CodecError("GIF: a code size that does not exist");
+        throw CodecError("GIF: invalid LZW code size");
     if (std::int64_t(frame.width) * frame.height > maxDecodedPixels)
         throw CodecError("GIF: the frame is too large");
     const std::vector<std::uint8_t> data = in.subBlocks();

@@ -25,7 +25,7 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
                                                    const Box& box) {
     const Expansion expansion(active_, clipPath);
     if (!expansion || !spend()) {
-        reporter_.warn(Kind::Reference, clipPath, "refers to itself in a circle");
+        reporter_.warn(Kind::Reference, clipPath, "refers to itself, directly or indirectly");
         return nullptr;
     }
     const Level level(*this, clipPath);

@@ -93,7 +93,7 @@ const Element* Converter::resource(std::string_view href, Tag tag, const Element
     const Element* element = tree_.byHref(href);
     if (element && element->tag == tag)
         return element;
-    reporter_.warn(Kind::Reference, user, fmt::format("\"{}\" does not name what it should here", href));
+    reporter_.warn(Kind::Reference, user, fmt::format("\"{}\" refers to an element of the wrong kind", href));
     return nullptr;
 }
 
@@ -103,7 +103,8 @@ bool Converter::filterAllowsDrawing(const Element& element, const Style& style) 
             return false;
         else if (!href)
             cursor.until(')');
-        reporter_.warn(Kind::Filter, element, "filters are not supported yet; it is drawn without");
+        reporter_.warn(Kind::Filter, element,
+                       "filters are not supported yet; the element is drawn without its filter");
     }
     return true;
 }

@@ -35,7 +35,7 @@ Bytes readResource(std::string_view href, const std::string& directory) {
     std::error_code none;
     // Reading a pipe or a device may never end.
     if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))
-        throw image::CodecError("is no regular file");
+        throw image::CodecError("is not a regular file");
     return image::readFile(file.string());
 }
 

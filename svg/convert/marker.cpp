@@ -79,7 +79,7 @@ void Converter::convertMarker(const Element& marker, const ContextElement& conte
     const Scope& shape = context.scope;
     const Expansion expansion(active_, marker);
     if (!expansion || !spend()) {
-        reporter_.warn(Kind::Reference, marker, "refers to itself in a circle");
+        reporter_.warn(Kind::Reference, marker, "refers to itself, directly or indirectly");
         return;
     }
     const Level level(*this, marker);

@@ -32,7 +32,7 @@ std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const
                                                    const Box& box) {
     const Expansion expansion(active_, element);
     if (!expansion || !spend()) {
-        reporter_.warn(Kind::Reference, element, "refers to itself in a circle");
+        reporter_.warn(Kind::Reference, element, "refers to itself, directly or indirectly");
         return nullptr;
     }
     const Level level(*this, element);

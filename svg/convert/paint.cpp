@@ -87,8 +87,9 @@ std::vector<const Element*> Converter::templateChain(const Element& server) {
         const bool fits = isPattern ? next->tag == Tag::Pattern
                                     : next->tag == Tag::LinearGradient || next->tag == Tag::RadialGradient;
         if (!fits || !seen.insert(next).second) {
-            reporter_.warn(Kind::Reference, server,
-                           fits ? "refers to itself in a circle" : "refers to an element of another kind");
+            reporter_.warn(
+                Kind::Reference, server,
+                fits ? "refers to itself, directly or indirectly" : "refers to an element of another kind");
             break;
         }
         limits::check();

@@ -86,7 +86,7 @@ std::shared_ptr<const scene::Group> Converter::patternContent(const Element& own
         return spend(found->second.visits) ? found->second.group : nullptr;
     const Expansion expansion(active_, owner);
     if (!expansion || !spend()) {
-        reporter_.warn(Kind::Reference, owner, "refers to itself in a circle");
+        reporter_.warn(Kind::Reference, owner, "refers to itself, directly or indirectly");
         return nullptr;
     }
     const Level level(*this, owner);

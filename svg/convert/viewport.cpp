@@ -137,7 +137,7 @@ void Converter::convertUse(const Element& element, const Scope& scope, Nodes& ou
     }
     const Expansion expansion(active_, *target);
     if (!expansion || isAncestorOf(*target, element)) {
-        reporter_.warn(Kind::Reference, element, "refers to itself in a circle; it is left out");
+        reporter_.warn(Kind::Reference, element, "refers to itself, directly or indirectly; it is left out");
         return;
     }
     const ContextElement context{element, scope, {}};

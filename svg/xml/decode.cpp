@@ -39,7 +39,7 @@ std::vector<std::uint8_t> gunzip(Bytes bytes, const std::string& fileName) {
         stream.avail_out = static_cast<uInt>(chunk.size());
         status = inflate(&stream, Z_NO_FLUSH);
         if (status != Z_OK && status != Z_STREAM_END)
-            throw ParseError({fileName}, "the compressed data is broken");
+            throw ParseError({fileName}, "the gzip data is corrupt");
         out.insert(out.end(), chunk.begin(), chunk.end() - static_cast<std::ptrdiff_t>(stream.avail_out));
         if (out.size() > Limits::maxBytes)
             throw ParseError({fileName}, "the unpacked file is too large");
