@@ -66,8 +66,8 @@ private:
     static constexpr double maxFitShare = 1.0 / 2, minFitShare = 1.0 / 8;
     static constexpr double usualBend = 1.5;  ///< one round; two or more are rare
 
-    /// Rounding vertices to even coordinates and stretching the picture (compiler/lower/lattice.hpp) move a point by at
-    /// most a step in each axis, clipping moves it by one along a border.
+    /// Rounding vertices to even coordinates and stretching the picture (compiler/lower/lattice.hpp) move a
+    /// point by at most a step in each axis, clipping moves it by one along a border.
     static double lattice(double bend) { return arcSteps + 2 * diagonal + 1 + bend; }
     double leafSteps(unsigned level) const { return std::ldexp(1.0, bits_ - 2 * static_cast<int>(level)); }
     /// Ends of pieces are rounded by half of 1/65535 of the leaf's side in each axis.
