@@ -4,7 +4,7 @@ import statistics
 
 import plot
 
-OTHER_PICTURE = 2.5  # rms from ours, as in bench/src/drawing.cpp: who draws something else is in no median
+OTHER_PICTURE = 2.5  # rms from ours, as in bench/reports/drawing.cpp: who draws something else is in no median
 NAMES = {"scan": "VTM, CPU", "gl": "VTM, as it is", "shaders": "VTM, shaders"}
 ORDER = ("scan", "gl", "shaders", "cairo", "librsvg", "resvg", "skia", "qt-raster", "qt-gl", "qt-gl-4")
 VIEWS = ("cold", "unchanged", "turning", "turning at 8x", "zoom path", "minified")

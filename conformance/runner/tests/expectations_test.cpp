@@ -1,10 +1,10 @@
-#include "conformance/runner/src/expectations.hpp"
+#include "conformance/runner/suite/expectations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "conformance/runner/src/suite.hpp"
+#include "conformance/runner/suite/suite.hpp"
 
 namespace vtm::conformance {
 namespace {

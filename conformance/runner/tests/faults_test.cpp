@@ -1,12 +1,12 @@
 // The comparator's own test: on cases of every picture suite, each mistake must be seen, and no mistake none.
 
-#include "conformance/runner/src/faults.hpp"
+#include "conformance/runner/judge/faults.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "conformance/runner/src/suite.hpp"
+#include "conformance/runner/suite/suite.hpp"
 
 namespace vtm::conformance {
 namespace {

@@ -1,4 +1,4 @@
-#include "conformance/runner/src/judge.hpp"
+#include "conformance/runner/judge/judge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "conformance/runner/src/report.hpp"
+#include "conformance/runner/report/report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "conformance/runner/src/suite.hpp"
+#include "conformance/runner/suite/suite.hpp"
 
 namespace vtm::conformance {
 namespace {

@@ -1,4 +1,4 @@
-#include "conformance/runner/src/run.hpp"
+#include "conformance/runner/run.hpp"
 
 #include <gtest/gtest.h>
 

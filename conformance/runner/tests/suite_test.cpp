@@ -1,5 +1,5 @@
-#include "conformance/runner/src/suite.hpp"
-#include "conformance/runner/src/views.hpp"
+#include "conformance/runner/suite/suite.hpp"
+#include "conformance/runner/suite/views.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,101 @@
+#include <vtm/compiler/compile.hpp>
+#include <vtm/gl/renderer.hpp>
+#include <vtm/raster/scan.hpp>
+#include "bench/engines/engine.hpp"
+#include "bench/measure/measure.hpp"
+
+namespace vtm::bench {
+namespace {
+
+asset::Asset assetOf(const File& file) { return compiler::compile(load(file)).asset; }
+
+gl::RendererOptions optionsOf(gl::Pixels pixels) {
+    gl::RendererOptions options;
+    options.pixels = pixels;
+    return options;
+}
+
+/// The asset on the GPU, into 8 bits of a framebuffer.
+class GlEngine : public Engine {
+public:
+    GlEngine(const std::string& name, const std::string& text, std::shared_ptr<gl::Context> context,
+             gl::Pixels pixels)
+        : Engine(name, text + " on " + context->renderer() + ", " + context->version()),
+          context_(std::move(context)),
+          renderer_(optionsOf(pixels)) {}
+
+    void load(const Picture& picture) override { texture_ = renderer_.upload(picture.asset); }
+
+    double draw(const asset::View& view) override {
+        return cpuTime([&] { renderer_.draw(*texture_, view); });
+    }
+
+    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+        std::optional<gl::Texture> texture;  // outlives the clock
+        return cpuTime([&] {
+            texture = renderer_.upload(assetOf(picture.file));
+            renderer_.draw(*texture, view);
+        });
+    }
+
+    image::Bitmap pixels(const asset::View& view) override {
+        return image::toBitmap(renderer_.render(*texture_, view));
+    }
+
+private:
+    std::shared_ptr<gl::Context> context_;
+    gl::Renderer renderer_;
+    std::optional<gl::Texture> texture_;
+};
+
+/// The CPU alone, into bytes.
+class ScanEngine : public Engine {
+public:
+    ScanEngine() : Engine("scan", "asset::Scanner, no GL") {}
+
+    void load(const Picture& picture) override { scanner_.emplace(picture.asset); }
+
+    double draw(const asset::View& view) override {
+        prepareTarget(view);
+        return cpuTime([&] { draw(*scanner_, view); });
+    }
+
+    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+        prepareTarget(view);
+        return cpuTime([&] { draw(asset::Scanner(assetOf(picture.file)), view); });
+    }
+
+    image::Bitmap pixels(const asset::View& view) override { return image::toBitmap(scanner_->draw(view)); }
+
+private:
+    void prepareTarget(const asset::View& view) {
+        bytes_.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
+    }
+
+    void draw(const asset::Scanner& scanner, const asset::View& view) {
+        scanner.draw(view, {bytes_.data(), std::size_t(view.width) * 4});
+    }
+
+    std::optional<asset::Scanner> scanner_;
+    std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace
+
+Engines glEngines() {
+    Engines engines;
+    const auto context = std::make_shared<gl::Context>();
+    engines.push_back(
+        std::make_unique<GlEngine>("shaders", "gl::Renderer, the shaders", context, gl::Pixels::Shaders));
+    engines.push_back(
+        std::make_unique<GlEngine>("gl", "gl::Renderer as it is", context, gl::Pixels::Automatic));
+    return engines;
+}
+
+Engines scanEngines() {
+    Engines engines;
+    engines.push_back(std::make_unique<ScanEngine>());
+    return engines;
+}
+
+}  // namespace vtm::bench

@@ -1,0 +1,87 @@
+#include "bench/measure/measure.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <string>
+
+namespace vtm::bench {
+namespace {
+
+double milliseconds(clockid_t clock) {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
+}
+
+}  // namespace
+
+/// Of /proc, since getrusage keeps the peak of the program that ran in the process before.
+double peakBytes() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:"))
+            return std::stod(line.substr(6)) * 1024;  // Linux counts kibibytes
+    return 0;
+}
+
+double cpuMilliseconds() { return milliseconds(CLOCK_PROCESS_CPUTIME_ID); }
+double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }
+
+double quantile(std::vector<double> values, double share) {
+    std::ranges::sort(values);
+    return values.empty() ? 0 : values[std::size_t(share * double(values.size() - 1) + 0.5)];
+}
+
+double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+Paired pairwise(const std::function<void()>& first, const std::function<void()>& second, double budget,
+                int maximum) {
+    first();
+    second();
+    std::vector<double> firsts, seconds, ratios;
+    for (double spent = 0; int(ratios.size()) < 5 || (spent < budget && int(ratios.size()) < maximum);) {
+        firsts.push_back(cpuTime(first));
+        seconds.push_back(cpuTime(second));
+        ratios.push_back(seconds.back() / firsts.back());
+        spent += firsts.back() + seconds.back();
+    }
+    return {median(firsts),         median(seconds),        median(ratios),
+            quantile(ratios, 0.25), quantile(ratios, 0.75), int(ratios.size())};
+}
+
+std::optional<ChildUse> inChild(const std::function<void()>& prepare, const std::function<double()>& work) {
+    int ends[2];
+    if (pipe(ends) != 0)
+        return std::nullopt;
+    const pid_t child = fork();
+    if (child < 0)
+        return std::nullopt;
+    if (child == 0) {
+        close(ends[0]);
+        const double before = peakBytes();
+        ChildUse use;
+        try {
+            prepare();
+            const double cpu = cpuMilliseconds(), wall = wallMilliseconds();
+            use.result = work();
+            use.cpu = cpuMilliseconds() - cpu;
+            use.wall = wallMilliseconds() - wall;
+        } catch (...) {
+            _exit(1);
+        }
+        use.peakBytes = peakBytes() - before;
+        _exit(write(ends[1], &use, sizeof use) == ssize_t(sizeof use) ? 0 : 1);
+    }
+    close(ends[1]);
+    ChildUse use;
+    const bool complete = read(ends[0], &use, sizeof use) == ssize_t(sizeof use);
+    close(ends[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return complete && status == 0 ? std::optional(use) : std::nullopt;
+}
+
+}  // namespace vtm::bench
