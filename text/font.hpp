@@ -25,11 +25,11 @@ using GlyphId = std::uint32_t;
 using Tag = std::uint32_t;
 
 struct FontMetrics {
-    double ascent, descent;                          ///< above and below the baseline, both positive as a rule
-    double xHeight, capHeight;                       ///< above the baseline; estimated where the font is silent
-    double underlineOffset, underlineThickness;      ///< middle of the line, below the baseline positive
-    double strikeoutOffset, strikeoutThickness;      ///< middle of the line, above the baseline positive
-    double subscriptOffset, superscriptOffset;       ///< below and above the baseline, both positive as a rule
+    double ascent, descent;                      ///< above and below the baseline, both positive as a rule
+    double xHeight, capHeight;                   ///< above the baseline; estimated where the font is silent
+    double underlineOffset, underlineThickness;  ///< middle of the line, below the baseline positive
+    double strikeoutOffset, strikeoutThickness;  ///< middle of the line, above the baseline positive
+    double subscriptOffset, superscriptOffset;   ///< below and above the baseline, both positive as a rule
 };
 
 /// A colour glyph that is an SVG document (OpenType's `SVG ` table): the element of id `glyphN` for glyph N,

@@ -27,7 +27,6 @@ struct Span {
     std::vector<Feature> features;
     std::string language;
     TextOrientation orientation = TextOrientation::Mixed;  ///< in vertical lines
-    bool capitals = false;  ///< small capitals are to be made from capitals where the font has no feature for them
 };
 
 /// A line. Explicit embeddings and overrides are control characters in the text.
@@ -42,8 +41,8 @@ struct Line {
 struct Glyph {
     std::shared_ptr<const Font> font;
     GlyphId id = 0;
-    double x = 0, y = 0;    ///< from the cluster's pen position to the glyph's origin
-    double advance = 0;     ///< along the line
+    double x = 0, y = 0;  ///< from the cluster's pen position to the glyph's origin
+    double advance = 0;   ///< along the line
 };
 
 /// Glyphs that belong together: a character with its marks, a ligature, an Indic syllable.
