@@ -52,7 +52,11 @@ struct Cluster {
     double advance = 0;                ///< along the line, ems: the sum of its glyphs'
     std::uint8_t level = 0;            ///< bidi embedding level; odd: right to left
     bool sideways = false;             ///< in a vertical line: turned 90° clockwise
+    bool cursive = false;              ///< of a script whose letters join, which letter-spacing would tear
 };
+
+/// A combining mark or a joiner, which belongs to the character before it.
+bool isMark(char32_t character);
 
 /// Clusters from the line's visual start to its end; together they hold every character once. Characters
 /// without a glyph in any font are the primary font's .notdef.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -14,10 +15,12 @@
 
 #include <vtm/limits/limits.hpp>
 #include <vtm/scene/scene.hpp>
+#include "svg/convert/scope.hpp"
 #include "svg/css/style.hpp"
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/geometry/shapes.hpp"
 #include "svg/geometry/viewbox.hpp"
+#include "svg/text/layout.hpp"
 #include "svg/xml/element.hpp"
 #include "svg/xml/report.hpp"
 
@@ -31,17 +34,6 @@ struct Budget {
     std::int64_t imagePixels = 1 << 26;     ///< still to be decoded
     int imageDepth = 0;                     ///< images in images around this document
     int level = 0;                          ///< elements and references that are being followed
-};
-
-struct ContextElement;
-
-/// Where an element stands.
-struct Scope {
-    Style style;
-    scene::Affine transform = scene::identity;  ///< user space to picture
-    Viewport viewport;
-    const ContextElement* context = nullptr;  ///< what context-fill and context-stroke refer to
-    int depth = 0;                            ///< elements around it, `use` expanded
 };
 
 /// The element whose paints `context-fill` and `context-stroke` stand for: a use or a marked shape.
@@ -178,6 +170,19 @@ private:
     std::shared_ptr<const scene::Mask> mask(const Element& maskElement, const Scope& scope, const Box& box);
     std::shared_ptr<const scene::Mask> maskOf(const Element& element, const Scope& scope, const Box& box);
 
+    // text_content.cpp, text.cpp
+    class TextCollector;
+    TextContent textContent(const Element& text, const Scope& scope);
+    text::FontSet& fonts();
+    void warnOfMissingFamilies(const TextContent& content);
+    void convertText(const Element& element, const Scope& scope, Nodes& out);
+    void paintOutline(const TextElement& text, scene::Path outline, const Box& box, Nodes& out);
+    void paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters, const Box& box,
+                       Nodes& out);
+    void fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
+    bool paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
+    void addClipText(const Element& element, const Scope& parent, scene::Clip& clip);
+
     // marker.cpp
     void convertMarkers(const Element& element, const Scope& scope, CachedShape& shape, Nodes& out);
     void convertMarker(const Element& marker, const ContextElement& context, scene::Point at, double degrees,
@@ -245,6 +250,8 @@ private:
     std::unordered_map<const Element*, std::vector<scene::GradientStop>> stops_;  ///< by their gradient
     std::unordered_map<std::string_view, ImageContent> images_;
     std::unordered_set<const Element*> active_;
+    std::unique_ptr<text::FontSet> fonts_;             ///< null until there is text
+    std::unordered_set<std::string> missingFamilies_;  ///< those that were warned of
     std::vector<Outline> outlines_;
     int outlineListeners_ = 0;
     std::optional<limits::Place> standsFor_;

@@ -1,0 +1,168 @@
+// Text: glyphs as shapes. Source: SVG 2 chapter 11.
+
+#include <fmt/format.h>
+
+#include "svg/convert/converter.hpp"
+#include "svg/css/text_values.hpp"
+#include "svg/text/layout.hpp"
+
+namespace vtm::svg {
+namespace {
+
+using scene::Path;
+
+void append(Path& path, const Path& more) { path.insert(path.end(), more.begin(), more.end()); }
+
+/// The box round the clusters' cells: what gradients on text refer to (SVG 2 section 8.10).
+Path cellsOf(const TextLayout& layout) {
+    Path cells;
+    for (const PlacedCluster& cluster : layout.clusters) {
+        const Box& c = cluster.cell;
+        std::vector<scene::Point> corners;
+        for (const scene::Point corner :
+             {c.min, scene::Point(c.max.x, c.min.y), c.max, scene::Point(c.min.x, c.max.y)})
+            corners.push_back(scene::apply(cluster.frame, corner));
+        append(cells, scene::polygon(corners));
+    }
+    return cells;
+}
+
+bool isPlain(PaintKind kind) { return kind == PaintKind::Color || kind == PaintKind::CurrentColor; }
+
+}  // namespace
+
+text::FontSet& Converter::fonts() {
+    if (!fonts_)
+        fonts_ = std::make_unique<text::FontSet>(options_.fonts);
+    return *fonts_;
+}
+
+void Converter::warnOfMissingFamilies(const TextContent& content) {
+    for (const TextElement& element : content.elements) {
+        const std::vector<std::string> families = familiesIn(element.scope.style.fontFamily);
+        const bool found =
+            families.empty() || std::any_of(families.begin(), families.end(),
+                                            [&](const auto& family) { return fonts().hasFamily(family); });
+        if (!found && missingFamilies_.insert(families.front()).second)
+            reporter_.warn(
+                Kind::Font, *element.element,
+                fmt::format("there is no font of the family \"{}\"; another one is used", families.front()));
+    }
+}
+
+void Converter::convertText(const Element& element, const Scope& scope, Nodes& out) {
+    const TextContent content = textContent(element, scope);
+    const TextLayout layout = layOut(content, fonts());
+    if (layout.clusters.empty())
+        return;
+    warnOfMissingFamilies(content);
+    const auto cells = std::make_shared<const Path>(cellsOf(layout));
+    const Box box = boundingBox(*cells, scene::identity);
+    if (!isWithinReach(geometry::mapped(box, scope.transform))) {
+        reporter_.warn(Kind::Limit, element, "lies too far away; it is left out");
+        return;
+    }
+    if (outlineListeners_ > 0)
+        outlines_.push_back({cells, scope.transform});
+    const auto drawLines = [&](bool through) {
+        for (const PlacedLine& line : layout.lines)
+            if ((line.line == LineThrough) == through)
+                paintOutline(content.elements[static_cast<std::size_t>(line.element)], line.outline, box,
+                             out);
+    };
+    drawLines(false);
+    for (std::size_t first = 0, end = 0; first < layout.clusters.size(); first = end) {
+        while (end < layout.clusters.size() && layout.clusters[end].element == layout.clusters[first].element)
+            ++end;
+        paintClusters(content.elements[static_cast<std::size_t>(layout.clusters[first].element)],
+                      std::span(layout.clusters).subspan(first, end - first), box, out);
+    }
+    drawLines(true);
+}
+
+/// An outline in the user space of the text with the element's fill and stroke.
+void Converter::paintOutline(const TextElement& text, Path outline, const Box& box, Nodes& out) {
+    if (!text.scope.style.visible || outline.empty())
+        return;
+    CachedShape shape{{}, 0, std::make_shared<const Path>(std::move(outline)), box, {}};
+    for (const PaintStage stage : text.scope.style.paintOrder)
+        if (stage == PaintStage::Fill)
+            fillShape(*text.element, text.scope, shape, out);
+        else if (stage == PaintStage::Stroke)
+            strokeShape(*text.element, text.scope, shape, out);
+}
+
+void Converter::paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters,
+                              const Box& box, Nodes& out) {
+    if (!text.scope.style.visible)
+        return;
+    const Style& style = text.scope.style;
+    Path merged;  // all outlines, in the user space of the text
+    const bool mergesFill = !isPlain(style.fill.kind), strokes = style.stroke.kind != PaintKind::None;
+    Nodes colored;
+    std::vector<const PlacedGlyph*> plain;
+    for (const PlacedCluster& cluster : clusters)
+        for (const PlacedGlyph& glyph : cluster.glyphs) {
+            if (paintColorGlyph(text, glyph, colored))
+                continue;
+            const auto outline = glyph.font->outlineOf(glyph.id);
+            if (!outline)
+                continue;
+            plain.push_back(&glyph);
+            if (mergesFill || strokes)
+                append(merged, mapPath(glyph.transform, *outline));
+        }
+    CachedShape shape{{}, 0, std::make_shared<const Path>(std::move(merged)), box, {}};
+    for (const PaintStage stage : style.paintOrder)
+        if (stage == PaintStage::Fill && !mergesFill)
+            for (const PlacedGlyph* glyph : plain)
+                fillGlyph(text, *glyph, out);
+        else if (stage == PaintStage::Fill && !shape.path->empty())
+            fillShape(*text.element, text.scope, shape, out);
+        else if (stage == PaintStage::Stroke && !shape.path->empty())
+            strokeShape(*text.element, text.scope, shape, out);
+    out.insert(out.end(), std::make_move_iterator(colored.begin()), std::make_move_iterator(colored.end()));
+}
+
+/// With a colour: the outline is shared by all instances of the glyph.
+void Converter::fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out) {
+    const Style& style = text.scope.style;
+    scene::Item item;
+    item.path = glyph.font->outlineOf(glyph.id);
+    item.transform = scene::compose(text.scope.transform, glyph.transform);
+    if (style.fillOpacity <= 0 || !scene::inverse(item.transform))
+        return;
+    item.geometry = scene::FillRule::NonZero;
+    item.paint = style.fill.kind == PaintKind::CurrentColor ? style.color : style.fill.color;
+    item.opacity = static_cast<float>(style.fillOpacity);
+    item.place = placeOf(*text.element);
+    out.push_back({std::move(item)});
+}
+
+/// False for glyphs without colours of their own.
+bool Converter::paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes&) {
+    return false && text.element && glyph.font;
+}
+
+void Converter::addClipText(const Element& element, const Scope& parent, scene::Clip& clip) {
+    const std::optional<Scope> scope = spend() ? enter(element, parent) : std::nullopt;
+    if (!scope)
+        return;
+    const TextContent content = textContent(element, *scope);
+    const TextLayout layout = layOut(content, fonts());
+    const Box box = boundingBox(cellsOf(layout), scene::identity);
+    const auto own = clipOf(element, *scope, box);
+    const limits::Place place = placeOf(element);
+    const auto add = [&](std::shared_ptr<const Path> path, const scene::Affine& transform) {
+        if (path && scene::inverse(transform))
+            clip.shapes.push_back({std::move(path), transform, scene::FillRule::NonZero, own, place});
+    };
+    for (const PlacedCluster& cluster : layout.clusters)
+        if (content.elements[static_cast<std::size_t>(cluster.element)].scope.style.visible)
+            for (const PlacedGlyph& glyph : cluster.glyphs)
+                add(glyph.font->outlineOf(glyph.id), scene::compose(scope->transform, glyph.transform));
+    for (const PlacedLine& line : layout.lines)
+        add(std::make_shared<const Path>(line.outline), scope->transform);
+}
+
+}  // namespace vtm::svg
