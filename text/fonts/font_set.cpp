@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "text/fonts/axes.hpp"
+#include "text/fonts/document_fonts.hpp"
 #include "text/fonts/library.hpp"
 
 namespace vtm::text {
@@ -45,7 +46,13 @@ public:
 
     const Faces& facesOf(const std::string& family) const {
         const std::string* const named = generic(family);
-        return library_->family(named ? *named : family);
+        const Faces& own = own_.family(family);
+        return named || own.empty() ? library_->family(named ? *named : family) : own;
+    }
+
+    void add(const FontFace& face, std::span<const std::uint8_t> bytes) {
+        own_.add(face, bytes);
+        answers_.clear();
     }
 
     bool hasFamily(const std::string& family) const { return generic(family) || !facesOf(family).empty(); }
@@ -170,11 +177,16 @@ private:
 
     const FontOptions options_;
     const std::shared_ptr<const FontLibrary> library_;
+    DocumentFonts own_;
     std::map<decltype(keyOf({})), Answer> answers_;
 };
 
 FontSet::FontSet(const FontOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
 FontSet::~FontSet() = default;
+
+void FontSet::add(const FontFace& face, std::span<const std::uint8_t> bytes) {
+    implementation_->add(face, bytes);
+}
 
 bool FontSet::hasFamily(const std::string& family) const { return implementation_->hasFamily(family); }
 

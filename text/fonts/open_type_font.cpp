@@ -154,6 +154,8 @@ FontMetrics OpenTypeFont::readMetrics() const {
     }
     made.xHeight = positive(HB_OT_METRICS_TAG_X_HEIGHT, heightOf('x', xHeight * em));
     made.capHeight = positive(HB_OT_METRICS_TAG_CAP_HEIGHT, heightOf('H', capHeight * em));
+    // post and OS/2 give the lines' upper edges. CSS leaves `auto` positions open; lines are centred there,
+    // as the SVG test suite has them.
     made.underlineThickness = positive(HB_OT_METRICS_TAG_UNDERLINE_SIZE, thickness * em);
     made.underlineOffset = -metric(HB_OT_METRICS_TAG_UNDERLINE_OFFSET).value_or(-underline * em);
     made.strikeoutThickness = positive(HB_OT_METRICS_TAG_STRIKEOUT_SIZE, made.underlineThickness);
