@@ -90,14 +90,15 @@ public:
     std::vector<PlacedLine> finish() { return std::move(made_); }
 
 private:
-    /// Along the clusters in the element, at its own baseline.
+    /// Along the clusters in the element. Subscripts and superscripts in it do not move its lines, their
+    /// alignment does.
     std::vector<Segment> segmentsOf(std::size_t element) const {
         const ElementFont& font = fonts_[element];
         std::vector<Segment> segments;
         for (const PlacedCluster& cluster : clusters_) {
             if (!isAround(content_, element, cluster.element))
                 continue;
-            const double down = font.baseline - fonts_[static_cast<std::size_t>(cluster.element)].baseline +
+            const double down = font.shift - fonts_[static_cast<std::size_t>(cluster.element)].shift +
                                 (vertical_ ? font.central() : 0);
             segments.push_back(
                 {scene::compose(cluster.frame, scene::translation(0, down)), cluster.cell.max.x});

@@ -101,7 +101,8 @@ std::vector<ElementFont> elementFonts(const std::vector<TextElement>& elements, 
         const bool aligned = style.alignmentBaseline != Baseline::Auto;
         const bool horizontal = elements.front().scope.style.writingMode == WritingMode::Horizontal;
         const Baseline line = aligned ? style.alignmentBaseline : style.dominantBaseline;
-        font.baseline = shifts.back() + (horizontal ? heightOf(line, font) : 0);
+        font.shift = shifts.back();
+        font.alignment = horizontal ? heightOf(line, font) : 0;
         made.push_back(std::move(font));
     }
     return made;

@@ -191,7 +191,7 @@ private:
     /// The frame of a cluster on the straight line: at its element's baseline, turned by `rotate`.
     scene::Affine lineFrame(const ShapedCluster& cluster) const {
         const double degrees = content_.characters[cluster.first].rotate + (vertical_ ? 90 : 0);
-        const double down = fontOf(cluster).baseline;
+        const double down = fontOf(cluster).baseline();
         const glm::dvec2 at = cluster.at + (vertical_ ? glm::dvec2(-down, 0) : glm::dvec2(0, down));
         return scene::compose(scene::translation(at.x, at.y), rotation(degrees));
     }
@@ -212,7 +212,7 @@ private:
         const glm::dvec2 down(-place.direction.y, place.direction.x);
         const glm::dvec2 origin =
             place.at - place.direction * (cluster.glyphAdvance / 2) +
-            down * (fontOf(cluster).baseline + (vertical_ ? -cluster.at.x : cluster.at.y));
+            down * (fontOf(cluster).baseline() + (vertical_ ? -cluster.at.x : cluster.at.y));
         const scene::Affine frame{place.direction.x, place.direction.y, down.x, down.y, origin.x, origin.y};
         return scene::compose(frame, rotation(content_.characters[cluster.first].rotate));
     }
