@@ -52,10 +52,14 @@ void Converter::warnOfMissingFamilies(const TextContent& content) {
 
 void Converter::convertText(const Element& element, const Scope& scope, Nodes& out) {
     const TextContent content = textContent(element, scope);
+    if (content.characters.empty())
+        return;
+    if (!fonts().primary({}))
+        return reporter_.warn(Kind::Font, element, "there are no fonts; it is left out");
+    warnOfMissingFamilies(content);
     const TextLayout layout = layOut(content, fonts());
     if (layout.clusters.empty())
         return;
-    warnOfMissingFamilies(content);
     const auto cells = std::make_shared<const Path>(cellsOf(layout));
     const Box box = boundingBox(*cells, scene::identity);
     if (!isWithinReach(geometry::mapped(box, scope.transform))) {
