@@ -176,7 +176,7 @@ private:
     text::FontSet& fonts();
     void warnOfMissingFamilies(const TextContent& content);
     void convertText(const Element& element, const Scope& scope, Nodes& out);
-    void paintOutline(const TextElement& text, scene::Path outline, const Box& box, Nodes& out);
+    void paintLine(const TextContent& content, const PlacedLine& line, const Box& box, Nodes& out);
     void paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters, const Box& box,
                        Nodes& out);
     void fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);

@@ -52,10 +52,14 @@ void Converter::warnOfMissingFamilies(const TextContent& content) {
 
 void Converter::convertText(const Element& element, const Scope& scope, Nodes& out) {
     const TextContent content = textContent(element, scope);
+    if (content.characters.empty())
+        return;
+    if (!fonts().primary({}))
+        return reporter_.warn(Kind::Font, element, "there are no fonts; it is left out");
+    warnOfMissingFamilies(content);
     const TextLayout layout = layOut(content, fonts());
     if (layout.clusters.empty())
         return;
-    warnOfMissingFamilies(content);
     const auto cells = std::make_shared<const Path>(cellsOf(layout));
     const Box box = boundingBox(*cells, scene::identity);
     if (!isWithinReach(geometry::mapped(box, scope.transform))) {
@@ -67,8 +71,7 @@ void Converter::convertText(const Element& element, const Scope& scope, Nodes& o
     const auto drawLines = [&](bool through) {
         for (const PlacedLine& line : layout.lines)
             if ((line.line == LineThrough) == through)
-                paintOutline(content.elements[static_cast<std::size_t>(line.element)], line.outline, box,
-                             out);
+                paintLine(content, line, box, out);
     };
     drawLines(false);
     for (std::size_t first = 0, end = 0; first < layout.clusters.size(); first = end) {
@@ -80,16 +83,18 @@ void Converter::convertText(const Element& element, const Scope& scope, Nodes& o
     drawLines(true);
 }
 
-/// An outline in the user space of the text with the element's fill and stroke.
-void Converter::paintOutline(const TextElement& text, Path outline, const Box& box, Nodes& out) {
-    if (!text.scope.style.visible || outline.empty())
+/// With the fill and stroke of the element whose line it is.
+void Converter::paintLine(const TextContent& content, const PlacedLine& line, const Box& box, Nodes& out) {
+    const Scope& scope = content.elements[line.element].scope;
+    const Element& element = *content.elements[line.element].element;
+    if (!scope.style.visible)
         return;
-    CachedShape shape{{}, 0, std::make_shared<const Path>(std::move(outline)), box, {}};
-    for (const PaintStage stage : text.scope.style.paintOrder)
+    CachedShape shape{{}, 0, std::make_shared<const Path>(line.outline), box, {}};
+    for (const PaintStage stage : scope.style.paintOrder)
         if (stage == PaintStage::Fill)
-            fillShape(*text.element, text.scope, shape, out);
+            fillShape(element, scope, shape, out);
         else if (stage == PaintStage::Stroke)
-            strokeShape(*text.element, text.scope, shape, out);
+            strokeShape(element, scope, shape, out);
 }
 
 void Converter::paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters,

@@ -50,10 +50,6 @@ std::vector<double> readAngles(std::string_view text) {
     return cursor.atEnd() ? angles : std::vector<double>{};
 }
 
-double spacing(Length length, double fontSize) {
-    return length.percent ? length.value / 100 * fontSize : length.value;
-}
-
 }  // namespace
 
 class Converter::TextCollector {
@@ -120,9 +116,16 @@ private:
         if (!inner)
             return;
         if (child.tag == Tag::TextPath && !addPath(child, *inner))
-            return;
+            return separate(child, index);
         visit(child, *inner, index,
               child.tag == Tag::TextPath ? static_cast<int>(content_.paths.size()) - 1 : path);
+    }
+
+    /// The characters of an element that is not rendered still part the white space around them.
+    void separate(const Element& element, int index) {
+        for (const Element* child : element.children)
+            if (child->tag == Tag::CharacterData)
+                appendText(child->text, index, false);
     }
 
     TextElement textElement(const Element& element, const Scope& scope, int parent, int path) const {
@@ -135,8 +138,11 @@ private:
         if (made.language.empty())
             made.language = converter_.options_.language;
         const Style& style = scope.style;
-        made.letterSpacing = spacing(style.letterSpacing, style.fontSize);
-        made.wordSpacing = spacing(style.wordSpacing, style.fontSize);
+        made.lines = scope.style.textLines;
+        for (const Element* e = parent < 0 ? element.parent : nullptr; e; e = e->parent)
+            made.lines |= converter_.styleOf(*e).textLines;
+        made.letterSpacing = resolve(style.letterSpacing, Axis::X, scope.viewport);
+        made.wordSpacing = resolve(style.wordSpacing, Axis::X, scope.viewport);
         const auto length = converter_.lengths(element, scope).length("textLength", Axis::X);
         if (length && *length >= 0)
             made.textLength = length;
@@ -144,20 +150,20 @@ private:
         return made;
     }
 
-    void appendText(std::string_view text, int index) {
+    void appendText(std::string_view text, int index, bool rendered = true) {
         const TextElement& element = at(index);
         const bool preserve = inheritedAttribute(*element.element, {"xml:space"}) == "preserve";
         appendCharacters(
             text, index,
             element.scope.style.whiteSpace.value_or(preserve ? WhiteSpace::Preserve : WhiteSpace::Collapse),
-            raw_);
+            rendered, raw_);
     }
 
     /// All characters in the element that a `tref` names.
     void appendReferenced(const Element& tref, int index) {
         const Element* target = converter_.tree_.byHref(hrefOf(tref).value_or(std::string_view{}));
-        if (!target)
-            return converter_.reporter_.warn(Kind::Reference, tref, "refers to nothing");
+        if (!target || target->tag == Tag::Unknown || target->tag == Tag::Foreign)
+            return converter_.reporter_.warn(Kind::Reference, tref, "does not refer to an element of SVG");
         appendCharactersIn(*target, index);
     }
 
@@ -213,6 +219,7 @@ private:
     /// The lists of one element, on the characters in it. Those of elements in it replace them later.
     void position(const Extent& extent, const std::vector<std::size_t>& index) {
         const TextElement& text = at(extent.element);
+        const std::size_t first = index[extent.first], count = index[extent.end] - first;
         if (text.element->tag == Tag::TextPath || text.element->tag == Tag::A)
             return;
         const Units units = converter_.unitsFor(text.scope.style);
@@ -221,7 +228,6 @@ private:
         };
         const auto x = lengths("x", Axis::X), y = lengths("y", Axis::Y), dx = lengths("dx", Axis::X),
                    dy = lengths("dy", Axis::Y), rotate = readAngles(text.element->get("rotate"));
-        const std::size_t first = index[extent.first], count = index[extent.end] - first;
         for (std::size_t i = 0; i < count; ++i) {
             TextCharacter& character = content_.characters[first + i];
             if (i < x.size())

@@ -78,7 +78,7 @@ void copyFontVariant(Style& to, const Style& from) { to.fontVariants = from.font
 
 template <VariantGroup Group>
 Property variantProperty(std::string_view name) {
-    return {name, true, true, applyVariants<Group>, copyVariants<Group>};
+    return {name, false, true, applyVariants<Group>, copyVariants<Group>};
 }
 
 template <class Part>
@@ -160,9 +160,9 @@ std::vector<Property> makeTable() {
         property<&TextStyle::fontStretch, parseFontStretch>("font-stretch"),
         property<&TextStyle::fontSlant, parseFontStyle>("font-style"),
         property<&TextStyle::fontSizeAdjust, parseFontSizeAdjust>("font-size-adjust"),
-        property<&TextStyle::fontFeatures, parseFontFeatures>("font-feature-settings"),
-        property<&TextStyle::fontVariations, parseFontVariations>("font-variation-settings"),
-        property<&TextStyle::kerning, parseFontKerning>("font-kerning"),
+        property<&TextStyle::fontFeatures, parseFontFeatures>("font-feature-settings", false),
+        property<&TextStyle::fontVariations, parseFontVariations>("font-variation-settings", false),
+        property<&TextStyle::kerning, parseFontKerning>("font-kerning", false),
         {"font-variant", true, true, applyFontVariant, copyFontVariant},
         variantProperty<VariantGroup::Ligatures>("font-variant-ligatures"),
         variantProperty<VariantGroup::Caps>("font-variant-caps"),
@@ -175,7 +175,7 @@ std::vector<Property> makeTable() {
         property<&TextStyle::anchor, parseTextAnchor>("text-anchor"),
         property<&TextStyle::dominantBaseline, parseDominantBaseline>("dominant-baseline"),
         property<&TextStyle::writingMode, parseWritingMode>("writing-mode"),
-        property<&TextStyle::textOrientation, parseTextOrientation>("text-orientation"),
+        property<&TextStyle::textOrientation, parseTextOrientation>("text-orientation", false),
         property<&TextStyle::textOrientation, parseGlyphOrientation>("glyph-orientation-vertical"),
         property<&TextStyle::rightToLeft, parseDirection>("direction"),
         property<&TextStyle::whiteSpace, parseWhiteSpace>("white-space"),

@@ -138,10 +138,22 @@ std::optional<ShapedCluster> fromLine(text::Cluster& cluster, const LineBuilder&
     made.chunk = chunk;
     made.glyphs = std::move(cluster.glyphs);
     made.sideways = cluster.sideways;
-    made.advance = cluster.advance * fonts[static_cast<std::size_t>(character.element)].size;
+    made.glyphAdvance = cluster.advance * fonts[static_cast<std::size_t>(character.element)].size;
+    made.advance = made.glyphAdvance + (isWordSeparator(character.code) ? element.wordSpacing : 0);
     made.advance += cluster.cursive ? 0 : element.letterSpacing;
-    made.advance += isWordSeparator(character.code) ? element.wordSpacing : 0;
     return made;
+}
+
+/// CSS Text 4 section 8.2: none after the last character.
+void removeLastLetterSpacing(std::vector<ShapedCluster>& clusters, std::size_t chunkStart,
+                             const TextContent& content) {
+    const auto last =
+        std::max_element(clusters.begin() + static_cast<std::ptrdiff_t>(chunkStart), clusters.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+    if (last == clusters.end())
+        return;
+    const bool spaced = last->advance != last->glyphAdvance;
+    last->advance -= spaced ? content.elements[static_cast<std::size_t>(last->element)].letterSpacing : 0;
 }
 
 }  // namespace
@@ -157,9 +169,11 @@ std::vector<ShapedCluster> shapeChunks(const TextContent& content,
             builder.add(end++);
         while (end < content.characters.size() && !startsChunk(content, end));
         builder.finish();
+        const std::size_t start = clusters.size();
         for (text::Cluster& cluster : text::shape(builder.line(), fonts))
             if (auto made = fromLine(cluster, builder, content, elementFonts, chunk))
                 clusters.push_back(std::move(*made));
+        removeLastLetterSpacing(clusters, start, content);
     }
     return clusters;
 }

@@ -18,9 +18,10 @@ struct ShapedCluster {
     std::size_t chunk = 0;
     std::vector<text::Glyph> glyphs;
     bool sideways = false;
-    double advance = 0;  ///< user units, letter-spacing and word-spacing in it
-    double stretch = 1;  ///< of glyphs along the line
-    glm::dvec2 at{0};    ///< the pen, user units; along the path for text on a path
+    double advance = 0;       ///< user units, letter-spacing and word-spacing in it
+    double glyphAdvance = 0;  ///< without them
+    double stretch = 1;       ///< of glyphs along the line
+    glm::dvec2 at{0};         ///< the pen, user units; along the path for text on a path
 };
 
 /// Chunks in logical order, the clusters of each in visual order.

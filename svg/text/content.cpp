@@ -31,11 +31,11 @@ bool collapses(const RawCharacter& character) {
 
 }  // namespace
 
-void appendCharacters(std::string_view utf8, int element, WhiteSpace whiteSpace,
+void appendCharacters(std::string_view utf8, int element, WhiteSpace whiteSpace, bool rendered,
                       std::vector<RawCharacter>& out) {
     while (!utf8.empty()) {
         const bool crLf = utf8.starts_with("\r\n");
-        out.push_back({withoutBreaks(readCharacter(utf8)), element, whiteSpace});
+        out.push_back({withoutBreaks(readCharacter(utf8)), element, whiteSpace, rendered});
         if (crLf)
             utf8.remove_prefix(1);
     }
@@ -47,10 +47,10 @@ std::vector<bool> keptCharacters(const std::vector<RawCharacter>& raw) {
     bool afterSpace = true;
     for (std::size_t i = 0; i < raw.size(); ++i) {
         const bool space = collapses(raw[i]);
-        kept[i] = !(space && afterSpace);
+        kept[i] = raw[i].rendered && !(space && afterSpace);
         if (kept[i])
             last = space ? i : raw.size();
-        afterSpace = space;
+        afterSpace = raw[i].rendered && raw[i].code == ' ';
     }
     if (last < raw.size())
         kept[last] = false;

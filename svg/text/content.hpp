@@ -27,7 +27,8 @@ struct TextElement {
     Scope scope;      ///< its transform is that of the `text` element
     int parent = -1;  ///< index of the element around it
     std::string language;
-    int path = -1;                              ///< index of the innermost textPath around its characters
+    unsigned lines = 0;  ///< TextLines of its own; of `text` those of the elements around it too
+    int path = -1;       ///< index of the innermost textPath around its characters
     double letterSpacing = 0, wordSpacing = 0;  ///< user units
     std::optional<double> textLength;           ///< user units, >= 0
     bool stretchesGlyphs = false;               ///< lengthAdjust
@@ -52,14 +53,15 @@ struct RawCharacter {
     char32_t code;
     int element;
     WhiteSpace whiteSpace;
+    bool rendered = true;  ///< false: only separates the white space before and after it
 };
 
 /// Appends the characters of UTF-8 text. Malformed bytes are U+FFFD.
-void appendCharacters(std::string_view utf8, int element, WhiteSpace whiteSpace,
+void appendCharacters(std::string_view utf8, int element, WhiteSpace whiteSpace, bool rendered,
                       std::vector<RawCharacter>& out);
 
-/// For every raw character whether it stays: of collapsible spaces in a row the first stays, at the start and
-/// the end of the text none (CSS Text 4 section 4.1).
+/// For every raw character whether it stays: of collapsible spaces in a row, or after a space that is kept,
+/// the first stays; at the start and the end of the text none (CSS Text 4 section 4.1).
 std::vector<bool> keptCharacters(const std::vector<RawCharacter>& raw);
 
 }  // namespace vtm::svg

@@ -7,10 +7,10 @@
 namespace vtm::svg {
 namespace {
 
-/// Clusters whose frames run on from each other, with one line through all of them.
-struct Stretch {
-    std::size_t first, end;  ///< clusters
-    double length;           ///< from the first one's pen
+/// The part of a line along one cluster.
+struct Segment {
+    scene::Affine frame;  ///< from the start of the line's baseline there
+    double length;
 };
 
 struct Bar {
@@ -26,37 +26,29 @@ Bar barOf(TextLines line, const ElementFont& font) {
         middle = -font.scaled(metrics.strikeoutOffset);
         thickness = font.scaled(metrics.strikeoutThickness);
     } else if (line == Overline) {
-        middle = -font.ascent() + thickness / 2;
+        middle = -font.ascent();
     }
     return {middle - thickness / 2, middle + thickness / 2};
 }
 
-/// Ends that are as near as rounding leaves them.
-bool runsOn(const PlacedCluster& before, double length, const PlacedCluster& cluster, double size) {
+/// Whether `next` goes on where `before` ends, as near as rounding leaves them.
+bool runsOn(const Segment& before, const Segment& next, double size) {
     constexpr double rounding = 1e-6;  // of an em
-    const glm::dvec2 end = scene::apply(before.frame, {length, 0});
-    return glm::distance(end, cluster.frame[2]) <= rounding * size &&
-           glm::distance(before.frame[0], cluster.frame[0]) <= rounding &&
-           glm::distance(before.frame[1], cluster.frame[1]) <= rounding;
+    const glm::dvec2 end = scene::apply(before.frame, {before.length, 0});
+    return glm::distance(end, next.frame[2]) <= rounding * size &&
+           glm::distance(before.frame[0], next.frame[0]) <= rounding &&
+           glm::distance(before.frame[1], next.frame[1]) <= rounding;
 }
 
-std::vector<Stretch> stretches(const std::vector<PlacedCluster>& clusters, const std::vector<bool>& wanted,
-                               double size) {
-    std::vector<Stretch> found;
-    for (std::size_t i = 0; i < clusters.size(); ++i) {
-        if (!wanted[i])
-            continue;
-        const double width = clusters[i].cell.max.x;
-        const bool goesOn = !found.empty() && found.back().end == i &&
-                            runsOn(clusters[found.back().first], found.back().length, clusters[i], size);
-        if (goesOn) {
-            found.back().end = i + 1;
-            found.back().length += width;
-        } else {
-            found.push_back({i, i + 1, width});
-        }
-    }
-    return found;
+/// Segments that run on from each other are one.
+std::vector<Segment> joined(const std::vector<Segment>& segments, double size) {
+    std::vector<Segment> made;
+    for (const Segment& segment : segments)
+        if (!made.empty() && runsOn(made.back(), segment, size))
+            made.back().length += segment.length;
+        else
+            made.push_back(segment);
+    return made;
 }
 
 scene::Path rectangleIn(const scene::Affine& frame, double length, Bar bar) {
@@ -74,32 +66,61 @@ bool isAround(const TextContent& content, std::size_t ancestor, int element) {
     return element >= 0;
 }
 
+class LineMaker {
+public:
+    LineMaker(const TextContent& content, const std::vector<ElementFont>& fonts,
+              const std::vector<PlacedCluster>& clusters, bool vertical)
+        : content_(content), fonts_(fonts), clusters_(clusters), vertical_(vertical) {}
+
+    /// The lines of one element on the clusters in it.
+    void add(std::size_t element) {
+        const unsigned lines = content_.elements[element].lines;
+        if (lines == 0)
+            return;
+        const ElementFont& font = fonts_[element];
+        const std::vector<Segment> segments = joined(segmentsOf(element), font.size);
+        for (const TextLines line : {Underline, Overline, LineThrough}) {
+            const Bar bar = barOf(line, font);
+            for (const Segment& segment : segments)
+                if ((lines & line) && segment.length > 0 && bar.bottom > bar.top)
+                    made_.push_back({element, line, rectangleIn(segment.frame, segment.length, bar)});
+        }
+    }
+
+    std::vector<PlacedLine> finish() { return std::move(made_); }
+
+private:
+    /// Along the clusters in the element. Subscripts and superscripts in it do not move its lines, their
+    /// alignment does.
+    std::vector<Segment> segmentsOf(std::size_t element) const {
+        const ElementFont& font = fonts_[element];
+        std::vector<Segment> segments;
+        for (const PlacedCluster& cluster : clusters_) {
+            if (!isAround(content_, element, cluster.element))
+                continue;
+            const double down = font.shift - fonts_[static_cast<std::size_t>(cluster.element)].shift +
+                                (vertical_ ? font.central() : 0);
+            segments.push_back(
+                {scene::compose(cluster.frame, scene::translation(0, down)), cluster.cell.max.x});
+        }
+        return segments;
+    }
+
+    const TextContent& content_;
+    const std::vector<ElementFont>& fonts_;
+    const std::vector<PlacedCluster>& clusters_;
+    const bool vertical_;
+    std::vector<PlacedLine> made_;
+};
+
 }  // namespace
 
 std::vector<PlacedLine> decorationLines(const TextContent& content, const std::vector<ElementFont>& fonts,
                                         const std::vector<PlacedCluster>& clusters, bool vertical) {
-    std::vector<PlacedLine> lines;
-    for (std::size_t element = 0; element < content.elements.size(); ++element) {
-        const Style& style = content.elements[element].scope.style;
-        if (style.textLines == 0)
-            continue;
-        std::vector<bool> wanted;
-        for (const PlacedCluster& cluster : clusters)
-            wanted.push_back(isAround(content, element, cluster.element));
-        const ElementFont& font = fonts[element];
-        const double baseline = font.baseline + (vertical ? font.central() : 0);
-        for (const TextLines line : {Underline, Overline, LineThrough}) {
-            if (!(style.textLines & line))
-                continue;
-            Bar bar = barOf(line, font);
-            bar = {bar.top + baseline, bar.bottom + baseline};
-            for (const Stretch& stretch : stretches(clusters, wanted, font.size))
-                if (stretch.length > 0 && bar.bottom > bar.top)
-                    lines.push_back({static_cast<int>(element), line, stretch.first,
-                                     rectangleIn(clusters[stretch.first].frame, stretch.length, bar)});
-        }
-    }
-    return lines;
+    LineMaker maker(content, fonts, clusters, vertical);
+    for (std::size_t i = 0; i < content.elements.size(); ++i)
+        maker.add(i);
+    return maker.finish();
 }
 
 }  // namespace vtm::svg

@@ -98,10 +98,11 @@ std::vector<ElementFont> elementFonts(const std::vector<TextElement>& elements, 
         const double around = element.parent < 0 ? 0 : shifts[static_cast<std::size_t>(element.parent)];
         // On `text` itself there is no line to shift from.
         shifts.push_back(around - (element.parent < 0 ? 0 : shiftOf(element, font)));
-        const bool aligned = style.alignmentBaseline != Baseline::Auto && element.parent >= 0;
+        const bool aligned = style.alignmentBaseline != Baseline::Auto;
         const bool horizontal = elements.front().scope.style.writingMode == WritingMode::Horizontal;
         const Baseline line = aligned ? style.alignmentBaseline : style.dominantBaseline;
-        font.baseline = shifts.back() + (horizontal ? heightOf(line, font) : 0);
+        font.shift = shifts.back();
+        font.alignment = horizontal ? heightOf(line, font) : 0;
         made.push_back(std::move(font));
     }
     return made;

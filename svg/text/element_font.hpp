@@ -14,8 +14,9 @@ struct ElementFont {
     std::vector<text::Feature> features;
     std::shared_ptr<const text::Font> primary;  ///< null where there is no font at all
     double size = 0;                            ///< user units an em, font-size-adjust applied
-    /// How far below the line's baseline the element's own lies, user units.
-    double baseline = 0;
+    double shift = 0;      ///< down, by baseline-shift of the element and those around it, user units
+    double alignment = 0;  ///< down from there, by dominant-baseline or alignment-baseline
+    double baseline() const { return shift + alignment; }
 
     double scaled(double fontUnits) const { return primary ? fontUnits / primary->unitsPerEm() * size : 0; }
     double ascent() const { return primary ? scaled(primary->metrics().ascent) : size; }

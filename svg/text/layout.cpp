@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "svg/geometry/transform.hpp"
 #include "svg/text/chunks.hpp"
@@ -36,8 +37,7 @@ public:
         placeOnOneLine();
         for (std::size_t element = content_.elements.size(); element-- > 0;)
             adjustLength(static_cast<int>(element));
-        startChunks();
-        anchorChunks();
+        placeChunks();
         TextLayout layout;
         for (const ShapedCluster& cluster : clusters_)
             place(cluster, layout);
@@ -113,6 +113,7 @@ private:
                 cluster.at += alongBy((along(cluster.at) - from) * (scale - 1));
                 cluster.stretch *= scale;
                 cluster.advance *= scale;
+                cluster.glyphAdvance *= scale;
             } else {
                 cluster.at += alongBy(shift);
             }
@@ -128,87 +129,77 @@ private:
         return found;
     }
 
-    /// The cluster that holds the character.
-    const ShapedCluster& clusterOf(std::size_t character, const std::vector<std::size_t>& index) const {
-        return clusters_[index[character]];
-    }
-
-    std::vector<std::size_t> clusterIndex() const {
-        std::vector<std::size_t> index(content_.characters.size(), 0);
-        for (std::size_t c = 0; c < clusters_.size(); ++c)
-            for (std::size_t i = 0; i < clusters_[c].count; ++i)
-                index[clusters_[c].first + i] = c;
-        return index;
-    }
-
-    /// x and y: every chunk to where its first character shall stand, what follows with it.
-    void startChunks() {
-        const std::vector<std::size_t> index = clusterIndex();
-        std::vector<glm::dvec2> shifts(content_.characters.size());
-        glm::dvec2 shift(0);
+    /// x and y: every chunk to where its first character shall stand, and what follows with it; then what
+    /// `text-anchor` says.
+    void placeChunks() {
+        glm::dvec2 shift(0), pathEnd(0);
         int path = -1;
-        for (std::size_t i = 0; i < content_.characters.size(); ++i) {
-            const TextCharacter& character = content_.characters[i];
-            const int own = content_.elements[static_cast<std::size_t>(character.element)].path;
-            const glm::dvec2 at = clusterOf(i, index).at, moved = shiftAt(i);
-            if (own != path && own >= 0)
-                shift = moved - at;
-            if (own != path && own < 0)
-                shift = endOf(path) + moved - at;
-            path = own;
-            if (character.x)
-                shift.x = *character.x + moved.x - at.x;
-            if (character.y)
-                shift.y = *character.y + moved.y - at.y;
-            shifts[i] = shift;
-        }
-        for (ShapedCluster& cluster : clusters_)
-            cluster.at += shifts[cluster.first];
-    }
-
-    /// Where text that follows a path goes on: at the path's end.
-    glm::dvec2 endOf(int path) const {
-        const PathMeasure& measure = content_.paths[static_cast<std::size_t>(path)].measure;
-        return measure.length() > 0 ? measure.at(measure.length()).at : glm::dvec2(0);
-    }
-
-    void anchorChunks() {
         for (std::size_t first = 0, end = 0; first < clusters_.size(); first = end) {
-            const std::size_t chunk = clusters_[first].chunk;
-            while (end < clusters_.size() && clusters_[end].chunk == chunk)
+            while (end < clusters_.size() && clusters_[end].chunk == clusters_[first].chunk)
                 ++end;
+            const ShapedCluster& start = firstInText(first, end);
+            const TextCharacter& character = content_.characters[start.first];
+            const glm::dvec2 moved = shiftAt(start.first);
+            const int before = std::exchange(path, elementOf(start).path);
+            if (path != before)
+                shift = (path < 0 ? pathEnd : glm::dvec2(0)) + moved - start.at;
+            // On a path there is no place across the line.
+            if (character.x && !(path >= 0 && vertical_))
+                shift.x = *character.x + moved.x - start.at.x;
+            if (character.y && !(path >= 0 && !vertical_))
+                shift.y = *character.y + moved.y - start.at.y;
+            for (std::size_t i = first; i < end; ++i)
+                clusters_[i].at += shift;
             anchor(first, end);
+            if (path >= 0)
+                pathEnd =
+                    endOnPath(first, end, content_.paths[static_cast<std::size_t>(path)]).value_or(pathEnd);
         }
+    }
+
+    const ShapedCluster& firstInText(std::size_t first, std::size_t end) const {
+        return *std::min_element(clusters_.begin() + static_cast<std::ptrdiff_t>(first),
+                                 clusters_.begin() + static_cast<std::ptrdiff_t>(end),
+                                 [](const auto& a, const auto& b) { return a.first < b.first; });
+    }
+
+    /// Where text that follows a path goes on: behind the last character on it.
+    std::optional<glm::dvec2> endOnPath(std::size_t first, std::size_t end, const TextPath& path) const {
+        for (std::size_t i = end; i-- > first;)
+            if (const auto frame = pathFrame(clusters_[i], path))
+                return scene::apply(*frame, {clusters_[i].advance, 0});
+        return std::nullopt;
     }
 
     void anchor(std::size_t first, std::size_t end) {
         double from = std::numeric_limits<double>::infinity(), to = -from;
-        std::size_t start = first;  // of the first character
         for (std::size_t i = first; i < end; ++i) {
             from = std::min(from, along(clusters_[i].at));
             to = std::max(to, along(clusters_[i].at) + clusters_[i].advance);
-            start = clusters_[i].first < clusters_[start].first ? i : start;
         }
-        const Style& style = elementOf(clusters_[start]).scope.style;
+        const ShapedCluster& start = firstInText(first, end);
+        const Style& style = elementOf(start).scope.style;
         const bool rightToLeft = content_.elements.front().scope.style.rightToLeft;
         double place = (from + to) / 2;
         if (style.anchor != TextAnchor::Middle)
             place = (style.anchor == TextAnchor::Start) == rightToLeft ? to : from;
-        const glm::dvec2 shift = alongBy(along(clusters_[start].at) - place);
+        const glm::dvec2 shift = alongBy(along(start.at) - place);
         for (std::size_t i = first; i < end; ++i)
             clusters_[i].at += shift;
     }
 
-    /// The frame of a cluster on the straight line.
+    /// The frame of a cluster on the straight line: at its element's baseline, turned by `rotate`.
     scene::Affine lineFrame(const ShapedCluster& cluster) const {
         const double degrees = content_.characters[cluster.first].rotate + (vertical_ ? 90 : 0);
-        return scene::compose(scene::translation(cluster.at.x, cluster.at.y), rotation(degrees));
+        const double down = fontOf(cluster).baseline();
+        const glm::dvec2 at = cluster.at + (vertical_ ? glm::dvec2(-down, 0) : glm::dvec2(0, down));
+        return scene::compose(scene::translation(at.x, at.y), rotation(degrees));
     }
 
     /// The frame on the cluster's path; nothing beyond the path's ends.
     std::optional<scene::Affine> pathFrame(const ShapedCluster& cluster, const TextPath& path) const {
         const double length = path.measure.length();
-        double middle = along(cluster.at) + path.startOffset + cluster.advance / 2;
+        double middle = along(cluster.at) + path.startOffset + cluster.glyphAdvance / 2;
         if (!(length > 0))
             return std::nullopt;
         if (path.measure.closed() && middle >= -length && middle <= 2 * length)
@@ -219,8 +210,9 @@ private:
         if (path.right)
             place.direction = -place.direction;
         const glm::dvec2 down(-place.direction.y, place.direction.x);
-        const glm::dvec2 origin = place.at - place.direction * (cluster.advance / 2) +
-                                  down * (vertical_ ? -cluster.at.x : cluster.at.y);
+        const glm::dvec2 origin =
+            place.at - place.direction * (cluster.glyphAdvance / 2) +
+            down * (fontOf(cluster).baseline() + (vertical_ ? -cluster.at.x : cluster.at.y));
         const scene::Affine frame{place.direction.x, place.direction.y, down.x, down.y, origin.x, origin.y};
         return scene::compose(frame, rotation(content_.characters[cluster.first].rotate));
     }
@@ -235,7 +227,7 @@ private:
         const ElementFont& font = fontOf(cluster);
         PlacedCluster placed{cluster.element, cluster.first, cluster.count, {}, *frame, {}};
         // The central baseline of vertical text is its alphabetic one turned, so far above it.
-        const double baseline = font.baseline + (vertical_ ? font.central() : 0);
+        const double baseline = vertical_ ? font.central() : 0;
         placed.cell.add({0, baseline - font.ascent()});
         placed.cell.add({cluster.advance, baseline + font.descent()});
         double pen = 0;

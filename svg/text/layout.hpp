@@ -27,10 +27,9 @@ struct PlacedCluster {
 
 /// A line of `text-decoration` under, over or through adjoining clusters.
 struct PlacedLine {
-    int element = 0;  ///< whose paints it has
+    std::size_t element = 0;  ///< whose line it is, with its paints
     TextLines line = Underline;
-    std::size_t cluster = 0;  ///< the first of the clusters that it belongs to
-    scene::Path outline;      ///< user space
+    scene::Path outline;  ///< user space
 };
 
 struct TextLayout {

@@ -35,19 +35,24 @@ std::vector<FriBidiLevel> embeddingLevels(const Line& line) {
     return levels;
 }
 
-/// Scripts by character; those that belong to any script take that of the character before, or else after.
-std::vector<hb_script_t> scriptsOf(const std::u32string& text) {
+bool isReal(hb_script_t script) {
+    return script != HB_SCRIPT_COMMON && script != HB_SCRIPT_INHERITED && script != HB_SCRIPT_UNKNOWN;
+}
+
+/// Scripts by character. Those that belong to any script take that of the character before, or else after,
+/// that runs in the same direction: a full stop in a Latin line is Latin behind an Arabic word, too.
+std::vector<hb_script_t> scriptsOf(const std::u32string& text, const std::vector<FriBidiLevel>& levels) {
     hb_unicode_funcs_t* const unicode = hb_unicode_funcs_get_default();
     std::vector<hb_script_t> scripts;
-    for (const char32_t c : text)
-        scripts.push_back(hb_unicode_script(unicode, c));
-    const auto isReal = [](hb_script_t script) {
-        return script != HB_SCRIPT_COMMON && script != HB_SCRIPT_INHERITED && script != HB_SCRIPT_UNKNOWN;
-    };
-    const auto firstReal = std::find_if(scripts.begin(), scripts.end(), isReal);
-    hb_script_t last = firstReal == scripts.end() ? HB_SCRIPT_COMMON : *firstReal;
-    for (hb_script_t& script : scripts)
-        last = script = isReal(script) ? script : last;
+    hb_script_t last[2]{HB_SCRIPT_COMMON, HB_SCRIPT_COMMON};  // by direction; first the first real one
+    for (std::size_t i = text.size(); i-- > 0;)
+        if (const hb_script_t script = hb_unicode_script(unicode, text[i]); isReal(script))
+            last[levels[i] % 2] = script;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const hb_script_t script = hb_unicode_script(unicode, text[i]);
+        hb_script_t& before = last[levels[i] % 2];
+        scripts.push_back(before = isReal(script) ? script : before);
+    }
     return scripts;
 }
 
@@ -173,7 +178,7 @@ bool isMark(char32_t character) {
 std::vector<Run> visualRuns(const Line& line, FontSet& fonts) {
     const std::vector<std::size_t> spans = spansByCharacter(line);
     const std::vector<FriBidiLevel> levels = embeddingLevels(line);
-    const std::vector<hb_script_t> scripts = scriptsOf(line.text);
+    const std::vector<hb_script_t> scripts = scriptsOf(line.text, levels);
     const std::vector<bool> upright = uprightCharacters(line, spans);
     const auto picked = FontPicker(line, fonts).pick(spans);
     std::vector<Run> runs;

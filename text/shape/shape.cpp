@@ -63,7 +63,8 @@ Cluster emptyCluster(const Line& line, const Run& run, std::size_t first) {
     cluster.first = first;
     cluster.level = run.level;
     cluster.sideways = line.vertical && !run.upright;
-    cluster.cursive = isCursive(run.script);
+    // Spaces between the words of a cursive script are of no script themselves.
+    cluster.cursive = isCursive(hb_unicode_script(hb_unicode_funcs_get_default(), line.text[first]));
     return cluster;
 }
 
