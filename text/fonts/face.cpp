@@ -2,13 +2,24 @@
 
 #include <hb-ot.h>
 
+#include "text/color/color_glyph.hpp"
 #include "text/fonts/open_type_font.hpp"
 
 namespace vtm::text {
 
+Face::Face(HbFace face, std::string family)
+    : face_(std::move(face)), family_(std::move(family)), hasColor_(hasColorTables(harfbuzz())) {}
+
 bool Face::hasAxis(Tag axis) const {
     hb_ot_var_axis_info_t info;
     return hb_ot_var_find_axis_info(face_.get(), axis, &info);
+}
+
+std::shared_ptr<FreeTypeFace> Face::freeType() const {
+    const std::lock_guard lock(mutex_);
+    if (!freeType_)
+        freeType_ = FreeTypeFace::of(harfbuzz());
+    return *freeType_;
 }
 
 std::shared_ptr<const Font> Face::font(const Instance& instance) const {

@@ -7,10 +7,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "text/color/free_type_face.hpp"
 #include "text/font.hpp"
 #include "text/fonts/handles.hpp"
 
@@ -26,18 +28,23 @@ struct Instance {
 /// Shared by all fonts made from it. Immutable for callers and safe to share between threads.
 class Face : public std::enable_shared_from_this<Face> {
 public:
-    Face(HbFace face, std::string family) : face_(std::move(face)), family_(std::move(family)) {}
+    Face(HbFace face, std::string family);
 
     hb_face_t* harfbuzz() const { return face_.get(); }
     const std::string& family() const { return family_; }
     bool hasAxis(Tag axis) const;
+    bool hasColor() const { return hasColor_; }  ///< tables that can hold colour glyphs
+    /// Null where FreeType cannot read it.
+    std::shared_ptr<FreeTypeFace> freeType() const;
     /// The same one for the same instance as long as somebody holds it.
     std::shared_ptr<const Font> font(const Instance& instance) const;
 
 private:
     HbFace face_;
     std::string family_;
-    mutable std::mutex mutex_;  ///< guards fonts_
+    bool hasColor_;
+    mutable std::mutex mutex_;  ///< guards what follows
+    mutable std::optional<std::shared_ptr<FreeTypeFace>> freeType_;
     mutable std::map<Instance, std::weak_ptr<const Font>> fonts_;
 };
 
