@@ -11,8 +11,6 @@
 
 namespace vtm::text {
 
-class FreeTypeFace;
-
 /// What colour glyphs of a font are made of.
 struct ColorSource {
     const Font& outlines;  ///< not synthesised
@@ -31,7 +29,7 @@ std::optional<scene::Group> layersOf(const ColorSource& source, GlyphId glyph);
 
 /// COLR version 1: a graph of paints. Nothing for glyphs without one, and for graphs of more than
 /// maxColorPaints paints.
-std::optional<scene::Group> paintsOf(const ColorSource& source, FreeTypeFace& face, GlyphId glyph);
+std::optional<scene::Group> paintsOf(const ColorSource& source, GlyphId glyph);
 inline constexpr int maxColorPaints = 1 << 14;
 
 /// CBDT and sbix: the bitmap of the largest size.

@@ -68,39 +68,39 @@ private:
     const scene::Item& everywhere_;
 };
 
-std::optional<BlendMode> blendMode(FT_Composite_Mode mode) {
+std::optional<BlendMode> blendMode(CompositeMode mode) {
     switch (mode) {
-        case FT_COLR_COMPOSITE_PLUS:
+        case CompositeMode::Plus:
             return BlendMode::PlusLighter;
-        case FT_COLR_COMPOSITE_SCREEN:
+        case CompositeMode::Screen:
             return BlendMode::Screen;
-        case FT_COLR_COMPOSITE_OVERLAY:
+        case CompositeMode::Overlay:
             return BlendMode::Overlay;
-        case FT_COLR_COMPOSITE_DARKEN:
+        case CompositeMode::Darken:
             return BlendMode::Darken;
-        case FT_COLR_COMPOSITE_LIGHTEN:
+        case CompositeMode::Lighten:
             return BlendMode::Lighten;
-        case FT_COLR_COMPOSITE_COLOR_DODGE:
+        case CompositeMode::ColorDodge:
             return BlendMode::ColorDodge;
-        case FT_COLR_COMPOSITE_COLOR_BURN:
+        case CompositeMode::ColorBurn:
             return BlendMode::ColorBurn;
-        case FT_COLR_COMPOSITE_HARD_LIGHT:
+        case CompositeMode::HardLight:
             return BlendMode::HardLight;
-        case FT_COLR_COMPOSITE_SOFT_LIGHT:
+        case CompositeMode::SoftLight:
             return BlendMode::SoftLight;
-        case FT_COLR_COMPOSITE_DIFFERENCE:
+        case CompositeMode::Difference:
             return BlendMode::Difference;
-        case FT_COLR_COMPOSITE_EXCLUSION:
+        case CompositeMode::Exclusion:
             return BlendMode::Exclusion;
-        case FT_COLR_COMPOSITE_MULTIPLY:
+        case CompositeMode::Multiply:
             return BlendMode::Multiply;
-        case FT_COLR_COMPOSITE_HSL_HUE:
+        case CompositeMode::Hue:
             return BlendMode::Hue;
-        case FT_COLR_COMPOSITE_HSL_SATURATION:
+        case CompositeMode::Saturation:
             return BlendMode::Saturation;
-        case FT_COLR_COMPOSITE_HSL_COLOR:
+        case CompositeMode::Color:
             return BlendMode::Color;
-        case FT_COLR_COMPOSITE_HSL_LUMINOSITY:
+        case CompositeMode::Luminosity:
             return BlendMode::Luminosity;
         default:
             return std::nullopt;
@@ -111,36 +111,35 @@ NodeList sum(NodeList a, NodeList b) { return blended(std::move(a), std::move(b)
 
 }  // namespace
 
-NodeList composited(FT_Composite_Mode mode, NodeList source, NodeList backdrop,
-                    const scene::Item& everywhere) {
+NodeList composited(CompositeMode mode, NodeList source, NodeList backdrop, const scene::Item& everywhere) {
     if (const auto blend = blendMode(mode))
         return blended(std::move(source), std::move(backdrop), *blend);
     const Operands operands(source, backdrop, everywhere);
     switch (mode) {
-        case FT_COLR_COMPOSITE_SRC:
+        case CompositeMode::Source:
             return source;
-        case FT_COLR_COMPOSITE_DEST:
+        case CompositeMode::Backdrop:
             return backdrop;
-        case FT_COLR_COMPOSITE_SRC_OVER:
+        case CompositeMode::SourceOver:
             return one(groupOf(joined(std::move(backdrop), std::move(source))));
-        case FT_COLR_COMPOSITE_DEST_OVER:
+        case CompositeMode::BackdropOver:
             return one(groupOf(joined(std::move(source), std::move(backdrop))));
-        case FT_COLR_COMPOSITE_SRC_IN:
+        case CompositeMode::SourceIn:
             return operands.sourceIn();
-        case FT_COLR_COMPOSITE_DEST_IN:
+        case CompositeMode::BackdropIn:
             return operands.backdropIn();
-        case FT_COLR_COMPOSITE_SRC_OUT:
+        case CompositeMode::SourceOut:
             return operands.sourceOut();
-        case FT_COLR_COMPOSITE_DEST_OUT:
+        case CompositeMode::BackdropOut:
             return operands.backdropOut();
-        case FT_COLR_COMPOSITE_SRC_ATOP:
+        case CompositeMode::SourceAtop:
             return sum(operands.sourceIn(), operands.backdropOut());
-        case FT_COLR_COMPOSITE_DEST_ATOP:
+        case CompositeMode::BackdropAtop:
             return sum(operands.backdropIn(), operands.sourceOut());
-        case FT_COLR_COMPOSITE_XOR:
+        case CompositeMode::Xor:
             return sum(operands.sourceOut(), operands.backdropOut());
         default:
-            return {};  // CLEAR, and what fonts must not have
+            return {};  // Clear, and what fonts must not have
     }
 }
 

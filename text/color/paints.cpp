@@ -1,7 +1,3 @@
-#include <ft2build.h>
-#include FT_FREETYPE_H
-#include FT_COLOR_H
-
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -10,9 +6,10 @@
 #include <utility>
 
 #include "text/color/color_glyph.hpp"
+#include "text/color/colr_table.hpp"
 #include "text/color/composite.hpp"
-#include "text/color/free_type_face.hpp"
 #include "text/color/gradients.hpp"
+#include "text/fonts/handles.hpp"
 
 namespace vtm::text {
 namespace {
@@ -21,47 +18,50 @@ using scene::Affine;
 using scene::NodeList;
 using scene::Point;
 
-double number(FT_Fixed fixed) { return double(fixed) / 65536; }
-double angle(FT_Fixed halfTurns) { return number(halfTurns) * std::numbers::pi; }
-/// Fonts have y up.
-Point point(const FT_Vector& v) { return {number(v.x), -number(v.y)}; }
+constexpr double halfTurn = std::numbers::pi;
 
-/// Fonts' matrices, for y down.
-Affine affine(double xx, double xy, double dx, double yx, double yy, double dy) {
+/// Fonts' matrices, turned y down.
+Affine affine(double xx, double yx, double xy, double yy, double dx, double dy) {
     return {xx, -yx, -xy, yy, dx, -dy};
 }
 
-Affine around(const Affine& linear, FT_Fixed x, FT_Fixed y) {
-    const Point center = point({x, y});
+Affine around(const Affine& linear, Point center) {
     return scene::compose(scene::compose(scene::translation(center.x, center.y), linear),
                           scene::translation(-center.x, -center.y));
 }
 
-Affine transformOf(const FT_Affine23& m) {
-    return affine(number(m.xx), number(m.xy), number(m.dx), number(m.yx), number(m.yy), number(m.dy));
+Affine readAffine(TableCursor from) {
+    const double xx = from.fixed(), yx = from.fixed(), xy = from.fixed(), yy = from.fixed();
+    const double dx = from.fixed(), dy = from.fixed();
+    return affine(xx, yx, xy, yy, dx, dy);
 }
 
-Affine rotationOf(const FT_PaintRotate& rotate) {
-    const double c = std::cos(angle(rotate.angle)), s = std::sin(angle(rotate.angle));
-    return around(affine(c, -s, 0, s, c, 0), rotate.center_x, rotate.center_y);
+Affine readScale(TableCursor& from, bool isUniform) {
+    const double x = from.fraction(), y = isUniform ? x : from.fraction();
+    return scene::scaling(x, y);
 }
 
-Affine skewOf(const FT_PaintSkew& skew) {
-    const double x = std::tan(angle(skew.x_skew_angle)), y = std::tan(angle(skew.y_skew_angle));
-    return around(affine(1, -x, 0, y, 1, 0), skew.center_x, skew.center_y);
+Affine readRotation(TableCursor& from) {
+    const double angle = from.fraction() * halfTurn, c = std::cos(angle), s = std::sin(angle);
+    return affine(c, s, -s, c, 0, 0);
 }
 
-scene::Spread spreadOf(FT_PaintExtend extend) {
-    if (extend == FT_COLR_PAINT_EXTEND_REPEAT)
+Affine readSkew(TableCursor& from) {
+    const double x = std::tan(from.fraction() * halfTurn), y = std::tan(from.fraction() * halfTurn);
+    return affine(1, y, -x, 1, 0, 0);
+}
+
+scene::Spread spreadOf(std::uint32_t extend) {
+    if (extend == 1)
         return scene::Spread::Repeat;
-    return extend == FT_COLR_PAINT_EXTEND_REFLECT ? scene::Spread::Reflect : scene::Spread::Pad;
+    return extend == 2 ? scene::Spread::Reflect : scene::Spread::Pad;
 }
 
 /// What a paint without an outline of its own fills.
 struct Place {
     std::shared_ptr<const scene::Path> path;
-    Affine pathTransform;  ///< the path's space to the glyph's
-    Affine transform;      ///< the paint's space to the glyph's
+    Affine pathTransform;  ///< the path's space to the picture
+    Affine transform;      ///< the paint's space to the picture
 };
 
 /// Around the path's points, controls included, in the paint's space.
@@ -96,28 +96,56 @@ scene::Group clipped(NodeList nodes, const Place& place) {
     return group;
 }
 
-/// Walks the graph of a glyph's paints. They form a graph, not a tree, and may share parts many times over:
-/// the number of visits is bounded.
+void append(NodeList& to, NodeList nodes) { std::move(nodes.begin(), nodes.end(), std::back_inserter(to)); }
+
+/// As COLR numbers them; the variable format of most is the next number.
+enum Format {
+    colrLayers = 1,
+    solid = 2,
+    linearGradientPaint = 4,
+    radialGradientPaint = 6,
+    sweepGradientPaint = 8,
+    glyphPaint = 10,
+    colrGlyph = 11,
+    transform = 12,
+    translate = 14,
+    scale = 16,
+    scaleAround = 18,
+    scaleUniform = 20,
+    scaleUniformAround = 22,
+    rotate = 24,
+    rotateAround = 26,
+    skew = 28,
+    skewAround = 30,
+    composite = 32
+};
+
+Format plainFormat(std::uint32_t format) {
+    const bool isVariable = format % 2 == 1 && format != colrLayers && format != colrGlyph;
+    return static_cast<Format>(isVariable ? format - 1 : format);
+}
+
+/// Walks the graph of a glyph's paints. Parts may be shared many times over: the number of visits is bounded.
 class Painter {
 public:
-    Painter(const ColorSource& source, FT_Face face) : source_(source), face_(face) {}
+    Painter(const ColorSource& source, std::span<const std::uint8_t> table)
+        : source_(source), table_(table) {}
 
     /// False where the glyph has no paints.
-    bool glyph(GlyphId id, const Affine& transform, NodeList& out) {
-        FT_OpaquePaint paint{};
-        if (!FT_Get_Color_Glyph_Paint(face_, id, FT_COLOR_NO_ROOT_TRANSFORM, &paint))
+    bool drawGlyph(GlyphId id, const Affine& toPicture, NodeList& out) {
+        const auto paint = table_.paintOf(id);
+        if (!paint)
             return false;
-        Place place = whole(transform);
-        FT_ClipBox box;
-        const bool hasBox = FT_Get_Color_Glyph_ClipBox(face_, id, &box);
-        if (hasBox)
-            place.path = rectangleOf(box);
+        Place place = everywhere(toPicture);
+        const auto box = table_.clipBoxOf(id);
+        if (box)
+            place.path = std::make_shared<const scene::Path>(scene::rectangle(box->min, box->max));
         NodeList nodes;
-        draw(paint, place, nodes);
-        if (hasBox)
+        draw(*paint, place, nodes);
+        if (box)
             out.push_back({clipped(std::move(nodes), place)});
         else
-            std::move(nodes.begin(), nodes.end(), std::back_inserter(out));
+            append(out, std::move(nodes));
         return true;
     }
 
@@ -126,132 +154,156 @@ public:
 private:
     static constexpr int maxDepth = 64;
 
-    /// FreeType's numbers are 64 to a pixel, and a pixel is a font unit.
-    static std::shared_ptr<const scene::Path> rectangleOf(const FT_ClipBox& box) {
-        constexpr double scale = 64;
-        const Point min(double(box.bottom_left.x), -double(box.top_right.y));
-        const Point max(double(box.top_right.x), -double(box.bottom_left.y));
-        return std::make_shared<const scene::Path>(scene::rectangle(min / scale, max / scale));
-    }
-
     /// All that a glyph may cover: fonts must bound their paints, and transforms may move outlines.
-    Place whole(const Affine& transform) const {
+    Place everywhere(const Affine& toPicture) const {
         constexpr double ems = 16;
         const double side = ems * source_.outlines.unitsPerEm();
-        return {std::make_shared<const scene::Path>(scene::rectangle(Point(-side), Point(side))), transform,
-                transform};
+        return {std::make_shared<const scene::Path>(scene::rectangle(Point(-side), Point(side))), toPicture,
+                toPicture};
     }
 
-    void draw(const FT_OpaquePaint& paint, const Place& place, NodeList& out) {
-        FT_COLR_Paint p;
-        if (++visits_ > maxColorPaints || depth_ >= maxDepth || !FT_Get_Paint(face_, paint, &p))
+    void draw(std::size_t paint, const Place& place, NodeList& out) {
+        if (++visits_ > maxColorPaints || depth_ >= maxDepth)
             return;
         ++depth_;
-        drawPaint(p, place, out);
+        TableCursor from = table_.at(paint);
+        const std::uint32_t format = from.unsignedNumber(1);
+        drawPaint({paint, format, from}, place, out);
         --depth_;
     }
 
-    void drawPaint(FT_COLR_Paint& p, const Place& place, NodeList& out) {
-        switch (p.format) {
-            case FT_COLR_PAINTFORMAT_COLR_LAYERS:
-                return layers(p.u.colr_layers.layer_iterator, place, out);
-            case FT_COLR_PAINTFORMAT_SOLID:
-                return fill(colorOf(p.u.solid.color), place, out);
-            case FT_COLR_PAINTFORMAT_LINEAR_GRADIENT:
-                return linear(p.u.linear_gradient, place, out);
-            case FT_COLR_PAINTFORMAT_RADIAL_GRADIENT:
-                return radial(p.u.radial_gradient, place, out);
-            case FT_COLR_PAINTFORMAT_SWEEP_GRADIENT:
-                return sweep(p.u.sweep_gradient, place, out);
-            case FT_COLR_PAINTFORMAT_GLYPH:
-                return outline(p.u.glyph, place, out);
-            case FT_COLR_PAINTFORMAT_COLR_GLYPH:
+    struct Paint {
+        std::size_t at;
+        std::uint32_t format;
+        TableCursor from;  ///< after the format
+
+        std::size_t offset() { return at + from.unsignedNumber(3); }
+    };
+
+    void drawPaint(Paint paint, const Place& place, NodeList& out) {
+        switch (plainFormat(paint.format)) {
+            case colrLayers:
+                return drawLayers(paint.from, place, out);
+            case solid:
+                return fill(readColor(paint.from), place, out);
+            case linearGradientPaint:
+                return drawLinear(paint, place, out);
+            case radialGradientPaint:
+                return drawRadial(paint, place, out);
+            case sweepGradientPaint:
+                return drawSweep(paint, place, out);
+            case glyphPaint:
+                return drawOutline(paint, place, out);
+            case colrGlyph:
                 ++outlines_;
-                glyph(p.u.colr_glyph.glyphID, place.transform, out);
+                drawGlyph(paint.from.unsignedNumber(2), place.transform, out);
                 return;
-            case FT_COLR_PAINTFORMAT_COMPOSITE:
-                return composite(p.u.composite, place, out);
+            case composite:
+                return drawComposite(paint, place, out);
             default:
-                return drawTransformed(p, place, out);
+                return drawTransformed(paint, place, out);
         }
     }
 
-    void drawTransformed(const FT_COLR_Paint& p, const Place& place, NodeList& out) {
-        switch (p.format) {
-            case FT_COLR_PAINTFORMAT_TRANSFORM:
-                return moved(p.u.transform.paint, transformOf(p.u.transform.affine), place, out);
-            case FT_COLR_PAINTFORMAT_TRANSLATE:
-                return moved(p.u.translate.paint,
-                             scene::translation(number(p.u.translate.dx), -number(p.u.translate.dy)), place,
-                             out);
-            case FT_COLR_PAINTFORMAT_SCALE: {
-                const FT_PaintScale& s = p.u.scale;
-                const Affine scale = scene::scaling(number(s.scale_x), number(s.scale_y));
-                return moved(s.paint, around(scale, s.center_x, s.center_y), place, out);
+    void drawTransformed(Paint paint, Place place, NodeList& out) {
+        const std::size_t child = paint.offset();
+        if (const auto by = readTransform(paint)) {
+            place.transform = scene::compose(place.transform, *by);
+            draw(child, place, out);
+        }
+    }
+
+    /// Nothing for formats of later versions.
+    std::optional<Affine> readTransform(Paint& paint) const {
+        TableCursor& from = paint.from;
+        switch (plainFormat(paint.format)) {
+            case transform:
+                return readAffine(table_.at(paint.offset()));
+            case translate: {
+                const Point by = from.point();
+                return scene::translation(by.x, by.y);
             }
-            case FT_COLR_PAINTFORMAT_ROTATE:
-                return moved(p.u.rotate.paint, rotationOf(p.u.rotate), place, out);
-            case FT_COLR_PAINTFORMAT_SKEW:
-                return moved(p.u.skew.paint, skewOf(p.u.skew), place, out);
+            case scale:
+            case scaleUniform:
+                return readScale(from, paint.format >= scaleUniform);
+            case scaleAround:
+            case scaleUniformAround: {
+                const Affine linear = readScale(from, paint.format >= scaleUniform);
+                return around(linear, from.point());
+            }
+            case rotate:
+                return readRotation(from);
+            case rotateAround: {
+                const Affine linear = readRotation(from);
+                return around(linear, from.point());
+            }
+            case skew:
+                return readSkew(from);
+            case skewAround: {
+                const Affine linear = readSkew(from);
+                return around(linear, from.point());
+            }
             default:
-                return;  // of a later version
+                return std::nullopt;
         }
     }
 
-    void moved(const FT_OpaquePaint& paint, const Affine& by, Place place, NodeList& out) {
-        place.transform = scene::compose(place.transform, by);
-        draw(paint, place, out);
+    void drawLayers(TableCursor from, const Place& place, NodeList& out) {
+        const std::uint32_t count = from.unsignedNumber(1), first = from.unsignedNumber(4);
+        for (std::uint32_t i = 0; i < count && !isExhausted(); ++i)
+            if (const auto paint = table_.layer(first + i))
+                draw(*paint, place, out);
     }
 
-    void layers(FT_LayerIterator& iterator, const Place& place, NodeList& out) {
-        FT_OpaquePaint paint{};
-        while (!isExhausted() && FT_Get_Paint_Layers(face_, &iterator, &paint))
-            draw(paint, place, out);
-    }
-
-    /// What the paint draws, cut by the outline. A single fill needs no clip.
-    void outline(const FT_PaintGlyph& paint, const Place& place, NodeList& out) {
-        ++outlines_;
-        const auto path = source_.outlines.outlineOf(paint.glyphID);
+    /// What the child draws, cut by the outline. A single fill needs no clip.
+    void drawOutline(Paint paint, const Place& place, NodeList& out) {
+        const std::size_t child = paint.offset();
+        const auto path = source_.outlines.outlineOf(paint.from.unsignedNumber(2));
+        const int before = ++outlines_;
         if (!path)
             return;
         const Place inner{path, place.transform, place.transform};
-        const int before = outlines_;
         NodeList nodes;
-        draw(paint.paint, inner, nodes);
+        draw(child, inner, nodes);
         if (outlines_ != before)
             out.push_back({clipped(std::move(nodes), inner)});
         else
-            std::move(nodes.begin(), nodes.end(), std::back_inserter(out));
+            append(out, std::move(nodes));
     }
 
-    void composite(const FT_PaintComposite& paint, const Place& place, NodeList& out) {
+    void drawComposite(Paint paint, const Place& place, NodeList& out) {
+        const std::size_t above = paint.offset();
+        const auto mode = static_cast<CompositeMode>(paint.from.unsignedNumber(1));
+        const std::size_t below = paint.offset();
         NodeList source, backdrop;
-        draw(paint.source_paint, place, source);
-        draw(paint.backdrop_paint, place, backdrop);
-        const Place all = whole(source_.transform);
-        NodeList nodes = composited(paint.composite_mode, std::move(source), std::move(backdrop),
-                                    filled(all.path, all.pathTransform, scene::Color{}));
-        std::move(nodes.begin(), nodes.end(), std::back_inserter(out));
+        draw(above, place, source);
+        draw(below, place, backdrop);
+        const Place all = everywhere(source_.transform);
+        append(out, composited(mode, std::move(source), std::move(backdrop),
+                               filled(all.path, all.pathTransform, scene::Color{})));
     }
 
-    scene::Color colorOf(const FT_ColorIndex& index) const {
-        constexpr double one = 1 << 14;
-        return source_.color(index.palette_index, index.alpha / one);
+    scene::Color readColor(TableCursor& from) const {
+        const std::uint32_t index = from.unsignedNumber(2);
+        return source_.color(index, from.fraction());
     }
 
     /// Nothing for a line without stops.
-    std::optional<ColorLine> lineOf(FT_ColorLine& line) {
-        constexpr double one = 1 << 14;
-        ColorLine made;
-        FT_ColorStop stop;
-        while (FT_Get_Colorline_Stops(face_, &stop, &line.color_stop_iterator))
-            made.stops.push_back({stop.stop_offset / one, colorOf(stop.color)});
-        visits_ += int(made.stops.size());
-        std::stable_sort(made.stops.begin(), made.stops.end(),
+    std::optional<ColorLine> readLine(Paint& paint) {
+        TableCursor from = table_.at(paint.offset());
+        const bool isVariable = paint.format % 2 == 1;
+        ColorLine line;
+        line.spread = spreadOf(from.unsignedNumber(1));
+        const std::uint32_t count = from.unsignedNumber(2);
+        for (visits_ += int(count); line.stops.size() < count && !isExhausted();) {
+            const double offset = from.fraction();
+            line.stops.push_back({offset, readColor(from)});
+            if (isVariable)
+                from.unsignedNumber(4);
+        }
+        std::stable_sort(line.stops.begin(), line.stops.end(),
                          [](const auto& a, const auto& b) { return a.offset < b.offset; });
-        made.spread = spreadOf(line.extend);
-        return made.stops.empty() ? std::nullopt : std::optional(std::move(made));
+        return line.stops.empty() ? std::nullopt : std::optional(std::move(line));
     }
 
     /// From the paint's space to that of the place's path.
@@ -261,18 +313,19 @@ private:
     }
 
     void fill(scene::Paint paint, const Place& place, NodeList& out) {
-        const auto transform = toPath(place);
-        if (!transform)
+        const auto toPathSpace = toPath(place);
+        if (!toPathSpace)
             return;
-        if (auto* gradient = std::get_if<scene::LinearGradient>(&paint))
-            gradient->transform = *transform;
-        if (auto* gradient = std::get_if<scene::RadialGradient>(&paint))
-            gradient->transform = *transform;
+        if (auto* linear = std::get_if<scene::LinearGradient>(&paint))
+            linear->transform = *toPathSpace;
+        if (auto* radial = std::get_if<scene::RadialGradient>(&paint))
+            radial->transform = *toPathSpace;
         out.push_back({filled(place.path, place.pathTransform, std::move(paint))});
     }
 
     /// Pieces in the paint's space.
     void fill(const std::vector<Piece>& pieces, const Place& place, NodeList& out) {
+        visits_ += int(pieces.size()) / 16;  // a piece is less work than a paint
         NodeList nodes;
         for (const Piece& piece : pieces)
             nodes.push_back(
@@ -280,55 +333,63 @@ private:
         out.push_back({clipped(std::move(nodes), place)});
     }
 
-    std::optional<Extent> extent(const Place& place) const {
+    static std::optional<Extent> extent(const Place& place) {
         const auto path = toPath(place);
         const auto back = path ? scene::inverse(*path) : std::nullopt;
         return back ? std::optional(extentOf(*place.path, *back)) : std::nullopt;
     }
 
-    void linear(FT_PaintLinearGradient& p, const Place& place, NodeList& out) {
-        const auto line = lineOf(p.colorline);
-        if (!line)
-            return;
-        if (auto paint = linearGradient(*line, point(p.p0), point(p.p1), point(p.p2)))
-            fill(std::move(*paint), place, out);
+    void drawLinear(Paint paint, const Place& place, NodeList& out) {
+        const auto line = readLine(paint);
+        const Point p0 = paint.from.point(), p1 = paint.from.point(), p2 = paint.from.point();
+        if (auto gradient = line ? linearGradient(*line, p0, p1, p2) : std::nullopt)
+            fill(std::move(*gradient), place, out);
     }
 
-    void radial(FT_PaintRadialGradient& p, const Place& place, NodeList& out) {
-        const auto line = lineOf(p.colorline);
-        if (!line)
-            return;
-        const Circle first{point(p.c0), number(p.r0)}, second{point(p.c1), number(p.r1)};
-        const auto around = extent(place);
-        if (auto paint = radialGradient(*line, first, second))
-            fill(std::move(*paint), place, out);
-        else if (around)
-            fill(coneGradient(*line, first, second, *around), place, out);
+    static Circle readCircle(TableCursor& from) {
+        const Point center = from.point();
+        return {center, double(from.unsignedNumber(2))};
     }
 
-    void sweep(FT_PaintSweepGradient& p, const Place& place, NodeList& out) {
-        const auto line = lineOf(p.colorline);
-        const auto around = extent(place);
-        // OpenType 1.9.1: angles are stored less half a turn, counterclockwise.
-        const auto degrees = [](FT_Fixed value) { return 360 - 180 * (number(value) + 1); };
-        if (line && around)
-            fill(sweepGradient(*line, point(p.center), degrees(p.start_angle), degrees(p.end_angle), *around),
-                 place, out);
+    void drawRadial(Paint paint, const Place& place, NodeList& out) {
+        const auto line = readLine(paint);
+        const Circle first = readCircle(paint.from), second = readCircle(paint.from);
+        const auto covered = extent(place);
+        if (!line || !covered)
+            return;
+        if (auto gradient = radialGradient(*line, first, second))
+            fill(std::move(*gradient), place, out);
+        else
+            fill(coneGradient(*line, first, second, *covered), place, out);
+    }
+
+    void drawSweep(Paint paint, const Place& place, NodeList& out) {
+        const auto line = readLine(paint);
+        const Point center = paint.from.point();
+        // Stored less half a turn, counterclockwise.
+        const auto readAngle = [&] { return 360 - 180 * (paint.from.fraction() + 1); };
+        const double start = readAngle(), end = readAngle();
+        const auto covered = extent(place);
+        if (line && covered)
+            fill(sweepGradient(*line, center, start, end, *covered), place, out);
     }
 
     const ColorSource& source_;
-    FT_Face face_;
+    const ColrTable table_;
     int visits_ = 0, depth_ = 0;
-    int outlines_ = 0;  ///< glyphs seen so far
+    int outlines_ = 0;  ///< glyphs met so far
 };
 
 }  // namespace
 
-std::optional<scene::Group> paintsOf(const ColorSource& source, FreeTypeFace& face, GlyphId glyph) {
-    const std::lock_guard lock(face.mutex);
-    Painter painter(source, face.face());
+std::optional<scene::Group> paintsOf(const ColorSource& source, GlyphId glyph) {
+    hb_face_t* const face = hb_font_get_face(source.outlines.harfbuzz());
+    const HbBlob table(hb_face_reference_table(face, HB_TAG('C', 'O', 'L', 'R')));
+    unsigned size = 0;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(hb_blob_get_data(table.get(), &size));
+    Painter painter(source, {bytes, size});
     scene::Group group;
-    if (!painter.glyph(glyph, source.transform, group.children) || painter.isExhausted())
+    if (!painter.drawGlyph(glyph, source.transform, group.children) || painter.isExhausted())
         return std::nullopt;
     return group;
 }

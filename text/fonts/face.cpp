@@ -15,13 +15,6 @@ bool Face::hasAxis(Tag axis) const {
     return hb_ot_var_find_axis_info(face_.get(), axis, &info);
 }
 
-std::shared_ptr<FreeTypeFace> Face::freeType() const {
-    const std::lock_guard lock(mutex_);
-    if (!freeType_)
-        freeType_ = FreeTypeFace::of(harfbuzz());
-    return *freeType_;
-}
-
 std::shared_ptr<const Font> Face::font(const Instance& instance) const {
     const std::lock_guard lock(mutex_);
     std::weak_ptr<const Font>& known = fonts_[instance];

@@ -7,12 +7,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "text/color/free_type_face.hpp"
 #include "text/font.hpp"
 #include "text/fonts/handles.hpp"
 
@@ -34,8 +32,6 @@ public:
     const std::string& family() const { return family_; }
     bool hasAxis(Tag axis) const;
     bool hasColor() const { return hasColor_; }  ///< tables that can hold colour glyphs
-    /// Null where FreeType cannot read it.
-    std::shared_ptr<FreeTypeFace> freeType() const;
     /// The same one for the same instance as long as somebody holds it.
     std::shared_ptr<const Font> font(const Instance& instance) const;
 
@@ -43,8 +39,7 @@ private:
     HbFace face_;
     std::string family_;
     bool hasColor_;
-    mutable std::mutex mutex_;  ///< guards what follows
-    mutable std::optional<std::shared_ptr<FreeTypeFace>> freeType_;
+    mutable std::mutex mutex_;  ///< guards fonts_
     mutable std::map<Instance, std::weak_ptr<const Font>> fonts_;
 };
 

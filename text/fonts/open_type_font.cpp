@@ -126,8 +126,7 @@ std::optional<Font::ColorGlyph> OpenTypeFont::colorGlyphOf(GlyphId glyph, const 
     const auto plain = face_->font({instance_.axes});
     const scene::Affine slant{1, 0, instance_.oblique ? -obliqueSlant : 0, 1, 0, 0};
     const ColorSource source{*plain, foreground, scene::compose(transform, slant)};
-    const auto freeType = face_->freeType();
-    if (auto group = freeType ? paintsOf(source, *freeType, glyph) : std::nullopt)
+    if (auto group = paintsOf(source, glyph))
         return group;
     if (auto group = layersOf(source, glyph))
         return group;
