@@ -40,6 +40,7 @@ public:
         picture_.outlines.points.reserve(usualPoints);
         picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
+        const limits::Stage stage("compiling", place_);  // between outlines too, an element is named
         group(scene.root, excerpt.fromScene, openGroup(0));
     }
 

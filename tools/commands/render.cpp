@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -68,11 +70,21 @@ image::PixelWriter writerFor(const Job& job, const RenderOptions& options, const
     return image::PixelWriter({under.r, under.g, under.b, under.a}, options.file.encoding.depth);
 }
 
+/// Grown to whole pixels at this scale, as rsvg-convert does: nothing is squeezed or cut off.
+scene::Rect toWholePixels(const scene::Rect& part, double scale) {
+    constexpr double unseen = 1.0 / 512;  // of a pixel: such coverage is 0 in 8 bits
+    const auto side = [&](double length) {
+        return std::max(1.0, std::ceil(length * scale - unseen)) / scale;
+    };
+    return {part.x, part.y, side(part.width), side(part.height)};
+}
+
 /// What --export-id draws is what is seen of it, where no --view says otherwise.
 scene::Framing framingOf(const RenderOptions& options, const Source& source) {
     scene::Framing framing = options.framing;
-    if (!framing.part)
-        framing.part = source.exported;
+    const bool hasSize = framing.width || framing.height;
+    if (!framing.part && source.exported)
+        framing.part = hasSize ? *source.exported : toWholePixels(*source.exported, framing.scale);
     return framing;
 }
 
