@@ -39,7 +39,7 @@ FileHeader checkedHeader(Bytes bytes) {
     require(header.version == fileVersion, offsetof(FileHeader, version),
             fmt::format("version {} is unknown; this reader knows {}", header.version, fileVersion));
     require(header.fileBytes == bytes.size(), offsetof(FileHeader, fileBytes),
-            fmt::format("file should have {} bytes and has {}", header.fileBytes, bytes.size()));
+            fmt::format("file has {} bytes instead of {}", bytes.size(), header.fileBytes));
     require(header.sections <= maxSections, offsetof(FileHeader, sections),
             "number of sections is too large");
     require(bytes.size() >= lineOffset(header.sections), bytes.size(), "file ends inside its section table");
@@ -76,7 +76,7 @@ std::vector<SectionLine> checkedTable(Bytes bytes) {
         skipPadding();
         lines.push_back(line);
     }
-    require(next == bytes.size(), next, "bytes are left over behind the last section");
+    require(next == bytes.size(), next, "there are bytes after the last section");
     return lines;
 }
 

@@ -45,7 +45,7 @@ bool isWithin(const char* option, const std::optional<double>& limit, double val
     constexpr double rounding = 255 * 0x1p-22;  // of premultiplied floats in [0, 1] and their difference
     if (!limit || value <= *limit + rounding)
         return true;
-    say(fmt::format("vtm: {} {:g}: is {:.4g}", option, *limit, value));
+    say(fmt::format("vtm: {} {:g}: exceeded, the value is {:.4g}", option, *limit, value));
     return false;
 }
 

@@ -133,7 +133,7 @@ std::vector<Job> checkedJobs(const RenderOptions& options) {
 
 int render(const RenderOptions& options) {
     if (parseDebugView(options.debugView) != DebugView::None && options.framing.rotation != 0)
-        throw UsageError("--debug-view: works without --rotate only");
+        throw UsageError("--debug-view: cannot be combined with --rotate");
     if (!options.debugView.empty() && options.file.encoding.depth != 8)
         throw UsageError("--debug-view: needs 8 bits per channel");
     const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
