@@ -52,8 +52,8 @@ struct LoadOptions {
     /// Folder to which relative references of an SVG refer. Empty: the folder of the file; from memory,
     /// relative references are not read.
     std::string folder = {};
-    double dpi = 96;              ///< user units per inch, for lengths in physical units
-    std::string language = "en";  ///< matched with SVG's systemLanguage
+    double dpi = 96;              ///< pixels an inch, for lengths in physical units
+    std::string language = "en";  ///< for systemLanguage
 };
 
 /// The engine that draws.
