@@ -356,7 +356,7 @@ TEST(Asset, TooManyWaitingNodesAreRefused) {
     for (std::uint32_t i = 0; i < leaves; ++i)
         asset.nodes.push_back({noIndex, 0.5f, rest(i), rest(leaves + i - 1)});
     asset.root = 2 * leaves - 1;
-    refuses(asset, "more than 16 nodes wait");
+    refuses(asset, "more than 16 nodes are pending");
 }
 
 }  // namespace
