@@ -215,7 +215,7 @@ void SampledTexture::bind(unsigned program, const std::string& name, unsigned fi
         throw GlError(fmt::format("'{}' needs texture units {} to {}: the driver has {}", name, firstUnit,
                                   firstUnit + units() - 1, maximum));
     if (glGetUniformLocation(program, (name + ".texels").c_str()) < 0)
-        throw GlError(fmt::format("program {} does not use 'uniform Vtm {}'", program, name));
+        throw GlError(fmt::format("program {} has no 'uniform Vtm {}', or does not use it", program, name));
     const SavedBindState saved;
     glUseProgram(program);
     impl_->setUniforms(program, name, wrapping);

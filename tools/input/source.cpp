@@ -154,7 +154,7 @@ void warnOf(Source& source, const std::vector<svg::Warning>& warnings) {
 
 void refuseLeftOut(const Source& source) {
     if (source.leftOut > 0)
-        throw std::runtime_error("--strict: nothing is written, because of the warnings above");
+        throw std::runtime_error("--strict: nothing is written, because something is left out or repaired");
 }
 
 }  // namespace vtm::tools

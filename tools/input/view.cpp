@@ -84,7 +84,7 @@ scene::Frame frameOf(const scene::Framing& framing, double pictureWidth, double 
     if (frame.width > asset::maxViewSide || frame.height > asset::maxViewSide ||
         frame.width * frame.height > double(asset::maxViewPixels))
         throw std::length_error(fmt::format(
-            "{} x {} pixels are too many (at most {} a side and {} in all); choose a smaller --width, "
+            "{} x {} pixels are too many (the limit is {} per side and {} in all); choose a smaller --width, "
             "--height or --zoom",
             readable(frame.width), readable(frame.height), readable(asset::maxViewSide),
             readable(double(asset::maxViewPixels))));

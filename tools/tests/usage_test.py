@@ -82,7 +82,7 @@ class DiffLimits(Command):
                 if code != 2:
                     self.assertIn("max: 16.00\n", done.stdout)
                 if code == 1:
-                    self.assertRegex(done.stderr, r"--(max|mean) [0-9.]+: is ")
+                    self.assertRegex(done.stderr, r"--(max|mean) [0-9.]+: exceeded, the value is ")
 
 
 if __name__ == "__main__":
