@@ -39,7 +39,7 @@ FileHeader checkedHeader(Bytes bytes) {
     requireAt(header.version == fileVersion, offsetof(FileHeader, version),
               fmt::format("version {} is unknown; this reader knows {}", header.version, fileVersion));
     requireAt(header.fileBytes == bytes.size(), offsetof(FileHeader, fileBytes),
-              fmt::format("file should have {} bytes and has {}", header.fileBytes, bytes.size()));
+              fmt::format("file has {} bytes instead of {}", bytes.size(), header.fileBytes));
     requireAt(header.sections <= maxSections, offsetof(FileHeader, sections),
               "number of sections is too large");
     requireAt(bytes.size() >= lineOffset(header.sections), bytes.size(),
@@ -77,7 +77,7 @@ std::vector<SectionLine> checkedTable(Bytes bytes) {
         skipPadding();
         lines.push_back(line);
     }
-    requireAt(next == bytes.size(), next, "bytes are left over behind the last section");
+    requireAt(next == bytes.size(), next, "there are bytes after the last section");
     return lines;
 }
 
@@ -124,7 +124,7 @@ private:
 
 void readPicture(const Sections& sections, AssetView& view) {
     const auto records = sections.take<PictureRecord>(SectionKind::Picture);
-    asset::require(records.size() == 1, "picture", records.size(), "must be one record");
+    asset::requireAt(records.size() == 1, "picture", records.size(), "must be one record");
     view.width = records[0].width;
     view.height = records[0].height;
     view.mode = records[0].mode;
@@ -136,8 +136,8 @@ void readAccuracy(const Sections& sections, AssetView& view) {
     const auto records = sections.take<AccuracyRecord>(SectionKind::Accuracy);
     if (records.empty())
         return;
-    asset::require(records.size() == 1, "accuracy", records.size(), "must be one record");
-    asset::require(records[0].unused == 0, "accuracy", 0, "unused word is not zero");
+    asset::requireAt(records.size() == 1, "accuracy", records.size(), "must be one record");
+    asset::requireAt(records[0].unused == 0, "accuracy", 0, "unused word is not zero");
     view.finestPixel = records[0].finestPixel;
 }
 

@@ -41,7 +41,7 @@ void check(const scene::Frame& frame) {
     const scene::Rect seen = frame.seen();
     if (!(isFinite(frame.pixel) && isFinite(frame.turn) && isFinite({seen.x, seen.y}) &&
           isFinite({seen.x + seen.width, seen.y + seen.height}) && frame.pixel.x > 0 && frame.pixel.y > 0))
-        throw std::invalid_argument("the part that is seen must be finite and not empty");
+        throw std::invalid_argument("the visible part must be finite and not empty");
 }
 
 /// Of the raster alone.

@@ -139,7 +139,7 @@ class SingleElements(Command):
     def test_what_cannot_be_drawn_is_an_error(self):
         self.assertRegex(self.draw("absent", expect=1).stderr, r'parts\.svg:1:\d+: no element has the id "absent"')
         for name in ("hidden", "far"):
-            self.assertRegex(self.draw(name, expect=1).stderr, rf"parts\.svg:\d+:\d+: #{name}: nothing of it is drawn")
+            self.assertRegex(self.draw(name, expect=1).stderr, rf"parts\.svg:\d+:\d+: #{name}: the element draws nothing")
         self.vtm("compile", self.svg, "-o", "parts.vtm")
         self.assertIn("--export-id", self.vtm("render", "parts.vtm", "-o", "o.png", "-i", "one", expect=1).stderr)
         self.draw("", expect=2)

@@ -11,15 +11,16 @@
 
 namespace vtm::svg {
 
-/// Names the first part of a scene that is not written.
+/// A scene has a part that cannot be written. what() names the first such part.
 class WriteError : public Error {
     using Error::Error;
 };
 
-/// A document of one `path` an item and one `g` a group, in the scene's units, y down. Fills, strokes,
-/// opacities and solid colours (rounded to 8 bits a channel) are written; gradients, patterns, images, clips,
-/// masks and blend modes are a WriteError. Coordinates are the shortest that read back as the same value. The
-/// scene is valid.
+/// Returns an SVG document with one `path` per item and one `g` per group, in the scene's units, y down. It
+/// contains fills, strokes, opacities and solid colours, rounded to 8 bits per channel. Coordinates are
+/// written with the fewest digits that read back as the same value. The scene must be valid
+/// (scene::validate). Throws WriteError for gradients, patterns, images, materials, clips, masks, selections
+/// and blend modes.
 std::string write(const scene::Scene& scene);
 
 }  // namespace vtm::svg
