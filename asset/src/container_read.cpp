@@ -124,7 +124,7 @@ private:
 
 void readPicture(const Sections& sections, AssetView& view) {
     const auto records = sections.take<PictureRecord>(SectionKind::Picture);
-    asset::requireAt(records.size() == 1, "picture", records.size(), "must be one record");
+    asset::require(records.size() == 1, "picture", records.size(), "must be one record");
     view.width = records[0].width;
     view.height = records[0].height;
     view.mode = records[0].mode;
@@ -136,8 +136,8 @@ void readAccuracy(const Sections& sections, AssetView& view) {
     const auto records = sections.take<AccuracyRecord>(SectionKind::Accuracy);
     if (records.empty())
         return;
-    asset::requireAt(records.size() == 1, "accuracy", records.size(), "must be one record");
-    asset::requireAt(records[0].unused == 0, "accuracy", 0, "unused word is not zero");
+    asset::require(records.size() == 1, "accuracy", records.size(), "must be one record");
+    asset::require(records[0].unused == 0, "accuracy", 0, "unused word is not zero");
     view.finestPixel = records[0].finestPixel;
 }
 
