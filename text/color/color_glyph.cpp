@@ -7,7 +7,9 @@
 #include <utility>
 #include <vtm/image/codec.hpp>
 
+#include "text/color/gradients.hpp"
 #include "text/fonts/handles.hpp"
+#include "text/fonts/table_cursor.hpp"
 
 namespace vtm::text {
 namespace {
@@ -30,12 +32,6 @@ bool hasTable(hb_face_t* face, Tag tag) {
     return hb_blob_get_length(table.get()) > 0;
 }
 
-std::span<const std::uint8_t> bytesOf(hb_blob_t* blob) {
-    unsigned size = 0;
-    const char* const bytes = hb_blob_get_data(blob, &size);
-    return {reinterpret_cast<const std::uint8_t*>(bytes), size};
-}
-
 /// Null for what is no picture.
 std::shared_ptr<const image::Bitmap> decoded(hb_blob_t* png) {
     try {
@@ -43,6 +39,16 @@ std::shared_ptr<const image::Bitmap> decoded(hb_blob_t* png) {
     } catch (const image::CodecError&) {
         return nullptr;
     }
+}
+
+/// Where bitmaps are placed from. CoreText, which sbix comes from, counts from the lower left corner of the
+/// glyph's outline, where it has one.
+scene::Point bitmapOrigin(const ColorSource& source, GlyphId glyph) {
+    const auto path = source.outlines.outlineOf(glyph);
+    if (!path || !hasTable(faceOf(source), HB_TAG('s', 'b', 'i', 'x')))
+        return {0, 0};
+    const Extent bounds = boundsOf(*path, scene::identity);
+    return {bounds.min.x, bounds.max.y};
 }
 
 }  // namespace
@@ -95,7 +101,8 @@ std::optional<scene::Group> bitmapOf(const ColorSource& source, GlyphId glyph) {
     const auto bitmap = decoded(png.get());
     if (!bitmap || extents.width <= 0 || extents.height >= 0)
         return std::nullopt;
-    const scene::Point min = scene::Point(extents.x_bearing, -extents.y_bearing) / scalePerUnit;
+    const scene::Point min =
+        bitmapOrigin(source, glyph) + scene::Point(extents.x_bearing, -extents.y_bearing) / scalePerUnit;
     const scene::Point size = scene::Point(extents.width, -extents.height) / scalePerUnit;
     const scene::Affine place = scene::compose(
         scene::translation(min.x, min.y), scene::scaling(size.x / bitmap->width, size.y / bitmap->height));

@@ -22,18 +22,6 @@ std::optional<std::size_t> lastUpTo(GlyphId glyph, std::size_t count, GlyphAt gl
 
 }  // namespace
 
-std::uint32_t TableCursor::unsignedNumber(int bytes) {
-    std::uint32_t value = 0;
-    for (int i = 0; i < bytes; ++i, ++at_)
-        value = value << 8 | (at_ < table_.size() ? table_[at_] : 0u);
-    return value;
-}
-
-scene::Point TableCursor::point() {
-    const int x = word(), y = word();
-    return {x, -y};
-}
-
 std::optional<std::size_t> ColrTable::list(std::size_t field) const {
     if (table_.size() < headerSize || at(0).unsignedNumber(2) < 1)
         return std::nullopt;
@@ -70,8 +58,8 @@ std::optional<ClipBox> ColrTable::clipBoxOf(GlyphId glyph) const {
     if (glyph > record.unsignedNumber(2))
         return std::nullopt;
     TableCursor box = at(*clips + record.unsignedNumber(3) + 1);
-    const scene::Point lower = box.point(), upper = box.point();
-    return ClipBox{{lower.x, upper.y}, {upper.x, lower.y}};
+    const int left = box.word(), bottom = box.word(), right = box.word(), top = box.word();
+    return ClipBox{{left, -top}, {right, -bottom}};
 }
 
 std::optional<std::size_t> ColrTable::layer(std::uint32_t index) const {

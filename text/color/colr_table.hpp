@@ -9,25 +9,9 @@
 #include <span>
 
 #include "text/font.hpp"
+#include "text/fonts/table_cursor.hpp"
 
 namespace vtm::text {
-
-/// Big-endian numbers one after another; 0 beyond the end.
-class TableCursor {
-public:
-    TableCursor(std::span<const std::uint8_t> table, std::size_t at) : table_(table), at_(at) {}
-
-    std::uint32_t unsignedNumber(int bytes);
-    int word() { return static_cast<std::int16_t>(unsignedNumber(2)); }
-    double fixed() { return static_cast<std::int32_t>(unsignedNumber(4)) / 65536.0; }
-    /// F2DOT14, in [-2, 2).
-    double fraction() { return word() / 16384.0; }
-    scene::Point point();  ///< two words, turned y down
-
-private:
-    std::span<const std::uint8_t> table_;
-    std::size_t at_;
-};
 
 struct ClipBox {
     scene::Point min, max;  ///< y down

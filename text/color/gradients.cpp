@@ -96,6 +96,25 @@ std::pair<double, double> coneOffsets(const Circle& first, const Circle& second,
 
 }  // namespace
 
+Extent boundsOf(const scene::Path& path, const scene::Affine& transform) {
+    Extent extent{scene::Point(HUGE_VAL), scene::Point(-HUGE_VAL)};
+    const auto add = [&](scene::Point p) {
+        p = scene::apply(transform, p);
+        extent = {glm::min(extent.min, p), glm::max(extent.max, p)};
+    };
+    for (const scene::Command& command : path) {
+        if (const auto end = scene::endOf(command))
+            add(*end);
+        if (const auto* quad = std::get_if<scene::QuadTo>(&command))
+            add(quad->control);
+        if (const auto* cubic = std::get_if<scene::CubicTo>(&command)) {
+            add(cubic->control1);
+            add(cubic->control2);
+        }
+    }
+    return extent;
+}
+
 scene::Color ColorLine::at(double offset) const {
     const double first = stops.front().offset, length = stops.back().offset - first;
     if (spread != scene::Spread::Pad && length > 0) {

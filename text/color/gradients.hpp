@@ -33,10 +33,12 @@ struct Circle {
 };
 std::optional<scene::Paint> radialGradient(const ColorLine& line, Circle first, Circle second);
 
-/// A shape that a paint fills, in the paint's space.
+/// A rectangle; that of no points is turned inside out.
 struct Extent {
     scene::Point min, max;
 };
+/// Around the transformed points of a path, controls included.
+Extent boundsOf(const scene::Path& path, const scene::Affine& transform);
 
 struct Piece {
     scene::Path path;
@@ -44,8 +46,8 @@ struct Piece {
 };
 
 /// What scenes have no paint for is cut into pieces of one colour each, in painter's order, which together
-/// cover `extent`. A sweep: sectors of a degree, and cuts at the stops. Angles are degrees, clockwise on the
-/// screen.
+/// cover `extent`, all that the paint fills. A sweep: sectors of a degree, and cuts at the stops. Angles are
+/// degrees, clockwise on the screen.
 std::vector<Piece> sweepGradient(const ColorLine& line, scene::Point center, double start, double end,
                                  const Extent& extent);
 /// Two circles neither of which is in the other: discs.

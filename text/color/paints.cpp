@@ -1,14 +1,12 @@
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "text/color/color_glyph.hpp"
 #include "text/color/colr_table.hpp"
 #include "text/color/composite.hpp"
 #include "text/color/gradients.hpp"
+#include "text/color/transforms.hpp"
 #include "text/fonts/handles.hpp"
 
 namespace vtm::text {
@@ -17,39 +15,6 @@ namespace {
 using scene::Affine;
 using scene::NodeList;
 using scene::Point;
-
-constexpr double halfTurn = std::numbers::pi;
-
-/// Fonts' matrices, turned y down.
-Affine affine(double xx, double yx, double xy, double yy, double dx, double dy) {
-    return {xx, -yx, -xy, yy, dx, -dy};
-}
-
-Affine around(const Affine& linear, Point center) {
-    return scene::compose(scene::compose(scene::translation(center.x, center.y), linear),
-                          scene::translation(-center.x, -center.y));
-}
-
-Affine readAffine(TableCursor from) {
-    const double xx = from.fixed(), yx = from.fixed(), xy = from.fixed(), yy = from.fixed();
-    const double dx = from.fixed(), dy = from.fixed();
-    return affine(xx, yx, xy, yy, dx, dy);
-}
-
-Affine readScale(TableCursor& from, bool isUniform) {
-    const double x = from.fraction(), y = isUniform ? x : from.fraction();
-    return scene::scaling(x, y);
-}
-
-Affine readRotation(TableCursor& from) {
-    const double angle = from.fraction() * halfTurn, c = std::cos(angle), s = std::sin(angle);
-    return affine(c, s, -s, c, 0, 0);
-}
-
-Affine readSkew(TableCursor& from) {
-    const double x = std::tan(from.fraction() * halfTurn), y = std::tan(from.fraction() * halfTurn);
-    return affine(1, y, -x, 1, 0, 0);
-}
 
 scene::Spread spreadOf(std::uint32_t extend) {
     if (extend == 1)
@@ -63,26 +28,6 @@ struct Place {
     Affine pathTransform;  ///< the path's space to the picture
     Affine transform;      ///< the paint's space to the picture
 };
-
-/// Around the path's points, controls included, in the paint's space.
-Extent extentOf(const scene::Path& path, const Affine& toPaint) {
-    Extent extent{Point(HUGE_VAL), Point(-HUGE_VAL)};
-    const auto add = [&](Point p) {
-        p = scene::apply(toPaint, p);
-        extent = {glm::min(extent.min, p), glm::max(extent.max, p)};
-    };
-    for (const scene::Command& command : path) {
-        if (const auto end = scene::endOf(command))
-            add(*end);
-        if (const auto* quad = std::get_if<scene::QuadTo>(&command))
-            add(quad->control);
-        if (const auto* cubic = std::get_if<scene::CubicTo>(&command)) {
-            add(cubic->control1);
-            add(cubic->control2);
-        }
-    }
-    return extent;
-}
 
 scene::Group clipped(NodeList nodes, const Place& place) {
     scene::ClipShape shape;
@@ -98,31 +43,11 @@ scene::Group clipped(NodeList nodes, const Place& place) {
 
 void append(NodeList& to, NodeList nodes) { std::move(nodes.begin(), nodes.end(), std::back_inserter(to)); }
 
-/// As COLR numbers them; the variable format of most is the next number.
-enum Format {
-    colrLayers = 1,
-    solid = 2,
-    linearGradientPaint = 4,
-    radialGradientPaint = 6,
-    sweepGradientPaint = 8,
-    glyphPaint = 10,
-    colrGlyph = 11,
-    transform = 12,
-    translate = 14,
-    scale = 16,
-    scaleAround = 18,
-    scaleUniform = 20,
-    scaleUniformAround = 22,
-    rotate = 24,
-    rotateAround = 26,
-    skew = 28,
-    skewAround = 30,
-    composite = 32
-};
-
-Format plainFormat(std::uint32_t format) {
-    const bool isVariable = format % 2 == 1 && format != colrLayers && format != colrGlyph;
-    return static_cast<Format>(isVariable ? format - 1 : format);
+PaintFormat plainFormat(std::uint32_t format) {
+    const auto plain = static_cast<PaintFormat>(format);
+    const bool isVariable =
+        format % 2 == 1 && plain != PaintFormat::ColrLayers && plain != PaintFormat::ColrGlyph;
+    return isVariable ? static_cast<PaintFormat>(format - 1) : plain;
 }
 
 /// Walks the graph of a glyph's paints. Parts may be shared many times over: the number of visits is bounded.
@@ -182,23 +107,23 @@ private:
 
     void drawPaint(Paint paint, const Place& place, NodeList& out) {
         switch (plainFormat(paint.format)) {
-            case colrLayers:
+            case PaintFormat::ColrLayers:
                 return drawLayers(paint.from, place, out);
-            case solid:
+            case PaintFormat::Solid:
                 return fill(readColor(paint.from), place, out);
-            case linearGradientPaint:
+            case PaintFormat::LinearGradient:
                 return drawLinear(paint, place, out);
-            case radialGradientPaint:
+            case PaintFormat::RadialGradient:
                 return drawRadial(paint, place, out);
-            case sweepGradientPaint:
+            case PaintFormat::SweepGradient:
                 return drawSweep(paint, place, out);
-            case glyphPaint:
+            case PaintFormat::Glyph:
                 return drawOutline(paint, place, out);
-            case colrGlyph:
+            case PaintFormat::ColrGlyph:
                 ++outlines_;
                 drawGlyph(paint.from.unsignedNumber(2), place.transform, out);
                 return;
-            case composite:
+            case PaintFormat::Composite:
                 return drawComposite(paint, place, out);
             default:
                 return drawTransformed(paint, place, out);
@@ -207,44 +132,9 @@ private:
 
     void drawTransformed(Paint paint, Place place, NodeList& out) {
         const std::size_t child = paint.offset();
-        if (const auto by = readTransform(paint)) {
+        if (const auto by = readTransform(table_, plainFormat(paint.format), paint.at, paint.from)) {
             place.transform = scene::compose(place.transform, *by);
             draw(child, place, out);
-        }
-    }
-
-    /// Nothing for formats of later versions.
-    std::optional<Affine> readTransform(Paint& paint) const {
-        TableCursor& from = paint.from;
-        switch (plainFormat(paint.format)) {
-            case transform:
-                return readAffine(table_.at(paint.offset()));
-            case translate: {
-                const Point by = from.point();
-                return scene::translation(by.x, by.y);
-            }
-            case scale:
-            case scaleUniform:
-                return readScale(from, paint.format >= scaleUniform);
-            case scaleAround:
-            case scaleUniformAround: {
-                const Affine linear = readScale(from, paint.format >= scaleUniform);
-                return around(linear, from.point());
-            }
-            case rotate:
-                return readRotation(from);
-            case rotateAround: {
-                const Affine linear = readRotation(from);
-                return around(linear, from.point());
-            }
-            case skew:
-                return readSkew(from);
-            case skewAround: {
-                const Affine linear = readSkew(from);
-                return around(linear, from.point());
-            }
-            default:
-                return std::nullopt;
         }
     }
 
@@ -336,18 +226,18 @@ private:
     static std::optional<Extent> extent(const Place& place) {
         const auto path = toPath(place);
         const auto back = path ? scene::inverse(*path) : std::nullopt;
-        return back ? std::optional(extentOf(*place.path, *back)) : std::nullopt;
+        return back ? std::optional(boundsOf(*place.path, *back)) : std::nullopt;
     }
 
     void drawLinear(Paint paint, const Place& place, NodeList& out) {
         const auto line = readLine(paint);
-        const Point p0 = paint.from.point(), p1 = paint.from.point(), p2 = paint.from.point();
+        const Point p0 = readPoint(paint.from), p1 = readPoint(paint.from), p2 = readPoint(paint.from);
         if (auto gradient = line ? linearGradient(*line, p0, p1, p2) : std::nullopt)
             fill(std::move(*gradient), place, out);
     }
 
     static Circle readCircle(TableCursor& from) {
-        const Point center = from.point();
+        const Point center = readPoint(from);
         return {center, double(from.unsignedNumber(2))};
     }
 
@@ -365,7 +255,7 @@ private:
 
     void drawSweep(Paint paint, const Place& place, NodeList& out) {
         const auto line = readLine(paint);
-        const Point center = paint.from.point();
+        const Point center = readPoint(paint.from);
         // Stored less half a turn, counterclockwise.
         const auto readAngle = [&] { return 360 - 180 * (paint.from.fraction() + 1); };
         const double start = readAngle(), end = readAngle();
@@ -385,9 +275,7 @@ private:
 std::optional<scene::Group> paintsOf(const ColorSource& source, GlyphId glyph) {
     hb_face_t* const face = hb_font_get_face(source.outlines.harfbuzz());
     const HbBlob table(hb_face_reference_table(face, HB_TAG('C', 'O', 'L', 'R')));
-    unsigned size = 0;
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(hb_blob_get_data(table.get(), &size));
-    Painter painter(source, {bytes, size});
+    Painter painter(source, bytesOf(table.get()));
     scene::Group group;
     if (!painter.drawGlyph(glyph, source.transform, group.children) || painter.isExhausted())
         return std::nullopt;

@@ -1,5 +1,6 @@
 #include "text/fonts/document_fonts.hpp"
 
+#include <fmt/format.h>
 #include <hb-ot.h>
 
 #include <utility>
@@ -60,6 +61,9 @@ void DocumentFonts::add(const FontFace& face, std::span<const std::uint8_t> byte
     auto font = openFace(sfnt.get(), 0, face.family);
     if (!font)
         throw FontError("the font has no glyphs");
+    if (font->hasTooLargeGlyphs())
+        throw FontError(
+            fmt::format("a glyph of the font has more than {} points or contains itself", maxGlyphParts));
     entries_.push_back(std::make_unique<const FaceEntry>(entryOf(face, std::move(font))));
     auto& family = families_[familyKey(face.family)];
     family.insert(family.begin(), entries_.back().get());

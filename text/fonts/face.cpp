@@ -8,11 +8,26 @@
 namespace vtm::text {
 
 Face::Face(HbFace face, std::string family)
-    : face_(std::move(face)), family_(std::move(family)), hasColor_(hasColorTables(harfbuzz())) {}
+    : face_(std::move(face)),
+      family_(std::move(family)),
+      hasColor_(hasColorTables(harfbuzz())),
+      composites_(harfbuzz()) {}
 
 bool Face::hasAxis(Tag axis) const {
     hb_ot_var_axis_info_t info;
     return hb_ot_var_find_axis_info(face_.get(), axis, &info);
+}
+
+bool Face::isTooLarge(GlyphId glyph) const {
+    const std::lock_guard lock(compositesMutex_);
+    return composites_.partsOf(glyph) > maxGlyphParts;
+}
+
+bool Face::hasTooLargeGlyphs() const {
+    for (GlyphId glyph = 0; glyph < hb_face_get_glyph_count(harfbuzz()); ++glyph)
+        if (isTooLarge(glyph))
+            return true;
+    return false;
 }
 
 std::shared_ptr<const Font> Face::font(const Instance& instance) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "text/font.hpp"
+#include "text/fonts/composites.hpp"
 #include "text/fonts/handles.hpp"
 
 namespace vtm::text {
@@ -32,6 +33,9 @@ public:
     const std::string& family() const { return family_; }
     bool hasAxis(Tag axis) const;
     bool hasColor() const { return hasColor_; }  ///< tables that can hold colour glyphs
+    /// Of more parts than maxGlyphParts.
+    bool isTooLarge(GlyphId glyph) const;
+    bool hasTooLargeGlyphs() const;
     /// The same one for the same instance as long as somebody holds it.
     std::shared_ptr<const Font> font(const Instance& instance) const;
 
@@ -39,7 +43,9 @@ private:
     HbFace face_;
     std::string family_;
     bool hasColor_;
-    mutable std::mutex mutex_;  ///< guards fonts_
+    mutable std::mutex mutex_;            ///< guards fonts_
+    mutable std::mutex compositesMutex_;  ///< guards composites_
+    mutable Composites composites_;
     mutable std::map<Instance, std::weak_ptr<const Font>> fonts_;
 };
 

@@ -31,9 +31,9 @@ using Faces = std::vector<const FaceEntry*>;
 
 /// What was found for a query.
 struct Answer {
-    bool hasPrimary = false, hasFallback = false;
+    bool hasPrimary = false;
     std::shared_ptr<const Font> primary;
-    std::vector<Faces> fallback;  ///< families in their order, the faces of each
+    std::map<std::u32string, std::shared_ptr<const Font>, std::less<>> covering;  ///< by cluster
     std::map<const FaceEntry*, std::shared_ptr<const Font>> fonts;
 };
 
@@ -53,6 +53,7 @@ public:
     void add(const FontFace& face, std::span<const std::uint8_t> bytes) {
         own_.add(face, bytes);
         answers_.clear();
+        fallbacks_.clear();
     }
 
     bool hasFamily(const std::string& family) const { return generic(family) || !facesOf(family).empty(); }
@@ -65,10 +66,14 @@ public:
     }
 
     std::shared_ptr<const Font> covering(const FontQuery& query, std::u32string_view cluster) {
-        for (const std::u32string_view wanted : {cluster, cluster.substr(0, 1)})
-            if (auto font = findCovering(query, wanted))
-                return font;
-        return nullptr;
+        Answer& answer = answers_[keyOf(query)];
+        const auto known = answer.covering.find(cluster);
+        if (known != answer.covering.end())
+            return known->second;
+        auto font = findCovering(query, cluster, answer);
+        if (!font && cluster.size() > 1)
+            font = findCovering(query, cluster.substr(0, 1), answer);
+        return answer.covering[std::u32string(cluster)] = font;
     }
 
 private:
@@ -94,7 +99,7 @@ private:
         for (const std::string& family : query.families)
             if (auto font = bestOf(facesOf(family), query, answer))
                 return font;
-        for (const Faces& family : fallback(query, answer))
+        for (const Faces& family : fallback(query))
             if (auto font = bestOf(family, query, answer))
                 return font;
         return nullptr;
@@ -105,8 +110,8 @@ private:
         return open(bestFace(faces, query), query, answer);
     }
 
-    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster) {
-        Answer& answer = answers_[keyOf(query)];
+    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
+                                             Answer& answer) {
         if (asksForColor(cluster))
             if (auto font = findCovering(query, cluster, answer, true))
                 return font;
@@ -124,7 +129,7 @@ private:
         for (const std::string& family : query.families)
             if (auto font = find(facesOf(family)))
                 return font;
-        for (const Faces& family : fallback(query, answer))
+        for (const Faces& family : fallback(query))
             if (auto font = find(family))
                 return font;
         return nullptr;
@@ -132,13 +137,20 @@ private:
 
     /// The families to try after those of the query, each with all its faces. With system fonts fontconfig
     /// says which; without, the default one and those of `serif` and `sans-serif` go first.
-    const std::vector<Faces>& fallback(const FontQuery& query, Answer& answer) const {
-        if (std::exchange(answer.hasFallback, true))
-            return answer.fallback;
+    const std::vector<Faces>& fallback(const FontQuery& query) {
+        const auto [at, isNew] = fallbacks_.try_emplace(
+            std::tuple(query.families, query.weight, query.stretch, query.slant, query.language));
+        if (isNew)
+            at->second = findFallback(query);
+        return at->second;
+    }
+
+    std::vector<Faces> findFallback(const FontQuery& query) const {
+        std::vector<Faces> fallback;
         std::set<std::string> seen;
         const auto append = [&](const std::string& family) {
             if (seen.insert(familyKey(family)).second && !facesOf(family).empty())
-                answer.fallback.push_back(facesOf(family));
+                fallback.push_back(facesOf(family));
         };
         if (!options_.systemFonts)
             for (const std::string& family :
@@ -146,7 +158,7 @@ private:
                 append(family);
         for (const FaceEntry* face : library_->substitutes(withDefault(query)))
             append(face->family);
-        return answer.fallback;
+        return fallback;
     }
 
     /// As fontconfig is asked: generic names are what the options say, the default family is the last.
@@ -179,6 +191,8 @@ private:
     const std::shared_ptr<const FontLibrary> library_;
     DocumentFonts own_;
     std::map<decltype(keyOf({})), Answer> answers_;
+    std::map<std::tuple<std::vector<std::string>, double, double, Slant, std::string>, std::vector<Faces>>
+        fallbacks_;
 };
 
 FontSet::FontSet(const FontOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "text/color/color_glyph.hpp"
+#include "text/fonts/synthesis.hpp"
 
 namespace vtm::text {
 namespace {
@@ -111,12 +112,21 @@ std::shared_ptr<const scene::Path> OpenTypeFont::outlineOf(GlyphId glyph) const 
     const std::lock_guard lock(mutex_);
     const auto [found, fresh] = outlines_.try_emplace(glyph);
     if (fresh) {
-        OutlineBuilder builder;
-        hb_font_get_glyph_shape(font_.get(), glyph, drawFunctions(), &builder);
-        if (!builder.path.empty() && isFinite(builder.path))
-            found->second = std::make_shared<const scene::Path>(std::move(builder.path));
+        scene::Path path = readOutline(glyph);
+        if (!path.empty() && isFinite(path))
+            found->second = std::make_shared<const scene::Path>(std::move(path));
     }
     return found->second;
+}
+
+scene::Path OpenTypeFont::readOutline(GlyphId glyph) const {
+    // FreeType's own strength, which Cairo takes, too.
+    constexpr double boldStrength = 1.0 / 24;
+    OutlineBuilder builder;
+    if (!face_->isTooLarge(glyph))
+        hb_font_get_glyph_shape(font_.get(), glyph, drawFunctions(), &builder);
+    return instance_.bold ? emboldened(std::move(builder.path), boldStrength * unitsPerEm_)
+                          : std::move(builder.path);
 }
 
 std::optional<Font::ColorGlyph> OpenTypeFont::colorGlyphOf(GlyphId glyph, const scene::Color& foreground,

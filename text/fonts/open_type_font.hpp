@@ -30,6 +30,7 @@ public:
     hb_font_t* harfbuzz() const override { return font_.get(); }
 
 private:
+    scene::Path readOutline(GlyphId glyph) const;
     FontMetrics readMetrics() const;
     /// A metric in font units; nothing where the font does not say.
     std::optional<double> metric(std::uint32_t tag) const;

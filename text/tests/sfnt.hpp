@@ -2,6 +2,7 @@
 /// Font files taken apart and put together.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -46,7 +47,8 @@ inline std::vector<Table> tablesOf(const Bytes& sfnt) {
     return tables;
 }
 
-inline Bytes sfntOf(const std::vector<Table>& tables, std::uint32_t flavor = 0x00010000) {
+inline Bytes sfntOf(std::vector<Table> tables, std::uint32_t flavor = 0x00010000) {
+    std::sort(tables.begin(), tables.end(), [](const Table& a, const Table& b) { return a.tag < b.tag; });
     Bytes sfnt;
     append(sfnt, flavor, 4);
     append(sfnt, std::uint32_t(tables.size()), 2);
