@@ -129,6 +129,7 @@ void addSubcommands(CLI::App& app, int& exitCode) {
     addCompile(app, exitCode);
     addInfo(app, exitCode);
     addDiff(app, exitCode);
+    addNormalize(app, exitCode);
     addTrace(app, exitCode);
     for (CLI::App* command : app.get_subcommands({})) {
         addQuiet(*command);

@@ -197,10 +197,8 @@ void addRender(CLI::App& app, int& exitCode) {
     command->add_flag("--json", options->json, "Print figures and times as JSON, one line per picture");
     command->add_flag("-v,--verbose", options->verbose, "Print which engine drew each picture");
     addSourceOptions(*command, options->source);
-    command
-        ->add_option("-i,--export-id", options->source.svg.exportId,
-                     "Draw only the element with this id; without --view it fills the raster")
-        ->check([](const std::string& id) { return std::string(id.empty() ? "the id is empty" : ""); });
+    addExportId(*command, options->source.svg.exportId,
+                "Draw only the element with this id; without --view it fills the raster");
     command->footer(examples);
     command->callback([options, &exitCode] { exitCode = render(*options); });
 }

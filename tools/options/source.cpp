@@ -73,6 +73,10 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
         ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
         ->capture_default_str();
+    addImportOptions(command, options);
+}
+
+void addImportOptions(CLI::App& command, SourceOptions& options) {
     command.add_option("--dpi", options.svg.dpi, "User units per inch, for lengths such as 1in or 2cm")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -86,6 +90,12 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
             ->check(CLI::PositiveNumber)
             ->capture_default_str();
     addTextOptions(command, options.svg);
+}
+
+void addExportId(CLI::App& command, std::string& id, const std::string& description) {
+    command.add_option("-i,--export-id", id, description)->check([](const std::string& given) {
+        return std::string(given.empty() ? "the id is empty" : "");
+    });
 }
 
 }  // namespace vtm::tools
