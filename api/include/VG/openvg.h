@@ -1,8 +1,7 @@
 /*
  * OpenVG 1.1 (specification of December 2008): every type, value and function, in the specification's order.
- * Plain C89, usable from C++. Link with -lOpenVG, and with -lEGL for contexts; <vtm/vg.h> makes contexts
- * without EGL. All functions act on the context that is current in the calling thread; without one they do
- * nothing.
+ * Plain C89, usable from C++. Link with -lOpenVG, and with -lEGL for contexts; <vtm/vg.h> makes contexts without EGL.
+ * All functions act on the context that is current in the calling thread; without one they do nothing.
  */
 #ifndef VTM_VG_OPENVG_H
 #define VTM_VG_OPENVG_H
@@ -153,7 +152,11 @@ typedef enum {
     VG_PATH_DATATYPE_FORCE_SIZE = VG_MAX_ENUM
 } VGPathDatatype;
 
-typedef enum { VG_ABSOLUTE = 0, VG_RELATIVE = 1, VG_PATH_ABS_REL_FORCE_SIZE = VG_MAX_ENUM } VGPathAbsRel;
+typedef enum {
+    VG_ABSOLUTE = 0,
+    VG_RELATIVE = 1,
+    VG_PATH_ABS_REL_FORCE_SIZE = VG_MAX_ENUM
+} VGPathAbsRel;
 
 typedef enum {
     VG_CLOSE_PATH = (0 << 1),
@@ -247,7 +250,11 @@ typedef enum {
 
 /* ---- 8.8 Filling and stroking ---- */
 
-typedef enum { VG_EVEN_ODD = 0x1900, VG_NON_ZERO = 0x1901, VG_FILL_RULE_FORCE_SIZE = VG_MAX_ENUM } VGFillRule;
+typedef enum {
+    VG_EVEN_ODD = 0x1900,
+    VG_NON_ZERO = 0x1901,
+    VG_FILL_RULE_FORCE_SIZE = VG_MAX_ENUM
+} VGFillRule;
 
 typedef enum {
     VG_STROKE_PATH = (1 << 0),
@@ -367,7 +374,10 @@ typedef enum {
 
 /* ---- 11.4 Fonts ---- */
 
-typedef enum { VG_FONT_NUM_GLYPHS = 0x2F00, VG_FONT_PARAM_TYPE_FORCE_SIZE = VG_MAX_ENUM } VGFontParamType;
+typedef enum {
+    VG_FONT_NUM_GLYPHS = 0x2F00,
+    VG_FONT_PARAM_TYPE_FORCE_SIZE = VG_MAX_ENUM
+} VGFontParamType;
 
 /* ---- 12.2 Channels ---- */
 
@@ -429,33 +439,32 @@ VG_API_CALL void VG_API_ENTRY vgFinish(void) VG_API_EXIT;
 
 VG_API_CALL void VG_API_ENTRY vgSetf(VGParamType type, VGfloat value) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSeti(VGParamType type, VGint value) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgSetfv(VGParamType type, VGint count, const VGfloat* values) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgSetiv(VGParamType type, VGint count, const VGint* values) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgSetfv(VGParamType type, VGint count, const VGfloat *values) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgSetiv(VGParamType type, VGint count, const VGint *values) VG_API_EXIT;
 VG_API_CALL VGfloat VG_API_ENTRY vgGetf(VGParamType type) VG_API_EXIT;
 VG_API_CALL VGint VG_API_ENTRY vgGeti(VGParamType type) VG_API_EXIT;
 VG_API_CALL VGint VG_API_ENTRY vgGetVectorSize(VGParamType type) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgGetfv(VGParamType type, VGint count, VGfloat* values) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgGetiv(VGParamType type, VGint count, VGint* values) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgGetfv(VGParamType type, VGint count, VGfloat *values) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgGetiv(VGParamType type, VGint count, VGint *values) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSetParameterf(VGHandle object, VGint paramType, VGfloat value) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSetParameteri(VGHandle object, VGint paramType, VGint value) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSetParameterfv(VGHandle object, VGint paramType, VGint count,
-                                               const VGfloat* values) VG_API_EXIT;
+                                               const VGfloat *values) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSetParameteriv(VGHandle object, VGint paramType, VGint count,
-                                               const VGint* values) VG_API_EXIT;
+                                               const VGint *values) VG_API_EXIT;
 VG_API_CALL VGfloat VG_API_ENTRY vgGetParameterf(VGHandle object, VGint paramType) VG_API_EXIT;
 VG_API_CALL VGint VG_API_ENTRY vgGetParameteri(VGHandle object, VGint paramType) VG_API_EXIT;
 VG_API_CALL VGint VG_API_ENTRY vgGetParameterVectorSize(VGHandle object, VGint paramType) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgGetParameterfv(VGHandle object, VGint paramType, VGint count,
-                                               VGfloat* values) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgGetParameteriv(VGHandle object, VGint paramType, VGint count,
-                                               VGint* values) VG_API_EXIT;
+                                               VGfloat *values) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgGetParameteriv(VGHandle object, VGint paramType, VGint count, VGint *values) VG_API_EXIT;
 
 /* ---- Chapter 6: matrices ---- */
 
 VG_API_CALL void VG_API_ENTRY vgLoadIdentity(void) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgLoadMatrix(const VGfloat* m) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgGetMatrix(VGfloat* m) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgMultMatrix(const VGfloat* m) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgLoadMatrix(const VGfloat *m) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgGetMatrix(VGfloat *m) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgMultMatrix(const VGfloat *m) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgTranslate(VGfloat tx, VGfloat ty) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgScale(VGfloat sx, VGfloat sy) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgShear(VGfloat shx, VGfloat shy) VG_API_EXIT;
@@ -465,8 +474,7 @@ VG_API_CALL void VG_API_ENTRY vgRotate(VGfloat angle) VG_API_EXIT;
 
 VG_API_CALL void VG_API_ENTRY vgMask(VGHandle mask, VGMaskOperation operation, VGint x, VGint y, VGint width,
                                      VGint height) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgRenderToMask(VGPath path, VGbitfield paintModes,
-                                             VGMaskOperation operation) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgRenderToMask(VGPath path, VGbitfield paintModes, VGMaskOperation operation) VG_API_EXIT;
 VG_API_CALL VGMaskLayer VG_API_ENTRY vgCreateMaskLayer(VGint width, VGint height) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgDestroyMaskLayer(VGMaskLayer maskLayer) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgFillMaskLayer(VGMaskLayer maskLayer, VGint x, VGint y, VGint width,
@@ -478,28 +486,28 @@ VG_API_CALL void VG_API_ENTRY vgClear(VGint x, VGint y, VGint width, VGint heigh
 /* ---- Chapter 8: paths ---- */
 
 VG_API_CALL VGPath VG_API_ENTRY vgCreatePath(VGint pathFormat, VGPathDatatype datatype, VGfloat scale,
-                                             VGfloat bias, VGint segmentCapacityHint, VGint coordCapacityHint,
-                                             VGbitfield capabilities) VG_API_EXIT;
+                                             VGfloat bias, VGint segmentCapacityHint,
+                                             VGint coordCapacityHint, VGbitfield capabilities) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgClearPath(VGPath path, VGbitfield capabilities) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgDestroyPath(VGPath path) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgRemovePathCapabilities(VGPath path, VGbitfield capabilities) VG_API_EXIT;
 VG_API_CALL VGbitfield VG_API_ENTRY vgGetPathCapabilities(VGPath path) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgAppendPath(VGPath dstPath, VGPath srcPath) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgAppendPathData(VGPath dstPath, VGint numSegments, const VGubyte* pathSegments,
-                                               const void* pathData) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgAppendPathData(VGPath dstPath, VGint numSegments,
+                                               const VGubyte *pathSegments, const void *pathData) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgModifyPathCoords(VGPath dstPath, VGint startIndex, VGint numSegments,
-                                                 const void* pathData) VG_API_EXIT;
+                                                 const void *pathData) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgTransformPath(VGPath dstPath, VGPath srcPath) VG_API_EXIT;
 VG_API_CALL VGboolean VG_API_ENTRY vgInterpolatePath(VGPath dstPath, VGPath startPath, VGPath endPath,
                                                      VGfloat amount) VG_API_EXIT;
 VG_API_CALL VGfloat VG_API_ENTRY vgPathLength(VGPath path, VGint startSegment, VGint numSegments) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgPointAlongPath(VGPath path, VGint startSegment, VGint numSegments,
-                                               VGfloat distance, VGfloat* x, VGfloat* y, VGfloat* tangentX,
-                                               VGfloat* tangentY) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgPathBounds(VGPath path, VGfloat* minX, VGfloat* minY, VGfloat* width,
-                                           VGfloat* height) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgPathTransformedBounds(VGPath path, VGfloat* minX, VGfloat* minY,
-                                                      VGfloat* width, VGfloat* height) VG_API_EXIT;
+                                               VGfloat distance, VGfloat *x, VGfloat *y, VGfloat *tangentX,
+                                               VGfloat *tangentY) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgPathBounds(VGPath path, VGfloat *minX, VGfloat *minY, VGfloat *width,
+                                           VGfloat *height) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgPathTransformedBounds(VGPath path, VGfloat *minX, VGfloat *minY,
+                                                      VGfloat *width, VGfloat *height) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgDrawPath(VGPath path, VGbitfield paintModes) VG_API_EXIT;
 
 /* ---- Chapter 9: paint ---- */
@@ -517,30 +525,27 @@ VG_API_CALL void VG_API_ENTRY vgPaintPattern(VGPaint paint, VGImage pattern) VG_
 VG_API_CALL VGImage VG_API_ENTRY vgCreateImage(VGImageFormat format, VGint width, VGint height,
                                                VGbitfield allowedQuality) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgDestroyImage(VGImage image) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgClearImage(VGImage image, VGint x, VGint y, VGint width,
-                                           VGint height) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgImageSubData(VGImage image, const void* data, VGint dataStride,
+VG_API_CALL void VG_API_ENTRY vgClearImage(VGImage image, VGint x, VGint y, VGint width, VGint height) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgImageSubData(VGImage image, const void *data, VGint dataStride,
                                              VGImageFormat dataFormat, VGint x, VGint y, VGint width,
                                              VGint height) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgGetImageSubData(VGImage image, void* data, VGint dataStride,
+VG_API_CALL void VG_API_ENTRY vgGetImageSubData(VGImage image, void *data, VGint dataStride,
                                                 VGImageFormat dataFormat, VGint x, VGint y, VGint width,
                                                 VGint height) VG_API_EXIT;
-VG_API_CALL VGImage VG_API_ENTRY vgChildImage(VGImage parent, VGint x, VGint y, VGint width,
-                                              VGint height) VG_API_EXIT;
+VG_API_CALL VGImage VG_API_ENTRY vgChildImage(VGImage parent, VGint x, VGint y, VGint width, VGint height) VG_API_EXIT;
 VG_API_CALL VGImage VG_API_ENTRY vgGetParent(VGImage image) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgCopyImage(VGImage dst, VGint dx, VGint dy, VGImage src, VGint sx, VGint sy,
                                           VGint width, VGint height, VGboolean dither) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgDrawImage(VGImage image) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSetPixels(VGint dx, VGint dy, VGImage src, VGint sx, VGint sy, VGint width,
                                           VGint height) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgWritePixels(const void* data, VGint dataStride, VGImageFormat dataFormat,
+VG_API_CALL void VG_API_ENTRY vgWritePixels(const void *data, VGint dataStride, VGImageFormat dataFormat,
                                             VGint dx, VGint dy, VGint width, VGint height) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgGetPixels(VGImage dst, VGint dx, VGint dy, VGint sx, VGint sy, VGint width,
                                           VGint height) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgReadPixels(void* data, VGint dataStride, VGImageFormat dataFormat, VGint sx,
+VG_API_CALL void VG_API_ENTRY vgReadPixels(void *data, VGint dataStride, VGImageFormat dataFormat, VGint sx,
                                            VGint sy, VGint width, VGint height) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgCopyPixels(VGint dx, VGint dy, VGint sx, VGint sy, VGint width,
-                                           VGint height) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgCopyPixels(VGint dx, VGint dy, VGint sx, VGint sy, VGint width, VGint height) VG_API_EXIT;
 
 /* ---- Chapter 11: text ---- */
 
@@ -550,41 +555,38 @@ VG_API_CALL void VG_API_ENTRY vgSetGlyphToPath(VGFont font, VGuint glyphIndex, V
                                                VGboolean isHinted, const VGfloat glyphOrigin[2],
                                                const VGfloat escapement[2]) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSetGlyphToImage(VGFont font, VGuint glyphIndex, VGImage image,
-                                                const VGfloat glyphOrigin[2],
-                                                const VGfloat escapement[2]) VG_API_EXIT;
+                                                const VGfloat glyphOrigin[2], const VGfloat escapement[2]) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgClearGlyph(VGFont font, VGuint glyphIndex) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgDrawGlyph(VGFont font, VGuint glyphIndex, VGbitfield paintModes,
                                           VGboolean allowAutoHinting) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgDrawGlyphs(VGFont font, VGint glyphCount, const VGuint* glyphIndices,
-                                           const VGfloat* adjustments_x, const VGfloat* adjustments_y,
+VG_API_CALL void VG_API_ENTRY vgDrawGlyphs(VGFont font, VGint glyphCount, const VGuint *glyphIndices,
+                                           const VGfloat *adjustments_x, const VGfloat *adjustments_y,
                                            VGbitfield paintModes, VGboolean allowAutoHinting) VG_API_EXIT;
 
 /* ---- Chapter 12: image filters ---- */
 
-VG_API_CALL void VG_API_ENTRY vgColorMatrix(VGImage dst, VGImage src, const VGfloat* matrix) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vgColorMatrix(VGImage dst, VGImage src, const VGfloat *matrix) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kernelHeight,
-                                         VGint shiftX, VGint shiftY, const VGshort* kernel, VGfloat scale,
+                                         VGint shiftX, VGint shiftY, const VGshort *kernel, VGfloat scale,
                                          VGfloat bias, VGTilingMode tilingMode) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgSeparableConvolve(VGImage dst, VGImage src, VGint kernelWidth,
                                                   VGint kernelHeight, VGint shiftX, VGint shiftY,
-                                                  const VGshort* kernelX, const VGshort* kernelY,
-                                                  VGfloat scale, VGfloat bias,
-                                                  VGTilingMode tilingMode) VG_API_EXIT;
+                                                  const VGshort *kernelX, const VGshort *kernelY,
+                                                  VGfloat scale, VGfloat bias, VGTilingMode tilingMode) VG_API_EXIT;
 VG_API_CALL void VG_API_ENTRY vgGaussianBlur(VGImage dst, VGImage src, VGfloat stdDeviationX,
                                              VGfloat stdDeviationY, VGTilingMode tilingMode) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgLookup(VGImage dst, VGImage src, const VGubyte* redLUT,
-                                       const VGubyte* greenLUT, const VGubyte* blueLUT,
-                                       const VGubyte* alphaLUT, VGboolean outputLinear,
+VG_API_CALL void VG_API_ENTRY vgLookup(VGImage dst, VGImage src, const VGubyte *redLUT,
+                                       const VGubyte *greenLUT, const VGubyte *blueLUT,
+                                       const VGubyte *alphaLUT, VGboolean outputLinear,
                                        VGboolean outputPremultiplied) VG_API_EXIT;
-VG_API_CALL void VG_API_ENTRY vgLookupSingle(VGImage dst, VGImage src, const VGuint* lookupTable,
+VG_API_CALL void VG_API_ENTRY vgLookupSingle(VGImage dst, VGImage src, const VGuint *lookupTable,
                                              VGImageChannel sourceChannel, VGboolean outputLinear,
                                              VGboolean outputPremultiplied) VG_API_EXIT;
 
 /* ---- Chapters 14 and 15: queries ---- */
 
-VG_API_CALL VGHardwareQueryResult VG_API_ENTRY vgHardwareQuery(VGHardwareQueryType key,
-                                                               VGint setting) VG_API_EXIT;
-VG_API_CALL const VGubyte* VG_API_ENTRY vgGetString(VGStringID name) VG_API_EXIT;
+VG_API_CALL VGHardwareQueryResult VG_API_ENTRY vgHardwareQuery(VGHardwareQueryType key, VGint setting) VG_API_EXIT;
+VG_API_CALL const VGubyte * VG_API_ENTRY vgGetString(VGStringID name) VG_API_EXIT;
 
 #ifdef __cplusplus
 }

@@ -15,10 +15,10 @@ extern "C" {
 #endif
 
 #ifndef VG_API_ENTRYP
-#define VG_API_ENTRYP VG_API_ENTRY*
+#define VG_API_ENTRYP VG_API_ENTRY *
 #endif
 #ifndef VGU_API_ENTRYP
-#define VGU_API_ENTRYP VGU_API_ENTRY*
+#define VGU_API_ENTRYP VGU_API_ENTRY *
 #endif
 
 /* ---- VG_KHR_iterative_average_blur ---- */
@@ -52,7 +52,7 @@ typedef void(VG_API_ENTRYP PFNVGITERATIVEAVERAGEBLURKHRPROC)(VGImage dst, VGImag
 #define VG_KHR_EGL_image 1
 
 /* An EGLImage that eglCreateImage made of an OpenVG image (EGL_VG_PARENT_IMAGE_KHR). */
-typedef void* VGeglImageKHR;
+typedef void *VGeglImageKHR;
 
 /* Creates an image that shares the pixels of the EGLImage. Returns VG_INVALID_HANDLE on failure. */
 #ifdef VG_VGEXT_PROTOTYPES
@@ -136,13 +136,13 @@ VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguGradientGlowKHR(VGImage dst, VGImage 
                                                            VGfloat distance, VGfloat angle,
                                                            VGbitfield filterFlags, VGbitfield allowedQuality,
                                                            VGuint stopsCount,
-                                                           const VGfloat* glowColorRampStops) VGU_API_EXIT;
+                                                           const VGfloat *glowColorRampStops) VGU_API_EXIT;
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguGradientBevelKHR(VGImage dst, VGImage src, VGfloat dimX,
                                                             VGfloat dimY, VGuint iterative, VGfloat strength,
                                                             VGfloat distance, VGfloat angle,
                                                             VGbitfield filterFlags, VGbitfield allowedQuality,
                                                             VGuint stopsCount,
-                                                            const VGfloat* bevelColorRampStops) VGU_API_EXIT;
+                                                            const VGfloat *bevelColorRampStops) VGU_API_EXIT;
 #endif
 typedef void(VG_API_ENTRYP PFNVGPARAMETRICFILTERKHRPROC)(VGImage dst, VGImage src, VGImage blur,
                                                          VGfloat strength, VGfloat offsetX, VGfloat offsetY,
@@ -168,13 +168,13 @@ typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUGRADIENTGLOWKHRPROC)(VGImage dst, VGIm
                                                                VGfloat strength, VGfloat distance,
                                                                VGfloat angle, VGbitfield filterFlags,
                                                                VGbitfield allowedQuality, VGuint stopsCount,
-                                                               const VGfloat* glowColorRampStops);
+                                                               const VGfloat *glowColorRampStops);
 typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUGRADIENTBEVELKHRPROC)(VGImage dst, VGImage src, VGfloat dimX,
                                                                 VGfloat dimY, VGuint iterative,
                                                                 VGfloat strength, VGfloat distance,
                                                                 VGfloat angle, VGbitfield filterFlags,
                                                                 VGbitfield allowedQuality, VGuint stopsCount,
-                                                                const VGfloat* bevelColorRampStops);
+                                                                const VGfloat *bevelColorRampStops);
 
 #endif
 
@@ -239,15 +239,15 @@ typedef enum {
 #ifdef VG_VGEXT_PROTOTYPES
 VG_API_CALL void VG_API_ENTRY vgProjectiveMatrixNDS(VGboolean enable) VG_API_EXIT;
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguTransformClipLineNDS(const VGfloat Ain, const VGfloat Bin,
-                                                                const VGfloat Cin, const VGfloat* matrix,
-                                                                const VGboolean inverse, VGfloat* Aout,
-                                                                VGfloat* Bout, VGfloat* Cout) VGU_API_EXIT;
+                                                                const VGfloat Cin, const VGfloat *matrix,
+                                                                const VGboolean inverse, VGfloat *Aout,
+                                                                VGfloat *Bout, VGfloat *Cout) VGU_API_EXIT;
 #endif
 typedef void(VG_API_ENTRYP PFNVGPROJECTIVEMATRIXNDSPROC)(VGboolean enable);
 typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUTRANSFORMCLIPLINENDSPROC)(const VGfloat Ain, const VGfloat Bin,
-                                                                    const VGfloat Cin, const VGfloat* matrix,
-                                                                    const VGboolean inverse, VGfloat* Aout,
-                                                                    VGfloat* Bout, VGfloat* Cout);
+                                                                    const VGfloat Cin, const VGfloat *matrix,
+                                                                    const VGboolean inverse, VGfloat *Aout,
+                                                                    VGfloat *Bout, VGfloat *Cout);
 
 #endif
 

@@ -1,6 +1,6 @@
 /*
- * VGU 1.1, OpenVG's utility library (specification section 17): functions that append shapes to paths, and
- * warps. Plain C89. The functions are in libOpenVG.so.1. They may change vgGetError() of the current context.
+ * VGU 1.1, OpenVG's utility library (specification section 17): functions that append shapes to paths, and warps.
+ * Plain C89. The functions are in libOpenVG.so.1. They may change vgGetError() of the current context.
  */
 #ifndef VTM_VG_VGU_H
 #define VTM_VG_VGU_H
@@ -35,7 +35,7 @@ typedef enum {
 
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguLine(VGPath path, VGfloat x0, VGfloat y0, VGfloat x1,
                                                 VGfloat y1) VGU_API_EXIT;
-VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguPolygon(VGPath path, const VGfloat* points, VGint count,
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguPolygon(VGPath path, const VGfloat *points, VGint count,
                                                    VGboolean closed) VGU_API_EXIT;
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguRect(VGPath path, VGfloat x, VGfloat y, VGfloat width,
                                                 VGfloat height) VGU_API_EXIT;
@@ -44,8 +44,8 @@ VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguRoundRect(VGPath path, VGfloat x, VGf
                                                      VGfloat arcHeight) VGU_API_EXIT;
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguEllipse(VGPath path, VGfloat cx, VGfloat cy, VGfloat width,
                                                    VGfloat height) VGU_API_EXIT;
-VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguArc(VGPath path, VGfloat x, VGfloat y, VGfloat width,
-                                               VGfloat height, VGfloat startAngle, VGfloat angleExtent,
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguArc(VGPath path, VGfloat x, VGfloat y, VGfloat width, VGfloat height,
+                                               VGfloat startAngle, VGfloat angleExtent,
                                                VGUArcType arcType) VGU_API_EXIT;
 
 /* ---- 17.2 Warps ---- */
@@ -53,17 +53,15 @@ VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguArc(VGPath path, VGfloat x, VGfloat y
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguComputeWarpQuadToSquare(VGfloat sx0, VGfloat sy0, VGfloat sx1,
                                                                    VGfloat sy1, VGfloat sx2, VGfloat sy2,
                                                                    VGfloat sx3, VGfloat sy3,
-                                                                   VGfloat* matrix) VGU_API_EXIT;
+                                                                   VGfloat *matrix) VGU_API_EXIT;
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguComputeWarpSquareToQuad(VGfloat dx0, VGfloat dy0, VGfloat dx1,
                                                                    VGfloat dy1, VGfloat dx2, VGfloat dy2,
                                                                    VGfloat dx3, VGfloat dy3,
-                                                                   VGfloat* matrix) VGU_API_EXIT;
-VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguComputeWarpQuadToQuad(VGfloat dx0, VGfloat dy0, VGfloat dx1,
-                                                                 VGfloat dy1, VGfloat dx2, VGfloat dy2,
-                                                                 VGfloat dx3, VGfloat dy3, VGfloat sx0,
-                                                                 VGfloat sy0, VGfloat sx1, VGfloat sy1,
-                                                                 VGfloat sx2, VGfloat sy2, VGfloat sx3,
-                                                                 VGfloat sy3, VGfloat* matrix) VGU_API_EXIT;
+                                                                   VGfloat *matrix) VGU_API_EXIT;
+VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguComputeWarpQuadToQuad(
+    VGfloat dx0, VGfloat dy0, VGfloat dx1, VGfloat dy1, VGfloat dx2, VGfloat dy2, VGfloat dx3, VGfloat dy3,
+    VGfloat sx0, VGfloat sy0, VGfloat sx1, VGfloat sy1, VGfloat sx2, VGfloat sy2, VGfloat sx3, VGfloat sy3,
+    VGfloat *matrix) VGU_API_EXIT;
 
 #ifdef __cplusplus
 }
