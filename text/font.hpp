@@ -57,8 +57,9 @@ public:
     /// A glyph that brings its own colours: a group of items, or an SVG document. Nothing for others.
     /// `foreground` stands for the colour of the text; `transform` maps font units to the group's picture.
     using ColorGlyph = std::variant<scene::Group, SvgGlyph>;
-    virtual std::optional<ColorGlyph> colorGlyphOf(GlyphId glyph, const scene::Color& foreground,
-                                                   const scene::Affine& transform = scene::identity) const = 0;
+    virtual std::optional<ColorGlyph> colorGlyphOf(
+        GlyphId glyph, const scene::Color& foreground,
+        const scene::Affine& transform = scene::identity) const = 0;
 
     /// For shaping. Scale: 64 to a font unit, y up.
     virtual hb_font_t* harfbuzz() const = 0;

@@ -26,6 +26,18 @@ bool looksLikeSvg(const Bytes& bytes) {
     return gzip || utf16 || (text.find('<') != text.npos && trim(text.substr(0, text.find('<'))).size() <= 3);
 }
 
+/// What the viewport shows of a bitmap: with `slice` all of it along one axis, else all of it.
+Box shownPart(const Box& whole, const Rect& viewport, const AspectRatio& ratio,
+              const scene::Affine& toPixels) {
+    if (ratio.fit != scene::Fit::Cover)
+        return whole;
+    Box shown = geometry::mapped(toBox(viewport), toPixels).intersection(whole);
+    const int full = viewport.width * whole.height() >= viewport.height * whole.width() ? 0 : 1;
+    shown.min[full] = whole.min[full];
+    shown.max[full] = whole.max[full];
+    return shown;
+}
+
 }  // namespace
 
 struct Converter::NestedDocument {
@@ -163,9 +175,7 @@ void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, 
     const scene::Affine transform = scene::compose(scope.transform, toUser);
     if (!toPixels || !scene::inverse(transform))
         return;
-    const Box shown = geometry::mapped(toBox(viewport), *toPixels);
-    const scene::Point min = glm::max(shown.min, toBox(whole).min),
-                       max = glm::min(shown.max, toBox(whole).max);
+    const auto [min, max] = shownPart(toBox(whole), viewport, ratio, *toPixels);
     out.push_back({scene::Item{
         std::make_shared<const scene::Path>(scene::rectangle(min, max)), transform, scene::FillRule::NonZero,
         scene::ImagePaint{bitmap, scope.style.imageFilter, scene::identity}, 1, placeOf(element)}});

@@ -76,7 +76,7 @@ Document load(std::span<const std::uint8_t> bytes, const Options& options) {
     result.exported = shownBounds(result.scene);
     if (!result.exported)
         throw ParseError(document->map.at(element.offset),
-                         fmt::format("#{}: nothing of it is drawn in the picture", options.exportId));
+                         fmt::format("#{}: the element draws nothing inside the picture", options.exportId));
     return result;
 }
 
