@@ -3,7 +3,7 @@
 #include <map>
 
 #include <vtm/authoring.hpp>
-#include "api/src/level.hpp"
+#include "scene/level.hpp"
 
 namespace vtm {
 

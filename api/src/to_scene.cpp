@@ -11,8 +11,8 @@
 #include <map>
 
 #include <vtm/authoring.hpp>
-#include "api/src/level.hpp"
-#include "api/src/place.hpp"
+#include "scene/level.hpp"
+#include "scene/place.hpp"
 
 namespace vtm {
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/place.hpp"
 #include "svg/convert/converter.hpp"
 #include "svg/css/text_values.hpp"
 #include "svg/text/layout.hpp"
@@ -33,7 +34,7 @@ bool isPlain(PaintKind kind) { return kind == PaintKind::Color || kind == PaintK
 
 text::FontSet& Converter::fonts() {
     if (!fonts_)
-        fonts_ = std::make_unique<text::FontSet>(options_.fonts);
+        addFontFaces(*(fonts_ = std::make_unique<text::FontSet>(options_.fonts)));
     return *fonts_;
 }
 
@@ -141,12 +142,25 @@ void Converter::fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nod
     item.paint = style.fill.kind == PaintKind::CurrentColor ? style.color : style.fill.color;
     item.opacity = static_cast<float>(style.fillOpacity);
     item.place = placeOf(*text.element);
+    item.place.character = static_cast<std::uint32_t>(glyph.character + 1);
     out.push_back({std::move(item)});
 }
 
 /// False for glyphs without colours of their own.
-bool Converter::paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes&) {
-    return false && text.element && glyph.font;
+bool Converter::paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out) {
+    const Style& style = text.scope.style;
+    auto colored = glyph.font->colorGlyphOf(glyph.id, style.color);
+    const scene::Affine transform = scene::compose(text.scope.transform, glyph.transform);
+    if (!colored || !scene::inverse(transform))
+        return colored.has_value();
+    scene::Group group;
+    if (auto* made = std::get_if<scene::Group>(&*colored))
+        group = scene::placed(std::move(*made), transform);
+    else
+        convertSvgGlyph(text, glyph, std::get<text::SvgGlyph>(*colored), transform, group.children);
+    group.opacity = static_cast<float>(style.fillOpacity);
+    appendGroup(std::move(group), true, out);
+    return true;
 }
 
 void Converter::addClipText(const Element& element, const Scope& parent, scene::Clip& clip) {

@@ -58,6 +58,14 @@ TEST_F(Text, SharesTheOutlinesOfItsGlyphs) {
     EXPECT_EQ(found[0].path, found[1].path);
     EXPECT_EQ(found[0].path, found[2].path);
 }
+TEST_F(Text, KnowsTheElementAndTheCharacterOfEachGlyph) {
+    const auto found = items("<text> H <tspan>i</tspan></text>");
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_STREQ(found[0].place.element, "text");
+    EXPECT_EQ(found[0].place.character, 1u);
+    EXPECT_STREQ(found[1].place.element, "tspan");
+    EXPECT_EQ(found[1].place.character, 3u);
+}
 TEST_F(Text, CollapsesWhiteSpace) {
     expectNear(starts("<text>  i\n  <tspan> </tspan> i </text>"), starts("<text>i i</text>"));
     EXPECT_EQ(starts("<text xml:space='preserve'> i</text>")[0],

@@ -88,6 +88,14 @@ const char* nameOf(Tag tag) {
             return "switch";
         case Tag::Symbol:
             return "symbol";
+        case Tag::Text:
+            return "text";
+        case Tag::TextPath:
+            return "textPath";
+        case Tag::Tref:
+            return "tref";
+        case Tag::Tspan:
+            return "tspan";
         case Tag::Use:
             return "use";
         default:

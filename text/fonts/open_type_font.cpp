@@ -76,23 +76,17 @@ bool isFinite(const scene::Path& path) {
 
 }  // namespace
 
-std::shared_ptr<const Face> openFace(hb_blob_t* bytes, unsigned index, std::string family) {
-    std::shared_ptr<hb_face_t> face(hb_face_create(bytes, index), hb_face_destroy);
-    if (hb_face_get_glyph_count(face.get()) == 0)
-        return nullptr;
-    hb_face_make_immutable(face.get());
-    return std::make_shared<const Face>(Face{std::move(face), std::move(family)});
-}
-
 OpenTypeFont::OpenTypeFont(std::shared_ptr<const Face> face, Instance instance)
     : face_(std::move(face)),
-      font_(hb_font_create(face_->face.get()), hb_font_destroy),
-      unitsPerEm_(hb_face_get_upem(face_->face.get())),
+      font_(hb_font_create(face_->harfbuzz())),
+      unitsPerEm_(hb_face_get_upem(face_->harfbuzz())),
       instance_(std::move(instance)) {
     const int scale = static_cast<int>(unitsPerEm_) * scalePerUnit;
     hb_font_set_scale(font_.get(), scale, scale);
-    hb_font_set_variations(font_.get(), instance_.variations.data(),
-                           static_cast<unsigned>(instance_.variations.size()));
+    std::vector<hb_variation_t> axes;
+    for (const auto& [axis, value] : instance_.axes)
+        axes.push_back({axis, value});
+    hb_font_set_variations(font_.get(), axes.data(), static_cast<unsigned>(axes.size()));
     if (instance_.oblique)
         hb_font_set_synthetic_slant(font_.get(), obliqueSlant);
     hb_font_make_immutable(font_.get());
@@ -160,6 +154,8 @@ FontMetrics OpenTypeFont::readMetrics() const {
     }
     made.xHeight = positive(HB_OT_METRICS_TAG_X_HEIGHT, heightOf('x', xHeight * em));
     made.capHeight = positive(HB_OT_METRICS_TAG_CAP_HEIGHT, heightOf('H', capHeight * em));
+    // post and OS/2 give the lines' upper edges. CSS leaves `auto` positions open; lines are centred there,
+    // as the SVG test suite has them.
     made.underlineThickness = positive(HB_OT_METRICS_TAG_UNDERLINE_SIZE, thickness * em);
     made.underlineOffset = -metric(HB_OT_METRICS_TAG_UNDERLINE_OFFSET).value_or(-underline * em);
     made.strikeoutThickness = positive(HB_OT_METRICS_TAG_STRIKEOUT_SIZE, made.underlineThickness);

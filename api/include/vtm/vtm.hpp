@@ -20,6 +20,7 @@
 #include <vtm/error.hpp>
 #include <vtm/image/bitmap.hpp>
 #include <vtm/scene/fit.hpp>
+#include <vtm/text/font_options.hpp>
 
 #pragma GCC visibility push(default)
 
@@ -51,7 +52,8 @@ struct LoadOptions {
     std::string folder =
         {};  ///< where an SVG's relative references start; of a file, the file's; empty: none are read
     double dpi = 96;              ///< pixels an inch, for lengths in physical units
-    std::string language = "en";  ///< for systemLanguage
+    std::string language = "en";  ///< of text, and for systemLanguage
+    text::FontOptions fonts = {};
 };
 
 /// The engine that draws.
