@@ -76,7 +76,7 @@ LIBRARIES = {
     r"tbb/.*": {"compiler", "bench", "tests"},
     r"gtest/.*|gmock/.*": ANYWHERE,
     r"pugixml\.hpp": {"svg"},
-    r"hb(-ot)?\.h|fribidi\.h|fontconfig/.*|woff2/.*": {"text"},
+    r"hb(-ot)?\.h|fribidi\.h|linebreak\.h|fontconfig/.*|woff2/.*": {"text"},
     r"zlib\.h": {"text", "svg", "asset", "image"},
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
     r"libdeflate\.h": {"image"},

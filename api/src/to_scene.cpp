@@ -82,7 +82,7 @@ public:
 private:
     /// In painter's order. Goes down a chain from the top without recursion.
     Nodes nodes(const Vtm& vtm, const Affine& at) {
-        const Level level(depth_);
+        const scene::Level level(depth_);
         std::vector<Nodes> fromTop;
         for (Found next = found(vtm, at); next.node != nullptr;) {
             limits::check();

@@ -174,11 +174,16 @@ private:
     // text_content.cpp, text.cpp
     class TextCollector;
     TextContent textContent(const Element& text, const Scope& scope);
+    TextContent flowContent(const Element& flowRoot, const Scope& scope);
+    Box flowRegion(const Element& flowRoot, const Scope& scope);
+    void convertFlowRoot(const Element& element, const Scope& scope, Nodes& out);
+    void paintText(const Element& element, const Scope& scope, const TextContent& content, Nodes& out);
     text::FontSet& fonts();
     void addFontFaces(text::FontSet& fonts);
     bool addFontFace(text::FontSet& fonts, const text::FontFace& face, std::string_view url,
                      std::string& cause);
     void warnOfMissingFamilies(const TextContent& content);
+    void warnOfMissingGlyphs(const Element& element, const TextContent& content, const TextLayout& layout);
     void convertText(const Element& element, const Scope& scope, Nodes& out);
     void paintLine(const TextContent& content, const PlacedLine& line, const Box& box, Nodes& out);
     void paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters, const Box& box,

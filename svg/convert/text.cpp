@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "scene/place.hpp"
 #include "svg/convert/converter.hpp"
 #include "svg/css/text_values.hpp"
@@ -51,8 +54,34 @@ void Converter::warnOfMissingFamilies(const TextContent& content) {
     }
 }
 
+/// One warning for the characters of a text that no font has.
+void Converter::warnOfMissingGlyphs(const Element& element, const TextContent& content,
+                                    const TextLayout& layout) {
+    std::set<char32_t> missing;
+    for (const PlacedCluster& cluster : layout.clusters)
+        for (const PlacedGlyph& glyph : cluster.glyphs)
+            if (glyph.id == 0)
+                missing.insert(content.characters[cluster.first].code);
+    if (missing.empty())
+        return;
+    const std::string others = missing.size() > 1 ? fmt::format(" and {} others", missing.size() - 1) : "";
+    reporter_.warn(Kind::Font, element,
+                   fmt::format("no font has the character U+{:04X}{}",
+                               static_cast<std::uint32_t>(*missing.begin()), others));
+}
+
 void Converter::convertText(const Element& element, const Scope& scope, Nodes& out) {
-    const TextContent content = textContent(element, scope);
+    paintText(element, scope, textContent(element, scope), out);
+}
+
+/// Inkscape's text in a frame, which no published SVG has.
+void Converter::convertFlowRoot(const Element& element, const Scope& scope, Nodes& out) {
+    reporter_.warn(Kind::Element, element, "is not part of SVG; its text is drawn in lines as Inkscape does");
+    paintText(element, scope, flowContent(element, scope), out);
+}
+
+void Converter::paintText(const Element& element, const Scope& scope, const TextContent& content,
+                          Nodes& out) {
     if (content.characters.empty())
         return;
     if (!fonts().primary({}))
@@ -61,6 +90,7 @@ void Converter::convertText(const Element& element, const Scope& scope, Nodes& o
     const TextLayout layout = layOut(content, fonts());
     if (layout.clusters.empty())
         return;
+    warnOfMissingGlyphs(element, content, layout);
     const auto cells = std::make_shared<const Path>(cellsOf(layout));
     const Box box = boundingBox(*cells, scene::identity);
     if (!isWithinReach(geometry::mapped(box, scope.transform))) {

@@ -29,6 +29,10 @@ enum class Tag : unsigned char {
     Ellipse,
     Filter,
     FilterPrimitive,
+    FlowPara,  ///< flowPara, flowDiv, flowLine of SVG 1.2's draft, which Inkscape wrote
+    FlowRegion,
+    FlowRoot,
+    FlowSpan,
     ForeignObject,
     G,
     Image,

@@ -37,10 +37,6 @@ bool isForSpace(const FontFace& face) {
     return face.characters.empty();
 }
 
-bool hasColor(hb_face_t* face) {
-    return hb_ot_color_has_layers(face) || hb_ot_color_has_png(face) || hb_ot_color_has_svg(face);
-}
-
 FaceEntry entryOf(const FontFace& face, std::shared_ptr<const Face> font) {
     FaceEntry entry;
     entry.family = face.family;
@@ -50,7 +46,7 @@ FaceEntry entryOf(const FontFace& face, std::shared_ptr<const Face> font) {
     entry.maxStretch = face.maxStretch;
     entry.slant = face.slant;
     entry.variable = hb_ot_var_has_data(font->harfbuzz());
-    entry.color = hasColor(font->harfbuzz());
+    entry.color = font->hasColor();
     entry.forSpace = isForSpace(face);
     entry.characters = charsetOf(charactersOf(font->harfbuzz(), face).get());
     entry.ownFace = std::move(font);

@@ -2,9 +2,13 @@
 
 #include <hb-ot.h>
 
+#include "text/color/color_glyph.hpp"
 #include "text/fonts/open_type_font.hpp"
 
 namespace vtm::text {
+
+Face::Face(HbFace face, std::string family)
+    : face_(std::move(face)), family_(std::move(family)), hasColor_(hasColorTables(harfbuzz())) {}
 
 bool Face::hasAxis(Tag axis) const {
     hb_ot_var_axis_info_t info;

@@ -26,17 +26,19 @@ struct Instance {
 /// Shared by all fonts made from it. Immutable for callers and safe to share between threads.
 class Face : public std::enable_shared_from_this<Face> {
 public:
-    Face(HbFace face, std::string family) : face_(std::move(face)), family_(std::move(family)) {}
+    Face(HbFace face, std::string family);
 
     hb_face_t* harfbuzz() const { return face_.get(); }
     const std::string& family() const { return family_; }
     bool hasAxis(Tag axis) const;
+    bool hasColor() const { return hasColor_; }  ///< tables that can hold colour glyphs
     /// The same one for the same instance as long as somebody holds it.
     std::shared_ptr<const Font> font(const Instance& instance) const;
 
 private:
     HbFace face_;
     std::string family_;
+    bool hasColor_;
     mutable std::mutex mutex_;  ///< guards fonts_
     mutable std::map<Instance, std::weak_ptr<const Font>> fonts_;
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "text/color/color_glyph.hpp"
+
 namespace vtm::text {
 namespace {
 
@@ -117,8 +119,20 @@ std::shared_ptr<const scene::Path> OpenTypeFont::outlineOf(GlyphId glyph) const 
     return found->second;
 }
 
-std::optional<Font::ColorGlyph> OpenTypeFont::colorGlyphOf(GlyphId, const scene::Color&) const {
-    return std::nullopt;
+std::optional<Font::ColorGlyph> OpenTypeFont::colorGlyphOf(GlyphId glyph, const scene::Color& foreground,
+                                                           const scene::Affine& transform) const {
+    if (!face_->hasColor())
+        return std::nullopt;
+    const auto plain = face_->font({instance_.axes});
+    const scene::Affine slant{1, 0, instance_.oblique ? -obliqueSlant : 0, 1, 0, 0};
+    const ColorSource source{*plain, foreground, scene::compose(transform, slant)};
+    if (auto group = paintsOf(source, glyph))
+        return group;
+    if (auto group = layersOf(source, glyph))
+        return group;
+    if (auto document = svgOf(face_->harfbuzz(), glyph))
+        return document;
+    return bitmapOf(source, glyph);
 }
 
 std::optional<double> OpenTypeFont::metric(std::uint32_t tag) const {

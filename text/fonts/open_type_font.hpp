@@ -25,7 +25,8 @@ public:
     std::optional<GlyphId> glyphOf(char32_t character, char32_t variationSelector) const override;
     double advanceOf(GlyphId glyph) const override;
     std::shared_ptr<const scene::Path> outlineOf(GlyphId glyph) const override;
-    std::optional<ColorGlyph> colorGlyphOf(GlyphId glyph, const scene::Color& foreground) const override;
+    std::optional<ColorGlyph> colorGlyphOf(GlyphId glyph, const scene::Color& foreground,
+                                           const scene::Affine& transform) const override;
     hb_font_t* harfbuzz() const override { return font_.get(); }
 
 private:
