@@ -9,7 +9,6 @@ from fontTools.feaLib.builder import addOpenTypeFeaturesFromString
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.t2CharStringPen import T2CharStringPen
 from fontTools.pens.ttGlyphPen import TTGlyphPen
-from fontTools.ttLib import TTFont
 from fontTools.ttLib.tables.TupleVariation import TupleVariation
 
 FOLDER = pathlib.Path(__file__).parent.parent / "fonts"
@@ -228,8 +227,6 @@ def main():
     write("VTMWorld-Regular.ttf", "VTM World", "Regular", WORLD, WORLD_CHARACTERS, WORLD_FEATURES, vertical=True)
     write_cubic()
     write_variable()
-    for path in sorted(FOLDER.iterdir()):
-        TTFont(path)
 
 
 if __name__ == "__main__":

@@ -49,5 +49,8 @@ case("anchor/two-fonts", "All elements of a chunk count.",
      f'<text x="190" y="100" text-anchor="end">A<tspan font-size="60" fill="{RED}">C</tspan>E</text>',
      draw(glyph("A", 190 - A - C * 1.5 - E, 100), glyph("E", 190 - E, 100))
      + draw(glyph("C", 190 - E - 1.5 * C, 100, size=60), fill=RED), ' font-size="60"')
+case("anchor/y-only", "A chunk that begins with a y alone is aligned about the place where the line had come to.",
+     '<text x="100" y="60" text-anchor="end">AC<tspan y="120">E</tspan></text>',
+     draw(line("AC", 100 - A - C, 60), glyph("E", 100 + A + C - E, 120)), ' text-anchor="end"')
 case("anchor/invalid", "An unknown word is as if it were not there.",
      '<text x="60" y="100" text-anchor="center">ACE</text>', draw(line("ACE", 60, 100)), '"center"', '"middle"')

@@ -24,10 +24,10 @@ case("bidi/direction-inherited", "direction from a group's style.",
      f'<g style="direction: rtl"><text x="150" y="100" {FONT}>{ALEF}A</text></g>',
      draw(line(["A", "alef"], 150 - 1.2 * SIZE, 100, WORLD)), ' style="direction: rtl"')
 ordered("override", "bidi-override turns letters of the other direction.", "",
-        '<tspan direction="rtl" unicode-bidi="bidi-override">A(</tspan>', ["parenright", "A"],
+        'A<tspan direction="rtl" unicode-bidi="bidi-override">A(</tspan>', ["A", "parenright", "A"],
         ' unicode-bidi="bidi-override"')
 ordered("override-on-text", "bidi-override on the text itself.", ' direction="rtl" unicode-bidi="bidi-override"',
-        f"A{ALEF} A", ["A", "space", "alef", "A"], ' unicode-bidi="bidi-override"', right=150)
+        "A\u4e00", ["one.cjk", "A"], ' unicode-bidi="bidi-override"', right=150)
 ordered("embed", "embed: a line of the other direction in the line.", "",
         f'A<tspan direction="rtl" unicode-bidi="embed">{ALEF} A</tspan>A', ["A", "A", "space", "alef", "A"],
         ' unicode-bidi="embed"')

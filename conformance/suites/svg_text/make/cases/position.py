@@ -72,6 +72,8 @@ case("position/mark-with-x", "x for a combining mark: it stays on its letter.",
 case("position/mark-counts", "A combining mark has a place in lists, and its shift moves what follows.",
      '<text font-family="VTM World" x="20" y="100" dx="0 0 12">A\u0301A</text>',
      single(["A", "acute", "A"], (20, 100), (20 + 0.3 * SIZE, 100), (32 + A, 100), face=WORLD), ' dx="[^"]*"')
+case("position/dx-in-ligature", "A shift of a letter inside a ligature moves what follows it.",
+     '<text x="20" y="100" dx="0 20">fiA</text>', single(["f_i", "A"], (20, 100), (40 + 0.7 * SIZE, 100)), ' dx="0 20"')
 case("position/em-and-percent", "Lengths with units.", '<text x="10%" y="2.5em" dx="0.5em" dy="1ex">AC</text>',
      draw(line("AC", 40, 120)), ' dy="1ex"')
 case("position/commas", "Numbers parted by commas and spaces, with exponents.",

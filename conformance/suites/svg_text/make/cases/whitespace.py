@@ -15,10 +15,11 @@ plain("newline", "An end of line is a space.", "A\nC", "A C", "A\nC", "AC")
 plain("indented", "So is it with spaces around.", "\n   A\n\t C\n", "A C", "A\n", "A\n\u00a0")
 plain("tab", "A tab is a space.", "A\tC", "A C", "\t", "")
 plain("no-break", "No-break spaces stay.", "\u00a0A\u00a0\u00a0C", "\u00a0A\u00a0\u00a0C", "\u00a0\u00a0", "  ")
-plain("across-tspans", "Spaces of two elements become one, that of the first.", "A <tspan> C</tspan>", "A C", "A ", "A")
+plain("across-tspans", "Spaces of two elements become one, that of the first.", "A <tspan> C</tspan>", "A C", "A <tspan> ", "A<tspan>")
 plain("only-in-tspan", "An element of spaces is a space.", "A<tspan> </tspan>C", "A C", "<tspan> ", "<tspan>")
-plain("trim-in-tspan", "The text's last space is removed inside an element, too.",
-      "A<tspan>C </tspan> <tspan> </tspan>", "AC", "C ", "C\u00a0")
+case("whitespace/trim-in-tspan", "The text's last space is removed inside an element, too.",
+     '<text x="180" y="100" text-anchor="end">A<tspan>C </tspan> <tspan> </tspan></text>',
+     draw(line("AC", 180 - A - C, 100)), "C ", "C\u00a0")
 plain("preserve", "xml:space=\"preserve\" keeps all.", "  A   C", "  A   C", ' xml:space="preserve"', "",
       ' xml:space="preserve"')
 plain("preserve-newline", "Ends of lines and tabs are spaces then.", "A\n\t C", "A   C", ' xml:space="preserve"', "",
@@ -43,4 +44,6 @@ case("whitespace/entity", "Character references and CDATA sections are text.",
 case("whitespace/comment", "Comments and processing instructions are not.",
      f'<text x="20" y="100">A<!-- D -->C<?p D?><tspan fill="{RED}">A</tspan></text>',
      draw(line("AC", 20, 100)) + draw(glyph("A", 20 + A + C, 100), fill=RED), "<!-- D -->", "D")
+case("whitespace/pre-lines", "white-space: pre breaks lines, as high as ascent and descent (SVG 2 section 11.6.1).",
+     '<text x="20" y="60" style="white-space: pre">A\nC</text>', draw(glyph("A", 20, 60), glyph("C", 20, 100)), "\n", " ")
 assert SPACE == 12
