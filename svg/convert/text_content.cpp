@@ -147,12 +147,8 @@ private:
         made.lines = scope.style.textLines;
         for (const Element* e = parent < 0 ? element.parent : nullptr; e; e = e->parent)
             made.lines |= converter_.styleOf(*e).textLines;
-        // Percentages are of the font size (CSS Text 4 section 9).
-        const auto spacing = [&](const Length& length) {
-            return length.percent ? length.value / 100 * style.fontSize : length.value;
-        };
-        made.letterSpacing = spacing(style.letterSpacing);
-        made.wordSpacing = spacing(style.wordSpacing);
+        made.letterSpacing = resolve(style.letterSpacing, Axis::X, scope.viewport);
+        made.wordSpacing = resolve(style.wordSpacing, Axis::X, scope.viewport);
         const auto length = converter_.lengths(element, scope).length("textLength", Axis::X);
         if (length && *length >= 0)
             made.textLength = length;
