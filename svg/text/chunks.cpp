@@ -144,7 +144,7 @@ std::optional<ShapedCluster> fromLine(text::Cluster& cluster, const LineBuilder&
     return made;
 }
 
-/// CSS Text 4 section 8.2: none after the last character.
+/// CSS Text 4 section 8.2: none after the last character. A chunk without an x goes on behind it.
 void removeLastLetterSpacing(std::vector<ShapedCluster>& clusters, std::size_t chunkStart,
                              const TextContent& content) {
     const auto last =
@@ -153,7 +153,8 @@ void removeLastLetterSpacing(std::vector<ShapedCluster>& clusters, std::size_t c
     if (last == clusters.end())
         return;
     const bool spaced = last->advance != last->glyphAdvance;
-    last->advance -= spaced ? content.elements[static_cast<std::size_t>(last->element)].letterSpacing : 0;
+    last->trailing = spaced ? content.elements[static_cast<std::size_t>(last->element)].letterSpacing : 0;
+    last->advance -= last->trailing;
 }
 
 }  // namespace
