@@ -39,6 +39,13 @@ case("length/nested", "A tspan with a length of its own is one unit in that of t
      '<text x="10" y="100" textLength="180">A<tspan textLength="70">CE</tspan>A</text>',
      draw(glyph("A", 10, 100), spread("CE", 10 + A + (180 - 2 * A - 70) / 2, 100, 70), glyph("A", 190 - A, 100)),
      ' textLength="180"')
+case("length/glyphs-of-tspan", "spacingAndGlyphs of a tspan; what follows it moves.",
+     '<text x="10" y="100">A<tspan textLength="92" lengthAdjust="spacingAndGlyphs">CE</tspan>A</text>',
+     draw(glyph("A", 10, 100), glyph("C", 34, 100, stretch=2), glyph("E", 34 + 2 * C, 100, stretch=2),
+          glyph("A", 34 + 92, 100)), ' lengthAdjust="spacingAndGlyphs"')
+case("length/on-path", "Along a path.",
+     '<defs><path id="p" d="M 20,100 H 190"/></defs><text textLength="150"><textPath href="#p">ACE</textPath></text>',
+     draw(spread("ACE", 20, 100, 150)), ' textLength="150"')
 case("length/percent", "Of the viewport.", '<text x="20" y="100" textLength="75%">ACE</text>',
      draw(spread("ACE", 20, 100, 150)), ' textLength="75%"')
 case("length/negative", "An error: not used.", '<text x="20" y="100" textLength="-150">ACE</text>',

@@ -1,5 +1,5 @@
 """x, y, dx, dy and rotate: SVG 2 sections 11.4.3 and 11.5."""
-from layout import BOLD, RED, SIZE, TEST, WORLD, advances, draw, glyph, line, width
+from layout import BOLD, RED, SIZE, TEST, WORLD, advances, draw, glyph, line, move, turn, width
 from registry import case
 
 A, B, C, D, E = (TEST.advance(n) * SIZE for n in "ABCDE")
@@ -42,6 +42,10 @@ case("position/rotate-list", "rotate: the last angle is that of all characters b
      '<text x="20" y="100" rotate="0 -20 45">ACED</text>',
      draw(glyph("A", 20, 100), glyph("C", 20 + A, 100, rotate=-20), glyph("E", 20 + A + C, 100, rotate=45),
           glyph("D", 20 + A + C + E, 100, rotate=45)), ' rotate="[^"]*"')
+case("position/rotate-mark", "A letter is turned with its mark.",
+     '<text font-family="VTM World" x="40" y="100" rotate="40">A\u0301</text>',
+     draw(glyph("A", 40, 100, face=WORLD, rotate=40),
+          glyph("acute", 0, 0, face=WORLD, frame=move(40, 100) @ turn(40) @ move(0.3 * SIZE, 0))), ' rotate="40"')
 case("position/rotate-in-tspan", "rotate of a tspan wins over that of the text, which counts its characters.",
      '<text x="20" y="100" rotate="10 20 30 40">A<tspan rotate="-30">C</tspan>ED</text>',
      draw(glyph("A", 20, 100, rotate=10), glyph("C", 20 + A, 100, rotate=-30),

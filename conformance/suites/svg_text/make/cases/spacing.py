@@ -64,6 +64,12 @@ case("spacing/kerning-not-between-sizes", "Two font sizes share no pair.",
 case("spacing/letter-before-y", "The space behind a character stays where a y follows: the line does not end there.",
      '<text x="20" y="60" letter-spacing="15">A<tspan y="120">C</tspan></text>',
      draw(glyph("A", 20, 60), glyph("C", 35 + A, 120)), ' letter-spacing="15"')
+case("spacing/letter-right-to-left", "In right-to-left text it is left of each character.",
+     '<text x="150" y="100" direction="rtl" font-family="VTM World" letter-spacing="15">\u05d0\u05d1\u05d2</text>',
+     draw(line(["gimel", "bet", "alef"], 120 - 1.55 * SIZE, 100, WORLD, spacing=15)), ' letter-spacing="15"')
+case("spacing/letter-mixed", "Between letters of two directions, too.",
+     '<text x="20" y="100" font-family="VTM World" letter-spacing="10">A\u05d0\u05d1A</text>',
+     draw(line(["A", "bet", "alef", "A"], 20, 100, WORLD, spacing=10)), ' letter-spacing="10"')
 case("spacing/cursive", "Joined Arabic letters are not torn apart (CSS Text 3 section 8.2.1).",
      '<text x="150" y="100" direction="rtl" font-family="VTM World" letter-spacing="20">\u0628\u0628\u0627</text>',
      draw(line(["alefar.fina", "beh.medi", "beh.init"], 150 - 1.15 * SIZE, 100, WORLD)), "\u0628\u0628", "\u0628")

@@ -56,6 +56,8 @@ case("vertical/anchor-middle", "text-anchor works along the line.",
      draw(upright("one.cjk", 100, 60), upright("two.cjk", 100, 100)), ' text-anchor="middle"')
 case("vertical/anchor-end", "end.", f'<text x="100" y="180" {FONT}{V} text-anchor="end">{ONE}A</text>',
      draw(upright("one.cjk", 100, 116), sideways("A", 100, 156)), ' text-anchor="end"')
+column("baseline-shift", "Up is right.", V, f'{ONE}<tspan baseline-shift="12">{TWO}</tspan>',
+       [upright("one.cjk", 100, 20), upright("two.cjk", 112, 60)], ' baseline-shift="12"')
 column("letter-spacing", "letter-spacing goes down.", V + ' letter-spacing="15"', ONE + TWO,
        [upright("one.cjk", 100, 20), upright("two.cjk", 100, 75)], ' letter-spacing="15"')
 column("dx-dy", "dx and dy are x and y still.", V + ' dx="0 30" dy="10 5"', ONE + TWO,
