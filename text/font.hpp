@@ -55,9 +55,11 @@ public:
     /// The same path every time it is asked for; null for blank and broken glyphs. NonZero filled.
     virtual std::shared_ptr<const scene::Path> outlineOf(GlyphId glyph) const = 0;
     /// A glyph that brings its own colours: a group of items, or an SVG document. Nothing for others.
-    /// `foreground` stands for the colour of the text.
+    /// `foreground` stands for the colour of the text; `transform` maps font units to the group's picture.
     using ColorGlyph = std::variant<scene::Group, SvgGlyph>;
-    virtual std::optional<ColorGlyph> colorGlyphOf(GlyphId glyph, const scene::Color& foreground) const = 0;
+    virtual std::optional<ColorGlyph> colorGlyphOf(
+        GlyphId glyph, const scene::Color& foreground,
+        const scene::Affine& transform = scene::identity) const = 0;
 
     /// For shaping. Scale: 64 to a font unit, y up.
     virtual hb_font_t* harfbuzz() const = 0;

@@ -3,7 +3,7 @@
 #include <map>
 
 #include <vtm/authoring.hpp>
-#include "api/src/level.hpp"
+#include "scene/level.hpp"
 
 namespace vtm {
 
@@ -17,7 +17,7 @@ public:
 
 private:
     Vtm children(const scene::Group& group) {
-        const Level level(depth_);
+        const scene::Level level(depth_);
         Vtm below;
         for (const scene::Node& node : group.children)
             below = std::visit([&](const auto& value) { return lay(value, std::move(below)); }, node.value);

@@ -30,6 +30,7 @@ svg::Options svgOptions(const LoadOptions& options) {
     svg.resourceDirectory = options.folder;
     svg.dpi = options.dpi;
     svg.language = options.language;
+    svg.fonts = options.fonts;
     return svg;
 }
 

@@ -11,8 +11,8 @@
 #include <map>
 
 #include <vtm/authoring.hpp>
-#include "api/src/level.hpp"
-#include "api/src/place.hpp"
+#include "scene/level.hpp"
+#include "scene/place.hpp"
 
 namespace vtm {
 
@@ -82,7 +82,7 @@ public:
 private:
     /// In painter's order. Goes down a chain from the top without recursion.
     Nodes nodes(const Vtm& vtm, const Affine& at) {
-        const Level level(depth_);
+        const scene::Level level(depth_);
         std::vector<Nodes> fromTop;
         for (Found next = found(vtm, at); next.node != nullptr;) {
             limits::check();

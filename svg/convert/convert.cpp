@@ -14,6 +14,7 @@ namespace {
 bool isRendered(Tag tag) {
     switch (tag) {
         case Tag::A:
+        case Tag::FlowRoot:
         case Tag::ForeignObject:
         case Tag::G:
         case Tag::Image:
@@ -125,6 +126,8 @@ void Converter::convertContent(const Element& element, const Scope& scope, Nodes
             return convertUse(element, scope, out);
         case Tag::Image:
             return convertImage(element, scope, out);
+        case Tag::FlowRoot:
+            return convertFlowRoot(element, scope, out);
         case Tag::Text:
             return convertText(element, scope, out);
         default:

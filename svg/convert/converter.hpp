@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,7 +56,7 @@ public:
     /// Appends the picture; `placement` maps the root viewport's units to where they shall lie.
     void convertRoot(const scene::Affine& placement, Nodes& out);
     /// The same of one element, at its place.
-    void convertOnly(const Element& element, Nodes& out);
+    void convertOnly(const Element& element, const scene::Affine& placement, Nodes& out);
     /// For the places of a nested document's items: the image in the outermost file.
     void standFor(const limits::Place& image) { standsFor_ = image; }
 
@@ -173,14 +174,24 @@ private:
     // text_content.cpp, text.cpp
     class TextCollector;
     TextContent textContent(const Element& text, const Scope& scope);
+    TextContent flowContent(const Element& flowRoot, const Scope& scope);
+    Box flowRegion(const Element& flowRoot, const Scope& scope);
+    void convertFlowRoot(const Element& element, const Scope& scope, Nodes& out);
+    void paintText(const Element& element, const Scope& scope, const TextContent& content, Nodes& out);
     text::FontSet& fonts();
+    void addFontFaces(text::FontSet& fonts);
+    bool addFontFace(text::FontSet& fonts, const text::FontFace& face, std::string_view url,
+                     std::string& cause);
     void warnOfMissingFamilies(const TextContent& content);
+    void warnOfMissingGlyphs(const Element& element, const TextContent& content, const TextLayout& layout);
     void convertText(const Element& element, const Scope& scope, Nodes& out);
     void paintLine(const TextContent& content, const PlacedLine& line, const Box& box, Nodes& out);
     void paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters, const Box& box,
                        Nodes& out);
     void fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
     bool paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
+    void convertSvgGlyph(const TextElement& text, const PlacedGlyph& glyph, const text::SvgGlyph& svg,
+                         const scene::Affine& transform, Nodes& out);
     void addClipText(const Element& element, const Scope& parent, scene::Clip& clip);
 
     // marker.cpp
@@ -195,6 +206,8 @@ private:
     void convertImage(const Element& element, const Scope& scope, Nodes& out);
     ImageContent imageContent(std::string_view href, const Element& element);
     ImageContent loadImage(std::string_view href);
+    std::shared_ptr<NestedDocument> svgGlyph(const TextElement& text, const PlacedGlyph& glyph,
+                                             const text::SvgGlyph& svg);
     static std::optional<Viewport> sizeOf(const ImageContent& content);
     void placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Element& element,
                      const Rect& viewport, const AspectRatio& ratio, const Scope& scope, Nodes& out);
@@ -250,7 +263,9 @@ private:
     std::unordered_map<const Element*, std::vector<scene::GradientStop>> stops_;  ///< by their gradient
     std::unordered_map<std::string_view, ImageContent> images_;
     std::unordered_set<const Element*> active_;
-    std::unique_ptr<text::FontSet> fonts_;             ///< null until there is text
+    std::unique_ptr<text::FontSet> fonts_;  ///< null until there is text
+    /// Of glyphs that are documents; null for those that cannot be read.
+    std::map<std::pair<const text::Font*, text::GlyphId>, std::shared_ptr<NestedDocument>> svgGlyphs_;
     std::unordered_set<std::string> missingFamilies_;  ///< those that were warned of
     std::vector<Outline> outlines_;
     int outlineListeners_ = 0;

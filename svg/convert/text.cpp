@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
+#include "scene/place.hpp"
 #include "svg/convert/converter.hpp"
 #include "svg/css/text_values.hpp"
 #include "svg/text/layout.hpp"
@@ -33,7 +37,7 @@ bool isPlain(PaintKind kind) { return kind == PaintKind::Color || kind == PaintK
 
 text::FontSet& Converter::fonts() {
     if (!fonts_)
-        fonts_ = std::make_unique<text::FontSet>(options_.fonts);
+        addFontFaces(*(fonts_ = std::make_unique<text::FontSet>(options_.fonts)));
     return *fonts_;
 }
 
@@ -50,8 +54,34 @@ void Converter::warnOfMissingFamilies(const TextContent& content) {
     }
 }
 
+/// One warning for the characters of a text that no font has.
+void Converter::warnOfMissingGlyphs(const Element& element, const TextContent& content,
+                                    const TextLayout& layout) {
+    std::set<char32_t> missing;
+    for (const PlacedCluster& cluster : layout.clusters)
+        for (const PlacedGlyph& glyph : cluster.glyphs)
+            if (glyph.id == 0)
+                missing.insert(content.characters[cluster.first].code);
+    if (missing.empty())
+        return;
+    const std::string others = missing.size() > 1 ? fmt::format(" and {} others", missing.size() - 1) : "";
+    reporter_.warn(Kind::Font, element,
+                   fmt::format("no font has the character U+{:04X}{}",
+                               static_cast<std::uint32_t>(*missing.begin()), others));
+}
+
 void Converter::convertText(const Element& element, const Scope& scope, Nodes& out) {
-    const TextContent content = textContent(element, scope);
+    paintText(element, scope, textContent(element, scope), out);
+}
+
+/// Inkscape's text in a frame, which no published SVG has.
+void Converter::convertFlowRoot(const Element& element, const Scope& scope, Nodes& out) {
+    reporter_.warn(Kind::Element, element, "is not part of SVG; its text is drawn in lines as Inkscape does");
+    paintText(element, scope, flowContent(element, scope), out);
+}
+
+void Converter::paintText(const Element& element, const Scope& scope, const TextContent& content,
+                          Nodes& out) {
     if (content.characters.empty())
         return;
     if (!fonts().primary({}))
@@ -60,6 +90,7 @@ void Converter::convertText(const Element& element, const Scope& scope, Nodes& o
     const TextLayout layout = layOut(content, fonts());
     if (layout.clusters.empty())
         return;
+    warnOfMissingGlyphs(element, content, layout);
     const auto cells = std::make_shared<const Path>(cellsOf(layout));
     const Box box = boundingBox(*cells, scene::identity);
     if (!isWithinReach(geometry::mapped(box, scope.transform))) {
@@ -141,12 +172,25 @@ void Converter::fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nod
     item.paint = style.fill.kind == PaintKind::CurrentColor ? style.color : style.fill.color;
     item.opacity = static_cast<float>(style.fillOpacity);
     item.place = placeOf(*text.element);
+    item.place.character = static_cast<std::uint32_t>(glyph.character + 1);
     out.push_back({std::move(item)});
 }
 
 /// False for glyphs without colours of their own.
-bool Converter::paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes&) {
-    return false && text.element && glyph.font;
+bool Converter::paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out) {
+    const Style& style = text.scope.style;
+    auto colored = glyph.font->colorGlyphOf(glyph.id, style.color);
+    const scene::Affine transform = scene::compose(text.scope.transform, glyph.transform);
+    if (!colored || !scene::inverse(transform))
+        return colored.has_value();
+    scene::Group group;
+    if (auto* made = std::get_if<scene::Group>(&*colored))
+        group = scene::placed(std::move(*made), transform);
+    else
+        convertSvgGlyph(text, glyph, std::get<text::SvgGlyph>(*colored), transform, group.children);
+    group.opacity = static_cast<float>(style.fillOpacity);
+    appendGroup(std::move(group), true, out);
+    return true;
 }
 
 void Converter::addClipText(const Element& element, const Scope& parent, scene::Clip& clip) {

@@ -4,6 +4,7 @@
 #include "svg/css/text_values.hpp"
 #include "svg/geometry/path_data.hpp"
 #include "svg/text/content.hpp"
+#include "svg/text/flow.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -18,7 +19,8 @@ std::string_view inheritedAttribute(const Element& element, std::initializer_lis
 }
 
 bool isTextContent(Tag tag) {
-    return tag == Tag::Tspan || tag == Tag::A || tag == Tag::Tref || tag == Tag::TextPath;
+    return tag == Tag::Tspan || tag == Tag::A || tag == Tag::Tref || tag == Tag::TextPath ||
+           tag == Tag::FlowPara || tag == Tag::FlowSpan;
 }
 
 /// Whether it may stand in an element of that tag: paths and references do not stand in each other.
@@ -56,7 +58,8 @@ class Converter::TextCollector {
 public:
     explicit TextCollector(Converter& converter) : converter_(converter) {}
 
-    TextContent collect(const Element& text, const Scope& scope) {
+    /// The paragraphs too, where there are any.
+    TextContent collect(const Element& text, const Scope& scope, std::vector<Paragraph>& paragraphs) {
         visit(text, scope, -1, -1);
         const std::vector<bool> kept = keptCharacters(raw_);
         std::vector<std::size_t> index;  // of the first kept character from a raw one on
@@ -66,8 +69,11 @@ public:
                 content_.characters.push_back({raw_[i].code, raw_[i].element, {}, {}});
         }
         index.push_back(content_.characters.size());
-        for (const Extent& extent : extents_)
+        for (const Extent& extent : extents_) {
             position(extent, index);
+            if (at(extent.element).element->tag == Tag::FlowPara)
+                paragraphs.push_back({index[extent.first], extent.element});
+        }
         return std::move(content_);
     }
 
@@ -108,7 +114,7 @@ private:
     }
 
     void visitChild(const Element& child, const Element& parent, const Scope& scope, int index, int path) {
-        if (child.tag == Tag::CharacterData && parent.tag != Tag::Tref)
+        if (child.tag == Tag::CharacterData && parent.tag != Tag::Tref && parent.tag != Tag::FlowRoot)
             return appendText(child.text, index);
         if (!isTextContent(child.tag) || !mayStandIn(child.tag, parent.tag))
             return;
@@ -248,7 +254,48 @@ private:
 };
 
 TextContent Converter::textContent(const Element& text, const Scope& scope) {
-    return TextCollector(*this).collect(text, scope);
+    std::vector<Paragraph> paragraphs;
+    TextContent content = TextCollector(*this).collect(text, scope, paragraphs);
+    const std::optional<Length> inlineSize = scope.style.inlineSize;
+    const double width = inlineSize ? resolve(*inlineSize, Axis::X, scope.viewport) : 0;
+    if (!(width > 0) || content.characters.empty() || scope.style.writingMode != WritingMode::Horizontal)
+        return content;
+    // SVG 2 section 11.7.3: only the first position counts.
+    const double x = content.characters.front().x.value_or(0), y = content.characters.front().y.value_or(0);
+    for (TextCharacter& character : content.characters)
+        character.x = character.y = std::nullopt;
+    flow(content, {{0, 0}}, {x, y - firstAscent(content, fonts()), width}, fonts());
+    return content;
+}
+
+/// The box of the first `flowRegion`, in user space.
+Box Converter::flowRegion(const Element& flowRoot, const Scope& scope) {
+    for (const Element* region : flowRoot.children)
+        if (region->tag == Tag::FlowRegion) {
+            Box box;
+            for (const Element* child : region->children)
+                if (const CachedShape* shape = isShape(child->tag) ? shapeOf(*child, scope) : nullptr) {
+                    const Style& style = styleOf(*child);
+                    box.add(boundingBox(*shape->path, transformFrom(style.transform, style, scope.viewport)));
+                }
+            return box;
+        }
+    return {};
+}
+
+TextContent Converter::flowContent(const Element& flowRoot, const Scope& scope) {
+    std::vector<Paragraph> paragraphs;
+    TextContent content = TextCollector(*this).collect(flowRoot, scope, paragraphs);
+    const Box box = flowRegion(flowRoot, scope);
+    if (box.empty() || paragraphs.empty())
+        return {};
+    for (TextElement& element : content.elements)
+        element.scope.style.anchor = scope.style.align;
+    const double share = scope.style.align == TextAnchor::Start    ? 0
+                         : scope.style.align == TextAnchor::Middle ? .5
+                                                                   : 1;
+    flow(content, paragraphs, {box.min.x + share * box.width(), box.min.y, box.width(), box.max.y}, fonts());
+    return content;
 }
 
 }  // namespace vtm::svg

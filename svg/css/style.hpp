@@ -77,10 +77,12 @@ struct TextStyle {
     bool synthesizeWeight = true, synthesizeSlant = true;
     Length letterSpacing, wordSpacing;  ///< percentages refer to the font size
     TextAnchor anchor = TextAnchor::Start;
+    TextAnchor align = TextAnchor::Start;  ///< text-align
     Baseline dominantBaseline = Baseline::Auto;
     WritingMode writingMode = WritingMode::Horizontal;
     text::TextOrientation textOrientation = text::TextOrientation::Mixed;
     bool rightToLeft = false;              ///< direction
+    double lineHeight = 1.25;              ///< by font size; `normal` as Inkscape has it
     std::optional<WhiteSpace> whiteSpace;  ///< nothing: as xml:space says
 };
 
@@ -123,6 +125,7 @@ struct Own {
     BaselineShift baselineShift;
     unsigned textLines = 0;  ///< TextLines that the element adds; those of its ancestors go on
     UnicodeBidi unicodeBidi = UnicodeBidi::Normal;
+    std::optional<Length> inlineSize;  ///< nothing: auto
     /// x, width, cx, … where CSS, not an attribute, gives them.
     std::vector<Attribute> geometry;
 };

@@ -300,6 +300,33 @@ std::optional<text::TextOrientation> parseGlyphOrientation(std::string_view text
     return *degrees == 0 ? text::TextOrientation::Upright : text::TextOrientation::Sideways;
 }
 
+std::optional<double> parseLineHeight(std::string_view text, const Units& units) {
+    if (equalsIgnoringCase(text, "normal"))
+        return TextStyle{}.lineHeight;
+    Cursor cursor(text);
+    if (const auto factor = cursor.number(); factor && cursor.atEnd())
+        return *factor >= 0 ? factor : std::nullopt;
+    const auto length = parseWidth(text, units);
+    if (!length || !(units.fontSize > 0))
+        return std::nullopt;
+    return length->percent ? length->value / 100 : length->value / units.fontSize;
+}
+
+/// Justified lines begin at the start.
+std::optional<TextAnchor> parseTextAlign(std::string_view text, const Units&) {
+    static constexpr Keyword<TextAnchor> table[]{
+        {"start", TextAnchor::Start},   {"left", TextAnchor::Start}, {"justify", TextAnchor::Start},
+        {"center", TextAnchor::Middle}, {"end", TextAnchor::End},    {"right", TextAnchor::End}};
+    return findKeyword(text, table);
+}
+
+std::optional<std::optional<Length>> parseInlineSize(std::string_view text, const Units& units) {
+    if (equalsIgnoringCase(text, "auto"))
+        return std::optional<Length>();
+    const auto length = parseWidth(text, units);
+    return length ? std::optional(length) : std::nullopt;
+}
+
 std::optional<bool> parseDirection(std::string_view text, const Units&) {
     static constexpr Keyword<bool> table[]{{"ltr", false}, {"rtl", true}};
     return findKeyword(text, table);

@@ -31,6 +31,11 @@ std::optional<WritingMode> parseWritingMode(std::string_view text, const Units&)
 std::optional<text::TextOrientation> parseTextOrientation(std::string_view text, const Units&);
 /// `glyph-orientation-vertical`, which text-orientation replaced.
 std::optional<text::TextOrientation> parseGlyphOrientation(std::string_view text, const Units&);
+/// By font size.
+std::optional<double> parseLineHeight(std::string_view text, const Units& units);
+/// `text-align`, of text that is broken into lines.
+std::optional<TextAnchor> parseTextAlign(std::string_view text, const Units&);
+std::optional<std::optional<Length>> parseInlineSize(std::string_view text, const Units& units);
 std::optional<bool> parseDirection(std::string_view text, const Units&);
 std::optional<UnicodeBidi> parseUnicodeBidi(std::string_view text, const Units&);
 std::optional<std::optional<WhiteSpace>> parseWhiteSpace(std::string_view text, const Units&);

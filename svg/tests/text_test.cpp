@@ -58,6 +58,14 @@ TEST_F(Text, SharesTheOutlinesOfItsGlyphs) {
     EXPECT_EQ(found[0].path, found[1].path);
     EXPECT_EQ(found[0].path, found[2].path);
 }
+TEST_F(Text, KnowsTheElementAndTheCharacterOfEachGlyph) {
+    const auto found = items("<text> H <tspan>i</tspan></text>");
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_STREQ(found[0].place.element, "text");
+    EXPECT_EQ(found[0].place.character, 1u);
+    EXPECT_STREQ(found[1].place.element, "tspan");
+    EXPECT_EQ(found[1].place.character, 3u);
+}
 TEST_F(Text, CollapsesWhiteSpace) {
     expectNear(starts("<text>  i\n  <tspan> </tspan> i </text>"), starts("<text>i i</text>"));
     EXPECT_EQ(starts("<text xml:space='preserve'> i</text>")[0],
@@ -117,6 +125,27 @@ TEST_F(Text, NamesFamiliesThatAreNotThereOnce) {
     ASSERT_EQ(loaded.warnings.size(), 1u);
     EXPECT_EQ(loaded.warnings[0].kind, Warning::Kind::Font);
     EXPECT_EQ(load("<text font-family='None, sans-serif'>a</text>").warnings.size(), 0u);
+}
+
+TEST_F(Text, NamesCharactersThatNoFontHas) {
+    const Document loaded = load("<text>a\xe4\xb8\xad\xe6\x96\x87</text>");
+    ASSERT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_EQ(loaded.warnings[0].message, "<text>: no font has the character U+4E2D and 1 others");
+}
+TEST_F(Text, IsBrokenIntoLines) {
+    const auto found = items("<text x='5' y='20' style='inline-size:12px'>ii ii</text>");
+    ASSERT_EQ(found.size(), 4u);
+    EXPECT_NEAR(found[2].transform[2].x, 5, 1e-9);
+    EXPECT_NEAR(found[2].transform[2].y, 20 + 1.25 * 20.48, 1e-9);
+}
+TEST_F(Text, FlowsInInkscapesFrames) {
+    const Document loaded = load(
+        "<flowRoot xml:space='preserve'><flowRegion><rect x='7' y='3' width='12' height='60'/></flowRegion>"
+        "<flowPara>ii ii</flowPara><flowPara>i</flowPara></flowRoot>");
+    const auto found = itemsOf(loaded);
+    ASSERT_EQ(found.size(), 4u) << "the third line does not fit";
+    EXPECT_NEAR(found[0].transform[2].x, 7, 1e-9);
+    EXPECT_EQ(loaded.warnings.size(), 1u);
 }
 
 TEST(TextContent, ReadsUtf8) {

@@ -241,7 +241,7 @@ private:
             inLine = scene::compose(inLine, scene::translation(glyph.x * font.size, glyph.y * font.size));
             placed.glyphs.push_back(
                 {glyph.font, glyph.id,
-                 scene::compose(*frame, scene::compose(inLine, scene::scaling(unit, unit)))});
+                 scene::compose(*frame, scene::compose(inLine, scene::scaling(unit, unit))), cluster.first});
             pen += glyph.advance * font.size;
         }
         layout.clusters.push_back(std::move(placed));

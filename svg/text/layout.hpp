@@ -13,7 +13,8 @@ namespace vtm::svg {
 struct PlacedGlyph {
     std::shared_ptr<const text::Font> font;
     text::GlyphId id;
-    scene::Affine transform;  ///< font units to user space
+    scene::Affine transform;    ///< font units to user space
+    std::size_t character = 0;  ///< of TextContent: the first of its cluster
 };
 
 /// A typographic character.

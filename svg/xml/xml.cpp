@@ -55,7 +55,7 @@ private:
 /// Elements whose text may be drawn or read. A `tref` may name any other.
 bool keepsText(const Element& element) {
     for (const Element* e = &element; e; e = e->parent)
-        if (e->tag == Tag::Text || e->tag == Tag::Style || e->tag == Tag::Tref)
+        if (e->tag == Tag::Text || e->tag == Tag::FlowRoot || e->tag == Tag::Style || e->tag == Tag::Tref)
             return true;
     return false;
 }

@@ -1,41 +1,41 @@
 #include "text/font_set.hpp"
 
-#include <hb-ot.h>
-
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
+#include <utility>
 
+#include "text/fonts/axes.hpp"
+#include "text/fonts/document_fonts.hpp"
 #include "text/fonts/library.hpp"
 
 namespace vtm::text {
 namespace {
 
-constexpr Tag tag(char a, char b, char c, char d) { return HB_TAG(a, b, c, d); }
-
-/// The axes of a variable face that stand for properties, then those that the author sets.
-std::vector<hb_variation_t> variationsOf(const Face& face, const FontQuery& query) {
-    std::vector<hb_variation_t> variations{{tag('w', 'g', 'h', 't'), static_cast<float>(query.weight)},
-                                           {tag('w', 'd', 't', 'h'), static_cast<float>(query.stretch)}};
-    if (query.slant == Slant::Italic)
-        variations.push_back({tag('i', 't', 'a', 'l'), 1});
-    if (query.slant != Slant::Normal)
-        variations.push_back({tag('s', 'l', 'n', 't'), -14});
-    if (query.opticalSize > 0)
-        variations.push_back({tag('o', 'p', 's', 'z'), static_cast<float>(query.opticalSize)});
+auto keyOf(const FontQuery& query) {
+    std::vector<std::pair<Tag, float>> variations;
     for (const Variation& variation : query.variations)
-        variations.push_back({variation.axis, variation.value});
-    std::erase_if(variations, [&](const hb_variation_t& variation) {
-        hb_ot_var_axis_info_t axis;
-        return !hb_ot_var_find_axis_info(face.face.get(), variation.tag, &axis);
-    });
-    return variations;
+        variations.emplace_back(variation.axis, variation.value);
+    return std::tuple(query.families, query.weight, query.stretch, query.slant, std::move(variations),
+                      query.language, query.opticalSize, query.synthesizeWeight, query.synthesizeSlant);
 }
 
-bool hasSlantAxis(const Face& face) {
-    hb_ot_var_axis_info_t axis;
-    return hb_ot_var_find_axis_info(face.face.get(), tag('s', 'l', 'n', 't'), &axis) ||
-           hb_ot_var_find_axis_info(face.face.get(), tag('i', 't', 'a', 'l'), &axis);
+constexpr char32_t emojiSelector = 0xfe0f;
+
+bool asksForColor(std::u32string_view cluster) {
+    return cluster.find(emojiSelector) != std::u32string_view::npos;
 }
+
+using Faces = std::vector<const FaceEntry*>;
+
+/// What was found for a query.
+struct Answer {
+    bool hasPrimary = false;
+    std::shared_ptr<const Font> primary;
+    std::map<std::u32string, std::shared_ptr<const Font>, std::less<>> covering;  ///< by cluster
+    std::map<const FaceEntry*, std::shared_ptr<const Font>> fonts;
+};
 
 }  // namespace
 
@@ -44,23 +44,36 @@ public:
     explicit Implementation(const FontOptions& options)
         : options_(options), library_(FontLibrary::of(options)) {}
 
-    bool hasFamily(const std::string& family) const {
-        return generic(family) || !library_->family(family).empty();
+    const Faces& facesOf(const std::string& family) const {
+        const std::string* const named = generic(family);
+        const Faces& own = own_.family(family);
+        return named || own.empty() ? library_->family(named ? *named : family) : own;
     }
+
+    void add(const FontFace& face, std::span<const std::uint8_t> bytes) {
+        own_.add(face, bytes);
+        answers_.clear();
+        fallbacks_.clear();
+    }
+
+    bool hasFamily(const std::string& family) const { return generic(family) || !facesOf(family).empty(); }
 
     std::shared_ptr<const Font> primary(const FontQuery& query) {
-        const auto known = std::find_if(primaries_.begin(), primaries_.end(),
-                                        [&](const auto& entry) { return entry.first == query; });
-        if (known != primaries_.end())
-            return known->second;
-        return primaries_.emplace_back(query, findPrimary(query)).second;
+        Answer& answer = answers_[keyOf(query)];
+        if (!std::exchange(answer.hasPrimary, true))
+            answer.primary = findPrimary(query, answer);
+        return answer.primary;
     }
 
-    std::shared_ptr<const Font> covering(const FontQuery& query, std::u32string_view characters) {
-        for (const std::u32string_view wanted : {characters, characters.substr(0, 1)})
-            if (auto font = findCovering(query, wanted))
-                return font;
-        return nullptr;
+    std::shared_ptr<const Font> covering(const FontQuery& query, std::u32string_view cluster) {
+        Answer& answer = answers_[keyOf(query)];
+        const auto known = answer.covering.find(cluster);
+        if (known != answer.covering.end())
+            return known->second;
+        auto font = findCovering(query, cluster, answer);
+        if (!font && cluster.size() > 1)
+            font = findCovering(query, cluster.substr(0, 1), answer);
+        return answer.covering[std::u32string(cluster)] = font;
     }
 
 private:
@@ -82,101 +95,112 @@ private:
         return nullptr;
     }
 
-    const std::vector<const FaceEntry*>& facesOf(const std::string& family) const {
-        const std::string* const named = generic(family);
-        return library_->family(named ? *named : family);
-    }
-
-    /// The query's families, the default one after them.
-    std::vector<std::string> familiesOf(const FontQuery& query) const {
-        std::vector<std::string> families = query.families;
-        families.push_back(options_.defaultFamily);
-        return families;
-    }
-
-    std::shared_ptr<const Font> findPrimary(const FontQuery& query) {
-        for (const std::string& family : familiesOf(query)) {
-            if (const FaceEntry* face = bestFace(facesOf(family), query))
-                if (auto font = instance(*face, query))
-                    return font;
-        }
-        return substitute(query, U"");
-    }
-
-    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view characters) {
-        for (const std::string& family : familiesOf(query)) {
-            std::vector<const FaceEntry*> faces = facesOf(family);
-            std::erase_if(faces, [&](const FaceEntry* face) { return !face->covers(characters); });
-            if (const FaceEntry* face = bestFace(faces, query))
-                if (auto font = instance(*face, query))
-                    return font;
-        }
-        return substitute(query, characters);
-    }
-
-    /// The best face of the first family among fontconfig's proposals that has the characters. Without system
-    /// fonts the family for `serif` goes first.
-    std::shared_ptr<const Font> substitute(const FontQuery& query, std::u32string_view characters) {
-        FontQuery asked = query;
-        asked.families.push_back(options_.defaultFamily);
-        asked.families.push_back("serif");
-        for (const std::string& family : {std::string("serif"), std::string("sans-serif")})
-            for (const FaceEntry* face : facesOf(family))
-                if (!options_.systemFonts && face->covers(characters))
-                    return instance(*bestFace(facesOf(family), query), query);
-        for (const FaceEntry* proposed : library_->substitutes(asked)) {
-            if (!proposed->covers(characters))
-                continue;
-            std::vector<const FaceEntry*> faces = library_->family(proposed->family);
-            std::erase_if(faces, [&](const FaceEntry* face) { return !face->covers(characters); });
-            const FaceEntry* const best = bestFace(faces, query);
-            if (auto font = instance(best ? *best : *proposed, query))
+    std::shared_ptr<const Font> findPrimary(const FontQuery& query, Answer& answer) {
+        for (const std::string& family : query.families)
+            if (auto font = bestOf(facesOf(family), query, answer))
                 return font;
-        }
+        for (const Faces& family : fallback(query))
+            if (auto font = bestOf(family, query, answer))
+                return font;
         return nullptr;
     }
 
-    std::shared_ptr<const Font> instance(const FaceEntry& entry, const FontQuery& query) {
-        const std::shared_ptr<const Face> face = library_->open(entry);
-        return face ? instance(face, entry.maxWeight, entry.slant, query) : nullptr;
+    std::shared_ptr<const Font> bestOf(Faces faces, const FontQuery& query, Answer& answer) {
+        std::erase_if(faces, [](const FaceEntry* face) { return !face->forSpace; });
+        return open(bestFace(faces, query), query, answer);
     }
 
-    std::shared_ptr<const Font> instance(const std::shared_ptr<const Face>& face, double maxWeight,
-                                         Slant slant, const FontQuery& query) {
-        // CSS Fonts 4 section 2.7: bold is made from faces below this weight for weights from it on.
-        constexpr double boldWeight = 600;
-        Instance made{variationsOf(*face, query),
-                      query.synthesizeWeight && query.weight >= boldWeight && maxWeight < boldWeight,
-                      query.synthesizeSlant && query.slant != Slant::Normal && slant == Slant::Normal &&
-                          !hasSlantAxis(*face)};
-        for (const Made& known : made_)
-            if (known.face == face && known.instance.bold == made.bold &&
-                known.instance.oblique == made.oblique && equal(known.instance.variations, made.variations))
-                return known.font;
-        auto font = std::make_shared<const OpenTypeFont>(face, made);
-        made_.push_back({face, std::move(made), font});
-        return font;
+    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
+                                             Answer& answer) {
+        if (asksForColor(cluster))
+            if (auto font = findCovering(query, cluster, answer, true))
+                return font;
+        return findCovering(query, cluster, answer, false);
     }
 
-    static bool equal(const std::vector<hb_variation_t>& a, const std::vector<hb_variation_t>& b) {
-        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                          [](const auto& x, const auto& y) { return x.tag == y.tag && x.value == y.value; });
+    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
+                                             Answer& answer, bool colorOnly) {
+        const auto find = [&](const Faces& family) {
+            Faces faces = text::covering(family, cluster);
+            if (colorOnly)
+                std::erase_if(faces, [](const FaceEntry* face) { return !face->color; });
+            return open(bestFace(faces, query), query, answer);
+        };
+        for (const std::string& family : query.families)
+            if (auto font = find(facesOf(family)))
+                return font;
+        for (const Faces& family : fallback(query))
+            if (auto font = find(family))
+                return font;
+        return nullptr;
     }
 
-    struct Made {
-        std::shared_ptr<const Face> face;
-        Instance instance;
-        std::shared_ptr<const Font> font;
-    };
+    /// The families to try after those of the query, each with all its faces. With system fonts fontconfig
+    /// says which; without, the default one and those of `serif` and `sans-serif` go first.
+    const std::vector<Faces>& fallback(const FontQuery& query) {
+        const auto [at, isNew] = fallbacks_.try_emplace(
+            std::tuple(query.families, query.weight, query.stretch, query.slant, query.language));
+        if (isNew)
+            at->second = findFallback(query);
+        return at->second;
+    }
+
+    std::vector<Faces> findFallback(const FontQuery& query) const {
+        std::vector<Faces> fallback;
+        std::set<std::string> seen;
+        const auto append = [&](const std::string& family) {
+            if (seen.insert(familyKey(family)).second && !facesOf(family).empty())
+                fallback.push_back(facesOf(family));
+        };
+        if (!options_.systemFonts)
+            for (const std::string& family :
+                 {options_.defaultFamily, options_.serifFamily, options_.sansSerifFamily})
+                append(family);
+        for (const FaceEntry* face : library_->substitutes(withDefault(query)))
+            append(face->family);
+        return fallback;
+    }
+
+    /// As fontconfig is asked: generic names are what the options say, the default family is the last.
+    FontQuery withDefault(FontQuery query) const {
+        for (std::string& family : query.families)
+            if (const std::string* const named = generic(family))
+                family = *named;
+        query.families.push_back(options_.defaultFamily);
+        return query;
+    }
+
+    /// Null for no face, and where the file has gone or is broken.
+    std::shared_ptr<const Font> open(const FaceEntry* entry, const FontQuery& query, Answer& answer) {
+        if (!entry)
+            return nullptr;
+        const auto [at, isNew] = answer.fonts.try_emplace(entry);
+        if (isNew)
+            at->second = makeFont(*entry, query);
+        return at->second;
+    }
+
+    std::shared_ptr<const Font> makeFont(const FaceEntry& entry, const FontQuery& query) {
+        const auto face = entry.ownFace ? entry.ownFace : openFace(entry.file, entry.index, entry.family);
+        if (!face)
+            return nullptr;
+        return face->font(instanceOf(*face, entry, query));
+    }
 
     const FontOptions options_;
-    const std::shared_ptr<FontLibrary> library_;
-    std::vector<std::pair<FontQuery, std::shared_ptr<const Font>>> primaries_;
-    std::vector<Made> made_;
+    const std::shared_ptr<const FontLibrary> library_;
+    DocumentFonts own_;
+    std::map<decltype(keyOf({})), Answer> answers_;
+    std::map<std::tuple<std::vector<std::string>, double, double, Slant, std::string>, std::vector<Faces>>
+        fallbacks_;
 };
 
 FontSet::FontSet(const FontOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
 FontSet::~FontSet() = default;
+
+void FontSet::add(const FontFace& face, std::span<const std::uint8_t> bytes) {
+    implementation_->add(face, bytes);
+}
 
 bool FontSet::hasFamily(const std::string& family) const { return implementation_->hasFamily(family); }
 

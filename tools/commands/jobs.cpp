@@ -36,7 +36,7 @@ std::vector<Job> readBatch(const std::string& path) {
             continue;
         const std::size_t tab = line.find('\t');
         if (tab == std::string::npos || tab == 0 || tab + 1 == line.size())
-            throw std::runtime_error(fmt::format("{}:{}:1: needs IN<TAB>OUT", list.name, number));
+            throw std::runtime_error(fmt::format("{}:{}:1: expected IN<TAB>OUT", list.name, number));
         jobs.push_back({line.substr(0, tab), line.substr(tab + 1)});
     }
     return jobs;

@@ -56,7 +56,7 @@ bool AutomaticEngine::startsGl(Source& source) {
 
 void AutomaticEngine::doWithoutGl(const std::string& why) {
     driver_ = gl::Driver::None;
-    warn("vtm: " + why + "; the CPU draws");
+    warn("vtm: " + why + "; drawing on the CPU");
 }
 
 }  // namespace vtm::tools

@@ -11,7 +11,7 @@ namespace vtm::tools {
 void CpuEngine::draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
                      const image::RowSink& sink) {
     if (source.paper || !asset::isSumOfMaps(*source.asset))
-        throw std::runtime_error("the cpu engine draws exact pictures only");
+        throw std::runtime_error("the cpu engine only draws exact mode");
     if (!source.asset->materials.empty())
         warnOfMaterials(source);
     const asset::Scanner scanner =

@@ -42,7 +42,7 @@ public:
 protected:
     image::Raster render(Source& source, const asset::View& view) override {
         if (!source.scene)
-            throw std::runtime_error("the reference engine draws SVG files only, no compiled ones");
+            throw std::runtime_error("the reference engine only draws SVG files, not .vtm files");
         const reference::View same{view.width, view.height, view.toPixels};
         return timed(source.stages, "render",
                      [&] { return reference::render(*source.scene, same, options_); });

@@ -36,12 +36,12 @@ void warnOfNotDrawnYet(Source& source, const std::vector<svg::Warning>& warnings
 
 void loadAsset(Source& source, const Input& input, const SourceOptions& options) {
     if (options.paper)
-        throw std::runtime_error("is compiled; paper mode draws SVG files only");
+        throw std::runtime_error("is a .vtm file; paper mode only draws SVG files");
     if (!options.svg.exportId.empty() || !options.styleSheet.empty())
-        throw std::runtime_error("is compiled; --export-id and --stylesheet need an SVG file");
+        throw std::runtime_error("is a .vtm file; --export-id and --stylesheet need an SVG file");
     source.asset = timed(source.stages, "parse", [&] { return asset::read(input.bytes); });
     if (options.mode && *options.mode != source.asset->mode)
-        throw std::runtime_error("was compiled in the other mode than --mode asks for");
+        throw std::runtime_error("was compiled in another mode than --mode");
     source.width = source.asset->width;
     source.height = source.asset->height;
 }
@@ -54,7 +54,7 @@ std::string readStyleSheet(const std::string& path) {
 scene::Rect exportedBounds(const svg::Document& document, const std::string& id) {
     if (const auto bounds = drawnBounds(document.scene))
         return *bounds;
-    throw std::runtime_error(fmt::format("#{}: nothing of it is drawn in the picture", id));
+    throw std::runtime_error(fmt::format("#{}: the element draws nothing inside the picture", id));
 }
 
 void parseSvg(Source& source, const Input& input, const SourceOptions& given) {
@@ -135,7 +135,7 @@ void warnOf(Source& source, const std::vector<svg::Warning>& warnings) {
 
 void refuseLeftOut(const Source& source) {
     if (source.leftOut > 0)
-        throw std::runtime_error("--strict: something is left out, see above");
+        throw std::runtime_error("--strict: nothing is written, because something is left out or repaired");
 }
 
 }  // namespace vtm::tools

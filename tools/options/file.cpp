@@ -19,7 +19,7 @@ image::FileFormat parseFormat(const std::string& name) {
 void addFileOptions(CLI::App& command, FileOptions& options) {
     command.add_option_function<std::string>(
         "-f,--format", [&options](const std::string& name) { options.format = parseFormat(name); },
-        "png (default), jpeg, webp or ppm, for names without a suffix: directories, standard output");
+        "png (default), jpeg, webp or ppm, for outputs without a suffix: directories, standard output");
     command.add_option("--depth", options.encoding.depth, "Bits per channel of PNG and PPM: 8 or 16")
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();

@@ -68,7 +68,7 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
     command
         .add_option(
             "--tolerance", options.compiler.tolerance,
-            "How far a boundary may be off, as a share of the longer side; render chooses one that fits "
+            "Max error of boundaries, as a share of the longer side; by default render chooses one that fits "
             "the view unless it is given")
         ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
@@ -77,13 +77,13 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
 }
 
 void addImportOptions(CLI::App& command, SourceOptions& options) {
-    command.add_option("--dpi", options.svg.dpi, "Pixels per inch")
+    command.add_option("--dpi", options.svg.dpi, "User units per inch, for lengths such as 1in or 2cm")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_flag("--strict", options.strict,
                      "Fail with exit code 1 and write nothing if anything is left out or repaired");
     command.add_option("-s,--stylesheet", options.styleSheet,
-                       "A CSS file that is read before the SVG's own style sheets");
+                       "CSS file that applies before the SVG's own style sheets");
     for (const auto& [name, side] : {std::pair("--default-width", &options.svg.defaultWidth),
                                      {"--default-height", &options.svg.defaultHeight}})
         command.add_option(name, *side, "Side in user units of an SVG with neither size nor viewBox")

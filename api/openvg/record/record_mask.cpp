@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "api/openvg/record/record_paint.hpp"
+
 namespace vtm::openvg {
 
 namespace {
@@ -27,12 +29,6 @@ scene::Node alphaOf(const RecordedMask& mask, const PicturePath& picture) {
         group.children.push_back(white(picture));
     group.clip = mask.clip;
     return {std::move(group)};
-}
-
-std::shared_ptr<const scene::Group> groupOf(scene::Node node) {
-    scene::Group group;
-    group.children.push_back(std::move(node));
-    return std::make_shared<scene::Group>(std::move(group));
 }
 
 void append(scene::Clip& result, const std::shared_ptr<const scene::Clip>& clip, const PicturePath& picture) {

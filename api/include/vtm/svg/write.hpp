@@ -13,7 +13,7 @@
 
 namespace vtm::svg {
 
-/// Names the first part of a scene that is not written.
+/// A scene has a part that cannot be written. what() names the first such part.
 class WriteError : public Error {
     using Error::Error;
 };

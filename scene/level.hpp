@@ -6,16 +6,16 @@
 
 #include <vtm/scene/scene.hpp>
 
-namespace vtm {
+namespace vtm::scene {
 
-/// One level further in for as long as it lives. Throws scene::InvalidScene beyond what a valid scene may
+/// One level further in for as long as it lives. Throws InvalidScene beyond what a valid scene may
 /// have.
 class Level {
 public:
     explicit Level(int& depth) : depth_(depth) {
-        if (depth_ >= scene::maxNesting)
-            throw scene::InvalidScene("selections, layers, clips or masks nest more than " +
-                                      std::to_string(scene::maxNesting) + " levels deep");
+        if (depth_ >= maxNesting)
+            throw InvalidScene("selections, layers, clips or masks nest more than " +
+                               std::to_string(maxNesting) + " levels deep");
         ++depth_;
     }
     ~Level() { --depth_; }
@@ -26,4 +26,4 @@ private:
     int& depth_;
 };
 
-}  // namespace vtm
+}  // namespace vtm::scene
