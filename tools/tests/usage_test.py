@@ -35,7 +35,7 @@ class Help(Command):
 class Saying(Command):
     def setUp(self):
         super().setUp()
-        self.warned = self.write("warned.svg", SQUARE.replace("</svg>", "<text>a</text></svg>"))
+        self.warned = self.write("warned.svg", SQUARE.replace("</svg>", "<foreignObject/></svg>"))
 
     def test_quiet(self):
         out = ("render", self.warned, "-o", "out.png")
