@@ -115,6 +115,39 @@ TEST_F(Gl, IdsOfItems) {
     EXPECT_GT(seen.size(), 30u);
 }
 
+/// Triangles whose corners are centres of pixels, so that many pixels lie on ends of pieces and on
+/// boundaries.
+TEST_F(Gl, IdsOnBoundariesAreThoseOfARegionThere) {
+    scene::Scene scene{64, 64, {}};
+    for (int i = 0; i < 60; ++i) {
+        scene::Item item;
+        const glm::dvec2 corner(i * 7 % 47 + 0.5, i * 13 % 47 + 0.5);
+        scene::Path path{scene::MoveTo{corner}, scene::LineTo{corner + glm::dvec2(16, i % 5)},
+                         scene::LineTo{corner + glm::dvec2(i % 7, 16)}, scene::Close{}};
+        item.path = std::make_shared<scene::Path>(std::move(path));
+        item.geometry = scene::FillRule::NonZero;
+        item.paint = scene::Color{1, 0, 0, 1};
+        scene.root.children.push_back({std::move(item)});
+    }
+    const asset::Asset asset = compiler::compilePickMap(scene).asset;
+    IdRenderer ids;
+    const View view{64, 64, {1, 0, 0, 1, 0, 0}};
+    const std::vector<std::uint32_t> got = ids.render(ids.upload(asset, numbersOf(asset)), view);
+    int onBoundaries = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            std::set<std::uint32_t> near;
+            for (int i = 0; i < 256; ++i) {
+                const double angle = i * 2 * 3.14159265 / 256;
+                near.insert(asset::paintAt(asset, glm::dvec2(x + 0.5, y + 0.5) +
+                                                      1e-3 * glm::dvec2(std::cos(angle), std::sin(angle))));
+            }
+            onBoundaries += near.size() > 1;
+            EXPECT_TRUE(near.contains(got[std::size_t(y * 64 + x)])) << x << ' ' << y;
+        }
+    EXPECT_GT(onBoundaries, 300);
+}
+
 TEST_F(Gl, IdsGoIntoUsersFramebuffersOfIntegers) {
     IdRenderer ids;
     const IdTexture texture = ids.upload(disc(), numbersOf(disc()));

@@ -1,5 +1,5 @@
-// The number of the region that a pixel's centre lies in, by the curves themselves: on the way from the point to a corner
-// of its leaf the nearest piece tells.
+// The number of the region that a pixel's centre lies in. In its leaf, paint changes on the way along a row from the left
+// border to the point; no crossing is solved for (docs/picking.md).
 // Requires: fetch.glsl, its sections being leaves, pieces, numbers of paints and nodes; constants kindNode, kindSolid,
 // maxLevel, leafExtent, slopeScale. Twin of: raster/src/paint_at.cpp.
 
@@ -11,102 +11,60 @@ uniform uint rootEntry;
 
 out uint id;
 
-float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
-
 struct Curve {
-    vec2 a, b, chord;
+    vec2 a, b;
     float slopeA, slopeB;
 };
 
 Curve curveOf(uvec4 piece) {
-    vec2 a = vec2(low(piece.x), high(piece.x)), b = vec2(low(piece.y), high(piece.y));
     vec2 slopes = vec2(int(piece.z << 16) >> 16, int(piece.z) >> 16) / slopeScale;
-    return Curve(a, b, b - a, slopes.x, slopes.y);
+    return Curve(vec2(low(piece.x), high(piece.x)), vec2(low(piece.y), high(piece.y)), slopes.x, slopes.y);
 }
 
-vec2 curveAt(Curve c, float s) {
-    float r = 1.0 - s;
-    vec2 p = c.a + s * c.chord + s * r * (c.slopeA * r - c.slopeB * s) * vec2(-c.chord.y, c.chord.x);
-    return s == 1.0 ? c.b : p;
+// On the left border, above the row.
+bool isOnBorderAbove(vec2 end, float row) { return end.x == 0.0 && end.y > row; }
+
+// How often the piece is crossed from its right to its left, less how often from its left to its right: on the way down
+// the left border from its upper end, along the row to the point as far as the chord goes, and from the chord to the curve.
+// `distance` is the point's from the curve, in steps.
+int crossings(Curve c, vec2 point, out float distance) {
+    vec2 chord = c.b - c.a, q = point - c.a;
+    float length2 = dot(chord, chord), s = dot(q, chord) / length2, t = (chord.x * q.y - chord.y * q.x) / length2;
+    float r = 1.0 - s, height = s > 0.0 && s < 1.0 ? s * r * (c.slopeA * r - c.slopeB * s) : 0.0;
+    distance = s < 0.0 ? length(q) : s > 1.0 ? length(point - c.b) : abs(t - height) * sqrt(length2);
+    bool leftOfChord = t > 0.0, leftOfCurve = t > height;
+    bool aIsBelow = c.a.y <= point.y, bIsBelow = c.b.y <= point.y;
+    int border = int(isOnBorderAbove(c.b, point.y)) - int(isOnBorderAbove(c.a, point.y));
+    int row = aIsBelow != bIsBelow && leftOfChord != aIsBelow ? (aIsBelow ? -1 : 1) : 0;
+    return border + row + int(leftOfCurve) - int(leftOfChord);
 }
 
-vec2 derivativeAt(Curve c, float s) {
-    float r = 1.0 - s, t = c.slopeA * r * (1.0 - 3.0 * s) - c.slopeB * s * (2.0 - 3.0 * s);
-    return c.chord + t * vec2(-c.chord.y, c.chord.x);
-}
-
-bool isLeft(vec2 from, vec2 along, vec2 p) { return cross2(along, p - from) >= 0.0; }
-
-// Ends of the three parts of the curve on which its distance from the way is monotone.
-vec4 monotoneParts(Curve c, vec2 along) {
-    float n = cross2(along, vec2(-c.chord.y, c.chord.x));
-    float constant = cross2(along, c.chord) + n * c.slopeA;
-    float halfB = -n * (2.0 * c.slopeA + c.slopeB), a = 3.0 * n * (c.slopeA + c.slopeB);
-    float discriminant = halfB * halfB - a * constant;
-    if (discriminant <= 0.0)
-        return vec4(0.0, 0.0, 1.0, 1.0);
-    float q = -(halfB + (halfB < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
-    float one = a == 0.0 ? 0.0 : clamp(q / a, 0.0, 1.0), other = q == 0.0 ? 1.0 : clamp(constant / q, 0.0, 1.0);
-    return vec4(0.0, min(one, other), max(one, other), 1.0);
-}
-
-// Where the way is crossed between s0 and s1, whose sides differ.
-float crossing(Curve c, vec2 from, vec2 along, float s0, float s1) {
-    bool first = isLeft(from, along, curveAt(c, s0));
-    for (int i = 0; i < 24; ++i) {
-        float middle = 0.5 * (s0 + s1);
-        if (isLeft(from, along, curveAt(c, middle)) == first)
-            s0 = middle;
-        else
-            s1 = middle;
+bool isPaintOf(uvec4 leaf, uint paint) {
+    bool found = paint == high(leaf.w);
+    for (uint i = leaf.x; i < leaf.x + low(leaf.y); ++i) {
+        uint sides = texelAt(sections.y + i).w;
+        found = found || paint == low(sides) || paint == high(sides);
     }
-    return 0.5 * (s0 + s1);
+    return found;
 }
 
-// The paint at the beginning of a way that ends in `corner` paint, and how far that is from what rounding could turn.
-uint paintOnWay(uvec4 leaf, vec2 from, vec2 along, uint corner, out float sureness) {
-    uint paint = corner;
-    float nearest = 1.0;
-    sureness = 1.0;
+// All changes of paint but the last cancel, in any order. Between two pieces that nearly touch, rounding can turn one of the
+// crossings alone, and they do not cancel: then the paint is one of the nearest piece's.
+uint paintInLeaf(uvec4 leaf, vec2 point) {
+    const float belowTop = float(leafExtent) - 1.0 / 256.0;  // the float before leafExtent
+    point.y = min(point.y, belowTop);
+    uint paint = high(leaf.w), nearest = paint;
+    float minimum = 2.0 * float(leafExtent);
     for (uint i = leaf.x; i < leaf.x + low(leaf.y); ++i) {
         uvec4 piece = texelAt(sections.y + i);
-        Curve c = curveOf(piece);
-        vec4 parts = monotoneParts(c, along);
-        for (int k = 0; k < 3; ++k) {
-            float s0 = k == 0 ? parts.x : k == 1 ? parts.y : parts.z, s1 = k == 0 ? parts.y : k == 1 ? parts.z : parts.w;
-            if (isLeft(from, along, curveAt(c, s0)) == isLeft(from, along, curveAt(c, s1)))
-                continue;
-            float s = crossing(c, from, along, s0, s1);
-            float place = dot(curveAt(c, s) - from, along) / dot(along, along);
-            if (place < 0.0 || place >= nearest)
-                continue;
-            nearest = place;
-            float sine = cross2(normalize(derivativeAt(c, s)), -normalize(along));
-            paint = sine > 0.0 ? low(piece.w) : high(piece.w);
-            sureness = min(abs(sine), 4.0 * min(s, 1.0 - s));
-        }
+        float distance;
+        uint left = low(piece.w), right = high(piece.w);
+        paint += uint(crossings(curveOf(piece), point, distance)) * (left - right);
+        nearest = distance < minimum ? left : nearest;
+        minimum = min(minimum, distance);
     }
-    return paint;
+    return isPaintOf(leaf, paint) ? paint : nearest;
 }
-
-uint paintInLeaf(uvec4 leaf, vec2 point) {
-    const float sure = 0.05;
-    uint best = 0u;
-    float bestSureness = -1.0;
-    for (int k = 0; k < 4 && bestSureness < sure; ++k) {
-        vec2 corner = mix(vec2(0.0), vec2(leafExtent), bvec2(k == 1 || k == 2, k == 2 || k == 3));
-        uint word = k < 2 ? leaf.z : leaf.w, paint = (k & 1) == 0 ? low(word) : high(word);
-        float sureness = 1.0;
-        if (corner != point)
-            paint = paintOnWay(leaf, point, corner - point, paint, sureness);
-        if (sureness > bestSureness) {
-            best = paint;
-            bestSureness = sureness;
-        }
-    }
-    return best;
-}
-
 uint paintAtUnit(uvec2 unit, vec2 rest) {
     uint entry = rootEntry, shift = 2u * maxLevel;
     while ((entry & 3u) == kindNode && shift >= 2u) {
