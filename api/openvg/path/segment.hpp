@@ -45,7 +45,7 @@ struct Segment {
     bool isArc() const { return type >= VG_SCCWARC_TO && type <= VG_LCWARC_TO; }
 };
 
-/// The path as outlines are made of it; rational curves as cubic ones (rational_curve.hpp).
+/// The path as outlines are made of it; rational curves as cubic ones.
 scene::Path outline(const std::vector<Segment>& segments);
 /// The other way.
 std::vector<Segment> segmentsOf(const scene::Path& outline);
