@@ -16,6 +16,8 @@ function cpuTime(work) {
     return (user + system) / 1000;
 }
 
+const joinOf = join => join === undefined || join === 'miter-clip' ? 'miter' : join;
+
 /** Skia draws the paths of our scene, made once, on one canvas. */
 class Skia {
     constructor(package_) {
@@ -34,18 +36,18 @@ class Skia {
 
     itemOf(of) {
         const stroked = of.fill === 'none';
-        const numbers = (of.transform ?? 'matrix(1 0 0 1 0 0)').match(/[-+.\de]+(?=[ )])/g).map(Number);
+        const numbers = (of.transform ?? 'translate(0 0)').match(/[-+.\de]+(?=[ )])/g).map(Number);
         return {
             outline: new this.package.Path2D(of.d),
-            transform: numbers,
+            transform: numbers.length === 2 ? [1, 0, 0, 1, ...numbers] : numbers,
             rule: of['fill-rule'] ?? 'nonzero',
             paint: stroked ? of.stroke : of.fill,
             alpha: Number(of[stroked ? 'stroke-opacity' : 'fill-opacity'] ?? 1),
             stroke: stroked && {
-                lineWidth: Number(of['stroke-width']),
-                lineCap: of['stroke-linecap'],
-                lineJoin: of['stroke-linejoin'] === 'miter-clip' ? 'miter' : of['stroke-linejoin'],
-                miterLimit: Number(of['stroke-miterlimit']),
+                lineWidth: Number(of['stroke-width'] ?? 1),
+                lineCap: of['stroke-linecap'] ?? 'butt',
+                lineJoin: joinOf(of['stroke-linejoin']),
+                miterLimit: Number(of['stroke-miterlimit'] ?? 4),
                 lineDashOffset: Number(of['stroke-dashoffset'] ?? 0),
                 dashes: (of['stroke-dasharray'] ?? '').split(' ').filter(Boolean).map(Number),
             },

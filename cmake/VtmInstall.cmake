@@ -28,7 +28,7 @@ endfunction()
 set_target_properties(libvtm PROPERTIES EXPORT_NAME vtm)
 vtm_install_library(lib ${CMAKE_INSTALL_LIBDIR} libvtm)
 vtm_install_pkgconfig(vtm "${PROJECT_DESCRIPTION}" LIBDIR ${CMAKE_INSTALL_LIBDIR} LIBS -lvtm
-    PRIVATE -lfmt -lpugixml -lpng -ldeflate -ljpeg -lwebp -lz -ltbb -lstdc++ -lm -ldl -pthread)
+    PRIVATE -lfmt -lpugixml -lpng -ldeflate -ljpeg -lwebp -lwoff2dec -lharfbuzz -lfontconfig -lfribidi -lunibreak -lfreetype -lz -ltbb -lstdc++ -lm -ldl -pthread)
 if(TARGET libvtm_gl)
     set_target_properties(libvtm_gl PROPERTIES EXPORT_NAME gl)
     vtm_install_library(gl ${CMAKE_INSTALL_LIBDIR} libvtm_gl)

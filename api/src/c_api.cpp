@@ -51,7 +51,7 @@ bool isZero(const Number (&numbers)[n]) {
 /// Programs in C may hand over any number.
 int oneOf(int value, int last, const char* what) {
     if (value < 0 || value > last)
-        throw std::invalid_argument(std::string("VtmRenderOptions: no such ") + what);
+        throw std::invalid_argument(std::string("VtmRenderOptions: unknown ") + what);
     return value;
 }
 

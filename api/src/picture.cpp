@@ -34,6 +34,7 @@ svg::Options svgOptions(const LoadOptions& options) {
     svg.resourceDirectory = options.folder;
     svg.dpi = options.dpi;
     svg.language = options.language;
+    svg.fonts = options.fonts;
     return svg;
 }
 
@@ -96,8 +97,8 @@ void checkSize(double width, double height) {
     if (width > asset::maxViewSide || height > asset::maxViewSide ||
         width * height > double(asset::maxViewPixels))
         throw std::length_error(
-            fmt::format("{:.10g} x {:.10g} pixels are too many (at most {} a side and {} in all)", width,
-                        height, asset::maxViewSide, asset::maxViewPixels));
+            fmt::format("{:.10g} x {:.10g} pixels are too many (the limit is {} per side and {} in all)",
+                        width, height, asset::maxViewSide, asset::maxViewPixels));
 }
 
 void require(bool holds, const char* what) {
@@ -118,7 +119,7 @@ void check(const RenderOptions& options) {
         return;
     require(options.width && options.height, "a matrix needs width and height");
     require(!options.view && options.rotation == 0 && options.scale == 1,
-            "a matrix stands in place of view, rotation and scale");
+            "matrix cannot be combined with view, rotation or scale");
     for (const double number : *options.matrix)
         require(std::isfinite(number), "the matrix must be finite");
 }
@@ -182,7 +183,7 @@ Image Picture::render(const RenderOptions& options) const {
 void Image::save(const std::string& path) const {
     const auto format = image::formatOfSuffix(std::filesystem::path(path).extension().string());
     if (!format)
-        throw image::CodecError(path + ": pictures are written as .png, .jpg, .webp or .ppm");
+        throw image::CodecError(path + ": the name must end in .png, .jpg, .webp or .ppm");
     image::writeFile(path, image::encode(*this, *format));
 }
 

@@ -55,7 +55,7 @@ void CpuEngine::draw(const asset::View& view, const image::PixelWriter& writer,
 std::optional<image::Raster> drawWithGl(const asset::Asset& asset, const asset::View& view, bool required) {
     const GlDraw draw = findGlDraw();
     if (!draw && required)
-        throw Error("no library libvtm_gl is installed, which draws with OpenGL ES");
+        throw Error("libvtm_gl, which draws with OpenGL ES, is not installed");
     GlRequest request{asset, view, required, {}};
     if (!draw || !draw(request))
         return std::nullopt;

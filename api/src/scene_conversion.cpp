@@ -8,94 +8,15 @@
 
 #include <vtm/authoring.hpp>
 #include <vtm/scene/scene.hpp>
+#include "scene/level.hpp"
+#include "scene/place.hpp"
 
 namespace vtm {
 
 namespace {
 
-/// One level further in for as long as it lives. Throws scene::InvalidScene beyond what a valid scene may
-/// have.
-class Level {
-public:
-    explicit Level(int& depth) : depth_(depth) {
-        if (depth_ >= scene::maxNesting)
-            throw scene::InvalidScene("selections, layers, clips or masks nest more than " +
-                                      std::to_string(scene::maxNesting) + " levels deep");
-        ++depth_;
-    }
-    ~Level() { --depth_; }
-    Level(const Level&) = delete;
-    Level& operator=(const Level&) = delete;
-
-private:
-    int& depth_;
-};
-
 using scene::Affine;
 using scene::compose;
-
-/// Maps copies of what it is given.
-class Placer {
-public:
-    explicit Placer(const Affine& transform) : m_(transform) {}
-
-    std::shared_ptr<const scene::Clip> clip(const std::shared_ptr<const scene::Clip>& part) {
-        if (!part)
-            return nullptr;
-        const Level level(depth_);
-        auto clip = std::make_shared<scene::Clip>(*part);
-        for (scene::ClipShape& shape : clip->shapes) {
-            shape.transform = compose(m_, shape.transform);
-            shape.clip = this->clip(shape.clip);
-        }
-        clip->clip = this->clip(clip->clip);
-        return clip;
-    }
-
-    std::shared_ptr<const scene::Mask> mask(const std::shared_ptr<const scene::Mask>& part) {
-        if (!part)
-            return nullptr;
-        return std::make_shared<const scene::Mask>(
-            scene::Mask{group(part->content), part->kind, part->linear});
-    }
-
-private:
-    std::shared_ptr<const scene::Group> group(const std::shared_ptr<const scene::Group>& part) {
-        if (!part)
-            return nullptr;
-        auto copy = std::make_shared<scene::Group>(*part);
-        place(*copy);
-        return copy;
-    }
-
-    void place(scene::Item& item) { item.transform = compose(m_, item.transform); }
-    void place(scene::Group& group) {
-        const Level level(depth_);
-        for (scene::Node& child : group.children)
-            std::visit([&](auto& value) { place(value); }, child.value);
-        group.clip = clip(group.clip);
-        group.mask = mask(group.mask);
-    }
-    void place(scene::Select& select) {
-        const Level level(depth_);
-        select.mask.transform = compose(m_, select.mask.transform);
-        select.inside = group(select.inside);
-        select.outside = group(select.outside);
-    }
-
-    const Affine m_;
-    int depth_ = 0;
-};
-
-/// Moved to another place: a copy, in which what was shared stays so only below patterns. `part` itself, which
-/// may be null, under the identity.
-std::shared_ptr<const scene::Clip> placed(const std::shared_ptr<const scene::Clip>& part, const Affine& m) {
-    return m == scene::identity ? part : Placer(m).clip(part);
-}
-
-std::shared_ptr<const scene::Mask> placed(const std::shared_ptr<const scene::Mask>& part, const Affine& m) {
-    return m == scene::identity ? part : Placer(m).mask(part);
-}
 
 class Folder {
 public:
@@ -105,7 +26,7 @@ public:
 
 private:
     Vtm children(const scene::Group& group) {
-        const Level level(depth_);
+        const scene::Level level(depth_);
         Vtm below;
         for (const scene::Node& node : group.children)
             below = std::visit([&](const auto& value) { return lay(value, std::move(below)); }, node.value);
@@ -215,7 +136,7 @@ public:
 private:
     /// In painter's order. Goes down a chain from the top without recursion.
     Nodes nodes(const Vtm& vtm, const Affine& at) {
-        const Level level(depth_);
+        const scene::Level level(depth_);
         std::vector<Nodes> fromTop;
         for (Found next = found(vtm, at); next.node != nullptr;) {
             limits::check();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr char redAndBlue[] =
     R"(<svg xmlns="http://www.w3.org/2000/svg" width="4" height="2"><rect width="2" height="2" fill="red"/>)"
-    R"(<rect x="2" width="2" height="2" fill="blue"/><text>left out</text></svg>)";
+    R"(<rect x="2" width="2" height="2" fill="blue"/><foreignObject>left out</foreignObject></svg>)";
 
 class CApi : public testing::Test {
 protected:

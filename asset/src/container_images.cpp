@@ -77,7 +77,7 @@ std::vector<image::Bitmap> decodeImages(std::span<const ImageRecord> table,
         images.push_back(decodeImage(record, bytes.subspan(next, record.bytes), i));
         next += record.bytes;
     }
-    require(next == bytes.size(), "images", table.size(), "bytes are left over");
+    require(next == bytes.size(), "images", table.size(), "there are unused bytes");
     return images;
 }
 

@@ -31,7 +31,7 @@ std::vector<Material> decodeMaterials(std::span<const MaterialRecord> table,
         material.glsl = take(record.textBytes);
         materials.push_back(std::move(material));
     }
-    require(next == bytes.size(), "materials", table.size(), "bytes are left over");
+    require(next == bytes.size(), "materials", table.size(), "there are unused bytes");
     return materials;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-void require(bool holds, std::uint64_t offset, std::string_view what) {
+void requireAt(bool holds, std::uint64_t offset, std::string_view what) {
     if (!holds)
         throw FormatError(fmt::format("offset {}: {}", offset, what));
 }
@@ -32,19 +32,20 @@ Record load(Bytes bytes, std::size_t offset) {
 std::size_t lineOffset(std::size_t i) { return sizeof(FileHeader) + i * sizeof(SectionLine); }
 
 FileHeader checkedHeader(Bytes bytes) {
-    require(bytes.size() >= sizeof(FileHeader), bytes.size(), "file ends inside its header");
+    requireAt(bytes.size() >= sizeof(FileHeader), bytes.size(), "file ends inside its header");
     const auto header = load<FileHeader>(bytes, 0);
-    require(header.magic == fileMagic, 0, "not a .vtm file");
-    require(header.endian == endianMark, offsetof(FileHeader, endian), "byte order is not little-endian");
-    require(header.version == fileVersion, offsetof(FileHeader, version),
-            fmt::format("version {} is unknown; this reader knows {}", header.version, fileVersion));
-    require(header.fileBytes == bytes.size(), offsetof(FileHeader, fileBytes),
-            fmt::format("file should have {} bytes and has {}", header.fileBytes, bytes.size()));
-    require(header.sections <= maxSections, offsetof(FileHeader, sections),
-            "number of sections is too large");
-    require(bytes.size() >= lineOffset(header.sections), bytes.size(), "file ends inside its section table");
-    require(header.checksum == headerChecksum(bytes, lineOffset(header.sections)),
-            offsetof(FileHeader, checksum), "checksum of header and section table does not match");
+    requireAt(header.magic == fileMagic, 0, "not a .vtm file");
+    requireAt(header.endian == endianMark, offsetof(FileHeader, endian), "byte order is not little-endian");
+    requireAt(header.version == fileVersion, offsetof(FileHeader, version),
+              fmt::format("version {} is unknown; this reader knows {}", header.version, fileVersion));
+    requireAt(header.fileBytes == bytes.size(), offsetof(FileHeader, fileBytes),
+              fmt::format("file has {} bytes instead of {}", bytes.size(), header.fileBytes));
+    requireAt(header.sections <= maxSections, offsetof(FileHeader, sections),
+              "number of sections is too large");
+    requireAt(bytes.size() >= lineOffset(header.sections), bytes.size(),
+              "file ends inside its section table");
+    requireAt(header.checksum == headerChecksum(bytes, lineOffset(header.sections)),
+              offsetof(FileHeader, checksum), "checksum of header and section table does not match");
     return header;
 }
 
@@ -56,16 +57,16 @@ std::vector<SectionLine> checkedTable(Bytes bytes) {
     const auto skipPadding = [&] {
         const std::uint64_t end = next;
         next = alignedOffset(end);
-        require(next <= bytes.size(), end, "file ends inside padding");
+        requireAt(next <= bytes.size(), end, "file ends inside padding");
         for (std::uint64_t i = end; i < next; ++i)
-            require(bytes[i] == 0, i, "padding is not zero");
+            requireAt(bytes[i] == 0, i, "padding is not zero");
     };
     skipPadding();
     std::vector<SectionLine> lines;
     for (std::size_t i = 0; i < header.sections; ++i) {
         const auto line = load<SectionLine>(bytes, lineOffset(i));
         const auto check = [&](bool holds, std::string_view what) {
-            require(holds, lineOffset(i), fmt::format("section {}: {}", nameOf(line.kind), what));
+            requireAt(holds, lineOffset(i), fmt::format("section {}: {}", nameOf(line.kind), what));
         };
         check(lines.empty() || lines.back().kind < line.kind, "kinds do not ascend");
         check(line.unused == 0, "unused word is not zero");
@@ -76,7 +77,7 @@ std::vector<SectionLine> checkedTable(Bytes bytes) {
         skipPadding();
         lines.push_back(line);
     }
-    require(next == bytes.size(), next, "bytes are left over behind the last section");
+    requireAt(next == bytes.size(), next, "there are bytes after the last section");
     return lines;
 }
 
@@ -91,10 +92,10 @@ public:
             const SectionLine& line = lines_[i];
             const bool known = line.kind <= lastKnown;
             const bool ignorable = (std::uint32_t(line.kind) & ignorableBit) != 0;
-            require(known || ignorable, lineOffset(i),
-                    fmt::format("section {}: kind is unknown", nameOf(line.kind)));
-            require(line.checksum == checksumOf(bytesOf(file, line)), line.offset,
-                    fmt::format("section {}: checksum does not match", nameOf(line.kind)));
+            requireAt(known || ignorable, lineOffset(i),
+                      fmt::format("section {}: kind is unknown", nameOf(line.kind)));
+            requireAt(line.checksum == checksumOf(bytesOf(file, line)), line.offset,
+                      fmt::format("section {}: checksum does not match", nameOf(line.kind)));
         }
     }
 
@@ -103,16 +104,16 @@ public:
     std::span<const Record> take(SectionKind kind) const {
         const auto line = std::ranges::find(lines_, kind, &SectionLine::kind);
         if (line == lines_.end()) {
-            require(kind > lastRequired, sizeof(FileHeader),
-                    fmt::format("section {}: is missing", nameOf(kind)));
+            requireAt(kind > lastRequired, sizeof(FileHeader),
+                      fmt::format("section {}: is missing", nameOf(kind)));
             return {};
         }
         const std::size_t where = lineOffset(std::size_t(line - lines_.begin()));
-        require(line->recordBytes == sizeof(Record), where,
-                fmt::format("section {}: size of its records is {}, not {}", nameOf(kind), line->recordBytes,
-                            sizeof(Record)));
-        require(kind <= lastRequired || line->count > 0, where,
-                fmt::format("section {}: is empty and should be left out", nameOf(kind)));
+        requireAt(line->recordBytes == sizeof(Record), where,
+                  fmt::format("section {}: size of its records is {}, not {}", nameOf(kind),
+                              line->recordBytes, sizeof(Record)));
+        requireAt(kind <= lastRequired || line->count > 0, where,
+                  fmt::format("section {}: is empty and should be left out", nameOf(kind)));
         return {reinterpret_cast<const Record*>(file_.data() + line->offset), std::size_t(line->count)};
     }
 

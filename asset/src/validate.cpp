@@ -37,13 +37,14 @@ public:
     Extent extentOf(Entry entry, const char* section, std::size_t index) const {
         switch (entry.kind()) {
             case Entry::Kind::Solid:
-                require(entry.payload() < asset_.paints.size(), section, index, "entry names no paint");
+                require(entry.payload() < asset_.paints.size(), section, index,
+                        "entry refers to a missing paint");
                 return {1, 0, entry.payload()};
             case Entry::Kind::Leaf:
-                require(entry.payload() < leaves_.size(), section, index, "entry names no leaf");
+                require(entry.payload() < leaves_.size(), section, index, "entry refers to a missing leaf");
                 return leaves_[entry.payload()];
             case Entry::Kind::Node:
-                require(entry.payload() < nodes_.size(), section, index, "entry names no node");
+                require(entry.payload() < nodes_.size(), section, index, "entry refers to a missing node");
                 return nodes_[entry.payload()];
         }
         throw FormatError(fmt::format("{}[{}]: entry's kind is unknown", section, index));
@@ -60,7 +61,8 @@ private:
         for (std::size_t p = leaf.firstPiece; p < std::size_t(leaf.firstPiece) + leaf.pieceCount; ++p)
             extent.largestPaint =
                 std::max<std::uint32_t>({extent.largestPaint, asset_.pieces[p].left, asset_.pieces[p].right});
-        require(extent.largestPaint < asset_.paints.size(), "leaves", i, "a corner or piece names no paint");
+        require(extent.largestPaint < asset_.paints.size(), "leaves", i,
+                "a corner or piece refers to a missing paint");
         return extent;
     }
 
@@ -105,18 +107,19 @@ void validateCommand(const AssetView& asset, const std::vector<Extent>& maps, st
     require(command.kind <= Command::Kind::ClipMask, "commands", i, "kind is unknown");
     require(command.blend <= Blend::PlusLighter, "commands", i, "blend mode is unknown");
     require(isShare(command.opacity), "commands", i, "opacity is out of range");
-    require(!drawsMap(command.kind) || command.map < maps.size(), "commands", i, "names no map");
+    require(!drawsMap(command.kind) || command.map < maps.size(), "commands", i, "refers to a missing map");
     require(command.kind != Command::Kind::FillMask || command.paint < asset.paints.size(), "commands", i,
-            "names no paint");
+            "refers to a missing paint");
     const bool isDrawMap = command.kind == Command::Kind::DrawMap;
     require(isDrawMap == (asset.mode == Mode::Exact), "commands", i,
             isDrawMap ? "draws a map in compat mode" : "draws layers in exact mode");
     if (command.kind == Command::Kind::FillMask || command.kind == Command::Kind::ClipMask)
-        require(maps[command.map].largestPaint <= 1, "commands", i, "its map is no mask: a paint is above 1");
+        require(maps[command.map].largestPaint <= 1, "commands", i,
+                "its map is not a mask: it has a paint index above 1");
 }
 
 void validateCommands(const AssetView& asset, const std::vector<Extent>& maps) {
-    require(asset.commands.size() <= maxCommands, "commands", maxCommands, "is one too many");
+    require(asset.commands.size() <= maxCommands, "commands", maxCommands, "there are too many");
     unsigned depth = 1;
     std::uint64_t drawn = 0;
     for (std::size_t i = 0; i < asset.commands.size(); ++i) {
@@ -125,16 +128,17 @@ void validateCommands(const AssetView& asset, const std::vector<Extent>& maps) {
         depth = depthAfter(command, depth, i);
         if (drawsMap(command.kind))
             drawn += maps[command.map].drawn;
-        require(drawn <= maxDrawn, "commands", i, "draws more squares and pieces than the limit");
+        require(drawn <= maxDrawn, "commands", i, "more squares and pieces are drawn than the limit");
     }
-    require(depth == 1, "commands", asset.commands.size(), "groups are left open at the end");
+    require(depth == 1, "commands", asset.commands.size(), "a group is not closed at the end");
 }
 
 void validatePrefilter(const PrefilterView& prefilter) {
     const PyramidSize size = prefilter.size;
     if (size == PyramidSize{})
-        return require(prefilter.texels.empty(), "prefilter", 0, "has texels and no size");
-    require(isPyramidSide(size.width) && isPyramidSide(size.height), "prefilter", 0, "size is not allowed");
+        return require(prefilter.texels.empty(), "prefilter", 0, "there are texels without a size");
+    require(isPyramidSide(size.width) && isPyramidSide(size.height), "prefilter", 0,
+            "a side is not 2^k or 3 * 2^k texels of at most 4096");
     require(prefilter.texels.size() == size.texelsBefore(size.levels()), "prefilter", prefilter.texels.size(),
             "number of texels does not match the size");
 }

@@ -58,7 +58,7 @@ void validateImageFill(const Data& data, std::size_t texel) {
             "image fill is out of bounds");
     const auto fill = recordAt<ImageFill>(data.asset.data, texel);
     require(areFinite(fill.matrix), "data", texel, "image fill's matrix is not finite");
-    require(fill.image < data.asset.images.size(), "data", texel, "image fill names no image");
+    require(fill.image < data.asset.images.size(), "data", texel, "image fill refers to a missing image");
     require(fill.filter <= ImageFilter::Bicubic, "data", texel, "image fill's filter is unknown");
 }
 
@@ -67,7 +67,8 @@ void validateMaterialFill(const Data& data, std::size_t texel) {
             "material fill is out of bounds");
     const auto fill = recordAt<MaterialFill>(data.asset.data, texel);
     require(areFinite(fill.matrix), "data", texel, "material fill's matrix is not finite");
-    require(fill.material < data.asset.materials.size(), "data", texel, "material fill names no material");
+    require(fill.material < data.asset.materials.size(), "data", texel,
+            "material fill refers to a missing material");
     require(fill.unused == 0, "data", texel, "material fill's unused word is not zero");
     require(std::ranges::all_of(fill.fallback, isShare), "data", texel,
             "material fill's fallback colour is out of range");
@@ -115,7 +116,7 @@ void validateProgram(const Data& data, std::size_t index) {
             validateLayer(data, in);
         depth = depthAfter(in, depth, index);
     }
-    require(depth == 1, "paints", index, "program leaves groups open");
+    require(depth == 1, "paints", index, "program does not close a group");
 }
 
 void validateImages(const AssetView& asset) {
@@ -140,12 +141,12 @@ bool isMaterialName(const std::string& name) {
 }
 
 void validateMaterials(const AssetView& asset) {
-    require(asset.materials.size() <= maxMaterials, "materials", maxMaterials, "is one too many");
+    require(asset.materials.size() <= maxMaterials, "materials", maxMaterials, "there are too many");
     std::set<std::string_view> names;
     for (std::size_t i = 0; i < asset.materials.size(); ++i) {
         const Material& material = asset.materials[i];
-        require(isMaterialName(material.name), "materials", i, "name is no plain identifier");
-        require(names.insert(material.name).second, "materials", i, "name is taken");
+        require(isMaterialName(material.name), "materials", i, "name is not a plain identifier");
+        require(names.insert(material.name).second, "materials", i, "name is used twice");
         require(material.glsl.size() <= maxMaterialText && material.glsl.find('\0') == std::string::npos,
                 "materials", i, "text holds a zero byte or is too long");
     }
@@ -157,7 +158,7 @@ void validatePaints(const AssetView& asset) {
     validateImages(asset);
     validateMaterials(asset);
     require(!asset.paints.empty() && asset.paints[0] == Paint{}, "paints", 0, "must be transparent");
-    require(asset.paints.size() <= 65536, "paints", 65536, "cannot be named by 16 bits");
+    require(asset.paints.size() <= 65536, "paints", 65536, "index needs more than 16 bits");
     const Data data(asset);
     for (std::size_t i = 0; i < asset.paints.size(); ++i)
         if (isProgram(asset.paints[i]))

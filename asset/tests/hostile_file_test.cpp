@@ -36,10 +36,10 @@ TEST(HostileFile, TrailingGarbage) {
     for (const std::size_t extra : {1, 64, 1000}) {
         Bytes longer = bytes;
         longer.resize(bytes.size() + extra);
-        EXPECT_NE(refusal(longer).find("file should have"), std::string::npos);
+        EXPECT_NE(refusal(longer).find("bytes instead of"), std::string::npos);
         setLongWord(longer, atFileBytes, longer.size());
         fixChecksums(longer);
-        EXPECT_NE(refusal(longer).find("bytes are left over behind the last section"), std::string::npos);
+        EXPECT_NE(refusal(longer).find("there are bytes after the last section"), std::string::npos);
     }
 }
 
@@ -156,7 +156,7 @@ const std::vector<Breach> breaches{
     {"padding is not zero",
      [](Bytes& f) { setLongWord(f, lineOf(pieces) + atCount, longWord(f, lineOf(pieces) + atCount) - 1); }},
     {"section prefilter: is empty and should be left out", [](Bytes& f) { f = withSection(f, 10, 4, 0); }},
-    {"prefilter[0]: has texels and no size", [](Bytes& f) { f = withSection(f, 10, 4, 1); }},
+    {"prefilter[0]: there are texels without a size", [](Bytes& f) { f = withSection(f, 10, 4, 1); }},
 };
 
 TEST(HostileFile, TheTableIsCheckedBehindGoodChecksums) {

@@ -38,11 +38,11 @@ const std::vector<Breach> breaches{
     {"picture[0]: mode is unknown", disc, [](Asset& a) { a.mode = Mode(2); }},
     {"maps[0]: square is out of range", disc, [](Asset& a) { a.maps[0].side = -1; }},
     {"maps[0]: square is out of range", disc, [](Asset& a) { a.maps[0].x = std::nan(""); }},
-    {"maps[0]: entry names no paint", emptyAsset,
+    {"maps[0]: entry refers to a missing paint", emptyAsset,
      [](Asset& a) { a.maps[0].root = Entry::make(Entry::Kind::Solid, 5); }},
-    {"maps[0]: entry names no leaf", disc,
+    {"maps[0]: entry refers to a missing leaf", disc,
      [](Asset& a) { a.maps[0].root = Entry::make(Entry::Kind::Leaf, 1); }},
-    {"maps[0]: entry names no node", disc,
+    {"maps[0]: entry refers to a missing node", disc,
      [](Asset& a) { a.maps[0].root = Entry::make(Entry::Kind::Node, 0); }},
     {"maps[0]: entry's kind is unknown", disc, [](Asset& a) { a.maps[0].root.bits |= 3; }},
     {"nodes[1]: a child's index is not larger than its parent's", twoLevels,
@@ -55,7 +55,7 @@ const std::vector<Breach> breaches{
          for (std::uint32_t i = 0; i < maxLevel; ++i)
              a.nodes[i].children[0] = Entry::make(Entry::Kind::Node, i + 1);
      }},
-    {"commands[0]: draws more squares and pieces than the limit", twoLevels,
+    {"commands[0]: more squares and pieces are drawn than the limit", twoLevels,
      [](Asset& a) {
          a.nodes.resize(maxLevel);
          for (std::uint32_t i = 0; i + 1 < maxLevel; ++i)
@@ -64,13 +64,14 @@ const std::vector<Breach> breaches{
     {"leaves[0]: piece range is out of bounds", disc, [](Asset& a) { a.leaves[0].firstPiece = 1; }},
     {"leaves[0]: piece range is out of bounds", disc, [](Asset& a) { a.leaves[0].firstPiece = 0xFFFFFFFF; }},
     {"leaves[0]: unused half is not zero", disc, [](Asset& a) { a.leaves[0].unused = 1; }},
-    {"leaves[0]: a corner or piece names no paint", disc, [](Asset& a) { a.leaves[0].corners[2] = 5; }},
-    {"leaves[0]: a corner or piece names no paint", disc, [](Asset& a) { a.pieces[7].right = 5; }},
+    {"leaves[0]: a corner or piece refers to a missing paint", disc,
+     [](Asset& a) { a.leaves[0].corners[2] = 5; }},
+    {"leaves[0]: a corner or piece refers to a missing paint", disc, [](Asset& a) { a.pieces[7].right = 5; }},
     {"pieces[3]: slope is below -1", disc, [](Asset& a) { a.pieces[3].slopeB = -32768; }},
     {"paints[0]: must be transparent", disc, [](Asset& a) { a.paints[0] = a.paints[1]; }},
     {"paints[1]: colour is out of range", disc, [](Asset& a) { a.paints[1][2] = bitsOf(1.5f); }},
     {"paints[1]: colour is out of range", disc, [](Asset& a) { a.paints[1][0] = bitsOf(std::nanf("")); }},
-    {"paints[65536]: cannot be named by 16 bits", disc, [](Asset& a) { a.paints.resize(65537); }},
+    {"paints[65536]: index needs more than 16 bits", disc, [](Asset& a) { a.paints.resize(65537); }},
     {"paints[5]: program is out of bounds", everyPaint,
      [](Asset& a) { a.paints[firstProgram][0] = std::uint32_t(a.data.size()); }},
     {"paints[5]: program is too long", everyPaint,
@@ -83,7 +84,7 @@ const std::vector<Breach> breaches{
      [](Asset& a) { edit(a, firstProgram, 0, [](Instruction& in) { in.opacity = -0.1f; }); }},
     {"paints[14]: program pops an empty stack", everyPaint,
      [](Asset& a) { edit(a, masked, 1, [](Instruction& in) { in.op = Op::Pop; }); }},
-    {"paints[14]: program leaves groups open", everyPaint, [](Asset& a) { a.paints[masked][1] = 4; }},
+    {"paints[14]: program does not close a group", everyPaint, [](Asset& a) { a.paints[masked][1] = 4; }},
     {"paints[1]: program overflows its stack", disc,
      [](Asset& a) {
          for (unsigned i = 0; i < maxStack; ++i)
@@ -99,12 +100,12 @@ const std::vector<Breach> breaches{
      }},
     {"commands[0]: blend mode is unknown", disc, [](Asset& a) { a.commands[0].blend = Blend(17); }},
     {"commands[0]: opacity is out of range", disc, [](Asset& a) { a.commands[0].opacity = 2; }},
-    {"commands[0]: names no map", disc, [](Asset& a) { a.commands[0].map = 1; }},
-    {"commands[0]: names no paint", layers, [](Asset& a) { a.commands[0].paint = 6; }},
-    {"commands[0]: its map is no mask: a paint is above 1", layers,
+    {"commands[0]: refers to a missing map", disc, [](Asset& a) { a.commands[0].map = 1; }},
+    {"commands[0]: refers to a missing paint", layers, [](Asset& a) { a.commands[0].paint = 6; }},
+    {"commands[0]: its map is not a mask: it has a paint index above 1", layers,
      [](Asset& a) { a.maps[a.commands[0].map].root = Entry::make(Entry::Kind::Solid, 2); }},
     {"commands[0]: pops the last picture", layers, [](Asset& a) { a.commands[0].kind = Command::Kind::Pop; }},
-    {"commands[1]: groups are left open at the end", layers,
+    {"commands[1]: a group is not closed at the end", layers,
      [](Asset& a) {
          a.commands.resize(1);
          a.commands[0].kind = Command::Kind::Push;
@@ -113,26 +114,29 @@ const std::vector<Breach> breaches{
      [](Asset& a) {
          a.commands.assign(maxPictures, {Command::Kind::Push, {}, 1, 0, 0});
      }},
-    {"materials[0]: name is no plain identifier", everyPaint, [](Asset& a) { a.materials[0].name = "1a"; }},
-    {"materials[0]: name is no plain identifier", everyPaint, [](Asset& a) { a.materials[0].name = "a__b"; }},
-    {"materials[0]: name is no plain identifier", everyPaint, [](Asset& a) { a.materials[0].name = "gl_a"; }},
-    {"materials[0]: name is no plain identifier", everyPaint,
+    {"materials[0]: name is not a plain identifier", everyPaint,
+     [](Asset& a) { a.materials[0].name = "1a"; }},
+    {"materials[0]: name is not a plain identifier", everyPaint,
+     [](Asset& a) { a.materials[0].name = "a__b"; }},
+    {"materials[0]: name is not a plain identifier", everyPaint,
+     [](Asset& a) { a.materials[0].name = "gl_a"; }},
+    {"materials[0]: name is not a plain identifier", everyPaint,
      [](Asset& a) { a.materials[0].name.assign(maxMaterialName + 1, 'a'); }},
-    {"materials[1]: name is taken", everyPaint, [](Asset& a) { a.materials.push_back(a.materials[0]); }},
+    {"materials[1]: name is used twice", everyPaint, [](Asset& a) { a.materials.push_back(a.materials[0]); }},
     {"materials[0]: text holds a zero byte or is too long", everyPaint,
      [](Asset& a) { a.materials[0].glsl.push_back('\0'); }},
     {"materials[0]: text holds a zero byte or is too long", everyPaint,
      [](Asset& a) { a.materials[0].glsl.assign(maxMaterialText + 1, ' '); }},
     {"maps[0]: unused word is not zero", disc, [](Asset& a) { a.maps[0].unused = 1; }},
-    {"prefilter[0]: size is not allowed", everySection,
+    {"prefilter[0]: a side is not 2^k or 3 * 2^k texels of at most 4096", everySection,
      [](Asset& a) {
          a.prefilter.size = {0, 4};
      }},
-    {"prefilter[0]: size is not allowed", everySection,
+    {"prefilter[0]: a side is not 2^k or 3 * 2^k texels of at most 4096", everySection,
      [](Asset& a) {
          a.prefilter.size = {5, 4};
      }},
-    {"prefilter[0]: size is not allowed", everySection,
+    {"prefilter[0]: a side is not 2^k or 3 * 2^k texels of at most 4096", everySection,
      [](Asset& a) {
          a.prefilter.size = {4, 2 * maxPyramidSide};
      }},
@@ -140,7 +144,7 @@ const std::vector<Breach> breaches{
      [](Asset& a) {
          a.prefilter.size = {4, 4};
      }},
-    {"prefilter[0]: has texels and no size", everySection, [](Asset& a) { a.prefilter.size = {}; }},
+    {"prefilter[0]: there are texels without a size", everySection, [](Asset& a) { a.prefilter.size = {}; }},
     {"images[0]: bytes do not match the size", everyPaint, [](Asset& a) { a.images[0].rgba.pop_back(); }},
     {"images[0]: picture is empty", everyPaint, [](Asset& a) { a.images[0].width = 0; }},
     {"images[0]: pictures have too many pixels", everyPaint, [](Asset& a) { a.images[0].width = 1 << 30; }},
@@ -237,7 +241,7 @@ TEST(Validate, MaterialFills) {
     EXPECT_EQ(refusalOf({}), "");
     EXPECT_EQ(refusalOf({}, 1), "data[1]: material fill is out of bounds");
     EXPECT_EQ(refusalOf({{NAN}}), "data[1]: material fill's matrix is not finite");
-    EXPECT_EQ(refusalOf({{}, 1}), "data[1]: material fill names no material");
+    EXPECT_EQ(refusalOf({{}, 1}), "data[1]: material fill refers to a missing material");
     EXPECT_EQ(refusalOf({{}, 0, 1}), "data[1]: material fill's unused word is not zero");
     EXPECT_EQ(refusalOf({{}, 0, 0, {2}}), "data[1]: material fill's fallback colour is out of range");
 }
@@ -249,7 +253,7 @@ TEST(Validate, ImageFills) {
         return refusal(Op::Image, data);
     };
     EXPECT_EQ(fill({}), "");
-    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 1}), "data[0]: image fill names no image");
+    EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 1}), "data[0]: image fill refers to a missing image");
     for (const ImageFilter known : {ImageFilter::Nearest, ImageFilter::Bilinear, ImageFilter::Bicubic})
         EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 0, known}), "");
     EXPECT_EQ(fill({{1, 0, 0, 1, 0, 0}, 0, ImageFilter(4)}), "data[0]: image fill's filter is unknown");

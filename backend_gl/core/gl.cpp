@@ -78,8 +78,8 @@ void deleteSampler(GLuint id) { glDeleteSamplers(1, &id); }
 TextureHandle makeTexture(GLenum format, int width, int height) {
     const int largest = limit(GL_MAX_TEXTURE_SIZE);
     if (width > largest || height > largest)
-        throw GlError(fmt::format("texture of {} x {} texels: the driver's limit is {} a side", width, height,
-                                  largest));
+        throw GlError(fmt::format("texture of {} x {} texels: the driver's limit is {} per side", width,
+                                  height, largest));
     GLuint id = 0;
     glGenTextures(1, &id);
     TextureHandle texture(id);

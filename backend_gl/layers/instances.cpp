@@ -60,7 +60,7 @@ void addMask(const asset::AssetView& asset, DrawnMask& drawn, ByProgram& instanc
 
 InstanceList makeInstances(const asset::AssetView& asset) {
     if (asset.maps.size() > maxMaps)
-        throw GlError("more maps than an instance can name");
+        throw GlError("the asset has more maps than an instance can refer to");
     InstanceList list;
     listMasks(asset, list);
     ByProgram byProgram;

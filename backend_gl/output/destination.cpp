@@ -20,7 +20,7 @@ struct Attachment {
             throw GlError(fmt::format("framebuffer {} has no first draw buffer", framebuffer));
         const GLenum type = get(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
         if (type != GL_UNSIGNED_NORMALIZED && type != GL_FLOAT)
-            throw GlError(fmt::format("framebuffer {} holds neither normalised numbers nor floats (0x{:04x})",
+            throw GlError(fmt::format("framebuffer {} has neither a normalised nor a float format (0x{:04x})",
                                       framebuffer, type));
     }
     bool isSrgb() const { return get(GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) == GL_SRGB; }

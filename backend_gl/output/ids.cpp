@@ -39,7 +39,7 @@ void requireIntegers(GLuint framebuffer) {
         glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GLenum(buffer),
                                               GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
     if (type != GL_UNSIGNED_INT)
-        throw GlError(fmt::format("framebuffer {} holds no unsigned integers", framebuffer));
+        throw GlError(fmt::format("framebuffer {} does not have an unsigned integer format", framebuffer));
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ IdRenderer::~IdRenderer() = default;
 
 IdTexture IdRenderer::upload(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint) {
     if (!asset::isSumOfMaps(asset) || idOfPaint.size() != asset.paints.size())
-        throw std::invalid_argument("numbers are for exact assets, one for each paint");
+        throw std::invalid_argument("ids need an asset of exact mode and one id for each paint");
     dropErrors();
     const StateGuard guard(impl_->contract, true);
     auto texture = std::make_unique<IdTexture::Impl>();

@@ -283,7 +283,7 @@ void Renderer::draw(const Texture& texture, const asset::View& view, const Outpu
 
 void Renderer::draw(const BytePixels& pixels, const Output& output) {
     if (output.linearLight)
-        throw std::invalid_argument("linear light is for pictures; pixels are mixed already");
+        throw std::invalid_argument("pixels are already blended, so they cannot be added in linear light");
     const asset::View view{pixels.width, pixels.height};
     asset::validate(view);
     impl_->call([&](const StateGuard& guard) {

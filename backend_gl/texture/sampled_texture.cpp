@@ -69,8 +69,8 @@ TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter) {
     const asset::PyramidSize& size = prefilter.size;
     const int largest = limit(GL_MAX_TEXTURE_SIZE);
     if (int(size.width) > largest || int(size.height) > largest)
-        throw GlError(fmt::format("prefilter of {} x {} texels: the driver's limit is {} a side", size.width,
-                                  size.height, largest));
+        throw GlError(fmt::format("prefilter of {} x {} texels: the driver's limit is {} per side",
+                                  size.width, size.height, largest));
     GLuint id = 0;
     glGenTextures(1, &id);
     TextureHandle texture(id);
@@ -122,7 +122,7 @@ constexpr unsigned wrapCount = 4;
 
 const asset::Map& onlyMap(const AssetView& asset) {
     if (asset.mode != asset::Mode::Exact)
-        throw GlError("an asset of compat mode is drawn layer by layer and cannot be sampled");
+        throw GlError("an asset of compat mode cannot be sampled: it has layers, not regions");
     if (asset.commands.size() != 1 || asset.commands[0].kind != asset::Command::Kind::DrawMap)
         throw GlError("only an asset that draws one map can be sampled");
     return asset.maps[asset.commands[0].map];
@@ -214,7 +214,7 @@ void SampledTexture::bind(unsigned program, const std::string& name, unsigned fi
         throw GlError(fmt::format("'{}' needs texture units {} to {}: the driver has {}", name, firstUnit,
                                   firstUnit + units() - 1, maximum));
     if (glGetUniformLocation(program, (name + ".texels").c_str()) < 0)
-        throw GlError(fmt::format("program {} samples no 'uniform Vtm {}'", program, name));
+        throw GlError(fmt::format("program {} has no 'uniform Vtm {}', or does not use it", program, name));
     const SavedBindState saved;
     glUseProgram(program);
     impl_->setUniforms(program, name, wrapping);

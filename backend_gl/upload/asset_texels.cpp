@@ -22,7 +22,7 @@ TextureHandle layOut(Items items, std::size_t itemsPerTexel, unsigned columnsLog
     const std::size_t texels = std::max<std::size_t>(items.size() / itemsPerTexel, 1);
     const std::size_t rows = (texels + columns - 1) / columns;
     if (rows > std::size_t(std::numeric_limits<GLsizei>::max()))
-        throw GlError("asset too large for a texture");
+        throw GlError("the asset is too large for a texture");
     TextureHandle texture = makeTexture(format, int(columns), int(rows));
     items.resize(rows * columns * itemsPerTexel);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLsizei(columns), GLsizei(rows), layout, type, items.data());

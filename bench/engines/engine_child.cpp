@@ -2,6 +2,7 @@
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <sstream>
@@ -113,6 +114,18 @@ std::string textOf(const asset::View& view) {
                        m[2][0], m[2][1]);
 }
 
+/// Paths of one colour each, in groups that have an opacity at most.
+bool arePlainPaths(const scene::Group& group) {
+    const auto isPlain = [](const scene::Node& node) {
+        if (const auto* inner = std::get_if<scene::Group>(&node.value))
+            return arePlainPaths(*inner);
+        const auto* item = std::get_if<scene::Item>(&node.value);
+        return item && std::holds_alternative<scene::Color>(item->paint);
+    };
+    return group.blend == scene::BlendMode::Normal && !group.clip && !group.mask &&
+           std::ranges::all_of(group.children, isPlain);
+}
+
 class ChildEngine : public Engine {
 public:
     /// `takes`: "file", "paths" (ours, plain), or "either" (paths where our scene has no more than that).
@@ -150,16 +163,15 @@ private:
     std::string pathOf(const Picture& picture) const {
         if (takes_ == "file")
             return picture.file.path.string();
-        try {
-            const std::string text = svg::write(picture.scene);
-            const std::string path = (child_->scratch() / "paths.svg").string();
-            image::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-            return path;
-        } catch (const svg::WriteError&) {
+        if (!arePlainPaths(picture.scene.root)) {
             if (takes_ == "paths")
-                throw;
+                throw std::runtime_error("it is given paths alone, painted with colours");
             return picture.file.path.string();
         }
+        const std::string text = svg::write(picture.scene, {.shared = false});
+        const std::string path = (child_->scratch() / "paths.svg").string();
+        image::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        return path;
     }
 
     std::shared_ptr<Child> child_;

@@ -121,7 +121,7 @@ public:
 private:
     Command& emit(Command::Kind kind) {
         if (asset_.commands.size() >= asset::maxCommands)
-            throw LimitError("the picture takes more than " + std::to_string(asset::maxCommands) +
+            throw LimitError("the picture needs more than " + std::to_string(asset::maxCommands) +
                              " commands in compat mode");
         Command command;
         command.kind = kind;
@@ -132,7 +132,7 @@ private:
     void push() {
         if (depth_ == asset::maxPictures)
             throw LimitError("groups are nested more than " + std::to_string(asset::maxPictures - 1) +
-                             " deep, which compat mode cannot draw");
+                             " levels deep, the limit of compat mode");
         emit(Command::Kind::Push);
     }
 

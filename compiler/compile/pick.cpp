@@ -125,7 +125,7 @@ private:
 
 PickMap compilePickMap(const scene::Scene& scene, const Options& options) {
     if (options.mode != asset::Mode::Exact)
-        throw std::invalid_argument("pick maps are exact: compat mode has no regions");
+        throw std::invalid_argument("a pick map must be compiled in exact mode");
     scene::validate(scene);
     Rewriting rewriting;
     const scene::Scene rewritten{scene.width, scene.height, rewriting.numbered(scene.root)};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 namespace vtm::compiler {
 namespace {
 
@@ -21,13 +23,15 @@ constexpr int smallestCellBits = 3;
 
 void checkOptions(const Options& o) {
     if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
-        throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
+        throw std::invalid_argument(fmt::format("tolerance is {}, not in [2^-26, 2^-6]", o.tolerance));
     if (!(o.nanosecondsPerByte >= 1 && o.nanosecondsPerByte <= 1e6))
-        throw std::invalid_argument("nanosecondsPerByte must lie in [1, 1e6]");
+        throw std::invalid_argument(
+            fmt::format("nanosecondsPerByte is {}, not in [1, 1e6]", o.nanosecondsPerByte));
     if (o.piecesPerLeaf && (*o.piecesPerLeaf < 1 || *o.piecesPerLeaf > 4096))
-        throw std::invalid_argument("piecesPerLeaf must lie in [1, 4096]");
+        throw std::invalid_argument(fmt::format("piecesPerLeaf is {}, not in [1, 4096]", *o.piecesPerLeaf));
     if (o.maxDepth > asset::maxLevel)
-        throw std::invalid_argument("maxDepth must be at most " + std::to_string(asset::maxLevel));
+        throw std::invalid_argument(
+            fmt::format("maxDepth is {}, not in [0, {}]", o.maxDepth, asset::maxLevel));
 }
 
 int latticeBits(const Options& o) {

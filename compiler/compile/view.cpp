@@ -12,7 +12,7 @@ namespace vtm::compiler {
 namespace {
 
 /// Pixels round the raster that are compiled with it: what filters and rounded sides of the view reach.
-constexpr double margin = 2;
+constexpr double marginPixels = 2;
 
 /// Roundings of coordinates on the way from the scene to the lattice: of a transform, of its product with the
 /// lattice's, and of a point under it.
@@ -31,7 +31,8 @@ struct Span {
 };
 
 Span seen(double from, double size, double pixel, double picture) {
-    return {std::max(0.0, from - margin * pixel), std::min(picture, from + size + margin * pixel)};
+    return {std::max(0.0, from - marginPixels * pixel),
+            std::min(picture, from + size + marginPixels * pixel)};
 }
 
 bool isFinite(scene::Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
@@ -40,7 +41,7 @@ void check(const scene::Frame& frame) {
     const scene::Rect seen = frame.seen();
     if (!(isFinite(frame.pixel) && isFinite(frame.turn) && isFinite({seen.x, seen.y}) &&
           isFinite({seen.x + seen.width, seen.y + seen.height}) && frame.pixel.x > 0 && frame.pixel.y > 0))
-        throw std::invalid_argument("the part that is seen must be finite and not empty");
+        throw std::invalid_argument("the visible part must be finite and not empty");
 }
 
 /// Of the raster alone.

@@ -13,7 +13,7 @@ double distance(Pair p, Side side) {
     return side == 0 || side == 3 ? across : asset::leafExtent - across;
 }
 
-std::optional<Side> sideOf(const Square& square, LatticePoint p) {
+std::optional<Side> borderSide(const Square& square, LatticePoint p) {
     for (Side side = 0; side < 4; ++side)
         if ((side % 2 == 0 ? p.y : p.x) == square.line(side))
             return side;
@@ -49,7 +49,7 @@ bool Fitter::isSliver(const Chain& chain) {
 /// left.
 bool Fitter::cutAlong(const Chain& chain, LatticePoint start, LatticePoint end, PaintId outer,
                       PaintId inner) {
-    const Side from = *sideOf(square_, start), sides = (*sideOf(square_, end) + 4 - from) % 4;
+    const Side from = *borderSide(square_, start), sides = (*borderSide(square_, end) + 4 - from) % 4;
     for (std::uint32_t i = 1; i < chain.count; ++i)
         if (!hugs(rounded(chain, i - 1), rounded(chain, i), from, sides))
             return false;
@@ -67,7 +67,7 @@ bool Fitter::cutAlong(const Chain& chain, LatticePoint start, LatticePoint end, 
 /// between the border and a sliver, and has to be cut before it.
 bool Fitter::isBorderFree(LatticePoint from, LatticePoint to) const {
     const auto along = [&](LatticePoint p) -> std::optional<std::int64_t> {
-        const auto side = sideOf(square_, p);
+        const auto side = borderSide(square_, p);
         if (!side)
             return std::nullopt;
         const std::int64_t x = p.x - std::int64_t{square_.x0}, y = p.y - std::int64_t{square_.y0},

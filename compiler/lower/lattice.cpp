@@ -7,17 +7,19 @@ namespace vtm::compiler {
 namespace {
 
 /// How far beyond the root square geometry may reach, in steps: any small even number will do.
-constexpr double margin = 16;
+constexpr double clampMargin = 16;
 
 }  // namespace
 
 Lattice::Lattice(double width, double height, int bits) : bits_(bits) {
     const double longer = std::max(width, height), side = std::ldexp(1.0, bits);
     scale_ = (side + 2) / longer;
-    const auto limit = [&](double extent) { return extent == longer ? side + margin : extent * scale_ - 2; };
+    const auto limit = [&](double extent) {
+        return extent == longer ? side + clampMargin : extent * scale_ - 2;
+    };
     clampMax_ = {limit(width), limit(height)};
 }
 
-glm::dvec2 Lattice::clampMin() const { return {-margin, -margin}; }
+glm::dvec2 Lattice::clampMin() const { return {-clampMargin, -clampMargin}; }
 
 }  // namespace vtm::compiler

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include <vtm/compiler/compile.hpp>
@@ -40,6 +41,7 @@ public:
         picture_.outlines.points.reserve(usualPoints);
         picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
+        const limits::Stage stage("compiling", place_);  // between outlines too, an element is named
         group(scene.root, excerpt.fromScene, openGroup(0));
     }
 
@@ -205,8 +207,7 @@ private:
         const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
         const double tiles = (last.x - first.x + 1) * (last.y - first.y + 1);
         if (!(tiles <= static_cast<double>(maxTiles)))
-            throw LimitError("a pattern would take " + std::to_string(tiles) + " tiles; at most " +
-                             std::to_string(maxTiles) + " are drawn");
+            throw LimitError(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, maxTiles));
         const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)
                                    : std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
         for (double y = first.y; y <= last.y; ++y)
@@ -287,7 +288,7 @@ private:
 
     void checkLimits() const {
         if (picture_.outlines.points.size() > maxChords)
-            throw LimitError("the picture's outlines take more than " + std::to_string(maxChords) +
+            throw LimitError("the picture's outlines have more than " + std::to_string(maxChords) +
                              " chords");
         if (picture_.layers.size() >= maxLayers)
             throw LimitError("the picture has more than " + std::to_string(maxLayers) + " layers");

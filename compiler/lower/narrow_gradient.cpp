@@ -18,7 +18,7 @@ using scene::Spread;
 /// A picture that shows this much of a ramp has its stops placed to 2^-18 of its size in single precision.
 constexpr double largeShare = 1.0 / 64;
 /// Beyond what the picture shows, for filters.
-constexpr double margin = 1.0 / 8;
+constexpr double rangeMargin = 1.0 / 8;
 /// Circles whose radius is as many times the picture's size are straight.
 constexpr double straightRadius = 4096;
 
@@ -43,7 +43,7 @@ Range shown(const Affine& toRamp, glm::dvec2 size) {
         const double u = scene::apply(toRamp, p).x;
         range.low = std::min(range.low, u), range.high = std::max(range.high, u);
     }
-    const double more = margin * range.size();
+    const double more = rangeMargin * range.size();
     return {range.low - more, range.high + more};
 }
 

@@ -23,14 +23,14 @@ std::string keyOf(const PaintProgram& program) {
 
 void checkLimits(const PaintProgram& steps) {
     if (steps.size() > asset::maxInstructions)
-        throw LimitError("at a point of the picture more than " + std::to_string(asset::maxInstructions) +
-                         " layers and groups that cannot be folded lie over each other");
+        throw LimitError("more than " + std::to_string(asset::maxInstructions) +
+                         " layers and groups that cannot be folded overlap at one point");
     unsigned depth = 1;
     for (const PaintStep& step : steps) {
         const Op op = step.instruction.op;
         if (op == Op::Push && ++depth > asset::maxStack)
             throw LimitError("groups that cannot be folded are nested more than " +
-                             std::to_string(asset::maxStack - 1) + " deep");
+                             std::to_string(asset::maxStack - 1) + " levels deep");
         depth -=
             op == Op::Pop || op == Op::PopMaskAlpha || op == Op::PopMaskLinear || op == Op::PopMaskLuminance;
     }

@@ -20,8 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Arms = glm::dvec2;
 
 /// One number for each inner sample.
-constexpr std::size_t inner = std::tuple_size_v<Samples> - 2;
-using Row = std::array<double, inner>;
+constexpr std::size_t innerSamples = std::tuple_size_v<Samples> - 2;
+using Row = std::array<double, innerSamples>;
 
 /// The derivative with respect to the sample's index where a curve starts, from five samples.
 Point startSlope(const Point& a, const Point& b, const Point& c, const Point& d, const Point& e) {
@@ -41,8 +41,8 @@ Cubic initialCubic(const Samples& s) {
 
 Row evenParameters() {
     Row u{};
-    for (std::size_t i = 0; i < inner; ++i)
-        u[i] = double(i + 1) / double(inner + 1);
+    for (std::size_t i = 0; i < innerSamples; ++i)
+        u[i] = double(i + 1) / double(innerSamples + 1);
     return u;
 }
 
@@ -52,7 +52,7 @@ struct Rows {
     Row turn0, turn1;  ///< first and last tangent along the sample's normal
 
     explicit Rows(const Samples& s) {
-        for (std::size_t i = 0; i < inner; ++i) {
+        for (std::size_t i = 0; i < innerSamples; ++i) {
             const Sample& sample = s[i + 1];
             x[i] = sample.at.x - s.front().at.x, y[i] = sample.at.y - s.front().at.y;
             tangentX[i] = sample.tangent.x, tangentY[i] = sample.tangent.y;
@@ -84,7 +84,7 @@ Residuals project(const Rows& s, const Cubic& cubic, Row& u) {
     const Powers x(cubic.p0.x, cubic.p1.x, cubic.p2.x, cubic.p3.x),
         y(cubic.p0.y, cubic.p1.y, cubic.p2.y, cubic.p3.y);
     Row squares, residuals;
-    for (std::size_t i = 0; i < inner; ++i) {
+    for (std::size_t i = 0; i < innerSamples; ++i) {
         const double tx = s.tangentX[i], ty = s.tangentY[i];
         const double slope = x.slope(u[i]) * tx + y.slope(u[i]) * ty;
         const double ahead = (x.at(u[i]) - s.x[i]) * tx + (y.at(u[i]) - s.y[i]) * ty;
@@ -95,7 +95,7 @@ Residuals project(const Rows& s, const Cubic& cubic, Row& u) {
         residuals[i] = tx * offY - ty * offX;
     }
     double square = 0, aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
-    for (std::size_t i = 0; i < inner; ++i) {
+    for (std::size_t i = 0; i < innerSamples; ++i) {
         if (i > 0 && u[i] < u[i - 1])
             return {infinity, {0, 0}};
         const double v = 1 - u[i];

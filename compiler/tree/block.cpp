@@ -30,7 +30,7 @@ bool isInside(const Layer& layer, int winding) {
 
 void WorkLimit::spend(std::size_t work) {
     if (spent_.fetch_add(work, std::memory_order_relaxed) + work > maximum_)
-        throw LimitError("the picture's outlines are too tangled: beyond " + std::to_string(maximum_) +
+        throw LimitError("the picture's outlines overlap too much: more than " + std::to_string(maximum_) +
                          " pairs of chords");
 }
 

@@ -49,8 +49,8 @@ asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints,
 
 void checkDrawn(std::size_t maps, std::size_t nodes, std::size_t pieces) {
     if (maps + 16 * nodes + pieces > asset::maxDrawn)
-        throw LimitError("the picture takes more than " + std::to_string(asset::maxDrawn) +
-                         " squares and pieces; a larger tolerance takes fewer");
+        throw LimitError("the picture needs more than " + std::to_string(asset::maxDrawn) +
+                         " squares and pieces; a larger tolerance needs fewer");
 }
 
 }  // namespace vtm::compiler

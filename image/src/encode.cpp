@@ -46,7 +46,7 @@ void checkSize(FileFormat format, int width, int height) {
     if (width < 1 || height < 1)
         throw CodecError("the picture has no pixels");
     if (width > maxSide(format) || height > maxSide(format))
-        throw CodecError("the format holds at most " + std::to_string(maxSide(format)) + " pixels a side");
+        throw CodecError("the format allows at most " + std::to_string(maxSide(format)) + " pixels per side");
 }
 
 }  // namespace
@@ -65,10 +65,10 @@ std::optional<FileFormat> formatOfSuffix(std::string_view suffix) {
 
 std::unique_ptr<Encoder> makeEncoder(FileFormat format, int width, int height, const EncodeOptions& options) {
     if (!hasDepth(format, options.depth))
-        throw std::invalid_argument("the format does not have " + std::to_string(options.depth) +
-                                    " bits a channel");
+        throw std::invalid_argument("the format does not support " + std::to_string(options.depth) +
+                                    " bits per channel");
     if (options.quality && (*options.quality < 1 || *options.quality > 100))
-        throw std::invalid_argument("quality must be from 1 to 100");
+        throw std::invalid_argument("quality must be in [1, 100]");
     checkSize(format, width, height);
     switch (format) {
         case FileFormat::Jpeg:
@@ -84,7 +84,7 @@ std::unique_ptr<Encoder> makeEncoder(FileFormat format, int width, int height, c
 
 std::vector<std::uint8_t> encode(const Bitmap& bitmap, FileFormat format, const EncodeOptions& options) {
     if (options.depth != 8)
-        throw std::invalid_argument("a bitmap has 8 bits a channel");
+        throw std::invalid_argument("a bitmap has 8 bits per channel");
     const auto encoder = makeEncoder(format, bitmap.width, bitmap.height, options);
     const std::size_t rowBytes = std::size_t(bitmap.width) * 4;
     for (std::size_t y = 0; y < std::size_t(bitmap.height); ++y)

@@ -234,7 +234,7 @@ Bitmap decodeGif(Bytes bytes) {
                 readFrame(in, palette, transparent, screen);
                 return screen;
             default:
-                throw CodecError("GIF: there is no frame");
+                throw CodecError("GIF: the file has no frame");
         }
     }
 }

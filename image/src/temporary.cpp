@@ -82,7 +82,7 @@ Temporary::Temporary(const fs::path& target, mode_t mode)
         return;
     const int error = errno;
     strike(slot_);
-    fail("no new file can be made beside it", error);
+    fail("cannot create a temporary file in its directory", error);
 }
 
 Temporary::~Temporary() {
@@ -111,11 +111,11 @@ void Temporary::takePlace() {
     require(flushed(file_), "writing failed");
     require(file_.close(), "writing failed");
     if (rename(path_.c_str(), target_.c_str()) != 0)
-        fail("it cannot be replaced", errno);
+        fail("cannot replace it", errno);
     path_.clear();
     // A folder that cannot be read is not flushed; the file is whole.
     if (const Descriptor folder(folderOf(target_).string(), O_RDONLY | O_DIRECTORY); folder)
-        require(flushed(folder), "its folder cannot be flushed");
+        require(flushed(folder), "cannot flush its directory");
 }
 
 void removeTemporaries() noexcept {

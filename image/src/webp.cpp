@@ -17,7 +17,7 @@ class WebpEncoder : public Encoder {
 public:
     WebpEncoder(int width, int height, std::optional<int> quality) {
         if (!WebPConfigInit(&config_) || !WebPPictureInit(&picture_))
-            throw CodecError("WebP: the library has another version than its header");
+            throw CodecError("WebP: the library's version differs from its header's");
         if (quality)
             config_.quality = float(*quality);
         else
@@ -82,10 +82,10 @@ bool isWebp(Bytes bytes) {
 Bitmap decodeWebp(Bytes bytes) {
     int width = 0, height = 0;
     if (!WebPGetInfo(bytes.data(), bytes.size(), &width, &height))
-        throw CodecError("WebP: the header is broken");
+        throw CodecError("WebP: the header is damaged");
     Bitmap bitmap = makeBitmap(width, height);
     if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), bitmap.rgba.data(), bitmap.rgba.size(), width * 4))
-        throw CodecError("WebP: the data is broken");
+        throw CodecError("WebP: the data is damaged");
     return bitmap;
 }
 

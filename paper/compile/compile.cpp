@@ -9,6 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include <vtm/asset/container.hpp>
 #include "compiler/compile/clock.hpp"
 #include "compiler/lower/paints.hpp"
@@ -145,13 +147,11 @@ private:
     std::uint32_t mask(const scene::Path& path, const scene::Affine& transform,
                        const std::variant<scene::FillRule, scene::StrokeStyle>& geometry) {
         if (result_.asset.masks.size() >= maxMasks)
-            throw compiler::LimitError("the picture would take more than " + std::to_string(maxMasks) +
-                                       " masks");
+            throw compiler::LimitError("the picture needs more than " + std::to_string(maxMasks) + " masks");
         auto made = makeMask(path, transform, geometry, maskOptions(result_.asset, result_.options));
         cells_ += made.mask.cells.size();
         if (cells_ > maxCells)
-            throw compiler::LimitError("the picture would take more than " + std::to_string(maxCells) +
-                                       " cells");
+            throw compiler::LimitError("the picture needs more than " + std::to_string(maxCells) + " cells");
         result_.asset.masks.push_back(std::move(made.mask));
         result_.approximated.push_back(made.approximated);
         return std::uint32_t(result_.asset.masks.size() - 1);
@@ -171,11 +171,11 @@ private:
 
 void checkOptions(const CompileOptions& o) {
     if (!(o.tolerance >= std::ldexp(1.0, -26) && o.tolerance <= std::ldexp(1.0, -6)))
-        throw std::invalid_argument("tolerance must lie in [2^-26, 2^-6]");
+        throw std::invalid_argument(fmt::format("tolerance is {}, not in [2^-26, 2^-6]", o.tolerance));
     if (o.maxDepth > 8)
-        throw std::invalid_argument("maxDepth must be at most 8");
+        throw std::invalid_argument(fmt::format("maxDepth is {}, not in [0, 8]", o.maxDepth));
     if (o.mipLog2 > 10)
-        throw std::invalid_argument("mipLog2 must be at most 10");
+        throw std::invalid_argument(fmt::format("mipLog2 is {}, not in [0, 10]", o.mipLog2));
 }
 
 }  // namespace
@@ -196,7 +196,7 @@ CompileResult compile(const scene::Scene& scene, const CompileOptions& options) 
     try {
         validate(result.asset);
     } catch (const asset::FormatError& error) {
-        throw compiler::LimitError(std::string("the paper mode cannot hold this picture: ") + error.what());
+        throw compiler::LimitError(std::string("paper mode cannot represent this picture: ") + error.what());
     }
     if (const std::size_t cells = result.approximatedCells(); cells > 0)
         result.warnings.push_back(std::to_string(cells) +

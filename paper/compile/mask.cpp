@@ -52,7 +52,7 @@ private:
 
     Entry addCell(const Cell& cell) {
         if (result_.mask.cells.size() >= maxCells)
-            throw compiler::LimitError("a mask would take more than " + std::to_string(maxCells) + " cells");
+            throw compiler::LimitError("a mask needs more than " + std::to_string(maxCells) + " cells");
         result_.mask.cells.push_back(cell);
         return Entry::make(Entry::Kind::Leaf, std::uint32_t(result_.mask.cells.size() - 1));
     }

@@ -142,7 +142,7 @@ PatternTables treeTables(const Mask& mask, unsigned depth) { return Tree(mask, d
 PatternTables gridTables(const Mask& mask, unsigned depth) {
     const std::size_t side = std::size_t(1) << (2 * depth);
     if (int(cellTexels * side) > limit(GL_MAX_TEXTURE_SIZE))
-        throw GlError("the mask's finest squares are too many for a grid");
+        throw GlError("the mask has too many finest squares for a grid");
     PatternTables t{{side, side}, {cellTexels * side, side}};
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x) {

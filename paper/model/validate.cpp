@@ -33,18 +33,18 @@ void checkEntry(const Mask& mask, Entry entry, std::ptrdiff_t parent, const std:
     const std::uint32_t payload = entry.payload();
     switch (entry.kind()) {
         case Entry::Kind::Solid:
-            return require(payload <= 1, where + ": a solid is 0 or 1");
+            return require(payload <= 1, where + ": a solid must be 0 or 1");
         case Entry::Kind::Leaf:
             return require(payload < mask.cells.size(), where + ": no such cell");
         case Entry::Kind::Node:
             return require(payload < mask.nodes.size() && std::ptrdiff_t(payload) > parent,
                            where + ": no such node below");
     }
-    require(false, where + ": no such kind of entry");
+    require(false, where + ": unknown kind of entry");
 }
 
 void checkCell(const Cell& cell, const std::string& where) {
-    require(cell.count == 1 || cell.count == 2, where + ": has neither one piece nor two");
+    require(cell.count == 1 || cell.count == 2, where + ": must have one or two pieces");
     for (unsigned i = 0; i < cell.count; ++i)
         require(cell.pieces[i].a != cell.pieces[i].b, where + ": a piece has no length");
 }
@@ -65,7 +65,7 @@ void checkMask(const Mask& mask, const std::string& where) {
 
 void checkSide(const Asset& asset, const Side& side, std::size_t node, const std::string& where) {
     require(side.paint < asset.palette.paints.size(), where + ": no such paint");
-    require(side.rest == noIndex || side.rest < node, where + ": its rest does not come before it");
+    require(side.rest == noIndex || side.rest < node, where + ": its rest is not an earlier node");
 }
 
 void checkNode(const Asset& asset, std::size_t index) {
@@ -83,7 +83,7 @@ void checkPending(const Asset& asset) {
     if (asset.root != noIndex)
         pending.insert(asset.root);
     while (!pending.empty()) {
-        require(pending.size() <= maxPending, fmt::format("more than {} nodes wait", maxPending));
+        require(pending.size() <= maxPending, fmt::format("more than {} nodes are pending", maxPending));
         const Node& node = asset.nodes[*pending.rbegin()];
         pending.erase(std::prev(pending.end()));
         for (const Side* side : {&node.inside, &node.outside})

@@ -325,7 +325,7 @@ TEST(Asset, BadIndicesAreNamed) {
     const Asset good = assetOf({deepMask()}, {{0, 1, paint(1), {}}, {0, 1, paint(2), rest(0)}});
     Asset bad = good;
     bad.nodes[1].outside.rest = 1;
-    refuses(bad, "node 1: its rest does not come before it");
+    refuses(bad, "node 1: its rest is not an earlier node");
     bad = good;
     bad.root = 2;
     refuses(bad, "no such root");
@@ -340,7 +340,7 @@ TEST(Asset, BadIndicesAreNamed) {
     refuses(bad, "mask 0, node 1: no such node below");
     bad = good;
     bad.masks[0].cells[0].count = 3;
-    refuses(bad, "mask 0, cell 0: has neither one piece nor two");
+    refuses(bad, "mask 0, cell 0: must have one or two pieces");
     bad = good;
     bad.masks[0].mip.texels.pop_back();
     refuses(bad, "mask 0: the mip has the wrong size");
@@ -356,7 +356,7 @@ TEST(Asset, TooManyWaitingNodesAreRefused) {
     for (std::uint32_t i = 0; i < leaves; ++i)
         asset.nodes.push_back({noIndex, 0.5f, rest(i), rest(leaves + i - 1)});
     asset.root = 2 * leaves - 1;
-    refuses(asset, "more than 16 nodes wait");
+    refuses(asset, "more than 16 nodes are pending");
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::uint32_t paintInLeaf(const AssetView& asset, const Leaf& leaf, dvec2 point)
 
 std::uint32_t paintAt(const AssetView& asset, dvec2 point) {
     if (!isSumOfMaps(asset))
-        throw std::invalid_argument("a compat asset has layers, not regions");
+        throw std::invalid_argument("an asset of compat mode has no regions to find a point in");
     for (const Command& command : asset.commands) {
         const Map& map = asset.maps[command.map];
         const dvec2 p = (point - dvec2(map.x, map.y)) / map.side;

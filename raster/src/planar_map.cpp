@@ -238,7 +238,7 @@ PlanarMap planarMap(const AssetView& asset, const Map& map) {
 
 std::vector<PlanarMap> planarMaps(const AssetView& asset) {
     if (!isSumOfMaps(asset))
-        throw std::invalid_argument("only pictures of disjoint regions can be summed along rows");
+        throw std::invalid_argument("only assets of exact mode have a planar map");
     std::vector<PlanarMap> maps;
     for (const Command& command : asset.commands)
         maps.push_back(planarMap(asset, asset.maps[command.map]));

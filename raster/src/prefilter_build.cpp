@@ -124,7 +124,7 @@ void eachMean(Means means, Take&& take) {
 
 void requireAllowed(PyramidSize size) {
     if (!isPyramidSide(size.width) || !isPyramidSide(size.height))
-        throw std::invalid_argument("pyramid: size is not allowed");
+        throw std::invalid_argument("prefilter: sides must be 2^k or 3 * 2^k texels, at most 4096");
 }
 
 }  // namespace

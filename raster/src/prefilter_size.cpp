@@ -134,7 +134,8 @@ double imagePixels(const AssetView& asset) {
 PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& options) {
     if (!(options.squaresPerFootprint >= 1) || options.largestSide < 1 ||
         options.largestSide > maxPyramidSide)
-        throw std::invalid_argument("prefilter: an option is out of range");
+        throw std::invalid_argument(
+            "prefilter: squaresPerFootprint must be >= 1 and largestSide in [1, 4096]");
     // Footprints grow until they meet too much; a base texel is half as wide as these.
     const double images = imagePixels(asset);
     std::uint32_t side = sideAtMost(options.largestSide);

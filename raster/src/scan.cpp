@@ -29,11 +29,11 @@ namespace {
 using glm::vec4;
 
 /// What one picture needs and the next uses again.
-struct Scratch {
+struct RowScratch {
     Bands bands;
     Accumulator<Wholes<Float4>> colors;
     BandPrograms programs;
-    std::unique_ptr<Scratch> finer;  ///< for what is drawn finer
+    std::unique_ptr<RowScratch> finer;  ///< for what is drawn finer
 };
 
 /// What is kept of an asset.
@@ -107,7 +107,7 @@ private:
 /// The chords of a picture under a view, band by band.
 class Drawing {
 public:
-    Drawing(const Picture& of, const View& view, const MaterialFunction& materials, Scratch& scratch,
+    Drawing(const Picture& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
             int finerLevels, float roughness = 1)
         : of_(of),
           view_(view),
@@ -195,7 +195,7 @@ private:
         for (int i = 0; i < 3; ++i)
             finer.toPixels[i] *= double(finerSide);
         if (!scratch_.finer)
-            scratch_.finer = std::make_unique<Scratch>();
+            scratch_.finer = std::make_unique<RowScratch>();
         Drawing drawing(of_, finer, programs_.materials, *scratch_.finer, finerLevels_ - 1,
                         finerTolerance * programs_.rough.times);
         for (const Chord& c : scratch_.bands.of(band))
@@ -216,7 +216,7 @@ private:
 
     const Picture& of_;
     const View view_;
-    Scratch& scratch_;
+    RowScratch& scratch_;
     ProgramView programs_;
     int finerLevels_;
 };
@@ -227,22 +227,22 @@ struct Scanner::Impl : Picture {
     template <class Store>
     void draw(const View& view, const MaterialFunction& materials, const Store& store);
 
-    std::unique_ptr<Scratch> takeScratch() {
+    std::unique_ptr<RowScratch> takeScratch() {
         const std::lock_guard lock(mutex_);
         if (free_.empty())
-            return std::make_unique<Scratch>();
-        std::unique_ptr<Scratch> scratch = std::move(free_.back());
+            return std::make_unique<RowScratch>();
+        std::unique_ptr<RowScratch> scratch = std::move(free_.back());
         free_.pop_back();
         return scratch;
     }
-    void giveBack(std::unique_ptr<Scratch> scratch) {
+    void giveBack(std::unique_ptr<RowScratch> scratch) {
         const std::lock_guard lock(mutex_);
         free_.push_back(std::move(scratch));
     }
 
 private:
     std::mutex mutex_;
-    std::vector<std::unique_ptr<Scratch>> free_;
+    std::vector<std::unique_ptr<RowScratch>> free_;
 };
 
 template <class Store>
@@ -255,7 +255,7 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
         return;
     }
     // An exception loses the scratch, whose sums may be half done.
-    std::unique_ptr<Scratch> scratch = takeScratch();
+    std::unique_ptr<RowScratch> scratch = takeScratch();
     const limits::Stage stage("scanning");
     Drawing drawing(*this, view, materials, *scratch, sums == Sums::Encoded ? finerLevels(asset, view) : 0);
     drawing.addPicture();

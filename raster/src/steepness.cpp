@@ -88,19 +88,19 @@ double offsetSlope(const Gradient& gradient, bool isRadial) {
 }
 
 /// Of one paint, in doubles.
-struct Change {
+struct Slopes {
     double slope = 0, variation = 0, roughness = 0;  ///< PaintChange
     bool mayJump = false;
 };
 
 /// Layers over each other change by no more than their changes' sum, and so do those under masks. Filters of
 /// images are those of whole pixels, by definition: programs with images are not asked for quarters.
-class Changes {
+class SlopesOf {
 public:
-    explicit Changes(const AssetView& asset) : asset_(asset) {}
+    explicit SlopesOf(const AssetView& asset) : asset_(asset) {}
 
-    Change ofProgram(const Paint& paint) {
-        Change all;
+    Slopes ofProgram(const Paint& paint) {
+        Slopes all;
         int layers = 0;
         for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
             limits::check();
@@ -109,7 +109,7 @@ public:
                 return {};
             const bool isMixed =
                 in.op == Op::PopMaskLinear || (in.op == Op::Pop && in.blend != Blend::Normal);
-            const Change layer = isMixed ? mixed(all) : ofLayer(in);
+            const Slopes layer = isMixed ? mixed(all) : ofLayer(in);
             layers += layer.slope > 0;
             all.slope += layer.slope;
             all.variation += layer.variation;
@@ -123,10 +123,10 @@ public:
 
 private:
     /// Modes may make anything of a change, but not of none.
-    static Change mixed(const Change& below) {
-        return below.slope > 0 ? Change{infinity, 0, infinity, true} : Change{};
+    static Slopes mixed(const Slopes& below) {
+        return below.slope > 0 ? Slopes{infinity, 0, infinity, true} : Slopes{};
     }
-    Change ofLayer(const Instruction& in) {
+    Slopes ofLayer(const Instruction& in) {
         if (in.opacity <= 0)
             return {};
         switch (in.op) {
@@ -249,10 +249,10 @@ NearChange changeNear(const AssetView& asset, std::uint32_t paint, const PixelsN
 }
 
 std::vector<PaintChange> changesOf(const AssetView& asset) {
-    Changes changes(asset);
+    SlopesOf changes(asset);
     std::vector<PaintChange> byPaint;
     for (const Paint& paint : asset.paints) {
-        const Change change = isProgram(paint) ? changes.ofProgram(paint) : Change{};
+        const Slopes change = isProgram(paint) ? changes.ofProgram(paint) : Slopes{};
         byPaint.push_back(
             {float(change.slope), float(change.variation), float(change.roughness), change.mayJump});
     }

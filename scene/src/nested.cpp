@@ -34,7 +34,7 @@ struct Copying {
     Copying() {
         if (++copies > 2 * maxNesting) {
             --copies;
-            throw InvalidScene("groups are nested too deep to be copied");
+            throw InvalidScene("groups are nested too deeply to be copied");
         }
     }
     ~Copying() { --copies; }

@@ -160,9 +160,9 @@ std::string fault(const Material& m) {
     if (!finite(m.transform))
         return "material transform is not finite";
     if (!isMaterialName(m.name))
-        return fmt::format("material name '{}' is no plain identifier", m.name.substr(0, maxMaterialName));
+        return fmt::format("material name '{}' is not a plain identifier", m.name.substr(0, maxMaterialName));
     if (m.glsl.size() > maxMaterialText || m.glsl.find('\0') != std::string::npos)
-        return fmt::format("text of material '{}' holds a zero byte or more than {} bytes", m.name,
+        return fmt::format("text of material '{}' contains a zero byte or more than {} bytes", m.name,
                            maxMaterialText);
     return fault(m.fallback);
 }

@@ -274,7 +274,7 @@ TEST(Validate, Materials) {
     EXPECT_EQ(complaint(painted(plain)), "");
     for (const std::string name : {"", "1a", "_a", "a b", "a__b", "gl_a", "ä"})
         EXPECT_EQ(changed([&](Material& m) { m.name = name; }),
-                  "root/0: material name '" + name + "' is no plain identifier");
+                  "root/0: material name '" + name + "' is not a plain identifier");
     EXPECT_NE(changed([](Material& m) { m.name.assign(maxMaterialName + 1, 'a'); }), "");
     EXPECT_NE(changed([](Material& m) { m.glsl.assign(maxMaterialText + 1, ' '); }), "");
     EXPECT_NE(changed([](Material& m) { m.glsl += '\0'; }), "");

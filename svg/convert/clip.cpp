@@ -50,15 +50,17 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
 
 void Converter::addClipChild(const Element& child, const Scope& parent, scene::Clip& clip) {
     if (child.tag == Tag::Text)
-        reporter_.warn(Kind::Text, child, "is not supported in a clipPath yet; it is left out");
+        return addClipText(child, parent, clip);
     if (isShape(child.tag))
         addClipShape(child, parent, nullptr, clip);
     if (child.tag != Tag::Use)
         return;
     const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
     const Element* target = tree_.byHref(hrefOf(child).value_or(std::string_view{}));
-    if (!scope || !target || !isShape(target->tag))
+    if (!scope || !target || !(isShape(target->tag) || target->tag == Tag::Text))
         return;
+    if (target->tag == Tag::Text)
+        return addClipText(*target, *scope, clip);
     const Box box = boxAround(*scope, [&] {
         Nodes unused;
         convertElement(*target, *scope, unused);

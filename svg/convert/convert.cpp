@@ -14,6 +14,7 @@ namespace {
 bool isRendered(Tag tag) {
     switch (tag) {
         case Tag::A:
+        case Tag::FlowRoot:
         case Tag::ForeignObject:
         case Tag::G:
         case Tag::Image:
@@ -125,14 +126,17 @@ void Converter::convertContent(const Element& element, const Scope& scope, Nodes
             return convertUse(element, scope, out);
         case Tag::Image:
             return convertImage(element, scope, out);
+        case Tag::FlowRoot:
+            return convertFlowRoot(element, scope, out);
+        case Tag::Text:
+            return convertText(element, scope, out);
         default:
             return isShape(element.tag) ? convertShape(element, scope, out) : warnUnsupported(element);
     }
 }
 
 void Converter::warnUnsupported(const Element& element) {
-    const Kind kind = element.tag == Tag::Text ? Kind::Text : Kind::Element;
-    reporter_.warn(kind, element,
+    reporter_.warn(Kind::Element, element,
                    element.tag == Tag::Unknown ? "is not an SVG element; it is left out"
                                                : "is not supported yet; it is left out");
 }
@@ -202,7 +206,7 @@ const Style& Converter::styleOf(const Element& element) {
 }
 
 Units Converter::unitsFor(const Style& style) const {
-    return {options_.dpi, style.fontSize, rootFontSize_, rootSize_};
+    return {options_.dpi, style.fontSize, rootFontSize_, style.fontWeight, rootSize_};
 }
 
 LengthReader Converter::lengths(const Element& element, const Scope& scope) const {

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -14,10 +16,12 @@
 
 #include <vtm/limits/limits.hpp>
 #include <vtm/scene/scene.hpp>
+#include "svg/convert/scope.hpp"
 #include "svg/css/style.hpp"
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/geometry/shapes.hpp"
 #include "svg/geometry/viewbox.hpp"
+#include "svg/text/layout.hpp"
 #include "svg/xml/element.hpp"
 #include "svg/xml/report.hpp"
 
@@ -31,17 +35,6 @@ struct Budget {
     std::int64_t imagePixels = 1 << 26;     ///< still to be decoded
     int imageDepth = 0;                     ///< images in images around this document
     int level = 0;                          ///< elements and references that are being followed
-};
-
-struct ContextElement;
-
-/// Where an element stands.
-struct Scope {
-    Style style;
-    scene::Affine transform = scene::identity;  ///< user space to picture
-    Viewport viewport;
-    const ContextElement* context = nullptr;  ///< what context-fill and context-stroke refer to
-    int depth = 0;                            ///< elements around it, `use` expanded
 };
 
 /// The element whose paints `context-fill` and `context-stroke` stand for: a use or a marked shape.
@@ -63,7 +56,7 @@ public:
     /// Appends the picture; `placement` maps the root viewport's units to where they shall lie.
     void convertRoot(const scene::Affine& placement, Nodes& out);
     /// The same of one element, at its place.
-    void convertOnly(const Element& element, Nodes& out);
+    void convertOnly(const Element& element, const scene::Affine& placement, Nodes& out);
     /// For the places of a nested document's items: the image in the outermost file.
     void standFor(const limits::Place& image) { standsFor_ = image; }
 
@@ -178,6 +171,29 @@ private:
     std::shared_ptr<const scene::Mask> mask(const Element& maskElement, const Scope& scope, const Box& box);
     std::shared_ptr<const scene::Mask> maskOf(const Element& element, const Scope& scope, const Box& box);
 
+    // text_content.cpp, text.cpp
+    class TextCollector;
+    TextContent textContent(const Element& text, const Scope& scope);
+    TextContent flowContent(const Element& flowRoot, const Scope& scope);
+    Box flowRegion(const Element& flowRoot, const Scope& scope);
+    void convertFlowRoot(const Element& element, const Scope& scope, Nodes& out);
+    void paintText(const Element& element, const Scope& scope, const TextContent& content, Nodes& out);
+    text::FontSet& fonts();
+    void addFontFaces(text::FontSet& fonts);
+    bool addFontFace(text::FontSet& fonts, const text::FontFace& face, std::string_view url,
+                     std::string& cause);
+    void warnOfMissingFamilies(const TextContent& content);
+    void warnOfMissingGlyphs(const Element& element, const TextContent& content, const TextLayout& layout);
+    void convertText(const Element& element, const Scope& scope, Nodes& out);
+    void paintLine(const TextContent& content, const PlacedLine& line, const Box& box, Nodes& out);
+    void paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters, const Box& box,
+                       Nodes& out);
+    void fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
+    bool paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
+    void convertSvgGlyph(const TextElement& text, const PlacedGlyph& glyph, const text::SvgGlyph& svg,
+                         const scene::Affine& transform, Nodes& out);
+    void addClipText(const Element& element, const Scope& parent, scene::Clip& clip);
+
     // marker.cpp
     void convertMarkers(const Element& element, const Scope& scope, CachedShape& shape, Nodes& out);
     void convertMarker(const Element& marker, const ContextElement& context, scene::Point at, double degrees,
@@ -190,6 +206,8 @@ private:
     void convertImage(const Element& element, const Scope& scope, Nodes& out);
     ImageContent imageContent(std::string_view href, const Element& element);
     ImageContent loadImage(std::string_view href);
+    std::shared_ptr<NestedDocument> svgGlyph(const TextElement& text, const PlacedGlyph& glyph,
+                                             const text::SvgGlyph& svg);
     static std::optional<Viewport> sizeOf(const ImageContent& content);
     void placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Element& element,
                      const Rect& viewport, const AspectRatio& ratio, const Scope& scope, Nodes& out);
@@ -245,6 +263,10 @@ private:
     std::unordered_map<const Element*, std::vector<scene::GradientStop>> stops_;  ///< by their gradient
     std::unordered_map<std::string_view, ImageContent> images_;
     std::unordered_set<const Element*> active_;
+    std::unique_ptr<text::FontSet> fonts_;  ///< null until there is text
+    /// Of glyphs that are documents; null for those that cannot be read.
+    std::map<std::pair<const text::Font*, text::GlyphId>, std::shared_ptr<NestedDocument>> svgGlyphs_;
+    std::unordered_set<std::string> missingFamilies_;  ///< those that were warned of
     std::vector<Outline> outlines_;
     int outlineListeners_ = 0;
     std::optional<limits::Place> standsFor_;

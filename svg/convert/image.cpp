@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <glm/common.hpp>
 
 #include <vtm/image/codec.hpp>
 #include "svg/convert/converter.hpp"
 #include "svg/xml/data_url.hpp"
 #include "svg/xml/document.hpp"
+#include "svg/xml/resource.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -26,17 +26,16 @@ bool looksLikeSvg(const Bytes& bytes) {
     return gzip || utf16 || (text.find('<') != text.npos && trim(text.substr(0, text.find('<'))).size() <= 3);
 }
 
-/// A relative reference below the resource directory. Absolute paths and other schemes are not read.
-Bytes readResource(std::string_view href, const std::string& directory) {
-    const std::string path = percentDecoded(href.substr(0, href.find_first_of("#?")));
-    if (path.empty() || directory.empty() || path.find(':') != path.npos || path.front() == '/')
-        throw image::CodecError("is not a file that may be read");
-    const std::filesystem::path file = std::filesystem::path(directory) / path;
-    std::error_code none;
-    // Reading a pipe or a device may never end.
-    if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))
-        throw image::CodecError("is not a regular file");
-    return image::readFile(file.string());
+/// What the viewport shows of a bitmap: with `slice` all of it along one axis, else all of it.
+Box shownPart(const Box& whole, const Rect& viewport, const AspectRatio& ratio,
+              const scene::Affine& toPixels) {
+    if (ratio.fit != scene::Fit::Cover)
+        return whole;
+    Box shown = geometry::mapped(toBox(viewport), toPixels).intersection(whole);
+    const int full = viewport.width * whole.height() >= viewport.height * whole.width() ? 0 : 1;
+    shown.min[full] = whole.min[full];
+    shown.max[full] = whole.max[full];
+    return shown;
 }
 
 }  // namespace
@@ -85,6 +84,44 @@ void Converter::convertImage(const Element& element, const Scope& scope, Nodes& 
     }
 }
 
+/// OpenType 1.9, table `SVG `: the viewport is an em, nothing is clipped to it, and the text gives its
+/// colour.
+std::shared_ptr<Converter::NestedDocument> Converter::svgGlyph(const TextElement& text,
+                                                               const PlacedGlyph& glyph,
+                                                               const text::SvgGlyph& svg) {
+    const auto [found, fresh] = svgGlyphs_.try_emplace({glyph.font.get(), glyph.id});
+    if (!fresh)
+        return found->second;
+    const scene::Color& color = text.scope.style.color;
+    Options options = options_;
+    options.fileName = "glyph in " + glyph.font->family();
+    options.resourceDirectory.clear();
+    options.defaultWidth = options.defaultHeight = glyph.font->unitsPerEm();
+    options.styleSheet = fmt::format("svg{{overflow:visible;color:rgba({}%,{}%,{}%,{})}}", color.r * 100,
+                                     color.g * 100, color.b * 100, color.a);
+    try {
+        found->second =
+            std::make_shared<NestedDocument>(svg.document, std::move(options), reporter_.warnings(), budget_);
+    } catch (const ParseError& error) {
+        reporter_.warn(Kind::Font, *text.element, fmt::format("a glyph cannot be drawn: {}", error.what()));
+    }
+    return found->second;
+}
+
+void Converter::convertSvgGlyph(const TextElement& text, const PlacedGlyph& glyph, const text::SvgGlyph& svg,
+                                const scene::Affine& transform, Nodes& out) {
+    const std::shared_ptr<NestedDocument> document =
+        budget_.imageDepth < maxImageDepth ? svgGlyph(text, glyph, svg) : nullptr;
+    const Element* element =
+        document ? document->parsed->tree->byId(fmt::format("glyph{}", glyph.id)) : nullptr;
+    if (!element)
+        return;
+    ++budget_.imageDepth;
+    document->converter.standFor(placeOf(*text.element));
+    document->converter.convertOnly(*element, transform, out);
+    --budget_.imageDepth;
+}
+
 std::optional<Viewport> Converter::sizeOf(const ImageContent& content) {
     if (const auto* bitmap = std::get_if<std::shared_ptr<const image::Bitmap>>(&content))
         return Viewport{static_cast<double>((*bitmap)->width), static_cast<double>((*bitmap)->height)};
@@ -111,8 +148,7 @@ Converter::ImageContent Converter::imageContent(std::string_view href, const Ele
 }
 
 Converter::ImageContent Converter::loadImage(std::string_view href) {
-    const Bytes bytes =
-        isDataUrl(href) ? decodeDataUrl(href) : readResource(href, options_.resourceDirectory);
+    const Bytes bytes = readResource(href, options_.resourceDirectory);
     if (looksLikeSvg(bytes)) {
         if (budget_.imageDepth >= maxImageDepth)
             throw image::CodecError("images are nested too deep");
@@ -139,9 +175,7 @@ void Converter::placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, 
     const scene::Affine transform = scene::compose(scope.transform, toUser);
     if (!toPixels || !scene::inverse(transform))
         return;
-    const Box shown = geometry::mapped(toBox(viewport), *toPixels);
-    const scene::Point min = glm::max(shown.min, toBox(whole).min),
-                       max = glm::min(shown.max, toBox(whole).max);
+    const auto [min, max] = shownPart(toBox(whole), viewport, ratio, *toPixels);
     out.push_back({scene::Item{
         std::make_shared<const scene::Path>(scene::rectangle(min, max)), transform, scene::FillRule::NonZero,
         scene::ImagePaint{bitmap, scope.style.imageFilter, scene::identity}, 1, placeOf(element)}});

@@ -52,9 +52,9 @@ void Converter::convertRoot(const scene::Affine& placement, Nodes& out) {
     convertElement(*tree_.root, outside, out);
 }
 
-void Converter::convertOnly(const Element& element, Nodes& out) {
+void Converter::convertOnly(const Element& element, const scene::Affine& placement, Nodes& out) {
     only_ = &element;
-    convertRoot(scene::identity, out);
+    convertRoot(placement, out);
 }
 
 void Converter::convertSvg(const Element& element, const Scope& scope, Nodes& out) {

@@ -82,16 +82,28 @@ void check(const Element& element, const std::vector<RawDeclaration>& declaratio
             reporter.warnInvalid(element, raw.name, raw.value);
 }
 
+/// Appends the rules of a sheet that stands in `element`; its fonts go to the tree.
+void readSheet(std::string_view text, const Element& element, Tree& tree, std::vector<Rule>& rules,
+               Reporter& reporter) {
+    StyleSheet sheet = parseStyleSheet(text);
+    for (Rule& rule : sheet.rules) {
+        check(element, rule.declarations, reporter);
+        rules.push_back(std::move(rule));
+    }
+    for (const std::vector<RawDeclaration>& descriptors : sheet.fontFaces) {
+        FontFaceRule& rule = tree.fontFaces.emplace_back();
+        rule.sheet = &element;
+        for (const RawDeclaration& descriptor : descriptors)
+            rule.descriptors.push_back({descriptor.name, descriptor.value});
+    }
+}
+
 std::vector<Rule> readSheets(Tree& tree, std::string_view sheet, Reporter& reporter) {
-    std::vector<Rule> rules = parseStyleSheet(tree.ownedText.emplace_back(withoutComments(sheet)));
-    for (const Rule& rule : rules)
-        check(*tree.root, rule.declarations, reporter);
+    std::vector<Rule> rules;
+    readSheet(tree.ownedText.emplace_back(withoutComments(sheet)), *tree.root, tree, rules, reporter);
     for (const Element& element : tree.elements)
         if (element.tag == Tag::Style && isCss(element))
-            for (Rule& rule : parseStyleSheet(sheetText(element, tree))) {
-                check(element, rule.declarations, reporter);
-                rules.push_back(std::move(rule));
-            }
+            readSheet(sheetText(element, tree), element, tree, rules, reporter);
     return rules;
 }
 

@@ -82,11 +82,18 @@ std::vector<RawDeclaration> parseDeclarations(std::string_view text) {
     return declarations;
 }
 
-std::vector<Rule> parseStyleSheet(std::string_view text) {
-    std::vector<Rule> rules;
+StyleSheet parseStyleSheet(std::string_view text) {
+    StyleSheet sheet;
     Cursor cursor(text);
     for (cursor.skipSpaces(); !cursor.atEnd(); cursor.skipSpaces()) {
         limits::check();
+        if (cursor.consume("@font-face")) {
+            cursor.skipSpaces();
+            cursor.consume('{');
+            sheet.fontFaces.push_back(parseDeclarations(take(cursor, "}")));
+            cursor.consume('}');
+            continue;
+        }
         if (cursor.consume('@')) {
             skipAtRule(cursor);
             continue;
@@ -96,9 +103,9 @@ std::vector<Rule> parseStyleSheet(std::string_view text) {
         const std::string_view body = take(cursor, "}");
         cursor.consume('}');
         if (auto parsed = parseSelectors(selectors))
-            rules.push_back({std::move(*parsed), parseDeclarations(body)});
+            sheet.rules.push_back({std::move(*parsed), parseDeclarations(body)});
     }
-    return rules;
+    return sheet;
 }
 
 std::string withoutComments(std::string_view text) {

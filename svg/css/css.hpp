@@ -56,8 +56,13 @@ struct Rule {
     std::vector<RawDeclaration> declarations;
 };
 
-/// Text without comments (see withoutComments). At-rules and invalid rules are left out.
-std::vector<Rule> parseStyleSheet(std::string_view text);
+struct StyleSheet {
+    std::vector<Rule> rules;
+    std::vector<std::vector<RawDeclaration>> fontFaces;  ///< the descriptors of each `@font-face`
+};
+
+/// Text without comments (see withoutComments). Other at-rules and invalid rules are left out.
+StyleSheet parseStyleSheet(std::string_view text);
 
 /// CSS comments, and the HTML ones that old files hide sheets in, as spaces.
 std::string withoutComments(std::string_view text);

@@ -19,7 +19,8 @@ struct Viewport {
 struct Units {
     double dpi = 96;
     double fontSize = 12, rootFontSize = 12;
-    Viewport root;  ///< for vw and vh
+    double fontWeight = 400;  ///< the parent's, for `bolder` and `lighter`
+    Viewport root;            ///< for vw and vh
 };
 
 /// User units, or a percentage of something that is known only where it is used.

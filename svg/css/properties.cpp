@@ -3,7 +3,9 @@
 #include <type_traits>
 #include <unordered_map>
 
+#include "svg/css/font_variants.hpp"
 #include "svg/css/property_values.hpp"
+#include "svg/css/text_values.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -33,8 +35,54 @@ bool applyOverflow(Style& style, std::string_view value, const Units& units) {
 /// elements are clipped where nothing is declared is the user agent's style sheet.
 void copyOverflow(Style& to, const Style& from) { to.overflow = from.overflow.value_or(true); }
 
+void copyFont(Style& to, const Style& from) {
+    to.fontSize = from.fontSize;
+    to.fontFamily = from.fontFamily;
+    to.fontWeight = from.fontWeight;
+    to.fontStretch = from.fontStretch;
+    to.fontSlant = from.fontSlant;
+    to.fontSizeAdjust = from.fontSizeAdjust;
+    to.fontFeatures = from.fontFeatures;
+    to.fontVariations = from.fontVariations;
+    to.fontVariants = from.fontVariants;
+    to.kerning = from.kerning;
+}
+
+void copyFontSynthesis(Style& to, const Style& from) {
+    to.synthesizeWeight = from.synthesizeWeight;
+    to.synthesizeSlant = from.synthesizeSlant;
+}
+
+void copyTextLines(Style& to, const Style& from) { to.textLines = from.textLines; }
+
+template <VariantGroup Group>
+bool applyVariants(Style& style, std::string_view value, const Units&) {
+    const auto variants = parseVariants(value, Group);
+    if (variants)
+        style.fontVariants = (style.fontVariants & ~variantsOf(Group)) | *variants;
+    return variants.has_value();
+}
+
+template <VariantGroup Group>
+void copyVariants(Style& to, const Style& from) {
+    to.fontVariants = (to.fontVariants & ~variantsOf(Group)) | (from.fontVariants & variantsOf(Group));
+}
+
+bool applyFontVariant(Style& style, std::string_view value, const Units&) {
+    const auto variants = parseVariants(value);
+    style.fontVariants = variants.value_or(style.fontVariants);
+    return variants.has_value();
+}
+
+void copyFontVariant(Style& to, const Style& from) { to.fontVariants = from.fontVariants; }
+
+template <VariantGroup Group>
+Property variantProperty(std::string_view name) {
+    return {name, false, true, applyVariants<Group>, copyVariants<Group>};
+}
+
 template <class Part>
-constexpr bool isInherited = std::is_same_v<Part, Inherited>;
+constexpr bool isInherited = !std::is_same_v<Part, Own>;
 
 /// Tells the class and the type of a member from a pointer to it.
 template <class>
@@ -105,7 +153,40 @@ std::vector<Property> makeTable() {
         property<&Inherited::paintOrder, parsePaintOrder>("paint-order"),
         property<&Inherited::linearColors, parseColorInterpolation>("color-interpolation"),
         property<&Inherited::imageFilter, parseImageRendering>("image-rendering"),
-        property<&Inherited::fontSize, parseFontSize>("font-size"),
+        property<&TextStyle::fontSize, parseFontSize>("font-size"),
+        {"font", true, true, applyFont, copyFont},
+        property<&TextStyle::fontFamily, parseFontFamily>("font-family"),
+        property<&TextStyle::fontWeight, parseFontWeight>("font-weight"),
+        property<&TextStyle::fontStretch, parseFontStretch>("font-stretch"),
+        property<&TextStyle::fontSlant, parseFontStyle>("font-style"),
+        property<&TextStyle::fontSizeAdjust, parseFontSizeAdjust>("font-size-adjust"),
+        property<&TextStyle::fontFeatures, parseFontFeatures>("font-feature-settings", false),
+        property<&TextStyle::fontVariations, parseFontVariations>("font-variation-settings", false),
+        property<&TextStyle::kerning, parseFontKerning>("font-kerning", false),
+        {"font-variant", true, true, applyFontVariant, copyFontVariant},
+        variantProperty<VariantGroup::Ligatures>("font-variant-ligatures"),
+        variantProperty<VariantGroup::Caps>("font-variant-caps"),
+        variantProperty<VariantGroup::Position>("font-variant-position"),
+        variantProperty<VariantGroup::Numeric>("font-variant-numeric"),
+        variantProperty<VariantGroup::EastAsian>("font-variant-east-asian"),
+        {"font-synthesis", false, true, applyFontSynthesis, copyFontSynthesis},
+        property<&TextStyle::letterSpacing, parseSpacing>("letter-spacing"),
+        property<&TextStyle::wordSpacing, parseSpacing>("word-spacing"),
+        property<&TextStyle::anchor, parseTextAnchor>("text-anchor"),
+        property<&TextStyle::align, parseTextAlign>("text-align", false),
+        property<&TextStyle::lineHeight, parseLineHeight>("line-height", false),
+        property<&Own::inlineSize, parseInlineSize>("inline-size", false),
+        property<&TextStyle::dominantBaseline, parseDominantBaseline>("dominant-baseline"),
+        property<&TextStyle::writingMode, parseWritingMode>("writing-mode"),
+        property<&TextStyle::textOrientation, parseTextOrientation>("text-orientation", false),
+        property<&TextStyle::textOrientation, parseGlyphOrientation>("glyph-orientation-vertical"),
+        property<&TextStyle::rightToLeft, parseDirection>("direction"),
+        property<&TextStyle::whiteSpace, parseWhiteSpace>("white-space"),
+        property<&Own::alignmentBaseline, parseAlignmentBaseline>("alignment-baseline"),
+        property<&Own::baselineShift, parseBaselineShift>("baseline-shift"),
+        property<&Own::unicodeBidi, parseUnicodeBidi>("unicode-bidi"),
+        {"text-decoration", true, false, applyTextDecoration, copyTextLines},
+        {"text-decoration-line", false, false, applyTextDecoration, copyTextLines},
         property<&Own::displayed, parseDisplay>("display"),
         property<&Own::opacity, parseOpacity>("opacity"),
         property<&Own::blend, parseBlend>("mix-blend-mode", false),

@@ -3,24 +3,10 @@
 #include <algorithm>
 
 #include "svg/css/color.hpp"
+#include "svg/css/keyword.hpp"
 
 namespace vtm::svg {
 namespace {
-
-/// One row of a keyword table.
-template <class T>
-struct Keyword {
-    std::string_view name;
-    T value;
-};
-
-template <class T, std::size_t N>
-std::optional<T> findKeyword(std::string_view text, const Keyword<T> (&table)[N]) {
-    const auto found = std::find_if(std::begin(table), std::end(table), [&](const Keyword<T>& row) {
-        return equalsIgnoringCase(row.name, text);
-    });
-    return found == std::end(table) ? std::nullopt : std::optional(found->value);
-}
 
 std::optional<PaintKind> paintKeyword(std::string_view word) {
     static constexpr Keyword<PaintKind> table[]{{"none", PaintKind::None},

@@ -33,12 +33,12 @@ bool applyKeyword(Style& style, const Style& parent, const Property& property, s
 Style computeStyle(const Element& element, const Style& parent, Units units) {
     Style style;
     static_cast<Inherited&>(style) = parent;
-    const Property* const fontSize = findProperty("font-size");
-    // Font sizes first: their em is the parent's, all others' em is the element's own.
+    // Fonts first: their em is the parent's, all others' em is the element's own.
     units.fontSize = parent.fontSize;
+    units.fontWeight = parent.fontWeight;
     for (const bool fontPass : {true, false}) {
         for (const Declaration& declaration : element.declarations)
-            if ((declaration.property == fontSize) == fontPass &&
+            if (declaration.property->name.starts_with("font") == fontPass &&
                 !applyKeyword(style, parent, *declaration.property, declaration.value))
                 declaration.property->apply(style, declaration.value, units);
         units.fontSize = style.fontSize;

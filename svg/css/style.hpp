@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include "svg/css/length.hpp"
 #include "svg/geometry/transform.hpp"
 #include "svg/xml/element.hpp"
+#include "text/font_set.hpp"
+#include "text/shape.hpp"
 
 namespace vtm::svg {
 
@@ -34,8 +37,57 @@ struct ColorValue {
 
 enum class PaintStage { Fill, Stroke, Markers };
 
+enum class TextAnchor { Start, Middle, End };
+/// `dominant-baseline` and `alignment-baseline`: the line of a font that is aligned.
+enum class Baseline {
+    Auto,
+    Alphabetic,
+    Ideographic,
+    Middle,
+    Central,
+    Mathematical,
+    Hanging,
+    TextBottom,
+    TextTop
+};
+enum class WritingMode { Horizontal, VerticalRl, VerticalLr };
+/// How white space in text is kept (CSS Text 4 section 3).
+enum class WhiteSpace { Collapse, Preserve };
+/// Lines of `text-decoration`, as bits.
+enum TextLines : unsigned { Underline = 1, Overline = 2, LineThrough = 4 };
+enum class UnicodeBidi { Normal, Embed, Isolate, Override, IsolateOverride, Plaintext };
+
+/// `baseline-shift`: up by a length, or by what the font says of subscripts and superscripts.
+struct BaselineShift {
+    enum class Kind { Length, Sub, Super } kind = Kind::Length;
+    Length length;  ///< percentages refer to the font size
+};
+
+/// Fonts and text, inherited. Source: CSS Fonts 4, CSS Text 4, CSS Writing Modes 4, SVG 2 chapter 11.
+struct TextStyle {
+    double fontSize = 12;
+    std::string_view fontFamily;  ///< as written; empty: the default family
+    double fontWeight = 400;
+    double fontStretch = 100;  ///< percent
+    text::Slant fontSlant = text::Slant::Normal;
+    std::optional<double> fontSizeAdjust;           ///< x-height by font size
+    std::string_view fontFeatures, fontVariations;  ///< as written, empty: normal
+    std::uint64_t fontVariants = 0;  ///< rows of the table of font-variant's keywords (font_variants.hpp)
+    std::optional<bool> kerning;     ///< nothing: auto
+    bool synthesizeWeight = true, synthesizeSlant = true;
+    Length letterSpacing, wordSpacing;  ///< percentages refer to the font size
+    TextAnchor anchor = TextAnchor::Start;
+    TextAnchor align = TextAnchor::Start;  ///< text-align
+    Baseline dominantBaseline = Baseline::Auto;
+    WritingMode writingMode = WritingMode::Horizontal;
+    text::TextOrientation textOrientation = text::TextOrientation::Mixed;
+    bool rightToLeft = false;              ///< direction
+    double lineHeight = 1.25;              ///< by font size; `normal` as Inkscape has it
+    std::optional<WhiteSpace> whiteSpace;  ///< nothing: as xml:space says
+};
+
 /// Properties that an element takes over from its parent.
-struct Inherited {
+struct Inherited : TextStyle {
     scene::Color color{0, 0, 0, 1};
     PaintValue fill{PaintKind::Color, {0, 0, 0, 1}, {}, {}}, stroke;
     double fillOpacity = 1, strokeOpacity = 1;
@@ -51,7 +103,6 @@ struct Inherited {
     std::array<PaintStage, 3> paintOrder{PaintStage::Fill, PaintStage::Stroke, PaintStage::Markers};
     bool linearColors = false;  ///< color-interpolation
     scene::ImageFilter imageFilter = scene::ImageFilter::Trilinear;
-    double fontSize = 12;
 };
 
 /// Properties of the element alone. Hrefs of url() are empty for `none`.
@@ -70,6 +121,11 @@ struct Own {
     bool nonScalingStroke = false;
     std::string_view transform;  ///< as written, known to be well formed
     std::optional<TransformOrigin> transformOrigin;
+    Baseline alignmentBaseline = Baseline::Auto;
+    BaselineShift baselineShift;
+    unsigned textLines = 0;  ///< TextLines that the element adds; those of its ancestors go on
+    UnicodeBidi unicodeBidi = UnicodeBidi::Normal;
+    std::optional<Length> inlineSize;  ///< nothing: auto
     /// x, width, cx, … where CSS, not an attribute, gives them.
     std::vector<Attribute> geometry;
 };

@@ -45,6 +45,8 @@ bool liesInside(const std::vector<scene::Node>& nodes, const scene::Affine& tran
     });
 }
 
+Box boxOf(const scene::Item& item) { return itemBox(item, scene::identity); }
+
 Box boxAround(const std::vector<scene::Node>& nodes) {
     Box box;
     for (const scene::Node& node : nodes) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,5 +15,8 @@ bool isDataUrl(std::string_view href);
 std::vector<std::uint8_t> decodeDataUrl(std::string_view href);
 /// Invalid escapes stay as they are.
 std::string percentDecoded(std::string_view text);
+
+/// `data:TYPE;base64,…`
+std::string dataUrl(std::string_view type, std::span<const std::uint8_t> bytes);
 
 }  // namespace vtm::svg

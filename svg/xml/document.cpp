@@ -72,11 +72,11 @@ Document load(std::span<const std::uint8_t> bytes, const Options& options) {
         return result;
     }
     const Element& element = exportedElement(*document, options.exportId);
-    converter.convertOnly(element, result.scene.root.children);
+    converter.convertOnly(element, scene::identity, result.scene.root.children);
     result.exported = shownBounds(result.scene);
     if (!result.exported)
         throw ParseError(document->map.at(element.offset),
-                         fmt::format("#{}: nothing of it is drawn in the picture", options.exportId));
+                         fmt::format("#{}: the element draws nothing inside the picture", options.exportId));
     return result;
 }
 

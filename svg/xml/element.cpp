@@ -17,6 +17,12 @@ Tag tagOf(std::string_view localName) {
                                                                 {"desc", Tag::Descriptive},
                                                                 {"ellipse", Tag::Ellipse},
                                                                 {"filter", Tag::Filter},
+                                                                {"flowDiv", Tag::FlowPara},
+                                                                {"flowLine", Tag::FlowPara},
+                                                                {"flowPara", Tag::FlowPara},
+                                                                {"flowRegion", Tag::FlowRegion},
+                                                                {"flowRoot", Tag::FlowRoot},
+                                                                {"flowSpan", Tag::FlowSpan},
                                                                 {"foreignObject", Tag::ForeignObject},
                                                                 {"g", Tag::G},
                                                                 {"image", Tag::Image},
@@ -60,6 +66,12 @@ const char* nameOf(Tag tag) {
             return "clipPath";
         case Tag::Ellipse:
             return "ellipse";
+        case Tag::FlowPara:
+            return "flowPara";
+        case Tag::FlowRoot:
+            return "flowRoot";
+        case Tag::FlowSpan:
+            return "flowSpan";
         case Tag::G:
             return "g";
         case Tag::Image:
@@ -88,6 +100,14 @@ const char* nameOf(Tag tag) {
             return "switch";
         case Tag::Symbol:
             return "symbol";
+        case Tag::Text:
+            return "text";
+        case Tag::TextPath:
+            return "textPath";
+        case Tag::Tref:
+            return "tref";
+        case Tag::Tspan:
+            return "tspan";
         case Tag::Use:
             return "use";
         default:

@@ -29,6 +29,10 @@ enum class Tag : unsigned char {
     Ellipse,
     Filter,
     FilterPrimitive,
+    FlowPara,  ///< flowPara, flowDiv, flowLine of SVG 1.2's draft, which Inkscape wrote
+    FlowRegion,
+    FlowRoot,
+    FlowSpan,
     ForeignObject,
     G,
     Image,
@@ -92,11 +96,18 @@ struct Element {
 /// The fragment that `href` or else `xlink:href` names.
 std::optional<std::string_view> hrefOf(const Element& element);
 
+/// A rule `@font-face` in a style sheet.
+struct FontFaceRule {
+    const Element* sheet = nullptr;
+    std::vector<Attribute> descriptors;
+};
+
 /// Owns the elements and the text that their string_views point into.
 struct Tree {
     std::string text;
     std::deque<std::string> ownedText;  ///< what had to be rewritten, such as CSS without its comments
     std::deque<Element> elements;
+    std::vector<FontFaceRule> fontFaces;
     Element* root = nullptr;
     std::unordered_map<std::string_view, Element*> ids;  ///< the first element of each id
 

@@ -68,7 +68,7 @@ bool Reporter::wasSeen(const Element& element, const std::string& message) {
 bool Reporter::isFull() const { return !warnings_.empty() && warnings_.back().message == moreAreLeftOut; }
 
 void Reporter::warn(Warning::Kind kind, const Element& element, const std::string& what) {
-    const bool counted = kind == Warning::Kind::Text || kind == Warning::Kind::Filter;
+    const bool counted = kind == Warning::Kind::Filter;
     if (!counted && isFull())
         return;
     const std::string message = fmt::format("<{}>: {}", element.name, what);

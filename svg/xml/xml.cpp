@@ -52,16 +52,18 @@ private:
     std::vector<Binding> bindings_;
 };
 
+/// Elements whose text may be drawn or read. A `tref` may name any other.
 bool keepsText(const Element& element) {
     for (const Element* e = &element; e; e = e->parent)
-        if (e->tag == Tag::Text || e->tag == Tag::Style || e->tag == Tag::Tref)
+        if (e->tag == Tag::Text || e->tag == Tag::FlowRoot || e->tag == Tag::Style || e->tag == Tag::Tref)
             return true;
     return false;
 }
 
 class Builder {
 public:
-    Builder(Tree& tree, const SourceMap& map) : tree_(tree), map_(map) {}
+    Builder(Tree& tree, const SourceMap& map, bool keepsAllText)
+        : tree_(tree), map_(map), keepsAllText_(keepsAllText) {}
 
     Element* build(const pugi::xml_node& node, Element* parent, int depth) {
         limits::check();
@@ -113,7 +115,7 @@ private:
 
     void children(Element& element, const pugi::xml_node& node, int depth) {
         Element* previous = nullptr;
-        const bool text = keepsText(element);
+        const bool text = keepsAllText_ || keepsText(element);
         for (const pugi::xml_node& child : node.children()) {
             if (child.type() == pugi::node_element) {
                 Element* built = build(child, &element, depth + 1);
@@ -135,6 +137,7 @@ private:
 
     Tree& tree_;
     const SourceMap& map_;
+    const bool keepsAllText_;
     Namespaces namespaces_;
 };
 
@@ -145,6 +148,7 @@ std::unique_ptr<Tree> parseXml(std::string text, const SourceMap& map) {
     limits::need(text.size());
     auto tree = std::make_unique<Tree>();
     tree->text = std::move(text);
+    const bool keepsAllText = tree->text.find("tref") != std::string::npos;
     pugi::xml_document document;
     const pugi::xml_parse_result result =
         document.load_buffer_inplace(tree->text.data(), tree->text.size(),
@@ -153,7 +157,7 @@ std::unique_ptr<Tree> parseXml(std::string text, const SourceMap& map) {
         throw ParseError(map.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
                          result.description());
     const pugi::xml_node root = document.document_element();
-    tree->root = Builder(*tree, map).build(root, nullptr, 1);
+    tree->root = Builder(*tree, map, keepsAllText).build(root, nullptr, 1);
     if (tree->root->tag != Tag::Svg)
         throw ParseError(map.at(tree->root->offset), "the root element is not an SVG <svg>");
     return tree;

@@ -49,6 +49,66 @@ def pictures():
     return seeds
 
 
+def fonts():
+    """DejaVu Sans with a few glyphs, alone, compressed, with colour layers and with a variation axis."""
+    from fontTools import subset, ttLib
+    from fontTools.colorLib import builder
+    from fontTools.ttLib.tables import TupleVariation
+
+    dejavu = pathlib.Path("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf")
+
+    def few():
+        font = ttLib.TTFont(dejavu)
+        settings = subset.Options(layout_features=["kern", "liga", "mark", "init"], hinting=False, name_IDs=[1, 2])
+        settings.drop_tables.append("FFTM")
+        maker = subset.Subsetter(settings)
+        maker.populate(text="Afi\u00c4\u0301\u0628")
+        maker.subset(font)
+        return font
+
+    def saved(font, flavor=None):
+        out = io.BytesIO()
+        font.flavor = flavor
+        font.save(out)
+        return out.getvalue()
+
+    def colored(version, layers):
+        font = few()
+        font["COLR"] = builder.buildCOLR(layers, version=version)
+        font["CPAL"] = builder.buildCPAL([[(1, 0, 0, 1), (0, 0, 1, 0.5)]])
+        return saved(font)
+
+    stops = {"Extend": "repeat", "ColorStop": [{"StopOffset": o, "PaletteIndex": o, "Alpha": 1} for o in (0, 1)]}
+    paints = [
+        {"Format": 4, "ColorLine": stops, "x0": 0, "y0": 0, "x1": 900, "y1": 0, "x2": 0, "y2": 900},
+        {"Format": 6, "ColorLine": stops, "x0": 0, "y0": 0, "r0": 9, "x1": 900, "y1": 0, "r1": 90},
+        {"Format": 8, "ColorLine": stops, "centerX": 9, "centerY": 9, "startAngle": 0, "endAngle": 180},
+        {"Format": 2, "PaletteIndex": 0, "Alpha": 0.5},
+    ]
+    outlined = [{"Format": 10, "Glyph": "f", "Paint": paint} for paint in paints]
+    moved = [{"Format": 14, "Paint": outlined[0], "dx": 50, "dy": 50},
+             {"Format": 24, "Paint": outlined[3], "angle": 45},
+             {"Format": 32, "SourcePaint": outlined[3], "CompositeMode": "src_in", "BackdropPaint": outlined[1]}]
+
+    def variable():
+        font = few()
+        fvar = font["fvar"] = ttLib.newTable("fvar")
+        from fontTools.ttLib.tables._f_v_a_r import Axis
+        axis = Axis()
+        axis.axisTag, axis.minValue, axis.defaultValue, axis.maxValue, axis.axisNameID = "wght", 100, 400, 900, 1
+        fvar.axes, fvar.instances = [axis], []
+        gvar = font["gvar"] = ttLib.newTable("gvar")
+        gvar.version, gvar.reserved, gvar.variations = 1, 0, {}
+        for name in font.getGlyphOrder():
+            points = len(font["glyf"]._getCoordinatesAndControls(name, font["hmtx"].metrics)[0])
+            gvar.variations[name] = [TupleVariation.TupleVariation({"wght": (0, 1, 1)}, [(9, 5)] * points)]
+        return saved(font)
+
+    return {"plain.ttf": saved(few()), "plain.woff": saved(few(), "woff"), "variable.ttf": variable(),
+            "layers.ttf": colored(0, {"A": [("f", 0), ("i", 1)]}),
+            "paints.ttf": colored(1, {"A": {"Format": 1, "Layers": outlined}, "i": {"Format": 1, "Layers": moved}})}
+
+
 def main():
     target, folder, *program = sys.argv[1:]
     out = pathlib.Path(folder)
@@ -56,7 +116,7 @@ def main():
     if target == "asset":
         subprocess.run([program[0], str(out)], check=True)
         return
-    seeds = {"svg": drawings, "image": pictures, "openvg": lambda: noise(40, 1024),
+    seeds = {"svg": drawings, "image": pictures, "font": fonts, "openvg": lambda: noise(40, 1024),
              "pipeline": lambda: drawings() | noise(200, 512)}[target]()
     for name, data in seeds.items():
         (out / name).write_bytes(data)

@@ -13,6 +13,7 @@ void addRender(CLI::App& app, int& exitCode);
 void addCompile(CLI::App& app, int& exitCode);
 void addInfo(CLI::App& app, int& exitCode);
 void addDiff(CLI::App& app, int& exitCode);
+void addNormalize(CLI::App& app, int& exitCode);
 void addTrace(CLI::App& app, int& exitCode);
 
 }  // namespace vtm::tools

@@ -67,8 +67,8 @@ void addCompile(CLI::App& app, int& exitCode) {
     command->add_option("-o,--output", options->output, "The .vtm file, or - for standard output")
         ->required();
     command->add_flag("--prefilter", options->prefilter,
-                      "Add a pyramid of means for textures that are seen from afar");
-    command->add_flag("--json", options->json, "Print figures and times");
+                      "Add a pyramid of mean colours, for use as a texture seen from afar");
+    command->add_flag("--json", options->json, "Print figures and times as JSON");
     addSourceOptions(*command, options->source);
     command->footer(
         "Examples:\n  vtm compile tiger.svg -o tiger.vtm\n  vtm compile tiger.svg -o tiger.vtm --prefilter");

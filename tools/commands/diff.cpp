@@ -45,7 +45,7 @@ bool isWithin(const char* option, const std::optional<double>& limit, double val
     constexpr double rounding = 255 * 0x1p-22;  // of premultiplied floats in [0, 1] and their difference
     if (!limit || value <= *limit + rounding)
         return true;
-    say(fmt::format("vtm: {} {:g}: is {:.4g}", option, *limit, value));
+    say(fmt::format("vtm: {} {:g}: exceeded, the value is {:.4g}", option, *limit, value));
     return false;
 }
 
@@ -92,13 +92,15 @@ void addDiff(CLI::App& app, int& exitCode) {
     command->add_option("A", options->first, "PNG, JPEG, WebP or GIF file, or - for standard input")
         ->required();
     command->add_option("B", options->second, "The same, or -")->required();
-    command->add_option("-o,--output", options->output, "Write the differences as a picture");
-    command->add_option("--threshold", options->threshold, "'over' counts pixels beyond this")
+    command->add_option("-o,--output", options->output, "Write the differences as a PNG picture");
+    command
+        ->add_option("--threshold", options->threshold,
+                     "Count pixels that differ by more than this, as 'over'")
         ->capture_default_str();
     for (const auto& [name, limit] : {std::pair("--max", &options->max), {"--mean", &options->mean}})
-        command->add_option(name, *limit, fmt::format("Exit code 1 if '{}' is beyond this", name + 2))
+        command->add_option(name, *limit, fmt::format("Exit code 1 if '{}' is larger than this", name + 2))
             ->check(CLI::NonNegativeNumber);
-    command->add_flag("--json", options->json, "As JSON");
+    command->add_flag("--json", options->json, "Print the figures as JSON");
     command->footer(
         "Examples:\n  vtm diff a.png b.png\n  vtm diff a.png b.png --max 2 --mean 0.01 -o differences.png");
     command->callback([options, &exitCode] { exitCode = diff(*options); });

@@ -97,7 +97,7 @@ void addInfo(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* command = app.add_subcommand("info", "Show what a file contains (an SVG is compiled first)");
     command->add_option("FILE", options->input, "SVG or .vtm file, or - for standard input")->required();
-    command->add_flag("--json", options->json, "As JSON");
+    command->add_flag("--json", options->json, "Print the figures as JSON");
     addSourceOptions(*command, options->source);
     command->footer("Examples:\n  vtm info tiger.vtm\n  vtm info tiger.svg --json");
     command->callback([options, &exitCode] { exitCode = info(*options); });

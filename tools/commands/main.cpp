@@ -104,7 +104,7 @@ void requireSubcommand(const CLI::App& app, const std::string& word) {
                          " -o OUT.png");
     const std::string near = proposal(word, names);
     throw UsageError("'" + word + "' is not a subcommand" +
-                     (near.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : near));
+                     (near.empty() ? fmt::format("; the subcommands are {}", fmt::join(names, ", ")) : near));
 }
 
 /// Throws UsageError for an option that the subcommand does not have, if it is nearly one that it has.
@@ -116,7 +116,7 @@ void proposeOption(const CLI::App& app, int argc, char** argv) {
             if (!word.starts_with("--") || std::ranges::find(options, word) != options.end())
                 continue;
             if (const std::string near = proposal(word, options); !near.empty())
-                throw UsageError(command->get_name() + " has no option " + word + near);
+                throw UsageError(command->get_name() + ": there is no option " + word + near);
         }
 }
 
@@ -129,6 +129,7 @@ void addSubcommands(CLI::App& app, int& exitCode) {
     addCompile(app, exitCode);
     addInfo(app, exitCode);
     addDiff(app, exitCode);
+    addNormalize(app, exitCode);
     addTrace(app, exitCode);
     for (CLI::App* command : app.get_subcommands({})) {
         addQuiet(*command);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -53,7 +55,7 @@ std::vector<Job> readBatch(const std::string& path) {
             continue;
         const std::size_t tab = line.find('\t');
         if (tab == std::string::npos || tab == 0 || tab + 1 == line.size())
-            throw std::runtime_error(fmt::format("{}:{}:1: needs IN<TAB>OUT", list.name, number));
+            throw std::runtime_error(fmt::format("{}:{}:1: expected IN<TAB>OUT", list.name, number));
         jobs.push_back({line.substr(0, tab), line.substr(tab + 1)});
     }
     return jobs;
@@ -135,11 +137,21 @@ image::PixelWriter writerFor(const Job& job, const RenderOptions& options, const
     return image::PixelWriter({under.r, under.g, under.b, under.a}, options.file.encoding.depth);
 }
 
+/// Grown to whole pixels at this scale, as rsvg-convert does: nothing is squeezed or cut off.
+scene::Rect toWholePixels(const scene::Rect& part, double scale) {
+    constexpr double unseen = 1.0 / 512;  // of a pixel: such coverage is 0 in 8 bits
+    const auto side = [&](double length) {
+        return std::max(1.0, std::ceil(length * scale - unseen)) / scale;
+    };
+    return {part.x, part.y, side(part.width), side(part.height)};
+}
+
 /// What --export-id draws is what is seen of it, where no --view says otherwise.
 scene::Framing framingOf(const RenderOptions& options, const Source& source) {
     scene::Framing framing = options.framing;
-    if (!framing.part)
-        framing.part = source.exported;
+    const bool hasSize = framing.width || framing.height;
+    if (!framing.part && source.exported)
+        framing.part = hasSize ? *source.exported : toWholePixels(*source.exported, framing.scale);
     return framing;
 }
 
@@ -200,7 +212,7 @@ std::vector<Job> checkedJobs(const RenderOptions& options) {
 
 int render(const RenderOptions& options) {
     if (parseDebugView(options.debugView) != DebugView::None && options.framing.rotation != 0)
-        throw UsageError("--debug-view: works without --rotate only");
+        throw UsageError("--debug-view: cannot be combined with --rotate");
     if (!options.debugView.empty() && options.file.encoding.depth != 8)
         throw UsageError("--debug-view: needs 8 bits per channel");
     const auto engine = makeEngine(options.engine, options.source.compiler.mode, options.programCache);
@@ -227,14 +239,16 @@ void addRender(CLI::App& app, int& exitCode) {
     auto* output =
         command->add_option("-o,--output", options->output,
                             ".png, .jpg, .webp or .ppm file, a directory, or - for standard output");
-    command->add_option("--batch", options->batch, "A file of lines IN<TAB>OUT, or - for standard input")
+    command
+        ->add_option("--batch", options->batch,
+                     "File with a line IN<TAB>OUT for each picture, or - for standard input")
         ->excludes(inputs)
         ->excludes(output);
     addFramingOptions(*command, options->framing);
     addFileOptions(*command, options->file);
     command
         ->add_option("-b,--background,--background-color", options->background,
-                     "Any SVG colour; in JPEG and PPM files it lies over white")
+                     "Any SVG colour; JPEG and PPM files have it over white")
         ->capture_default_str();
     command
         ->add_option("--engine", options->engine,
@@ -243,17 +257,15 @@ void addRender(CLI::App& app, int& exitCode) {
                      "a GPU, exact mode), asset (the shaders' twin, slow) or reference (exact, slower)")
         ->capture_default_str();
     command->add_option("--program-cache", options->programCache,
-                        "A directory where the GL driver's compiled programs are kept between runs");
+                        "Directory that keeps the GL driver's compiled programs between runs");
     command->add_option(
         "--debug-view", options->debugView,
-        "Shows how the picture is stored: cells, depth, pieces, cost, regions, fallback, tiles");
+        "Show how the picture is stored: cells, depth, pieces, cost, regions, fallback, tiles");
     command->add_flag("--json", options->json, "Print figures and times as JSON, one line per picture");
-    command->add_flag("-v,--verbose", options->verbose, "Say which engine drew each picture");
+    command->add_flag("-v,--verbose", options->verbose, "Print which engine drew each picture");
     addSourceOptions(*command, options->source);
-    command
-        ->add_option("-i,--export-id", options->source.svg.exportId,
-                     "Draw only the element with this id; without --view it fills the raster")
-        ->check([](const std::string& id) { return std::string(id.empty() ? "the id is empty" : ""); });
+    addExportId(*command, options->source.svg.exportId,
+                "Draw only the element with this id; without --view it fills the raster");
     command->footer(examples);
     command->callback([options, &exitCode] { exitCode = render(*options); });
 }

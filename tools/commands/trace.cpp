@@ -72,15 +72,17 @@ void addTrace(CLI::App& app, int& exitCode) {
     command->add_option("--colors", options->trace.colors, "Max number of colours")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
-    command->add_option("--speckle", options->trace.speckle, "Leave out spots of up to this many pixels")
+    command->add_option("--speckle", options->trace.speckle, "Drop spots of up to this many pixels")
         ->check(CLI::Range(0, 1000000))
         ->capture_default_str();
-    command->add_option("--smooth", options->trace.smooth, "From 0, polygons, to 1.3334, no corners")
+    command
+        ->add_option("--smooth", options->trace.smooth,
+                     "Smoothness, from 0 (polygons) to 1.3334 (no corners)")
         ->check(CLI::Range(0.0, 1.3334))
         ->capture_default_str();
     command
         ->add_option("--tolerance", options->compiler.tolerance,
-                     "Tolerance of the .vtm, as a share of its longer side")
+                     "Max error of boundaries in the .vtm file, as a share of its longer side")
         ->check(CLI::Range(0x1p-26, 0x1p-6));
     command->footer(
         "Examples:\n  vtm trace scan.png -o scan.svg --colors 4\n  vtm trace scan.png -o scan.vtm --speckle "

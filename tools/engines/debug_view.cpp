@@ -235,9 +235,10 @@ void prepare(Source& source, DebugView view) {
     if (view == DebugView::None)
         return;
     if (!source.asset || source.asset->mode != asset::Mode::Exact)
-        throw UsageError("--debug-view: shows exact pictures that are drawn from their assets");
+        throw UsageError("--debug-view: needs exact mode and an engine that draws from an asset");
     if (view == DebugView::Fallback && !source.proof)
-        throw UsageError("--debug-view fallback: wants an SVG file; a compiled one does not say where");
+        throw UsageError(
+            "--debug-view fallback: needs an SVG file; a .vtm file does not record these squares");
     if (view == DebugView::Depth)
         source.asset = Squares(*source.asset, depthColor).take();
     else if (view == DebugView::Pieces)

@@ -86,7 +86,7 @@ public:
 void CpuEngine::draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
                      const image::RowSink& sink) {
     if (source.paper || !asset::isSumOfMaps(*source.asset))
-        throw std::runtime_error("the cpu engine draws exact pictures only");
+        throw std::runtime_error("the cpu engine only draws exact mode");
     if (!source.asset->materials.empty())
         warnOfMaterials(source);
     const asset::Scanner scanner =
@@ -173,7 +173,7 @@ bool AutomaticEngine::startsGl(Source& source) {
 
 void AutomaticEngine::doWithoutGl(const std::string& why) {
     driver_ = gl::Driver::None;
-    warn("vtm: " + why + "; the CPU draws");
+    warn("vtm: " + why + "; drawing on the CPU");
 }
 
 class AssetEngine : public RasterEngine {
@@ -202,7 +202,7 @@ public:
 protected:
     image::Raster render(Source& source, const asset::View& view) override {
         if (!source.scene)
-            throw std::runtime_error("the reference engine draws SVG files only, no compiled ones");
+            throw std::runtime_error("the reference engine only draws SVG files, not .vtm files");
         const reference::View same{view.width, view.height, view.toPixels};
         return timed(source.stages, "render",
                      [&] { return reference::render(*source.scene, same, options_); });

@@ -124,45 +124,26 @@ std::string placeOf(const svg::Location& where) {
     return fmt::format("{}:{}:{}", where.file, where.line, where.column);
 }
 
-bool isNotDrawnYet(const svg::Warning& warning) {
-    return warning.kind == Kind::Text || warning.kind == Kind::Filter;
-}
+bool isNotDrawnYet(const svg::Warning& warning) { return warning.kind == Kind::Filter; }
 
-std::string counted(const svg::Warning& warning) {
-    const char* one = warning.kind == Kind::Text ? "text element" : "filter";
-    return fmt::format("{} {}{}", warning.count, one, warning.count == 1 ? "" : "s");
-}
-
-/// Named at the first in the file.
+/// One line for all, at the first in the file.
 void warnOfNotDrawnYet(Source& source, const std::vector<svg::Warning>& warnings) {
-    std::vector<std::string> what;
-    const svg::Warning* first = nullptr;
-    std::size_t count = 0;
-    for (const svg::Warning& warning : warnings) {
-        if (!isNotDrawnYet(warning))
-            continue;
-        // Text before filters, whichever comes first.
-        what.insert(warning.kind == Kind::Text ? what.begin() : what.end(), counted(warning));
-        if (!first || std::pair(warning.where.line, warning.where.column) <
-                          std::pair(first->where.line, first->where.column))
-            first = &warning;
-        count += warning.count;
-    }
-    if (first)
-        warnOf(source, fmt::format("{}: warning: {} {} not drawn yet", placeOf(first->where),
-                                   fmt::join(what, " and "), count == 1 ? "is" : "are"));
+    const auto filters = std::ranges::find_if(warnings, isNotDrawnYet);
+    if (filters != warnings.end())
+        warnOf(source, fmt::format("{}: warning: {} {} not drawn yet", placeOf(filters->where),
+                                   filters->count, filters->count == 1 ? "filter is" : "filters are"));
 }
 
 // ---- Loading --------------------------------------------------------------------------------------
 
 void loadAsset(Source& source, const Input& input, const SourceOptions& options) {
     if (options.paper)
-        throw std::runtime_error("is compiled; paper mode draws SVG files only");
+        throw std::runtime_error("is a .vtm file; paper mode only draws SVG files");
     if (!options.svg.exportId.empty() || !options.styleSheet.empty())
-        throw std::runtime_error("is compiled; --export-id and --stylesheet need an SVG file");
+        throw std::runtime_error("is a .vtm file; --export-id and --stylesheet need an SVG file");
     source.asset = timed(source.stages, "parse", [&] { return asset::read(input.bytes); });
     if (options.mode && *options.mode != source.asset->mode)
-        throw std::runtime_error("was compiled in the other mode than --mode asks for");
+        throw std::runtime_error("was compiled in another mode than --mode");
     source.width = source.asset->width;
     source.height = source.asset->height;
 }
@@ -175,7 +156,7 @@ std::string readStyleSheet(const std::string& path) {
 scene::Rect exportedBounds(const svg::Document& document, const std::string& id) {
     if (const auto bounds = drawnBounds(document.scene))
         return *bounds;
-    throw std::runtime_error(fmt::format("#{}: nothing of it is drawn in the picture", id));
+    throw std::runtime_error(fmt::format("#{}: the element draws nothing inside the picture", id));
 }
 
 void parseSvg(Source& source, const Input& input, const SourceOptions& given) {
@@ -256,7 +237,7 @@ void warnOf(Source& source, const std::vector<svg::Warning>& warnings) {
 
 void refuseLeftOut(const Source& source) {
     if (source.leftOut > 0)
-        throw std::runtime_error("--strict: something is left out, see above");
+        throw std::runtime_error("--strict: nothing is written, because something is left out or repaired");
 }
 
 }  // namespace vtm::tools

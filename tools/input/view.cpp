@@ -38,8 +38,10 @@ compiler::ViewResult compileInTime(const Source& source, const scene::Frame& fra
     constexpr double coarsest = 0x1p-6;  // compiler::Options::tolerance; a raster wants a finer one
     options.tolerance = coarsest;
     compiler::ViewResult result = compile();
-    warn(fmt::format("{}: warning: takes long, so edges may be off by up to a sixteenth of a pixel",
-                     source.name));
+    warn(
+        fmt::format("{}: warning: compiling took too long, so it is drawn less exactly: edges may be off by "
+                    "up to 1/16 pixel",
+                    source.name));
     return result;
 }
 
@@ -72,8 +74,8 @@ void warnIfTooCoarse(const Source& source, const SourceOptions& options, const a
         warn(fmt::format("{}: warning: at this zoom boundaries may be off by {:.3g} pixels; {}", source.name,
                          asset::finestShare * finest / pixel,
                          source.scene ? options.paper ? "paper mode does not follow the view"
-                                                      : "without --tolerance they would not be"
-                                      : "compile it again with a finer --tolerance, or draw the SVG"));
+                                                      : "omit --tolerance to avoid this"
+                                      : "compile it again with a smaller --tolerance, or draw the SVG file"));
 }
 
 /// Throws std::length_error beyond asset::maxViewSide and maxViewPixels, with what to do about it.
@@ -82,7 +84,7 @@ scene::Frame frameOf(const scene::Framing& framing, double pictureWidth, double 
     if (frame.width > asset::maxViewSide || frame.height > asset::maxViewSide ||
         frame.width * frame.height > double(asset::maxViewPixels))
         throw std::length_error(fmt::format(
-            "{} x {} pixels are too many (at most {} a side and {} in all); choose a smaller --width, "
+            "{} x {} pixels are too many (the limit is {} per side and {} in all); choose a smaller --width, "
             "--height or --zoom",
             readable(frame.width), readable(frame.height), readable(asset::maxViewSide),
             readable(double(asset::maxViewPixels))));

@@ -115,7 +115,7 @@ image::FileFormat parseFormat(const std::string& name) {
 void addFileOptions(CLI::App& command, FileOptions& options) {
     command.add_option_function<std::string>(
         "-f,--format", [&options](const std::string& name) { options.format = parseFormat(name); },
-        "png (default), jpeg, webp or ppm, for names without a suffix: directories, standard output");
+        "png (default), jpeg, webp or ppm, for outputs without a suffix: directories, standard output");
     command.add_option("--depth", options.encoding.depth, "Bits per channel of PNG and PPM: 8 or 16")
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
@@ -141,50 +141,31 @@ void chooseMode(SourceOptions& options, const std::string& name) {
     options.compiler.mode = mode->second;
 }
 
-// ---- Text, which is not drawn yet. Scripts use these options already, so they stay. ----------------
+// ---- Text ------------------------------------------------------------------------------------------
 
-using Unused = std::vector<const CLI::Option*>;
-
-void warnOf(const Unused& options) {
-    std::vector<std::string> given;
-    for (const CLI::Option* option : options)
-        if (option->count() > 0)
-            given.push_back(option->get_name());
-    if (!given.empty())
-        warn(fmt::format("vtm: warning: {}: not used yet, since text is not drawn", fmt::join(given, ", ")));
+void addFonts(CLI::App& command, text::FontOptions& fonts) {
+    command.add_option("--font-dir", fonts.directories, "Also take fonts from here, before the system's")
+        ->check(CLI::ExistingDirectory);
+    command.add_flag("!--no-system-fonts", fonts.systemFonts, "Do not use the system's fonts");
+    for (const auto& [name, family, generic] : {std::tuple("--serif-family", &fonts.serifFamily, "serif"),
+                                                {"--sans-serif-family", &fonts.sansSerifFamily, "sans-serif"},
+                                                {"--cursive-family", &fonts.cursiveFamily, "cursive"},
+                                                {"--fantasy-family", &fonts.fantasyFamily, "fantasy"},
+                                                {"--monospace-family", &fonts.monospaceFamily, "monospace"}})
+        command.add_option(name, *family, fmt::format("Font family for '{}'", generic))
+            ->capture_default_str();
+    command.add_option("--default-family", fonts.defaultFamily, "Font family where none is named")
+        ->capture_default_str();
 }
 
-Unused addFonts(CLI::App& command, svg::Options& svg) {
-    Unused options{
-        command.add_option("--font-dir", svg.fontDirectories, "Also take fonts from here (not yet)")
-            ->check(CLI::ExistingDirectory),
-        command.add_flag("!--no-system-fonts", svg.systemFonts, "Do not use the system's fonts (not yet)")};
-    for (const auto& [name, family, generic] : {std::tuple("--serif-family", &svg.serifFamily, "serif"),
-                                                {"--sans-serif-family", &svg.sansSerifFamily, "sans-serif"},
-                                                {"--cursive-family", &svg.cursiveFamily, "cursive"},
-                                                {"--fantasy-family", &svg.fantasyFamily, "fantasy"},
-                                                {"--monospace-family", &svg.monospaceFamily, "monospace"}})
-        options.push_back(
-            command.add_option(name, *family, fmt::format("Font family for '{}' (not yet)", generic)));
-    options.push_back(command.add_option("--default-family", svg.defaultFamily,
-                                         "Font family where none is named (not yet)"));
-    return options;
-}
-
-/// Fonts, and what is used already: --default-font-size and --language. A warning names those of the others
-/// that were given. A folder of fonts that does not exist is bad usage.
 void addTextOptions(CLI::App& command, svg::Options& svg) {
-    const std::string group = "Text (not drawn yet)";
-    const Unused fonts = addFonts(command, svg);
-    for (const CLI::Option* option : fonts)
-        command.get_option(option->get_name())->group(group);
-    command
-        .add_option("--default-font-size", svg.defaultFontSize,
-                    "Font size in px where none is given; lengths in em use it")
-        ->check(CLI::PositiveNumber)
-        ->group(group);
-    command.add_option("--language", svg.language, "For systemLanguage, such as en or de-AT")->group(group);
-    command.parse_complete_callback([fonts] { warnOf(fonts); });
+    CLI::App* const group = command.add_option_group("Text");
+    addFonts(*group, svg.fonts);
+    group
+        ->add_option("--default-font-size", svg.defaultFontSize,
+                     "Font size in px where none is given; lengths in em use it")
+        ->check(CLI::PositiveNumber);
+    group->add_option("--language", svg.language, "Of text and for systemLanguage, such as en or de-AT");
 }
 
 }  // namespace
@@ -198,18 +179,22 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
     command
         .add_option(
             "--tolerance", options.compiler.tolerance,
-            "How far a boundary may be off, as a share of the longer side; render chooses one that fits "
+            "Max error of boundaries, as a share of the longer side; by default render chooses one that fits "
             "the view unless it is given")
         ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
         ->capture_default_str();
-    command.add_option("--dpi", options.svg.dpi, "Pixels per inch")
+    addImportOptions(command, options);
+}
+
+void addImportOptions(CLI::App& command, SourceOptions& options) {
+    command.add_option("--dpi", options.svg.dpi, "User units per inch, for lengths such as 1in or 2cm")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_flag("--strict", options.strict,
                      "Fail with exit code 1 and write nothing if anything is left out or repaired");
     command.add_option("-s,--stylesheet", options.styleSheet,
-                       "A CSS file that is read before the SVG's own style sheets");
+                       "CSS file that applies before the SVG's own style sheets");
     for (const auto& [name, side] : {std::pair("--default-width", &options.svg.defaultWidth),
                                      {"--default-height", &options.svg.defaultHeight}})
         command.add_option(name, *side, "Side in user units of an SVG with neither size nor viewBox")
@@ -287,6 +272,12 @@ scene::Color parseColor(const std::string& text) {
         }
     }
     throw UsageError(fmt::format("--background: '{}' is not a colour", text));
+}
+
+void addExportId(CLI::App& command, std::string& id, const std::string& description) {
+    command.add_option("-i,--export-id", id, description)->check([](const std::string& given) {
+        return std::string(given.empty() ? "the id is empty" : "");
+    });
 }
 
 }  // namespace vtm::tools

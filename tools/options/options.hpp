@@ -23,8 +23,14 @@ void addFramingOptions(CLI::App& command, scene::Framing& framing);
 /// --format, --depth, --quality.
 void addFileOptions(CLI::App& command, FileOptions& options);
 
-/// --mode, --tolerance, --strict and what the importer needs: fonts, dpi, language.
+/// --strict and what the importer needs: fonts, dpi, language.
+void addImportOptions(CLI::App& command, SourceOptions& options);
+
+/// --mode, --tolerance and those of addImportOptions().
 void addSourceOptions(CLI::App& command, SourceOptions& options);
+
+/// --export-id, whose use `description` says.
+void addExportId(CLI::App& command, std::string& id, const std::string& description);
 
 /// --max-seconds and --max-memory. They hold for the whole run.
 void addLimitOptions(CLI::App& command);

@@ -85,7 +85,7 @@ void refuseLoss(const std::vector<std::string>& inputs, const std::vector<std::s
         if (const auto identity = identityOfInput(input))
             read.emplace(*identity, nameOf(input));
     if (std::ranges::count_if(outputs, isStandardOutput) > 1)
-        throw UsageError("-o: more than one result would go to standard output");
+        throw UsageError("-o: more than one result would be written to standard output");
     if (std::ranges::count(outputs, "") > 0)
         throw UsageError("-o: the name is empty");
     for (const std::string& output : outputs) {
@@ -104,7 +104,7 @@ void refuseLoss(const std::vector<std::string>& inputs, const std::vector<std::s
 
 void refuseMixture(const std::string& output, std::string_view figures) {
     if (isStandardOutput(output))
-        throw UsageError(fmt::format("-o {}: {} go to standard output as well", output, figures));
+        throw UsageError(fmt::format("-o {}: {} are also written to standard output", output, figures));
 }
 
 void print(std::string_view text) {

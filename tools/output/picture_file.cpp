@@ -32,9 +32,9 @@ const Known& knownOf(FileFormat format) { return *std::ranges::find(known, forma
 void requireOptions(FileFormat format, const FileOptions& options) {
     const char* const name = knownOf(format).name;
     if (!image::hasDepth(format, options.encoding.depth))
-        throw UsageError(fmt::format("--depth {}: {} files do not have it", options.encoding.depth, name));
+        throw UsageError(fmt::format("--depth {}: {} files do not support it", options.encoding.depth, name));
     if (options.encoding.quality && format != FileFormat::Jpeg && format != FileFormat::Webp)
-        throw UsageError(fmt::format("--quality: {} files keep every pixel", name));
+        throw UsageError(fmt::format("--quality: {} files are lossless", name));
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ FileFormat formatOf(const std::string& output, const FileOptions& options) {
     const auto named = isRegularOutput(output) ? image::formatOfSuffix(suffixOf(output)) : std::nullopt;
     if (named && options.format && *named != *options.format)
         throw UsageError(
-            fmt::format("--format {}: {} says something else", knownOf(*options.format).name, output));
+            fmt::format("--format {}: contradicts the suffix of {}", knownOf(*options.format).name, output));
     const FileFormat format = named ? *named : options.format.value_or(FileFormat::Png);
     requireOptions(format, options);
     return format;

@@ -97,7 +97,7 @@ class Render(Drawing):
         self.assertIn("not one of cells", self.vtm(*out, "lines", expect=2).stderr)
         for arguments in (("depth", "--mode", "compat"), ("depth", "--mode", "paper"),
                           ("depth", "--engine", "reference")):
-            self.assertIn("exact pictures", self.vtm(*out, *arguments, expect=1).stderr)
+            self.assertIn("needs exact mode", self.vtm(*out, *arguments, expect=1).stderr)
         self.vtm("compile", self.svg, "-o", "square.vtm")
         self.assertIn("SVG file", self.vtm("render", "square.vtm", "-o", "out.png", "--debug-view", "fallback",
                                            expect=1).stderr)
@@ -166,7 +166,7 @@ class BadInput(Drawing):
     def test_picture_too_large(self):
         path = self.write("large.svg", SQUARE.replace('width="40" height="20"', 'width="100000" height="100000"'))
         done = self.vtm("render", path, "-o", "out.png", expect=1)
-        self.assertIn("100,000 x 100,000 pixels are too many (at most 16,384 a side and 134,217,728 in all)", done.stderr)
+        self.assertIn("100,000 x 100,000 pixels are too many (the limit is 16,384 per side and 134,217,728 in all)", done.stderr)
         self.assertEqual(self.draw("--width", "64").size, (64, 32))
 
     def test_huge_sizes_are_readable(self):

@@ -35,7 +35,7 @@ class WithoutEgl(Command):
         for arguments in ((), ("--mode", "compat"), ("--mode", "paper"), ("--debug-view", "regions")):
             with self.subTest(arguments=arguments):
                 said = self.vtm("render", self.svg, "-o", "out.png", *arguments, env=NO_EGL).stderr
-                self.assertEqual(said, "vtm: EGL has no driver; the CPU draws\n")
+                self.assertEqual(said, "vtm: EGL has no driver; drawing on the CPU\n")
                 if "--debug-view" not in arguments:
                     self.assert_square("out.png")
 
@@ -43,7 +43,7 @@ class WithoutEgl(Command):
         for name in ("a", "b", "c"):
             self.write(f"{name}.svg", SQUARE)
         done = self.vtm("render", "a.svg", "b.svg", "c.svg", "-o", "pictures", "--mode", "compat", env=NO_EGL)
-        self.assertEqual(done.stderr, "vtm: EGL has no driver; the CPU draws\n3 of 3 drawn, 0 failed\n")
+        self.assertEqual(done.stderr, "vtm: EGL has no driver; drawing on the CPU\n3 of 3 drawn, 0 failed\n")
 
     def test_a_driver_that_cannot_start(self):
         """Compat mode wants shaders; there are devices, but the driver's files are not where it looks."""
@@ -51,7 +51,7 @@ class WithoutEgl(Command):
         said = self.vtm("render", self.svg, "-o", "out.png", "--mode", "compat", env=env).stderr
         self.assert_square("out.png")
         if said:  # drivers may lie elsewhere
-            self.assertIn("; the CPU draws\n", said)
+            self.assertIn("; drawing on the CPU\n", said)
 
     def test_shaders_that_were_asked_for_are_an_error(self):
         said = self.vtm("render", self.svg, "-o", "out.png", "--engine", "gl", env=NO_EGL, expect=1).stderr

@@ -154,7 +154,7 @@ class Permissions(Faults):
         finally:
             self.out.chmod(0o755)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(done.stderr, "noise.svg: out/noise.vtm: cannot be written: no new file can be made beside it: "
+        self.assertEqual(done.stderr, "noise.svg: out/noise.vtm: cannot be written: cannot create a temporary file in its directory: "
                          "Permission denied\n")
         self.assert_old()
 

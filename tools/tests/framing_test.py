@@ -95,6 +95,16 @@ class SingleElements(Command):
                 self.assertEqual(image.size, size)
                 self.assertEqual(set(image.getdata()), {GREEN})
 
+    def test_its_size_is_rounded_up_to_whole_pixels(self):
+        svg = self.write("s.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60">'
+                         '<rect id="it" x="10.1" y="20" width="4.3" height="2.6"/></svg>')
+        self.vtm("render", svg, "-o", "s.png", "-i", "it")
+        image = self.picture("s.png")
+        self.assertEqual(image.size, (5, 3))
+        alpha = [[image.getpixel((x, y))[3] for x in (0, 3, 4)] for y in (0, 2)]
+        for drawn, wanted in zip(sum(alpha, []), (255, 255, 255 * .3, 255 * .6, 255 * .6, 255 * .18)):
+            self.assertLessEqual(abs(drawn - wanted), 1, alpha)
+
     def test_strokes_are_in_the_bounds(self):
         self.draw("line")
         drawn = [p for p in self.picture("out.png").getdata() if p[3] > 0]
@@ -129,7 +139,7 @@ class SingleElements(Command):
     def test_what_cannot_be_drawn_is_an_error(self):
         self.assertRegex(self.draw("absent", expect=1).stderr, r'parts\.svg:1:\d+: no element has the id "absent"')
         for name in ("hidden", "far"):
-            self.assertRegex(self.draw(name, expect=1).stderr, rf"parts\.svg:\d+:\d+: #{name}: nothing of it is drawn")
+            self.assertRegex(self.draw(name, expect=1).stderr, rf"parts\.svg:\d+:\d+: #{name}: the element draws nothing")
         self.vtm("compile", self.svg, "-o", "parts.vtm")
         self.assertIn("--export-id", self.vtm("render", "parts.vtm", "-o", "o.png", "-i", "one", expect=1).stderr)
         self.draw("", expect=2)

@@ -11,7 +11,7 @@ VTM = None
 SMALL = '<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8"><rect width="8" height="8" fill="red"/></svg>'
 # Strokes that take many seconds, on line 2.
 LARGE = ('<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">\n<g>' +
-         '<circle cx="50" cy="50" r="40" fill="none" stroke="#000" stroke-dasharray=".0013 .0012"/>' * 20 +
+         '<circle cx="50" cy="50" r="40" fill="none" stroke="#000" stroke-dasharray=".0013 .0012"/>' * 200 +
          "</g></svg>")
 
 

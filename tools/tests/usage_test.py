@@ -13,7 +13,7 @@ class Proposals(Command):
                              ("inof", "info"), ("Trace", "trace")):
             self.assertIn(f"did you mean '{meant}'?", self.vtm(typed, self.svg, expect=2).stderr)
         said = self.vtm("frobnicate", expect=2).stderr
-        self.assertIn("there are render, compile, info, diff, trace", said)
+        self.assertIn("the subcommands are render, compile, info, diff, trace", said)
 
     def test_a_file_in_place_of_a_subcommand(self):
         self.assertIn("vtm render square.svg -o", self.vtm("square.svg", expect=2).stderr)
@@ -82,7 +82,7 @@ class DiffLimits(Command):
                 if code != 2:
                     self.assertIn("max: 16.00\n", done.stdout)
                 if code == 1:
-                    self.assertRegex(done.stderr, r"--(max|mean) [0-9.]+: is ")
+                    self.assertRegex(done.stderr, r"--(max|mean) [0-9.]+: exceeded, the value is ")
 
 
 if __name__ == "__main__":

@@ -37,11 +37,11 @@ constexpr double stepsPerPixel = 100;
 
 void check(const image::Bitmap& bitmap, const Options& options) {
     if (options.colors < 1 || options.colors > 256)
-        throw TraceError("colors must lie in [1, 256], not be " + std::to_string(options.colors));
+        throw TraceError("colors is " + std::to_string(options.colors) + ", not in [1, 256]");
     if (options.speckle < 0 || options.speckle > largestSpeckle)
-        throw TraceError("speckle must lie in [0, 1000000], not be " + std::to_string(options.speckle));
+        throw TraceError("speckle is " + std::to_string(options.speckle) + ", not in [0, 1000000]");
     if (!(options.smooth >= 0 && options.smooth <= smoothest))
-        throw TraceError("smooth must lie in [0, 1.3334]");
+        throw TraceError("smooth is " + std::to_string(options.smooth) + ", not in [0, 1.3334]");
     if (bitmap.width < 1 || bitmap.height < 1)
         throw TraceError("the picture is empty");
 }

@@ -1,8 +1,8 @@
 /*
- * OpenVG and VGU extensions that libOpenVG.so.1 has, the same names and values as in the Khronos registry;
+ * OpenVG and VGU extensions of libOpenVG.so.1, with the names and values of the Khronos registry;
  * vgGetString(VG_EXTENSIONS) lists them. Plain C89. All functions are exported; eglGetProcAddress and
- * vtmGetProcAddress find them too. docs/openvg_extensions.md says how places are read where a registered text
- * is silent.
+ * vtmGetProcAddress find them too. docs/openvg_extensions.md says how we resolve what the registered texts
+ * leave open.
  */
 #ifndef VTM_VG_VGEXT_H
 #define VTM_VG_VGEXT_H
@@ -23,10 +23,10 @@ extern "C" {
 
 /* ---- VG_KHR_iterative_average_blur ---- */
 
-/* Context parameters that can only be read. */
+/* Read-only context parameters. */
 typedef enum {
     VG_MAX_AVERAGE_BLUR_DIMENSION_KHR = 0x116B,
-    VG_AVERAGE_BLUR_DIMENSION_RESOLUTION_KHR = 0x116C, /* bits behind the point; -1: those of a float */
+    VG_AVERAGE_BLUR_DIMENSION_RESOLUTION_KHR = 0x116C, /* fractional bits; -1: float precision */
     VG_MAX_AVERAGE_BLUR_ITERATIONS_KHR = 0x116D,
     VG_PARAM_TYPE_KHR_FORCE_SIZE = VG_MAX_ENUM
 } VGParamTypeKHR;
@@ -34,7 +34,7 @@ typedef enum {
 #ifndef VG_KHR_iterative_average_blur
 #define VG_KHR_iterative_average_blur 1
 
-/* Means over dimX times dimY pixels, `iterative` times. */
+/* Averages `src` over dimX by dimY pixels, `iterative` times, and stores the result in `dst`. */
 #ifdef VG_VGEXT_PROTOTYPES
 VG_API_CALL void VG_API_ENTRY vgIterativeAverageBlurKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat dimY,
                                                         VGuint iterative,
@@ -51,9 +51,10 @@ typedef void(VG_API_ENTRYP PFNVGITERATIVEAVERAGEBLURKHRPROC)(VGImage dst, VGImag
 #ifndef VG_KHR_EGL_image
 #define VG_KHR_EGL_image 1
 
-/* An EGLImage, as eglCreateImage gives it for an image (EGL_VG_PARENT_IMAGE_KHR). */
+/* An EGLImage that eglCreateImage made of an OpenVG image (EGL_VG_PARENT_IMAGE_KHR). */
 typedef void *VGeglImageKHR;
 
+/* Creates an image that shares the pixels of the EGLImage. Returns VG_INVALID_HANDLE on failure. */
 #ifdef VG_VGEXT_PROTOTYPES
 VG_API_CALL VGImage VG_API_ENTRY vgCreateEGLImageTargetKHR(VGeglImageKHR image) VG_API_EXIT;
 #endif
@@ -110,8 +111,8 @@ typedef enum {
 
 typedef enum { VGU_IMAGE_IN_USE_ERROR = 0xF010, VGU_ERROR_CODE_KHR_FORCE_SIZE = VG_MAX_ENUM } VGUErrorCodeKHR;
 
-/* Offsets and distances are pixels, angles degrees. The effects of VGU blur `src` by
- * vgIterativeAverageBlurKHR; they leave vgGetError() at VG_NO_ERROR. */
+/* Offsets and distances are in pixels, angles in degrees. The VGU functions blur `src` with
+ * vgIterativeAverageBlurKHR and leave vgGetError() at VG_NO_ERROR. */
 #ifdef VG_VGEXT_PROTOTYPES
 VG_API_CALL void VG_API_ENTRY vgParametricFilterKHR(VGImage dst, VGImage src, VGImage blur, VGfloat strength,
                                                     VGfloat offsetX, VGfloat offsetY, VGbitfield filterFlags,
@@ -182,10 +183,10 @@ typedef VGUErrorCode(VGU_API_ENTRYP PFNVGUGRADIENTBEVELKHRPROC)(VGImage dst, VGI
 #ifndef VG_NDS_paint_generation
 #define VG_NDS_paint_generation 1
 
-/* Parameters of paints. */
+/* Paint parameters. */
 typedef enum {
     VG_PAINT_COLOR_RAMP_LINEAR_NDS = 0x1A10,
-    VG_COLOR_MATRIX_NDS = 0x1A11, /* 20 numbers: the columns for red, green, blue, alpha, and what is added */
+    VG_COLOR_MATRIX_NDS = 0x1A11, /* 20 floats: the columns for red, green, blue, alpha, and the constant */
     VG_PAINT_COLOR_TRANSFORM_LINEAR_NDS = 0x1A12,
     VG_PAINT_PARAM_TYPE_NDS_FORCE_SIZE = VG_MAX_ENUM
 } VGPaintParamTypeNds;
@@ -203,10 +204,10 @@ typedef enum {
 #ifndef VG_NDS_projective_geometry
 #define VG_NDS_projective_geometry 1
 
-/* Parameters of contexts. */
+/* Context parameters. */
 typedef enum {
     VG_CLIP_MODE_NDS = 0x1180,
-    VG_CLIP_LINES_NDS = 0x1181, /* numbers a, b, c of each line: where a w x + b w y + c w >= 0 is kept */
+    VG_CLIP_LINES_NDS = 0x1181, /* a, b, c of each line: points with a w x + b w y + c w >= 0 are kept */
     VG_MAX_CLIP_LINES_NDS = 0x1182,
     VG_PARAM_TYPE_NDS_FORCE_SIZE = VG_MAX_ENUM
 } VGParamTypeNds;
@@ -219,7 +220,7 @@ typedef enum {
     VG_CLIPMODE_NDS_FORCE_SIZE = VG_MAX_ENUM
 } VGClipModeNds;
 
-/* Rational curves: w0, x1, y1, w1, x2, y2, w2, and x3, y3, w3 for cubic ones. */
+/* Rational curves. Coordinates: w0, x1, y1, w1, x2, y2, w2, and x3, y3, w3 for cubic ones. */
 typedef enum {
     VG_RQUAD_TO_NDS = (13 << 1),
     VG_RCUBIC_TO_NDS = (14 << 1),
@@ -234,7 +235,7 @@ typedef enum {
     VG_PATH_COMMAND_NDS_FORCE_SIZE = VG_MAX_ENUM
 } VGPathCommandNds;
 
-/* vgProjectiveMatrixNDS is about the matrix of the current VG_MATRIX_MODE. */
+/* vgProjectiveMatrixNDS applies to the matrix of the current VG_MATRIX_MODE. */
 #ifdef VG_VGEXT_PROTOTYPES
 VG_API_CALL void VG_API_ENTRY vgProjectiveMatrixNDS(VGboolean enable) VG_API_EXIT;
 VGU_API_CALL VGUErrorCode VGU_API_ENTRY vguTransformClipLineNDS(const VGfloat Ain, const VGfloat Bin,

@@ -1,5 +1,5 @@
 /*
- * OpenVG 1.1: primitive data types and how functions are declared (specification sections 3.2 and 19).
+ * OpenVG 1.1: primitive data types and macros for declarations (specification sections 3.2 and 19).
  * Plain C89. All functions are exported by libOpenVG.so.1, those of vgu.h too.
  */
 #ifndef VTM_VG_VGPLATFORM_H
@@ -24,7 +24,7 @@
 #define VGU_API_EXIT
 #endif
 
-/* The names that the specification's own listing uses. */
+/* The names in the specification's own listing. */
 #ifndef VG_APIENTRY
 #define VG_APIENTRY VG_API_ENTRY
 #endif
@@ -46,7 +46,7 @@ typedef signed int VGint;
 typedef unsigned int VGuint;
 typedef unsigned int VGbitfield;
 
-/* The functions of vgext.h are declared, as they are exported. */
+/* Declares the functions of vgext.h, which are exported. */
 #ifndef VG_VGEXT_PROTOTYPES
 #define VG_VGEXT_PROTOTYPES
 #endif

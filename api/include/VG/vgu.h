@@ -1,6 +1,6 @@
 /*
- * VGU 1.1, OpenVG's utility library (specification section 17): shapes appended to paths, warps.
- * Plain C89. The functions stand in libOpenVG.so.1. They may change vgGetError() of the current context.
+ * VGU 1.1, OpenVG's utility library (specification section 17): functions that append shapes to paths, and warps.
+ * Plain C89. The functions are in libOpenVG.so.1. They may change vgGetError() of the current context.
  */
 #ifndef VTM_VG_VGU_H
 #define VTM_VG_VGU_H

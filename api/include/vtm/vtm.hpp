@@ -1,12 +1,12 @@
 /// \file
-/// Pictures in three lines:
+/// Loads pictures and renders them:
 ///
 ///     auto picture = vtm::Picture::load("tiger.svg");
 ///     picture.render({.width = 800}).save("tiger.png");
 ///     vtm::gl::Texture texture = picture.texture();  // with <vtm/gl/renderer.hpp>, linked with vtm::gl
 ///
-/// The parts that this puts together have headers of their own: <vtm/svg/load.hpp>,
-/// <vtm/compiler/compile.hpp>, <vtm/raster/scan.hpp>, <vtm/gl/renderer.hpp>.
+/// The stages behind it have headers of their own: <vtm/svg/load.hpp>, <vtm/compiler/compile.hpp>,
+/// <vtm/raster/scan.hpp>, <vtm/gl/renderer.hpp>.
 #pragma once
 
 #include <array>
@@ -20,6 +20,7 @@
 #include <vtm/error.hpp>
 #include <vtm/image/bitmap.hpp>
 #include <vtm/scene/fit.hpp>
+#include <vtm/text/font_options.hpp>
 
 #pragma GCC visibility push(default)
 
@@ -38,7 +39,7 @@ class Texture;
 
 using scene::Fit;
 
-/// A rectangle in user units, from (x, y), y downwards.
+/// A rectangle in user units; (x, y) is its min corner, y down.
 using Rectangle = scene::Rect;
 
 /// Straight (not premultiplied) sRGB, each channel in [0, 1].
@@ -47,31 +48,34 @@ struct Rgba {
 };
 
 struct LoadOptions {
-    std::string name = {};  ///< of bytes, for messages; files have their own
-    std::string folder =
-        {};  ///< where an SVG's relative references start; of a file, the file's; empty: none are read
+    /// Used in messages when a picture is loaded from memory; a file is named by its path.
+    std::string name = {};
+    /// Folder to which relative references of an SVG refer. Empty: the folder of the file; from memory,
+    /// relative references are not read.
+    std::string folder = {};
     double dpi = 96;              ///< pixels an inch, for lengths in physical units
-    std::string language = "en";  ///< for systemLanguage
+    std::string language = "en";  ///< of text, and for systemLanguage
+    text::FontOptions fonts = {};
 };
 
 /// The engine that draws.
 enum class Engine {
-    Auto,  ///< shaders where there is a GPU, else the CPU
+    Auto,  ///< shaders where there is a GPU, otherwise the CPU
     Cpu,
-    Gl  ///< shaders, on a software driver too
+    Gl  ///< shaders, also on a software driver
 };
 
 struct RenderOptions {
-    /// Pixels. One of them alone keeps the aspect; both: `fit` decides; neither: `scale` pixels a user unit.
+    /// Pixels, > 0. With one of them the aspect ratio is kept; with both `fit` applies; with neither `scale`.
     std::optional<int> width = {}, height = {};
-    double scale = 1;
+    double scale = 1;  ///< pixels per user unit, > 0
     Fit fit = Fit::Contain;
-    std::optional<Rectangle> view = {};  ///< the part that is shown; the whole picture by default
+    std::optional<Rectangle> view = {};  ///< the visible part; the whole picture by default
     double rotation = 0;                 ///< degrees, clockwise
-    /// In place of scale, fit, view and rotation: maps user units to pixels, y down, as SVG's matrix(a b c d
-    /// e f). It may shear and mirror. Needs width and height.
+    /// Replaces scale, fit, view and rotation: SVG's matrix(a b c d e f) from user units to pixels, y down.
+    /// It may shear and mirror. Needs width and height.
     std::optional<std::array<double, 6>> matrix = {};
-    Rgba background = {0, 0, 0, 0};
+    Rgba background = {0, 0, 0, 0};  ///< transparent by default
     Engine engine = Engine::Auto;
 };
 
@@ -80,45 +84,49 @@ class Image : public image::Bitmap {
 public:
     Engine engine = Engine::Cpu;  ///< the engine that drew it: Cpu or Gl
 
-    /// Into a file in the format of its suffix: .png, .jpg, .webp (without loss) or .ppm. JPEG and PPM have
-    /// no alpha: draw on a background for them. Written whole or not at all. Throws image::CodecError.
+    /// Writes a file in the format of its suffix: .png, .jpg, .webp (lossless) or .ppm. JPEG and PPM have no
+    /// alpha: render on an opaque background for them. On failure no file is left or changed. Throws
+    /// image::CodecError.
     void save(const std::string& path) const;
 };
 
-/// A picture: an SVG file, a compiled .vtm file or a scene. It is compiled when that is first needed, and
-/// again for views that want finer outlines than it has. Copies share all of it. Safe to use from several
-/// threads at once.
+/// A picture: an SVG file, a compiled .vtm file or a scene. It is compiled on first use, and again for views
+/// that need finer outlines. Copies share its data. All functions may be called in several threads at once.
 class Picture {
 public:
-    /// .svg, .svgz or .vtm; the bytes decide which. Throws svg::ParseError, asset::FormatError,
-    /// image::CodecError.
+    /// Loads an SVG file, gzip-compressed or not, or a .vtm file; the bytes decide which. Throws
+    /// svg::ParseError, asset::FormatError, image::CodecError.
     static Picture load(const std::string& path, const LoadOptions& options = {});
+    /// The same from memory, which is not needed afterwards.
     static Picture load(std::span<const std::uint8_t> bytes, const LoadOptions& options = {});
-    /// Throws scene::InvalidScene.
+    /// Takes a scene. Throws scene::InvalidScene.
     explicit Picture(scene::Scene scene);
-    /// The asset must be valid (asset::validate).
+    /// Takes a compiled asset, which must be valid (asset::validate).
     explicit Picture(asset::Asset asset);
 
     double width() const;   ///< user units
     double height() const;  ///< user units
 
-    /// What was left out or repaired so far, by the importer, the compiler and the engines, each once:
-    /// `file:line:column: what`, or without a place.
+    /// Returns what the importer, the compiler and the engines have left out or repaired so far, each warning
+    /// once: `file:line:column: message`, or without a place.
     std::vector<std::string> warnings() const;
 
-    /// Throws std::invalid_argument for options that contradict each other, std::length_error for more pixels
-    /// than asset::maxViewSide and maxViewPixels, compiler::LimitError, gl::GlError with Engine::Gl.
+    /// Renders the picture. Throws std::invalid_argument for options out of range or in contradiction,
+    /// std::length_error for more pixels than asset::maxViewSide and maxViewPixels, compiler::LimitError, and
+    /// gl::GlError with Engine::Gl.
     Image render(const RenderOptions& options = {}) const;
 
-    /// Returns the compiled asset for use with the library's parts, made with the default compiler::Options
-    /// (1/65536 of the longer side). Valid while a copy of the picture lives.
+    /// Returns the compiled asset, made with the default compiler::Options (tolerance 1/65536 of the longer
+    /// side), for use with the library's other headers. Valid while a copy of the picture exists. Throws
+    /// compiler::LimitError.
     const asset::Asset& asset() const;
 
-    /// Compiles the picture and writes it to a .vtm file.
+    /// Compiles the picture as asset() does and writes it to a .vtm file. Throws compiler::LimitError,
+    /// image::CodecError.
     void save(const std::string& path) const;
 
-    /// Uploads the picture to the current GL context, for drawing with gl::Texture::draw. Part of the
-    /// component gl.
+    /// Uploads the picture to the current GL context, for drawing with gl::Texture::draw. Needs the library
+    /// vtm::gl. Throws gl::GlError.
     gl::Texture texture() const;
 
 private:

@@ -32,10 +32,10 @@ struct Operands {
     float plain() const { return da > 0 ? d / da : 0; }
 };
 
-using Channel = float (*)(const Operands&);
+using ChannelBlend = float (*)(const Operands&);
 
 /// Colours are clamped to [0, alpha]; alpha is that of source over destination (section 13.4 of OpenVG 1.1).
-template <Channel channel>
+template <ChannelBlend channel>
 Color separable(Color s, Color d) {
     const float alpha = s.a + d.a * (1 - s.a);
     Color result(0, 0, 0, alpha);

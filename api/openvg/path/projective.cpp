@@ -20,7 +20,7 @@ constexpr double pixelTolerance = 1.0 / 256;
 /// Around what is drawn: lines along the border of the view must not touch its pixels.
 constexpr double viewMargin = 2;
 /// Of a curve where it meets a line; halving as often leaves nothing between.
-constexpr int maxHalvings = 50;
+constexpr int maxProjectedHalvings = 50;
 
 /// Numbers of Bernstein's form over [first, last].
 struct Values {
@@ -62,7 +62,7 @@ void addRoots(const Values& values, int halvings, std::vector<double>& roots) {
                         (values.last - values.first) * values.at[0] / (values.at[0] - values.at[1]));
         return;
     }
-    if (halvings == maxHalvings) {
+    if (halvings == maxProjectedHalvings) {
         roots.push_back(values.first);
         return;
     }

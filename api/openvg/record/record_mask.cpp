@@ -4,6 +4,7 @@
 
 #include "api/openvg/draw/draw_path.hpp"
 #include "api/openvg/draw/path_masks.hpp"
+#include "api/openvg/record/record_paint.hpp"
 
 namespace vtm::openvg {
 
@@ -63,12 +64,6 @@ scene::Node alphaOf(const RecordedMask& mask, const PicturePath& picture) {
         group.children.push_back(white(picture));
     group.clip = mask.clip;
     return {std::move(group)};
-}
-
-std::shared_ptr<const scene::Group> groupOf(scene::Node node) {
-    scene::Group group;
-    group.children.push_back(std::move(node));
-    return std::make_shared<scene::Group>(std::move(group));
 }
 
 void append(scene::Clip& result, const std::shared_ptr<const scene::Clip>& clip, const PicturePath& picture) {

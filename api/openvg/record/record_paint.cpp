@@ -165,12 +165,6 @@ std::shared_ptr<const scene::Path> rectangle(double width, double height) {
     return std::make_shared<scene::Path>(scene::rectangle({0, 0}, {width, height}));
 }
 
-std::shared_ptr<const scene::Group> groupOf(scene::Node node) {
-    scene::Group group;
-    group.children.push_back(std::move(node));
-    return std::make_shared<scene::Group>(std::move(group));
-}
-
 /// One period of a repeated or mirrored image. A border of a pixel holds what comes next, for filters to
 /// reach into.
 scene::Pattern tiles(const Image& image, bool isMirrored, const scene::ImageFilter filter,
@@ -232,6 +226,12 @@ bool isOpaque(const scene::Paint& paint) {
 }
 
 }  // namespace
+
+std::shared_ptr<const scene::Group> groupOf(scene::Node node) {
+    scene::Group group;
+    group.children.push_back(std::move(node));
+    return std::make_shared<scene::Group>(std::move(group));
+}
 
 std::shared_ptr<const image::Bitmap> Bitmaps::add(image::Bitmap bitmap) {
     const auto known = std::ranges::find_if(bitmaps_, [&](const auto& b) {

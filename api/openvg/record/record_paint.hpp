@@ -29,6 +29,9 @@ scene::Affine affineOf(const glm::mat3& matrix);
 /// A colour that a program gave, clamped, not transformed.
 scene::Color clearColor(const State& state);
 
+/// A group of one node.
+std::shared_ptr<const scene::Group> groupOf(scene::Node node);
+
 /// What shows where `shape` is inside: an item, or for patterns with a colour around them two in one place.
 scene::Node painted(const scene::Shape& shape, const Paint& paint, const scene::Affine& paintToUser,
                     const State& state, Bitmaps& bitmaps);

@@ -9,7 +9,7 @@ using namespace vtm::openvg;
 
 namespace {
 
-bool isVector(VGint type) {
+bool isVectorType(VGint type) {
     return type == VG_PAINT_COLOR || type == VG_PAINT_COLOR_RAMP_STOPS || type == VG_PAINT_LINEAR_GRADIENT ||
            type == VG_PAINT_RADIAL_GRADIENT || type == VG_COLOR_MATRIX_NDS;
 }
@@ -138,7 +138,7 @@ void setIn(Paint& paint, VGint type, const Values& v) {
 
 void set(Context& context, VGHandle handle, VGint type, const Values& v) {
     get(context, handle, type);  // throws for what is no parameter of the object
-    require(isVector(type) || v.size() == 1);
+    require(isVectorType(type) || v.size() == 1);
     // All that other objects have can only be read.
     if (const std::shared_ptr<Paint> paint = context.objects->find<Paint>(handle))
         setIn(*paint, type, v);
@@ -148,7 +148,7 @@ template <class T>
 void setScalar(VGHandle object, VGint type, T value) {
     call([&](Context& context) {
         context.objects->get<Object>(object);
-        require(!isVector(type));
+        require(!isVectorType(type));
         set(context, object, type, {double(value)});
     });
 }
@@ -163,7 +163,7 @@ void setVector(VGHandle object, VGint type, VGint count, const T* values) {
 
 double getScalar(const Context& context, VGHandle object, VGint type) {
     const Values values = get(context, object, type);
-    require(!isVector(type));
+    require(!isVectorType(type));
     return values[0];
 }
 

@@ -1,11 +1,11 @@
-"""Vector pictures: SVG or compiled .vtm files in, NumPy arrays of pixels out.
+"""Loads SVG or compiled .vtm files and renders them to NumPy arrays.
 
     import vtm
     picture = vtm.Picture.load("tiger.svg")
     picture.render(width=800).save("tiger.png")
     array = picture.render(width=64, view=(100, 100, 20, 20)).array   # (height, width, 4), uint8
 
-It is <vtm/vtm.h>, whose comments say more, through ctypes.
+It calls <vtm/vtm.h> through ctypes; the comments there say more.
 """
 import ctypes
 import os
@@ -17,7 +17,7 @@ __all__ = ["Error", "Image", "Picture", "version"]
 
 
 class Error(Exception):
-    """What the library refuses, with the place and the cause."""
+    """A failure of the library; the message names the place and the cause."""
 
 
 class _RenderOptions(ctypes.Structure):
@@ -52,7 +52,7 @@ _FUNCTIONS = {  # results and arguments
 
 
 def _open():
-    """The library of the installation that this module belongs to, or the one that the loader finds."""
+    """Returns the library installed with this module, otherwise the one that the loader finds."""
     name = "libvtm.so.0"
     beside = pathlib.Path(__file__).resolve().parents[3] / name  # LIB/python3/dist-packages/vtm
     library = ctypes.CDLL(str(beside) if beside.exists() else name)
@@ -73,17 +73,17 @@ def _checked(result):
 
 def _choice(names, name, what):
     if name not in names:
-        raise ValueError(f"{what}: {name!r} is none of {', '.join(names)}")
+        raise ValueError(f"{what}: {name!r} is not one of {', '.join(names)}")
     return names.index(name)
 
 
 def version():
-    """As "0.2.0"."""
+    """Returns the version, for example "0.2.0"."""
     return _library.vtmVersion().decode()
 
 
 class Image:
-    """What was drawn. It is made by Picture.render."""
+    """A rendered image, made by Picture.render."""
 
     def __init__(self, handle):
         self._handle = handle
@@ -93,7 +93,7 @@ class Image:
 
     @property
     def engine(self):
-        """Who drew it: "cpu" or "gl"."""
+        """The engine that drew it: "cpu" or "gl"."""
         return _ENGINES[_library.vtmImageEngine(self._handle)]
 
     @property
@@ -104,7 +104,7 @@ class Image:
         return numpy.frombuffer(pixels, numpy.uint8).reshape(height, width, 4).copy()
 
     def save(self, path):
-        """In the format of its suffix: .png, .jpg, .webp, .ppm."""
+        """Writes a file in the format of its suffix: .png, .jpg, .webp or .ppm."""
         _checked(_library.vtmSaveImage(self._handle, os.fsencode(path)))
 
 
@@ -119,7 +119,7 @@ class Picture:
 
     @classmethod
     def load(cls, source, name=None):
-        """A path, or the bytes of a file, which `name` stands for in messages. Raises Error."""
+        """Loads a file: a path, or the bytes of a file, which messages call `name`. Raises Error."""
         if isinstance(source, (bytes, bytearray, memoryview)):
             data = bytes(source)
             handle = _library.vtmLoadPictureFromMemory(data, len(data), os.fsencode(name or ""))
@@ -129,17 +129,17 @@ class Picture:
 
     @property
     def width(self):
-        """User units."""
+        """In user units."""
         return _library.vtmPictureWidth(self._handle)
 
     @property
     def height(self):
-        """User units."""
+        """In user units."""
         return _library.vtmPictureHeight(self._handle)
 
     @property
     def warnings(self):
-        """What was left out or repaired so far."""
+        """A list of strings: what was left out or repaired so far."""
         return [self._warning(i) for i in range(_library.vtmPictureWarningCount(self._handle))]
 
     def _warning(self, index):
@@ -150,10 +150,11 @@ class Picture:
 
     def render(self, *, width=0, height=0, scale=1, fit="contain", view=None, rotation=0, matrix=None,
                background=(0, 0, 0, 0), engine="auto"):
-        """One of width and height alone keeps the aspect; both: `fit` decides ("contain", "cover", "stretch"); neither:
-        `scale` pixels a user unit. view: (x, y, width, height) of the part that is shown, user units. rotation: degrees,
-        clockwise. matrix: in place of these, (a, b, c, d, e, f) as in SVG. background: straight sRGB and alpha in
-        [0, 1]. engine: "auto", "cpu", "gl". Returns an Image; raises Error."""
+        """Returns an Image; raises Error. width, height: pixels; with one of them the aspect ratio is kept, with both
+        `fit` applies ("contain", "cover", "stretch"), with neither `scale`, in pixels per user unit. view: (x, y, width,
+        height) of the visible part, user units. rotation: degrees, clockwise. matrix: replaces scale, fit, view and
+        rotation, (a, b, c, d, e, f) as in SVG. background: straight sRGB and alpha in [0, 1]. engine: "auto", "cpu",
+        "gl"."""
         for what, given in {"scale": (scale,), "view": view, "matrix": matrix}.items():
             if given is not None and not any(given):  # which would mean none to the library
                 raise ValueError(f"{what} is zero")
@@ -162,5 +163,5 @@ class Picture:
         return Image(_checked(_library.vtmRenderPicture(self._handle, ctypes.byref(options))))
 
     def save(self, path):
-        """Compiled, as a .vtm file."""
+        """Compiles the picture and writes it to a .vtm file. Raises Error."""
         _checked(_library.vtmSavePicture(self._handle, os.fsencode(path)))

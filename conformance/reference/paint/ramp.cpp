@@ -26,9 +26,9 @@ std::vector<scene::GradientStop> mirrored(std::vector<scene::GradientStop> stops
 
 Colour straight(const scene::Color& c) { return {c.r, c.g, c.b, c.a}; }
 
-Colour premultiplied(const Colour& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
-
 }  // namespace
+
+Colour premultiplied(const Colour& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
 
 Colour premultiplied(const scene::Color& color) { return premultiplied(straight(color)); }
 

@@ -9,6 +9,7 @@
 
 namespace vtm::reference {
 
+Colour premultiplied(const Colour& straight);
 Colour premultiplied(const scene::Color& color);
 
 class Ramp {

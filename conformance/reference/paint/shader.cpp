@@ -7,8 +7,6 @@
 namespace vtm::reference {
 namespace {
 
-Colour premultiplied(const Colour& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
-
 Colour texel(const image::Bitmap& bitmap, double x, double y) {
     const auto column = std::size_t(std::fmin(std::fmax(x, 0.0), bitmap.width - 1.0));
     const auto row = std::size_t(std::fmin(std::fmax(y, 0.0), bitmap.height - 1.0));

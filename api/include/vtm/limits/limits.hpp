@@ -30,6 +30,8 @@ namespace vtm::limits {
 struct Place {
     std::uint32_t line = 0, column = 0;
     const char* element = "";  ///< the element's name, a string with static storage duration
+    std::uint32_t character =
+        0;  ///< of a glyph: its first character in the `text` element, from 1; 0: no glyph
 };
 
 enum class Limit { Seconds, Memory, Cancelled };

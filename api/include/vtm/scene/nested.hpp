@@ -1,6 +1,6 @@
 /// \file
-/// How parts of a scene hold parts of their own kind. A scene may be nested a million levels deep before
-/// anybody looks at it, so what is nested is destroyed by a loop: the stack stays flat.
+/// Link, the shared pointer between nested parts of a scene. Nested parts are destroyed in a loop, not by
+/// recursion: an importer may build a scene that is a million levels deep before validate() rejects it.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,12 @@
 namespace vtm::scene {
 
 namespace detail {
-/// Destroys the part, if it is the last link to it, and the parts that it holds, one after the other.
+/// Gives up the part. If this was its last owner, destroys it and then, one after the other, the parts that
+/// it was the last owner of.
 void release(std::shared_ptr<const void> part) noexcept;
 }  // namespace detail
 
-/// A shared_ptr whose part may hold links again.
+/// A shared_ptr to an immutable part that may contain links itself. May be null.
 template <class Part>
 class Link : public std::shared_ptr<const Part> {
     using Base = std::shared_ptr<const Part>;

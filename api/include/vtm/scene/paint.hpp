@@ -1,5 +1,6 @@
 /// \file
-/// Paints: what fills a shape. Source: SVG 2 section 14, OpenVG 1.1 section 9.
+/// Paints, which give a shape its colour. `transform` of each paint maps the paint's own space to the path's
+/// space, before the item's transform. Source: SVG 2 section 14, OpenVG 1.1 section 9.
 #pragma once
 
 #include <cstddef>
@@ -25,67 +26,69 @@ struct Color {
     friend bool operator==(const Color&, const Color&) = default;
 };
 
+/// How a gradient continues beyond offsets 0 and 1 (SVG's spreadMethod).
 enum class Spread { Pad, Reflect, Repeat };
 
-/// Offsets in [0, 1], not decreasing. Colours are interpolated straight, in sRGB bytes.
+/// Colours are interpolated straight (not premultiplied), as sRGB-encoded values.
 struct GradientStop {
-    float offset;
+    float offset;  ///< in [0, 1], not below that of the stop before
     Color color;
 };
 
-/// `transform` of each paint maps the paint's own space to the path's space (before the item's
-/// transform).
-
+/// Offset 0 at `start`, 1 at `end`, constant perpendicular to the line between them.
 struct LinearGradient {
-    Point start, end;                 ///< distinct
-    std::vector<GradientStop> stops;  ///< at least two; fewer are a Solid
+    Point start, end;                 ///< must differ
+    std::vector<GradientStop> stops;  ///< at least two; with fewer, use a Color
     Spread spread = Spread::Pad;
     Affine transform = identity;
 };
 
 /// SVG 2's two circles: offset 0 on the focal circle, 1 on the end circle.
 struct RadialGradient {
-    Point center;
-    double radius;           ///< > 0
-    Point focus;             ///< strictly inside the end circle
-    double focalRadius = 0;  ///< in [0, radius)
-    std::vector<GradientStop> stops;
+    Point center;                     ///< of the end circle
+    double radius;                    ///< > 0
+    Point focus;                      ///< strictly inside the end circle
+    double focalRadius = 0;           ///< in [0, radius)
+    std::vector<GradientStop> stops;  ///< at least two
     Spread spread = Spread::Pad;
     Affine transform = identity;
 };
 
-/// A group repeated with the period of a rectangle, clipped to it in each tile.
+/// A group that is repeated with the period of the tile, and clipped to the tile in each repetition.
 struct Pattern {
-    Point min, max;       ///< the tile, in pattern space; max > min in both axes
-    Link<Group> content;  ///< absolute in pattern space
+    Point min, max;       ///< the tile, in pattern space; max > min on both axes
+    Link<Group> content;  ///< not null; its transforms are absolute in pattern space
     Affine transform = identity;
 };
 
-/// How a bitmap is read at a pixel. All interpolate premultiplied colours; docs/scene.md has the formulas.
+/// How a bitmap is sampled. All filters interpolate premultiplied colours; docs/scene.md has the formulas.
 enum class ImageFilter {
-    Nearest,    ///< the bitmap's pixel at the point
-    Bilinear,   ///< of the 2 × 2 pixels next to the point; aliases where the bitmap is shown smaller
-    Trilinear,  ///< the same while magnified; smaller, between levels of means over 2^l × 2^l pixels
-    Bicubic     ///< as Trilinear, but with Catmull-Rom's 4 × 4 kernel where the bitmap itself is read
+    Nearest,    ///< the pixel at the point
+    Bilinear,   ///< interpolates the 2 × 2 nearest pixels; aliases when minified
+    Trilinear,  ///< Bilinear when magnified; when minified, between levels of means over 2^l × 2^l pixels
+    Bicubic     ///< as Trilinear, but the bitmap itself is read with a Catmull-Rom kernel of 4 × 4 pixels
 };
 
-/// A bitmap laid with pixel (0, 0)'s outer corner on the origin, one unit a pixel; beyond its
-/// border the border pixels go on.
+/// A bitmap at one unit per pixel, the outer corner of pixel (0, 0) at the origin. Beyond the border the
+/// border pixels are repeated.
 struct ImagePaint {
-    std::shared_ptr<const image::Bitmap> bitmap;
+    std::shared_ptr<const image::Bitmap> bitmap;  ///< not null, not empty; must not change while it is shared
     ImageFilter filter = ImageFilter::Trilinear;
     Affine transform = identity;
 };
 
-/// A procedural paint: GLSL ES 3.00 that the GL backend compiles into its fragment shaders. The text defines
+/// A procedural paint in GLSL ES 3.00, which the GL backend compiles into its fragment shaders. The text
+/// defines
 ///     vec4 NAME(vec2 p)
-/// with the material's name: the premultiplied colour at point p of the material's own space. Functions
-/// beside it share one name space with those of the picture's other materials; derivatives are undefined in
-/// it.
+/// with the material's name, which returns the premultiplied colour at point p of the material's own space.
+/// Other functions in the text share one name space with those of the picture's other materials. Derivatives
+/// (dFdx) are undefined.
 struct Material {
-    std::string name;  ///< a letter, then letters, digits and single underscores; one text a name in a scene
-    std::string glsl;  ///< without zero bytes
-    Color fallback;    ///< where no GLSL runs
+    /// A letter, then letters, digits and single underscores, not beginning with gl_; at most maxMaterialName
+    /// bytes. Materials of a scene with the same name must have the same text.
+    std::string name;
+    std::string glsl;  ///< at most maxMaterialText bytes, none of them zero
+    Color fallback;    ///< the colour where no GLSL runs
     Affine transform = identity;
 };
 inline constexpr std::size_t maxMaterialName = 64, maxMaterialText = 65536;  ///< bytes

@@ -1,8 +1,8 @@
 /// \file
-/// Paths: the outlines that everything else is made of.
+/// Paths: outlines of items, clips and masks.
 ///
-/// Coordinates are doubles in the user space of whoever owns the path (y down, as in SVG); no unit
-/// is attached. Commands carry absolute points. Source: SVG 2 section 9.3, OpenVG 1.1 section 8.
+/// Coordinates are finite doubles in the space of the path's owner, without a unit, y down as in SVG.
+/// Commands have absolute points. Source: SVG 2 section 9.3, OpenVG 1.1 section 8.
 #pragma once
 
 #include <optional>
@@ -17,6 +17,7 @@ namespace vtm::scene {
 
 using Point = glm::dvec2;
 
+/// Starts a subpath.
 struct MoveTo {
     Point to;
 };
@@ -29,33 +30,32 @@ struct QuadTo {
 struct CubicTo {
     Point control1, control2, to;
 };
-/// Elliptical arc in SVG's endpoint form: radii along the ellipse's own axes (either sign; zero
-/// means a straight line), `rotation` of its x axis in radians. Radii too small for the chord are
-/// scaled up uniformly (SVG 2 section 9.5.1).
+/// Elliptical arc in SVG's endpoint form (SVG 2 section 9.5.1). Radii that are too small for the chord are
+/// scaled up uniformly; equal end points draw nothing.
 struct ArcTo {
-    Point radii;
-    double rotation;
-    bool largeArc;
-    bool sweep;
+    Point radii;      ///< along the ellipse's own axes; the sign is ignored, and 0 makes a straight line
+    double rotation;  ///< of the ellipse's x axis, radians
+    bool largeArc;    ///< the arc of more than half the ellipse
+    bool sweep;       ///< in the direction from the positive x axis to the positive y axis
     Point to;
 };
-/// A straight line back to the subpath's start; strokes join there instead of capping.
+/// A straight line back to the subpath's start. Strokes have a join there instead of two caps.
 struct Close {};
 
 using Command = std::variant<MoveTo, LineTo, QuadTo, CubicTo, ArcTo, Close>;
 
-/// A list of subpaths. Valid if empty or if it begins with MoveTo; after Close a command other than
-/// MoveTo starts a new subpath at the closed one's start.
+/// A list of subpaths. It must be empty or begin with MoveTo. After Close, a command other than MoveTo starts
+/// a new subpath at the start of the closed one.
 using Path = std::vector<Command>;
 
 enum class FillRule { NonZero, EvenOdd };
 
-/// Corner-to-corner rectangle, as a closed subpath.
+/// Returns the rectangle with these corners as a closed subpath.
 Path rectangle(Point min, Point max);
-/// A closed subpath through the points, of which there is at least one.
+/// Returns a closed subpath through the points. There must be at least one.
 Path polygon(const std::vector<Point>& points);
 
-/// Where the command ends; nothing for Close, which does not name its place.
+/// Returns the command's end point; nullopt for Close, which has none of its own.
 std::optional<Point> endOf(const Command& command);
 
 }  // namespace vtm::scene

@@ -9,20 +9,20 @@
 namespace vtm::scene {
 
 enum class Cap { Butt, Round, Square };
-/// MiterClip cuts a mitre at the limit instead of turning it into a bevel (SVG 2).
+/// A mitre beyond the limit becomes a bevel with Miter; with MiterClip it is cut at the limit (SVG 2).
 enum class Join { Miter, MiterClip, Round, Bevel };
 
-/// Lengths are in the path's own space, before the item's transform: a stroke is made first and
-/// transformed after.
+/// Lengths are in the path's own space: the stroke is made first and then transformed by the item's
+/// transform. All numbers must be finite.
 struct StrokeStyle {
     double width = 1;  ///< > 0
     Cap cap = Cap::Butt;
     Join join = Join::Miter;
-    double miterLimit = 4;  ///< >= 1: mitre length / stroke width
-    /// Lengths of dash, gap, dash, … repeated; an odd list is already doubled by the importer. Empty:
-    /// solid. Each >= 0, the sum > 0.
+    double miterLimit = 4;  ///< max of mitre length / stroke width, >= 1
+    /// Lengths of dash, gap, dash, … which repeat. Their number is even (importers double odd lists), each is
+    /// >= 0, and their sum is > 0. Empty: a solid stroke.
     std::vector<double> dashes;
-    double dashPhase = 0;  ///< where in the pattern each subpath starts
+    double dashPhase = 0;  ///< the position in the pattern at which each subpath starts
     friend bool operator==(const StrokeStyle&, const StrokeStyle&) = default;
 };
 

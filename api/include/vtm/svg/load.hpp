@@ -11,6 +11,7 @@
 #include <vtm/error.hpp>
 #include <vtm/scene/fit.hpp>
 #include <vtm/scene/scene.hpp>
+#include <vtm/text/font_options.hpp>
 
 #pragma GCC visibility push(default)
 
@@ -36,8 +37,9 @@ private:
 /// not one of its own. The picture is drawn without it.
 struct Warning {
     enum class Kind {
-        Text,       ///< not drawn yet; one warning for all of a document and its images, at the first
-        Filter,     ///< the same of elements with filters, which are drawn without
+        Filter,     ///< elements with filters, which are drawn without; one warning for all of a document and
+                    ///< its images, at the first
+        Font,       ///< a family that is not there or a font that cannot be used: another one is
         Element,    ///< another element that is not drawn
         Value,      ///< an attribute, a property or path data that cannot be read or drawn
         Reference,  ///< to nothing, to the wrong thing, in a circle; an image that cannot be drawn
@@ -62,11 +64,7 @@ struct Options {
     /// The size, in user units, of a document that has neither width and height nor a viewBox; and the
     /// viewport in which a root width or height in percent resolves.
     double defaultWidth = 100, defaultHeight = 100;
-    // Text (a later issue) will take its font options from here.
-    std::vector<std::string> fontDirectories;
-    bool systemFonts = true;
-    std::string serifFamily = "Times New Roman", sansSerifFamily = "Arial", cursiveFamily = "Comic Sans MS",
-                fantasyFamily = "Impact", monospaceFamily = "Courier New", defaultFamily = "Times New Roman";
+    text::FontOptions fonts;
     double defaultFontSize = 12;
 };
 

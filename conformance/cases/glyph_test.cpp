@@ -1,0 +1,161 @@
+// Glyphs of Debian's fonts against the reference, at sizes from 6 to 500 px and at random angles. Some of
+// them by default; all, at every angle, with VTM_GLYPHS=all in the environment.
+#include <gtest/gtest.h>
+#include <hb.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include "conformance/cases/support.hpp"
+#include "conformance/compare/compare.hpp"
+#include "conformance/reference/reference.hpp"
+#include "text/font_set.hpp"
+
+namespace vtm::cases {
+namespace {
+
+using scene::Affine;
+using scene::Point;
+
+constexpr double sizes[]{6, 8, 12, 16, 48, 500};
+constexpr double compiledSize = 500;
+constexpr int angles = 20;
+constexpr double maxError = 4, maxRms = 0.5;  // in 1/255
+/// Words of Arabic calligraphy are drawn at the sizes at which they are no longer than this, in pixels.
+constexpr double maxLength = 4096;
+
+bool isAll() {
+    const char* wanted = std::getenv("VTM_GLYPHS");
+    return wanted && std::string(wanted) == "all";
+}
+
+struct Bounds {
+    Point min{HUGE_VAL}, max{-HUGE_VAL};
+
+    void add(Point p) {
+        min = {std::min(min.x, p.x), std::min(min.y, p.y)};
+        max = {std::max(max.x, p.x), std::max(max.y, p.y)};
+    }
+};
+
+/// Controls included.
+Bounds boundsOf(const scene::Path& path) {
+    Bounds bounds;
+    for (const scene::Command& command : path) {
+        if (const auto end = scene::endOf(command))
+            bounds.add(*end);
+        if (const auto* quad = std::get_if<scene::QuadTo>(&command))
+            bounds.add(quad->control);
+        if (const auto* cubic = std::get_if<scene::CubicTo>(&command)) {
+            bounds.add(cubic->control1);
+            bounds.add(cubic->control2);
+        }
+    }
+    return bounds;
+}
+
+/// The glyph at compiledSize, alone.
+scene::Scene sceneOf(const text::Font& font, const std::shared_ptr<const scene::Path>& path) {
+    const double scale = compiledSize / font.unitsPerEm();
+    const Bounds bounds = boundsOf(*path);
+    scene::Item item;
+    item.path = path;
+    item.transform =
+        scene::compose(scene::scaling(scale, scale), scene::translation(-bounds.min.x, -bounds.min.y));
+    item.geometry = scene::FillRule::NonZero;
+    item.paint = scene::Color{};
+    scene::Scene scene;
+    scene.width = std::max(1.0, scale * (bounds.max.x - bounds.min.x));
+    scene.height = std::max(1.0, scale * (bounds.max.y - bounds.min.y));
+    scene.root.children = {{item}};
+    return scene;
+}
+
+/// The whole glyph, at a size in pixels, turned about its corner.
+asset::View viewOf(const scene::Scene& scene, double size, double angle) {
+    const double c = std::cos(angle) * size / compiledSize, s = std::sin(angle) * size / compiledSize;
+    const Affine turned{c, s, -s, c, 0, 0};
+    Bounds bounds;
+    for (const Point corner :
+         {Point(0, 0), Point(scene.width, 0), Point(0, scene.height), Point(scene.width, scene.height)})
+        bounds.add(scene::apply(turned, corner));
+    asset::View view;
+    view.width = int(std::ceil(bounds.max.x - bounds.min.x)) + 1;
+    view.height = int(std::ceil(bounds.max.y - bounds.min.y)) + 1;
+    view.toPixels = scene::compose(scene::translation(-bounds.min.x, -bounds.min.y), turned);
+    return view;
+}
+
+class Glyphs : public testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override {
+        text::FontQuery query;
+        query.families = {GetParam()};
+        if (!set_.hasFamily(GetParam()))
+            GTEST_SKIP() << "the font " << GetParam() << " is absent";
+        font_ = set_.primary(query);
+    }
+
+    void expectAgreement(text::GlyphId glyph, std::mt19937& random) {
+        const auto path = font_->outlineOf(glyph);
+        const scene::Scene scene = path ? sceneOf(*font_, path) : scene::Scene{};
+        if (!path)
+            return;
+        const asset::Asset asset = compiler::compile(scene).asset;
+        std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
+        const double length = std::max(scene.width, scene.height) / compiledSize;
+        for (const double size : sizes)
+            for (int i = 0; length * size <= maxLength && i < (isAll() ? angles : 1); ++i)
+                expectAgreement(glyph, scene, asset, size, turn(random));
+    }
+
+    void expectAgreement(text::GlyphId glyph, const scene::Scene& scene, const asset::Asset& asset,
+                         double size, double angle) {
+        const asset::View view = viewOf(scene, size, angle);
+        const image::Raster drawn = asset::evaluate(asset, view);
+        const image::Raster expected =
+            reference::render(scene, {view.width, view.height, view.toPixels}, {.samples = 1});
+        const compare::Difference d = compare::compare(drawn, expected);
+        EXPECT_LE(d.max, maxError) << "glyph " << glyph << " at " << size << " px, angle " << angle;
+        EXPECT_LE(d.rms, maxRms) << "glyph " << glyph << " at " << size << " px, angle " << angle;
+        worst_ = std::max(worst_, d.max);
+        worstRms_ = std::max(worstRms_, d.rms);
+        ++count_;
+    }
+
+    text::FontSet set_{text::FontOptions{}};
+    std::shared_ptr<const text::Font> font_;
+    double worst_ = 0, worstRms_ = 0;
+    int count_ = 0;
+};
+
+TEST_P(Glyphs, AreThoseOfTheReference) {
+    constexpr unsigned someGlyphs = 30;
+    const unsigned glyphs = hb_face_get_glyph_count(hb_font_get_face(font_->harfbuzz()));
+    const unsigned step = isAll() ? 1 : std::max(1u, glyphs / someGlyphs);
+    std::mt19937 random(15);
+    for (text::GlyphId glyph = 0; glyph < glyphs; glyph += step)
+        expectAgreement(glyph, random);
+    RecordProperty("views", count_);
+    RecordProperty("max255", std::to_string(worst_));
+    RecordProperty("rms255", std::to_string(worstRms_));
+    EXPECT_GT(count_, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Debian, Glyphs,
+                         testing::Values("DejaVu Serif", "DejaVu Sans", "DejaVu Sans Mono", "Amiri",
+                                         "WenQuanYi Micro Hei"),
+                         [](const auto& info) {
+                             std::string name;
+                             for (const char c : std::string(info.param))
+                                 if (c != ' ')
+                                     name += c;
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace vtm::cases

@@ -1,0 +1,181 @@
+#include "svg/text/chunks.hpp"
+
+#include <algorithm>
+
+namespace vtm::svg {
+namespace {
+
+/// The control characters around an element's text. Source: CSS Writing Modes 4 section 2.4.2.
+struct Controls {
+    std::u32string_view open, close;
+};
+
+Controls controlsOf(const Style& style) {
+    const bool rtl = style.rightToLeft;
+    switch (style.unicodeBidi) {
+        case UnicodeBidi::Normal:
+            break;
+        case UnicodeBidi::Embed:
+            return {rtl ? U"\u202b" : U"\u202a", U"\u202c"};
+        case UnicodeBidi::Isolate:
+            return {rtl ? U"\u2067" : U"\u2066", U"\u2069"};
+        case UnicodeBidi::Override:
+            return {rtl ? U"\u202e" : U"\u202d", U"\u202c"};
+        case UnicodeBidi::IsolateOverride:
+            return {rtl ? U"\u2068\u202e" : U"\u2068\u202d", U"\u202c\u2069"};
+        case UnicodeBidi::Plaintext:
+            return {U"\u2068", U"\u2069"};
+    }
+    return {};
+}
+
+/// Makes the line of one chunk, and remembers which of its characters are the content's.
+class LineBuilder {
+public:
+    static constexpr std::size_t control = static_cast<std::size_t>(-1);
+
+    LineBuilder(const TextContent& content, const std::vector<ElementFont>& fonts, bool vertical)
+        : content_(content), fonts_(fonts) {
+        line_.rightToLeft = content.elements.front().scope.style.rightToLeft;
+        line_.vertical = vertical;
+    }
+
+    void add(std::size_t index) {
+        const TextCharacter& character = content_.characters[index];
+        enter(character.element);
+        append(character.code, index, character.element);
+    }
+    /// Closes all elements.
+    void finish() { leaveTo(0); }
+
+    const text::Line& line() const { return line_; }
+    /// The content's character behind one of the line's, or `control`.
+    std::size_t origin(std::size_t position) const { return origins_[position]; }
+
+private:
+    void enter(int element) {
+        std::vector<int> chain;  // outermost last
+        for (int e = element; e >= 0; e = content_.elements[static_cast<std::size_t>(e)].parent)
+            chain.push_back(e);
+        std::size_t shared = 0;
+        while (shared < open_.size() && shared < chain.size() &&
+               open_[shared] == chain[chain.size() - 1 - shared])
+            ++shared;
+        leaveTo(shared);
+        for (std::size_t i = shared; i < chain.size(); ++i) {
+            const int opened = chain[chain.size() - 1 - i];
+            open_.push_back(opened);
+            appendControls(controls(opened).open, opened);
+        }
+    }
+
+    void leaveTo(std::size_t depth) {
+        while (open_.size() > depth) {
+            appendControls(controls(open_.back()).close, open_.back());
+            open_.pop_back();
+        }
+    }
+
+    Controls controls(int element) const {
+        return controlsOf(content_.elements[static_cast<std::size_t>(element)].scope.style);
+    }
+
+    void appendControls(std::u32string_view text, int element) {
+        for (const char32_t code : text)
+            append(code, control, element);
+    }
+
+    void append(char32_t code, std::size_t origin, int element) {
+        if (line_.spans.empty() || element != spanElement_)
+            line_.spans.push_back(spanOf(element));
+        spanElement_ = element;
+        line_.text.push_back(code);
+        origins_.push_back(origin);
+        line_.spans.back().end = line_.text.size();
+    }
+
+    text::Span spanOf(int element) const {
+        const ElementFont& font = fonts_[static_cast<std::size_t>(element)];
+        const TextElement& text = content_.elements[static_cast<std::size_t>(element)];
+        return {0, font.query, font.features, text.language, text.scope.style.textOrientation};
+    }
+
+    const TextContent& content_;
+    const std::vector<ElementFont>& fonts_;
+    text::Line line_;
+    std::vector<std::size_t> origins_;
+    std::vector<int> open_;
+    int spanElement_ = -1;
+};
+
+bool startsChunk(const TextContent& content, std::size_t index) {
+    const TextCharacter& character = content.characters[index];
+    if (index == 0)
+        return true;
+    const auto path = [&](std::size_t i) {
+        return content.elements[static_cast<std::size_t>(content.characters[i].element)].path;
+    };
+    return path(index) != path(index - 1) || ((character.x || character.y) && !text::isMark(character.code));
+}
+
+bool isWordSeparator(char32_t code) { return code == ' ' || code == 0xa0; }
+
+/// Nothing for clusters of control characters alone.
+std::optional<ShapedCluster> fromLine(text::Cluster& cluster, const LineBuilder& builder,
+                                      const TextContent& content, const std::vector<ElementFont>& fonts,
+                                      std::size_t chunk) {
+    ShapedCluster made;
+    for (std::size_t i = cluster.first; i < cluster.first + cluster.count; ++i)
+        if (const std::size_t origin = builder.origin(i); origin != LineBuilder::control) {
+            made.first = made.count == 0 ? origin : made.first;
+            made.count = origin - made.first + 1;
+        }
+    if (made.count == 0)
+        return std::nullopt;
+    const TextCharacter& character = content.characters[made.first];
+    const TextElement& element = content.elements[static_cast<std::size_t>(character.element)];
+    made.element = character.element;
+    made.chunk = chunk;
+    made.glyphs = std::move(cluster.glyphs);
+    made.sideways = cluster.sideways;
+    made.glyphAdvance = cluster.advance * fonts[static_cast<std::size_t>(character.element)].size;
+    made.advance = made.glyphAdvance + (isWordSeparator(character.code) ? element.wordSpacing : 0);
+    made.advance += cluster.cursive ? 0 : element.letterSpacing;
+    return made;
+}
+
+/// CSS Text 4 section 8.2: none after the last character.
+void removeLastLetterSpacing(std::vector<ShapedCluster>& clusters, std::size_t chunkStart,
+                             const TextContent& content) {
+    const auto last =
+        std::max_element(clusters.begin() + static_cast<std::ptrdiff_t>(chunkStart), clusters.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+    if (last == clusters.end())
+        return;
+    const bool spaced = last->advance != last->glyphAdvance;
+    last->advance -= spaced ? content.elements[static_cast<std::size_t>(last->element)].letterSpacing : 0;
+}
+
+}  // namespace
+
+std::vector<ShapedCluster> shapeChunks(const TextContent& content,
+                                       const std::vector<ElementFont>& elementFonts, text::FontSet& fonts,
+                                       bool vertical) {
+    std::vector<ShapedCluster> clusters;
+    std::size_t chunk = 0;
+    for (std::size_t first = 0, end = 0; first < content.characters.size(); first = end, ++chunk) {
+        LineBuilder builder(content, elementFonts, vertical);
+        do
+            builder.add(end++);
+        while (end < content.characters.size() && !startsChunk(content, end));
+        builder.finish();
+        const std::size_t start = clusters.size();
+        for (text::Cluster& cluster : text::shape(builder.line(), fonts))
+            if (auto made = fromLine(cluster, builder, content, elementFonts, chunk))
+                clusters.push_back(std::move(*made));
+        removeLastLetterSpacing(clusters, start, content);
+    }
+    return clusters;
+}
+
+}  // namespace vtm::svg

@@ -1,0 +1,32 @@
+/// \file
+/// Text content in, shaped clusters out, chunk by chunk. A chunk begins where a character has an absolute
+/// position, and where a path begins or ends (SVG 2 section 11.5).
+#pragma once
+
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "svg/text/content.hpp"
+#include "svg/text/element_font.hpp"
+
+namespace vtm::svg {
+
+struct ShapedCluster {
+    int element = 0;
+    std::size_t first = 0, count = 0;  ///< characters of TextContent
+    std::size_t chunk = 0;
+    std::vector<text::Glyph> glyphs;
+    bool sideways = false;
+    double advance = 0;       ///< user units, letter-spacing and word-spacing in it
+    double glyphAdvance = 0;  ///< without them
+    double stretch = 1;       ///< of glyphs along the line
+    glm::dvec2 at{0};         ///< the pen, user units; along the path for text on a path
+};
+
+/// Chunks in logical order, the clusters of each in visual order.
+std::vector<ShapedCluster> shapeChunks(const TextContent& content,
+                                       const std::vector<ElementFont>& elementFonts, text::FontSet& fonts,
+                                       bool vertical);
+
+}  // namespace vtm::svg

@@ -1,0 +1,90 @@
+// Items that are painted with bitmaps.
+
+#include <vtm/image/codec.hpp>
+#include "svg/geometry/bounds.hpp"
+#include "svg/write/values.hpp"
+#include "svg/write/writer.hpp"
+#include "svg/xml/data_url.hpp"
+
+namespace vtm::svg {
+
+using namespace scene;
+
+namespace {
+
+Box boxOf(const image::Bitmap& bitmap) { return {Point(0), Point(bitmap.width, bitmap.height)}; }
+
+/// Its corners, if it is filled along the axes of its space.
+std::optional<Box> rectangleOf(const Item& item) {
+    if (!std::holds_alternative<FillRule>(item.geometry))
+        return std::nullopt;
+    const Box box = boundingBox(*item.path, identity);
+    return pathData(*item.path) == pathData(rectangle(box.min, box.max)) ? std::optional(box) : std::nullopt;
+}
+
+std::string filterAttribute(ImageFilter filter) {
+    switch (filter) {
+        case ImageFilter::Nearest:
+            return attribute("image-rendering", "pixelated");
+        case ImageFilter::Bicubic:
+            return attribute("image-rendering", "high-quality");
+        case ImageFilter::Trilinear:
+            return "";
+        case ImageFilter::Bilinear:
+            break;
+    }
+    throw WriteError("an image with the bilinear filter cannot be written as SVG");
+}
+
+/// Without the sides on the bitmap's border, where the image ends by itself: covered by both, a pixel there
+/// would be lighter.
+Box withoutBorder(Box cut, const Box& bitmap) {
+    const Point pixel(1);
+    cut.min -= pixel * Point(glm::lessThanEqual(cut.min, bitmap.min));
+    cut.max += pixel * Point(glm::greaterThanEqual(cut.max, bitmap.max));
+    return cut;
+}
+
+}  // namespace
+
+/// The whole bitmap, in a group that is cut to the item's outline where that is another one.
+void Writer::image(const Item& item, const ImagePaint& paint) {
+    const Affine transform = compose(item.transform, paint.transform);
+    if (isFlat(transform) || !(item.opacity > 0))
+        return;
+    const std::string element = "<" + picture(paint.bitmap) + transformAttribute("transform", transform) +
+                                opacityAttribute("opacity", item.opacity) + filterAttribute(paint.filter) +
+                                "/>\n";
+    const Part part{element, geometry::mapped(boxOf(*paint.bitmap), transform)};
+    if (const std::string cut = cutAttribute(item, paint); cut.empty())
+        append("", part, "");
+    else
+        append("<g" + cut + ">\n", part, "</g>\n");
+}
+
+std::string Writer::cutAttribute(const Item& item, const ImagePaint& paint) {
+    const Box bitmap = boxOf(*paint.bitmap);
+    const auto rectangle = paint.transform == identity ? rectangleOf(item) : std::nullopt;
+    if (rectangle && rectangle->min == bitmap.min && rectangle->max == bitmap.max)
+        return "";
+    Item cut = item;
+    cut.transform = inverse(paint.transform).value_or(identity);
+    if (!bitmap.contains(svg::boxOf(cut)))
+        throw WriteError("an item that reaches beyond the image it is painted with cannot be written as SVG");
+    if (!rectangle)
+        return insideAttribute({item.path, item.transform, item.geometry});
+    const Box wide = withoutBorder(*rectangle, bitmap);
+    return insideAttribute({std::make_shared<const Path>(scene::rectangle(wide.min, wide.max)),
+                            item.transform, FillRule::NonZero});
+}
+
+const std::string& Writer::picture(const std::shared_ptr<const image::Bitmap>& bitmap) {
+    std::string& known = pictures_[bitmap];
+    if (known.empty())
+        known = definitions_.shareable("image" + attribute("width", std::to_string(bitmap->width)) +
+                                       attribute("height", std::to_string(bitmap->height)) +
+                                       attribute("href", dataUrl("image/png", image::encodePng(*bitmap))));
+    return known;
+}
+
+}  // namespace vtm::svg

@@ -1,0 +1,215 @@
+#include "text/font_set.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "text/fonts/axes.hpp"
+#include "text/fonts/document_fonts.hpp"
+#include "text/fonts/library.hpp"
+
+namespace vtm::text {
+namespace {
+
+auto keyOf(const FontQuery& query) {
+    std::vector<std::pair<Tag, float>> variations;
+    for (const Variation& variation : query.variations)
+        variations.emplace_back(variation.axis, variation.value);
+    return std::tuple(query.families, query.weight, query.stretch, query.slant, std::move(variations),
+                      query.language, query.opticalSize, query.synthesizeWeight, query.synthesizeSlant);
+}
+
+constexpr char32_t emojiSelector = 0xfe0f;
+
+bool asksForColor(std::u32string_view cluster) {
+    return cluster.find(emojiSelector) != std::u32string_view::npos;
+}
+
+using Faces = std::vector<const FaceEntry*>;
+
+/// What was found for a query.
+struct Answer {
+    bool hasPrimary = false;
+    std::shared_ptr<const Font> primary;
+    std::map<std::u32string, std::shared_ptr<const Font>, std::less<>> covering;  ///< by cluster
+    std::map<const FaceEntry*, std::shared_ptr<const Font>> fonts;
+};
+
+}  // namespace
+
+class FontSet::Implementation {
+public:
+    explicit Implementation(const FontOptions& options)
+        : options_(options), library_(FontLibrary::of(options)) {}
+
+    const Faces& facesOf(const std::string& family) const {
+        const std::string* const named = generic(family);
+        const Faces& own = own_.family(family);
+        return named || own.empty() ? library_->family(named ? *named : family) : own;
+    }
+
+    void add(const FontFace& face, std::span<const std::uint8_t> bytes) {
+        own_.add(face, bytes);
+        answers_.clear();
+        fallbacks_.clear();
+    }
+
+    bool hasFamily(const std::string& family) const { return generic(family) || !facesOf(family).empty(); }
+
+    std::shared_ptr<const Font> primary(const FontQuery& query) {
+        Answer& answer = answers_[keyOf(query)];
+        if (!std::exchange(answer.hasPrimary, true))
+            answer.primary = findPrimary(query, answer);
+        return answer.primary;
+    }
+
+    std::shared_ptr<const Font> covering(const FontQuery& query, std::u32string_view cluster) {
+        Answer& answer = answers_[keyOf(query)];
+        const auto known = answer.covering.find(cluster);
+        if (known != answer.covering.end())
+            return known->second;
+        auto font = findCovering(query, cluster, answer);
+        if (!font && cluster.size() > 1)
+            font = findCovering(query, cluster.substr(0, 1), answer);
+        return answer.covering[std::u32string(cluster)] = font;
+    }
+
+private:
+    /// The option that a generic name stands for; null for other names.
+    const std::string* generic(const std::string& family) const {
+        const std::pair<const char*, const std::string*> names[]{{"serif", &options_.serifFamily},
+                                                                 {"sans-serif", &options_.sansSerifFamily},
+                                                                 {"cursive", &options_.cursiveFamily},
+                                                                 {"fantasy", &options_.fantasyFamily},
+                                                                 {"monospace", &options_.monospaceFamily},
+                                                                 {"ui-serif", &options_.serifFamily},
+                                                                 {"ui-sans-serif", &options_.sansSerifFamily},
+                                                                 {"ui-monospace", &options_.monospaceFamily},
+                                                                 {"system-ui", &options_.sansSerifFamily}};
+        const std::string key = familyKey(family);
+        for (const auto& [name, option] : names)
+            if (key == name)
+                return option;
+        return nullptr;
+    }
+
+    std::shared_ptr<const Font> findPrimary(const FontQuery& query, Answer& answer) {
+        for (const std::string& family : query.families)
+            if (auto font = bestOf(facesOf(family), query, answer))
+                return font;
+        for (const Faces& family : fallback(query))
+            if (auto font = bestOf(family, query, answer))
+                return font;
+        return nullptr;
+    }
+
+    std::shared_ptr<const Font> bestOf(Faces faces, const FontQuery& query, Answer& answer) {
+        std::erase_if(faces, [](const FaceEntry* face) { return !face->forSpace; });
+        return open(bestFace(faces, query), query, answer);
+    }
+
+    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
+                                             Answer& answer) {
+        if (asksForColor(cluster))
+            if (auto font = findCovering(query, cluster, answer, true))
+                return font;
+        return findCovering(query, cluster, answer, false);
+    }
+
+    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
+                                             Answer& answer, bool colorOnly) {
+        const auto find = [&](const Faces& family) {
+            Faces faces = text::covering(family, cluster);
+            if (colorOnly)
+                std::erase_if(faces, [](const FaceEntry* face) { return !face->color; });
+            return open(bestFace(faces, query), query, answer);
+        };
+        for (const std::string& family : query.families)
+            if (auto font = find(facesOf(family)))
+                return font;
+        for (const Faces& family : fallback(query))
+            if (auto font = find(family))
+                return font;
+        return nullptr;
+    }
+
+    /// The families to try after those of the query, each with all its faces. With system fonts fontconfig
+    /// says which; without, the default one and those of `serif` and `sans-serif` go first.
+    const std::vector<Faces>& fallback(const FontQuery& query) {
+        const auto [at, isNew] = fallbacks_.try_emplace(
+            std::tuple(query.families, query.weight, query.stretch, query.slant, query.language));
+        if (isNew)
+            at->second = findFallback(query);
+        return at->second;
+    }
+
+    std::vector<Faces> findFallback(const FontQuery& query) const {
+        std::vector<Faces> fallback;
+        std::set<std::string> seen;
+        const auto append = [&](const std::string& family) {
+            if (seen.insert(familyKey(family)).second && !facesOf(family).empty())
+                fallback.push_back(facesOf(family));
+        };
+        if (!options_.systemFonts)
+            for (const std::string& family :
+                 {options_.defaultFamily, options_.serifFamily, options_.sansSerifFamily})
+                append(family);
+        for (const FaceEntry* face : library_->substitutes(withDefault(query)))
+            append(face->family);
+        return fallback;
+    }
+
+    /// As fontconfig is asked: generic names are what the options say, the default family is the last.
+    FontQuery withDefault(FontQuery query) const {
+        for (std::string& family : query.families)
+            if (const std::string* const named = generic(family))
+                family = *named;
+        query.families.push_back(options_.defaultFamily);
+        return query;
+    }
+
+    /// Null for no face, and where the file has gone or is broken.
+    std::shared_ptr<const Font> open(const FaceEntry* entry, const FontQuery& query, Answer& answer) {
+        if (!entry)
+            return nullptr;
+        const auto [at, isNew] = answer.fonts.try_emplace(entry);
+        if (isNew)
+            at->second = makeFont(*entry, query);
+        return at->second;
+    }
+
+    std::shared_ptr<const Font> makeFont(const FaceEntry& entry, const FontQuery& query) {
+        const auto face = entry.ownFace ? entry.ownFace : openFace(entry.file, entry.index, entry.family);
+        if (!face)
+            return nullptr;
+        return face->font(instanceOf(*face, entry, query));
+    }
+
+    const FontOptions options_;
+    const std::shared_ptr<const FontLibrary> library_;
+    DocumentFonts own_;
+    std::map<decltype(keyOf({})), Answer> answers_;
+    std::map<std::tuple<std::vector<std::string>, double, double, Slant, std::string>, std::vector<Faces>>
+        fallbacks_;
+};
+
+FontSet::FontSet(const FontOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
+FontSet::~FontSet() = default;
+
+void FontSet::add(const FontFace& face, std::span<const std::uint8_t> bytes) {
+    implementation_->add(face, bytes);
+}
+
+bool FontSet::hasFamily(const std::string& family) const { return implementation_->hasFamily(family); }
+
+std::shared_ptr<const Font> FontSet::primary(const FontQuery& query) {
+    return implementation_->primary(query);
+}
+
+std::shared_ptr<const Font> FontSet::covering(const FontQuery& query, std::u32string_view characters) {
+    return implementation_->covering(query, characters);
+}
+
+}  // namespace vtm::text

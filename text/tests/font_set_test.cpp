@@ -1,0 +1,118 @@
+#include "text/font_set.hpp"
+
+#include <hb-ot.h>
+
+#include "text/tests/support.hpp"
+
+namespace vtm::text {
+namespace {
+
+std::string nameAt(const std::shared_ptr<const Font>& font, hb_ot_name_id_t id) {
+    if (!font)
+        return "none";
+    char text[128] = {};
+    unsigned size = sizeof text;
+    hb_ot_name_get_utf8(hb_font_get_face(font->harfbuzz()), id, HB_LANGUAGE_INVALID, &size, text);
+    return text;
+}
+
+std::string fullName(const std::shared_ptr<const Font>& font) {
+    return nameAt(font, HB_OT_NAME_ID_FULL_NAME);
+}
+
+class DejaVu : public testing::Test {
+protected:
+    FontSet set{optionsOf(dejavu)};
+};
+
+TEST_F(DejaVu, FamiliesAreFoundInAnyCase) {
+    EXPECT_TRUE(set.hasFamily("DejaVu Sans"));
+    EXPECT_TRUE(set.hasFamily("dejavu SANS"));
+    EXPECT_FALSE(set.hasFamily("DejaVu"));
+}
+TEST_F(DejaVu, WeightsSelectFaces) {
+    EXPECT_EQ(fullName(set.primary(family("DejaVu Sans", 400))), "DejaVu Sans");
+    EXPECT_EQ(fullName(set.primary(family("DejaVu Sans", 700))), "DejaVu Sans Bold");
+    EXPECT_EQ(fullName(set.primary(family("DejaVu Sans", 450))), "DejaVu Sans") << "lighter before bold";
+}
+TEST_F(DejaVu, TheSameQueryGivesTheSameFont) {
+    EXPECT_EQ(set.primary(family("DejaVu Sans")), set.primary(family("DejaVu Sans")));
+    FontSet other(optionsOf(dejavu));
+    EXPECT_EQ(set.primary(family("DejaVu Sans")), other.primary(family("DejaVu Sans")));
+}
+TEST_F(DejaVu, WithoutTheDefaultFamilyTheFirstByNameStandsIn) {
+    EXPECT_EQ(set.primary(family("Absent"))->family().substr(0, 6), "DejaVu");
+}
+TEST_F(DejaVu, NoFontHasAnUnassignedCharacter) {
+    EXPECT_EQ(set.covering(family("DejaVu Sans"), U"\U0003fffd"), nullptr);
+}
+
+TEST(FontSet, WithoutFontsThereIsNone) {
+    FontSet set(optionsOf("/nowhere/at/all"));
+    EXPECT_EQ(set.primary(family("serif")), nullptr);
+    EXPECT_EQ(set.covering(family("serif"), U"a"), nullptr);
+}
+
+TEST(FontSet, SystemFontsStandInForAbsentFamilies) {
+    FontSet set({});
+    EXPECT_NE(set.primary(family("Absent")), nullptr);
+    EXPECT_TRUE(set.hasFamily("DejaVu Sans"));
+}
+
+TEST_F(SuiteFonts, GenericFamiliesAreMapped) {
+    FontSet set(optionsOf(suiteFonts()));
+    EXPECT_EQ(set.primary(family("serif"))->family(), "Noto Serif");
+    EXPECT_EQ(set.primary(family("Sans-Serif"))->family(), "Noto Sans");
+    EXPECT_EQ(set.primary(family("cursive"))->family(), "Yellowtail");
+    EXPECT_EQ(set.primary(family("fantasy"))->family(), "Sedgwick Ave Display");
+    EXPECT_EQ(set.primary(family("monospace"))->family(), "Noto Mono");
+}
+TEST_F(SuiteFonts, AbsentFamiliesFallBackToSerif) {
+    FontSet set(optionsOf(suiteFonts()));
+    EXPECT_EQ(set.primary(family("Absent"))->family(), "Noto Serif");
+}
+TEST_F(SuiteFonts, WeightsAreMatchedAsCssSays) {
+    FontSet set(optionsOf(suiteFonts()));
+    EXPECT_EQ(fullName(set.primary(family("Noto Sans", 100))), "Noto Sans Thin");
+    EXPECT_EQ(fullName(set.primary(family("Noto Sans", 200))), "Noto Sans Thin") << "lighter first below 400";
+    EXPECT_EQ(fullName(set.primary(family("Noto Sans", 300))), "Noto Sans Light");
+    EXPECT_EQ(fullName(set.primary(family("Noto Sans", 500))), "Noto Sans Regular") << "400 before 700";
+    EXPECT_EQ(fullName(set.primary(family("Noto Sans", 600))), "Noto Sans Bold") << "bolder first above 500";
+    EXPECT_EQ(fullName(set.primary(family("Noto Sans", 1000))), "Noto Sans Black");
+}
+TEST_F(SuiteFonts, SlantIsMatchedBeforeWeight) {
+    FontSet set(optionsOf(suiteFonts()));
+    FontQuery query = family("Noto Sans", 900);
+    query.slant = Slant::Italic;
+    EXPECT_EQ(fullName(set.primary(query)), "Noto Sans Italic");
+    query.slant = Slant::Oblique;
+    EXPECT_EQ(fullName(set.primary(query)), "Noto Sans Italic");
+}
+TEST_F(SuiteFonts, FamiliesAreTriedInOrder) {
+    FontSet set(optionsOf(suiteFonts()));
+    FontQuery query = family("Absent");
+    query.families = {"Absent", "Yellowtail", "Noto Sans"};
+    EXPECT_EQ(set.primary(query)->family(), "Yellowtail");
+    EXPECT_EQ(set.covering(query, U"я")->family(), "Noto Sans");
+}
+TEST_F(SuiteFonts, FallbackFindsTheScript) {
+    FontSet set(optionsOf(suiteFonts()));
+    EXPECT_EQ(set.covering(family("Noto Sans"), U"ب")->family(), "Amiri");
+    EXPECT_EQ(set.covering(family("Noto Sans"), U"日")->family(), "Mplus 1p");
+    EXPECT_EQ(set.covering(family("Noto Sans"), U"\u200d日\ufe0f")->family(), "Mplus 1p")
+        << "joiners need no glyph";
+}
+TEST_F(SuiteFonts, VariableFontsTakeTheirAxesFromTheQuery) {
+    FontSet set(optionsOf(suiteFonts()));
+    const auto light = set.primary(family("Roboto Flex", 100)),
+               heavy = set.primary(family("Roboto Flex", 900));
+    ASSERT_NE(light, heavy);
+    const GlyphId glyph = light->glyphOf(U'N').value();
+    EXPECT_LT(light->advanceOf(glyph), heavy->advanceOf(glyph));
+    FontQuery query = family("Roboto Flex", 100);
+    query.variations = {{HB_TAG('w', 'g', 'h', 't'), 900}};
+    EXPECT_EQ(set.primary(query), heavy) << "variations override the weight";
+}
+
+}  // namespace
+}  // namespace vtm::text
