@@ -43,7 +43,7 @@ def dead_commands(root, code):
     script = root / "dev"
     names = re.findall(r"^    ([a-z| -]+)\)", script.read_text(), re.M) if script.is_file() else []
     commands = {c for name in names for c in name.replace(" ", "").split("|")}
-    for command in re.findall(r"(?:^|\s)\./dev ([a-z]+)", code):
+    for command in re.findall(r"(?:^|\s)\./dev ([a-z-]+)", code):
         if command not in commands:
             yield f"./dev {command}: no such command"
     for sub in re.findall(r"^(?:\$ )?(?:\./dev )?vtm ([a-z]+)", code):

@@ -122,8 +122,7 @@ TEST(Format, TooManyLayersOverAPoint) {
     veil.stops[0].color.a = veil.stops[1].color.a = 0.5f;
     expectStored(pictureOf(std::vector<Paint>(asset::maxInstructions, veil)));
     EXPECT_EQ(refusalOf(pictureOf(std::vector<Paint>(asset::maxInstructions + 1, veil))),
-              "at a point of the picture more than 4096 layers and groups that cannot be folded lie over "
-              "each other");
+              "more than 4096 layers and groups that cannot be folded overlap at one point");
 }
 
 TEST(Format, TooManyPixelsOfImages) {

@@ -117,10 +117,10 @@ void BlockBuilder::lap(double& stage) {
 /// `cell` is culled already if it has clipped runs.
 BlockBuilder::Built BlockBuilder::build(Cell& cell) {
     const AtCell at("planarising", picture_, cell);
-    limits::check();
-    work_.spend(cell.clippedRuns.size() * visitWork);
     if (cell.clippedRuns.empty())
         return solid(regions_.solid(cell, culler_, tree_.palette), cell.level);
+    limits::check();
+    work_.spend(cell.clippedRuns.size() * visitWork);
     if (cell.level >= options_.maxDepth)
         return buildLast(cell);
     if (cell.level < options_.minDepth)

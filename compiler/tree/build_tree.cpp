@@ -46,10 +46,11 @@ public:
 
     Top run(Cell cell) {
         const AtCell at("dividing the picture", picture_, cell);
-        limits::check();
         Top top;
-        if (!cell.clippedRuns.empty())
+        if (!cell.clippedRuns.empty()) {
+            limits::check();
             cullers_.local().culler.run(cell);
+        }
         if (cell.clippedRuns.size() <= maximum_ || cell.level >= deepest_) {
             top.cell = std::move(cell);
             return top;

@@ -134,6 +134,7 @@ Cell rootCell(const Picture& picture, const Square& square, std::span<const std:
     Cell cell{square, 0, {}, {}};
     for (std::uint32_t index : layers) {
         const Layer& layer = picture.layers[index];
+        const limits::Stage stage("dividing the picture", layer.place);
         int winding = 0;
         for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
             const Run& run = picture.outlines.runs[r];
@@ -196,6 +197,8 @@ limits::Place AtCell::place(const void* self) {
         if (count > maximum)
             maximum = count, largest = s.layer;
     }
+    if (largest == noIndex && !cell.windings.empty())
+        largest = cell.windings.back().layer;
     return largest == noIndex ? limits::Place{} : picture.layers[largest].place;
 }
 

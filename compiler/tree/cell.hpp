@@ -31,8 +31,8 @@ Cell rootCell(const Picture& picture, const Square& square, std::span<const std:
 /// The 16 children, row by row; their memory is used again.
 void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children);
 
-/// Replaces `layers` by the cell's layers, ascending.
-/// For messages: says that work is at a cell. Its place is that of the layer with the most chords in it.
+/// For messages: says that work is at a cell. Its place is that of the layer with the most chords in it,
+/// or of the topmost one if it has no chords.
 class AtCell {
 public:
     AtCell(const char* stage, const Picture& picture, const Cell& cell)
@@ -46,6 +46,7 @@ private:
     const limits::Stage stage_;
 };
 
+/// Replaces `layers` by the cell's layers, ascending.
 void listLayers(const Cell& cell, std::vector<std::uint32_t>& layers);
 
 }  // namespace vtm::compiler

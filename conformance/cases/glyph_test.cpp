@@ -96,7 +96,7 @@ protected:
         text::FontQuery query;
         query.families = {GetParam()};
         if (!set_.hasFamily(GetParam()))
-            GTEST_SKIP() << "the font " << GetParam() << " is absent";
+            GTEST_SKIP() << "the font " << GetParam() << " is not installed";
         font_ = set_.primary(query);
     }
 
@@ -146,16 +146,16 @@ TEST_P(Glyphs, AreThoseOfTheReference) {
     EXPECT_GT(count_, 0);
 }
 
+std::string nameOf(const testing::TestParamInfo<const char*>& font) {
+    std::string name = font.param;
+    std::erase(name, ' ');
+    return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Debian, Glyphs,
                          testing::Values("DejaVu Serif", "DejaVu Sans", "DejaVu Sans Mono", "Amiri",
                                          "WenQuanYi Micro Hei"),
-                         [](const auto& info) {
-                             std::string name;
-                             for (const char c : std::string(info.param))
-                                 if (c != ' ')
-                                     name += c;
-                             return name;
-                         });
+                         nameOf);
 
 }  // namespace
 }  // namespace vtm::cases

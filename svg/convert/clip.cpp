@@ -31,7 +31,9 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
     const Level level(*this, clipPath);
     if (!level)
         return nullptr;
-    Scope inner = scope;
+    // On the heap: clips and masks nest deep, and the stack may be small.
+    const auto innerScope = std::make_unique<Scope>(scope);
+    Scope& inner = *innerScope;
     inner.style = styleOf(clipPath);
     ++inner.depth;
     inner.transform =
@@ -42,7 +44,8 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
     if (scene::inverse(inner.transform))
         for (const Element* child : clipPath.children)
             addClipChild(*child, inner, *made);
-    Scope own = scope;
+    const auto ownScope = std::make_unique<Scope>(scope);
+    Scope& own = *ownScope;
     own.style = inner.style;
     made->clip = clipOf(clipPath, own, box);
     return made;

@@ -206,7 +206,8 @@ const Style& Converter::styleOf(const Element& element) {
 }
 
 Units Converter::unitsFor(const Style& style) const {
-    return {options_.dpi, style.fontSize, rootFontSize_, style.fontWeight, rootSize_};
+    return {options_.dpi,     style.fontSize, rootFontSize_,
+            style.fontWeight, rootSize_,      options_.defaultFontSize};
 }
 
 LengthReader Converter::lengths(const Element& element, const Scope& scope) const {

@@ -188,7 +188,8 @@ private:
     void paintLine(const TextContent& content, const PlacedLine& line, const Box& box, Nodes& out);
     void paintClusters(const TextElement& text, std::span<const PlacedCluster> clusters, const Box& box,
                        Nodes& out);
-    void fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
+    void fillGlyph(const TextElement& text, const PlacedGlyph& glyph,
+                   const std::shared_ptr<const scene::Path>& outline, Nodes& out);
     bool paintColorGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out);
     void convertSvgGlyph(const TextElement& text, const PlacedGlyph& glyph, const text::SvgGlyph& svg,
                          const scene::Affine& transform, Nodes& out);

@@ -38,7 +38,9 @@ std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const
     const Level level(*this, element);
     if (!level)
         return nullptr;
-    Scope inner = scope;
+    // On the heap: clips and masks nest deep, and the stack may be small.
+    const auto innerScope = std::make_unique<Scope>(scope);
+    Scope& inner = *innerScope;
     inner.style = styleOf(element);
     ++inner.depth;
     const bool boxUnits = trim(element.get("maskUnits")) != "userSpaceOnUse";
@@ -56,7 +58,8 @@ std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const
         appendClipped({region.min.x, region.min.y, region.width(), region.height()}, scope.transform,
                       std::move(nodes), content->children);
     }
-    Scope own = scope;
+    const auto ownScope = std::make_unique<Scope>(scope);
+    Scope& own = *ownScope;
     own.style = inner.style;
     content->mask = maskOf(element, own, box);
     return std::make_shared<const scene::Mask>(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "svg/convert/converter.hpp"
+#include "svg/geometry/path_measure.hpp"
 
 namespace vtm::svg {
 bool isWithinReach(const Box& box) {
@@ -129,7 +130,7 @@ void Converter::addDashes(const Element& element, const Scope& scope, CachedShap
     double scale = 1;
     if (const auto given = lengths(element, scope).length("pathLength", Axis::X); given && *given > 0) {
         if (!shape.length)
-            shape.length = lengthOf(*shape.path);
+            shape.length = PathMeasure(*shape.path).length();
         scale = *shape.length / *given;
     }
     double sum = 0;

@@ -136,7 +136,7 @@ void Converter::paintClusters(const TextElement& text, std::span<const PlacedClu
     Path merged;  // all outlines, in the user space of the text
     const bool mergesFill = !isPlain(style.fill.kind), strokes = style.stroke.kind != PaintKind::None;
     Nodes colored;
-    std::vector<const PlacedGlyph*> plain;
+    std::vector<std::pair<const PlacedGlyph*, std::shared_ptr<const Path>>> plain;
     for (const PlacedCluster& cluster : clusters)
         for (const PlacedGlyph& glyph : cluster.glyphs) {
             if (paintColorGlyph(text, glyph, colored))
@@ -144,15 +144,15 @@ void Converter::paintClusters(const TextElement& text, std::span<const PlacedClu
             const auto outline = glyph.font->outlineOf(glyph.id);
             if (!outline)
                 continue;
-            plain.push_back(&glyph);
+            plain.emplace_back(&glyph, outline);
             if (mergesFill || strokes)
                 append(merged, mapPath(glyph.transform, *outline));
         }
     CachedShape shape{{}, 0, std::make_shared<const Path>(std::move(merged)), box, {}};
     for (const PaintStage stage : style.paintOrder)
         if (stage == PaintStage::Fill && !mergesFill)
-            for (const PlacedGlyph* glyph : plain)
-                fillGlyph(text, *glyph, out);
+            for (const auto& [glyph, outline] : plain)
+                fillGlyph(text, *glyph, outline, out);
         else if (stage == PaintStage::Fill && !shape.path->empty())
             fillShape(*text.element, text.scope, shape, out);
         else if (stage == PaintStage::Stroke && !shape.path->empty())
@@ -161,10 +161,11 @@ void Converter::paintClusters(const TextElement& text, std::span<const PlacedClu
 }
 
 /// With a colour: the outline is shared by all instances of the glyph.
-void Converter::fillGlyph(const TextElement& text, const PlacedGlyph& glyph, Nodes& out) {
+void Converter::fillGlyph(const TextElement& text, const PlacedGlyph& glyph,
+                          const std::shared_ptr<const Path>& outline, Nodes& out) {
     const Style& style = text.scope.style;
     scene::Item item;
-    item.path = glyph.font->outlineOf(glyph.id);
+    item.path = outline;
     item.transform = scene::compose(text.scope.transform, glyph.transform);
     if (style.fillOpacity <= 0 || !scene::inverse(item.transform))
         return;

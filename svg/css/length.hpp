@@ -21,6 +21,7 @@ struct Units {
     double fontSize = 12, rootFontSize = 12;
     double fontWeight = 400;  ///< the parent's, for `bolder` and `lighter`
     Viewport root;            ///< for vw and vh
+    double mediumFontSize = 12;
 };
 
 /// User units, or a percentage of something that is known only where it is used.

@@ -212,13 +212,13 @@ std::optional<bool> parseVectorEffect(std::string_view text, const Units&) {
 }
 
 std::optional<double> parseFontSize(std::string_view text, const Units& units) {
-    // CSS Fonts 4 section 2.5: steps of 1.2 around medium, which is the root's size.
+    // CSS Fonts 4 section 2.5: shares of medium, the initial value.
     static constexpr Keyword<double> absolute[]{{"xx-small", 0.6}, {"x-small", 0.75}, {"small", 0.89},
                                                 {"medium", 1},     {"large", 1.2},    {"x-large", 1.5},
                                                 {"xx-large", 2}};
     static constexpr Keyword<double> relative[]{{"smaller", 1 / 1.2}, {"larger", 1.2}};
     if (const auto factor = findKeyword(text, absolute))
-        return *factor * units.rootFontSize;
+        return *factor * units.mediumFontSize;
     if (const auto factor = findKeyword(text, relative))
         return *factor * units.fontSize;
     const auto length = parseWidth(text, units);

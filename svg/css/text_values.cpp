@@ -24,12 +24,21 @@ std::optional<std::string_view> readString(Cursor& cursor) {
     return text;
 }
 
-/// A family's name: a string, or words joined by single spaces. Empty where there is none.
+bool isGenericFamily(std::string_view name) {
+    static constexpr Keyword<bool> table[]{
+        {"serif", true},     {"sans-serif", true},    {"cursive", true},
+        {"fantasy", true},   {"monospace", true},     {"ui-serif", true},
+        {"system-ui", true}, {"ui-sans-serif", true}, {"ui-monospace", true}};
+    return findKeyword(name, table).has_value();
+}
+
+/// A family's name: a string, or words joined by single spaces. Empty where there is none. A generic name in
+/// quotes keeps them: it is the name of a font.
 std::string readFamily(Cursor& cursor) {
     cursor.skipSpaces();
     if (const auto quoted = readString(cursor)) {
         cursor.skipSpaces();
-        return std::string(*quoted);
+        return isGenericFamily(*quoted) ? '"' + std::string(*quoted) + '"' : std::string(*quoted);
     }
     std::string name;
     for (std::string_view word = cursor.identifier(); !word.empty(); word = cursor.identifier()) {
@@ -389,6 +398,11 @@ bool applyFont(Style& style, std::string_view value, const Units& units) {
     made.fontFamily = *family;
     static_cast<TextStyle&>(style) = made;
     return true;
+}
+
+std::optional<bool> parseSynthesis(std::string_view text, const Units&) {
+    static constexpr Keyword<bool> table[]{{"auto", true}, {"none", false}};
+    return findKeyword(text, table);
 }
 
 bool applyFontSynthesis(Style& style, std::string_view value, const Units&) {

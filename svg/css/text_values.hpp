@@ -42,6 +42,7 @@ std::optional<std::optional<WhiteSpace>> parseWhiteSpace(std::string_view text, 
 
 // Shorthands, which set several members of the style.
 bool applyFont(Style& style, std::string_view value, const Units& units);
+std::optional<bool> parseSynthesis(std::string_view text, const Units& units);
 bool applyFontSynthesis(Style& style, std::string_view value, const Units& units);
 bool applyTextDecoration(Style& style, std::string_view value, const Units& units);
 

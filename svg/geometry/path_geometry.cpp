@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/length.hpp"
 #include "svg/geometry/segments.hpp"
 
 namespace vtm::svg {
@@ -16,9 +15,6 @@ using geometry::Cubic;
 using scene::Affine;
 using scene::Path;
 using scene::Point;
-
-/// Of lengths.
-constexpr double relativeLengthError = 1e-9;
 
 /// Of arcs that become cubics: within 4.3e-6 of the radius (geometry::cubicArcError).
 constexpr double mappedArcAngle = std::numbers::pi / 4;
@@ -36,28 +32,6 @@ struct BoxBuilder {
     void operator()(const ArcSegment& arc) {
         box.add(map(arc.to));
         box.add(geometry::bounds(geometry::mapped(arc.arc, transform)));
-    }
-};
-
-struct LengthSum {
-    double sum = 0;
-
-    void operator()(const MoveSegment&) {}
-    void operator()(const LineSegment& line) { sum += glm::distance(line.from, line.to); }
-    void operator()(const Cubic& cubic) {
-        add([&](double t) { return glm::length(cubic.derivative(t)); }, 1);
-    }
-    void operator()(const ArcSegment& arc) {
-        add(
-            [&](double t) {
-                return glm::length(arc.arc.derivative(arc.arc.start + std::copysign(t, arc.arc.sweep)));
-            },
-            std::abs(arc.arc.sweep));
-    }
-    /// Over [0, end].
-    template <class Speed>
-    void add(const Speed& speed, double end) {
-        sum += geometry::relativeArcLength(speed, 0, end, relativeLengthError);
     }
 };
 
@@ -89,12 +63,6 @@ Box boundingBox(const Path& path, const Affine& transform) {
     BoxBuilder builder{transform, {}};
     forEachSegment(path, builder);
     return builder.box;
-}
-
-double lengthOf(const Path& path) {
-    LengthSum length;
-    forEachSegment(path, length);
-    return length.sum;
 }
 
 Path mapPath(const Affine& transform, const Path& path) {

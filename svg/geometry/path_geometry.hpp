@@ -21,9 +21,6 @@ scene::Affine unitSquareTo(const Box& box);
 /// Tight box of the mapped outline, strokes not counted. A MoveTo that nothing follows counts.
 Box boundingBox(const scene::Path& path, const scene::Affine& transform);
 
-/// Within 1e-9 of itself.
-double lengthOf(const scene::Path& path);
-
 /// The mapped outline; arcs become cubics (within 4e-6 of their radius).
 scene::Path mapPath(const scene::Affine& transform, const scene::Path& path);
 

@@ -33,6 +33,8 @@ double lengthTo(const Segment& segment, double end) {
                                        end, relativeLengthError);
 }
 
+double lengthTo(const LineSegment& line, double end) { return end * glm::distance(line.from, line.to); }
+
 /// The parameter at which the segment has run `length` of its `whole`.
 template <class Segment>
 double parameterAt(const Segment& segment, double length, double whole) {

@@ -14,7 +14,7 @@ class PathMeasure {
 public:
     explicit PathMeasure(const scene::Path& path);
 
-    double length() const { return length_; }
+    double length() const { return length_; }  ///< within 1e-9 of itself
     /// The path ends where it began.
     bool closed() const { return closed_; }
 

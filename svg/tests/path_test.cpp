@@ -4,6 +4,7 @@
 #include "scene/center_form.hpp"
 #include "svg/geometry/path_data.hpp"
 #include "svg/geometry/path_geometry.hpp"
+#include "svg/geometry/path_measure.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {
@@ -100,8 +101,9 @@ TEST(PathGeometry, ArcsWithoutARadiusAreLines) {
     EXPECT_FALSE(scene::centerForm({0, 0}, {{0, 5}, 0, false, true, {1, 1}}));
 }
 TEST(PathGeometry, LengthOfACircle) {
-    EXPECT_NEAR(lengthOf(parse("M 1 0 A 1 1 0 0 1 -1 0 A 1 1 0 0 1 1 0").path), 2 * std::numbers::pi, 1e-3);
-    EXPECT_DOUBLE_EQ(lengthOf(parse("M 0 0 L 3 4 L 3 0 Z").path), 12);
+    EXPECT_NEAR(PathMeasure(parse("M 1 0 A 1 1 0 0 1 -1 0 A 1 1 0 0 1 1 0").path).length(),
+                2 * std::numbers::pi, 1e-3);
+    EXPECT_DOUBLE_EQ(PathMeasure(parse("M 0 0 L 3 4 L 3 0 Z").path).length(), 12);
 }
 TEST(PathGeometry, MappedArcsStayOnTheEllipse) {
     const Path mapped = mapPath(scaling(2, 3), parse("M 1 0 A 1 1 0 0 1 -1 0").path);

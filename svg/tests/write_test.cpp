@@ -300,6 +300,18 @@ std::string imageElement(const std::string& attributes) {
     return "<image " + attributes + " href='" + dataUrl("image/png", image::encodePng(*checks(7, 3))) + "'/>";
 }
 
+/// As far as rounding lets it.
+TEST(Write, OutlinesOfScaledImagesEndWithThem) {
+    for (const double scale : {0.1, 1 / 3.0, 1.7, 12345.678}) {
+        scene::ImagePaint paint{checks(7, 3)};
+        paint.transform = {scale, 0, 0, scale, 0.1, 0.7};
+        Item item = filled(0, paint);
+        item.path = std::make_shared<const scene::Path>(
+            scene::rectangle(Point(0.1, 0.7), Point(0.1, 0.7) + scale * Point(7, 3)));
+        expectSameScene(loadText(write(sceneOf(around({{item}})))).scene);
+    }
+}
+
 TEST(Write, ImagesInTheirViewports) {
     const std::string whole =
         written(imageElement("x='0.1' y='1' width='31.7' height='9' transform='rotate(7)'"));

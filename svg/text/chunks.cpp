@@ -144,16 +144,12 @@ std::optional<ShapedCluster> fromLine(text::Cluster& cluster, const LineBuilder&
     return made;
 }
 
-/// CSS Text 4 section 8.2: none after the last character.
-void removeLastLetterSpacing(std::vector<ShapedCluster>& clusters, std::size_t chunkStart,
-                             const TextContent& content) {
-    const auto last =
-        std::max_element(clusters.begin() + static_cast<std::ptrdiff_t>(chunkStart), clusters.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
-    if (last == clusters.end())
-        return;
-    const bool spaced = last->advance != last->glyphAdvance;
-    last->advance -= spaced ? content.elements[static_cast<std::size_t>(last->element)].letterSpacing : 0;
+/// Letter-spacing is between characters as they stand on the line (CSS Text 3 section 8.2): there is none
+/// behind the chunk's last one, but a chunk without an x goes on behind it.
+void removeLastLetterSpacing(ShapedCluster& last, const TextContent& content) {
+    const bool spaced = last.advance != last.glyphAdvance;
+    last.trailing = spaced ? content.elements[static_cast<std::size_t>(last.element)].letterSpacing : 0;
+    last.advance -= last.trailing;
 }
 
 }  // namespace
@@ -173,7 +169,8 @@ std::vector<ShapedCluster> shapeChunks(const TextContent& content,
         for (text::Cluster& cluster : text::shape(builder.line(), fonts))
             if (auto made = fromLine(cluster, builder, content, elementFonts, chunk))
                 clusters.push_back(std::move(*made));
-        removeLastLetterSpacing(clusters, start, content);
+        if (clusters.size() > start)
+            removeLastLetterSpacing(clusters.back(), content);
     }
     return clusters;
 }

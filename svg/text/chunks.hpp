@@ -20,6 +20,7 @@ struct ShapedCluster {
     bool sideways = false;
     double advance = 0;       ///< user units, letter-spacing and word-spacing in it
     double glyphAdvance = 0;  ///< without them
+    double trailing = 0;      ///< letter-spacing behind a chunk's last character, not in its advance
     double stretch = 1;       ///< of glyphs along the line
     glm::dvec2 at{0};         ///< the pen, user units; along the path for text on a path
 };

@@ -59,18 +59,14 @@ scene::Path rectangleIn(const scene::Affine& frame, double length, Bar bar) {
     return scene::polygon(corners);
 }
 
-/// Whether the decorations of `ancestor` reach the element: it is around it.
-bool isAround(const TextContent& content, std::size_t ancestor, int element) {
-    while (element >= 0 && static_cast<std::size_t>(element) != ancestor)
-        element = content.elements[static_cast<std::size_t>(element)].parent;
-    return element >= 0;
-}
-
 class LineMaker {
 public:
     LineMaker(const TextContent& content, const std::vector<ElementFont>& fonts,
               const std::vector<PlacedCluster>& clusters, bool vertical)
-        : content_(content), fonts_(fonts), clusters_(clusters), vertical_(vertical) {}
+        : content_(content), fonts_(fonts), vertical_(vertical), segments_(content.elements.size()) {
+        for (const PlacedCluster& cluster : clusters)
+            addSegments(cluster);
+    }
 
     /// The lines of one element on the clusters in it.
     void add(std::size_t element) {
@@ -78,7 +74,7 @@ public:
         if (lines == 0)
             return;
         const ElementFont& font = fonts_[element];
-        const std::vector<Segment> segments = joined(segmentsOf(element), font.size);
+        const std::vector<Segment> segments = joined(segments_[element], font.size);
         for (const TextLines line : {Underline, Overline, LineThrough}) {
             const Bar bar = barOf(line, font);
             for (const Segment& segment : segments)
@@ -90,26 +86,25 @@ public:
     std::vector<PlacedLine> finish() { return std::move(made_); }
 
 private:
-    /// Along the clusters in the element. Subscripts and superscripts in it do not move its lines, their
-    /// alignment does.
-    std::vector<Segment> segmentsOf(std::size_t element) const {
-        const ElementFont& font = fonts_[element];
-        std::vector<Segment> segments;
-        for (const PlacedCluster& cluster : clusters_) {
-            if (!isAround(content_, element, cluster.element))
-                continue;
-            const double down = font.shift - fonts_[static_cast<std::size_t>(cluster.element)].shift +
-                                (vertical_ ? font.central() : 0);
-            segments.push_back(
-                {scene::compose(cluster.frame, scene::translation(0, down)), cluster.cell.max.x});
+    /// Along the cluster, for each decorated element around it. Subscripts and superscripts in an element do
+    /// not move its lines, their alignment does.
+    void addSegments(const PlacedCluster& cluster) {
+        const double shift = fonts_[static_cast<std::size_t>(cluster.element)].shift;
+        for (int element = cluster.element; element >= 0;) {
+            const auto index = static_cast<std::size_t>(element);
+            const ElementFont& font = fonts_[index];
+            const double down = font.shift - shift + (vertical_ ? font.central() : 0);
+            if (content_.elements[index].lines != 0)
+                segments_[index].push_back(
+                    {scene::compose(cluster.frame, scene::translation(0, down)), cluster.cell.max.x});
+            element = content_.elements[index].parent;
         }
-        return segments;
     }
 
     const TextContent& content_;
     const std::vector<ElementFont>& fonts_;
-    const std::vector<PlacedCluster>& clusters_;
     const bool vertical_;
+    std::vector<std::vector<Segment>> segments_;  ///< by element
     std::vector<PlacedLine> made_;
 };
 

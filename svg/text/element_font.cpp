@@ -70,24 +70,24 @@ double heightOf(Baseline baseline, const ElementFont& font) {
     return 0;
 }
 
-/// `baseline-shift` of one element, up.
-double shiftOf(const TextElement& element, const ElementFont& font) {
+/// `baseline-shift` of one element, up. Sub and super are those of the font around it (CSS Inline 3 section
+/// 4.2.3).
+double shiftOf(const TextElement& element, const ElementFont& around) {
     const BaselineShift& shift = element.scope.style.baselineShift;
     if (shift.kind == BaselineShift::Kind::Length)
         return shift.length.percent ? shift.length.value / 100 * element.scope.style.fontSize
                                     : shift.length.value;
-    if (!font.primary)
+    if (!around.primary)
         return 0;
-    const text::FontMetrics& metrics = font.primary->metrics();
-    return shift.kind == BaselineShift::Kind::Sub ? -font.scaled(metrics.subscriptOffset)
-                                                  : font.scaled(metrics.superscriptOffset);
+    const text::FontMetrics& metrics = around.primary->metrics();
+    return shift.kind == BaselineShift::Kind::Sub ? -around.scaled(metrics.subscriptOffset)
+                                                  : around.scaled(metrics.superscriptOffset);
 }
 
 }  // namespace
 
 std::vector<ElementFont> elementFonts(const std::vector<TextElement>& elements, text::FontSet& fonts) {
     std::vector<ElementFont> made;
-    std::vector<double> shifts;  // down, of the element and those around it
     for (const TextElement& element : elements) {
         const Style& style = element.scope.style;
         ElementFont font;
@@ -95,13 +95,13 @@ std::vector<ElementFont> elementFonts(const std::vector<TextElement>& elements, 
         font.features = switchedFeatures(element);
         font.primary = fonts.primary(font.query);
         font.size = adjustedSize(style, font.primary.get());
-        const double around = element.parent < 0 ? 0 : shifts[static_cast<std::size_t>(element.parent)];
-        // On `text` itself there is no line to shift from.
-        shifts.push_back(around - (element.parent < 0 ? 0 : shiftOf(element, font)));
+        if (element.parent >= 0) {  // on `text` itself there is no line to shift from
+            const ElementFont& around = made[static_cast<std::size_t>(element.parent)];
+            font.shift = around.shift - shiftOf(element, around);
+        }
         const bool aligned = style.alignmentBaseline != Baseline::Auto;
         const bool horizontal = elements.front().scope.style.writingMode == WritingMode::Horizontal;
         const Baseline line = aligned ? style.alignmentBaseline : style.dominantBaseline;
-        font.shift = shifts.back();
         font.alignment = horizontal ? heightOf(line, font) : 0;
         made.push_back(std::move(font));
     }

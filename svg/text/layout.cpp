@@ -12,16 +12,10 @@
 #include "svg/text/chunks.hpp"
 #include "svg/text/decoration.hpp"
 #include "svg/text/element_font.hpp"
+#include "svg/text/text_length.hpp"
 
 namespace vtm::svg {
 namespace {
-
-bool isInside(const TextContent& content, int element, int ancestor) {
-    for (; element >= 0; element = content.elements[static_cast<std::size_t>(element)].parent)
-        if (element == ancestor)
-            return true;
-    return false;
-}
 
 /// The steps of SVG 2 section 11.5 in their order, on clusters in the order in which they stand on the line.
 /// Along: the direction of the line; across: down from it, or left of it where it is vertical.
@@ -35,8 +29,7 @@ public:
 
     TextLayout run() {
         placeOnOneLine();
-        for (std::size_t element = content_.elements.size(); element-- > 0;)
-            adjustLength(static_cast<int>(element));
+        adjustLengths(content_, clusters_, vertical_);
         placeChunks();
         TextLayout layout;
         for (const ShapedCluster& cluster : clusters_)
@@ -65,68 +58,13 @@ private:
         double pen = 0;
         for (ShapedCluster& cluster : clusters_) {
             cluster.at = (vertical_ ? glm::dvec2(0, pen) : glm::dvec2(pen, 0)) + shifts[cluster.first];
-            pen += cluster.advance;
+            pen += cluster.advance + cluster.trailing;
         }
     }
 
     double along(glm::dvec2 v) const { return vertical_ ? v.y : v.x; }
     glm::dvec2 alongBy(double distance) const {
         return vertical_ ? glm::dvec2(0, distance) : glm::dvec2(distance, 0);
-    }
-
-    /// `textLength` of one element, those inside it adjusted already: they move as a whole.
-    void adjustLength(int element) {
-        const TextElement& text = content_.elements[static_cast<std::size_t>(element)];
-        if (!text.textLength)
-            return;
-        double from = std::numeric_limits<double>::infinity(), to = -from;
-        std::size_t gaps = 0;
-        int unit = -1;
-        const auto inside = [&](const ShapedCluster& cluster) {
-            return isInside(content_, cluster.element, element);
-        };
-        for (const ShapedCluster& cluster : clusters_)
-            if (inside(cluster)) {
-                from = std::min(from, along(cluster.at));
-                to = std::max(to, along(cluster.at) + cluster.advance);
-                const int own = adjustedInside(cluster.element, element);
-                gaps += own < 0 || own != unit;
-                unit = own;
-            }
-        if (!(to > from) || (gaps < 2 && !text.stretchesGlyphs))
-            return;
-        const double missing = *text.textLength - (to - from), scale = *text.textLength / (to - from);
-        const double step = text.stretchesGlyphs ? 0 : missing / static_cast<double>(gaps - 1);
-        double shift = -step;
-        bool started = false;
-        unit = -1;
-        for (ShapedCluster& cluster : clusters_) {
-            if (!inside(cluster)) {
-                cluster.at += alongBy(started ? missing : 0);
-                continue;
-            }
-            started = true;
-            const int own = adjustedInside(cluster.element, element);
-            shift += own < 0 || own != unit ? step : 0;
-            unit = own;
-            if (text.stretchesGlyphs) {
-                cluster.at += alongBy((along(cluster.at) - from) * (scale - 1));
-                cluster.stretch *= scale;
-                cluster.advance *= scale;
-                cluster.glyphAdvance *= scale;
-            } else {
-                cluster.at += alongBy(shift);
-            }
-        }
-    }
-
-    /// The outermost element below `ancestor` and around `element` that has a length of its own; -1: none.
-    int adjustedInside(int element, int ancestor) const {
-        int found = -1;
-        for (; element != ancestor; element = content_.elements[static_cast<std::size_t>(element)].parent)
-            if (content_.elements[static_cast<std::size_t>(element)].textLength)
-                found = element;
-        return found;
     }
 
     /// x and y: every chunk to where its first character shall stand, and what follows with it; then what
@@ -152,8 +90,7 @@ private:
                 clusters_[i].at += shift;
             anchor(first, end);
             if (path >= 0)
-                pathEnd =
-                    endOnPath(first, end, content_.paths[static_cast<std::size_t>(path)]).value_or(pathEnd);
+                pathEnd = endOf(content_.paths[static_cast<std::size_t>(path)]).value_or(pathEnd);
         }
     }
 
@@ -163,12 +100,15 @@ private:
                                  [](const auto& a, const auto& b) { return a.first < b.first; });
     }
 
-    /// Where text that follows a path goes on: behind the last character on it.
-    std::optional<glm::dvec2> endOnPath(std::size_t first, std::size_t end, const TextPath& path) const {
-        for (std::size_t i = end; i-- > first;)
-            if (const auto frame = pathFrame(clusters_[i], path))
-                return scene::apply(*frame, {clusters_[i].advance, 0});
-        return std::nullopt;
+    /// Where text that follows a path goes on; nothing where the path has no length.
+    static std::optional<glm::dvec2> endOf(const TextPath& path) {
+        const double length = path.measure.length();
+        return length > 0 ? std::optional(path.measure.at(path.right ? 0 : length).at) : std::nullopt;
+    }
+
+    /// The right end of text is where it is anchored, unless the middle is.
+    static bool startsAtRight(const Style& style) {
+        return (style.anchor == TextAnchor::Start) == style.rightToLeft;
     }
 
     void anchor(std::size_t first, std::size_t end) {
@@ -179,10 +119,9 @@ private:
         }
         const ShapedCluster& start = firstInText(first, end);
         const Style& style = elementOf(start).scope.style;
-        const bool rightToLeft = content_.elements.front().scope.style.rightToLeft;
         double place = (from + to) / 2;
         if (style.anchor != TextAnchor::Middle)
-            place = (style.anchor == TextAnchor::Start) == rightToLeft ? to : from;
+            place = startsAtRight(style) ? to : from;
         const glm::dvec2 shift = alongBy(along(start.at) - place);
         for (std::size_t i = first; i < end; ++i)
             clusters_[i].at += shift;
@@ -196,15 +135,23 @@ private:
         return scene::compose(scene::translation(at.x, at.y), rotation(degrees));
     }
 
+    /// Text goes round a closed path once: from its start, to its end or to both sides. `circuits`: how far
+    /// from startOffset.
+    static bool isOnCircuit(double circuits, const Style& style) {
+        const double first = style.anchor == TextAnchor::Middle ? -0.5 : startsAtRight(style) ? -1 : 0;
+        return circuits >= first && circuits <= first + 1;
+    }
+
     /// The frame on the cluster's path; nothing beyond the path's ends.
     std::optional<scene::Affine> pathFrame(const ShapedCluster& cluster, const TextPath& path) const {
         const double length = path.measure.length();
-        double middle = along(cluster.at) + path.startOffset + cluster.glyphAdvance / 2;
+        const double onLine = along(cluster.at) + cluster.glyphAdvance / 2;
+        double middle = onLine + path.startOffset;
         if (!(length > 0))
             return std::nullopt;
-        if (path.measure.closed() && middle >= -length && middle <= 2 * length)
+        if (path.measure.closed() && isOnCircuit(onLine / length, elementOf(cluster).scope.style))
             middle -= std::floor(middle / length) * length;
-        if (!(middle >= 0 && middle <= length))
+        else if (path.measure.closed() || !(middle >= 0 && middle <= length))
             return std::nullopt;
         PathMeasure::Place place = path.measure.at(path.right ? length - middle : middle);
         if (path.right)

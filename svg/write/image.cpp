@@ -68,8 +68,8 @@ std::string Writer::cutAttribute(const Item& item, const ImagePaint& paint) {
     if (rectangle && rectangle->min == bitmap.min && rectangle->max == bitmap.max)
         return "";
     Item cut = item;
-    cut.transform = inverse(paint.transform).value_or(identity);
-    if (!bitmap.contains(svg::boxOf(cut)))
+    cut.transform = identity;
+    if (!liesInside({{cut}}, inverse(paint.transform).value_or(identity), bitmap))
         throw WriteError("an item that reaches beyond the image it is painted with cannot be written as SVG");
     if (!rectangle)
         return insideAttribute({item.path, item.transform, item.geometry});

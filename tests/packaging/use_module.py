@@ -14,7 +14,7 @@ del image  # the array is a copy
 assert array[..., 3].max() == 255
 
 square = vtm.Picture.load(b'<svg xmlns="http://www.w3.org/2000/svg" width="4" height="2">'
-                          b'<rect width="2" height="2" fill="red"/><text>a</text></svg>', name="square.svg")
+                          b'<rect width="2" height="2" fill="red"/><foreignObject/></svg>', name="square.svg")
 assert (square.width, square.height) == (4, 2)
 assert len(square.warnings) == 1 and square.warnings[0].startswith("square.svg:1:"), square.warnings
 red, white = [255, 0, 0, 255], [255, 255, 255, 255]

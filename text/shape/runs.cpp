@@ -4,6 +4,8 @@
 #include <hb.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "text/shape/orientation.hpp"
 
@@ -96,32 +98,24 @@ private:
         return (c >= 0x200b && c <= 0x200f) || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2060 && c <= 0x206f);
     }
 
+    /// Of a family before the primary font's, too: unicode-range may leave that one a part of the characters.
     std::shared_ptr<const Font> fontOf(std::size_t span, std::size_t first, std::size_t end) {
         const FontQuery& query = line_.spans[span].font;
-        if (span != primarySpan_) {
-            primary_ = fonts_.primary(query);
-            primarySpan_ = span;
-        }
-        std::u32string_view characters(line_.text);
-        characters = characters.substr(first, end - first);
-        if (!primary_ || !hasAll(*primary_, characters))
-            if (auto covering = fonts_.covering(query, characters))
-                return covering;
-        return primary_;
+        if (std::exchange(span_, span) != span)
+            known_.clear();
+        const std::u32string_view characters = std::u32string_view(line_.text).substr(first, end - first);
+        const auto [known, isNew] = known_.try_emplace(characters);
+        if (isNew)
+            known->second = fonts_.covering(query, characters);
+        if (!known->second)
+            known->second = fonts_.primary(query);
+        return known->second;
     }
-
-    static bool hasAll(const Font& font, std::u32string_view characters) {
-        return std::all_of(characters.begin(), characters.end(), [&](char32_t c) {
-            return c == zeroWidthJoiner || isVariationSelector(c) || font.glyphOf(c);
-        });
-    }
-
-    static constexpr std::size_t noSpan = static_cast<std::size_t>(-1);
 
     const Line& line_;
     FontSet& fonts_;
-    std::size_t primarySpan_ = noSpan;
-    std::shared_ptr<const Font> primary_;
+    std::size_t span_ = 0;
+    std::map<std::u32string_view, std::shared_ptr<const Font>> known_;  ///< of one span's clusters
 };
 
 std::vector<std::size_t> spansByCharacter(const Line& line) {
@@ -144,8 +138,10 @@ std::vector<bool> uprightCharacters(const Line& line, const std::vector<std::siz
     return upright;
 }
 
+/// Letters of two sizes share neither pairs nor ligatures, even of one font.
 bool shapeAlike(const Span& a, const Span& b) {
-    return a.features == b.features && a.language == b.language && a.orientation == b.orientation;
+    return a.features == b.features && a.language == b.language && a.orientation == b.orientation &&
+           a.font.opticalSize == b.font.opticalSize;
 }
 
 /// UAX 9 rule L2: from the highest level down to the lowest odd one, runs of at least that level are

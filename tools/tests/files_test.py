@@ -14,7 +14,8 @@ class Suffixes(Command):
         self.vtm("render", self.svg, "-o", "a.png")
         for arguments in (("render", self.svg, "-o", "x.gif"), ("compile", self.svg, "-o", "x.png"),
                           ("render", self.svg, "-o", "x.png.bak"), ("render", self.svg, "-o", "x."),
-                          ("diff", "a.png", "a.png", "-o", "x.jpg"), ("trace", "a.png", "-o", "x.png")):
+                          ("diff", "a.png", "a.png", "-o", "x.jpg"), ("trace", "a.png", "-o", "x.png"),
+                          ("normalize", self.svg, "-o", "x.svgz")):
             with self.subTest(arguments=arguments):
                 before = self.names()
                 self.assertIn("x.", self.vtm(*arguments, expect=2).stderr)

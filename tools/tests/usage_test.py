@@ -13,7 +13,7 @@ class Proposals(Command):
                              ("inof", "info"), ("Trace", "trace")):
             self.assertIn(f"did you mean '{meant}'?", self.vtm(typed, self.svg, expect=2).stderr)
         said = self.vtm("frobnicate", expect=2).stderr
-        self.assertIn("the subcommands are render, compile, info, diff, trace", said)
+        self.assertIn("the subcommands are render, compile, info, diff, normalize, trace", said)
 
     def test_a_file_in_place_of_a_subcommand(self):
         self.assertIn("vtm render square.svg -o", self.vtm("square.svg", expect=2).stderr)
@@ -26,7 +26,7 @@ class Proposals(Command):
 
 class Help(Command):
     def test_examples(self):
-        for name in ("render", "compile", "info", "diff", "trace"):
+        for name in ("render", "compile", "info", "diff", "normalize", "trace"):
             self.assertIn(f"  vtm {name} ", self.vtm(name, "--help").stdout)
         self.assertIn("Examples:", self.vtm("--help").stdout)
         self.assertIn("vtm info", self.vtm("info", "-h").stdout)
@@ -35,7 +35,7 @@ class Help(Command):
 class Saying(Command):
     def setUp(self):
         super().setUp()
-        self.warned = self.write("warned.svg", SQUARE.replace("</svg>", "<text>a</text></svg>"))
+        self.warned = self.write("warned.svg", SQUARE.replace("</svg>", "<foreignObject/></svg>"))
 
     def test_quiet(self):
         out = ("render", self.warned, "-o", "out.png")
