@@ -1,9 +1,13 @@
+#include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
 #include <fmt/core.h>
 
 #include <vtm/asset/container.hpp>
+#include <vtm/compiler/view.hpp>
 #include <vtm/image/codec.hpp>
+#include <vtm/image/encode.hpp>
 #include <vtm/svg/load.hpp>
 #include <vtm/vtm.hpp>
 #include "api/src/picture_state.hpp"
@@ -86,5 +90,101 @@ const asset::Asset& Picture::asset() const { return state_->whole()->asset; }
 void Picture::save(const std::string& path) const { image::writeFile(path, asset::write(asset())); }
 
 const char* version() { return VTM_VERSION; }
+
+namespace {
+
+void checkSize(double width, double height) {
+    if (width > asset::maxViewSide || height > asset::maxViewSide ||
+        width * height > double(asset::maxViewPixels))
+        throw std::length_error(
+            fmt::format("{:.10g} x {:.10g} pixels are too many (the limit is {} per side and {} in all)",
+                        width, height, asset::maxViewSide, asset::maxViewPixels));
+}
+
+void require(bool holds, const char* what) {
+    if (!holds)
+        throw std::invalid_argument(std::string("RenderOptions: ") + what);
+}
+
+void check(const RenderOptions& options) {
+    require(options.width.value_or(1) > 0 && options.height.value_or(1) > 0,
+            "width and height must be above 0");
+    require(std::isfinite(options.scale) && options.scale > 0, "scale must be above 0");
+    require(std::isfinite(options.rotation), "rotation must be finite");
+    if (const auto& v = options.view)
+        require(std::isfinite(v->x) && std::isfinite(v->y) && std::isfinite(v->x + v->width) &&
+                    std::isfinite(v->y + v->height) && v->width > 0 && v->height > 0,
+                "view must be finite and not empty");
+    if (!options.matrix)
+        return;
+    require(options.width && options.height, "a matrix needs width and height");
+    require(!options.view && options.rotation == 0 && options.scale == 1,
+            "matrix cannot be combined with view, rotation or scale");
+    for (const double number : *options.matrix)
+        require(std::isfinite(number), "the matrix must be finite");
+}
+
+std::optional<image::Raster> shaded(const Seen& seen, Engine engine) {
+    if (engine == Engine::Cpu)
+        return std::nullopt;
+    return drawWithGl(seen.compiled->asset, seen.view, engine == Engine::Gl);
+}
+
+}  // namespace
+
+Shot shotOf(const RenderOptions& options, double pictureWidth, double pictureHeight) {
+    check(options);
+    if (const auto& m = options.matrix) {
+        checkSize(*options.width, *options.height);
+        const scene::Affine toPixels{(*m)[0], (*m)[1], (*m)[2], (*m)[3], (*m)[4], (*m)[5]};
+        const asset::View view{*options.width, *options.height, toPixels};
+        asset::validate(view);
+        return {view, std::nullopt};
+    }
+    const scene::Frame frame = scene::frame({.width = options.width,
+                                             .height = options.height,
+                                             .scale = options.scale,
+                                             .part = options.view,
+                                             .rotation = options.rotation,
+                                             .placement = {.fit = options.fit}},
+                                            pictureWidth, pictureHeight);
+    checkSize(frame.width, frame.height);
+    return {compiler::viewOf(frame), frame};
+}
+
+void Picture::State::drawOnCpu(const Seen& seen, const image::PixelWriter& writer,
+                               const image::RowSink& sink) {
+    if (!seen.compiled->asset.materials.empty())
+        warn("no GLSL runs on the CPU; materials have their fallback colours");
+    seen.compiled->cpu.draw(seen.view, writer, sink);
+}
+
+Image Picture::render(const RenderOptions& options) const {
+    const Shot shot = shotOf(options, state_->width, state_->height);
+    const Seen seen = state_->compileFor(shot);
+    const auto raster = shaded(seen, options.engine);
+    Image image;
+    image.engine = raster ? Engine::Gl : Engine::Cpu;
+    image.width = seen.view.width;
+    image.height = seen.view.height;
+    image.rgba.reserve(std::size_t(image.width) * std::size_t(image.height) * 4);
+    const Rgba& ground = options.background;
+    const image::PixelWriter writer({ground.r, ground.g, ground.b, ground.a});
+    const auto append = [&](std::span<const std::uint8_t> row) {
+        image.rgba.insert(image.rgba.end(), row.begin(), row.end());
+    };
+    if (raster)
+        image::giveRows(*raster, writer, append);
+    else
+        state_->drawOnCpu(seen, writer, append);
+    return image;
+}
+
+void Image::save(const std::string& path) const {
+    const auto format = image::formatOfSuffix(std::filesystem::path(path).extension().string());
+    if (!format)
+        throw image::CodecError(path + ": the name must end in .png, .jpg, .webp or .ppm");
+    image::writeFile(path, image::encode(*this, *format));
+}
 
 }  // namespace vtm

@@ -1,10 +1,11 @@
 #include "backend_gl/core/features.hpp"
 
 #include <bit>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "backend_gl/upload/ramp_sums.hpp"
+#include "backend_gl/upload/asset_texels.hpp"
 
 namespace vtm::gl {
 
@@ -57,6 +58,17 @@ Features featuresOf(const asset::AssetView& asset) {
             flags |= flagsOf(std::bit_cast<asset::Instruction>(asset.data[paint[0] + i]));
     }
     return Features(flags);
+}
+
+std::string Finish::defines() const {
+    std::string text;
+    for (const auto& [flag, name] : {std::pair{LinearLight, "LINEAR_LIGHT"},
+                                     {LinearOut, "LINEAR_OUT"},
+                                     {StraightOut, "STRAIGHT_OUT"},
+                                     {EncodedStore, "ENCODED_STORE"},
+                                     {Dither, "DITHER"}})
+        text += fmt::format("#define {} {}\n", name, has(flag) ? 1 : 0);
+    return text;
 }
 
 }  // namespace vtm::gl

@@ -1,13 +1,129 @@
 #include "backend_gl/core/program.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include <vtm/image/codec.hpp>
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/shader_text.hpp"
 
 namespace vtm::gl {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Changes with the files' form.
+constexpr char magic[8] = {'V', 'T', 'M', 'P', 'R', 'O', 'G', '1'};
+
+/// Before the driver's bytes.
+struct Header {
+    char magic[8] = {};
+    std::uint64_t size = 0, checksum = 0;
+    std::uint32_t format = 0, unused = 0;
+};
+static_assert(sizeof(Header) == 32);
+
+/// FNV-1a, 64 bits; `basis` begins with the standard one or another.
+std::uint64_t hash(std::string_view text, std::uint64_t basis = 0xcbf29ce484222325) {
+    for (const char c : text)
+        basis = (basis ^ std::uint8_t(c)) * 0x100000001b3;
+    return basis;
+}
+
+std::string glText(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+std::vector<GLint> formats() {
+    std::vector<GLint> list(std::size_t(std::max(limit(GL_NUM_PROGRAM_BINARY_FORMATS), 0)));
+    if (!list.empty())
+        glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, list.data());
+    return list;
+}
+
+std::string readAll(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+ProgramCache::ProgramCache(const std::string& directory) {
+    if (directory.empty() || formats().empty())
+        return;
+    directory_ = directory;
+    driver_ = glText(GL_VENDOR) + '\n' + glText(GL_RENDERER) + '\n' + glText(GL_VERSION) + '\n';
+}
+
+std::string ProgramCache::pathOf(std::string_view text) const {
+    const std::uint64_t one = hash(text, hash(driver_)), other = hash(driver_, hash(text));
+    return (fs::path(directory_) / fmt::format("{:016x}{:016x}.program", one, other)).string();
+}
+
+std::optional<ProgramHandle> ProgramCache::load(std::string_view text) const {
+    if (!keeps())
+        return std::nullopt;
+    const std::string file = readAll(pathOf(text));
+    Header header;
+    if (file.size() < sizeof(header))
+        return std::nullopt;
+    std::memcpy(&header, file.data(), sizeof(header));
+    const std::string_view binary = std::string_view(file).substr(sizeof(header));
+    const std::vector<GLint> known = formats();
+    if (std::memcmp(header.magic, magic, sizeof(magic)) != 0 || header.size != binary.size() ||
+        header.checksum != hash(binary) || std::ranges::find(known, GLint(header.format)) == known.end())
+        return std::nullopt;
+    ProgramHandle program(glCreateProgram());
+    glProgramBinary(program.get(), header.format, binary.data(), GLsizei(binary.size()));
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.get(), GL_LINK_STATUS, &linked);
+    dropErrors();
+    if (!linked)
+        return std::nullopt;
+    return program;
+}
+
+void ProgramCache::store(std::string_view text, const ProgramHandle& program) const {
+    if (!keeps())
+        return;
+    GLint size = 0;
+    glGetProgramiv(program.get(), GL_PROGRAM_BINARY_LENGTH, &size);
+    if (size <= 0)
+        return;
+    std::string binary(std::size_t(size), '\0');
+    GLsizei length = 0;
+    GLenum format = 0;
+    glGetProgramBinary(program.get(), size, &length, &format, binary.data());
+    if (glGetError() != GL_NO_ERROR)
+        return;
+    binary.resize(std::size_t(length));
+    Header header;
+    std::memcpy(header.magic, magic, sizeof(magic));
+    header.size = binary.size();
+    header.checksum = hash(binary);
+    header.format = format;
+
+    std::vector<std::uint8_t> file(sizeof(header) + binary.size());
+    std::memcpy(file.data(), &header, sizeof(header));
+    std::memcpy(file.data() + sizeof(header), binary.data(), binary.size());
+    std::error_code ignored;
+    fs::create_directories(directory_, ignored);
+    try {
+        image::writeFile(pathOf(text), file);
+    } catch (const image::CodecError&) {
+        // The program is compiled again next time.
+    }
+}
 
 namespace {
 

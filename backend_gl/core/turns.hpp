@@ -19,8 +19,8 @@ inline constexpr std::uint32_t vectorPixels = 16;
 /// What a pixel may take on every driver, whatever its neighbours do.
 inline constexpr std::uint32_t turnsPerPixel = driverTurns / vectorPixels;
 
-/// Ramps of more stops are integrated by sums from stop to stop (backend_gl/upload/ramp_sums.hpp) instead of
-/// a loop over the stops.
+/// Ramps of more stops are integrated by sums from stop to stop (backend_gl/upload/asset_texels.hpp) instead
+/// of a loop over the stops.
 inline constexpr std::uint32_t longRamp = 16;
 
 /// Images take what their pixels' footprints want: as many as at most, or none, where shaders count them.

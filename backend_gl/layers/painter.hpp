@@ -2,17 +2,34 @@
 /// Running the commands of an asset in compat mode under one view that fits a target.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/programs.hpp"
-#include "backend_gl/layers/shelves.hpp"
 #include "backend_gl/output/boxes.hpp"
 #include "backend_gl/output/target.hpp"
 #include "backend_gl/upload/upload.hpp"
 
 namespace vtm::gl {
+
+class Shelves {
+public:
+    explicit Shelves(glm::ivec2 size) : size_(size) {}
+
+    /// The rectangle's min corner, or nothing where no room is left.
+    std::optional<glm::ivec2> place(glm::ivec2 rectangle);
+    /// All that was placed lies in rows [0, height()).
+    int height() const { return shelf_ + shelfHeight_; }
+    void clear();
+
+private:
+    glm::ivec2 size_;
+    int x_ = 0, shelf_ = 0, shelfHeight_ = 0;
+};
 
 /// What a renderer keeps from picture to picture.
 struct Workshop {

@@ -7,7 +7,7 @@
 
 #include <vtm/gl/output.hpp>
 #include <vtm/raster/view.hpp>
-#include "backend_gl/core/finish.hpp"
+#include "backend_gl/core/features.hpp"
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/placement.hpp"
 

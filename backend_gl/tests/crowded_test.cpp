@@ -11,7 +11,6 @@
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
-#include "backend_gl/tests/user_framebuffer.hpp"
 #include "raster/testing_views.hpp"
 
 namespace vtm::gl {

@@ -13,7 +13,6 @@
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
-#include "backend_gl/texture/prefixed.hpp"
 
 namespace vtm::gl {
 namespace {

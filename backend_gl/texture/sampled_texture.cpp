@@ -16,7 +16,6 @@
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/texture/sample_include.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
-#include "backend_gl/upload/ramp_sums.hpp"
 
 namespace vtm::gl {
 

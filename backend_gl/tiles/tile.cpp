@@ -11,10 +11,8 @@
 #include <vtm/limits/limits.hpp>
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/tiles/rough_cells.hpp"
+#include "backend_gl/tiles/tile_cells.hpp"
 #include "backend_gl/tiles/tile_pieces.hpp"
-#include "backend_gl/tiles/tile_references.hpp"
-#include "backend_gl/tiles/tile_texels.hpp"
-#include "backend_gl/tiles/tile_turns.hpp"
 #include "raster/steepness.hpp"
 
 namespace vtm::gl {

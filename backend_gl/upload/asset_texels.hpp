@@ -1,5 +1,6 @@
 /// \file
-/// An asset's records as textures for texelFetch, row after row.
+/// An asset's records as textures for texelFetch, row after row; beside its data, integrals of gradients'
+/// ramps from stop to stop, so that a pixel over many stops needs no loop over them.
 #pragma once
 
 #include <cstring>
@@ -33,5 +34,13 @@ ImageTexels imageTexels(const asset::AssetView& asset);
 TextureHandle texelTexture(std::vector<asset::Texel> texels);
 /// RGBA8, 2^imageColumnsLog2 wide. Throws likewise.
 TextureHandle imageTexture(std::vector<std::uint8_t> rgba);
+
+/// Beside each texel of the data, if any gradient has more than `longRamp` stops; else nothing. At stop j
+/// less at stop i of one gradient it is the premultiplied ramp's integral between them, red, green, blue,
+/// alpha in steps of 2^-31, modulo 2^32: a difference is exact, however small it is beside the sum.
+std::vector<asset::Texel> rampSums(const asset::AssetView& asset);
+
+/// Whether there are such gradients.
+bool hasLongRamps(const asset::AssetView& asset);
 
 }  // namespace vtm::gl

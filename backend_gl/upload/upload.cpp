@@ -6,7 +6,6 @@
 
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
-#include "backend_gl/upload/ramp_sums.hpp"
 #include "raster/steepness.hpp"
 
 namespace vtm::gl {

@@ -18,7 +18,7 @@ namespace vtm::gl {
 struct Sections {
     GLuint leaves = 0, pieces = 0, paints = 0, data = 0;
     GLuint images = 0;    ///< a texel a picture: first pixel, width, height
-    GLuint rampSums = 0;  ///< beside the data (ramp_sums.hpp)
+    GLuint rampSums = 0;  ///< beside the data (asset_texels.hpp)
 };
 
 struct UploadedAsset {

@@ -17,7 +17,7 @@
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/scan.hpp>
 #include "backend_gl/testing.hpp"
-#include "conformance/cases/measure.hpp"
+#include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 
 namespace vtm::cases {

@@ -9,7 +9,7 @@
 #include <vtm/asset/container.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/raster/evaluate.hpp>
-#include "conformance/cases/measure.hpp"
+#include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 
 namespace vtm::cases {

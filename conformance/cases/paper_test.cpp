@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "conformance/cases/measure.hpp"
+#include "conformance/cases/support.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"
 #include "paper/compile.hpp"

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <fmt/core.h>
+
 #include <vtm/compiler/view.hpp>
 #include <vtm/image/codec.hpp>
 #include <vtm/svg/load.hpp>
@@ -78,6 +80,14 @@ scene::Scene sceneOf(const scene::Path& path, scene::FillRule rule, double side)
     scene.width = scene.height = side;
     scene.root.children.push_back({item});
     return scene;
+}
+
+Measurement::Measurement(const std::string& name)
+    : scene_(loadScene(sharedDirectory() / "corpus" / (name + ".svg"))),
+      asset_(compiler::compile(scene_).asset) {}
+
+image::Raster truthOf(const std::string& name, int size) {
+    return compare::readPng((sharedDirectory() / fmt::format("corpus/truth/{}.{}.png", name, size)).string());
 }
 
 }  // namespace vtm::cases

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/compiler/compile.hpp>
 #include <vtm/gl/renderer.hpp>
 #include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
+#include "conformance/compare/compare.hpp"
 
 namespace vtm::cases {
 
@@ -52,5 +54,25 @@ std::vector<CorpusFile> corpusFiles();
 
 /// A scene of one filled path on nothing, `side` units wide and high.
 scene::Scene sceneOf(const scene::Path& path, scene::FillRule rule, double side);
+
+/// A file of the corpus, compiled.
+class Measurement {
+public:
+    /// Throws the modules' exceptions.
+    explicit Measurement(const std::string& name);
+
+    const scene::Scene& scene() const { return scene_; }
+    const asset::Asset& asset() const { return asset_; }
+
+private:
+    scene::Scene scene_;
+    asset::Asset asset_;
+};
+
+/// The ground truth of a file of the corpus.
+image::Raster truthOf(const std::string& name, int size);
+
+/// Bounds that hold for every file, in 1/255.
+inline constexpr double truthP999 = 6, assetMax = 2, referenceMax = 4, referenceRms = 0.3;
 
 }  // namespace vtm::cases

@@ -13,7 +13,7 @@
 
 #include <vtm/image/codec.hpp>
 #include "backend_gl/testing.hpp"
-#include "conformance/cases/measure.hpp"
+#include "conformance/cases/support.hpp"
 #include "conformance/cases/texture_views.hpp"
 #include "conformance/compare/compare.hpp"
 

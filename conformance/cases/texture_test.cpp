@@ -17,7 +17,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include "backend_gl/testing.hpp"
-#include "conformance/cases/measure.hpp"
+#include "conformance/cases/support.hpp"
 #include "conformance/cases/texture_views.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/reference/reference.hpp"

@@ -13,7 +13,6 @@
 #include <vtm/raster/evaluate.hpp>
 #include "conformance/cases/certify.hpp"
 #include "conformance/cases/distances.hpp"
-#include "conformance/cases/drawn_boundary.hpp"
 #include "conformance/cases/support.hpp"
 #include "conformance/compare/compare.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "backend_gl/core/materials.hpp"
+#include "backend_gl/core/programs.hpp"
 #include "backend_gl/core/shader_text.hpp"
 #include "paper/evaluate.hpp"
 #include "paper/gl/shader_text.hpp"

@@ -5,7 +5,6 @@
 
 #include <glm/matrix.hpp>
 
-#include "backend_gl/core/materials.hpp"
 #include "backend_gl/core/program.hpp"
 #include "backend_gl/core/programs.hpp"
 #include "backend_gl/core/requirements.hpp"

@@ -1,6 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,10 +13,10 @@
 
 #include <vtm/image/codec.hpp>
 #include "tools/commands/commands.hpp"
-#include "tools/commands/jobs.hpp"
 #include "tools/commands/report.hpp"
 #include "tools/engines/debug_view.hpp"
 #include "tools/engines/engine.hpp"
+#include "tools/input/input.hpp"
 #include "tools/input/view.hpp"
 #include "tools/options/options.hpp"
 #include "tools/output/output.hpp"
@@ -23,6 +28,68 @@
 namespace vtm::tools {
 
 namespace {
+
+struct Job {
+    std::string input, output;
+};
+
+namespace fs = std::filesystem;
+
+bool meansDirectory(const std::string& output) { return output.ends_with('/') || fs::is_directory(output); }
+
+/// The picture's file in a directory.
+std::string fileFor(const std::string& input, const std::string& directory, const std::string& suffix) {
+    const std::string stem = input == standardStream ? "stdin" : fs::path(input).stem().string();
+    return (fs::path(directory) / stem).string() + suffix;
+}
+
+/// Lines IN<TAB>OUT of a file, or of standard input for "-"; empty ones do not count. Throws
+/// std::runtime_error.
+std::vector<Job> readBatch(const std::string& path) {
+    const Input list = readInput(path);
+    std::istringstream text(std::string(list.bytes.begin(), list.bytes.end()));
+    std::vector<Job> jobs;
+    std::string line;
+    for (int number = 1; std::getline(text, line); ++number) {
+        if (line.empty())
+            continue;
+        const std::size_t tab = line.find('\t');
+        if (tab == std::string::npos || tab == 0 || tab + 1 == line.size())
+            throw std::runtime_error(fmt::format("{}:{}:1: expected IN<TAB>OUT", list.name, number));
+        jobs.push_back({line.substr(0, tab), line.substr(tab + 1)});
+    }
+    return jobs;
+}
+
+/// Into one file, or into a directory: one that exists, that ends in '/', or that many inputs go to; pictures
+/// in it are called as their inputs, with `suffix`. Throws UsageError.
+std::vector<Job> jobsOf(const std::vector<std::string>& inputs, const std::string& output,
+                        const std::string& suffix) {
+    if (inputs.empty() || output.empty())
+        throw UsageError("render: needs IN... and -o OUT, or --batch LIST");
+    const bool directory = meansDirectory(output);
+    if (!directory && inputs.size() == 1)
+        return {{inputs[0], output}};
+    if (!directory && (fs::path(output).has_extension() || isStandardOutput(output)))
+        throw UsageError("-o: several inputs need a directory, not " + output);
+    std::vector<Job> jobs;
+    for (const std::string& input : inputs)
+        jobs.push_back({input, fileFor(input, output, suffix)});
+    return jobs;
+}
+
+/// Throws UsageError where a job would overwrite what another one writes or any reads.
+/// `batch`: the list that they came from, if any.
+void refuseOverwrites(const std::vector<Job>& jobs, const std::string& batch) {
+    std::vector<std::string> inputs, outputs;
+    if (!batch.empty())
+        inputs.push_back(batch);
+    for (const Job& job : jobs) {
+        inputs.push_back(job.input);
+        outputs.push_back(job.output);
+    }
+    refuseLoss(inputs, outputs);
+}
 
 constexpr const char* examples =
     "Examples:\n"
@@ -139,7 +206,7 @@ std::vector<Job> checkedJobs(const RenderOptions& options) {
         if (options.json)
             refuseMixture(job.output, "the figures of --json");
     }
-    refuseLoss(jobs, options.batch);
+    refuseOverwrites(jobs, options.batch);
     return jobs;
 }
 

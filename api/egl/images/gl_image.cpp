@@ -1,7 +1,6 @@
 #include "api/egl/images/gl_image.hpp"
 
 #include "api/egl/state/configs.hpp"
-#include "api/egl/system/gl_current.hpp"
 #include "api/egl/system/gl_functions.hpp"
 
 namespace vtm::egl {

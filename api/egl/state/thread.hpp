@@ -9,7 +9,6 @@
 
 #include <EGL/egl.h>
 
-#include "api/egl/state/error.hpp"
 #include "api/egl/state/objects.hpp"
 #include "api/egl/state/registry.hpp"
 #include "api/egl/system/system.hpp"

@@ -1,6 +1,5 @@
 #include "api/egl/surfaces/blitter.hpp"
 
-#include "api/egl/system/gl_current.hpp"
 #include "api/egl/system/gl_functions.hpp"
 
 namespace vtm::egl {

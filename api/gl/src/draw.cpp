@@ -6,6 +6,7 @@
 #include <vtm/asset/asset.hpp>
 #include <vtm/gl/context.hpp>
 #include <vtm/gl/renderer.hpp>
+#include <vtm/vtm.hpp>
 #include "api/gl_entry.hpp"
 
 namespace vtm::gl {
@@ -92,3 +93,9 @@ extern "C" __attribute__((visibility("default"))) bool vtm_gl_draw(vtm::GlReques
     }
     return false;
 }
+
+namespace vtm {
+
+gl::Texture Picture::texture() const { return gl::Texture(asset()); }
+
+}  // namespace vtm

@@ -8,7 +8,7 @@
 #include "api/openvg/draw/blend.hpp"
 #include "api/openvg/draw/path_mask.hpp"
 #include "api/openvg/draw/pixel_source.hpp"
-#include "api/openvg/paint/color_transform.hpp"
+#include "api/openvg/paint/paint_color.hpp"
 #include "api/openvg/state/context.hpp"
 
 namespace vtm::openvg {

@@ -8,7 +8,7 @@
 
 #include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/image/images.hpp"
-#include "api/openvg/paint/color_transform.hpp"
+#include "api/openvg/paint/paint_color.hpp"
 #include "api/openvg/path/projective.hpp"
 #include "api/openvg/record/record.hpp"
 #include "api/openvg/state/matrix.hpp"

@@ -6,7 +6,7 @@
 #include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/draw/draw_path.hpp"
 #include "api/openvg/image/images.hpp"
-#include "api/openvg/image/memory_pixels.hpp"
+#include "api/openvg/image/pixels.hpp"
 #include "api/openvg/record/record.hpp"
 
 using namespace vtm::openvg;

@@ -12,7 +12,7 @@
 #include <vtm/compiler/stroke.hpp>
 #include "api/openvg/path/flatten.hpp"
 #include "api/openvg/path/path_measure.hpp"
-#include "api/openvg/path/rational_curve.hpp"
+#include "api/openvg/path/segment.hpp"
 
 namespace vtm::openvg {
 

@@ -6,8 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "api/openvg/paint/color_ramp.hpp"
-#include "api/openvg/paint/color_transform.hpp"
+#include "api/openvg/paint/paint_color.hpp"
 #include "api/openvg/state/matrix.hpp"
 
 namespace vtm::openvg {

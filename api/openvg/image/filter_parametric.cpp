@@ -8,8 +8,7 @@
 #include <VG/vgext.h>
 
 #include "api/openvg/image/filter_images.hpp"
-#include "api/openvg/paint/color_ramp.hpp"
-#include "api/openvg/paint/color_transform.hpp"
+#include "api/openvg/paint/paint_color.hpp"
 
 using namespace vtm::openvg;
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "api/openvg/image/memory_pixels.hpp"
+#include "api/openvg/image/pixels.hpp"
 #include "api/openvg/state/context.hpp"
 
 namespace vtm::openvg {

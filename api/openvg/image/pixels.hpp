@@ -1,14 +1,45 @@
 /// \file
-/// A rectangle of pixels: what images and drawing surfaces store, row 0 at the bottom.
+/// Pixels as words, as images and drawing surfaces store them, and as programs hand them over (specification
+/// sections 3.4.4, 10.2 and 10.5).
 #pragma once
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <vector>
 
-#include "api/openvg/image/pixel_format.hpp"
+#include <VG/openvg.h>
+
+#include "api/openvg/paint/color.hpp"
+#include "api/openvg/state/error.hpp"
 
 namespace vtm::openvg {
+
+/// Bits of a word that hold a number from 0 to 2^bits - 1; none if bits is 0.
+struct Channel {
+    std::uint8_t bits = 0, shift = 0;
+
+    friend bool operator==(const Channel&, const Channel&) = default;
+};
+
+/// A word of 32 bits or less. Either red, green and blue have bits, or grey has, or only alpha, which then is
+/// that of a white linear colour.
+struct PixelFormat {
+    unsigned bits = 0;  ///< of a pixel in memory: 1, 4, 8, 16 or 32
+    Channel red, green, blue, alpha, grey;
+    ColorSpace space;
+
+    /// In `space`; alpha is 1 where there is none. Premultiplied colours are clamped to [0, alpha].
+    Color decode(std::uint32_t word) const;
+    /// Rounds to nearest; takes a colour in `space`, clamps it to [0, 1] and, premultiplied, to [0, alpha].
+    /// Bits that no channel has are 0.
+    std::uint32_t encode(Color color) const;
+
+    friend bool operator==(const PixelFormat&, const PixelFormat&) = default;
+};
+
+/// Nothing unless the value is one of VGImageFormat.
+std::optional<PixelFormat> imageFormat(VGint format);
 
 /// Half open.
 struct Rectangle {
@@ -88,5 +119,40 @@ private:
     std::size_t pixelBytes_;
     std::vector<std::uint8_t> bytes_;
 };
+
+/// Rows `stride` bytes apart, the first one's address given.
+struct MemoryPixels {
+    std::uint8_t* first = nullptr;
+    std::ptrdiff_t stride = 0;
+    PixelFormat layout;
+
+    const PixelFormat& format() const { return layout; }
+    std::uint32_t word(int x, int y) const;
+    void setWord(int x, int y, std::uint32_t word) const;
+};
+
+/// Throws for what vgImageSubData and its like must not be given. Only setWord writes.
+MemoryPixels memoryPixels(const void* data, VGint stride, VGImageFormat format, VGint width, VGint height);
+
+/// From (sx, sy) on to (dx, dy) on.
+struct CopyArea {
+    int dx, dy, sx, sy, width, height;
+};
+
+/// What is within both; width and height are 0 or less if nothing is.
+CopyArea clipped(CopyArea area, int dstWidth, int dstHeight, int srcWidth, int srcHeight);
+
+/// The words of the source, row by row: a copy whose source and destination may overlap goes through it.
+template <class Word>
+std::vector<std::uint32_t> copied(const CopyArea& area, Word&& word) {
+    std::vector<std::uint32_t> words;
+    if (area.width <= 0 || area.height <= 0)
+        return words;
+    words.reserve(std::size_t(area.width) * std::size_t(area.height));
+    for (int j = 0; j < area.height; ++j)
+        for (int i = 0; i < area.width; ++i)
+            words.push_back(word(area.sx + i, area.sy + j));
+    return words;
+}
 
 }  // namespace vtm::openvg

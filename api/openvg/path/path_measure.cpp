@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 
-#include "api/openvg/path/rational_curve.hpp"
+#include "api/openvg/path/segment.hpp"
 #include "geometry/length.hpp"
 
 namespace vtm::openvg {

@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "api/openvg/image/pixels.hpp"
-#include "api/openvg/path/rational_curve.hpp"
+#include "api/openvg/path/segment.hpp"
 #include "api/openvg/state/state.hpp"
 
 namespace vtm::openvg {

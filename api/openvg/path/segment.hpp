@@ -1,13 +1,17 @@
 /// \file
-/// Segments of paths, one by one (specification sections 8.3 to 8.5).
+/// Segments of paths, one by one (specification sections 8.3 to 8.5), and as rational Bézier curves in
+/// homogeneous coordinates: what lines, curves and arcs all are, and remain under projective maps
+/// (VG_NDS_projective_geometry, section 8.4a).
 #pragma once
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <VG/vgext.h>
 
@@ -41,7 +45,7 @@ struct Segment {
     bool isArc() const { return type >= VG_SCCWARC_TO && type <= VG_LCWARC_TO; }
 };
 
-/// The path as outlines are made of it; rational curves as cubic ones (rational_curve.hpp).
+/// The path as outlines are made of it; rational curves as cubic ones.
 scene::Path outline(const std::vector<Segment>& segments);
 /// The other way.
 std::vector<Segment> segmentsOf(const scene::Path& outline);
@@ -51,5 +55,40 @@ std::optional<geometry::EllipticalArc> arcOf(const Segment& segment);
 
 /// The affine image of an ellipse: radii and rotation (degrees) of what becomes of them.
 void transformEllipse(const glm::dmat2& linear, Point& radii, double& rotation);
+
+/// Points are (w x, w y, w).
+struct RationalCurve {
+    int degree = 1;  ///< 1 to 3: as many points, and one more
+    std::array<glm::dvec3, 4> points{};
+
+    const glm::dvec3& start() const { return points[0]; }
+    const glm::dvec3& end() const { return points[std::size_t(degree)]; }
+    glm::dvec3 at(double t) const;
+    /// Of (x, y).
+    Point derivative(double t) const;
+    /// Of t from `first` to `last`, which has the very ends of the curve where that has 0 and 1.
+    RationalCurve part(double first, double last) const;
+};
+
+/// A segment's curves: nothing for a move, quadratic ones of at most a quarter of a turn for an arc. Together
+/// they start and end just where the segment does.
+std::vector<RationalCurve> rationalCurves(const Segment& segment);
+
+/// x / w, y / w; far out where there is no such number.
+Point projected(glm::dvec3 p);
+
+/// The other way: a line, a quadratic or cubic curve, a rational one only where points' weights differ
+/// from 1.
+Segment segmentOf(const RationalCurve& curve);
+
+/// Appends plain curves that are the curve but for `tolerance`, tested at three points each; what is not as
+/// near after `halvings` becomes a line.
+inline constexpr int maxHalvings = 10;
+void appendAsPlain(std::vector<Segment>& segments, const RationalCurve& curve, double tolerance,
+                   int halvings = maxHalvings);
+
+/// All rational curves as plain ones, within 2^-22 of the size of their points' box; where not all weights
+/// are above 0 a curve may reach into the infinite, and is drawn by a few pieces.
+std::vector<Segment> withoutRationals(std::span<const Segment> segments);
 
 }  // namespace vtm::openvg

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "api/openvg/image/memory_pixels.hpp"
+#include "api/openvg/image/pixels.hpp"
 #include "api/openvg/record/record_mask.hpp"
 #include "api/openvg/record/record_paint.hpp"
 #include "api/openvg/state/context.hpp"

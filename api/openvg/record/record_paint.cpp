@@ -7,8 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "api/openvg/draw/pixel_source.hpp"
-#include "api/openvg/paint/color_ramp.hpp"
-#include "api/openvg/paint/color_transform.hpp"
+#include "api/openvg/paint/paint_color.hpp"
 
 namespace vtm::openvg {
 

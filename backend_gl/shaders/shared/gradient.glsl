@@ -44,7 +44,7 @@ vec4 colorBetween(uvec4 before, uvec4 after, float u) {
 
 #if LONG_RAMPS
 #ifdef ONE_ASSET
-// First texel of the integrals from stop to stop (backend_gl/upload/ramp_sums.hpp).
+// First texel of the integrals from stop to stop (backend_gl/upload/asset_texels.hpp).
 uniform uint rampSums;
 #endif
 

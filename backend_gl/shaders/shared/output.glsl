@@ -1,5 +1,5 @@
 // From the colours of regions, premultiplied sRGB, to the numbers that a framebuffer wants.
-// Requires: LINEAR_LIGHT, LINEAR_OUT, STRAIGHT_OUT, ENCODED_STORE, DITHER defined as 1 or 0 (backend_gl/core/finish.hpp);
+// Requires: LINEAR_LIGHT, LINEAR_OUT, STRAIGHT_OUT, ENCODED_STORE, DITHER defined as 1 or 0 (backend_gl/core/features.hpp);
 // blend.glsl if one is 1.
 // Exports: regionValue and regionValueIn, what is added up for a region; outputColor, what is made of the sum.
 

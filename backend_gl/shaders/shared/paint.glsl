@@ -2,7 +2,7 @@
 // Requires: fetch.glsl, gradient.glsl, image.glsl, blend.glsl; constants op*, maxStack; LINEAR, RADIAL,
 // IMAGE, GROUPS, MIXING, MATERIAL defined as 1 or 0: what the asset's programs contain. Some drivers run
 // both sides of every branch, so what cannot occur is left out. Where MATERIAL is 1: materialColor, which
-// backend_gl/core/materials.cpp makes.
+// backend_gl/core/programs.cpp makes.
 // Twin of: raster/src/paint.cpp.
 // Exports: paintColor.
 

@@ -61,7 +61,7 @@ uint referenceAt(uvec4 references, uint i) {
 // ---- Pixels that were too much ----------------------------------------------------------------------
 
 #if CROWDED
-uniform sampler2D layer;  // pixels of crowded cells (backend_gl/tiles/scanned_pixels.hpp)
+uniform sampler2D layer;  // pixels of crowded cells (backend_gl/tiles/atlas.hpp)
 uniform ivec2 scannedCorner;
 #endif
 

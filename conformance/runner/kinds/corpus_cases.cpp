@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include <vtm/raster/evaluate.hpp>
-#include "conformance/cases/measure.hpp"
+#include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/kinds/kinds.hpp"
 #include "conformance/runner/kinds/scene_subject.hpp"

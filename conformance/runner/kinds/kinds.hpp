@@ -25,7 +25,7 @@ std::vector<Case> robustnessCases(const Folder& folder);
 std::vector<Case> paperCases(const Folder& folder);
 /// Real files against ground truth made elsewhere.
 std::vector<Case> corpusCases(const Folder& folder);
-/// Drawings that put very much into few pixels (crowded_scenes.hpp), made small.
+/// Drawings that put very much into few pixels, made small.
 std::vector<Case> crowdedCases(const Folder& folder);
 /// Scripts of OpenVG calls (conformance/suites/openvg/README.md).
 std::vector<Case> openvgCases(const Folder& folder);

@@ -1,10 +1,16 @@
 #include "conformance/runner/run.hpp"
 
-#include <gtest/gtest.h>
-
+#include <limits>
 #include <stdexcept>
 
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "conformance/runner/report/report.hpp"
+#include "conformance/runner/suite/suite.hpp"
+
 namespace vtm::conformance {
+
 namespace {
 
 Case caseOf(const std::string& name, Outcome outcome) {
@@ -61,5 +67,59 @@ TEST(MustPass, NamesWhatDidNot) {
     EXPECT_TRUE(missedMustPass(rows, {"c.*"}, false).empty());
 }
 
+namespace fs = std::filesystem;
+
+class ReportTest : public testing::Test {
+protected:
+    ReportTest() {
+        Row good, bad;
+        good.name = "a.good", good.suite = "a";
+        bad.name = "b.bad", bad.suite = "b", bad.verdict = Verdict::Failed;
+        bad.message = "<\"&\x01</script>";
+        Figure figure;
+        figure.difference.max = infinite;
+        bad.outcome.figures = {figure};
+        bad.outcome.pictures = Pictures{"gl", "first", image::Raster(4, 3), image::Raster(4, 3)};
+        rows_ = {good, bad};
+    }
+    fs::path folder_ = fs::path(testing::TempDir()) / "vtm-report";
+    std::vector<Row> rows_;
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+};
+
+TEST_F(ReportTest, JsonHasASummaryAndARowACase) {
+    const fs::path file = fs::path(testing::TempDir()) / "rows.json";
+    writeJson(file, rows_);
+    const auto json = nlohmann::json::parse(readText(file));
+    EXPECT_EQ(json["summary"],
+              (nlohmann::json{{"passed", 1}, {"failed", 1}, {"skipped", 0}, {"expected_failures", 0}}));
+    EXPECT_EQ(json["cases"][1]["message"], rows_[1].message);
+    EXPECT_EQ(json["cases"][1]["worst"][0]["max"], "infinite");
+}
+
+TEST_F(ReportTest, JunitEscapesAndCounts) {
+    const fs::path file = fs::path(testing::TempDir()) / "rows.xml";
+    writeJunit(file, rows_);
+    const std::string text = readText(file);
+    EXPECT_NE(text.find("<testsuite name=\"b\" tests=\"1\" failures=\"1\""), std::string::npos) << text;
+    EXPECT_NE(text.find("&lt;&quot;&amp;?&lt;/script>"), std::string::npos) << text;
+}
+
+TEST_F(ReportTest, PageHoldsAllItNeeds) {
+    const Report report(folder_);
+    report.addPictures(rows_[1]);
+    EXPECT_FALSE(rows_[1].outcome.pictures);
+    ASSERT_EQ(rows_[1].pictures.size(), 4u);
+    for (const std::string& picture : rows_[1].pictures)
+        EXPECT_TRUE(fs::exists(folder_ / picture)) << picture;
+    report.writePage(rows_);
+    const std::string page = readText(folder_ / "index.html");
+    EXPECT_NE(page.find("b.bad.heat.png"), std::string::npos);
+    for (const char* outside : {"http:", "https:", "src=\"//", "@import"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));  // the data do not end the script
+}
+
 }  // namespace
+
 }  // namespace vtm::conformance

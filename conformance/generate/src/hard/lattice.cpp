@@ -1,7 +1,6 @@
 #include <glm/common.hpp>
 
 #include "conformance/generate/src/hard/families.hpp"
-#include "conformance/generate/src/hard/sketch.hpp"
 
 namespace vtm::generate {
 

@@ -1,5 +1,4 @@
 #include "conformance/generate/src/hard/families.hpp"
-#include "conformance/generate/src/hard/sketch.hpp"
 
 namespace vtm::generate {
 

@@ -1,0 +1,123 @@
+#include "api/openvg/paint/paint_color.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vtm::openvg {
+
+namespace {
+
+class TransformedSource final : public PixelSource {
+public:
+    TransformedSource(std::unique_ptr<PixelSource> source, const ColorTransform& transform)
+        : PixelSource({transform.space().linear, true, false}),
+          source_(std::move(source)),
+          transform_(transform) {}
+
+    void colors(int x, int y, std::span<Color> colors) const override {
+        source_->colors(x, y, colors);
+        for (Color& color : colors)
+            color = premultiplied(
+                transform_(converted(unpremultiplied(color), source_->space(), transform_.space())));
+    }
+
+private:
+    std::unique_ptr<PixelSource> source_;
+    ColorTransform transform_;
+};
+
+}  // namespace
+
+ScaleAndBias::ScaleAndBias(const State& state) : isOn_(state.colorTransform) {
+    for (int c = 0; c < 4; ++c) {
+        scale_[c] = std::clamp(state.colorTransformValues[std::size_t(c)], -127.0f, 127.0f);
+        bias_[c] = std::clamp(state.colorTransformValues[std::size_t(4 + c)], -1.0f, 1.0f);
+    }
+}
+
+ColorTransform::ColorTransform(const Paint& paint)
+    : space_{paint.transformLinear, false, false}, isIdentity_(paint.colorMatrix == Paint::identityMatrix) {
+    const std::array<VGfloat, 20>& m = paint.colorMatrix;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            matrix_[c][r] = m[std::size_t(4 * c + r)];
+    added_ = {m[16], m[17], m[18], m[19]};
+}
+
+Color ColorTransform::operator()(Color color) const {
+    // max first: it makes 0 of what is no number.
+    return glm::min(glm::max(Color(0), matrix_ * color + added_), 1.0f);
+}
+
+Color transformedColor(const ColorTransform& transform, Color color, ColorSpace to) {
+    color = clampedToUnit(color);
+    if (transform.isIdentity())
+        return converted(color, sRGBA, to);
+    return converted(transform(converted(color, sRGBA, transform.space())), transform.space(), to);
+}
+
+std::unique_ptr<PixelSource> transformedSource(std::unique_ptr<PixelSource> source,
+                                               const ColorTransform& transform) {
+    if (!source || transform.isIdentity())
+        return source;
+    return std::make_unique<TransformedSource>(std::move(source), transform);
+}
+
+ColorRamp::ColorRamp(const Paint& paint)
+    : space_{paint.rampLinear, true, false}, spread_(paint.spread), premultiplied_(paint.rampPremultiplied) {
+    const std::vector<VGfloat>& v = paint.stops;
+    float last = -1;
+    for (std::size_t i = 0; i + 5 <= v.size(); i += 5) {
+        const float offset = v[i];
+        if (!(offset >= 0 && offset <= 1))
+            continue;
+        if (offset < last) {
+            // Out of order: the whole sequence counts for nothing.
+            stops_.clear();
+            break;
+        }
+        last = offset;
+        stops_.push_back({offset, Color(v[i + 1], v[i + 2], v[i + 3], v[i + 4])});
+    }
+    if (stops_.empty())
+        stops_ = {{0, Color(0, 0, 0, 1)}, {1, Color(1)}};
+    const ColorTransform transform(paint);
+    for (Stop& stop : stops_) {
+        stop.color = transformedColor(transform, stop.color, {paint.rampLinear, false, false});
+        if (premultiplied_)
+            stop.color = premultiplied(stop.color);
+    }
+    if (stops_.front().offset > 0)
+        stops_.insert(stops_.begin(), {0, stops_.front().color});
+    if (stops_.back().offset < 1)
+        stops_.push_back({1, stops_.back().color});
+}
+
+Color ColorRamp::at(double offset) const {
+    double v = std::isnan(offset) ? 0 : offset;
+    if (spread_ != VG_COLOR_RAMP_SPREAD_PAD) {
+        const double whole = std::floor(v);
+        v -= whole;
+        if (spread_ == VG_COLOR_RAMP_SPREAD_REFLECT && std::fmod(whole, 2) != 0)
+            v = 1 - v;
+    }
+    Color color;
+    if (v < 0) {
+        color = stops_.front().color;
+    } else if (v >= 1) {
+        color = stops_.back().color;
+    } else {
+        // The first stop behind v; the one before it is the last at or before v.
+        const auto next = std::ranges::upper_bound(stops_, float(v), {}, &Stop::offset);
+        if (next == stops_.begin() || next == stops_.end()) {
+            color = (next == stops_.end() ? stops_.back() : stops_.front()).color;
+        } else {
+            const Stop &a = *(next - 1), &b = *next;
+            color = glm::mix(a.color, b.color,
+                             float((v - double(a.offset)) / (double(b.offset) - double(a.offset))));
+        }
+    }
+    return premultiplied_ ? color : premultiplied(color);
+}
+
+}  // namespace vtm::openvg

@@ -1,0 +1,82 @@
+/// \file
+/// The cells of a tile: the points at which their paints are known, their texels, as tile.hpp describes them,
+/// and what a pixel of one takes of the driver's turns of loops, at most.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "backend_gl/tiles/tile.hpp"
+#include "backend_gl/tiles/tile_pieces.hpp"
+#include "raster/planar_map.hpp"
+#include "raster/steepness.hpp"
+
+namespace vtm::gl {
+
+using asset::Texel;
+
+/// The two texels of a piece, whose numbers are rounded already.
+Texel geometryTexel(const PlanarPiece& piece);
+Texel colorTexel(const asset::Paint& left, const asset::Paint& right);
+
+/// A cell's point with a known paint; `place` numbers it on the grid of such points, row by row.
+struct Reference {
+    glm::dvec2 point;
+    unsigned place = 0;
+    std::uint32_t paint = 0;
+};
+
+/// Writes cells, and the references for which they have no room.
+class CellWriter {
+public:
+    CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
+               std::vector<Texel>& texels)
+        : paints_(paints), pieces_(pieces), texels_(texels) {}
+
+    Texel write(const Reference& reference, std::span<const std::uint32_t> list);
+    Texel writeCrowded(const Reference& reference) const;
+
+private:
+    Texel withoutReferences(const Reference& reference) const;
+    std::uint32_t append(glm::dvec2 point, std::span<const std::uint32_t> list, bool wide);
+    std::uint32_t referenceWord(std::uint32_t number, glm::dvec2 point) const;
+
+    std::span<const asset::Paint> paints_;
+    const std::vector<PlanarPiece>& pieces_;
+    std::vector<Texel>& texels_;
+};
+
+/// Squared distance from a point to a chord from `a` along `d`.
+double distance2(glm::dvec2 a, glm::dvec2 d, double inverseLength2, glm::dvec2 point);
+
+/// The reference point of a cell, as far from its pieces as can be; without its paint.
+Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& pieces,
+                      std::span<const std::uint32_t> list);
+
+/// A point of the square from the tile's least corner that pieces run past on the same side whether they
+/// are rounded or not, so that its paint is the same among both; nothing where pieces lie too close.
+std::optional<glm::dvec2> clearPoint(const LocalPieces& local, double side,
+                                     std::span<const PlanarPiece* const> near);
+
+/// Of tile_fragment.glsl, for a list of so many pieces.
+std::uint64_t solidTurns(std::size_t pieces);
+
+/// What paints cost, by paint.
+struct PaintCosts {
+    std::span<const std::uint32_t> turns;  ///< of turns.hpp
+    std::span<const asset::PaintChange> changes;
+    float minSteep = 0;  ///< no pixel of the tile has a smaller one
+
+    bool mayBeSteep(std::uint32_t paint) const { return changes[paint].steepness > minSteep; }
+};
+
+/// Of tile_programs_fragment.glsl, for pieces `list` and the paint at the reference point.
+std::uint64_t turnsWithPrograms(const PaintCosts& costs, std::uint32_t paint,
+                                const std::vector<asset::PlanarPiece>& pieces,
+                                std::span<const std::uint32_t> list);
+
+}  // namespace vtm::gl
