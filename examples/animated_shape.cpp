@@ -65,7 +65,7 @@ void main() {
 
 void drawScene(const std::string& out) {
     const gl::Context context;
-    stage::Picture picture(columns * framePixels, frames / columns * framePixels, {1, 1, 1});
+    stage::Canvas picture(columns * framePixels, frames / columns * framePixels, {1, 1, 1});
     const glm::mat4 flat = glm::ortho(0.0f, float(columns), float(frames / columns), 0.0f);
     const GLuint program =
         stage::program(gl::sampleInclude({asset::Asset()}), inkShader);  // solid colours only

@@ -76,7 +76,7 @@ void drawScene(const std::string& folder, const std::string& out) {
                  shapes = stage::program(gl::sampleInclude({tree, bend, limit}),
                                          std::string(evening) + standingShader);
 
-    stage::Picture picture(960, 600, {0.97f, 0.86f, 0.74f});
+    stage::Canvas picture(960, 600, {0.97f, 0.86f, 0.74f});
     const glm::mat4 camera = glm::perspective(glm::radians(42.0f), picture.aspect(), 0.1f, 4000.0f) *
                              glm::lookAt(vec3(1.1f, 1.5f, 4), vec3(0.2f, 1.9f, -30), vec3(0, 1, 0));
 

@@ -75,7 +75,7 @@ void draw(GLuint program, const glm::mat4& camera, const Quad& quad) {
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-Picture::Picture(int width, int height, glm::vec3 background) : width_(width), height_(height) {
+Canvas::Canvas(int width, int height, glm::vec3 background) : width_(width), height_(height) {
     glGenFramebuffers(2, framebuffers_);
     glGenRenderbuffers(2, color_);
     glGenRenderbuffers(1, &depth_);
@@ -97,13 +97,13 @@ Picture::Picture(int width, int height, glm::vec3 background) : width_(width), h
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-Picture::~Picture() {
+Canvas::~Canvas() {
     glDeleteFramebuffers(2, framebuffers_);
     glDeleteRenderbuffers(2, color_);
     glDeleteRenderbuffers(1, &depth_);
 }
 
-void Picture::save(const std::string& path) const {
+void Canvas::save(const std::string& path) const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[0]);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffers_[1]);
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);

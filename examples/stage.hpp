@@ -33,12 +33,12 @@ struct Quad {
 void draw(GLuint program, const glm::mat4& camera, const Quad& quad);
 
 /// A multisampled picture with a depth buffer, current after its making: blending `over`, depth on.
-class Picture {
+class Canvas {
 public:
-    Picture(int width, int height, glm::vec3 background);
-    ~Picture();
-    Picture(const Picture&) = delete;
-    Picture& operator=(const Picture&) = delete;
+    Canvas(int width, int height, glm::vec3 background);
+    ~Canvas();
+    Canvas(const Canvas&) = delete;
+    Canvas& operator=(const Canvas&) = delete;
 
     float aspect() const { return float(width_) / float(height_); }
     /// Writes a PNG file. Throws std::runtime_error.

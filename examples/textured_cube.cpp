@@ -55,7 +55,7 @@ void drawScene(const std::string& folder, const std::string& out) {
         stage::program(gl::sampleInclude({front, side, top}), std::string(light) + faceShader);
     const GLuint floor = stage::program(gl::sampleInclude({tile}), std::string(light) + floorShader);
 
-    stage::Picture picture(960, 640, {0.86f, 0.89f, 0.92f});
+    stage::Canvas picture(960, 640, {0.86f, 0.89f, 0.92f});
     const vec3 eye(3.1f, 2.5f, 4.3f);
     const glm::mat4 camera = glm::perspective(glm::radians(38.0f), picture.aspect(), 0.1f, 500.0f) *
                              glm::lookAt(eye, vec3(0, 0.75f, 0), vec3(0, 1, 0));

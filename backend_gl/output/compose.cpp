@@ -35,15 +35,15 @@ void end() {
     glDisable(GL_BLEND);
 }
 
-void compose(Workshop& workshop, const Destination& d, const Target& target, const PixelBox& box,
+void compose(Resources& resources, const Destination& d, const Target& target, const PixelBox& box,
              glm::ivec2 toTarget) {
-    const Program& program = workshop.programs.compose(d.finish);
+    const Program& program = resources.programs.compose(d.finish);
     program.use();
     glUniform2f(program.uniform("targetSize"), float(d.view.width), float(d.view.height));
     glActiveTexture(GL_TEXTURE0 + GLenum(Unit::Layer));
     glBindTexture(GL_TEXTURE_2D, target.texture.get());
-    glBindVertexArray(workshop.vertexArray.get());
-    drawBoxes(workshop.boxes, {boxOf(box, toTarget)});
+    glBindVertexArray(resources.vertexArray.get());
+    drawBoxes(resources.boxes, {boxOf(box, toTarget)});
 }
 
 std::uint8_t* ByteSender::room(glm::ivec2 size) {
@@ -51,7 +51,7 @@ std::uint8_t* ByteSender::room(glm::ivec2 size) {
     return pixels_.data();
 }
 
-void ByteSender::draw(Workshop& workshop, const Destination& d, const PixelBox& box) {
+void ByteSender::draw(Resources& resources, const Destination& d, const PixelBox& box) {
     const glm::ivec2 size = box.size();
     pool_.resize(size);
     Target target = pool_.take();
@@ -59,7 +59,7 @@ void ByteSender::draw(Workshop& workshop, const Destination& d, const PixelBox& 
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
     if (d.over || d.multisampled || d.finish.flags() != 0 || d.bits != 8) {
         begin(d, box);
-        compose(workshop, d, target, box, -box.min);
+        compose(resources, d, target, box, -box.min);
     } else {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer.get());
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, d.framebuffer);

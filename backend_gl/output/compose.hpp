@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "backend_gl/layers/painter.hpp"
+#include "backend_gl/layers/layer_renderer.hpp"
 #include "backend_gl/output/destination.hpp"
 
 namespace vtm::gl {
@@ -17,7 +17,7 @@ void begin(const Destination& destination, const PixelBox& box);
 void end();
 
 /// Draws a target's pixels into a box that has begun; `toTarget` leads from the framebuffer's pixels to them.
-void compose(Workshop& workshop, const Destination& destination, const Target& target, const PixelBox& box,
+void compose(Resources& resources, const Destination& destination, const Target& target, const PixelBox& box,
              glm::ivec2 toTarget);
 
 /// Takes premultiplied sRGB-encoded bytes to the GPU.
@@ -25,7 +25,7 @@ class ByteSender {
 public:
     /// For the pixels that draw() is to send, rows from the framebuffer's lowest.
     std::uint8_t* room(glm::ivec2 size);
-    void draw(Workshop& workshop, const Destination& destination, const PixelBox& box);
+    void draw(Resources& resources, const Destination& destination, const PixelBox& box);
     /// Frees what it keeps on the GPU.
     void clear() { pool_.resize({0, 0}); }
 

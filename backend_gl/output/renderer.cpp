@@ -8,7 +8,7 @@
 
 #include "backend_gl/core/requirements.hpp"
 #include "backend_gl/core/state_guard.hpp"
-#include "backend_gl/layers/painter.hpp"
+#include "backend_gl/layers/layer_renderer.hpp"
 #include "backend_gl/output/compose.hpp"
 #include "backend_gl/output/destination.hpp"
 #include "backend_gl/tiles/picture.hpp"
@@ -59,7 +59,7 @@ struct Renderer::Impl {
         : options(o),
           contract(std::move(c)),
           reset(o.resetStatus ? o.resetStatus : driversResetStatus()),
-          workshop(o.programCache) {}
+          resources(o.programCache) {}
 
     RendererOptions options;
     StateContract contract;
@@ -67,7 +67,7 @@ struct Renderer::Impl {
     const void* context = currentContext();
     bool lost = false;
 
-    Workshop workshop;
+    Resources resources;
     TargetPool bytes{GL_RGBA8};  ///< for reading back 8 bits
     ByteSender bytePixels;       ///< for sending them
     bool scans =
@@ -100,7 +100,7 @@ struct Renderer::Impl {
             const StateGuard guard(contract, options.restoreState);
             return work(guard);
         } catch (const OutOfMemory&) {
-            workshop.pool.resize({0, 0});
+            resources.pool.resize({0, 0});
             bytes.resize({0, 0});
             bytePixels.clear();
             throw;
@@ -112,14 +112,14 @@ struct Renderer::Impl {
 
     /// The picture in a target of the pool, which gets it back.
     Target paint(UploadedAsset& asset, const asset::View& view, Finish finish = {}) {
-        workshop.pool.resize({view.width, view.height});
+        resources.pool.resize({view.width, view.height});
         if (asset.atlases.empty())
-            return Painter(workshop, asset, view).paint();
-        Target target = workshop.pool.take();
+            return LayerRenderer(resources, asset, view).paint();
+        Target target = resources.pool.take();
         target.bind();
         target.touched = wholeOf(view);
         glViewport(0, 0, view.width, view.height);
-        drawPicture(workshop.programs, picture, asset, view, wholeOf(view), finish, options.markOverruns);
+        drawPicture(resources.programs, picture, asset, view, wholeOf(view), finish, options.markOverruns);
         return target;
     }
 
@@ -154,14 +154,14 @@ struct Renderer::Impl {
     void drawDirectly(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
         begin(d, box);
         if (isInvertible(d.view))
-            drawPicture(workshop.programs, picture, asset, d.view, box, d.finish, options.markOverruns);
+            drawPicture(resources.programs, picture, asset, d.view, box, d.finish, options.markOverruns);
         end();
     }
 
     void drawScanned(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
         const asset::View view = viewOf(d.view, box);
         asset.scanner->draw(view, {bytePixels.room(box.size()), std::size_t(view.width) * 4});
-        bytePixels.draw(workshop, d, box);
+        bytePixels.draw(resources, d, box);
     }
 
     void drawGiven(const BytePixels& given, const Destination& d, const PixelBox& box) {
@@ -172,7 +172,7 @@ struct Renderer::Impl {
                         given.pixels + std::size_t(d.rowOf(y)) * given.rowBytes +
                             std::size_t(box.min.x - d.corner.x) * 4,
                         rowBytes);
-        bytePixels.draw(workshop, d, box);
+        bytePixels.draw(resources, d, box);
     }
 
     /// What the boxes have of `frame`, from one target.
@@ -188,11 +188,11 @@ struct Renderer::Impl {
                 continue;
             begin(d, part);
             if (shows)
-                compose(workshop, d, target, part, -frame.min);
+                compose(resources, d, target, part, -frame.min);
         }
         end();
         if (shows)
-            workshop.pool.giveBack(std::move(target));
+            resources.pool.giveBack(std::move(target));
     }
 
     /// Calls use(target, part, corner) for each painted part.
@@ -204,7 +204,7 @@ struct Renderer::Impl {
             const asset::View part = viewOf(view, box);
             Target target = paint(asset, part);
             use(target, part, box.min);
-            workshop.pool.giveBack(std::move(target));
+            resources.pool.giveBack(std::move(target));
             check("drawing");
         });
     }
@@ -241,7 +241,7 @@ Renderer::~Renderer() = default;
 
 Texture Renderer::upload(const asset::AssetView& asset) {
     return impl_->call([&](const StateGuard&) {
-        Programs& programs = impl_->workshop.programs;
+        Programs& programs = impl_->resources.programs;
         auto texture =
             std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials), impl_->maxTurns());
         if (impl_->scans && asset::isSumOfMaps(asset) && asset.materials.empty())
@@ -316,6 +316,6 @@ bool Renderer::lost() const {
     return impl_->lost;
 }
 
-ProgramFigures Renderer::programs() const { return impl_->workshop.programs.figures(); }
+ProgramFigures Renderer::programs() const { return impl_->resources.programs.figures(); }
 
 }  // namespace vtm::gl

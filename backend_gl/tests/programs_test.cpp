@@ -15,7 +15,7 @@
 
 #include "asset/testing.hpp"
 #include "backend_gl/core/gl.hpp"
-#include "backend_gl/layers/painter.hpp"
+#include "backend_gl/layers/layer_renderer.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "paper/gl/programs.hpp"
 #include "raster/testing_views.hpp"

@@ -16,7 +16,7 @@
 namespace vtm::bench {
 
 /// A file and what our compiler made of it.
-struct Picture {
+struct CompiledFile {
     File file;
     scene::Scene scene;
     asset::Asset asset;
@@ -35,12 +35,12 @@ public:
     const std::string& description() const { return description_; }  ///< with versions
 
     /// Prepares a picture: everything that can be done once for all views.
-    virtual void load(const Picture& picture) = 0;
+    virtual void load(const CompiledFile& picture) = 0;
     /// CPU milliseconds (user and system, all threads) of drawing it on transparent black, until the pixels
     /// stand.
     virtual double draw(const asset::View& view) = 0;
     /// The same from the file; nothing for an engine that reads none. What was loaded stays loaded.
-    virtual std::optional<double> drawCold(const Picture& picture, const asset::View& view) = 0;
+    virtual std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) = 0;
     /// What draw() draws.
     virtual image::Bitmap pixels(const asset::View& view) = 0;
     /// Bytes of the largest resident set of the engine's process so far; nothing for one in ours.

@@ -134,13 +134,15 @@ public:
           child_(std::move(child)),
           takes_(std::move(takes)) {}
 
-    void load(const Picture& picture) override { child_->ask("load " + subject(picture, pathOf(picture))); }
+    void load(const CompiledFile& picture) override {
+        child_->ask("load " + subject(picture, pathOf(picture)));
+    }
 
     double draw(const asset::View& view) override {
         return std::stod(child_->ask("draw " + name() + " " + textOf(view)));
     }
 
-    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         if (takes_ == "paths")
             return std::nullopt;
         return std::stod(
@@ -156,11 +158,11 @@ public:
     std::optional<double> peakBytes() override { return std::stod(child_->ask("peak " + name())); }
 
 private:
-    std::string subject(const Picture& picture, const std::string& rest) const {
+    std::string subject(const CompiledFile& picture, const std::string& rest) const {
         return fmt::format("{} {} {} {}", name(), picture.scene.width, picture.scene.height, rest);
     }
 
-    std::string pathOf(const Picture& picture) const {
+    std::string pathOf(const CompiledFile& picture) const {
         if (takes_ == "file")
             return picture.file.path.string();
         if (!arePlainPaths(picture.scene.root)) {

@@ -32,7 +32,7 @@ public:
     explicit CairoEngine(const std::string& version)
         : Engine("cairo", version + ", the paths of our scene, a call each") {}
 
-    void load(const Picture& picture) override { shapes_ = shapesOf(picture.scene); }
+    void load(const CompiledFile& picture) override { shapes_ = shapesOf(picture.scene); }
 
     double draw(const asset::View& view) override {
         prepareTarget(view);
@@ -40,7 +40,7 @@ public:
     }
 
     /// Reading the file is ours.
-    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         prepareTarget(view);
         return cpuTime([&] { draw(shapesOf(bench::load(picture.file)), view); });
     }
@@ -87,13 +87,13 @@ class RsvgEngine : public Engine {
 public:
     explicit RsvgEngine(const std::string& version) : Engine("librsvg", version) {}
 
-    void load(const Picture& picture) override { rsvg_ = open(picture); }
+    void load(const CompiledFile& picture) override { rsvg_ = open(picture); }
 
     double draw(const asset::View& view) override {
         return cpuTime([&] { rsvg_->draw(view); });
     }
 
-    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         std::optional<Rsvg> rsvg;  // outlives the clock
         return cpuTime([&] {
             rsvg = open(picture);
@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    static Rsvg open(const Picture& picture) {
+    static Rsvg open(const CompiledFile& picture) {
         return Rsvg(picture.file.path, picture.scene.width, picture.scene.height);
     }
 

@@ -24,13 +24,13 @@ public:
           context_(std::move(context)),
           renderer_(optionsOf(pixels)) {}
 
-    void load(const Picture& picture) override { texture_ = renderer_.upload(picture.asset); }
+    void load(const CompiledFile& picture) override { texture_ = renderer_.upload(picture.asset); }
 
     double draw(const asset::View& view) override {
         return cpuTime([&] { renderer_.draw(*texture_, view); });
     }
 
-    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         std::optional<gl::Texture> texture;  // outlives the clock
         return cpuTime([&] {
             texture = renderer_.upload(assetOf(picture.file));
@@ -53,14 +53,14 @@ class ScanEngine : public Engine {
 public:
     ScanEngine() : Engine("scan", "asset::Scanner, no GL") {}
 
-    void load(const Picture& picture) override { scanner_.emplace(picture.asset); }
+    void load(const CompiledFile& picture) override { scanner_.emplace(picture.asset); }
 
     double draw(const asset::View& view) override {
         prepareTarget(view);
         return cpuTime([&] { draw(*scanner_, view); });
     }
 
-    std::optional<double> drawCold(const Picture& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         prepareTarget(view);
         return cpuTime([&] { draw(asset::Scanner(assetOf(picture.file)), view); });
     }

@@ -55,7 +55,7 @@ private:
     }
 
     static void load(Engine& engine, const File& file) {
-        Picture picture{file, bench::load(file), {}};
+        CompiledFile picture{file, bench::load(file), {}};
         picture.asset = compiler::compile(picture.scene).asset;
         engine.load(picture);
     }

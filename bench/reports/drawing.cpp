@@ -43,7 +43,7 @@ std::string cell(const Contender& one, const Contender& against) {
                        one.difference > otherPicture ? " ≠" : "");
 }
 
-void addRows(const Contenders& all, const Picture& picture, const Kind& kind, int side, Report& report) {
+void addRows(const Contenders& all, const CompiledFile& picture, const Kind& kind, int side, Report& report) {
     Json line = {{"file", picture.file.name}, {"views", kind.name}};
     for (const Contender& one : all) {
         line[one.engine->name()] = cell(one, reference(all));
@@ -107,7 +107,7 @@ Report drawing(const Options& options) {
     report.text += "\n";
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        Picture picture{file, load(file), {}};
+        CompiledFile picture{file, load(file), {}};
         picture.asset = compiler::compile(picture.scene).asset;
         prepare(all, picture, kinds, options, report.notes);
         for (const Kind& kind : kinds) {

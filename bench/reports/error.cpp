@@ -28,7 +28,7 @@ asset::View wholePicture(const scene::Scene& scene, int width) {
 }
 
 /// Another engine's, averaged over many samples, where the corpus has one; else our exact reference.
-Truth truthOf(const Picture& picture, const asset::View& view) {
+Truth truthOf(const CompiledFile& picture, const asset::View& view) {
     const std::filesystem::path known =
         sharedFolder() / "corpus" / "truth" / fmt::format("{}.{}.png", picture.file.name, view.width);
     if (std::filesystem::exists(known))
@@ -38,7 +38,7 @@ Truth truthOf(const Picture& picture, const asset::View& view) {
             "reference"};
 }
 
-void addErrors(Contenders& all, const Picture& picture, int side, Report& report) {
+void addErrors(Contenders& all, const CompiledFile& picture, int side, Report& report) {
     const asset::View view = wholePicture(picture.scene, side);
     const Truth truth = truthOf(picture, view);
     Json line = {{"file", picture.file.name}, {"px", side}, {"truth", truth.source}};
@@ -101,7 +101,7 @@ Report error(const Options& options) {
     Contenders all = contenders(options, report.notes);
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        Picture picture{file, load(file), {}};
+        CompiledFile picture{file, load(file), {}};
         picture.asset = compiler::compile(picture.scene).asset;
         for (const int side : truthSides)
             addErrors(all, picture, side, report);

@@ -17,7 +17,7 @@ Report sides(const Options& options) {
         "in brackets how many times as long as `{}`, median of the rounds.",
         reference(all).engine->name());
     for (const File& file : oneFileOf(options)) {
-        Picture picture{file, load(file), {}};
+        CompiledFile picture{file, load(file), {}};
         picture.asset = compiler::compile(picture.scene).asset;
         prepare(all, picture, {}, options, report.notes);
         for (int side = 64; side <= 8192; side *= 2) {

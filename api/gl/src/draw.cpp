@@ -38,14 +38,14 @@ struct Worker {
     Renderer renderer;
 };
 
-struct Workshop {
+struct SharedWorker {
     std::mutex mutex;
     std::unique_ptr<Worker> worker;
 };
 
 /// Never destroyed: at the process's end drivers may be gone.
-Workshop& workshop() {
-    static Workshop& one = *new Workshop;
+SharedWorker& sharedWorker() {
+    static SharedWorker& one = *new SharedWorker;
     return one;
 }
 
@@ -58,9 +58,9 @@ bool mayBeFaster(const asset::Asset& asset) {
 }
 
 bool draw(GlRequest& request) {
-    const std::lock_guard lock(workshop().mutex);
+    const std::lock_guard lock(sharedWorker().mutex);
     const CallersContext callers;
-    auto& worker = workshop().worker;
+    auto& worker = sharedWorker().worker;
     if (worker)
         worker->context.makeCurrent();
     else
@@ -83,8 +83,8 @@ extern "C" __attribute__((visibility("default"))) bool vtm_gl_draw(vtm::GlReques
     try {
         return draw(request);
     } catch (const ContextLost&) {
-        const std::lock_guard lock(workshop().mutex);
-        workshop().worker.reset();
+        const std::lock_guard lock(sharedWorker().mutex);
+        sharedWorker().worker.reset();
         if (request.required)
             throw;
     } catch (const GlError&) {

@@ -75,20 +75,20 @@ void addRoots(const Values& values, int halvings, std::vector<double>& roots) {
     addRoots(b, halvings + 1, roots);
 }
 
-struct Piece {
+struct CurvePart {
     RationalCurve curve;
     bool isKept;
 };
 
 /// From one change of sides to the next.
-std::vector<Piece> pieces(const RationalCurve& curve, ClipLine line) {
+std::vector<CurvePart> pieces(const RationalCurve& curve, ClipLine line) {
     Values values{curve.degree, {}, 0, 1};
     for (std::size_t i = 0; i <= std::size_t(curve.degree); ++i)
         values.at[i] = glm::dot(line, curve.points[i]);
     std::vector<double> cuts{0};
     addRoots(values, 0, cuts);
     cuts.push_back(1);
-    std::vector<Piece> result;
+    std::vector<CurvePart> result;
     double first = 0;
     for (std::size_t i = 1; i < cuts.size(); ++i) {
         const auto isKept = [&](std::size_t end) {
@@ -122,7 +122,7 @@ Kept kept(const std::vector<RationalCurve>& curves, ClipLine line) {
     Kept result;
     bool wasKept = false, isFirst = true;
     for (const RationalCurve& curve : curves)
-        for (Piece& piece : pieces(curve, line)) {
+        for (CurvePart& piece : pieces(curve, line)) {
             if (piece.isKept) {
                 if (!wasKept)
                     result.runs.emplace_back();

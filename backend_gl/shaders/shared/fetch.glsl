@@ -26,11 +26,11 @@ uvec4 texelAt(ASSET_IN uint index) { return texelFetch(ASSET_PART(texels), texel
 uint low(uint word) { return word & 0xFFFFu; }
 uint high(uint word) { return word >> 16; }
 
-uvec4 paintAt(ASSET_IN uint paint) { return texelAt(ASSET ASSET_PART(sections).z + paint); }
+uvec4 paintTexel(ASSET_IN uint paint) { return texelAt(ASSET ASSET_PART(sections).z + paint); }
 bool isProgram(uvec4 paint) { return paint.w == programTag; }
 // Whether a unit of the picture changes a program by more (raster/steepness.hpp).
 bool isSteep(ASSET_IN uint paint, float minimum) {
-    uvec4 texel = paintAt(ASSET paint);
+    uvec4 texel = paintTexel(ASSET paint);
     return isProgram(texel) && uintBitsToFloat(texel.z) > minimum;
 }
-vec4 solidColor(ASSET_IN uint paint) { return uintBitsToFloat(paintAt(ASSET paint)); }
+vec4 solidColor(ASSET_IN uint paint) { return uintBitsToFloat(paintTexel(ASSET paint)); }

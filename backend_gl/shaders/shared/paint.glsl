@@ -76,7 +76,7 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
 
 // Premultiplied colour of a paint at a picture point of a pixel, whose sides and centre, in the picture, are `pixel`.
 vec4 paintColor(ASSET_IN uint paint, vec2 point, mat3x2 pixel) {
-    uvec4 texel = paintAt(ASSET paint);
+    uvec4 texel = paintTexel(ASSET paint);
 #if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
     // Where turns are counted while they are taken, a program's stand in its free word.
     if (isProgram(texel))

@@ -11,15 +11,16 @@ namespace {
 std::vector<double> coverageOf(const EdgeList& list, scene::FillRule rule, const View& view) {
     std::vector<double> coverage(std::size_t(view.width) * std::size_t(view.height));
     forEachBand(view.height, [&] {
-        return [&, sweep = RowSweep(view.width), pieces = std::vector<Piece>()](int first, int end) mutable {
-            const std::vector<Edge> edges = edgesOfBand(list.edges(), first, end);
-            for (int y = first; y < end; ++y) {
-                pieces.clear();
-                cutToRow(edges, y, pieces);
-                CoverageRow row(rule, &coverage[std::size_t(y) * std::size_t(view.width)]);
-                sweep.sweep(pieces, y, row);
-            }
-        };
+        return
+            [&, sweep = RowSweep(view.width), parts = std::vector<EdgePart>()](int first, int end) mutable {
+                const std::vector<Edge> edges = edgesOfBand(list.edges(), first, end);
+                for (int y = first; y < end; ++y) {
+                    parts.clear();
+                    cutToRow(edges, y, parts);
+                    CoverageRow row(rule, &coverage[std::size_t(y) * std::size_t(view.width)]);
+                    sweep.sweep(parts, y, row);
+                }
+            };
     });
     return coverage;
 }

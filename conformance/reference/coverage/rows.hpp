@@ -10,9 +10,9 @@ namespace vtm::reference {
 /// Rows as means of the composited colour.
 class ExactRows {
 public:
-    ExactRows(const Picture& picture, int samples);
-    /// `pieces`: of the row at y. `row`: as many colours as the picture is wide; zeros.
-    void render(std::span<const Piece> pieces, int y, Colour* row);
+    ExactRows(const FlatScene& picture, int samples);
+    /// `parts`: of the row at y. `row`: as many colours as the picture is wide; zeros.
+    void render(std::span<const EdgePart> parts, int y, Colour* row);
 
 private:
     Sampler sampler_;
@@ -23,12 +23,12 @@ private:
 /// Rows laid over each other layer by layer.
 class CompatRows {
 public:
-    explicit CompatRows(const Picture& picture);
-    /// `pieces`: of the row at y, in the order of the shapes.
-    void render(std::span<const Piece> pieces, int y, Colour* row);
+    explicit CompatRows(const FlatScene& picture);
+    /// `parts`: of the row at y, in the order of the shapes.
+    void render(std::span<const EdgePart> parts, int y, Colour* row);
 
 private:
-    const Picture& picture_;
+    const FlatScene& picture_;
     Sampler sampler_;
     RowSweep sweep_;
 };

@@ -17,10 +17,10 @@ constexpr double thinnestStrip = 1e-10;
 /// crossing.
 constexpr std::size_t maxCrossings = 4096;
 
-bool startsAbove(const Piece& piece, int y) { return piece.ya == y && piece.yb > piece.ya; }
+bool startsAbove(const EdgePart& part, int y) { return part.ya == y && part.yb > part.ya; }
 
-/// The height at which a piece crosses the vertical line x.
-double heightAt(const Piece& p, double x) {
+/// The height at which a part crosses the vertical line x.
+double heightAt(const EdgePart& p, double x) {
     const double y = p.ya + (x - p.xa) / (p.xb - p.xa) * (p.yb - p.ya);
     return std::clamp(y, p.ya, p.yb);
 }
@@ -44,12 +44,12 @@ int columnOf(double x, int width) { return int(std::floor(std::clamp(x, -1.0, do
 
 }  // namespace
 
-void cutToRow(std::span<const Edge> edges, int y, std::vector<Piece>& pieces) {
+void cutToRow(std::span<const Edge> edges, int y, std::vector<EdgePart>& parts) {
     for (const Edge& e : edges) {
         if (e.y0 >= y + 1 || e.y1 <= y)
             continue;
         const double ya = std::max(e.y0, double(y)), yb = std::min(e.y1, y + 1.0);
-        pieces.push_back({e.xAt(ya), ya, e.y1 > yb ? e.xAt(yb) : e.x1, yb, e.shape, e.winding});
+        parts.push_back({e.xAt(ya), ya, e.y1 > yb ? e.xAt(yb) : e.x1, yb, e.shape, e.winding});
     }
 }
 
@@ -59,9 +59,9 @@ double RowSweep::Side::xAt(double y) const {
     return y >= yb ? xb : xt + (y - yt) / (yb - yt) * (xb - xt);
 }
 
-void RowSweep::sweep(std::span<const Piece> pieces, int y, Regions& regions) {
-    startRow(pieces, y, regions);
-    sortIntoColumns(pieces);
+void RowSweep::sweep(std::span<const EdgePart> parts, int y, Regions& regions) {
+    startRow(parts, y, regions);
+    sortIntoColumns(parts);
     int uniform = 0;  // columns before it are done
     for (int column = first_; column <= last_; ++column) {
         const auto* begin = &begins_[std::size_t(column - first_)];
@@ -69,7 +69,7 @@ void RowSweep::sweep(std::span<const Piece> pieces, int y, Regions& regions) {
             continue;
         if (uniform < column)
             regions.run(uniform, column);
-        pixel(pieces, {members_.data() + begin[0], members_.data() + begin[1]}, column, y, regions);
+        pixel(parts, {members_.data() + begin[0], members_.data() + begin[1]}, column, y, regions);
         uniform = column + 1;
     }
     if (uniform < width_)
@@ -78,10 +78,10 @@ void RowSweep::sweep(std::span<const Piece> pieces, int y, Regions& regions) {
 }
 
 /// The windings at the row's top left corner: of edges that start their way through the row left of it.
-void RowSweep::startRow(std::span<const Piece> pieces, int y, Regions& regions) {
-    for (const Piece& piece : pieces)
-        if (startsAbove(piece, y) && piece.xa < 0)
-            cross(piece.shape, piece.winding, regions);
+void RowSweep::startRow(std::span<const EdgePart> parts, int y, Regions& regions) {
+    for (const EdgePart& part : parts)
+        if (startsAbove(part, y) && part.xa < 0)
+            cross(part.shape, part.winding, regions);
 }
 
 void RowSweep::finishRow(Regions& regions) {
@@ -95,16 +95,16 @@ void RowSweep::cross(int shape, int winding, Regions& regions) {
     windings_.emplace_back(shape, winding);
 }
 
-/// A counting sort of the pieces by the columns that they meet.
-void RowSweep::sortIntoColumns(std::span<const Piece> pieces) {
-    const auto columns = [&](const Piece& p) {
+/// A counting sort of the parts by the columns that they meet.
+void RowSweep::sortIntoColumns(std::span<const EdgePart> parts) {
+    const auto columns = [&](const EdgePart& p) {
         return std::pair{std::max(0, columnOf(std::min(p.xa, p.xb), width_)),
                          std::min(width_ - 1, columnOf(std::max(p.xa, p.xb), width_))};
     };
     first_ = width_;
     last_ = -1;
-    for (const Piece& piece : pieces) {
-        const auto [begin, end] = columns(piece);
+    for (const EdgePart& part : parts) {
+        const auto [begin, end] = columns(part);
         if (begin > end)
             continue;
         first_ = std::min(first_, begin);
@@ -112,8 +112,8 @@ void RowSweep::sortIntoColumns(std::span<const Piece> pieces) {
     }
     begins_.assign(std::size_t(std::max(0, last_ - first_ + 1)) + 2, 0);
     const auto eachColumn = [&](const auto& act) {
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            const auto [begin, end] = columns(pieces[i]);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const auto [begin, end] = columns(parts[i]);
             for (int c = begin; c <= end; ++c)
                 act(i, std::size_t(c - first_));
         }
@@ -124,12 +124,12 @@ void RowSweep::sortIntoColumns(std::span<const Piece> pieces) {
     eachColumn([&](std::size_t i, std::size_t c) { members_[std::size_t(begins_[c + 1]++)] = int(i); });
 }
 
-void RowSweep::pixel(std::span<const Piece> pieces, std::span<const int> members, int column, int y,
+void RowSweep::pixel(std::span<const EdgePart> parts, std::span<const int> members, int column, int y,
                      Regions& regions) {
     sides_.clear();
     entries_.clear();
     for (const int i : members)
-        cutToPixel(pieces[std::size_t(i)], column);
+        cutToPixel(parts[std::size_t(i)], column);
     collectStrips(y);
     std::size_t nextEntry = 0, nextSide = 0;
     active_.clear();
@@ -145,26 +145,26 @@ void RowSweep::pixel(std::span<const Piece> pieces, std::span<const int> members
     for (std::size_t i = 0; i < nextEntry; ++i)
         regions.cross(entries_[i].shape, -entries_[i].winding);
     for (const int i : members) {  // on to the next pixel's corner
-        const Piece& piece = pieces[std::size_t(i)];
-        if (startsAbove(piece, y) && columnOf(piece.xa, width_) == column)
-            cross(piece.shape, piece.winding, regions);
+        const EdgePart& part = parts[std::size_t(i)];
+        if (startsAbove(part, y) && columnOf(part.xa, width_) == column)
+            cross(part.shape, part.winding, regions);
     }
 }
 
 /// Going down a pixel's left side, an edge that runs to the right takes its winding away: the edge's
 /// winding counts for what lies to its right when it runs down.
-void RowSweep::cutToPixel(const Piece& piece, int column) {
-    Side side{piece.xa, piece.ya, piece.xb, piece.yb, piece.shape, piece.winding};
+void RowSweep::cutToPixel(const EdgePart& part, int column) {
+    Side side{part.xa, part.ya, part.xb, part.yb, part.shape, part.winding};
     const double left = column, right = column + 1.0;
-    if ((piece.xa < left) != (piece.xb < left)) {
-        const double y = heightAt(piece, left);
-        entries_.push_back({y, piece.shape, piece.xa < left ? -piece.winding : piece.winding});
-        (piece.xa < left ? side.xt : side.xb) = left;
-        (piece.xa < left ? side.yt : side.yb) = y;
+    if ((part.xa < left) != (part.xb < left)) {
+        const double y = heightAt(part, left);
+        entries_.push_back({y, part.shape, part.xa < left ? -part.winding : part.winding});
+        (part.xa < left ? side.xt : side.xb) = left;
+        (part.xa < left ? side.yt : side.yb) = y;
     }
-    if ((piece.xa < right) != (piece.xb < right)) {
-        (piece.xa < right ? side.xb : side.xt) = right;
-        (piece.xa < right ? side.yb : side.yt) = heightAt(piece, right);
+    if ((part.xa < right) != (part.xb < right)) {
+        (part.xa < right ? side.xb : side.xt) = right;
+        (part.xa < right ? side.yb : side.yt) = heightAt(part, right);
     }
     if (side.yt < side.yb)
         sides_.push_back(side);

@@ -16,7 +16,7 @@
 namespace vtm::reference {
 
 /// An edge between its upper and lower end in a row of pixels.
-struct Piece {
+struct EdgePart {
     double xa, ya, xb, yb;
     int shape;
     int winding;
@@ -24,7 +24,7 @@ struct Piece {
 
 /// The parts of the edges that lie in the row [y, y + 1). What only touches its top from above is no
 /// part of it.
-void cutToRow(std::span<const Edge> edges, int y, std::vector<Piece>& pieces);
+void cutToRow(std::span<const Edge> edges, int y, std::vector<EdgePart>& parts);
 
 /// Straight sides from (left0, y0) to (left1, y1) and from (right0, y0) to (right1, y1).
 struct Trapezoid {
@@ -49,11 +49,11 @@ public:
 class RowSweep {
 public:
     explicit RowSweep(int width) : width_(width) {}
-    /// `pieces`: of the row at `y`. Afterwards all windings are back to zero.
-    void sweep(std::span<const Piece> pieces, int y, Regions& regions);
+    /// `parts`: of the row at `y`. Afterwards all windings are back to zero.
+    void sweep(std::span<const EdgePart> parts, int y, Regions& regions);
 
 private:
-    /// A piece inside one pixel.
+    /// A part inside one pixel.
     struct Side {
         double xt, yt, xb, yb;
         int shape, winding;
@@ -71,13 +71,13 @@ private:
         const Side* side;
     };
 
-    void sortIntoColumns(std::span<const Piece> pieces);
-    void startRow(std::span<const Piece> pieces, int y, Regions& regions);
+    void sortIntoColumns(std::span<const EdgePart> parts);
+    void startRow(std::span<const EdgePart> parts, int y, Regions& regions);
     void finishRow(Regions& regions);
     void cross(int shape, int winding, Regions& regions);
-    void pixel(std::span<const Piece> pieces, std::span<const int> members, int column, int y,
+    void pixel(std::span<const EdgePart> parts, std::span<const int> members, int column, int y,
                Regions& regions);
-    void cutToPixel(const Piece& piece, int column);
+    void cutToPixel(const EdgePart& part, int column);
     void collectStrips(int y);
     void enterThrough(double y, std::size_t& next, Regions& regions);
     void strip(double y0, double y1, int column, Regions& regions);
@@ -86,8 +86,8 @@ private:
     void emitStrip(double y0, double y1, int column, Regions& regions);
 
     int width_;
-    int first_ = 0, last_ = -1;                  ///< columns that pieces meet
-    std::vector<int> begins_, members_;          ///< pieces by column: members_[begins_[c - first_]…]
+    int first_ = 0, last_ = -1;                  ///< columns that parts meet
+    std::vector<int> begins_, members_;          ///< parts by column: members_[begins_[c - first_]…]
     std::vector<std::pair<int, int>> windings_;  ///< changes to take back at the row's end
     std::vector<Side> sides_;
     std::vector<Entry> entries_;

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "conformance/reference/picture/picture.hpp"
+#include "conformance/reference/picture/flat_scene.hpp"
 
 namespace vtm::reference {
 

@@ -47,7 +47,7 @@ struct PointCanvas {
     }
 };
 
-Sampler::Sampler(const Picture& picture)
+Sampler::Sampler(const FlatScene& picture)
     : picture_(picture),
       windings_(picture.shapes.size()),
       layers_(picture.trees.size()),

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "conformance/reference/picture/picture.hpp"
+#include "conformance/reference/picture/flat_scene.hpp"
 
 namespace vtm::reference {
 
@@ -19,7 +19,7 @@ enum class Variation {
 /// Not for use by two threads.
 class Sampler {
 public:
-    explicit Sampler(const Picture& picture);
+    explicit Sampler(const FlatScene& picture);
 
     /// Steps over an edge of a shape. All windings are zero at first.
     void cross(int shape, int winding);
@@ -39,7 +39,7 @@ private:
     Colour locate(Point p);
     void indexRows();
 
-    const Picture& picture_;
+    const FlatScene& picture_;
     std::vector<int> windings_;
     std::vector<std::vector<int>> layers_;  ///< by tree: layers around the point, ascending
     std::vector<std::vector<int>> parts_;   ///< by clip: its parts around the point

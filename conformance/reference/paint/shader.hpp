@@ -15,7 +15,7 @@
 
 namespace vtm::reference {
 
-struct Picture;
+struct FlatScene;
 
 /// What a paint is asked for: a rectangle of the raster.
 struct Spot {
@@ -95,7 +95,7 @@ struct MaterialShader {
 struct TileShader {
     Affine toTile;  ///< from the raster to the first tile's pixels
     Vector tileSize;
-    std::shared_ptr<const Picture> tile;
+    std::shared_ptr<const FlatScene> tile;
 
     /// Where in the tile a point of the raster falls.
     Point wrapped(Point p) const;

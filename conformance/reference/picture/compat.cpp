@@ -23,18 +23,18 @@ using Coverage = std::vector<double>;
 /// The coverages of a row by the shapes that meet it.
 class RowCoverages {
 public:
-    RowCoverages(const Picture& picture, RowSweep& sweep, std::span<const Piece> pieces, int y) {
+    RowCoverages(const FlatScene& picture, RowSweep& sweep, std::span<const EdgePart> parts, int y) {
         layers_.resize(picture.trees.size());
-        for (std::size_t begin = 0; begin < pieces.size();) {
-            const int index = pieces[begin].shape;
+        for (std::size_t begin = 0; begin < parts.size();) {
+            const int index = parts[begin].shape;
             std::size_t end = begin;
-            while (end < pieces.size() && pieces[end].shape == index)
+            while (end < parts.size() && parts[end].shape == index)
                 ++end;
             const Shape& shape = picture.shapes[std::size_t(index)];
             Coverage& row = rows_[index];
             row.assign(std::size_t(picture.width), 0);
             CoverageRow sum(shape.rule, row.data());
-            sweep.sweep(pieces.subspan(begin, end - begin), y, sum);
+            sweep.sweep(parts.subspan(begin, end - begin), y, sum);
             if (!shape.ofClip)
                 layers_[std::size_t(shape.owner)].push_back(shape.place);
             begin = end;
@@ -57,7 +57,7 @@ private:
 
 /// Composites a row: groups are rows of colours.
 struct RowCanvas {
-    const Picture& picture;
+    const FlatScene& picture;
     const RowCoverages& coverages;
     Sampler& sampler;
     int y;
@@ -153,11 +153,11 @@ struct RowCanvas {
 
 }  // namespace
 
-CompatRows::CompatRows(const Picture& picture)
+CompatRows::CompatRows(const FlatScene& picture)
     : picture_(picture), sampler_(picture), sweep_(picture.width) {}
 
-void CompatRows::render(std::span<const Piece> pieces, int y, Colour* row) {
-    const RowCoverages coverages(picture_, sweep_, pieces, y);
+void CompatRows::render(std::span<const EdgePart> parts, int y, Colour* row) {
+    const RowCoverages coverages(picture_, sweep_, parts, y);
     RowCanvas canvas{picture_, coverages, sampler_, y};
     const std::vector<Colour> colours = canvas.treeRow(0);
     std::copy(colours.begin(), colours.end(), row);

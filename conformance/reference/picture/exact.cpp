@@ -94,12 +94,12 @@ private:
 
 }  // namespace
 
-ExactRows::ExactRows(const Picture& picture, int samples)
+ExactRows::ExactRows(const FlatScene& picture, int samples)
     : sampler_(picture), sweep_(picture.width), samples_(samples) {}
 
-void ExactRows::render(std::span<const Piece> pieces, int y, Colour* row) {
+void ExactRows::render(std::span<const EdgePart> parts, int y, Colour* row) {
     ExactRegions regions(sampler_, samples_, y, row);
-    sweep_.sweep(pieces, y, regions);
+    sweep_.sweep(parts, y, regions);
 }
 
 }  // namespace vtm::reference

@@ -18,18 +18,18 @@ void store(std::span<const Colour> row, float* out) {
 
 /// Renders band by band; each thread has the rows renderer that `makeRows` makes.
 template <class MakeRows>
-image::Raster renderRows(const Picture& picture, const MakeRows& makeRows) {
+image::Raster renderRows(const FlatScene& picture, const MakeRows& makeRows) {
     image::Raster raster(picture.width, picture.height);
     forEachBand(picture.height, [&] {
-        return [&, rows = makeRows(), pieces = std::vector<Piece>(), colours = std::vector<Colour>()](
+        return [&, rows = makeRows(), parts = std::vector<EdgePart>(), colours = std::vector<Colour>()](
                    int first, int end) mutable {
             const std::vector<Edge> edges = edgesOfBand(picture.edges, first, end);
             for (int y = first; y < end; ++y) {
                 limits::check();
-                pieces.clear();
-                cutToRow(edges, y, pieces);
+                parts.clear();
+                cutToRow(edges, y, parts);
                 colours.assign(std::size_t(picture.width), Colour(0));
-                rows->render(pieces, y, colours.data());
+                rows->render(parts, y, colours.data());
                 store(colours, raster.pixel(0, y));
             }
         };
@@ -48,11 +48,12 @@ image::Raster render(const scene::Scene& scene, const View& view, const Options&
     if (!(options.flatness > 0))
         throw std::invalid_argument("reference: flatness must be > 0");
     if (options.mode == Mode::Compat) {
-        const Picture picture =
-            makePicture(scene, view, options.flatness, Patterns::Sampled, options.materials);
+        const FlatScene picture =
+            flattenScene(scene, view, options.flatness, Patterns::Sampled, options.materials);
         return renderRows(picture, [&] { return std::make_unique<CompatRows>(picture); });
     }
-    const Picture picture = makePicture(scene, view, options.flatness, Patterns::LaidOut, options.materials);
+    const FlatScene picture =
+        flattenScene(scene, view, options.flatness, Patterns::LaidOut, options.materials);
     return renderRows(picture, [&] { return std::make_unique<ExactRows>(picture, options.samples); });
 }
 

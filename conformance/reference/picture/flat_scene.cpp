@@ -1,4 +1,4 @@
-#include "conformance/reference/picture/picture.hpp"
+#include "conformance/reference/picture/flat_scene.hpp"
 
 #include <array>
 #include <map>
@@ -64,7 +64,7 @@ public:
         addGroup(root, tree, 0);
     }
 
-    Picture take() {
+    FlatScene take() {
         picture_.edges = edges_.take();
         return std::move(picture_);
     }
@@ -282,15 +282,15 @@ private:
         });
     }
 
-    std::shared_ptr<const Picture> tileOf(const std::shared_ptr<const scene::Group>& content,
-                                          const Affine& toTile, Vector size, double flatness) {
+    std::shared_ptr<const FlatScene> tileOf(const std::shared_ptr<const scene::Group>& content,
+                                            const Affine& toTile, Vector size, double flatness) {
         const TileKey key{content.get(), {toTile[0].x, toTile[1].y, toTile[2].x, toTile[2].y}};
-        std::shared_ptr<const Picture>& tile = tiles_[key];
+        std::shared_ptr<const FlatScene>& tile = tiles_[key];
         if (!tile) {
             Maker maker({int(std::ceil(size.x)), int(std::ceil(size.y)), toTile}, flatness, Patterns::Sampled,
                         materials_);
             maker.addRoot(*content, nullptr);
-            tile = std::make_shared<const Picture>(maker.take());
+            tile = std::make_shared<const FlatScene>(maker.take());
         }
         return tile;
     }
@@ -302,16 +302,16 @@ private:
     Patterns patterns_;
     const MaterialFunction& materials_;
     EdgeList edges_;
-    Picture picture_;
+    FlatScene picture_;
     std::map<const scene::Clip*, int> clips_;
     std::map<const scene::Mask*, int> masks_;
-    std::map<TileKey, std::shared_ptr<const Picture>> tiles_;
+    std::map<TileKey, std::shared_ptr<const FlatScene>> tiles_;
 };
 
 }  // namespace
 
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
-                    const MaterialFunction& materials) {
+FlatScene flattenScene(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
+                       const MaterialFunction& materials) {
     Maker maker(view, flatness, patterns, materials);
     maker.addRoot(scene.root, rectangleClip({0, 0}, {scene.width, scene.height}));
     return maker.take();

@@ -32,8 +32,8 @@ private:
 };
 
 /// What a renderer keeps from picture to picture.
-struct Workshop {
-    explicit Workshop(const std::string& cacheDirectory);
+struct Resources {
+    explicit Resources(const std::string& cacheDirectory);
 
     Programs programs;
     TargetPool pool;
@@ -41,10 +41,10 @@ struct Workshop {
     BufferHandle boxes;
 };
 
-class Painter {
+class LayerRenderer {
 public:
     /// The pool's targets have the view's size; the view is invertible. GL is in the state of StateGuard.
-    Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& view);
+    LayerRenderer(Resources& resources, UploadedAsset& asset, const asset::View& view);
 
     /// The picture; the caller gives it back to the pool.
     Target paint();
@@ -74,7 +74,7 @@ private:
     void useFill();
     const Program& useLayer(Action action, const Target& layer);
 
-    Workshop& workshop_;
+    Resources& resources_;
     UploadedAsset& asset_;
     asset::View view_;
     std::vector<Target> stack_;

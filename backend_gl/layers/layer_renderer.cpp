@@ -1,4 +1,4 @@
-#include "backend_gl/layers/painter.hpp"
+#include "backend_gl/layers/layer_renderer.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -64,40 +64,40 @@ std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint3
 
 }  // namespace
 
-Workshop::Workshop(const std::string& cacheDirectory)
+Resources::Resources(const std::string& cacheDirectory)
     : programs(cacheDirectory), vertexArray(makeVertexArray()), boxes(makeBuffer()) {}
 
-Painter::Painter(Workshop& workshop, UploadedAsset& asset, const asset::View& view)
-    : workshop_(workshop),
+LayerRenderer::LayerRenderer(Resources& resources, UploadedAsset& asset, const asset::View& view)
+    : resources_(resources),
       asset_(asset),
       view_(view),
       shelves_({view.width, view.height}),
       isPending_(asset.list.drawn.size()) {}
 
-Target Painter::paint() {
-    glBindVertexArray(workshop_.vertexArray.get());
+Target LayerRenderer::paint() {
+    glBindVertexArray(resources_.vertexArray.get());
     glViewport(0, 0, view_.width, view_.height);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     bindAsset();
-    stack_.push_back(workshop_.pool.take());
+    stack_.push_back(resources_.pool.take());
     for (const Command& command : asset_.commands)
         execute(command);
     flushFills();
     if (coverage_.texture.get() != 0)
-        workshop_.pool.giveBack(std::move(coverage_));
+        resources_.pool.giveBack(std::move(coverage_));
     Target picture = std::move(stack_.back());
     stack_.clear();
     return picture;
 }
 
-void Painter::bindAsset() {
+void LayerRenderer::bindAsset() {
     bindTexture(Unit::Texels, asset_.texels);
     bindTexture(Unit::Images, asset_.images);
     bindTexture(Unit::Placements, asset_.placementTexels);
 }
 
-void Painter::execute(const Command& command) {
+void LayerRenderer::execute(const Command& command) {
     if (command.kind == Command::Kind::FillMask)
         return fill(command);
     flushFills();
@@ -105,7 +105,7 @@ void Painter::execute(const Command& command) {
         case Command::Kind::ClipMask:
             return clip(*asset_.list.drawnOfMap[command.map]);
         case Command::Kind::Push:
-            return stack_.push_back(workshop_.pool.take());
+            return stack_.push_back(resources_.pool.take());
         default:
             return pop(command);
     }
@@ -114,7 +114,7 @@ void Painter::execute(const Command& command) {
 // ---- Masks ----------------------------------------------------------------------------------------
 
 /// Adds to the bound target: sums over undilated leaves need no order.
-void Painter::drawInstances(const std::vector<std::uint32_t>& drawn) {
+void LayerRenderer::drawInstances(const std::vector<std::uint32_t>& drawn) {
     glBlendFunc(GL_ONE, GL_ONE);
     glBindBuffer(GL_ARRAY_BUFFER, asset_.instances.get());
     glDisableVertexAttribArray(1);
@@ -122,7 +122,7 @@ void Painter::drawInstances(const std::vector<std::uint32_t>& drawn) {
         const std::vector<Range> runs = runsOf(asset_.list, drawn, kind);
         if (runs.empty())
             continue;
-        const Program& program = workshop_.programs.leaf(kind);
+        const Program& program = resources_.programs.leaf(kind);
         use(program);
         for (const Range& run : runs) {
             pointAttribute(0, GL_UNSIGNED_INT, sizeof(Instance), run.first * sizeof(Instance));
@@ -131,7 +131,7 @@ void Painter::drawInstances(const std::vector<std::uint32_t>& drawn) {
     }
 }
 
-void Painter::fill(const Command& command) {
+void LayerRenderer::fill(const Command& command) {
     const std::uint32_t drawn = *asset_.list.drawnOfMap[command.map];
     const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[command.map], view_);
     if (box.empty())
@@ -147,7 +147,7 @@ void Painter::fill(const Command& command) {
     isPending_[drawn] = true;
 }
 
-void Painter::flushFills() {
+void LayerRenderer::flushFills() {
     if (pending_.empty())
         return;
     drawCoverage();
@@ -159,15 +159,15 @@ void Painter::flushFills() {
     }
     useFill();
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    drawBoxes(workshop_.boxes, boxes);
+    drawBoxes(resources_.boxes, boxes);
     pending_.clear();
     shelves_.clear();
 }
 
 /// Of all pending fills, into the coverage target.
-void Painter::drawCoverage() {
+void LayerRenderer::drawCoverage() {
     if (coverage_.texture.get() == 0)
-        coverage_ = workshop_.pool.take();
+        coverage_ = resources_.pool.take();
     clear(coverage_, coverage_.touched);
     std::vector<std::uint32_t> drawn;
     std::uint32_t first = ~0u, last = 0;
@@ -186,7 +186,7 @@ void Painter::drawCoverage() {
     drawInstances(drawn);
 }
 
-void Painter::clip(std::uint32_t drawn) {
+void LayerRenderer::clip(std::uint32_t drawn) {
     const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[asset_.list.drawn[drawn].map], view_);
     if (box.empty()) {
         clear(stack_.back(), stack_.back().touched);
@@ -200,12 +200,12 @@ void Painter::clip(std::uint32_t drawn) {
     const Program& program = useLayer(Action::Clip, coverage_);
     glUniform4i(program.uniform("maskBox"), box.min.x, box.min.y, box.max.x, box.max.y);
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
-    drawBoxes(workshop_.boxes, {boxOf(stack_.back().touched, place - box.min)});
+    drawBoxes(resources_.boxes, {boxOf(stack_.back().touched, place - box.min)});
 }
 
 // ---- Groups ---------------------------------------------------------------------------------------
 
-void Painter::pop(const Command& command) {
+void LayerRenderer::pop(const Command& command) {
     Target popped = std::move(stack_.back());
     stack_.pop_back();
     if (command.kind != Command::Kind::Pop)
@@ -214,36 +214,36 @@ void Painter::pop(const Command& command) {
         popOver(command, popped);
     else
         popBlend(command, popped);
-    workshop_.pool.giveBack(std::move(popped));
+    resources_.pool.giveBack(std::move(popped));
 }
 
-void Painter::popMask(const Command& command, const Target& popped) {
+void LayerRenderer::popMask(const Command& command, const Target& popped) {
     const Program& program = useLayer(Action::Mask, popped);
     glUniform1ui(program.uniform("maskOp"), maskOp(command.kind));
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
-    drawBoxes(workshop_.boxes, {boxOf(stack_.back().touched)});
+    drawBoxes(resources_.boxes, {boxOf(stack_.back().touched)});
 }
 
-void Painter::popOver(const Command& command, const Target& popped) {
+void LayerRenderer::popOver(const Command& command, const Target& popped) {
     const Program& program = useLayer(Action::Over, popped);
     glUniform1f(program.uniform("opacity"), command.opacity);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    drawBoxes(workshop_.boxes, {boxOf(popped.touched)});
+    drawBoxes(resources_.boxes, {boxOf(popped.touched)});
     stack_.back().touch(popped.touched);
 }
 
 /// The shader reads the backdrop from a copy, since a target cannot be read while it is drawn into.
-void Painter::popBlend(const Command& command, const Target& popped) {
+void LayerRenderer::popBlend(const Command& command, const Target& popped) {
     const PixelBox& box = popped.touched;
     if (box.empty())
         return;
-    Target backdrop = workshop_.pool.take();
+    Target backdrop = resources_.pool.take();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, stack_.back().framebuffer.get());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, backdrop.framebuffer.get());
     glBlitFramebuffer(box.min.x, box.min.y, box.max.x, box.max.y, box.min.x, box.min.y, box.max.x, box.max.y,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     backdrop.touch(box);
-    const Program& program = workshop_.programs.blend();
+    const Program& program = resources_.programs.blend();
     use(program);
     bindTexture(Unit::Layer, popped.texture);
     bindTexture(Unit::Backdrop, backdrop.texture);
@@ -251,16 +251,16 @@ void Painter::popBlend(const Command& command, const Target& popped) {
     glUniform1f(program.uniform("opacity"), command.opacity);
     glUniform1ui(program.uniform("blendMode"), GLuint(command.blend));
     glDisable(GL_BLEND);
-    drawBoxes(workshop_.boxes, {boxOf(box)});
+    drawBoxes(resources_.boxes, {boxOf(box)});
     glEnable(GL_BLEND);
     stack_.back().touch(box);
-    workshop_.pool.giveBack(std::move(backdrop));
+    resources_.pool.giveBack(std::move(backdrop));
 }
 
 // ---- Composition ----------------------------------------------------------------------------------
 
 /// With what every program may ask for.
-void Painter::use(const Program& program) const {
+void LayerRenderer::use(const Program& program) const {
     const Sections& s = asset_.sections;
     program.use();
     glUniform2f(program.uniform("targetSize"), float(view_.width), float(view_.height));
@@ -269,11 +269,11 @@ void Painter::use(const Program& program) const {
     glUniform1ui(program.uniform("rampSums"), s.rampSums);
 }
 
-void Painter::useFill() {
+void LayerRenderer::useFill() {
     const bool programs = std::ranges::any_of(
         pending_, [&](const PendingFill& fill) { return asset::isProgram(asset_.paints[fill.paint]); });
     const Program& program =
-        workshop_.programs.fill(programs ? asset_.features : Features(), asset_.materialSet);
+        resources_.programs.fill(programs ? asset_.features : Features(), asset_.materialSet);
     use(program);
     const glm::dmat2 inverse = glm::inverse(glm::dmat2(view_.toPixels[0], view_.toPixels[1]));
     const glm::dvec2 pixel = glm::dvec2(view_.width, view_.height) * 0.5;
@@ -286,8 +286,8 @@ void Painter::useFill() {
     stack_.back().bind();
 }
 
-const Program& Painter::useLayer(Action action, const Target& layer) {
-    const Program& program = workshop_.programs.layer();
+const Program& LayerRenderer::useLayer(Action action, const Target& layer) {
+    const Program& program = resources_.programs.layer();
     use(program);
     glUniform1ui(program.uniform("action"), GLuint(action));
     bindTexture(Unit::Layer, layer.texture);

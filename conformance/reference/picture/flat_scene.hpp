@@ -56,7 +56,7 @@ struct MaskNode {
     bool linear;
 };
 
-struct Picture {
+struct FlatScene {
     int width = 0, height = 0;
     std::vector<Shape> shapes;
     std::vector<Edge> edges;  ///< a shape's edges stand together, in the order of the shapes
@@ -72,7 +72,7 @@ enum class Patterns {
 };
 
 /// What lies outside the scene's rectangle is cut off by a clip of the root.
-Picture makePicture(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
-                    const MaterialFunction& materials);
+FlatScene flattenScene(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
+                       const MaterialFunction& materials);
 
 }  // namespace vtm::reference
