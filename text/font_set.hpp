@@ -64,7 +64,7 @@ public:
     /// Adds a face of the document's own: sfnt, WOFF, WOFF2 or a collection's first face. Throws FontError.
     void add(const FontFace& face, std::span<const std::uint8_t> bytes);
 
-    /// A family that is asked for, generic names replaced, is in the set.
+    /// The family itself, not one that stands for it, is in the set. Generic names always are.
     bool hasFamily(const std::string& family) const;
 
     /// The font of the first family that is there, or else what fontconfig proposes; null where the set is

@@ -181,10 +181,20 @@ std::optional<Scope> Converter::enter(const Element& element, const Scope& paren
     return scope;
 }
 
+/// A foreignObject is chosen only where nothing else can be: what stands behind it is meant for those who
+/// cannot draw it, as in the files of draw.io.
 void Converter::convertSwitch(const Element& element, const Scope& scope, Nodes& out) {
-    for (const Element* child : element.children)
-        if (isRendered(child->tag) && child->tag != Tag::Unknown && passesConditions(*child))
+    const Element* foreign = nullptr;
+    for (const Element* child : element.children) {
+        if (!isRendered(child->tag) || child->tag == Tag::Unknown || !passesConditions(*child))
+            continue;
+        if (child->tag != Tag::ForeignObject)
             return convertElement(*child, scope, out);
+        if (!foreign)
+            foreign = child;
+    }
+    if (foreign)
+        convertElement(*foreign, scope, out);
 }
 
 scene::Affine Converter::transformFrom(std::string_view text, const Style& style,

@@ -8,6 +8,7 @@
 #include "scene/place.hpp"
 #include "svg/convert/converter.hpp"
 #include "svg/css/text_values.hpp"
+#include "svg/text/element_font.hpp"
 #include "svg/text/layout.hpp"
 
 namespace vtm::svg {
@@ -47,10 +48,12 @@ void Converter::warnOfMissingFamilies(const TextContent& content) {
         const bool found =
             families.empty() || std::any_of(families.begin(), families.end(),
                                             [&](const auto& family) { return fonts().hasFamily(family); });
-        if (!found && missingFamilies_.insert(families.front()).second)
-            reporter_.warn(
-                Kind::Font, *element.element,
-                fmt::format("there is no font of the family \"{}\"; another one is used", families.front()));
+        if (found || !missingFamilies_.insert(families.front()).second)
+            continue;
+        const auto used = fonts().primary(fontQuery(element));
+        reporter_.warn(Kind::Font, *element.element,
+                       fmt::format("there is no font of the family \"{}\"; \"{}\" is used", families.front(),
+                                   used ? used->family() : ""));
     }
 }
 

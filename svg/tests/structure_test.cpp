@@ -177,6 +177,14 @@ TEST(Switch, LanguageComesFromTheOptions) {
     EXPECT_EQ(items.size(), 1u);
 }
 
+TEST(Switch, PassesOverForeignObjectsWhereElseIsToBeDrawn) {
+    const Document loaded = loadBody("<switch><foreignObject requiredFeatures='f#Extensibility'/>"
+                                     "<rect width='1' height='1'/></switch>");
+    EXPECT_EQ(itemsOf(loaded).size(), 1u);
+    EXPECT_TRUE(loaded.warnings.empty());
+    EXPECT_EQ(loadBody("<switch><foreignObject/><foreignObject/></switch>").warnings.size(), 1u);
+}
+
 TEST(Unsupported, ElementsAreNamed) {
     const Document loaded = loadBody("<foreignObject/>");
     ASSERT_EQ(loaded.warnings.size(), 1u);

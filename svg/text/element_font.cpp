@@ -4,9 +4,8 @@
 #include "svg/css/text_values.hpp"
 
 namespace vtm::svg {
-namespace {
 
-text::FontQuery queryOf(const TextElement& element) {
+text::FontQuery fontQuery(const TextElement& element) {
     const Style& style = element.scope.style;
     text::FontQuery query;
     query.families = familiesIn(style.fontFamily);
@@ -20,6 +19,8 @@ text::FontQuery queryOf(const TextElement& element) {
     query.synthesizeSlant = style.synthesizeSlant;
     return query;
 }
+
+namespace {
 
 /// In the order of CSS Fonts 4 section 7.2: what comes later wins.
 std::vector<text::Feature> switchedFeatures(const TextElement& element) {
@@ -91,7 +92,7 @@ std::vector<ElementFont> elementFonts(const std::vector<TextElement>& elements, 
     for (const TextElement& element : elements) {
         const Style& style = element.scope.style;
         ElementFont font;
-        font.query = queryOf(element);
+        font.query = fontQuery(element);
         font.features = switchedFeatures(element);
         font.primary = fonts.primary(font.query);
         font.size = adjustedSize(style, font.primary.get());

@@ -25,6 +25,7 @@ struct ElementFont {
     double central() const { return (ascent() - descent()) / 2; }
 };
 
+text::FontQuery fontQuery(const TextElement& element);
 std::vector<ElementFont> elementFonts(const std::vector<TextElement>& elements, text::FontSet& fonts);
 
 }  // namespace vtm::svg

@@ -21,6 +21,23 @@ auto keyOf(const FontQuery& query) {
                       query.language, query.opticalSize, query.synthesizeWeight, query.synthesizeSlant);
 }
 
+/// A generic family of CSS.
+struct Generic {
+    std::string_view name;
+    std::string FontOptions::*option;  ///< the family that it stands for
+    const char* base;                  ///< fontconfig's name
+};
+
+constexpr Generic generics[]{{"serif", &FontOptions::serifFamily, "serif"},
+                             {"sans-serif", &FontOptions::sansSerifFamily, "sans-serif"},
+                             {"cursive", &FontOptions::cursiveFamily, "cursive"},
+                             {"fantasy", &FontOptions::fantasyFamily, "fantasy"},
+                             {"monospace", &FontOptions::monospaceFamily, "monospace"},
+                             {"ui-serif", &FontOptions::serifFamily, "serif"},
+                             {"ui-sans-serif", &FontOptions::sansSerifFamily, "sans-serif"},
+                             {"ui-monospace", &FontOptions::monospaceFamily, "monospace"},
+                             {"system-ui", &FontOptions::sansSerifFamily, "sans-serif"}};
+
 constexpr char32_t emojiSelector = 0xfe0f;
 
 bool asksForColor(std::u32string_view cluster) {
@@ -44,10 +61,19 @@ public:
     explicit Implementation(const FontOptions& options)
         : options_(options), library_(FontLibrary::of(options)) {}
 
-    const Faces& facesOf(const std::string& family) const {
-        const std::string* const named = generic(family);
-        const Faces& own = own_.family(family);
-        return named || own.empty() ? library_->family(named ? *named : family) : own;
+    /// Of the family, or else of one that stands for it.
+    const Faces& facesOf(const std::string& family) {
+        const Generic* const named = generic(family);
+        if (!named && !own_.family(family).empty())
+            return own_.family(family);
+        const std::string& name = named ? options_.*named->option : family;
+        const Faces& installed = library_->family(name);
+        if (!installed.empty())
+            return installed;
+        const auto [at, isNew] = aliases_.try_emplace(familyKey(family));
+        if (isNew)
+            at->second = library_->aliasOf(named ? named->base : family);
+        return at->second;
     }
 
     void add(const FontFace& face, std::span<const std::uint8_t> bytes) {
@@ -56,9 +82,13 @@ public:
         fallbacks_.clear();
     }
 
-    bool hasFamily(const std::string& family) const { return generic(family) || !facesOf(family).empty(); }
+    bool hasFamily(const std::string& family) const {
+        return generic(family) || !own_.family(family).empty() || !library_->family(family).empty();
+    }
 
     std::shared_ptr<const Font> primary(const FontQuery& query) {
+        if (query.families.empty())
+            return primary(withDefault(query));
         Answer& answer = answers_[keyOf(query)];
         if (!std::exchange(answer.hasPrimary, true))
             answer.primary = findPrimary(query, answer);
@@ -66,6 +96,8 @@ public:
     }
 
     std::shared_ptr<const Font> covering(const FontQuery& query, std::u32string_view cluster) {
+        if (query.families.empty())
+            return covering(withDefault(query), cluster);
         Answer& answer = answers_[keyOf(query)];
         const auto known = answer.covering.find(cluster);
         if (known != answer.covering.end())
@@ -77,22 +109,16 @@ public:
     }
 
 private:
-    /// The option that a generic name stands for; null for other names.
-    const std::string* generic(const std::string& family) const {
-        const std::pair<const char*, const std::string*> names[]{{"serif", &options_.serifFamily},
-                                                                 {"sans-serif", &options_.sansSerifFamily},
-                                                                 {"cursive", &options_.cursiveFamily},
-                                                                 {"fantasy", &options_.fantasyFamily},
-                                                                 {"monospace", &options_.monospaceFamily},
-                                                                 {"ui-serif", &options_.serifFamily},
-                                                                 {"ui-sans-serif", &options_.sansSerifFamily},
-                                                                 {"ui-monospace", &options_.monospaceFamily},
-                                                                 {"system-ui", &options_.sansSerifFamily}};
+    /// Null for names that are not generic.
+    static const Generic* generic(const std::string& family) {
         const std::string key = familyKey(family);
-        for (const auto& [name, option] : names)
-            if (key == name)
-                return option;
-        return nullptr;
+        const auto found = std::ranges::find(generics, key, &Generic::name);
+        return found == std::end(generics) ? nullptr : found;
+    }
+
+    FontQuery withDefault(FontQuery query) const {
+        query.families = {options_.defaultFamily};
+        return query;
     }
 
     std::shared_ptr<const Font> findPrimary(const FontQuery& query, Answer& answer) {
@@ -145,7 +171,7 @@ private:
         return at->second;
     }
 
-    std::vector<Faces> findFallback(const FontQuery& query) const {
+    std::vector<Faces> findFallback(const FontQuery& query) {
         std::vector<Faces> fallback;
         std::set<std::string> seen;
         const auto append = [&](const std::string& family) {
@@ -156,17 +182,20 @@ private:
             for (const std::string& family :
                  {options_.defaultFamily, options_.serifFamily, options_.sansSerifFamily})
                 append(family);
-        for (const FaceEntry* face : library_->substitutes(withDefault(query)))
+        for (const FaceEntry* face : library_->substitutes(withGenerics(query, options_)))
             append(face->family);
         return fallback;
     }
 
-    /// As fontconfig is asked: generic names are what the options say, the default family is the last.
-    FontQuery withDefault(FontQuery query) const {
-        for (std::string& family : query.families)
-            if (const std::string* const named = generic(family))
-                family = *named;
-        query.families.push_back(options_.defaultFamily);
+    /// A generic name is what the option says, and else what fontconfig says.
+    static FontQuery withGenerics(FontQuery query, const FontOptions& options) {
+        std::vector<std::string> families;
+        for (const std::string& family : query.families)
+            if (const Generic* const named = generic(family))
+                families.insert(families.end(), {options.*named->option, named->base});
+            else
+                families.push_back(family);
+        query.families = std::move(families);
         return query;
     }
 
@@ -190,6 +219,7 @@ private:
     const FontOptions options_;
     const std::shared_ptr<const FontLibrary> library_;
     DocumentFonts own_;
+    std::map<std::string, Faces> aliases_;  ///< by familyKey
     std::map<decltype(keyOf({})), Answer> answers_;
     std::map<std::tuple<std::vector<std::string>, double, double, Slant, std::string>, std::vector<Faces>>
         fallbacks_;

@@ -90,6 +90,24 @@ const std::vector<const FaceEntry*>& FontLibrary::family(const std::string& name
     return found == families_.end() ? none : found->second;
 }
 
+std::vector<const FaceEntry*> FontLibrary::aliasOf(const std::string& name) const {
+    if (!systemFonts_)
+        return {};
+    // Rules put families that are equal or preferred next to the name and others at the end, behind `last`.
+    const std::string last = "vtm-last-family";
+    FontQuery query;
+    query.families = {name, last};
+    const FcPatternOwner pattern = patternOf(query);
+    FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern);
+    for (const std::string& alias : familiesOf(pattern.get())) {
+        if (alias == last)
+            break;
+        if (const auto& faces = family(alias); !faces.empty())
+            return faces;
+    }
+    return {};
+}
+
 std::vector<const FaceEntry*> FontLibrary::substitutes(const FontQuery& query) const {
     if (systemFonts_) {
         const FcPatternOwner pattern = patternOf(query);

@@ -28,6 +28,9 @@ public:
 
     /// Faces of the directories before those of the system; empty where there is no such family.
     const std::vector<const FaceEntry*>& family(const std::string& name) const;
+    /// The faces of the first family that fontconfig's rules hold equal to this one, as Liberation Sans to
+    /// Helvetica, or prefer for this generic name; empty where there is none.
+    std::vector<const FaceEntry*> aliasOf(const std::string& name) const;
     /// What fontconfig puts in the place of families that are not there, best first; every face of the
     /// library where it knows no system fonts, by family, file and index.
     std::vector<const FaceEntry*> substitutes(const FontQuery& query) const;

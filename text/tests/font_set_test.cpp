@@ -1,5 +1,8 @@
 #include "text/font_set.hpp"
 
+#include <cstdlib>
+#include <fstream>
+
 #include <hb-ot.h>
 
 #include "text/tests/support.hpp"
@@ -57,6 +60,54 @@ TEST(FontSet, SystemFontsStandInForAbsentFamilies) {
     FontSet set({});
     EXPECT_NE(set.primary(family("Absent")), nullptr);
     EXPECT_TRUE(set.hasFamily("DejaVu Sans"));
+}
+
+/// Fontconfig with DejaVu and rules as Debian's: what is equal, what a generic name prefers, to which kind a
+/// family belongs.
+class Fontconfig : public testing::Test {
+protected:
+    Fontconfig() {
+        const std::string file = testing::TempDir() + "vtm_fonts.conf";
+        std::ofstream(file) << R"(<fontconfig><dir>)" << dejavu.string() << R"(</dir>
+            <alias binding="same"><family>Typewriter</family><accept><family>DejaVu Sans Mono</family></accept></alias>
+            <alias><family>Roman</family><default><family>serif</family></default></alias>
+            <alias><family>Grotesque</family><default><family>sans-serif</family></default></alias>
+            <alias><family>serif</family><prefer><family>DejaVu Serif</family></prefer></alias>
+            <alias><family>sans-serif</family><prefer><family>DejaVu Sans</family></prefer></alias>
+            <alias><family>monospace</family><prefer><family>DejaVu Sans Mono</family></prefer></alias>
+            </fontconfig>)";
+        setenv("FONTCONFIG_FILE", file.c_str(), 1);
+        FontOptions options;
+        options.directories = {testing::TempDir() + "vtm_no_fonts"};  // a library of its own
+        options.defaultFamily = "Roman";
+        set = std::make_unique<FontSet>(options);
+        unsetenv("FONTCONFIG_FILE");
+    }
+    std::string first(std::vector<std::string> families) {
+        FontQuery query;
+        query.families = std::move(families);
+        const auto font = set->primary(query);
+        return font ? font->family() : "";
+    }
+    std::unique_ptr<FontSet> set;
+};
+
+TEST_F(Fontconfig, SaysWhatGenericNamesAre) {
+    EXPECT_EQ(first({"sans-serif"}), "DejaVu Sans");
+    EXPECT_EQ(first({"serif"}), "DejaVu Serif");
+    EXPECT_EQ(first({"monospace"}), "DejaVu Sans Mono");
+    EXPECT_EQ(first({"system-ui"}), "DejaVu Sans");
+    EXPECT_EQ(first({"Grotesque", "serif"}),
+              "DejaVu Serif");  // the next of the list before what is like the first
+    EXPECT_EQ(first({"Roman", "sans-serif"}), "DejaVu Sans");
+}
+
+TEST_F(Fontconfig, SaysWhatIsLikeAFamilyThatIsNotThere) {
+    EXPECT_EQ(first({"Roman"}), "DejaVu Serif");
+    EXPECT_EQ(first({"Grotesque"}), "DejaVu Sans");
+    EXPECT_EQ(first({"Typewriter", "DejaVu Serif"}), "DejaVu Sans Mono");  // equal, so as if it were there
+    EXPECT_FALSE(set->hasFamily("Typewriter"));
+    EXPECT_EQ(first({}), "DejaVu Serif");  // the default family
 }
 
 TEST_F(SuiteFonts, GenericFamiliesAreMapped) {
