@@ -45,14 +45,23 @@ public:
         enter(character.element);
         append(character.code, index, character.element);
     }
-    /// Closes all elements.
-    void finish() { leaveTo(0); }
+    /// Closes all elements. The line's characters were [first, end) of the content.
+    void finish(std::size_t first, std::size_t end) {
+        leaveTo(0);
+        for (std::size_t i = first - std::min(first, maxJoined); i < first; ++i)
+            line_.before.push_back(content_.characters[i].code);
+        for (std::size_t i = end; i < std::min(end + maxJoined, content_.characters.size()); ++i)
+            line_.after.push_back(content_.characters[i].code);
+    }
 
     const text::Line& line() const { return line_; }
     /// The content's character behind one of the line's, or `control`.
     std::size_t origin(std::size_t position) const { return origins_[position]; }
 
 private:
+    /// A letter joins with the next one, perhaps over marks.
+    static constexpr std::size_t maxJoined = 5;
+
     void enter(int element) {
         std::vector<int> chain;  // outermost last
         for (int e = element; e >= 0; e = content_.elements[static_cast<std::size_t>(e)].parent)
@@ -164,7 +173,7 @@ std::vector<ShapedCluster> shapeChunks(const TextContent& content,
         do
             builder.add(end++);
         while (end < content.characters.size() && !startsChunk(content, end));
-        builder.finish();
+        builder.finish(first, end);
         const std::size_t start = clusters.size();
         for (text::Cluster& cluster : text::shape(builder.line(), fonts))
             if (auto made = fromLine(cluster, builder, content, elementFonts, chunk))

@@ -26,9 +26,16 @@ hb_direction_t directionOf(const Run& run) {
 /// The run's glyphs; the text around it decides how the letters at its ends join.
 Buffer shapedBuffer(const Line& line, const Run& run) {
     Buffer buffer(hb_buffer_create());
-    hb_buffer_add_utf32(buffer.get(), reinterpret_cast<const std::uint32_t*>(line.text.data()),
-                        static_cast<int>(line.text.size()), static_cast<unsigned>(run.first),
-                        static_cast<int>(run.end - run.first));
+    const auto add = [&](const std::u32string& text, std::size_t first, std::size_t end) {
+        hb_buffer_add_utf32(buffer.get(), reinterpret_cast<const std::uint32_t*>(text.data()),
+                            static_cast<int>(text.size()), static_cast<unsigned>(first),
+                            static_cast<int>(end - first));
+    };
+    if (run.first == 0)
+        add(line.before, line.before.size(), line.before.size());
+    add(line.text, run.first, run.end);
+    if (run.end == line.text.size())
+        add(line.after, 0, 0);
     hb_buffer_set_direction(buffer.get(), directionOf(run));
     hb_buffer_set_script(buffer.get(), static_cast<hb_script_t>(run.script));
     const Span& span = line.spans[run.span];

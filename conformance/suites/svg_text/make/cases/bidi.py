@@ -61,6 +61,9 @@ case("bidi/arabic-across-tspans", "Letters of two elements join, each in its own
 case("bidi/x-list", "Each x is the right edge of a right-to-left character.",
      f'<text x="80 160" y="100" direction="rtl" {FONT}>{ALEF}{BET}</text>',
      draw(glyph("alef", 80 - 0.6 * SIZE, 100, face=WORLD), glyph("bet", 160 - 0.55 * SIZE, 100, face=WORLD)), " 160")
+case("bidi/arabic-x-list", "Letters that are placed one by one keep the forms in which they join.",
+     f'<text x="110 40" y="100" {FONT}>{BEH}{BEH}</text>',
+     draw(glyph("beh.init", 110, 100, face=WORLD), glyph("beh.fina", 40, 100, face=WORLD)), " 40")
 case("bidi/dx", "dx counts characters in logical order.",
      f'<text x="150" y="100" dx="0 -15" direction="rtl" {FONT}>{ALEF}{BET}</text>',
      draw(glyph("alef", 150 - 0.6 * SIZE, 100, face=WORLD), glyph("bet", 135 - 1.15 * SIZE, 100, face=WORLD)),
