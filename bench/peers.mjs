@@ -106,7 +106,7 @@ class Resvg {
         const turned = text.slice(0, root.index) +
             `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}">` +
             `<g transform="matrix(${matrix.join(' ')})">` + tag + text.slice(root.index + root[0].length) + '</g></svg>';
-        return new this.package.Resvg(turned, {font: {loadSystemFonts: false}});
+        return new this.package.Resvg(turned, {font: {loadSystemFonts: turned.includes('<text')}});
     }
 
     draw(view) {

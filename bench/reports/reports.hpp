@@ -25,6 +25,8 @@ Report memory(const Options& options);
 Report sides(const Options& options);
 /// Pictures as textures: flat, far away, in perspective.
 Report texture(const Options& options);
+/// Pages of text from the file to pixels, beside the peers.
+Report text(const Options& options);
 /// Context, programs, first frame, in fresh processes with a cold and a warm cache of shaders.
 Report startup(const Options& options);
 /// Bytes against a flat grid of equal finest cells, on the files and on a font.
