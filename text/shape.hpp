@@ -32,7 +32,7 @@ struct Span {
 /// A line. Explicit embeddings and overrides are control characters in the text.
 struct Line {
     std::u32string text;
-    std::vector<Span> spans;  ///< in order; the last ends with the text
+    std::vector<Span> spans;                 ///< in order; the last ends with the text
     std::u32string before = {}, after = {};  ///< what stands next to the line: its outer letters join with it
     bool rightToLeft = false;
     bool vertical = false;

@@ -178,8 +178,9 @@ TEST(Switch, LanguageComesFromTheOptions) {
 }
 
 TEST(Switch, PassesOverForeignObjectsWhereElseIsToBeDrawn) {
-    const Document loaded = loadBody("<switch><foreignObject requiredFeatures='f#Extensibility'/>"
-                                     "<rect width='1' height='1'/></switch>");
+    const Document loaded = loadBody(
+        "<switch><foreignObject requiredFeatures='f#Extensibility'/>"
+        "<rect width='1' height='1'/></switch>");
     EXPECT_EQ(itemsOf(loaded).size(), 1u);
     EXPECT_TRUE(loaded.warnings.empty());
     EXPECT_EQ(loadBody("<switch><foreignObject/><foreignObject/></switch>").warnings.size(), 1u);
