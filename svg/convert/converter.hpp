@@ -177,6 +177,7 @@ private:
     TextContent flowContent(const Element& flowRoot, const Scope& scope);
     Box flowRegion(const Element& flowRoot, const Scope& scope);
     void convertFlowRoot(const Element& element, const Scope& scope, Nodes& out);
+    TextLayout layOutText(const Element& element, const Scope& scope, const TextContent& content);
     void paintText(const Element& element, const Scope& scope, const TextContent& content, Nodes& out);
     text::FontSet& fonts();
     void addFontFaces(text::FontSet& fonts);

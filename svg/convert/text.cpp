@@ -67,7 +67,8 @@ void Converter::warnOfMissingGlyphs(const Element& element, const TextContent& c
                 missing.insert(content.characters[cluster.first].code);
     if (missing.empty())
         return;
-    const std::string others = missing.size() > 1 ? fmt::format(" and {} others", missing.size() - 1) : "";
+    const std::size_t more = missing.size() - 1;
+    const std::string others = more > 0 ? fmt::format(" and {} other{}", more, more > 1 ? "s" : "") : "";
     reporter_.warn(Kind::Font, element,
                    fmt::format("no font has the character U+{:04X}{}",
                                static_cast<std::uint32_t>(*missing.begin()), others));
@@ -83,23 +84,31 @@ void Converter::convertFlowRoot(const Element& element, const Scope& scope, Node
     paintText(element, scope, flowContent(element, scope), out);
 }
 
+/// Without clusters, after a warning, where the text cannot be drawn.
+TextLayout Converter::layOutText(const Element& element, const Scope& scope, const TextContent& content) {
+    if (content.characters.empty())
+        return {};
+    if (!fonts().primary({})) {
+        reporter_.warn(Kind::Font, element, "there are no fonts; it is left out");
+        return {};
+    }
+    warnOfMissingFamilies(content);
+    TextLayout layout = layOut(content, fonts());
+    warnOfMissingGlyphs(element, content, layout);
+    const Box box = boundingBox(cellsOf(layout), scope.transform);
+    if (layout.clusters.empty() || isWithinReach(box))
+        return layout;
+    reporter_.warn(Kind::Limit, element, "lies too far away; it is left out");
+    return {};
+}
+
 void Converter::paintText(const Element& element, const Scope& scope, const TextContent& content,
                           Nodes& out) {
-    if (content.characters.empty())
-        return;
-    if (!fonts().primary({}))
-        return reporter_.warn(Kind::Font, element, "there are no fonts; it is left out");
-    warnOfMissingFamilies(content);
-    const TextLayout layout = layOut(content, fonts());
+    const TextLayout layout = layOutText(element, scope, content);
     if (layout.clusters.empty())
         return;
-    warnOfMissingGlyphs(element, content, layout);
     const auto cells = std::make_shared<const Path>(cellsOf(layout));
     const Box box = boundingBox(*cells, scene::identity);
-    if (!isWithinReach(geometry::mapped(box, scope.transform))) {
-        reporter_.warn(Kind::Limit, element, "lies too far away; it is left out");
-        return;
-    }
     if (outlineListeners_ > 0)
         outlines_.push_back({cells, scope.transform});
     const auto drawLines = [&](bool through) {
@@ -202,7 +211,9 @@ void Converter::addClipText(const Element& element, const Scope& parent, scene::
     if (!scope)
         return;
     const TextContent content = textContent(element, *scope);
-    const TextLayout layout = layOut(content, fonts());
+    const TextLayout layout = layOutText(element, *scope, content);
+    if (layout.clusters.empty())
+        return;
     const Box box = boundingBox(cellsOf(layout), scene::identity);
     const auto own = clipOf(element, *scope, box);
     const limits::Place place = placeOf(element);
