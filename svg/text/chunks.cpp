@@ -48,9 +48,10 @@ public:
     /// Closes all elements. The line's characters were [first, end) of the content.
     void finish(std::size_t first, std::size_t end) {
         leaveTo(0);
-        for (std::size_t i = first - std::min(first, maxJoined); i < first; ++i)
-            line_.before.push_back(content_.characters[i].code);
-        for (std::size_t i = end; i < std::min(end + maxJoined, content_.characters.size()); ++i)
+        for (std::size_t i = first; i > 0 && first - i < maxJoined && joinsBefore(i); --i)
+            line_.before.insert(line_.before.begin(), content_.characters[i - 1].code);
+        for (std::size_t i = end; i < content_.characters.size() && i - end < maxJoined && joinsBefore(i);
+             ++i)
             line_.after.push_back(content_.characters[i].code);
     }
 
@@ -61,6 +62,16 @@ public:
 private:
     /// A letter joins with the next one, perhaps over marks.
     static constexpr std::size_t maxJoined = 5;
+
+    /// Letters join over positions, but not with an element that begins another line: `tspan` elements are
+    /// lines as a rule, without white space between them.
+    bool joinsBefore(std::size_t index) const {
+        const TextCharacter& character = content_.characters[index];
+        const int before = content_.characters[index - 1].element;
+        const bool moves =
+            line_.vertical ? character.x || character.dx != 0 : character.y || character.dy != 0;
+        return character.element == before || !moves;
+    }
 
     void enter(int element) {
         std::vector<int> chain;  // outermost last

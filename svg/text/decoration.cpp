@@ -17,11 +17,14 @@ struct Bar {
     double top, bottom;  ///< below the decorating element's baseline
 };
 
-Bar barOf(TextLines line, const ElementFont& font) {
+/// In vertical text the underline is at the letters' edge, `under left` (CSS Text Decoration 4
+/// section 2.8.1).
+Bar barOf(TextLines line, const ElementFont& font, bool vertical) {
     if (!font.primary)
         return {0, 0};
     const text::FontMetrics& metrics = font.primary->metrics();
-    double middle = font.scaled(metrics.underlineOffset), thickness = font.scaled(metrics.underlineThickness);
+    double middle = vertical ? font.descent() : font.scaled(metrics.underlineOffset);
+    double thickness = font.scaled(metrics.underlineThickness);
     if (line == LineThrough) {
         middle = -font.scaled(metrics.strikeoutOffset);
         thickness = font.scaled(metrics.strikeoutThickness);
@@ -76,7 +79,7 @@ public:
         const ElementFont& font = fonts_[element];
         const std::vector<Segment> segments = joined(segments_[element], font.size);
         for (const TextLines line : {Underline, Overline, LineThrough}) {
-            const Bar bar = barOf(line, font);
+            const Bar bar = barOf(line, font, vertical_);
             for (const Segment& segment : segments)
                 if ((lines & line) && segment.length > 0 && bar.bottom > bar.top)
                     made_.push_back({element, line, rectangleIn(segment.frame, segment.length, bar)});

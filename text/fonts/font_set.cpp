@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -38,10 +39,11 @@ constexpr Generic generics[]{{"serif", &FontOptions::serifFamily, "serif"},
                              {"ui-monospace", &FontOptions::monospaceFamily, "monospace"},
                              {"system-ui", &FontOptions::sansSerifFamily, "sans-serif"}};
 
-constexpr char32_t emojiSelector = 0xfe0f;
-
-bool asksForColor(std::u32string_view cluster) {
-    return cluster.find(emojiSelector) != std::u32string_view::npos;
+/// The presentation that a cluster's variation selector asks for (UTS 51 section 2): true for colour.
+std::optional<bool> askedColor(std::u32string_view cluster) {
+    constexpr std::u32string_view selectors = U"\ufe0e\ufe0f";
+    const std::size_t at = cluster.find_first_of(selectors);
+    return at == std::u32string_view::npos ? std::nullopt : std::optional(cluster[at] == selectors[1]);
 }
 
 using Faces = std::vector<const FaceEntry*>;
@@ -138,18 +140,18 @@ private:
 
     std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
                                              Answer& answer) {
-        if (asksForColor(cluster))
-            if (auto font = findCovering(query, cluster, answer, true))
+        if (const auto color = askedColor(cluster))
+            if (auto font = findCovering(query, cluster, answer, color))
                 return font;
-        return findCovering(query, cluster, answer, false);
+        return findCovering(query, cluster, answer, std::nullopt);
     }
 
     std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
-                                             Answer& answer, bool colorOnly) {
+                                             Answer& answer, std::optional<bool> color) {
         const auto find = [&](const Faces& family) {
             Faces faces = text::covering(family, cluster);
-            if (colorOnly)
-                std::erase_if(faces, [](const FaceEntry* face) { return !face->color; });
+            std::erase_if(faces,
+                          [&](const FaceEntry* face) { return face->color != color.value_or(face->color); });
             return open(bestFace(faces, query), query, answer);
         };
         for (const std::string& family : query.families)

@@ -153,6 +153,16 @@ TEST_F(SuiteFonts, FallbackFindsTheScript) {
     EXPECT_EQ(set.covering(family("Noto Sans"), U"\u200d日\ufe0f")->family(), "Mplus 1p")
         << "joiners need no glyph";
 }
+TEST_F(SuiteFonts, SelectorsChooseBetweenTextAndColor) {
+    FontSet set(optionsOf(suiteFonts()));
+    FontQuery query = family("Noto Sans");
+    query.families = {"Noto Sans", "CFF Outlines and SBIX"};  // the second one is coloured
+    EXPECT_EQ(set.covering(query, U"A")->family(), query.families[0]);
+    EXPECT_EQ(set.covering(query, U"A\ufe0f")->family(), query.families[1]);
+    std::swap(query.families[0], query.families[1]);
+    EXPECT_EQ(set.covering(query, U"A")->family(), query.families[0]);
+    EXPECT_EQ(set.covering(query, U"A\ufe0e")->family(), query.families[1]);
+}
 TEST_F(SuiteFonts, VariableFontsTakeTheirAxesFromTheQuery) {
     FontSet set(optionsOf(suiteFonts()));
     const auto light = set.primary(family("Roboto Flex", 100)),

@@ -64,6 +64,11 @@ case("bidi/x-list", "Each x is the right edge of a right-to-left character.",
 case("bidi/arabic-x-list", "Letters that are placed one by one keep the forms in which they join.",
      f'<text x="110 40" y="100" {FONT}>{BEH}{BEH}</text>',
      draw(glyph("beh.init", 110, 100, face=WORLD), glyph("beh.fina", 40, 100, face=WORLD)), " 40")
+case("bidi/arabic-lines", "Letters of an element on another line do not join with it.",
+     f'<text x="110" y="60" {FONT}>{BEH}{BEH}<tspan x="110" y="120">{BEH}</tspan><tspan x="110" dy="40">{BEH}</tspan></text>',
+     draw(*(glyph(name, 110 + x * SIZE, y, face=WORLD)
+            for name, x, y in (("beh.fina", 0, 60), ("beh.init", 0.65, 60), ("beh", 0, 120), ("beh", 0, 160)))),
+     ' dy="40"')
 case("bidi/dx", "dx counts characters in logical order.",
      f'<text x="150" y="100" dx="0 -15" direction="rtl" {FONT}>{ALEF}{BET}</text>',
      draw(glyph("alef", 150 - 0.6 * SIZE, 100, face=WORLD), glyph("bet", 135 - 1.15 * SIZE, 100, face=WORLD)),

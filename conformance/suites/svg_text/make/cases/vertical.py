@@ -4,7 +4,7 @@ The line is the central baseline. Upright glyphs of VTM World hang from their ve
 baseline in the middle of the advance, and advance by an em; a sideways glyph is turned clockwise, its central line,
 (ascent - descent) / 2 above the alphabetic baseline, on the line.
 """
-from layout import RED, SIZE, WORLD, draw, glyph, move, turn
+from layout import RED, SIZE, UNDERLINE_SIZE, WORLD, draw, glyph, move, rectangle, turn
 from registry import case
 
 ONE, TWO, COMMA = "\u4e00", "\u4e8c", "\u3001"
@@ -71,3 +71,10 @@ column("rotate", "rotate turns upright glyphs about their place on the line.", V
               frame=move(100, 20) @ turn(30) @ move(-SIZE / 2, ORIGIN * SIZE))], ' rotate="30"')
 case("vertical/colours", "Fills of parts.", f'<text x="100" y="20" {FONT}{V}>{ONE}<tspan fill="{RED}">A</tspan></text>',
      draw(upright("one.cjk", 100, 20)) + draw(sideways("A", 100, 60), fill=RED), f' fill="{RED}"')
+
+EDGE, HALF = 0.5 * SIZE, UNDERLINE_SIZE / 2 * SIZE  # half of ascent and descent
+for word, x in (("underline", 100 - EDGE), ("overline", 100 + EDGE)):
+    column(word, f"{word} on the {'left' if x < 100 else 'right'} edge of the glyphs.",
+           f'{V} text-decoration="{word}"', f"{ONE}A",
+           [upright("one.cjk", 100, 20), sideways("A", 100, 60), rectangle(x - HALF, 20, x + HALF, 84)],
+           f' text-decoration="{word}"')
