@@ -12,8 +12,6 @@ target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-res
 # In inner loops & and | of bools are meant: nothing branches.
 target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>")
 option(VTM_UNITY "Compile a module's files several at a time: a whole build takes less time, one after a change longer" OFF)
-# Modules whose files define the same names in anonymous namespaces are compiled file by file.
-set(vtm_no_unity text svg api)
 # What one file declares is seen by the files after it.
 if(VTM_UNITY)
     target_compile_options(vtm_warnings INTERFACE -Wno-shadow "$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>")
@@ -49,14 +47,10 @@ function(vtm_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK;FLAGS" ${ARGN})
     add_library(vtm_${name} STATIC ${ARG_SOURCES})
     add_library(vtm::${name} ALIAS vtm_${name})
-    set(unity ${VTM_UNITY})
-    if(name IN_LIST vtm_no_unity)
-        set(unity OFF)
-    endif()
     # Public headers make what they declare visible; nothing else leaves the libraries that are made of these.
     set_target_properties(vtm_${name} PROPERTIES
         POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-        UNITY_BUILD ${unity})
+        UNITY_BUILD ${VTM_UNITY})
     # Nobody replaces single functions of ours when a program is loaded, so they may be inlined where they are public.
     target_compile_options(vtm_${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>" ${ARG_FLAGS})
     target_link_libraries(vtm_${name} PUBLIC vtm_settings ${ARG_DEPENDS} PRIVATE vtm_warnings ${ARG_LINK})

@@ -61,7 +61,9 @@ public:
         GlyphId glyph, const scene::Color& foreground,
         const scene::Affine& transform = scene::identity) const = 0;
 
-    /// For shaping. Scale: 64 to a font unit, y up.
+    /// HarfBuzz's numbers are integers: so many to a font unit, so that variations keep a 64th.
+    static constexpr int harfbuzzScale = 64;
+    /// For shaping. y up.
     virtual hb_font_t* harfbuzz() const = 0;
 
 protected:

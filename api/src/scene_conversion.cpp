@@ -76,10 +76,6 @@ namespace {
 
 using Nodes = std::vector<scene::Node>;
 
-bool isPlain(const Compositing& how) {
-    return how.opacity == 1 && how.blend == scene::BlendMode::Normal && !how.clip && !how.mask;
-}
-
 bool blends(const scene::Node& node) {
     const auto* group = std::get_if<scene::Group>(&node.value);
     return group && group->blend != scene::BlendMode::Normal;
@@ -168,7 +164,7 @@ private:
 
     /// A layer's content on what is below; plain layers give way to theirs unless it would blend with that.
     static Nodes composited(Nodes content, const Compositing& how, const Affine& at) {
-        if (isPlain(how) && std::none_of(content.begin(), content.end(), blends))
+        if (how.isPlain() && std::none_of(content.begin(), content.end(), blends))
             return content;
         scene::Group group{std::move(content), how.opacity, how.blend, placed(how.clip, at),
                            placed(how.mask, at)};

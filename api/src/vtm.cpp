@@ -5,14 +5,6 @@
 
 namespace vtm {
 
-namespace {
-
-bool isPlain(const Compositing& how) {
-    return how.opacity == 1 && how.blend == scene::BlendMode::Normal && !how.clip && !how.mask;
-}
-
-}  // namespace
-
 Mask filled(scene::Path path, scene::FillRule rule) {
     return {std::make_shared<const scene::Path>(std::move(path)), scene::identity, rule};
 }
@@ -45,7 +37,7 @@ Vtm Vtm::over(Vtm top, Vtm below) { return layer(std::move(top), std::move(below
 Vtm Vtm::layer(Vtm top, Vtm below, Compositing how) {
     if (!top.node_)
         return below;
-    if (!below.node_ && isPlain(how))
+    if (!below.node_ && how.isPlain())
         return top;
     return Vtm(VtmNode(LayerNode{std::move(top), std::move(below), std::move(how)}));
 }

@@ -44,6 +44,11 @@ struct ContextElement {
     mutable std::optional<Box> box;  ///< in its user space; empty: not known yet
 };
 
+/// A paint server and the templates that it refers to, one through the other.
+using TemplateChain = std::vector<const Element*>;
+/// The first value along the chain, on elements of `tag` only unless that is Unknown; empty if there is none.
+std::string_view inherited(const TemplateChain& chain, std::string_view name, Tag tag = Tag::Unknown);
+
 class Converter {
 public:
     Converter(const Tree& tree, Reporter& reporter, const Options& options, Budget& budget);
@@ -136,7 +141,7 @@ private:
     std::optional<scene::Paint> contextPaint(bool fill, const Scope& scope);
     const Box& contextBox(const ContextElement& context);
     ServerResult server(std::string_view href, const Element& element, const Scope& scope, const Box& box);
-    std::vector<const Element*> templateChain(const Element& server);
+    TemplateChain templateChain(const Element& server);
     ServerResult gradient(const Element& server, const Scope& scope, const Box& box);
     const std::vector<scene::GradientStop>& gradientStops(const std::vector<const Element*>& chain);
     std::vector<scene::GradientStop> stopsIn(const Element& gradient);

@@ -9,22 +9,11 @@
 namespace vtm::svg {
 namespace {
 
-using Chain = std::vector<const Element*>;
-
 /// How close to the end circle the focal circle may come, as a share of its radius. On the circle the
 /// cone of offsets opens to a half plane and a division by zero shows.
 constexpr double focusLimit = 1 - 1e-5;
 
-/// The first value along the chain, on elements of `tag` only unless that is Unknown.
-std::string_view inherited(const Chain& chain, std::string_view name, Tag tag = Tag::Unknown) {
-    for (const Element* element : chain)
-        if (tag == Tag::Unknown || element->tag == tag)
-            if (const auto value = element->find(name))
-                return *value;
-    return {};
-}
-
-scene::Spread spreadOf(const Chain& chain) {
+scene::Spread spreadOf(const TemplateChain& chain) {
     const std::string_view text = trim(inherited(chain, "spreadMethod"));
     return text == "reflect"  ? scene::Spread::Reflect
            : text == "repeat" ? scene::Spread::Repeat
@@ -33,7 +22,7 @@ scene::Spread spreadOf(const Chain& chain) {
 
 /// Reads a gradient's coordinates, in bounding box units or in user units.
 struct Coordinates {
-    const Chain& chain;
+    const TemplateChain& chain;
     Tag tag;
     Viewport viewport;
     Units units;
@@ -75,7 +64,7 @@ scene::Paint radial(const Coordinates& at, std::vector<scene::GradientStop> stop
 }  // namespace
 
 /// Stops of the first gradient in the chain that has any.
-const std::vector<scene::GradientStop>& Converter::gradientStops(const Chain& chain) {
+const std::vector<scene::GradientStop>& Converter::gradientStops(const TemplateChain& chain) {
     static const std::vector<scene::GradientStop> nothing;
     for (const Element* gradient : chain) {
         limits::check();
@@ -107,7 +96,7 @@ std::vector<scene::GradientStop> Converter::stopsIn(const Element& gradient) {
 }
 
 Converter::ServerResult Converter::gradient(const Element& server, const Scope& scope, const Box& box) {
-    const Chain chain = templateChain(server);
+    const TemplateChain chain = templateChain(server);
     std::vector<scene::GradientStop> stops = gradientStops(chain);
     if (stops.empty())
         return Invalid{};

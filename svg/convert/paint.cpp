@@ -79,7 +79,15 @@ Converter::ServerResult Converter::server(std::string_view href, const Element& 
     return Invalid{};
 }
 
-std::vector<const Element*> Converter::templateChain(const Element& server) {
+std::string_view inherited(const TemplateChain& chain, std::string_view name, Tag tag) {
+    for (const Element* element : chain)
+        if (tag == Tag::Unknown || element->tag == tag)
+            if (const auto value = element->find(name))
+                return *value;
+    return {};
+}
+
+TemplateChain Converter::templateChain(const Element& server) {
     const bool isPattern = server.tag == Tag::Pattern;
     std::vector<const Element*> chain;
     std::unordered_set<const Element*> seen;

@@ -9,17 +9,8 @@
 namespace vtm::svg {
 namespace {
 
-using Chain = std::vector<const Element*>;
-
-std::string_view inherited(const Chain& chain, std::string_view name) {
-    for (const Element* element : chain)
-        if (const auto value = element->find(name))
-            return *value;
-    return {};
-}
-
 /// The first pattern in the chain that has elements in it, null if none has.
-const Element* contentOwner(const Chain& chain) {
+const Element* contentOwner(const TemplateChain& chain) {
     const auto hasElements = [](const Element* pattern) {
         return std::any_of(pattern->children.begin(), pattern->children.end(),
                            [](const Element* child) { return child->tag != Tag::CharacterData; });
@@ -29,7 +20,8 @@ const Element* contentOwner(const Chain& chain) {
 }
 
 /// The tile in the pattern's coordinate system.
-Rect tileOf(const Chain& chain, bool boxUnits, const Viewport& viewport, const Units& units, const Box& box) {
+Rect tileOf(const TemplateChain& chain, bool boxUnits, const Viewport& viewport, const Units& units,
+            const Box& box) {
     const Viewport reference = boxUnits ? Viewport{1, 1} : viewport;
     const auto get = [&](std::string_view name, Axis axis) {
         const auto length = parseLength(inherited(chain, name), units);
@@ -45,7 +37,7 @@ Rect tileOf(const Chain& chain, bool boxUnits, const Viewport& viewport, const U
 }  // namespace
 
 Converter::ServerResult Converter::pattern(const Element& server, const Scope& scope, const Box& box) {
-    const Chain chain = templateChain(server);
+    const TemplateChain chain = templateChain(server);
     const Element* owner = contentOwner(chain);
     if (!owner)
         return Nothing{};

@@ -54,7 +54,7 @@ struct Kind {
 };
 using Kinds = std::vector<Kind>;
 
-const std::unordered_map<Tag, Kinds>& table() {
+const std::unordered_map<Tag, Kinds>& kindsByTag() {
     static const std::unordered_map<Tag, Kinds> table = [] {
         const Kinds place{{"x", isLength}, {"y", isLength}};
         const Kinds size{{"width", isLengthOrAuto}, {"height", isLengthOrAuto}};
@@ -114,7 +114,7 @@ const std::unordered_map<Tag, Kinds>& table() {
 void checkAttributes(const Tree& tree, Reporter& reporter) {
     for (const Element& element : tree.elements) {
         limits::check();
-        if (const auto kinds = table().find(element.tag); kinds != table().end())
+        if (const auto kinds = kindsByTag().find(element.tag); kinds != kindsByTag().end())
             for (const Kind& kind : kinds->second)
                 if (const auto value = element.find(kind.name); value && !kind.holds(trim(*value)))
                     reporter.warnInvalid(element, kind.name, *value);

@@ -15,7 +15,7 @@ namespace vtm::text {
 namespace {
 
 constexpr unsigned foregroundIndex = 0xffff;
-constexpr double maxByte = 255, scalePerUnit = 64;
+constexpr double maxByte = 255;
 
 hb_face_t* faceOf(const ColorSource& source) { return hb_font_get_face(source.outlines.harfbuzz()); }
 
@@ -102,8 +102,9 @@ std::optional<scene::Group> bitmapOf(const ColorSource& source, GlyphId glyph) {
     if (!bitmap || extents.width <= 0 || extents.height >= 0)
         return std::nullopt;
     const scene::Point min =
-        bitmapOrigin(source, glyph) + scene::Point(extents.x_bearing, -extents.y_bearing) / scalePerUnit;
-    const scene::Point size = scene::Point(extents.width, -extents.height) / scalePerUnit;
+        bitmapOrigin(source, glyph) +
+        scene::Point(extents.x_bearing, -extents.y_bearing) / double(Font::harfbuzzScale);
+    const scene::Point size = scene::Point(extents.width, -extents.height) / double(Font::harfbuzzScale);
     const scene::Affine place = scene::compose(
         scene::translation(min.x, min.y), scene::scaling(size.x / bitmap->width, size.y / bitmap->height));
     scene::Group group;

@@ -6,6 +6,7 @@
 #include <hb.h>
 
 #include <memory>
+#include <string>
 
 namespace vtm::text {
 
@@ -24,5 +25,9 @@ using HbSet = std::unique_ptr<hb_set_t, Release<hb_set_destroy>>;
 using FcConfiguration = std::unique_ptr<FcConfig, Release<FcConfigDestroy>>;
 using FcPatternOwner = std::unique_ptr<FcPattern, Release<FcPatternDestroy>>;
 using FcFontSetOwner = std::unique_ptr<FcFontSet, Release<FcFontSetSortDestroy>>;
+
+inline const FcChar8* fcString(const std::string& text) {
+    return reinterpret_cast<const FcChar8*>(text.c_str());
+}
 
 }  // namespace vtm::text

@@ -10,8 +10,6 @@
 namespace vtm::text {
 namespace {
 
-const FcChar8* bytesOf(const char* string) { return reinterpret_cast<const FcChar8*>(string); }
-
 /// The configuration without system fonts: only where fontconfig keeps what it has read of directories.
 constexpr const char* cacheOnly = R"(<fontconfig><cachedir prefix="xdg">fontconfig</cachedir></fontconfig>)";
 
@@ -20,9 +18,9 @@ FcConfiguration configurationOf(const FontOptions& options) {
     if (!config)
         throw FontError("fontconfig cannot be initialised");
     if (!options.systemFonts)
-        FcConfigParseAndLoadFromMemory(config.get(), bytesOf(cacheOnly), FcFalse);
+        FcConfigParseAndLoadFromMemory(config.get(), fcString(cacheOnly), FcFalse);
     for (const std::string& directory : options.directories)
-        FcConfigAppFontAddDir(config.get(), bytesOf(directory.c_str()));
+        FcConfigAppFontAddDir(config.get(), fcString(directory));
     return config;
 }
 
@@ -38,7 +36,7 @@ using Key = std::pair<bool, std::vector<std::string>>;
 }  // namespace
 
 std::string familyKey(const std::string& family) {
-    const std::unique_ptr<FcChar8, Release<FcStrFree>> lower(FcStrDowncase(bytesOf(family.c_str())));
+    const std::unique_ptr<FcChar8, Release<FcStrFree>> lower(FcStrDowncase(fcString(family)));
     return lower ? reinterpret_cast<const char*>(lower.get()) : family;
 }
 

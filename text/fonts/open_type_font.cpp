@@ -12,9 +12,6 @@
 namespace vtm::text {
 namespace {
 
-/// HarfBuzz's numbers are integers: with this scale to a font unit, variations keep a 64th.
-constexpr int scalePerUnit = 64;
-
 /// CSS Fonts 4 section 2.4: the slant of an oblique face that is made from an upright one.
 const float obliqueSlant = static_cast<float>(std::tan(14 * std::numbers::pi / 180));
 
@@ -22,7 +19,7 @@ struct OutlineBuilder {
     scene::Path path;
 
     static scene::Point point(float x, float y) {
-        return {x / double(scalePerUnit), -y / double(scalePerUnit)};
+        return {x / double(Font::harfbuzzScale), -y / double(Font::harfbuzzScale)};
     }
 };
 
@@ -84,7 +81,7 @@ OpenTypeFont::OpenTypeFont(std::shared_ptr<const Face> face, Instance instance)
       font_(hb_font_create(face_->harfbuzz())),
       unitsPerEm_(hb_face_get_upem(face_->harfbuzz())),
       instance_(std::move(instance)) {
-    const int scale = static_cast<int>(unitsPerEm_) * scalePerUnit;
+    const int scale = static_cast<int>(unitsPerEm_) * harfbuzzScale;
     hb_font_set_scale(font_.get(), scale, scale);
     std::vector<hb_variation_t> axes;
     for (const auto& [axis, value] : instance_.axes)
@@ -105,7 +102,7 @@ std::optional<GlyphId> OpenTypeFont::glyphOf(char32_t character, char32_t variat
 }
 
 double OpenTypeFont::advanceOf(GlyphId glyph) const {
-    return hb_font_get_glyph_h_advance(font_.get(), glyph) / double(scalePerUnit);
+    return hb_font_get_glyph_h_advance(font_.get(), glyph) / double(Font::harfbuzzScale);
 }
 
 std::shared_ptr<const scene::Path> OpenTypeFont::outlineOf(GlyphId glyph) const {
@@ -149,7 +146,7 @@ std::optional<double> OpenTypeFont::metric(std::uint32_t tag) const {
     hb_position_t position = 0;
     if (!hb_ot_metrics_get_position(font_.get(), static_cast<hb_ot_metrics_tag_t>(tag), &position))
         return std::nullopt;
-    return position / double(scalePerUnit);
+    return position / double(Font::harfbuzzScale);
 }
 
 double OpenTypeFont::heightOf(char32_t character, double fallback) const {
@@ -157,7 +154,7 @@ double OpenTypeFont::heightOf(char32_t character, double fallback) const {
     hb_glyph_extents_t extents;
     if (!glyph || !hb_font_get_glyph_extents(font_.get(), *glyph, &extents) || extents.y_bearing <= 0)
         return fallback;
-    return extents.y_bearing / double(scalePerUnit);
+    return extents.y_bearing / double(Font::harfbuzzScale);
 }
 
 FontMetrics OpenTypeFont::readMetrics() const {

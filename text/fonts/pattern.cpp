@@ -6,8 +6,6 @@
 namespace vtm::text {
 namespace {
 
-const FcChar8* bytesOf(const std::string& string) { return reinterpret_cast<const FcChar8*>(string.c_str()); }
-
 std::string stringOf(FcPattern* pattern, const char* object, int n = 0) {
     FcChar8* value = nullptr;
     const bool found = FcPatternGetString(pattern, object, n, &value) == FcResultMatch;
@@ -93,12 +91,12 @@ std::vector<std::string> familiesOf(FcPattern* pattern) {
 FcPatternOwner patternOf(const FontQuery& query) {
     FcPatternOwner pattern(FcPatternCreate());
     for (const std::string& family : query.families)
-        FcPatternAddString(pattern.get(), FC_FAMILY, bytesOf(family));
+        FcPatternAddString(pattern.get(), FC_FAMILY, fcString(family));
     FcPatternAddDouble(pattern.get(), FC_WEIGHT, FcWeightFromOpenTypeDouble(query.weight));
     FcPatternAddDouble(pattern.get(), FC_WIDTH, query.stretch);
     FcPatternAddInteger(pattern.get(), FC_SLANT, slantValue(query.slant));
     if (!query.language.empty())
-        FcPatternAddString(pattern.get(), FC_LANG, bytesOf(query.language));
+        FcPatternAddString(pattern.get(), FC_LANG, fcString(query.language));
     return pattern;
 }
 

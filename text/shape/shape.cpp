@@ -9,9 +9,6 @@
 namespace vtm::text {
 namespace {
 
-/// 64 to a font unit, as harfbuzz() says.
-constexpr double scalePerUnit = 64;
-
 struct DestroyBuffer {
     void operator()(hb_buffer_t* buffer) const { hb_buffer_destroy(buffer); }
 };
@@ -50,7 +47,7 @@ Buffer shapedBuffer(const Line& line, const Run& run) {
 }
 
 Glyph glyphOf(const Run& run, const hb_glyph_info_t& info, const hb_glyph_position_t& position) {
-    const double em = run.font->unitsPerEm() * scalePerUnit;
+    const double em = run.font->unitsPerEm() * Font::harfbuzzScale;
     const double advance = run.upright ? -position.y_advance : position.x_advance;
     return {run.font, info.codepoint, position.x_offset / em, -position.y_offset / em, advance / em};
 }

@@ -33,6 +33,9 @@ struct Compositing {
     scene::BlendMode blend = scene::BlendMode::Normal;
     std::shared_ptr<const scene::Clip> clip = nullptr;
     std::shared_ptr<const scene::Mask> mask = nullptr;
+
+    /// Source over, as it is.
+    bool isPlain() const { return opacity == 1 && blend == scene::BlendMode::Normal && !clip && !mask; }
 };
 
 struct VtmNode;
