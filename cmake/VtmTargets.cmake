@@ -11,7 +11,7 @@ target_compile_options(vtm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
 target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>")
 # In inner loops & and | of bools are meant: nothing branches.
 target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>")
-option(VTM_UNITY "Compile a module's files several at a time: a whole build takes half the time, one after a change longer" OFF)
+option(VTM_UNITY "Compile a module's files several at a time: a whole build takes less time, one after a change longer" OFF)
 # What one file declares is seen by the files after it.
 if(VTM_UNITY)
     target_compile_options(vtm_warnings INTERFACE -Wno-shadow "$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>")

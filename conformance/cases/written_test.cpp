@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/view.hpp>
 #include <vtm/image/codec.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/svg/load.hpp>
@@ -20,8 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int width = 64;    ///< pixels
-constexpr double bound = 1;  ///< 1/255
+constexpr int side = 64;  ///< pixels, of the square to which scenes are stretched, for some are very narrow
+constexpr double bound = 1;      ///< 1/255
+constexpr double maxSize = 1e9;  ///< user units, of documents that load() takes
 constexpr std::size_t maxBytes =
     2'000'000;  ///< of a document, unless all are taken: what takes seconds is left out
 
@@ -34,7 +36,9 @@ svg::Document read(const std::string& text) {
 image::Raster drawn(const scene::Scene& scene, asset::Mode mode) {
     compiler::Options options;
     options.mode = mode;
-    return asset::evaluate(compiler::compile(scene, options).asset, wholePicture(scene, width));
+    const scene::Frame frame = scene::frame(
+        {.width = side, .height = side, .placement = {scene::Fit::Stretch}}, scene.width, scene.height);
+    return asset::evaluate(compiler::compile(scene, options).asset, compiler::viewOf(frame));
 }
 
 /// Between premultiplied channels, in 1/255.
@@ -147,7 +151,11 @@ TEST(Written, HardScenesReadBack) {
     for (const generate::Family& family : generate::hardFamilies())
         for (std::uint64_t seed = 0; seed < (takesAll() ? 20u : 1u); ++seed) {
             SCOPED_TRACE(std::string(family.name) + " " + std::to_string(seed));
-            expectReadsBackRounded(family.make(seed));
+            const scene::Scene scene = family.make(seed);
+            if (std::max(scene.width, scene.height) <= maxSize)
+                expectReadsBackRounded(scene);
+            else
+                EXPECT_THROW(read(svg::write(scene)), svg::ParseError);
         }
 }
 

@@ -31,7 +31,7 @@ struct WriteOptions {
 /// Colours are rounded to 8 bits a channel; other numbers are the shortest that read back as the same value.
 /// What paints nothing is left out. So load() makes the same scene of it; a selection is drawn the same, too.
 /// But load() leaves out, with warnings, what reaches further than 1e9 from the origin or is nested too deep
-/// for it (vtm/svg/load.hpp).
+/// for it, and refuses documents of a width or height outside [2^-40, 1e9] (vtm/svg/load.hpp).
 ///
 /// Throws WriteError for what SVG cannot say: materials, images with the bilinear filter, items that reach
 /// beyond the image they are painted with, numbers beyond 1e30; and for scenes that are nested deeper than
