@@ -55,6 +55,31 @@ int oneOf(int value, int last, const char* what) {
     return value;
 }
 
+/// The default stays where C says nothing.
+void assign(std::string& to, const char* given) {
+    if (given)
+        to = given;
+}
+
+vtm::LoadOptions optionsOf(const VtmLoadOptions& c) {
+    vtm::LoadOptions options;
+    assign(options.name, c.name);
+    assign(options.folder, c.folder);
+    options.dpi = c.dpi == 0 ? options.dpi : c.dpi;
+    assign(options.language, c.language);
+    for (const char* const* directory = c.fontDirectories; directory && *directory; ++directory)
+        options.fonts.directories.emplace_back(*directory);
+    options.fonts.systemFonts = !c.noSystemFonts;
+    assign(options.fonts.serifFamily, c.serifFamily);
+    assign(options.fonts.sansSerifFamily, c.sansSerifFamily);
+    assign(options.fonts.cursiveFamily, c.cursiveFamily);
+    assign(options.fonts.fantasyFamily, c.fantasyFamily);
+    assign(options.fonts.monospaceFamily, c.monospaceFamily);
+    assign(options.fonts.defaultFamily, c.defaultFamily);
+    options.defaultFontSize = c.defaultFontSize == 0 ? options.defaultFontSize : c.defaultFontSize;
+    return options;
+}
+
 std::optional<int> side(int pixels) { return pixels == 0 ? std::nullopt : std::optional(pixels); }
 
 vtm::RenderOptions optionsOf(const VtmRenderOptions& c) {
@@ -84,16 +109,29 @@ const char* vtmVersion(void) { return vtm::version(); }
 
 const char* vtmGetError(void) { return lastError; }
 
-VtmPicture* vtmLoadPicture(const char* path) {
-    return guarded([&] { return new VtmPicture{vtm::Picture::load(std::string(&given(path, "the path")))}; });
-}
+VtmPicture* vtmLoadPicture(const char* path) { return vtmLoadPictureWithOptions(path, nullptr); }
 
 VtmPicture* vtmLoadPictureFromMemory(const void* bytes, size_t size, const char* name) {
+    VtmLoadOptions options{};
+    options.name = name;
+    return vtmLoadPictureFromMemoryWithOptions(bytes, size, &options);
+}
+
+VtmPicture* vtmLoadPictureWithOptions(const char* path, const VtmLoadOptions* options) {
+    return guarded([&] {
+        const std::string file = &given(path, "the path");
+        return new VtmPicture{vtm::Picture::load(file, options ? optionsOf(*options) : vtm::LoadOptions())};
+    });
+}
+
+VtmPicture* vtmLoadPictureFromMemoryWithOptions(const void* bytes, size_t size,
+                                                const VtmLoadOptions* options) {
     return guarded([&] {
         const auto* first = static_cast<const std::uint8_t*>(bytes);
         if (!first && size > 0)
             given(first, "the memory");
-        return new VtmPicture{vtm::Picture::load(std::span(first, size), {.name = name ? name : ""})};
+        return new VtmPicture{
+            vtm::Picture::load(std::span(first, size), options ? optionsOf(*options) : vtm::LoadOptions())};
     });
 }
 

@@ -28,13 +28,20 @@ asset::Asset readAsset(std::span<const std::uint8_t> bytes, const std::string& n
     }
 }
 
+double positive(double value, const char* what) {
+    if (!(value > 0 && std::isfinite(value)))
+        throw std::invalid_argument(fmt::format("LoadOptions: {} is not a positive number", what));
+    return value;
+}
+
 svg::Options svgOptions(const LoadOptions& options) {
     svg::Options svg;
     svg.fileName = options.name;
     svg.resourceDirectory = options.folder;
-    svg.dpi = options.dpi;
+    svg.dpi = positive(options.dpi, "dpi");
     svg.language = options.language;
     svg.fonts = options.fonts;
+    svg.defaultFontSize = positive(options.defaultFontSize, "defaultFontSize");
     return svg;
 }
 

@@ -46,6 +46,58 @@ TEST_F(CApi, ZeroOptionsDrawAPixelAUnit) {
     vtmDestroyImage(image);
 }
 
+/// The width of the area that a text covers, in pixels, and the only warning if there is one.
+struct Drawn {
+    int width = 0;
+    std::string warning;
+};
+
+Drawn drawnText(const VtmLoadOptions& options) {
+    static constexpr char text[] = R"(<svg xmlns="http://www.w3.org/2000/svg" width="1in" height="40">)"
+                                   R"(<text y="30">H</text></svg>)";
+    VtmPicture* picture = vtmLoadPictureFromMemoryWithOptions(text, sizeof text - 1, &options);
+    VtmImage* image = vtmRenderPicture(picture, nullptr);
+    Drawn drawn;
+    for (int x = 0; image && x < vtmImageWidth(image); ++x)
+        for (int y = 0; y < vtmImageHeight(image); ++y)
+            if (vtmImagePixels(image)[4 * (y * vtmImageWidth(image) + x) + 3] > 127)
+                drawn.width = x + 1;
+    if (vtmPictureWarningCount(picture) == 1) {
+        char warning[256];
+        vtmGetPictureWarning(picture, 0, warning, sizeof warning);
+        drawn.warning = warning;
+    }
+    vtmDestroyImage(image);
+    vtmDestroyPicture(picture);
+    return drawn;
+}
+
+TEST(CApiFonts, OptionsReachTheLibrary) {
+    const char* directories[] = {"/usr/share/fonts/truetype/dejavu", nullptr};
+    VtmLoadOptions options = {};
+    options.fontDirectories = directories;
+    options.noSystemFonts = 1;
+    options.defaultFamily = "DejaVu Sans";
+    options.defaultFontSize = 20;
+    const int narrow = drawnText(options).width;
+    EXPECT_NEAR(narrow, 14, 2);  // an H is .65 ems wide, with space beside it
+    options.defaultFontSize = 40;
+    EXPECT_NEAR(drawnText(options).width, 2 * narrow, 2);
+    options.defaultFamily = "DejaVu Sans Mono";
+    EXPECT_LT(drawnText(options).width, 2 * narrow - 2);
+    options.name = "some.svg";
+    options.fontDirectories = nullptr;
+    EXPECT_EQ(drawnText(options).warning, "some.svg:1:66: <text>: there are no fonts; it is left out");
+}
+
+TEST(CApiFonts, OptionsOutOfRangeAreErrors) {
+    VtmLoadOptions options = {};
+    options.dpi = -1;
+    EXPECT_FALSE(vtmLoadPictureFromMemoryWithOptions(redAndBlue, sizeof redAndBlue - 1, &options));
+    EXPECT_NE(std::string(vtmGetError()).find("dpi"), std::string::npos);
+    EXPECT_FALSE(vtmLoadPictureWithOptions("missing.svg", nullptr));
+}
+
 TEST_F(CApi, OptionsReachTheLibrary) {
     VtmRenderOptions options = {};
     options.rotation = 180;

@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "asset/src/container_images.hpp"
 #include "asset/src/container_layout.hpp"
-#include "asset/src/container_materials.hpp"
+#include "asset/src/container_sections.hpp"
 #include "asset/src/validate.hpp"
 
 namespace vtm::asset {

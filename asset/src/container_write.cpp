@@ -1,9 +1,8 @@
 #include <cstring>
 
 #include <vtm/asset/container.hpp>
-#include "asset/src/container_images.hpp"
 #include "asset/src/container_layout.hpp"
-#include "asset/src/container_materials.hpp"
+#include "asset/src/container_sections.hpp"
 
 namespace vtm::asset {
 

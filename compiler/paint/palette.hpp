@@ -3,13 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
 #include "compiler/containers/number_map.hpp"
-#include "compiler/paint/stacks.hpp"
 
 namespace vtm::compiler {
 
@@ -33,6 +34,32 @@ struct PaintStep {
     Color color{};
 };
 using PaintProgram = std::vector<PaintStep>;
+
+/// While a picture is edited, what a region is made of instead of the colours that follow: the items that
+/// show in it, from the bottom, by the names of their layers (LayerNames); or several such
+/// lists with `noIndex` between them, for the mean of their paints.
+using Stack = std::vector<std::uint32_t>;
+
+struct StackHash {
+    std::size_t operator()(const Stack& stack) const;
+};
+
+/// The distinct stacks of a block. Stack 0 is empty.
+class StackTable {
+public:
+    StackTable() = default;
+    StackTable(StackTable&&) = default;
+    StackTable& operator=(StackTable&&) = default;
+    StackTable(const StackTable&) = delete;  // stacks_ points into index_
+
+    std::uint32_t add(const Stack& stack);
+    std::size_t size() const { return stacks_.size(); }
+    const Stack& operator[](std::uint32_t id) const { return *stacks_[id]; }
+
+private:
+    std::unordered_map<Stack, std::uint32_t, StackHash> index_;
+    std::vector<const Stack*> stacks_;  ///< keys of the index
+};
 
 /// Paint 0 is transparent.
 class Palette {

@@ -88,4 +88,13 @@ inline int windingBetween(Points points, const ClippedRun& clippedRun, LatticePo
            (to.x > from.x ? windingAlongX(points, clippedRun, to.y, from.x, to.x) : 0);
 }
 
+inline bool isStrictlyInside(const Square& s, LatticePoint p) {
+    return (p.x > s.x0) & (p.x < s.x1()) & (p.y > s.y0) & (p.y < s.y1());
+}
+
+/// Where a chord that passes through the square's inside, or ends there, comes in from its first end, which
+/// is outside. Cuts are rounded to even positions of the odd border, so they keep their order along it and
+/// never meet a corner.
+LatticePoint cutAtEntry(const Square& square, const Chord& chord);
+
 }  // namespace vtm::compiler

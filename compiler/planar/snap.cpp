@@ -6,7 +6,6 @@
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/planar/chord_relations.hpp"
-#include "compiler/planar/clip.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -34,19 +33,19 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
     set_.changes.clear();
     set_.bend = 0;
     clip(square, points, clippedRuns);
-    sortAndMerge();
+    merger_.sortAndMerge(set_);
     for (int round = 0; round < maxSnapRounds; ++round) {
         if (set_.edges.size() > maxLeafEdges || !meetAll())
             return nullptr;
-        if (splits_.empty())
+        if (cuts_.empty())
             return &set_;
         set_.bend += std::sqrt(bentSquare_);
-        applySplits();
-        if (!partsMeet()) {
-            mergeParts();
+        cutter_.run(set_, cuts_);
+        if (!cutter_.partsMeet(set_, close_, isRechecked_)) {
+            merger_.merge(set_);
             return &set_;
         }
-        sortAndMerge();
+        merger_.sortAndMerge(set_);
     }
     return nullptr;
 }
@@ -62,9 +61,9 @@ void Snapper::clip(const Square& square, Points points, std::span<const ClippedR
     for (const ClippedRun& s : clippedRuns) {
         const LatticePoint from = points[s.first], to = points[s.last];
         LatticePoint a = from, b = to;
-        if (!isInside(square, from))
+        if (!isStrictlyInside(square, from))
             a = cutAtEntry(square, {from, points[s.first + 1]});
-        if (!isInside(square, to))
+        if (!isStrictlyInside(square, to))
             b = cutAtEntry(square, {to, points[s.last - 1]});
         if (a == b && s.last == s.first + 1)
             continue;
@@ -171,9 +170,9 @@ bool Snapper::meetInOneColumn(const Edge& e, const Edge& f) const {
 
 /// All edges with all others. False if too many meet.
 bool Snapper::meetAll() {
-    splits_.clear();
+    cuts_.clear();
     close_.clear();
-    isDoubtful_.assign(set_.edges.size(), false);
+    isRechecked_.assign(set_.edges.size(), false);
     bentSquare_ = 0;
     const std::vector<Edge>& edges = set_.edges;  // sorted by a, so by the smaller x
     if (edges.size() < 2)
@@ -198,7 +197,7 @@ bool Snapper::meetAll() {
                 meet(i, j);
             close_.push_back({i, j, isNear_});
         }
-        if (splits_.size() > 4 * maxLeafEdges)
+        if (cuts_.size() > 4 * maxLeafEdges)
             return false;
     }
     return true;
@@ -287,14 +286,14 @@ void Snapper::meetChords(const Meeting& m, std::uint32_t e, const LatticePoint* 
         const LatticePoint x = crossing(a, b, m.atA, m.atB);
         bend(a, b, x);
         bend(c, d, x);
-        split(e, i, x, {c, d}, f);
-        split(f, j, x, {a, b}, e);
+        cut(e, i, x, {c, d}, f);
+        cut(f, j, x, {a, b}, e);
         return;
     }
     isNear_ = true;
     const auto touch = [&](LatticePoint at) {
-        split(e, i, at, {c, d}, f);
-        split(f, j, at, {a, b}, e);
+        cut(e, i, at, {c, d}, f);
+        cut(f, j, at, {a, b}, e);
     };
     if (m.atA == 0 && isOnChord(c, d, a))
         touch(a);
@@ -316,22 +315,22 @@ void Snapper::bend(LatticePoint a, LatticePoint b, LatticePoint to) {
 }
 
 /// Asks for a cut of the edge at a point of its chord, unless that is an end of the whole edge.
-void Snapper::split(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by,
-                    std::uint32_t byEdge) {
+void Snapper::cut(std::uint32_t edge, std::uint32_t chord, LatticePoint at, const Chord& by,
+                  std::uint32_t byEdge) {
     const Edge& e = set_.edges[edge];
     if (at == e.a || at == e.b)
         return;
     if (e.a.x != e.b.x && (at.x == e.a.x || at.x == e.b.x))
-        isDoubtful_[edge] = true;  // it may meet one that ends in that column
+        isRechecked_[edge] = true;  // it may meet one that ends in that column
     const LatticePoint to = set_.vertex(e, chord + 1);
     if (at == to) {
-        splits_.push_back({edge, chord + 1, at, 0, by, byEdge});
+        cuts_.push_back({edge, chord + 1, at, 0, by, byEdge});
         return;
     }
     const LatticePoint from = set_.vertex(e, chord);
     const std::int64_t progress = (std::int64_t{to.x} - from.x) * (std::int64_t{at.x} - from.x) +
                                   (std::int64_t{to.y} - from.y) * (std::int64_t{at.y} - from.y);
-    splits_.push_back({edge, chord, at, progress, by, byEdge});
+    cuts_.push_back({edge, chord, at, progress, by, byEdge});
 }
 
 }  // namespace vtm::compiler

@@ -82,20 +82,26 @@ std::vector<fs::path> svgFiles(const fs::path& folder) {
     return files;
 }
 
-/// One file of `step`.
-void expectFilesReadBack(const fs::path& folder, std::size_t step) {
-    if (!fs::exists(folder))
-        GTEST_SKIP() << folder << " is absent";
-    const std::vector<fs::path> files = svgFiles(folder);
-    for (std::size_t i = 0; i < files.size(); i += takesAll() ? 1 : step) {
-        SCOPED_TRACE(files[i].string());
-        expectReadsBack(loadScene(files[i]), true);
+/// A part of what is read back: by default the first alone.
+class WrittenPart : public testing::TestWithParam<std::size_t> {
+protected:
+    static void expectFilesReadBack(const fs::path& folder) {
+        if (!fs::exists(folder))
+            GTEST_SKIP() << folder << " is absent";
+        const std::vector<fs::path> files = svgFiles(folder);
+        for (std::size_t i = GetParam(); i < files.size(); i += parts) {
+            SCOPED_TRACE(files[i].string());
+            expectReadsBack(loadScene(files[i]), true);
+        }
     }
-}
 
-TEST(Written, SuiteReadsBack) { expectFilesReadBack(sharedDirectory() / "svg-suite" / "tests", 16); }
+public:
+    static constexpr std::size_t parts = 16;
+};
 
-TEST(Written, CorpusReadsBack) { expectFilesReadBack(sharedDirectory() / "corpus", 16); }
+TEST_P(WrittenPart, OfTheSuiteReadsBack) { expectFilesReadBack(sharedDirectory() / "svg-suite" / "tests"); }
+
+TEST_P(WrittenPart, OfTheCorpusReadsBack) { expectFilesReadBack(sharedDirectory() / "corpus"); }
 
 // ---- Random scenes -----------------------------------------------------------------------------------
 
@@ -126,16 +132,20 @@ void expectReadsBackRounded(scene::Scene scene) {
     expectReadsBack(scene, false);
 }
 
-TEST(Written, RandomScenesReadBack) {
-    for (std::uint64_t seed = 0; seed < (takesAll() ? 1000 : 25); ++seed) {
+TEST_P(WrittenPart, OfRandomScenesReadsBack) {
+    constexpr std::uint64_t count = 25;
+    for (std::uint64_t seed = count * GetParam(); seed < count * (GetParam() + 1); ++seed) {
         SCOPED_TRACE(seed);
         expectReadsBackRounded(generate::randomScene(seed));
     }
 }
 
+INSTANTIATE_TEST_SUITE_P(Of, WrittenPart,
+                         testing::Range(std::size_t{0}, takesAll() ? WrittenPart::parts : std::size_t{1}));
+
 TEST(Written, HardScenesReadBack) {
     for (const generate::Family& family : generate::hardFamilies())
-        for (std::uint64_t seed = 0; seed < (takesAll() ? 20 : 1); ++seed) {
+        for (std::uint64_t seed = 0; seed < (takesAll() ? 20u : 1u); ++seed) {
             SCOPED_TRACE(std::string(family.name) + " " + std::to_string(seed));
             expectReadsBackRounded(family.make(seed));
         }
@@ -214,6 +224,13 @@ TEST(Written, OutlinesPaintedWithImagesReadBack) {
     item =
         std::get<scene::Item>(filled(scene::rectangle({0, 3}, {40, 20.5}), scene::ImagePaint{bitmap}).value);
     item.transform = scene::Affine{0.9, 0, 0, 1.1, 2.3, -3.1};
+    expectReadsBack(sceneOf({{item}}), false);
+    // As glyphs that are bitmaps: in units of the font, ending with the bitmap but for rounding.
+    scene::ImagePaint paint{bitmap};
+    paint.transform = scene::Affine{1 / 0.3, 0, 0, 1 / 0.7, 0.1, -33.3};
+    const scene::Point corner(0.1, -33.3), size(40 / 0.3, 30 / 0.7);
+    item = std::get<scene::Item>(filled(scene::rectangle(corner, corner + size), paint).value);
+    item.transform = scene::Affine{0.113, 0, 0, 0.517, 4.7, 30.1};
     expectReadsBack(sceneOf({{item}}), false);
 }
 

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <vtm/image/codec.hpp>
-#include "image/src/descriptor.hpp"
 #include "image/src/temporary.hpp"
 
 namespace vtm::image {

@@ -72,6 +72,16 @@ std::string freshName() {
 
 }  // namespace
 
+Descriptor::Descriptor(const std::string& path, int flags, unsigned mode)
+    : number_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {}
+
+Descriptor::~Descriptor() { close(); }
+
+int Descriptor::close() {
+    const int number = std::exchange(number_, -1);
+    return number >= 0 && ::close(number) != 0 ? errno : 0;
+}
+
 Temporary::Temporary(const fs::path& target, mode_t mode)
     // Listed before it is there, or a signal in between would leave it behind.
     : target_(target),

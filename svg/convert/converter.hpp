@@ -177,7 +177,13 @@ private:
     TextContent flowContent(const Element& flowRoot, const Scope& scope);
     Box flowRegion(const Element& flowRoot, const Scope& scope);
     void convertFlowRoot(const Element& element, const Scope& scope, Nodes& out);
-    TextLayout layOutText(const Element& element, const Scope& scope, const TextContent& content);
+    struct PlacedText {
+        TextLayout layout;
+        std::shared_ptr<const scene::Path> cells;  ///< of its clusters, and the box around them: user space
+        Box box;
+    };
+    std::optional<PlacedText> placeText(const Element& element, const Scope& scope,
+                                        const TextContent& content);
     void paintText(const Element& element, const Scope& scope, const TextContent& content, Nodes& out);
     text::FontSet& fonts();
     void addFontFaces(text::FontSet& fonts);

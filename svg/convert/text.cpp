@@ -67,8 +67,9 @@ void Converter::warnOfMissingGlyphs(const Element& element, const TextContent& c
                 missing.insert(content.characters[cluster.first].code);
     if (missing.empty())
         return;
-    const std::size_t more = missing.size() - 1;
-    const std::string others = more > 0 ? fmt::format(" and {} other{}", more, more > 1 ? "s" : "") : "";
+    std::string others;
+    if (missing.size() > 1)
+        others = fmt::format(" and {} {}", missing.size() - 1, missing.size() > 2 ? "others" : "other");
     reporter_.warn(Kind::Font, element,
                    fmt::format("no font has the character U+{:04X}{}",
                                static_cast<std::uint32_t>(*missing.begin()), others));
@@ -84,33 +85,38 @@ void Converter::convertFlowRoot(const Element& element, const Scope& scope, Node
     paintText(element, scope, flowContent(element, scope), out);
 }
 
-/// Without clusters, after a warning, where the text cannot be drawn.
-TextLayout Converter::layOutText(const Element& element, const Scope& scope, const TextContent& content) {
+/// Nothing where nothing is to be drawn; says why.
+std::optional<Converter::PlacedText> Converter::placeText(const Element& element, const Scope& scope,
+                                                          const TextContent& content) {
     if (content.characters.empty())
-        return {};
+        return std::nullopt;
     if (!fonts().primary({})) {
         reporter_.warn(Kind::Font, element, "there are no fonts; it is left out");
-        return {};
+        return std::nullopt;
     }
     warnOfMissingFamilies(content);
-    TextLayout layout = layOut(content, fonts());
-    warnOfMissingGlyphs(element, content, layout);
-    const Box box = boundingBox(cellsOf(layout), scope.transform);
-    if (layout.clusters.empty() || isWithinReach(box))
-        return layout;
-    reporter_.warn(Kind::Limit, element, "lies too far away; it is left out");
-    return {};
+    PlacedText text{layOut(content, fonts()), {}, {}};
+    if (text.layout.clusters.empty())
+        return std::nullopt;
+    warnOfMissingGlyphs(element, content, text.layout);
+    text.cells = std::make_shared<const Path>(cellsOf(text.layout));
+    text.box = boundingBox(*text.cells, scene::identity);
+    if (!isWithinReach(geometry::mapped(text.box, scope.transform))) {
+        reporter_.warn(Kind::Limit, element, "lies too far away; it is left out");
+        return std::nullopt;
+    }
+    return text;
 }
 
 void Converter::paintText(const Element& element, const Scope& scope, const TextContent& content,
                           Nodes& out) {
-    const TextLayout layout = layOutText(element, scope, content);
-    if (layout.clusters.empty())
+    const std::optional<PlacedText> text = placeText(element, scope, content);
+    if (!text)
         return;
-    const auto cells = std::make_shared<const Path>(cellsOf(layout));
-    const Box box = boundingBox(*cells, scene::identity);
+    const TextLayout& layout = text->layout;
+    const Box& box = text->box;
     if (outlineListeners_ > 0)
-        outlines_.push_back({cells, scope.transform});
+        outlines_.push_back({text->cells, scope.transform});
     const auto drawLines = [&](bool through) {
         for (const PlacedLine& line : layout.lines)
             if ((line.line == LineThrough) == through)
@@ -211,21 +217,20 @@ void Converter::addClipText(const Element& element, const Scope& parent, scene::
     if (!scope)
         return;
     const TextContent content = textContent(element, *scope);
-    const TextLayout layout = layOutText(element, *scope, content);
-    if (layout.clusters.empty())
+    const std::optional<PlacedText> text = placeText(element, *scope, content);
+    if (!text)
         return;
-    const Box box = boundingBox(cellsOf(layout), scene::identity);
-    const auto own = clipOf(element, *scope, box);
+    const auto own = clipOf(element, *scope, text->box);
     const limits::Place place = placeOf(element);
     const auto add = [&](std::shared_ptr<const Path> path, const scene::Affine& transform) {
         if (path && scene::inverse(transform))
             clip.shapes.push_back({std::move(path), transform, scene::FillRule::NonZero, own, place});
     };
-    for (const PlacedCluster& cluster : layout.clusters)
+    for (const PlacedCluster& cluster : text->layout.clusters)
         if (content.elements[static_cast<std::size_t>(cluster.element)].scope.style.visible)
             for (const PlacedGlyph& glyph : cluster.glyphs)
                 add(glyph.font->outlineOf(glyph.id), scene::compose(scope->transform, glyph.transform));
-    for (const PlacedLine& line : layout.lines)
+    for (const PlacedLine& line : text->layout.lines)
         add(std::make_shared<const Path>(line.outline), scope->transform);
 }
 

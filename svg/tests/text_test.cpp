@@ -120,6 +120,14 @@ TEST_F(Text, ClipsAndIsMeasured) {
     EXPECT_NEAR(start.x, 7, 1e-9);
     EXPECT_NEAR(end.x, 7 + advanceOfH / 100, 1e-9);
 }
+TEST_F(Text, OfAClipIsCheckedLikeDrawnText) {
+    const Document loaded = load(
+        "<clipPath id='c'><text x='1e20'>i</text><text font-family='None'>i</text></clipPath>"
+        "<rect width='9' height='9' clip-path='url(#c)'/>");
+    ASSERT_EQ(loaded.warnings.size(), 2u);
+    EXPECT_EQ(loaded.warnings[0].kind, Warning::Kind::Limit);
+    EXPECT_EQ(loaded.warnings[1].kind, Warning::Kind::Font);
+}
 TEST_F(Text, NamesFamiliesThatAreNotThereOnce) {
     const Document loaded = load("<text font-family='None'>a</text><text font-family='None'>b</text>");
     ASSERT_EQ(loaded.warnings.size(), 1u);
@@ -131,19 +139,6 @@ TEST_F(Text, NamesCharactersThatNoFontHas) {
     const Document loaded = load("<text>a\xe4\xb8\xad\xe6\x96\x87</text>");
     ASSERT_EQ(loaded.warnings.size(), 1u);
     EXPECT_EQ(loaded.warnings[0].message, "<text>: no font has the character U+4E2D and 1 other");
-}
-TEST_F(Text, OfClipsIsWarnedOfLikeAnyOther) {
-    const auto warningsOf = [](const std::string& attributes, const std::string& text) {
-        return load("<clipPath id='c'><text " + attributes + ">" + text +
-                    "</text></clipPath><rect width='9' height='9' clip-path='url(#c)'/>")
-            .warnings;
-    };
-    ASSERT_EQ(warningsOf("", "\xe4\xb8\xad").size(), 1u);
-    EXPECT_EQ(warningsOf("", "\xe4\xb8\xad")[0].message, "<text>: no font has the character U+4E2D");
-    ASSERT_EQ(warningsOf("x='1e20'", "i").size(), 1u);
-    EXPECT_EQ(warningsOf("x='1e20'", "i")[0].kind, Warning::Kind::Limit);
-    ASSERT_EQ(warningsOf("font-family='None'", "i").size(), 1u);
-    EXPECT_EQ(warningsOf("font-family='None'", "i")[0].kind, Warning::Kind::Font);
 }
 TEST_F(Text, IsBrokenIntoLines) {
     const auto found = items("<text x='5' y='20' style='inline-size:12px'>ii ii</text>");

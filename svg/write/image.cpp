@@ -22,6 +22,25 @@ std::optional<Box> rectangleOf(const Item& item) {
     return pathData(*item.path) == pathData(rectangle(box.min, box.max)) ? std::optional(box) : std::nullopt;
 }
 
+/// The item's rectangle in the bitmap's pixels, if it lies along them. Corners that are the bitmap's but for
+/// the rounding of the transforms are the bitmap's.
+std::optional<Box> rectangleOf(const Item& item, const Affine& paintTransform, const Box& bitmap) {
+    constexpr double rounding = 1e-9;  // of the bitmap's size; doubles have 1e-16
+    const auto toBitmap = inverse(paintTransform);
+    const auto rectangle = rectangleOf(item);
+    if (!rectangle || !toBitmap || (*toBitmap)[0][1] != 0 || (*toBitmap)[1][0] != 0)
+        return std::nullopt;
+    Box box = geometry::mapped(*rectangle, *toBitmap);
+    const Point near = rounding * bitmap.max;
+    for (int axis : {0, 1}) {
+        if (std::abs(box.min[axis] - bitmap.min[axis]) <= near[axis])
+            box.min[axis] = bitmap.min[axis];
+        if (std::abs(box.max[axis] - bitmap.max[axis]) <= near[axis])
+            box.max[axis] = bitmap.max[axis];
+    }
+    return box;
+}
+
 std::string filterAttribute(ImageFilter filter) {
     switch (filter) {
         case ImageFilter::Nearest:
@@ -64,7 +83,7 @@ void Writer::image(const Item& item, const ImagePaint& paint) {
 
 std::string Writer::cutAttribute(const Item& item, const ImagePaint& paint) {
     const Box bitmap = boxOf(*paint.bitmap);
-    const auto rectangle = paint.transform == identity ? rectangleOf(item) : std::nullopt;
+    const auto rectangle = rectangleOf(item, paint.transform, bitmap);
     if (rectangle && rectangle->min == bitmap.min && rectangle->max == bitmap.max)
         return "";
     Item cut = item;
@@ -75,7 +94,7 @@ std::string Writer::cutAttribute(const Item& item, const ImagePaint& paint) {
         return insideAttribute({item.path, item.transform, item.geometry});
     const Box wide = withoutBorder(*rectangle, bitmap);
     return insideAttribute({std::make_shared<const Path>(scene::rectangle(wide.min, wide.max)),
-                            item.transform, FillRule::NonZero});
+                            compose(item.transform, paint.transform), FillRule::NonZero});
 }
 
 const std::string& Writer::picture(const std::shared_ptr<const image::Bitmap>& bitmap) {

@@ -9,6 +9,7 @@
 
 #include "text/fonts/axes.hpp"
 #include "text/fonts/document_fonts.hpp"
+#include "text/fonts/emoji.hpp"
 #include "text/fonts/library.hpp"
 
 namespace vtm::text {
@@ -84,9 +85,7 @@ public:
         fallbacks_.clear();
     }
 
-    bool hasFamily(const std::string& family) const {
-        return generic(family) || !own_.family(family).empty() || !library_->family(family).empty();
-    }
+    bool hasFamily(const std::string& family) const { return generic(family) || isNamed(family); }
 
     std::shared_ptr<const Font> primary(const FontQuery& query) {
         if (query.families.empty())
@@ -124,43 +123,52 @@ private:
     }
 
     std::shared_ptr<const Font> findPrimary(const FontQuery& query, Answer& answer) {
-        for (const std::string& family : query.families)
-            if (auto font = bestOf(facesOf(family), query, answer))
-                return font;
-        for (const Faces& family : fallback(query))
-            if (auto font = bestOf(family, query, answer))
-                return font;
-        return nullptr;
-    }
-
-    std::shared_ptr<const Font> bestOf(Faces faces, const FontQuery& query, Answer& answer) {
-        std::erase_if(faces, [](const FaceEntry* face) { return !face->forSpace; });
-        return open(bestFace(faces, query), query, answer);
+        return find(query, answer, false, [](Faces faces) {
+            std::erase_if(faces, [](const FaceEntry* face) { return !face->forSpace; });
+            return faces;
+        });
     }
 
     std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
                                              Answer& answer) {
-        if (const auto color = askedColor(cluster))
-            if (auto font = findCovering(query, cluster, answer, color))
+        const auto asked = askedColor(cluster);
+        const bool color = asked.value_or(isEmojiByDefault(cluster.front()));
+        const auto covered = [&](const Faces& faces) { return text::covering(faces, cluster); };
+        if (asked)  // of the families that are named, too
+            if (auto font = find(query, answer, color,
+                                 [&](const Faces& faces) { return ofColor(covered(faces), color); }))
                 return font;
-        return findCovering(query, cluster, answer, std::nullopt);
+        return find(query, answer, color, covered);
     }
 
-    std::shared_ptr<const Font> findCovering(const FontQuery& query, std::u32string_view cluster,
-                                             Answer& answer, std::optional<bool> color) {
-        const auto find = [&](const Faces& family) {
-            Faces faces = text::covering(family, cluster);
-            std::erase_if(faces,
-                          [&](const FaceEntry* face) { return face->color != color.value_or(face->color); });
-            return open(bestFace(faces, query), query, answer);
-        };
-        for (const std::string& family : query.families)
-            if (auto font = find(facesOf(family)))
+    static Faces ofColor(Faces faces, bool color) {
+        std::erase_if(faces, [&](const FaceEntry* face) { return face->color != color; });
+        return faces;
+    }
+
+    /// The first family with faces that pass. Of families that stand in for others, those in colour are for
+    /// emoji: they have figures and spaces, too.
+    template <class Filter>
+    std::shared_ptr<const Font> find(const FontQuery& query, Answer& answer, bool color,
+                                     const Filter& filter) {
+        for (const std::string& family : query.families) {
+            const Faces faces = filter(facesOf(family));
+            if (auto font =
+                    open(bestFace(isNamed(family) ? faces : ofColor(faces, color), query), query, answer))
+                return font;
+        }
+        for (const Faces& family : fallback(query))
+            if (auto font = open(bestFace(ofColor(filter(family), color), query), query, answer))
                 return font;
         for (const Faces& family : fallback(query))
-            if (auto font = find(family))
+            if (auto font = open(bestFace(filter(family), query), query, answer))
                 return font;
         return nullptr;
+    }
+
+    /// No other family stands for it.
+    bool isNamed(const std::string& family) const {
+        return !generic(family) && (!own_.family(family).empty() || !library_->family(family).empty());
     }
 
     /// The families to try after those of the query, each with all its faces. With system fonts fontconfig

@@ -110,6 +110,27 @@ TEST_F(Fontconfig, SaysWhatIsLikeAFamilyThatIsNotThere) {
     EXPECT_EQ(first({}), "DejaVu Serif");  // the default family
 }
 
+/// As "Segoe UI Emoji" in the lists of many programs: a colour font stands for it, with letters of its own.
+TEST_F(Fontconfig, ColoredFontsThatStandInAreForEmoji) {
+    if (!std::filesystem::exists(suiteFonts()))
+        GTEST_SKIP() << suiteFonts() << " of the svg-suite is absent";
+    const std::string file = testing::TempDir() + "vtm_emoji_fonts.conf";
+    std::ofstream(file) << "<fontconfig><dir>" << dejavu.string() << "</dir><dir>" << suiteFonts().string()
+                        << R"(</dir><alias binding="same"><family>Segoe UI Emoji</family>
+            <accept><family>CFF Outlines and SBIX</family></accept></alias></fontconfig>)";
+    setenv("FONTCONFIG_FILE", file.c_str(), 1);
+    FontOptions options;
+    options.directories = {testing::TempDir() + "vtm_no_emoji"};  // a library of its own
+    set = std::make_unique<FontSet>(options);
+    unsetenv("FONTCONFIG_FILE");
+    FontQuery query;
+    query.families = {"Absent", "Segoe UI Emoji", "DejaVu Sans"};
+    EXPECT_EQ(set->covering(query, U"A")->family(), "DejaVu Sans");
+    EXPECT_EQ(set->covering(query, U"A\ufe0f")->family(), "CFF Outlines and SBIX");
+    query.families = {"CFF Outlines and SBIX", "DejaVu Sans"};
+    EXPECT_EQ(set->covering(query, U"A")->family(), "CFF Outlines and SBIX");  // it was named
+}
+
 TEST_F(SuiteFonts, GenericFamiliesAreMapped) {
     FontSet set(optionsOf(suiteFonts()));
     EXPECT_EQ(set.primary(family("serif"))->family(), "Noto Serif");

@@ -44,6 +44,23 @@ VtmPicture *vtmLoadPicture(const char *path);
  * Files to which the picture refers by a relative path are not read. */
 VtmPicture *vtmLoadPictureFromMemory(const void *bytes, size_t size, const char *name);
 
+/* All zero: the defaults. Strings are copied; NULL means the default. */
+typedef struct VtmLoadOptions {
+    const char *name;     /* replaces the file name in messages, for pictures from memory */
+    const char *folder;   /* to which relative references refer; NULL: the folder of the file, for memory none */
+    double dpi;           /* pixels per inch, for lengths in physical units; 0 means 96 */
+    const char *language; /* of text, and for systemLanguage; NULL means "en" */
+    const char *const *fontDirectories; /* paths, the last followed by NULL; searched before the system's fonts */
+    int noSystemFonts;                  /* 1: without the system's fonts */
+    /* The families that CSS's generic names stand for, and the one where none is named. */
+    const char *serifFamily, *sansSerifFamily, *cursiveFamily, *fantasyFamily, *monospaceFamily, *defaultFamily;
+    double defaultFontSize; /* of text without a size, user units; 0 means 12 */
+} VtmLoadOptions;
+
+/* The same with options, which may be NULL. */
+VtmPicture *vtmLoadPictureWithOptions(const char *path, const VtmLoadOptions *options);
+VtmPicture *vtmLoadPictureFromMemoryWithOptions(const void *bytes, size_t size, const VtmLoadOptions *options);
+
 void vtmDestroyPicture(VtmPicture *picture);
 
 /* The picture's size in user units; 0 for NULL. */

@@ -53,9 +53,10 @@ struct LoadOptions {
     /// Folder to which relative references of an SVG refer. Empty: the folder of the file; from memory,
     /// relative references are not read.
     std::string folder = {};
-    double dpi = 96;              ///< pixels an inch, for lengths in physical units
+    double dpi = 96;              ///< pixels an inch, for lengths in physical units; > 0
     std::string language = "en";  ///< of text, and for systemLanguage
     text::FontOptions fonts = {};
+    double defaultFontSize = 12;  ///< user units, of text without a size; > 0
 };
 
 /// The engine that draws.

@@ -28,13 +28,26 @@ class _RenderOptions(ctypes.Structure):
     ]
 
 
+_FAMILIES = ("serif", "sans-serif", "cursive", "fantasy", "monospace", "default")
+
+
+class _LoadOptions(ctypes.Structure):
+    _fields_ = [
+        ("name", ctypes.c_char_p), ("folder", ctypes.c_char_p), ("dpi", ctypes.c_double),
+        ("language", ctypes.c_char_p), ("font_directories", ctypes.POINTER(ctypes.c_char_p)),
+        ("no_system_fonts", ctypes.c_int), *((name, ctypes.c_char_p) for name in _FAMILIES),
+        ("default_font_size", ctypes.c_double),
+    ]
+
+
 _FITS = ("contain", "cover", "stretch")
 _ENGINES = ("auto", "cpu", "gl")
 _FUNCTIONS = {  # results and arguments
     "vtmVersion": (ctypes.c_char_p, ()),
     "vtmGetError": (ctypes.c_char_p, ()),
-    "vtmLoadPicture": (ctypes.c_void_p, (ctypes.c_char_p,)),
-    "vtmLoadPictureFromMemory": (ctypes.c_void_p, (ctypes.c_char_p, ctypes.c_size_t, ctypes.c_char_p)),
+    "vtmLoadPictureWithOptions": (ctypes.c_void_p, (ctypes.c_char_p, ctypes.POINTER(_LoadOptions))),
+    "vtmLoadPictureFromMemoryWithOptions": (ctypes.c_void_p, (ctypes.c_char_p, ctypes.c_size_t,
+                                                              ctypes.POINTER(_LoadOptions))),
     "vtmDestroyPicture": (None, (ctypes.c_void_p,)),
     "vtmPictureWidth": (ctypes.c_double, (ctypes.c_void_p,)),
     "vtmPictureHeight": (ctypes.c_double, (ctypes.c_void_p,)),
@@ -118,13 +131,27 @@ class Picture:
         _library.vtmDestroyPicture(self._handle)
 
     @classmethod
-    def load(cls, source, name=None):
-        """Loads a file: a path, or the bytes of a file, which messages call `name`. Raises Error."""
+    def load(cls, source, name=None, *, folder=None, dpi=96, language="en", font_directories=(), system_fonts=True,
+             families=None, default_font_size=12):
+        """Loads a file: a path, or the bytes of a file, which messages call `name`. Raises Error. folder: to which
+        relative references refer; the file's own by default, for bytes none. dpi: pixels per inch. language: of text,
+        and for systemLanguage. font_directories are searched before the system's fonts. families: which family "serif",
+        "sans-serif", "cursive", "fantasy" or "monospace" stands for, and the "default" where none is named.
+        default_font_size: of text without a size, user units."""
+        named = {_FAMILIES[_choice(_FAMILIES, family, "families")]: os.fsencode(value)
+                 for family, value in (families or {}).items()}
+        for what, given in {"dpi": dpi, "default_font_size": default_font_size}.items():
+            if not given:  # which would mean the default to the library
+                raise ValueError(f"{what} is zero")
+        directories = [os.fsencode(directory) for directory in font_directories]
+        options = _LoadOptions(os.fsencode(name or ""), os.fsencode(folder) if folder else None, dpi, language.encode(),
+                               (ctypes.c_char_p * (len(directories) + 1))(*directories), not system_fonts,
+                               default_font_size=default_font_size, **named)
         if isinstance(source, (bytes, bytearray, memoryview)):
             data = bytes(source)
-            handle = _library.vtmLoadPictureFromMemory(data, len(data), os.fsencode(name or ""))
+            handle = _library.vtmLoadPictureFromMemoryWithOptions(data, len(data), ctypes.byref(options))
         else:
-            handle = _library.vtmLoadPicture(os.fsencode(source))
+            handle = _library.vtmLoadPictureWithOptions(os.fsencode(source), ctypes.byref(options))
         return cls(_checked(handle))
 
     @property

@@ -1,0 +1,185 @@
+#include "compiler/planar/cut.hpp"
+
+#include <algorithm>
+
+#include "compiler/containers/small_sort.hpp"
+#include "compiler/planar/chord_relations.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+/// Whether the chord of e from vertex v meets f anywhere but at an end of both edges.
+bool meetsPart(const EdgeSet& set, const Edge& e, std::uint32_t v, const Edge& f) {
+    const LatticePoint *const vertices = set.vertices.data(), *const end = vertices + f.last;
+    const LatticePoint a = vertices[v], b = vertices[v + 1];
+    if ((f.a.x > b.x) | (f.b.x < a.x) | !overlap(a.y, b.y, f.a.y, f.b.y))
+        return false;
+    const auto isEnd = [](const Edge& g, LatticePoint p) { return (p == g.a) | (p == g.b); };
+    for (const LatticePoint* r = firstNotBelow(vertices + f.first + 1, end, a.x); r <= end && r[-1].x <= b.x;
+         ++r) {
+        const LatticePoint c = r[-1], d = *r;
+        if (!overlap(a.y, b.y, c.y, d.y))
+            continue;
+        const bool fromA = (a == c) | (a == d), fromB = (b == c) | (b == d);
+        if (fromA | fromB) {
+            const LatticePoint at = fromA ? a : b, p = fromA ? b : a, q = at == c ? d : c;
+            if (!isEnd(e, at) || !isEnd(f, at))
+                return true;
+            if (!(fromA & fromB) && orient(at, p, q) == 0 && ((p < at) == (q < at)))
+                return true;
+            continue;
+        }
+        const std::int64_t atC = orient(a, b, c), atD = orient(a, b, d), atA = orient(c, d, a),
+                           atB = orient(c, d, b);
+        if (!(areBeyond(atC, atD, 0) | areBeyond(atA, atB, 0)) &&
+            (atA != 0 || atB != 0 || isOnChord(a, b, c) || isOnChord(c, d, a)))
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+/// By edge, and along it: counted out by edges, most of which have few.
+void EdgeCutter::sort(std::size_t edges, std::vector<Cut>& cuts) {
+    firstCuts_.assign(edges + 1, 0);
+    for (const Cut& cut : cuts)
+        ++firstCuts_[cut.edge + 1];
+    for (std::size_t e = 0; e < edges; ++e)
+        firstCuts_[e + 1] += firstCuts_[e];
+    nextCuts_.resize(cuts.size());
+    for (const Cut& cut : cuts)
+        nextCuts_[firstCuts_[cut.edge]++] = cut;  // in the end, where the next edge's begin
+    cuts.swap(nextCuts_);
+    const auto isBefore = [](const Cut& p, const Cut& q) {
+        return p.chord != q.chord ? p.chord < q.chord : p.progress < q.progress;
+    };
+    std::uint32_t first = 0;
+    for (std::size_t e = 0; e < edges; first = firstCuts_[e++])
+        if (firstCuts_[e] > first + 1)
+            sortFew(cuts.begin() + first, cuts.begin() + firstCuts_[e], isBefore);
+}
+
+void EdgeCutter::run(EdgeSet& set, std::vector<Cut>& cuts) {
+    sort(set.edges.size(), cuts);
+    nextEdges_.clear();
+    nextEdges_.swap(set.edges);
+    parts_.clear();
+    newChords_.clear();
+    rechecked_.clear();
+    const Cut* s = cuts.data();
+    const Cut* const end = s + cuts.size();
+    for (std::uint32_t i = 0; i < nextEdges_.size(); ++i) {
+        beginParts(set);
+        if (s == end || s->edge != i) {
+            set.edges.push_back(nextEdges_[i]);
+            continue;
+        }
+        const Cut *const first = s, *from = nullptr;
+        for (; s != end && s->edge == i; from = s++)
+            part(set, nextEdges_[i], from, s);
+        part(set, nextEdges_[i], from, nullptr);
+        recheck({first, s});
+    }
+    beginParts(set);
+}
+
+/// Has an edge checked again that cuts another one near a neighbouring cut of the same chord: that one may
+/// bend the chord over it. The farther from their crossing, the farther are two chords from each other.
+void EdgeCutter::recheck(std::span<const Cut> cuts) {
+    const auto isAt = [](const Cut& p, const Cut& q) { return p.chord == q.chord && p.at == q.at; };
+    const auto check = [&](const Cut& cut, LatticePoint at) {
+        if (std::abs(orient(cut.by.a, cut.by.b, at)) <= 2 * near(cut.by.a, cut.by.b))
+            rechecked_.push_back({cut.edge, cut.byEdge});
+    };
+    std::size_t before = 0;  // the first of those in the place before
+    for (std::size_t here = 0, next; here < cuts.size(); before = here, here = next) {
+        for (next = here + 1; next < cuts.size() && isAt(cuts[next], cuts[here]);)
+            ++next;
+        if (here == 0 || cuts[here].chord != cuts[before].chord)
+            continue;
+        for (std::size_t k = before; k < here; ++k)
+            check(cuts[k], cuts[here].at);
+        for (std::size_t k = here; k < next; ++k)
+            check(cuts[k], cuts[before].at);
+    }
+}
+
+void EdgeCutter::beginParts(const EdgeSet& set) {
+    parts_.push_back(
+        {static_cast<std::uint32_t>(set.edges.size()), static_cast<std::uint32_t>(newChords_.size())});
+}
+
+/// The part between two cuts, or an end where there is none. It may run against the whole: a vertical part of
+/// a falling chain, or one chord, where rounding can step back past a steep edge's end.
+void EdgeCutter::part(EdgeSet& set, const Edge& whole, const Cut* from, const Cut* to) {
+    const auto isVertex = [&](const Cut& cut) { return cut.at == set.vertex(whole, cut.chord); };
+    const bool newFrom = from && !isVertex(*from), newTo = to && !isVertex(*to);
+    const std::uint32_t first = whole.first + (from ? from->chord + 1 : 1),
+                        end = to ? whole.first + to->chord + newTo : whole.last;  // of the vertices between
+    const LatticePoint a = from ? from->at : whole.a, b = to ? to->at : whole.b;
+    const std::uint32_t between = end > first ? end - first : 0;
+    if (a == b && between == 0)
+        return;
+    Edge e = whole;
+    e.first = static_cast<std::uint32_t>(set.vertices.size());
+    e.last = e.first + between + 1;
+    set.vertices.resize(e.last + 1);
+    LatticePoint* const chain = set.vertices.data() + e.first;
+    std::copy_n(set.vertices.data() + first, between, chain + 1);
+    chain[0] = a;
+    chain[between + 1] = b;
+    const bool reversed = b < a;
+    const auto number = static_cast<std::uint32_t>(set.edges.size());
+    const bool newFirst = reversed ? newTo : newFrom, newLast = reversed ? newFrom : newTo;
+    if (newFirst || (newLast && between == 0))
+        newChords_.push_back({number, e.first});
+    if (newLast && between > 0)
+        newChords_.push_back({number, e.first + between});
+    if (reversed) {
+        std::reverse(chain, chain + between + 2);
+        e.firstChange = static_cast<std::uint32_t>(set.changes.size());
+        for (std::uint32_t k = 0; k < e.changeCount; ++k) {
+            const Change c = set.changes[whole.firstChange + k];
+            set.changes.push_back({c.layer, -c.winding});
+        }
+    }
+    e.a = chain[0];
+    e.b = chain[between + 1];
+    set.edges.push_back(e);
+}
+
+bool EdgeCutter::partsMeet(const EdgeSet& set, std::span<const EdgePair> close,
+                           const std::vector<std::uint8_t>& isRechecked) const {
+    const auto meet = [&](std::uint32_t e, std::uint32_t f) {
+        return newMeet(set, e, f) || newMeet(set, f, e);
+    };
+    return std::any_of(close.begin(), close.end(),
+                       [&](const EdgePair& pair) {
+                           return (pair.isNear | isRechecked[pair.e] | isRechecked[pair.f]) &&
+                                  meet(pair.e, pair.f);
+                       }) ||
+           std::any_of(rechecked_.begin(), rechecked_.end(),
+                       [&](const auto& pair) { return meet(pair.first, pair.second); });
+}
+
+/// Whether a new chord of a part of edge e, as it was, meets a part of edge f. The parts of both lie one
+/// after the other in x, but for what rounding moved them.
+bool EdgeCutter::newMeet(const EdgeSet& set, std::uint32_t e, std::uint32_t f) const {
+    constexpr Coord rounded = 4;
+    std::uint32_t first = parts_[f].edge;
+    const std::uint32_t end = parts_[f + 1].edge;
+    for (std::uint32_t k = parts_[e].newChord; k < parts_[e + 1].newChord; ++k) {
+        const NewChord& chord = newChords_[k];
+        const Coord left = set.vertices[chord.first].x - rounded,
+                    right = set.vertices[chord.first + 1].x + rounded;
+        while (first + 1 < end && set.edges[first].b.x < left)
+            ++first;
+        for (std::uint32_t j = first; j < end && set.edges[j].a.x <= right; ++j)
+            if (meetsPart(set, set.edges[chord.edge], chord.first, set.edges[j]))
+                return true;
+    }
+    return false;
+}
+
+}  // namespace vtm::compiler
