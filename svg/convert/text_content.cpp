@@ -5,6 +5,7 @@
 #include "svg/geometry/path_data.hpp"
 #include "svg/text/content.hpp"
 #include "svg/text/flow.hpp"
+#include "svg/text/small_caps.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -144,9 +145,14 @@ private:
         if (made.language.empty())
             made.language = converter_.options_.language;
         const Style& style = scope.style;
-        made.lines = scope.style.textLines;
-        for (const Element* e = parent < 0 ? element.parent : nullptr; e; e = e->parent)
-            made.lines |= converter_.styleOf(*e).textLines;
+        made.lines = style.textLines;
+        made.decoration = style.decoration;
+        for (const Element* e = parent < 0 ? element.parent : nullptr; e; e = e->parent) {
+            const Style& around = converter_.styleOf(*e);
+            if (made.lines == 0)
+                made.decoration = around.decoration;
+            made.lines |= around.textLines;
+        }
         made.letterSpacing = resolve(style.letterSpacing, Axis::X, scope.viewport);
         made.wordSpacing = resolve(style.wordSpacing, Axis::X, scope.viewport);
         const auto length = converter_.lengths(element, scope).length("textLength", Axis::X);
@@ -256,6 +262,8 @@ private:
 TextContent Converter::textContent(const Element& text, const Scope& scope) {
     std::vector<Paragraph> paragraphs;
     TextContent content = TextCollector(*this).collect(text, scope, paragraphs);
+    if (!content.characters.empty())
+        makeSmallCaps(content, fonts());
     const std::optional<Length> inlineSize = scope.style.inlineSize;
     const double width = inlineSize ? resolve(*inlineSize, Axis::X, scope.viewport) : 0;
     if (!(width > 0) || content.characters.empty() || scope.style.writingMode != WritingMode::Horizontal)
@@ -286,6 +294,8 @@ Box Converter::flowRegion(const Element& flowRoot, const Scope& scope) {
 TextContent Converter::flowContent(const Element& flowRoot, const Scope& scope) {
     std::vector<Paragraph> paragraphs;
     TextContent content = TextCollector(*this).collect(flowRoot, scope, paragraphs);
+    if (!content.characters.empty())
+        makeSmallCaps(content, fonts());
     const Box box = flowRegion(flowRoot, scope);
     if (box.empty() || paragraphs.empty())
         return {};

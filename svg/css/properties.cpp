@@ -51,9 +51,18 @@ void copyFont(Style& to, const Style& from) {
 void copyFontSynthesis(Style& to, const Style& from) {
     to.synthesizeWeight = from.synthesizeWeight;
     to.synthesizeSlant = from.synthesizeSlant;
+    to.synthesizeSmallCaps = from.synthesizeSmallCaps;
 }
 
 void copyTextLines(Style& to, const Style& from) { to.textLines = from.textLines; }
+
+void copyTextDecoration(Style& to, const Style& from) {
+    to.textLines = from.textLines;
+    to.decoration = from.decoration;
+}
+
+void copyLineStyle(Style& to, const Style& from) { to.decoration.style = from.decoration.style; }
+void copyLineThickness(Style& to, const Style& from) { to.decoration.thickness = from.decoration.thickness; }
 
 template <VariantGroup Group>
 bool applyVariants(Style& style, std::string_view value, const Units&) {
@@ -172,6 +181,7 @@ std::vector<Property> makeTable() {
         {"font-synthesis", false, true, applyFontSynthesis, copyFontSynthesis},
         property<&TextStyle::synthesizeWeight, parseSynthesis>("font-synthesis-weight", false),
         property<&TextStyle::synthesizeSlant, parseSynthesis>("font-synthesis-style", false),
+        property<&TextStyle::synthesizeSmallCaps, parseSynthesis>("font-synthesis-small-caps", false),
         property<&TextStyle::letterSpacing, parseSpacing>("letter-spacing"),
         property<&TextStyle::wordSpacing, parseSpacing>("word-spacing"),
         property<&TextStyle::anchor, parseTextAnchor>("text-anchor"),
@@ -187,8 +197,11 @@ std::vector<Property> makeTable() {
         property<&Own::alignmentBaseline, parseAlignmentBaseline>("alignment-baseline"),
         property<&Own::baselineShift, parseBaselineShift>("baseline-shift"),
         property<&Own::unicodeBidi, parseUnicodeBidi>("unicode-bidi"),
-        {"text-decoration", true, false, applyTextDecoration, copyTextLines},
-        {"text-decoration-line", false, false, applyTextDecoration, copyTextLines},
+        {"text-decoration", true, false, applyTextDecoration, copyTextDecoration},
+        {"text-decoration-line", false, false, applyTextLines, copyTextLines},
+        {"text-decoration-style", false, false, applyLineStyle, copyLineStyle},
+        {"text-decoration-thickness", false, false, applyLineThickness, copyLineThickness},
+        property<&TextStyle::underlineOffset, parseUnderlineOffset>("text-underline-offset", false),
         property<&Own::displayed, parseDisplay>("display"),
         property<&Own::opacity, parseOpacity>("opacity"),
         property<&Own::blend, parseBlend>("mix-blend-mode", false),

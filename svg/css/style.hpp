@@ -55,6 +55,13 @@ enum class WritingMode { Horizontal, VerticalRl, VerticalLr };
 enum class WhiteSpace { Collapse, Preserve };
 /// Lines of `text-decoration`, as bits.
 enum TextLines : unsigned { Underline = 1, Overline = 2, LineThrough = 4 };
+/// `text-decoration-style`.
+enum class LineStyle { Solid, Double, Dotted, Dashed };
+/// How the lines of an element look.
+struct TextDecoration {
+    LineStyle style = LineStyle::Solid;
+    std::optional<Length> thickness;  ///< nothing: the font's; percentages refer to the font size
+};
 enum class UnicodeBidi { Normal, Embed, Isolate, Override, IsolateOverride, Plaintext };
 
 /// `baseline-shift`: up by a length, or by what the font says of subscripts and superscripts.
@@ -74,16 +81,17 @@ struct TextStyle {
     std::string_view fontFeatures, fontVariations;  ///< as written, empty: normal
     std::uint64_t fontVariants = 0;  ///< rows of the table of font-variant's keywords (font_variants.hpp)
     std::optional<bool> kerning;     ///< nothing: auto
-    bool synthesizeWeight = true, synthesizeSlant = true;
+    bool synthesizeWeight = true, synthesizeSlant = true, synthesizeSmallCaps = true;
     Length letterSpacing, wordSpacing;  ///< percentages refer to the font size
     TextAnchor anchor = TextAnchor::Start;
     TextAnchor align = TextAnchor::Start;  ///< text-align
     Baseline dominantBaseline = Baseline::Auto;
     WritingMode writingMode = WritingMode::Horizontal;
     text::TextOrientation textOrientation = text::TextOrientation::Mixed;
-    bool rightToLeft = false;              ///< direction
-    double lineHeight = 1.25;              ///< by font size; `normal` as Inkscape has it
-    std::optional<WhiteSpace> whiteSpace;  ///< nothing: as xml:space says
+    bool rightToLeft = false;               ///< direction
+    double lineHeight = 1.25;               ///< by font size; `normal` as Inkscape has it
+    std::optional<Length> underlineOffset;  ///< nothing: the font's; percentages refer to the font size
+    std::optional<WhiteSpace> whiteSpace;   ///< nothing: as xml:space says
 };
 
 /// Properties that an element takes over from its parent.
@@ -124,6 +132,7 @@ struct Own {
     Baseline alignmentBaseline = Baseline::Auto;
     BaselineShift baselineShift;
     unsigned textLines = 0;  ///< TextLines that the element adds; those of its ancestors go on
+    TextDecoration decoration;
     UnicodeBidi unicodeBidi = UnicodeBidi::Normal;
     std::optional<Length> inlineSize;  ///< nothing: auto
     /// x, width, cx, … where CSS, not an attribute, gives them.

@@ -406,41 +406,104 @@ std::optional<bool> parseSynthesis(std::string_view text, const Units&) {
 }
 
 bool applyFontSynthesis(Style& style, std::string_view value, const Units&) {
-    bool weight = false, slant = false;
+    bool weight = false, slant = false, smallCaps = false;
     for (Cursor cursor(value); !cursor.atEnd(); cursor.skipSpaces()) {
         const std::string_view word = cursor.identifier();
         if (equalsIgnoringCase(word, "weight"))
             weight = true;
         else if (equalsIgnoringCase(word, "style"))
             slant = true;
-        else if (word.empty() ||
-                 !(equalsIgnoringCase(word, "none") || equalsIgnoringCase(word, "small-caps") ||
-                   equalsIgnoringCase(word, "position")))
+        else if (equalsIgnoringCase(word, "small-caps"))
+            smallCaps = true;
+        else if (word.empty() || !(equalsIgnoringCase(word, "none") || equalsIgnoringCase(word, "position")))
             return false;
     }
+    style.synthesizeSmallCaps = smallCaps;
     style.synthesizeWeight = weight;
     style.synthesizeSlant = slant;
     return true;
 }
 
-/// Styles and thicknesses of lines (CSS Text Decoration 4) are read, but lines are plain.
+namespace {
+
+std::optional<unsigned> lineOf(std::string_view word) {
+    static constexpr Keyword<unsigned> table[]{{"none", 0},
+                                               {"blink", 0},
+                                               {"underline", Underline},
+                                               {"overline", Overline},
+                                               {"line-through", LineThrough}};
+    return findKeyword(word, table);
+}
+
+/// Wavy lines are plain ones.
+std::optional<LineStyle> lineStyleOf(std::string_view word) {
+    static constexpr Keyword<LineStyle> table[]{{"solid", LineStyle::Solid},
+                                                {"double", LineStyle::Double},
+                                                {"dotted", LineStyle::Dotted},
+                                                {"dashed", LineStyle::Dashed},
+                                                {"wavy", LineStyle::Solid}};
+    return findKeyword(word, table);
+}
+
+/// `auto` and `from-font` are the font's.
+std::optional<std::optional<Length>> lineThicknessOf(std::string_view word, const Units& units) {
+    if (equalsIgnoringCase(word, "auto") || equalsIgnoringCase(word, "from-font"))
+        return std::optional<Length>();
+    const auto length = parseLength(word, units);
+    return length ? std::optional(length) : std::nullopt;
+}
+
+}  // namespace
+
+/// Lines have the paints of their element (SVG 2 section 11.10.3): the colour is read only.
 bool applyTextDecoration(Style& style, std::string_view value, const Units& units) {
-    static constexpr Keyword<unsigned> table[]{
-        {"none", 0}, {"underline", Underline}, {"overline", Overline}, {"line-through", LineThrough}};
-    static constexpr Keyword<bool> others[]{{"blink", true},  {"solid", true},     {"double", true},
-                                            {"dotted", true}, {"dashed", true},    {"wavy", true},
-                                            {"auto", true},   {"from-font", true}, {"currentColor", true}};
     unsigned lines = 0;
+    TextDecoration decoration;
     for (Cursor cursor(value); !cursor.atEnd(); cursor.skipSpaces()) {
         const std::string_view word = readWord(cursor);
-        const auto line = findKeyword(word, table);
-        if (word.empty() ||
-            (!line && !findKeyword(word, others) && !parseColor(word) && !parseLength(word, units)))
+        const auto line = lineOf(word);
+        if (const auto lineStyle = lineStyleOf(word))
+            decoration.style = *lineStyle;
+        else if (const auto thickness = lineThicknessOf(word, units))
+            decoration.thickness = *thickness;
+        else if (word.empty() || (!line && !equalsIgnoringCase(word, "currentColor") && !parseColor(word)))
             return false;
         lines |= line.value_or(0);
     }
     style.textLines = lines;
+    style.decoration = decoration;
     return true;
+}
+
+bool applyTextLines(Style& style, std::string_view value, const Units&) {
+    unsigned lines = 0;
+    for (Cursor cursor(value); !cursor.atEnd(); cursor.skipSpaces()) {
+        const auto line = lineOf(readWord(cursor));
+        if (!line)
+            return false;
+        lines |= *line;
+    }
+    style.textLines = lines;
+    return true;
+}
+
+bool applyLineStyle(Style& style, std::string_view value, const Units&) {
+    const auto lineStyle = lineStyleOf(value);
+    style.decoration.style = lineStyle.value_or(style.decoration.style);
+    return lineStyle.has_value();
+}
+
+bool applyLineThickness(Style& style, std::string_view value, const Units& units) {
+    const auto thickness = lineThicknessOf(value, units);
+    style.decoration.thickness = thickness.value_or(style.decoration.thickness);
+    return thickness.has_value();
+}
+
+std::optional<std::optional<Length>> parseUnderlineOffset(std::string_view text, const Units& units) {
+    if (equalsIgnoringCase(text, "auto"))
+        return std::optional<Length>();
+    const auto length = parseLength(text, units);
+    return length ? std::optional(length) : std::nullopt;
 }
 
 }  // namespace vtm::svg

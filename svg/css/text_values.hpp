@@ -45,5 +45,9 @@ bool applyFont(Style& style, std::string_view value, const Units& units);
 std::optional<bool> parseSynthesis(std::string_view text, const Units& units);
 bool applyFontSynthesis(Style& style, std::string_view value, const Units& units);
 bool applyTextDecoration(Style& style, std::string_view value, const Units& units);
+bool applyTextLines(Style& style, std::string_view value, const Units& units);
+bool applyLineStyle(Style& style, std::string_view value, const Units& units);
+bool applyLineThickness(Style& style, std::string_view value, const Units& units);
+std::optional<std::optional<Length>> parseUnderlineOffset(std::string_view text, const Units& units);
 
 }  // namespace vtm::svg

@@ -27,8 +27,10 @@ struct TextElement {
     Scope scope;      ///< its transform is that of the `text` element
     int parent = -1;  ///< index of the element around it
     std::string language;
-    unsigned lines = 0;  ///< TextLines of its own; of `text` those of the elements around it too
-    int path = -1;       ///< index of the innermost textPath around its characters
+    unsigned lines = 0;         ///< TextLines of its own; of `text` those of the elements around it too
+    TextDecoration decoration;  ///< of the lines
+    bool smallCaps = false;     ///< made small capitals of the element around it, with all else of that
+    int path = -1;              ///< index of the innermost textPath around its characters
     double letterSpacing = 0, wordSpacing = 0;  ///< user units
     std::optional<double> textLength;           ///< user units, >= 0
     bool stretchesGlyphs = false;               ///< lengthAdjust

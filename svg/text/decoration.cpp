@@ -3,6 +3,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
+
+#include "svg/geometry/path_geometry.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -13,25 +16,53 @@ struct Segment {
     double length;
 };
 
+/// Of a segment: thinner dashes and dots than that end before it.
+constexpr double maxDashes = 10000;
+
 struct Bar {
     double top, bottom;  ///< below the decorating element's baseline
 };
 
-/// In vertical text the underline is at the letters' edge, `under left` (CSS Text Decoration 4
-/// section 2.8.1).
-Bar barOf(TextLines line, const ElementFont& font, bool vertical) {
-    if (!font.primary)
-        return {0, 0};
+double resolved(const Length& length, const ElementFont& font) {
+    return length.percent ? length.value / 100 * font.size : length.value;
+}
+
+/// Below the baseline. In vertical text the underline is at the letters' edge, `under left` (CSS Text
+/// Decoration 4 section 2.8.1).
+double middleOf(TextLines line, const TextElement& element, const ElementFont& font, bool vertical) {
     const text::FontMetrics& metrics = font.primary->metrics();
-    double middle = vertical ? font.descent() : font.scaled(metrics.underlineOffset);
-    double thickness = font.scaled(metrics.underlineThickness);
-    if (line == LineThrough) {
-        middle = -font.scaled(metrics.strikeoutOffset);
-        thickness = font.scaled(metrics.strikeoutThickness);
-    } else if (line == Overline) {
-        middle = -font.ascent();
-    }
-    return {middle - thickness / 2, middle + thickness / 2};
+    if (line == LineThrough)
+        return -font.scaled(metrics.strikeoutOffset);
+    if (line == Overline)
+        return -font.ascent();
+    const auto& offset = element.scope.style.underlineOffset;
+    if (vertical)
+        return font.descent() + (offset ? resolved(*offset, font) : 0);
+    return offset ? resolved(*offset, font) : font.scaled(metrics.underlineOffset);
+}
+
+double thicknessOf(TextLines line, const TextElement& element, const ElementFont& font) {
+    const text::FontMetrics& metrics = font.primary->metrics();
+    if (element.decoration.thickness)
+        return resolved(*element.decoration.thickness, font);
+    return font.scaled(line == LineThrough ? metrics.strikeoutThickness : metrics.underlineThickness);
+}
+
+/// The second line of double ones is away from the text, one line free between them; those through the text
+/// are on both sides of the middle.
+std::vector<Bar> barsOf(TextLines line, const TextElement& element, const ElementFont& font, bool vertical) {
+    if (!font.primary)
+        return {};
+    const double middle = middleOf(line, element, font, vertical);
+    const double half = thicknessOf(line, element, font) / 2;
+    const auto at = [&](double y) { return Bar{y - half, y + half}; };
+    if (!(half > 0))
+        return {};
+    if (element.decoration.style != LineStyle::Double)
+        return {at(middle)};
+    if (line == LineThrough)
+        return {at(middle - 2 * half), at(middle + 2 * half)};
+    return {at(middle), at(middle + (line == Underline ? 4 : -4) * half)};
 }
 
 /// Whether `next` goes on where `before` ends, as near as rounding leaves them.
@@ -54,12 +85,50 @@ std::vector<Segment> joined(const std::vector<Segment>& segments, double size) {
     return made;
 }
 
-scene::Path rectangleIn(const scene::Affine& frame, double length, Bar bar) {
+void addRectangle(const scene::Affine& frame, double from, double to, Bar bar, scene::Path& out) {
     std::vector<scene::Point> corners;
-    for (const scene::Point corner : {scene::Point(0, bar.top), scene::Point(length, bar.top),
-                                      scene::Point(length, bar.bottom), scene::Point(0, bar.bottom)})
+    for (const scene::Point corner : {scene::Point(from, bar.top), scene::Point(to, bar.top),
+                                      scene::Point(to, bar.bottom), scene::Point(from, bar.bottom)})
         corners.push_back(scene::apply(frame, corner));
-    return scene::polygon(corners);
+    const scene::Path rectangle = scene::polygon(corners);
+    out.insert(out.end(), rectangle.begin(), rectangle.end());
+}
+
+/// Of the bar's thickness, one behind the other with as much between them as is left of the period.
+void addDashes(const Segment& segment, Bar bar, scene::Path& out) {
+    constexpr double dash = 3, period = 5;  // of the thickness
+    const double thickness = bar.bottom - bar.top;
+    const auto count = std::min(std::ceil(segment.length / (period * thickness)), maxDashes);
+    for (double i = 0; i < count; ++i) {
+        const double from = i * period * thickness;
+        addRectangle(segment.frame, from, std::min(from + dash * thickness, segment.length), bar, out);
+    }
+}
+
+/// Round, a diameter between them.
+void addDots(const Segment& segment, Bar bar, scene::Path& out) {
+    const double radius = (bar.bottom - bar.top) / 2, middle = bar.top + radius;
+    const auto count = std::min(std::floor((segment.length / radius + 2) / 4), maxDashes);
+    for (double i = 0; i < count; ++i) {
+        const double left = i * 4 * radius;
+        const scene::Path circle{scene::MoveTo{{left, middle}},
+                                 scene::ArcTo{{radius, radius}, 0, false, true, {left + 2 * radius, middle}},
+                                 scene::ArcTo{{radius, radius}, 0, false, true, {left, middle}},
+                                 scene::Close{}};
+        const scene::Path placed = mapPath(segment.frame, circle);
+        out.insert(out.end(), placed.begin(), placed.end());
+    }
+}
+
+scene::Path outlineOf(const Segment& segment, Bar bar, LineStyle style) {
+    scene::Path made;
+    if (style == LineStyle::Dashed)
+        addDashes(segment, bar, made);
+    else if (style == LineStyle::Dotted)
+        addDots(segment, bar, made);
+    else
+        addRectangle(segment.frame, 0, segment.length, bar, made);
+    return made;
 }
 
 class LineMaker {
@@ -76,14 +145,13 @@ public:
         const unsigned lines = content_.elements[element].lines;
         if (lines == 0)
             return;
-        const ElementFont& font = fonts_[element];
-        const std::vector<Segment> segments = joined(segments_[element], font.size);
-        for (const TextLines line : {Underline, Overline, LineThrough}) {
-            const Bar bar = barOf(line, font, vertical_);
-            for (const Segment& segment : segments)
-                if ((lines & line) && segment.length > 0 && bar.bottom > bar.top)
-                    made_.push_back({element, line, rectangleIn(segment.frame, segment.length, bar)});
-        }
+        const TextElement& text = content_.elements[element];
+        const std::vector<Segment> segments = joined(segments_[element], fonts_[element].size);
+        for (const TextLines line : {Underline, Overline, LineThrough})
+            for (const Bar bar : barsOf(line, text, fonts_[element], vertical_))
+                for (const Segment& segment : segments)
+                    if ((lines & line) && segment.length > 0)
+                        made_.push_back({element, line, outlineOf(segment, bar, text.decoration.style)});
     }
 
     std::vector<PlacedLine> finish() { return std::move(made_); }

@@ -2,6 +2,7 @@
 
 #include "svg/css/font_variants.hpp"
 #include "svg/css/text_values.hpp"
+#include "svg/text/small_caps.hpp"
 
 namespace vtm::svg {
 
@@ -85,11 +86,23 @@ double shiftOf(const TextElement& element, const ElementFont& around) {
                                                   : around.scaled(metrics.superscriptOffset);
 }
 
+/// On the baseline of the element around it.
+ElementFont smallCapsFont(const TextElement& element, ElementFont font) {
+    font.features = switchedFeatures(element);
+    font.size *= smallCapsScale;
+    font.query.opticalSize *= smallCapsScale;
+    return font;
+}
+
 }  // namespace
 
 std::vector<ElementFont> elementFonts(const std::vector<TextElement>& elements, text::FontSet& fonts) {
     std::vector<ElementFont> made;
     for (const TextElement& element : elements) {
+        if (element.smallCaps) {
+            made.push_back(smallCapsFont(element, made[static_cast<std::size_t>(element.parent)]));
+            continue;
+        }
         const Style& style = element.scope.style;
         ElementFont font;
         font.query = fontQuery(element);

@@ -58,6 +58,11 @@ private:
         return content_.elements[static_cast<std::size_t>(element)];
     }
     const ElementFont& fontAt(int element) const { return fonts_[static_cast<std::size_t>(element)]; }
+    /// Made small capitals do not make a line lower.
+    int styledAt(std::size_t i) const {
+        const TextElement& element = elementAt(content_.characters[i].element);
+        return element.smallCaps ? element.parent : content_.characters[i].element;
+    }
     bool isSpace(std::size_t i) const { return content_.characters[i].code == ' '; }
 
     /// Greedy: as many words as fit; spaces at the end may stick out.
@@ -76,7 +81,7 @@ private:
     void place(std::size_t first, std::size_t end) {
         LineExtent extent;
         for (std::size_t i = first; i < end; ++i)
-            extent.add(elementAt(content_.characters[i].element), fontAt(content_.characters[i].element));
+            extent.add(elementAt(styledAt(i)), fontAt(styledAt(i)));
         const bool fits = y_ + extent.above + extent.below <= area_.bottom;
         for (std::size_t i = first; i < end && !fits; ++i)
             kept_[i] = false;

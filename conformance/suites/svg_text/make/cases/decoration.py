@@ -86,3 +86,33 @@ case("decoration/gradient", "A paint server sees the box of the whole text.",
      '</linearGradient><text x="20" y="100" fill="url(#g)" text-decoration="underline">AA</text>',
      draw(glyph("A", 20, 100), underline(20, 20 + A, 100), fill=GREEN)
      + draw(glyph("A", 20 + A, 100), underline(20 + A, 20 + 2 * A, 100), fill=RED), ' text-decoration="underline"')
+
+MIDDLE, THICK = UNDERLINE * SIZE, UNDERLINE_SIZE * SIZE
+
+
+def looks(name, about, style, bars, key):
+    """Lines under AC by their left and right ends, middles below the baseline and thicknesses, user units."""
+    case(f"decoration/{name}", about, f'<text x="20" y="100" style="{style}">AC</text>',
+         draw(line("AC", 20, 100)) + draw(*(d if isinstance(d, str) else bar(d[0], d[1], 100, d[2], d[3], 1) for d in bars)),
+         key)
+
+
+def dot(left, radius):
+    return f"M{left},{100 + MIDDLE} a{radius},{radius} 0 1 1 {2 * radius},0 a{radius},{radius} 0 1 1 {-2 * radius},0 Z"
+
+
+RIGHT = 20 + A + C
+looks("thickness", "text-decoration-thickness.", "text-decoration: underline; text-decoration-thickness: 8px",
+      [(20, RIGHT, MIDDLE, 8)], "; text-decoration-thickness: 8px")
+looks("thickness-percent", "Of the font size.", "text-decoration: underline 25%", [(20, RIGHT, MIDDLE, SIZE / 4)], " 25%")
+looks("underline-offset", "text-underline-offset, from the baseline.",
+      "text-decoration: underline; text-underline-offset: 16px", [(20, RIGHT, 16, THICK)], "; text-underline-offset: 16px")
+looks("double", "The second line is outside, a line's thickness between them.", "text-decoration: underline double",
+      [(20, RIGHT, MIDDLE, THICK), (20, RIGHT, MIDDLE + 2 * THICK, THICK)], " double")
+looks("double-line-through", "On both sides of the middle.", "text-decoration: line-through double 3px",
+      [(20, RIGHT, -STRIKE * SIZE - 3, 3), (20, RIGHT, -STRIKE * SIZE + 3, 3)], " double")
+DASHES = [20 + 5 * THICK * i for i in range(20) if 5 * THICK * i < RIGHT - 20]
+looks("dashed", "Dashes of three thicknesses, gaps of two.", "text-decoration-style: dashed; text-decoration-line: underline",
+      [(x, min(x + 3 * THICK, RIGHT), MIDDLE, THICK) for x in DASHES], "text-decoration-style: dashed; ")
+looks("dotted", "Round dots, a diameter between them.", "text-decoration: underline dotted 4px",
+      [dot(20 + 8 * i, 2) for i in range(20) if 8 * i + 4 <= RIGHT - 20], " dotted")

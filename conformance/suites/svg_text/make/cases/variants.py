@@ -1,5 +1,5 @@
 """font-variant and font-feature-settings: CSS Fonts 4 sections 6 and 7; languages."""
-from layout import SIZE, TEST, draw, line
+from layout import CUBIC, SIZE, TEST, draw, glyph, line
 from registry import case
 
 
@@ -44,3 +44,26 @@ shown("language-of-part", "Of a part.", "fill-opacity: 1", 'i<tspan xml:lang="tr
       ' xml:lang="tr"')
 shown("ligature-across-tspans", "An element that changes nothing stops no ligature (CSS Text 3 section 7.3).",
       "fill-opacity: 1", "f<tspan>i</tspan>", ["f_i"], "<tspan", '<tspan font-size="20"')
+
+SMALL = 0.7 * SIZE  # made small capitals
+FIRST = CUBIC.advance("A") * SMALL
+HANGING = 100 + 0.8 * CUBIC.font["hhea"].ascent / CUBIC.em * SIZE
+
+
+def made(name, about, style, outlines, key):
+    case(f"variants/{name}", about, f'<text x="20" y="100" style="font-family: VTM Cubic; {style}">aA</text>',
+         draw(*outlines), key)
+
+
+made("small-caps-made", "Without smcp small letters are capitals of 0.7 of the size.", "font-variant: small-caps",
+     [glyph("A", 20, 100, SMALL, CUBIC), glyph("A", 20 + FIRST, 100, face=CUBIC)], "font-variant: small-caps")
+made("all-small-caps-made", "Without c2sc capitals are made smaller, too.", "font-variant: all-small-caps",
+     [glyph("A", 20, 100, SMALL, CUBIC), glyph("A", 20 + FIRST, 100, SMALL, CUBIC)], "all-")
+made("small-caps-baseline", "They stand on the line of the letters around them.",
+     "font-variant: small-caps; dominant-baseline: hanging",
+     [glyph("A", 20, HANGING, SMALL, CUBIC), glyph("A", 20 + FIRST, HANGING, face=CUBIC)],
+     "; dominant-baseline: hanging")
+made("small-caps-not-made", "font-synthesis: none; the small letter is that of the default family.",
+     "font-variant: small-caps; font-synthesis: none",
+     [glyph("a.small", 20, 100), glyph("A", 20 + TEST.advance("a.small") * SIZE, 100, face=CUBIC)],
+     "; font-synthesis: none")
