@@ -21,7 +21,7 @@ if(VTM_WERROR)
     target_compile_options(vtm_warnings INTERFACE -Werror)
 endif()
 
-option(VTM_PRECOMPILE_HEADERS "Precompile what most files include: a whole build takes half the time" OFF)
+option(VTM_PRECOMPILE_HEADERS "Precompile what most files include: a whole build takes less time" OFF)
 set(vtm_precompiled
     <algorithm> <array> <bit> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <mutex> <numbers> <optional>
     <random> <span> <stdexcept> <string> <string_view> <unordered_map> <utility> <variant> <vector>
