@@ -180,7 +180,7 @@ def draw_none(_):
     return ()
 
 
-PIPELINE = ("parse", "lower", "push", "planarise", "fit", "encode", "upload", "first frame")
+PIPELINE = ("parse", "lower", "divide", "planarise", "fit", "encode", "upload", "first frame")
 STARTUP = ("context", "renderer", "upload", "first frame")
 # In the page's order.
 CHARTS = {

@@ -61,7 +61,7 @@ void addStage(const Shared& subject, const std::string& stage, const std::string
 void addCompiler(const Shared& subject) {
     const auto pieces = double(subject->asset.pieces.size());
     addStage(subject, "lower", "flatten and quantise", "curve", curves);
-    addStage(subject, "push", "push down the tree", "curve", curves);
+    addStage(subject, "divide", "divide into cells", "curve", curves);
     addStage(subject, "planarise", "planarise leaves", "piece", pieces);
     addStage(subject, "fit", "fit pieces", "piece", pieces);
     addStage(subject, "encode", "encode records", "piece", pieces);

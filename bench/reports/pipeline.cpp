@@ -68,7 +68,7 @@ Report pipeline(const Options& options) {
     report.text = fmt::format(
         "By Google Benchmark: wall milliseconds of every step, medians of the repetitions. Regions: outlines "
         "are "
-        "lowered to the lattice; cells: pushed down the tree; leaves: planarised, then fitted; records "
+        "lowered to the lattice; cells: divided; leaves: planarised, then fitted; records "
         "encoded; "
         "textures uploaded; the first frame drawn by shaders that are compiled, {} pixels long, on {}, {}.",
         options.side, gl->context.renderer(), gl->context.version());
@@ -82,7 +82,7 @@ Report pipeline(const Options& options) {
          runRegistered(options.filter, {options.quick ? 5 : 9, options.quick ? 0.1 : 0.5})) {
         Json row = {{"file", one.name.substr(one.name.find('/') + 1)}};
         for (const char* step :
-             {"parse", "lower", "push", "planarise", "fit", "encode", "upload", "first frame"})
+             {"parse", "lower", "divide", "planarise", "fit", "encode", "upload", "first frame"})
             row[step] = median(one.counters.at(step));
         row["all ms"] = median(one.milliseconds);
         row["quartiles"] =

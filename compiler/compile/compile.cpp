@@ -15,7 +15,7 @@ namespace {
 
 using asset::Command;
 
-std::vector<std::uint32_t> allLayers(const Picture& picture) {
+std::vector<std::uint32_t> allLayers(const LoweredScene& picture) {
     std::vector<std::uint32_t> layers(picture.layers.size());
     for (std::uint32_t i = 0; i < layers.size(); ++i)
         layers[i] = i;
@@ -25,7 +25,7 @@ std::vector<std::uint32_t> allLayers(const Picture& picture) {
 /// Maps over the lattice's root square.
 class MapBuilder {
 public:
-    MapBuilder(const Picture& picture, const Lattice& lattice, const Options& options, Result& result)
+    MapBuilder(const LoweredScene& picture, const Lattice& lattice, const Options& options, Result& result)
         : picture_(picture), lattice_(lattice), options_(treeOptions(options)), result_(result) {}
 
     Tree build(std::span<const std::uint32_t> layers, const Painter& painter) {
@@ -42,7 +42,7 @@ public:
     const TreeTimes& times() const { return times_; }
 
 private:
-    const Picture& picture_;
+    const LoweredScene& picture_;
     const Lattice& lattice_;
     const TreeOptions options_;
     Result& result_;
@@ -50,7 +50,7 @@ private:
 };
 
 /// Returns by how much merging colours that the format cannot all name may have changed one.
-float compileExact(const Picture& picture, MapBuilder& maps, asset::Asset& asset) {
+float compileExact(const LoweredScene& picture, MapBuilder& maps, asset::Asset& asset) {
     const Tree tree = maps.build(allLayers(picture), PicturePainter(picture));
     float error = 0;
     const std::vector<std::uint16_t> paints = encodePalette(tree.palette, asset, error);
@@ -67,14 +67,14 @@ float compileExact(const Picture& picture, MapBuilder& maps, asset::Asset& asset
 /// Compat mode: every item and every clip is a mask of its own; groups become commands.
 class CompatCompiler {
 public:
-    CompatCompiler(const Picture& picture, MapBuilder& maps, asset::Asset& asset)
+    CompatCompiler(const LoweredScene& picture, MapBuilder& maps, asset::Asset& asset)
         : picture_(picture), maps_(maps), asset_(asset) {
         palette_.solid({1, 1, 1, 1});  // a mask's paint 1
     }
 
     float run() {
         ItemWalk<CompatCompiler> walk(picture_, *this);
-        for (const PictureItem& item : picture_.items)
+        for (const LoweredItem& item : picture_.items)
             walk.item(item);
         walk.finish();
         float error = 0;
@@ -89,7 +89,7 @@ public:
         ++depth_;
     }
 
-    void item(const PictureItem& item) {
+    void item(const LoweredItem& item) {
         MaskPainter painter(picture_, item.layer, noIndex);
         Command& fill = emit(Command::Kind::FillMask);
         fill.paint = paintOf(item);
@@ -104,7 +104,7 @@ public:
 
     void close(std::uint32_t index) {
         --depth_;
-        const PictureGroup& group = picture_.groups[index];
+        const LoweredGroup& group = picture_.groups[index];
         if (group.clip != noIndex)
             emit(Command::Kind::ClipMask).map = clipMap(group.clip);
         if (group.role != GroupRole::Plain) {
@@ -141,7 +141,7 @@ private:
         return maps_.add(maps_.build(layers, painter), paints);
     }
 
-    PaintId paintOf(const PictureItem& item) {
+    PaintId paintOf(const LoweredItem& item) {
         const Source& source = picture_.sources[item.source];
         if (source.op != asset::Op::Solid)
             return palette_.add({{{source.op, asset::Blend::Normal, item.opacity, source.data}, {}}});
@@ -169,7 +169,7 @@ private:
         collectLayers(picture_.clips[clip].outer, into);
     }
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     MapBuilder& maps_;
     asset::Asset& asset_;
     Palette palette_;
@@ -190,7 +190,7 @@ Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const O
     const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
     // Where coverage is a factor, fills end where they are told to.
     const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
-    Picture picture = lower(scene, excerpt, lattice, errorBudget(options), sharing);
+    LoweredScene picture = lower(scene, excerpt, lattice, errorBudget(options), sharing);
     const auto lowered = Clock::now();
 
     Result result;

@@ -91,7 +91,7 @@ std::optional<PlanarMap> inOneSquare(const scene::Path& outline, scene::FillRule
                                      const scene::Affine& toPicture, dvec2 picture, const Options& options) {
     const Lattice lattice(picture.x, picture.y, latticeBits(options));
     const ErrorBudget budget = errorBudget(options);
-    Picture lowered;
+    LoweredScene lowered;
     addOutline(lowered.outlines, outline, scene::compose(lattice.toSteps(), toPicture), budget.fillChords(),
                lattice.clampMin(), lattice.clampMax());
     lowered.layers.push_back({rule, 0, std::uint32_t(lowered.outlines.runs.size()), {}});

@@ -54,10 +54,10 @@ TreeOptions treeOptions(const Options& o) {
 
 std::vector<StageTime> stageTimes(double lowered, double built, const TreeTimes& t) {
     return {{"lower", lowered},
-            {"push", t.push},
+            {"divide", t.divide},
             {"planarise", t.planarise},
             {"fit", t.fit},
-            {"encode", built - t.push - t.planarise - t.fit}};
+            {"encode", built - t.divide - t.planarise - t.fit}};
 }
 
 void certify(const Tree& tree, const ErrorBudget& budget, Result& result) {

@@ -81,7 +81,7 @@ public:
     /// The map's root cell; it spans the square of the picture's longer side.
     Square square() const { return {-1, -1, Coord{1} << bits_}; }
     double stepsPerUnit() const { return scale_; }
-    /// Picture units to lattice steps, unrounded.
+    /// LoweredScene units to lattice steps, unrounded.
     scene::Affine toSteps() const { return {scale_, 0, 0, scale_, -2, -2}; }
     glm::dvec2 toUnits(LatticePoint p) const { return (glm::dvec2{p.x, p.y} + 2.0) / scale_; }
     /// The box, in steps, to which geometry is cut: beyond the root square where the picture reaches

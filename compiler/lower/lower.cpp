@@ -45,7 +45,7 @@ public:
         group(scene.root, excerpt.fromScene, openGroup(0));
     }
 
-    Picture take() { return std::move(picture_); }
+    LoweredScene take() { return std::move(picture_); }
 
 private:
     void children(const scene::Group& g, const Affine& outer, std::uint32_t into) {
@@ -70,7 +70,7 @@ private:
     }
 
     void group(const scene::Group& g, const Affine& outer, std::uint32_t index) {
-        PictureGroup& record = picture_.groups[index];
+        LoweredGroup& record = picture_.groups[index];
         record.opacity = g.opacity;
         record.blend = g.blend;
         if (g.clip)
@@ -95,13 +95,13 @@ private:
             return;
         const std::uint32_t index = openGroup(into);
         picture_.groups[index].adds = term.inverted;
-        picture_.groups[index].clip = push({{term}, noIndex});
+        picture_.groups[index].clip = addClip({{term}, noIndex});
         // The side's own opacity, clip and mask belong to its content: one group further in.
         group(*content, outer, openGroup(index));
     }
 
     std::uint32_t openGroup(std::uint32_t parent) {
-        PictureGroup g;
+        LoweredGroup g;
         g.parent = parent;
         g.depth = picture_.groups[parent].depth + 1;
         picture_.groups.push_back(g);
@@ -130,10 +130,10 @@ private:
         }
         if (c.clip)
             expression.outer = clip(*c.clip, outer);
-        return push(std::move(expression));
+        return addClip(std::move(expression));
     }
 
-    std::uint32_t push(ClipExpression expression) {
+    std::uint32_t addClip(ClipExpression expression) {
         picture_.clips.push_back(std::move(expression));
         return static_cast<std::uint32_t>(picture_.clips.size() - 1);
     }
@@ -195,7 +195,7 @@ private:
         const std::uint32_t index = openGroup(into);
         const std::uint32_t shape = geometryLayer(item, transform);
         picture_.groups[index].opacity = item.opacity;
-        picture_.groups[index].clip = push({{{shape, noIndex, false}}, noIndex});
+        picture_.groups[index].clip = addClip({{{shape, noIndex, false}}, noIndex});
         const Affine toPicture = compose(transform, pattern.transform);
         const auto toPattern = scene::inverse(toPicture);
         const Box seen = bounds(picture_.layers[shape]).intersection(frame_);
@@ -221,7 +221,7 @@ private:
         limits::check();
         const std::uint32_t index = openGroup(into);
         const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
-        picture_.groups[index].clip = push({{{cut, noIndex, false}}, noIndex});
+        picture_.groups[index].clip = addClip({{{cut, noIndex, false}}, noIndex});
         group(*pattern.content, toPicture, openGroup(index));
     }
 
@@ -310,14 +310,14 @@ private:
     const bool isPart_;
     OutlineCache* const cache_;
     limits::Place place_;  ///< of what is being lowered
-    Picture picture_;
+    LoweredScene picture_;
     PaintTable paints_;
 };
 
 }  // namespace
 
-Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache) {
+LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache) {
     return Lowering(scene, excerpt, lattice, budget, sharing, cache).take();
 }
 

@@ -6,7 +6,7 @@
 
 #include <vtm/scene/scene.hpp>
 #include "compiler/lower/error_budget.hpp"
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lowered_scene.hpp"
 
 namespace vtm::compiler {
 
@@ -35,7 +35,7 @@ enum class Sharing : std::uint8_t { None, Outlines };
 /// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a
 /// `cache`, outlines that it holds are taken from it and others added to it; its store of outlines becomes
 /// the picture's; then nothing is shared.
-Picture lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr);
+LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr);
 
 }  // namespace vtm::compiler

@@ -74,13 +74,13 @@ std::array<float, 6> PaintTable::numbers(const Affine& m) const {
     return {f(m[0].x), f(m[0].y), f(m[1].x), f(m[1].y), f(m[2].x), f(m[2].y)};
 }
 
-std::uint32_t PaintTable::push(Source source) {
+std::uint32_t PaintTable::add(Source source) {
     picture_.sources.push_back(source);
     return static_cast<std::uint32_t>(picture_.sources.size() - 1);
 }
 
 std::optional<std::uint32_t> PaintTable::solid(const Color& c) {
-    return push({asset::Op::Solid, premultiplied(c), 0, c.a >= 1});
+    return add({asset::Op::Solid, premultiplied(c), 0, c.a >= 1});
 }
 
 std::uint32_t PaintTable::record(asset::Gradient gradient, const std::vector<GradientStop>& stops) {
@@ -109,7 +109,7 @@ std::uint32_t PaintTable::ramp(const Ramp& whole) {
     asset::Gradient gradient;
     gradient.matrix = numbers(ramp.toRamp);
     gradient.spread = static_cast<asset::Spread>(ramp.spread);
-    return push({asset::Op::Linear, {}, record(gradient, ramp.stops), allOpaque(ramp.stops)});
+    return add({asset::Op::Linear, {}, record(gradient, ramp.stops), allOpaque(ramp.stops)});
 }
 
 std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, const Affine& toPicture) {
@@ -125,7 +125,7 @@ std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, 
     gradient.fx = static_cast<float>((g.focus.x - g.center.x) / g.radius);
     gradient.fy = static_cast<float>((g.focus.y - g.center.y) / g.radius);
     gradient.fr = std::min(belowOne, static_cast<float>(g.focalRadius / g.radius));
-    return push({asset::Op::Radial, {}, record(gradient, g.stops), allOpaque(g.stops)});
+    return add({asset::Op::Radial, {}, record(gradient, g.stops), allOpaque(g.stops)});
 }
 
 std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, const Affine& toPicture) {
@@ -144,7 +144,7 @@ std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, 
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
     append(picture_.data,
            asset::ImageFill{numbers(*inverse), found->second, static_cast<asset::ImageFilter>(image.filter)});
-    return push({asset::Op::Image, {}, at, false});
+    return add({asset::Op::Image, {}, at, false});
 }
 
 static_assert(scene::maxSide == asset::largestLength && scene::minSide == 1 / asset::largestLength);
@@ -164,7 +164,7 @@ std::optional<std::uint32_t> PaintTable::material(const scene::Material& m, cons
     const auto at = static_cast<std::uint32_t>(picture_.data.size());
     append(picture_.data,
            asset::MaterialFill{numbers(*inverse), found->second, 0, premultiplied(m.fallback)});
-    return push({asset::Op::Material, {}, at, false});
+    return add({asset::Op::Material, {}, at, false});
 }
 
 }  // namespace vtm::compiler

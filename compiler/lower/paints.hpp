@@ -14,7 +14,7 @@ namespace vtm::compiler {
 /// LimitError, and so are bitmaps of more than image::maxDecodedPixels together.
 class PaintTable {
 public:
-    PaintTable(Picture& picture, const Excerpt& excerpt)
+    PaintTable(LoweredScene& picture, const Excerpt& excerpt)
         : picture_(picture), size_(excerpt.width, excerpt.height), isPart_(excerpt.isPart) {}
 
     /// The index of a new source; nothing if the paint's space is flat, so that nothing can be
@@ -22,7 +22,7 @@ public:
     std::optional<std::uint32_t> add(const scene::Paint& paint, const scene::Affine& itemTransform);
 
 private:
-    std::uint32_t push(Source source);
+    std::uint32_t add(Source source);
     std::optional<std::uint32_t> solid(const scene::Color& color);
     std::optional<std::uint32_t> linear(const scene::LinearGradient& gradient,
                                         const scene::Affine& toPicture);
@@ -36,7 +36,7 @@ private:
 
     std::uint32_t ramp(const Ramp& ramp);
 
-    Picture& picture_;
+    LoweredScene& picture_;
     const glm::dvec2 size_;
     const bool isPart_;
     std::int64_t imagePixels_ = 0;

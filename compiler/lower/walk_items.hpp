@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lowered_scene.hpp"
 
 namespace vtm::compiler {
 
@@ -15,9 +15,9 @@ namespace vtm::compiler {
 template <class Visitor>
 class ItemWalk {
 public:
-    ItemWalk(const Picture& picture, Visitor& visitor) : picture_(picture), visitor_(visitor) {}
+    ItemWalk(const LoweredScene& picture, Visitor& visitor) : picture_(picture), visitor_(visitor) {}
 
-    void item(const PictureItem& item) {
+    void item(const LoweredItem& item) {
         closeDownTo(commonDepth(item.group));
         openUpTo(item.group);
         visitor_.item(item);
@@ -62,7 +62,7 @@ private:
         }
     }
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     Visitor& visitor_;
     std::vector<Open> open_;
 };

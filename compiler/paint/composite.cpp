@@ -117,11 +117,11 @@ float luminance(const Color& c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.072
 /// Runs the items over one region.
 class Compositor {
 public:
-    explicit Compositor(const Picture& picture) : picture_(picture), frames_(1) {}
+    explicit Compositor(const LoweredScene& picture) : picture_(picture), frames_(1) {}
 
     void open(std::uint32_t) { frames_.emplace_back(); }
 
-    void item(const PictureItem& item) {
+    void item(const LoweredItem& item) {
         const Source& source = picture_.sources[item.source];
         Instruction instruction{source.op, asset::Blend::Normal, item.opacity, source.data};
         frames_.back().source({instruction, source.color}, source.opaque);
@@ -130,7 +130,7 @@ public:
     void emptyMask(std::uint32_t) { frames_.back().clear(); }
 
     void close(std::uint32_t index) {
-        const PictureGroup& group = picture_.groups[index];
+        const LoweredGroup& group = picture_.groups[index];
         Frame child = std::move(frames_.back());
         frames_.pop_back();
         Frame& parent = frames_.back();
@@ -143,7 +143,7 @@ public:
     const Frame& result() const { return frames_.front(); }
 
 private:
-    static void blend(Frame& parent, Frame& child, const PictureGroup& group) {
+    static void blend(Frame& parent, Frame& child, const LoweredGroup& group) {
         if (child.steps.empty())
             return;
         const float opacity = group.opacity * child.unwrap();
@@ -183,20 +183,20 @@ private:
                       asset::Blend::Normal, 1);
     }
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     std::vector<Frame> frames_;
 };
 
 }  // namespace
 
-PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
+PaintId composite(const LoweredScene& picture, std::span<const std::uint32_t> items,
                   const std::vector<std::uint8_t>& inside, Palette& palette) {
     const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };
     Compositor compositor(picture);
     ItemWalk<Compositor> walk(picture, compositor);
     for (std::uint32_t index : items) {
         limits::check();
-        const PictureItem& item = picture.items[index];
+        const LoweredItem& item = picture.items[index];
         if (in(item.layer) && insideClips(picture, item.group, in))
             walk.item(item);
     }
@@ -205,7 +205,7 @@ PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
     return palette.add(frame.steps);
 }
 
-PaintProgram compositeItems(const Picture& picture, std::span<const std::uint32_t> items) {
+PaintProgram compositeItems(const LoweredScene& picture, std::span<const std::uint32_t> items) {
     limits::check();
     Compositor compositor(picture);
     ItemWalk<Compositor> walk(picture, compositor);

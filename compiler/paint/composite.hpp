@@ -7,22 +7,22 @@
 #include <span>
 #include <vector>
 
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lowered_scene.hpp"
 #include "compiler/paint/palette.hpp"
 
 namespace vtm::compiler {
 
 /// The paint where exactly the layers with inside[layer] are; `items` are the picture's items that
 /// may be inside, ascending.
-PaintId composite(const Picture& picture, std::span<const std::uint32_t> items,
+PaintId composite(const LoweredScene& picture, std::span<const std::uint32_t> items,
                   const std::vector<std::uint8_t>& inside, Palette& palette);
 
 /// The paint of exactly the given items (ascending), clips aside.
-PaintProgram compositeItems(const Picture& picture, std::span<const std::uint32_t> items);
+PaintProgram compositeItems(const LoweredScene& picture, std::span<const std::uint32_t> items);
 
 /// Whether a clip lets a point through, given what `inside(layer)` says of it.
 template <class Inside>
-bool insideClip(const Picture& picture, std::uint32_t clip, const Inside& inside) {
+bool insideClip(const LoweredScene& picture, std::uint32_t clip, const Inside& inside) {
     if (clip == noIndex)
         return true;
     const ClipExpression& e = picture.clips[clip];
@@ -34,7 +34,7 @@ bool insideClip(const Picture& picture, std::uint32_t clip, const Inside& inside
 
 /// Whether all clips of a group and round it let a point through.
 template <class Inside>
-bool insideClips(const Picture& picture, std::uint32_t group, const Inside& inside) {
+bool insideClips(const LoweredScene& picture, std::uint32_t group, const Inside& inside) {
     for (; group != noIndex; group = picture.groups[group].parent)
         if (!insideClip(picture, picture.groups[group].clip, inside))
             return false;

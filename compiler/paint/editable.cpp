@@ -6,14 +6,14 @@
 
 namespace vtm::compiler {
 
-EditablePainter::EditablePainter(const Picture& picture, const std::vector<std::uint32_t>& names)
+EditablePainter::EditablePainter(const LoweredScene& picture, const std::vector<std::uint32_t>& names)
     : PicturePainter(picture),
       picture_(picture),
       names_(names),
       groupHides_(groupsThatHide(picture)),
       clipped_(picture.groups.size()) {
     for (std::uint32_t g = 0; g < clipped_.size(); ++g) {  // parents come first
-        const PictureGroup& group = picture.groups[g];
+        const LoweredGroup& group = picture.groups[g];
         clipped_[g] = group.clip != noIndex || (group.parent != noIndex && clipped_[group.parent]);
     }
 }
@@ -26,7 +26,7 @@ PaintId EditablePainter::paint(std::span<const std::uint32_t> layers, const std:
         const std::uint32_t index = picture_.itemOfLayer[layers[i]];
         if (index == noIndex || !in(layers[i]))
             continue;
-        const PictureItem& item = picture_.items[index];
+        const LoweredItem& item = picture_.items[index];
         if (clipped_[item.group] && !insideClips(picture_, item.group, in))
             continue;
         stack_.push_back(names_[item.layer]);

@@ -11,14 +11,14 @@ namespace vtm::compiler {
 class EditablePainter : public PicturePainter {
 public:
     /// `names`: of layers.
-    EditablePainter(const Picture& picture, const std::vector<std::uint32_t>& names);
+    EditablePainter(const LoweredScene& picture, const std::vector<std::uint32_t>& names);
     std::unique_ptr<Painter> clone() const override { return std::make_unique<EditablePainter>(*this); }
     PaintId paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
                   Palette& palette) override;
     PaintId mean(std::span<const PaintId> paints, Palette& palette) override;
 
 private:
-    const Picture& picture_;
+    const LoweredScene& picture_;
     const std::vector<std::uint32_t>& names_;
     std::vector<std::uint8_t> groupHides_, clipped_;  ///< by group
     Stack stack_;

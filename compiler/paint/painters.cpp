@@ -4,14 +4,14 @@
 
 namespace vtm::compiler {
 
-PicturePainter::PicturePainter(const Picture& picture)
+PicturePainter::PicturePainter(const LoweredScene& picture)
     : picture_(picture),
       plain_(picture.groups.size()),
       shades_(picture.layers.size()),
       wanted_(picture.layers.size()) {
     for (std::uint32_t g = 0; g < plain_.size(); ++g)  // parents come first
         plain_[g] = isPlain(g);
-    for (const PictureItem& item : picture.items) {
+    for (const LoweredItem& item : picture.items) {
         const Source& source = picture.sources[item.source];
         Shade& shade = shades_[item.layer];
         shade.kind = plain_[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
@@ -23,7 +23,7 @@ PicturePainter::PicturePainter(const Picture& picture)
 std::unique_ptr<Painter> PicturePainter::clone() const { return std::make_unique<PicturePainter>(*this); }
 
 bool PicturePainter::isPlain(std::uint32_t index) const {
-    const PictureGroup& g = picture_.groups[index];
+    const LoweredGroup& g = picture_.groups[index];
     return g.role == GroupRole::Plain && g.opacity >= 1 && g.blend == scene::BlendMode::Normal &&
            g.clip == noIndex && g.mask == noIndex && (g.parent == noIndex || plain_[g.parent]);
 }
@@ -88,13 +88,13 @@ Cover PicturePainter::groupCover(std::uint32_t group, const std::vector<Cover>& 
     return cover;
 }
 
-bool PicturePainter::hidesAllBelow(const PictureItem& item, const std::vector<Cover>& covers) const {
+bool PicturePainter::hidesAllBelow(const LoweredItem& item, const std::vector<Cover>& covers) const {
     if (covers[item.layer] != Cover::In || !picture_.sources[item.source].opaque || item.opacity < 1)
         return false;
     if (plain_[item.group])
         return true;
     for (std::uint32_t g = item.group; g != noIndex; g = picture_.groups[g].parent) {
-        const PictureGroup& group = picture_.groups[g];
+        const LoweredGroup& group = picture_.groups[g];
         if (group.role != GroupRole::Plain || group.opacity < 1 || group.blend != scene::BlendMode::Normal ||
             group.mask != noIndex || clipCover(group.clip, covers) != Cover::In)
             return false;
@@ -130,7 +130,7 @@ void PicturePainter::cull(std::span<const std::uint32_t> layers, const std::vect
         const std::uint32_t index = picture_.itemOfLayer[layers[i]];
         if (index == noIndex)
             continue;
-        const PictureItem& item = picture_.items[index];
+        const LoweredItem& item = picture_.items[index];
         const bool clipped = !plain_[item.group];
         if (hidden || covers[item.layer] == Cover::Out ||
             (clipped && groupCover(item.group, covers) == Cover::Out))

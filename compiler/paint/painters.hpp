@@ -10,7 +10,7 @@ namespace vtm::compiler {
 /// Exact mode: a region's paint is its whole stack of items, composited.
 class PicturePainter : public Painter {
 public:
-    explicit PicturePainter(const Picture& picture);
+    explicit PicturePainter(const LoweredScene& picture);
     std::unique_ptr<Painter> clone() const override;
     PaintId paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
                   Palette& palette) override;
@@ -24,7 +24,7 @@ private:
                      Color& color) const;
     Cover clipCover(std::uint32_t clip, const std::vector<Cover>& covers) const;
     Cover groupCover(std::uint32_t group, const std::vector<Cover>& covers) const;
-    bool hidesAllBelow(const PictureItem& item, const std::vector<Cover>& covers) const;
+    bool hidesAllBelow(const LoweredItem& item, const std::vector<Cover>& covers) const;
     void want(std::uint32_t layer);
     void markClips(std::uint32_t group);
     void markClip(std::uint32_t clip);
@@ -35,7 +35,7 @@ private:
         Color color{};                                           ///< of Solid
     };
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     std::vector<std::uint8_t> plain_;    ///< by group: it and all round it change nothing
     std::vector<Shade> shades_;          ///< by layer
     std::vector<std::uint8_t> wanted_;   ///< by layer
@@ -46,7 +46,7 @@ private:
 /// Compat mode: paint 1 inside one layer, or inside a clip; 0 outside.
 class MaskPainter : public Painter {
 public:
-    MaskPainter(const Picture& picture, std::uint32_t layer, std::uint32_t clip)
+    MaskPainter(const LoweredScene& picture, std::uint32_t layer, std::uint32_t clip)
         : picture_(picture), layer_(layer), clip_(clip) {}
     std::unique_ptr<Painter> clone() const override { return std::make_unique<MaskPainter>(*this); }
     PaintId paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
@@ -56,7 +56,7 @@ public:
     PaintId mean(std::span<const PaintId> paints, Palette& palette) override;
 
 private:
-    const Picture& picture_;
+    const LoweredScene& picture_;
     const std::uint32_t layer_, clip_;  ///< `noIndex` for the one that is not meant
 };
 

@@ -22,7 +22,7 @@ PaintProgram meanOf(const std::vector<PaintProgram>& programs) {
     return {{asset::Instruction{asset::Op::Solid}, sum}};
 }
 
-PaintProgram programOf(const Picture& picture, const LayerNames& names, const Stack& stack) {
+PaintProgram programOf(const LoweredScene& picture, const LayerNames& names, const Stack& stack) {
     std::vector<PaintProgram> programs;
     std::vector<std::uint32_t> items;
     for (std::size_t i = 0; i <= stack.size(); ++i) {
@@ -67,7 +67,7 @@ void StackPaints::release(PaintId id) {
     free_.push_back(id);
 }
 
-std::size_t StackPaints::update(const Picture& picture, const LayerNames& names,
+std::size_t StackPaints::update(const LoweredScene& picture, const LayerNames& names,
                                 const std::vector<std::uint8_t>& changed) {
     std::uint64_t bits = 0;
     for (std::uint32_t name = 0; name < changed.size(); ++name)
@@ -90,7 +90,7 @@ std::size_t StackPaints::update(const Picture& picture, const LayerNames& names,
     return count;
 }
 
-bool StackPaints::encode(const Picture& picture, bool dataChanged, const asset::Asset& before,
+bool StackPaints::encode(const LoweredScene& picture, bool dataChanged, const asset::Asset& before,
                          asset::Asset& after, float& error) {
     error = 0;
     bool moved = false;
@@ -112,7 +112,7 @@ bool StackPaints::encode(const Picture& picture, bool dataChanged, const asset::
     return moved;
 }
 
-bool StackPaints::encodeAll(const Picture& picture, asset::Asset& after, float& error) {
+bool StackPaints::encodeAll(const LoweredScene& picture, asset::Asset& after, float& error) {
     after.data = picture.data;
     std::vector<std::uint16_t> indices;
     if (entries_.size() > maxPaints) {  // not every stack can have a place of its own

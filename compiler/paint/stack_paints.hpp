@@ -20,14 +20,14 @@ public:
 
     /// Composites the stacks that are new, and those that hold a layer whose name is `changed`.
     /// Returns how many were.
-    std::size_t update(const Picture& picture, const LayerNames& names,
+    std::size_t update(const LoweredScene& picture, const LayerNames& names,
                        const std::vector<std::uint8_t>& changed);
 
     /// Writes the paints of the asset `after` and its data: the picture's own, then what programs need. Of
     /// `before`, the asset encoded last, all is taken over that did not change; nothing if `picture.data`
     /// did. Returns true if paints have other indices than before.
-    bool encode(const Picture& picture, bool dataChanged, const asset::Asset& before, asset::Asset& after,
-                float& error);
+    bool encode(const LoweredScene& picture, bool dataChanged, const asset::Asset& before,
+                asset::Asset& after, float& error);
     /// The asset's index of each paint, as last encoded.
     const std::vector<std::uint16_t>& indices() const { return indices_; }
 
@@ -39,7 +39,7 @@ private:
         std::uint64_t names = 0;  ///< a bit for each name modulo 64: most stacks need not be looked into
         PaintProgram program;
     };
-    bool encodeAll(const Picture& picture, asset::Asset& after, float& error);
+    bool encodeAll(const LoweredScene& picture, asset::Asset& after, float& error);
 
     std::unordered_map<Stack, PaintId, StackHash> index_;
     std::vector<Entry> entries_;

@@ -8,23 +8,25 @@
 namespace vtm::compiler {
 namespace {
 
-bool isItem(const Picture& picture, std::uint32_t layer) { return picture.itemOfLayer[layer] != noIndex; }
+bool isItem(const LoweredScene& picture, std::uint32_t layer) {
+    return picture.itemOfLayer[layer] != noIndex;
+}
 
-bool sameLayer(const Picture& p, std::uint32_t a, const Picture& q, std::uint32_t b) {
+bool sameLayer(const LoweredScene& p, std::uint32_t a, const LoweredScene& q, std::uint32_t b) {
     const Layer &x = p.layers[a], &y = q.layers[b];
     return x.firstRun == y.firstRun && x.runCount == y.runCount && x.rule == y.rule &&
            isItem(p, a) == isItem(q, b);
 }
 
-std::uint64_t hashOf(const Picture& p, std::uint32_t layer) {
+std::uint64_t hashOf(const LoweredScene& p, std::uint32_t layer) {
     const Layer& l = p.layers[layer];
     return hashCombine(hashCombine(l.firstRun, l.runCount),
                        (l.rule == scene::FillRule::NonZero ? 0 : 1) + (isItem(p, layer) ? 2 : 0));
 }
 
 /// Matches the layers between `first` and the ends, greedily: each with the next equal one.
-void matchMiddle(const Picture& before, std::uint32_t endBefore, const Picture& after, std::uint32_t endAfter,
-                 std::uint32_t first, LayerChanges& changes) {
+void matchMiddle(const LoweredScene& before, std::uint32_t endBefore, const LoweredScene& after,
+                 std::uint32_t endAfter, std::uint32_t first, LayerChanges& changes) {
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places;  // descending
     for (std::uint32_t j = endAfter; j-- > first;)
         places[hashOf(after, j)].push_back(j);
@@ -52,7 +54,7 @@ bool LayerChanges::renumbers() const {
     return false;
 }
 
-LayerChanges matchLayers(const Picture& before, const Picture& after) {
+LayerChanges matchLayers(const LoweredScene& before, const LoweredScene& after) {
     auto endBefore = static_cast<std::uint32_t>(before.layers.size()),
          endAfter = static_cast<std::uint32_t>(after.layers.size());
     LayerChanges changes{std::vector<std::uint32_t>(endBefore, noIndex),
@@ -83,7 +85,7 @@ std::uint32_t LayerNames::fresh() {
     return name;
 }
 
-void LayerNames::update(const Picture& after, const LayerChanges& changes) {
+void LayerNames::update(const LoweredScene& after, const LayerChanges& changes) {
     std::vector<std::uint32_t> names(changes.before.size(), noIndex);
     std::vector<std::uint8_t> items(names.size());
     std::vector<std::uint32_t> left;  // names whose layers are gone, and nobody has taken them
@@ -119,14 +121,14 @@ namespace {
 
 class Meanings {
 public:
-    Meanings(const Picture& picture, std::span<const std::uint32_t> names)
+    Meanings(const LoweredScene& picture, std::span<const std::uint32_t> names)
         : picture_(picture),
           names_(names),
           hides_(groupsThatHide(picture)),
           clips_(picture.groups.size()),
           paints_(picture.groups.size()),
           firstItem_(picture.groups.size(), noIndex) {
-        for (const PictureItem& item : picture.items)
+        for (const LoweredItem& item : picture.items)
             for (std::uint32_t g = item.group; g != noIndex && firstItem_[g] == noIndex;
                  g = picture.groups[g].parent)
                 firstItem_[g] = names[item.layer];
@@ -134,7 +136,7 @@ public:
             group(g);
     }
 
-    LayerMeaning of(const PictureItem& item) const {
+    LayerMeaning of(const LoweredItem& item) const {
         const Source& source = picture_.sources[item.source];
         const auto& c = source.color;
         std::uint64_t paint = hashCombine(paints_[item.group], bits(item.opacity) << 32 | source.data);
@@ -146,7 +148,7 @@ public:
 private:
     /// A group is called after its first item.
     void group(std::uint32_t index) {
-        const PictureGroup& g = picture_.groups[index];
+        const LoweredGroup& g = picture_.groups[index];
         const bool root = g.parent == noIndex;
         clips_[index] = root ? 0 : clips_[g.parent];
         if (g.clip != noIndex)
@@ -168,7 +170,7 @@ private:
         return hashCombine(h, 1);
     }
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     const std::span<const std::uint32_t> names_;
     const std::vector<std::uint8_t> hides_;
     std::vector<std::uint64_t> clips_, paints_;  ///< by group
@@ -177,18 +179,18 @@ private:
 
 }  // namespace
 
-std::vector<LayerMeaning> meanings(const Picture& picture, std::span<const std::uint32_t> names) {
+std::vector<LayerMeaning> meanings(const LoweredScene& picture, std::span<const std::uint32_t> names) {
     std::vector<LayerMeaning> all(picture.layers.size());
     const Meanings of(picture, names);
-    for (const PictureItem& item : picture.items)
+    for (const LoweredItem& item : picture.items)
         all[item.layer] = of.of(item);
     return all;
 }
 
-std::vector<std::uint8_t> groupsThatHide(const Picture& picture) {
+std::vector<std::uint8_t> groupsThatHide(const LoweredScene& picture) {
     std::vector<std::uint8_t> hide(picture.groups.size());
     for (std::uint32_t g = 0; g < hide.size(); ++g) {
-        const PictureGroup& group = picture.groups[g];
+        const LoweredGroup& group = picture.groups[g];
         hide[g] = group.role == GroupRole::Plain && group.opacity >= 1 &&
                   group.blend == scene::BlendMode::Normal && group.mask == noIndex &&
                   (group.parent == noIndex || hide[group.parent]);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lowered_scene.hpp"
 
 namespace vtm::compiler {
 
@@ -20,14 +20,14 @@ struct LayerChanges {
     bool renumbers() const;
 };
 
-LayerChanges matchLayers(const Picture& before, const Picture& after);
+LayerChanges matchLayers(const LoweredScene& before, const LoweredScene& after);
 
 /// Numbers of layers that last: a layer that stays keeps its name, and so does one whose outline alone
 /// changed, if its neighbours stayed.
 class LayerNames {
 public:
     /// The names of a picture that comes after one with names.
-    void update(const Picture& after, const LayerChanges& changes);
+    void update(const LoweredScene& after, const LayerChanges& changes);
 
     /// By layer.
     const std::vector<std::uint32_t>& names() const { return names_; }
@@ -51,13 +51,13 @@ struct LayerMeaning {
 };
 
 /// By layer.
-std::vector<LayerMeaning> meanings(const Picture& picture, std::span<const std::uint32_t> names);
+std::vector<LayerMeaning> meanings(const LoweredScene& picture, std::span<const std::uint32_t> names);
 
 /// By group: whether an opaque item in it hides all that is below it, clips aside.
-std::vector<std::uint8_t> groupsThatHide(const Picture& picture);
+std::vector<std::uint8_t> groupsThatHide(const LoweredScene& picture);
 
 /// Whether the item hides what is below where it is inside its clips; `groupHides`: of its group.
-inline bool hides(const Picture& picture, const PictureItem& item, bool groupHides) {
+inline bool hides(const LoweredScene& picture, const LoweredItem& item, bool groupHides) {
     return groupHides && picture.sources[item.source].opaque && item.opacity >= 1;
 }
 

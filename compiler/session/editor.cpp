@@ -23,7 +23,7 @@ std::size_t runsPerBlock(std::size_t runs) { return std::max(minBlock, runs / bl
 /// Culls and builds blocks, one after the other.
 class Worker {
 public:
-    Worker(const Picture& picture, const Painter& painter, const TreeOptions& options, WorkLimit& work)
+    Worker(const LoweredScene& picture, const Painter& painter, const TreeOptions& options, WorkLimit& work)
         : painter_(painter.clone()), culler_(picture, *painter_), builder_(picture, painter, options, work) {}
 
     Tree run(Cell cell) {
@@ -198,7 +198,7 @@ private:
     Result& result_;
     const Options& options_;
     const TreeOptions treeOptions_;
-    Picture picture_;
+    LoweredScene picture_;
     LayerChanges changes_;
     std::vector<std::uint32_t> touched_;   ///< layers that stayed, but whose items show elsewhere
     std::vector<std::uint8_t> repainted_;  ///< by name

@@ -21,7 +21,7 @@ struct Kept {
     double width, height;
     Lattice lattice;
     OutlineCache cache;
-    Picture picture;
+    LoweredScene picture;
     LayerNames names;
     std::vector<LayerMeaning> meanings;  ///< by layer
     std::optional<Partition> partition;

@@ -33,7 +33,7 @@ std::pair<std::array<T, N>, std::array<T, N>> halves(std::array<T, N> b) {
 }
 
 /// A piece of a curve: Bernstein coefficients of γ', of γ' × γ'' and of |γ'|².
-struct Piece {
+struct CurvePart {
     std::array<Point, 3> velocity;
     Curvature k;
 };
@@ -171,7 +171,7 @@ private:
         return s;
     }
 
-    void visit(const Piece& piece, double t0, double t1, int depth) {
+    void visit(const CurvePart& piece, double t0, double t1, int depth) {
         const Curvature& k = piece.k;
         if (gentle(k))
             return add({t0, t1, Bend::Gentle});

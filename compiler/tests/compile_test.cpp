@@ -361,7 +361,7 @@ TEST(Compile, namesItsStages) {
     std::vector<std::string> names;
     for (const StageTime& s : compile(picture(group({}))).stages)
         names.push_back(s.stage);
-    EXPECT_EQ(names, (std::vector<std::string>{"lower", "push", "planarise", "fit", "encode"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"lower", "divide", "planarise", "fit", "encode"}));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ inline scene::Path pathOf(const Polygon& polygon) {
 /// A square with closed outlines over and around it, one a layer.
 struct TestLeaf {
     Square square;
-    Picture picture;
+    LoweredScene picture;
     Cell cell;
     std::vector<int> corner;  ///< windings at its first corner
 

@@ -8,7 +8,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/scene/scene.hpp>
 #include "compiler/lower/lower.hpp"
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lowered_scene.hpp"
 #include "compiler/tests/comparison.hpp"
 
 namespace vtm::compiler {

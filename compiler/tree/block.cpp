@@ -16,8 +16,8 @@ using asset::Entry;
 constexpr std::size_t maxChordsToTry = 400;
 /// A cell of the last level with more is filled with the mean of samples.
 constexpr std::size_t maxChordsInLastLeaf = 2000;
-/// A cell is not pushed down to find out what its children cost if it costs less than this share of the least
-/// that they can: where outlines hide each other they may cost less.
+/// A cell is not divided down to find out what its children cost if it costs less than this share of the
+/// least that they can: where outlines hide each other they may cost less.
 constexpr double sureShare = 0.75;
 /// asset::Leaf::pieceCount is 16 bits.
 constexpr std::size_t maxLeafPieces = 0xFFFF;
@@ -124,7 +124,7 @@ BlockBuilder::Built BlockBuilder::build(Cell& cell) {
     if (cell.level >= options_.maxDepth)
         return buildLast(cell);
     if (cell.level < options_.minDepth)
-        return buildNode(cell, push(cell));
+        return buildNode(cell, divide(cell));
     return options_.piecesPerLeaf ? buildFixed(cell) : buildBest(cell);
 }
 
@@ -136,7 +136,7 @@ BlockBuilder::Built BlockBuilder::buildLast(Cell& cell) {
         return emit(made, cell.level);
     const double mean = budget.mean(cell.level);
     if (!budget.holds(mean) && cell.level < options_.lastDepth)
-        return buildNode(cell, push(cell));
+        return buildNode(cell, divide(cell));
     return made && made.error <= mean ? emit(made, cell.level) : emitMean(cell);
 }
 
@@ -144,7 +144,7 @@ BlockBuilder::Built BlockBuilder::buildFixed(Cell& cell) {
     if (canTry(cell))
         if (const Made made = makeLeaf(cell); made && made.pieceCount() <= *options_.piecesPerLeaf)
             return emit(made, cell.level);
-    return buildNode(cell, push(cell));
+    return buildNode(cell, divide(cell));
 }
 
 /// A leaf if it costs less than its children would, guessed from the number of clipped runs first (about as
@@ -164,13 +164,13 @@ BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
         if (cost <= sureShare * minSplitCost(*spread, cell.level, perRun))
             return false;
         if (!children)
-            children = &push(cell);
+            children = &divide(cell);
         return cost > splitCost(*children, perRun);
     };
     if (!paysToSplit(clippedRuns) && canTry(cell))
         if (const Made made = makeLeaf(cell); made && !paysToSplit(static_cast<double>(made.pieceCount())))
             return emit(made, cell.level);
-    return buildNode(cell, children ? *children : push(cell));
+    return buildNode(cell, children ? *children : divide(cell));
 }
 
 /// Drawing all of the leaf for nothing would not pay for a node.
@@ -240,7 +240,7 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t maximum) 
 }
 
 /// What of the cell is in its children; in those with clipped runs, without what cannot show there.
-BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
+BlockBuilder::Children& BlockBuilder::divide(const Cell& cell) {
     const std::size_t depth = cell.level - firstLevel_;
     while (children_.size() <= depth)
         children_.emplace_back();
@@ -249,7 +249,7 @@ BlockBuilder::Children& BlockBuilder::push(const Cell& cell) {
     for (Cell& child : children)
         if (!child.clippedRuns.empty())
             culler_.run(child);
-    lap(times_.push);
+    lap(times_.divide);
     return children;
 }
 

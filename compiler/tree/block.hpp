@@ -27,18 +27,18 @@ private:
 };
 
 /// What passing one chord down a level, or classifying one point by it, counts in pairs. Without it
-/// thousands of equal outlines, which go down to the last level, are pushed and sampled for minutes.
+/// thousands of equal outlines, which go down to the last level, are divided and sampled for minutes.
 inline constexpr std::size_t visitWork = 100;
 
 /// Drops the layers that cannot show in a cell.
 class Culler {
 public:
-    Culler(const Picture& picture, Painter& painter)
+    Culler(const LoweredScene& picture, Painter& painter)
         : picture_(picture), painter_(painter), covers_(picture.layers.size(), Cover::Out) {}
     void run(Cell& cell);
 
 private:
-    const Picture& picture_;
+    const LoweredScene& picture_;
     Painter& painter_;
     std::vector<Cover> covers_;  ///< by layer
     std::vector<std::uint32_t> layers_;
@@ -48,7 +48,7 @@ private:
 /// The regions of a block's cells. The paint of each set of layers is asked for once.
 class LeafRegions : public RegionPaints {
 public:
-    LeafRegions(const Picture& picture, Painter& painter)
+    LeafRegions(const LoweredScene& picture, Painter& painter)
         : picture_(picture), painter_(painter), inside_(picture.layers.size()) {}
     void enter(const Cell& cell, Palette& palette);
     /// The paint of a cell without clipped runs, which need not be culled yet.
@@ -59,7 +59,7 @@ public:
 private:
     PaintId compute() override;
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     Painter& painter_;
     Palette* palette_ = nullptr;
     std::vector<std::uint8_t> inside_;  ///< by layer: false for all but those of the cell
@@ -69,7 +69,8 @@ private:
 /// Builds blocks, one after the other, keeping its memory.
 class BlockBuilder {
 public:
-    BlockBuilder(const Picture& picture, const Painter& painter, const TreeOptions& options, WorkLimit& work)
+    BlockBuilder(const LoweredScene& picture, const Painter& painter, const TreeOptions& options,
+                 WorkLimit& work)
         : picture_(picture),
           points_(picture.outlines.points),
           painter_(painter.clone()),
@@ -101,7 +102,7 @@ private:
     Built buildBest(Cell& cell);
     Built buildLast(Cell& cell);
     Built buildNode(const Cell& cell, Children& children);
-    Children& push(const Cell& cell);
+    Children& divide(const Cell& cell);
     bool mayBeWorthSplitting(double pieces, unsigned level) const;
     Spread spreadOf(const Cell& cell) const;
     double minSplitCost(const Spread& spread, unsigned level, double piecesPerRun) const;
@@ -120,7 +121,7 @@ private:
     Built emit(const Made& made, unsigned level);
     Built emitMean(const Cell& cell);
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     const Points points_;
     const std::unique_ptr<Painter> painter_;
     const TreeOptions& options_;

@@ -37,7 +37,8 @@ struct Top {
 
 class TopBuilder {
 public:
-    TopBuilder(const Picture& picture, const Painter& painter, unsigned maxDepth, std::size_t clippedRuns)
+    TopBuilder(const LoweredScene& picture, const Painter& painter, unsigned maxDepth,
+               std::size_t clippedRuns)
         : picture_(picture),
           points_(picture.outlines.points),
           cullers_([&] { return CullerOfThread(picture, painter); }),
@@ -74,13 +75,13 @@ public:
 
 private:
     struct CullerOfThread {
-        CullerOfThread(const Picture& picture, const Painter& p)
+        CullerOfThread(const LoweredScene& picture, const Painter& p)
             : painter(p.clone()), culler(picture, *painter) {}
         std::unique_ptr<Painter> painter;
         Culler culler;
     };
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     const Points points_;
     tbb::enumerable_thread_specific<CullerOfThread> cullers_;
     const std::size_t maximum_;
@@ -171,7 +172,7 @@ private:
 
 }  // namespace
 
-Tree buildTree(const Picture& picture, const Square& root, std::span<const std::uint32_t> layers,
+Tree buildTree(const LoweredScene& picture, const Square& root, std::span<const std::uint32_t> layers,
                const Painter& painter, const TreeOptions& options, TreeTimes& times) {
     const limits::Stage stage("dividing the picture");
     const auto start = Clock::now();
@@ -185,18 +186,18 @@ Tree buildTree(const Picture& picture, const Square& root, std::span<const std::
     std::vector<Tree> blocks(cells.size());
     tbb::enumerable_thread_specific<BlockBuilder> builders(
         [&] { return BlockBuilder(picture, painter, options, work); });
-    const auto pushed = Clock::now();
+    const auto divided = Clock::now();
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&, holding = limits::current()](std::size_t i) {
         const limits::Scope scope(holding);
         limits::progress(static_cast<double>(done++) / static_cast<double>(blocks.size()));
         blocks[i] = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
     });
-    const double wall = milliseconds(pushed, Clock::now());
+    const double wall = milliseconds(divided, Clock::now());
     TreeTimes sum;
     for (const BlockBuilder& b : builders)
         sum += b.times();
-    times.push += milliseconds(start, pushed);
+    times.divide += milliseconds(start, divided);
     times += sum.sharing(wall);
     const limits::Stage assembling("assembling");
     return Assembler(blocks).run(top);

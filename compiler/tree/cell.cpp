@@ -22,7 +22,7 @@ public:
           shift_(std::countr_zero(static_cast<std::uint32_t>(step_))),
           children_(children) {}
 
-    void push(const ClippedRun& clippedRun, std::array<int, 16>& windings) {
+    void add(const ClippedRun& clippedRun, std::array<int, 16>& windings) {
         const LatticePoint from = points_[clippedRun.first], to = points_[clippedRun.last];
         const bool right = to.x >= from.x, up = to.y >= from.y;
         int i = column(from.x), j = row(from.y);
@@ -129,7 +129,7 @@ std::size_t Cell::chordCount() const {
     return count;
 }
 
-Cell rootCell(const Picture& picture, const Square& square, std::span<const std::uint32_t> layers) {
+Cell rootCell(const LoweredScene& picture, const Square& square, std::span<const std::uint32_t> layers) {
     const Points points = picture.outlines.points;
     Cell cell{square, 0, {}, {}};
     for (std::uint32_t index : layers) {
@@ -178,7 +178,7 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children) 
         windings.fill(base);
         limits::check();
         for (; s < cell.clippedRuns.size() && cell.clippedRuns[s].layer == layer; ++s)
-            splitter.push(cell.clippedRuns[s], windings);
+            splitter.add(cell.clippedRuns[s], windings);
         for (std::size_t i = 0; i < 16; ++i)
             if (windings[i] != 0)
                 children[i].windings.push_back({layer, windings[i]});

@@ -1,11 +1,11 @@
 /// \file
-/// Cells: what of the picture passes through a square, pushed down the 16-tree.
+/// Cells: what of the picture passes through a square, divided down the 16-tree.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lowered_scene.hpp"
 #include "compiler/planar/clipped_run.hpp"
 
 namespace vtm::compiler {
@@ -26,7 +26,7 @@ struct Cell {
 };
 
 /// The given layers (ascending) in the root square.
-Cell rootCell(const Picture& picture, const Square& square, std::span<const std::uint32_t> layers);
+Cell rootCell(const LoweredScene& picture, const Square& square, std::span<const std::uint32_t> layers);
 
 /// The 16 children, row by row; their memory is used again.
 void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children);
@@ -35,13 +35,13 @@ void splitCell(Points points, const Cell& cell, std::array<Cell, 16>& children);
 /// or of the topmost one if it has no chords.
 class AtCell {
 public:
-    AtCell(const char* stage, const Picture& picture, const Cell& cell)
+    AtCell(const char* stage, const LoweredScene& picture, const Cell& cell)
         : picture_(picture), cell_(cell), stage_(stage, place, this) {}
 
 private:
     static limits::Place place(const void* self);
 
-    const Picture& picture_;
+    const LoweredScene& picture_;
     const Cell& cell_;
     const limits::Stage stage_;
 };

@@ -70,8 +70,9 @@ Partition::Partition(const Square& root, std::size_t maximum, unsigned maxDepth)
     blocks_[0].cell.square = root;
 }
 
-void Partition::update(const std::vector<Layer>& before, const Picture& picture, const LayerChanges& changes,
-                       const std::vector<std::uint32_t>& touched, Painter& painter) {
+void Partition::update(const std::vector<Layer>& before, const LoweredScene& picture,
+                       const LayerChanges& changes, const std::vector<std::uint32_t>& touched,
+                       Painter& painter) {
     const Points points = picture.outlines.points;
     mark(picture.outlines, before, nowhere(changes.after));
     renumber(changes);

@@ -40,7 +40,7 @@ public:
     /// Takes layers out and in, and marks the blocks that they or the layers `touched` (indices now) pass
     /// through. Blocks that have grown too large are split. `before`: the layers before, whose outlines are
     /// in the picture's store.
-    void update(const std::vector<Layer>& before, const Picture& picture, const LayerChanges& changes,
+    void update(const std::vector<Layer>& before, const LoweredScene& picture, const LayerChanges& changes,
                 const std::vector<std::uint32_t>& touched, Painter& painter);
 
     std::size_t maximum() const { return maximum_; }

@@ -10,7 +10,7 @@
 #include <vtm/asset/asset.hpp>
 #include "compiler/cost.hpp"
 #include "compiler/lower/error_budget.hpp"
-#include "compiler/lower/picture.hpp"
+#include "compiler/lower/lowered_scene.hpp"
 #include "compiler/paint/palette.hpp"
 
 namespace vtm::compiler {
@@ -51,16 +51,16 @@ struct TreeOptions {
 /// Milliseconds of wall time: pushing, also above the blocks, planarising and fitting; and in all for
 /// building blocks, which threads do at once, so that its wall time is shared out.
 struct TreeTimes {
-    double push = 0, planarise = 0, fit = 0, all = 0;
+    double divide = 0, planarise = 0, fit = 0, all = 0;
 
     TreeTimes& operator+=(const TreeTimes& t) {
-        push += t.push, planarise += t.planarise, fit += t.fit, all += t.all;
+        divide += t.divide, planarise += t.planarise, fit += t.fit, all += t.all;
         return *this;
     }
     /// The same parts of `wall` in place of all.
     TreeTimes sharing(double wall) const {
         const double share = all > 0 ? wall / all : 0;
-        return {push * share, planarise * share, fit * share, wall};
+        return {divide * share, planarise * share, fit * share, wall};
     }
 };
 

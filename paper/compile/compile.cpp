@@ -63,7 +63,7 @@ public:
 
 private:
     asset::Asset& palette_;
-    compiler::Picture picture_;
+    compiler::LoweredScene picture_;
     compiler::PaintTable table_;
     std::vector<std::pair<std::uint32_t, compiler::Source>> programs_;
 };

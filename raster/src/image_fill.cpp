@@ -107,7 +107,7 @@ Images::Images(const AssetView& asset) {
 }
 
 vec4 Images::color(const ImageFill& fill, vec2 point, const mat2& pixel) const {
-    const Picture& picture = pictures_[fill.image];
+    const LeveledImage& picture = pictures_[fill.image];
     const vec2 p = applyMatrix(fill.matrix, point);
     const auto level = [&](std::size_t l, vec2 place) {
         if (l == 0)

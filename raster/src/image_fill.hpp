@@ -24,11 +24,11 @@ public:
     glm::vec4 color(const ImageFill& fill, glm::vec2 point, const glm::mat2& pixel) const;
 
 private:
-    struct Picture {
+    struct LeveledImage {
         const image::Bitmap* bitmap;
         std::vector<image::Level> levels;
     };
-    std::vector<Picture> pictures_;
+    std::vector<LeveledImage> pictures_;
 };
 
 }  // namespace vtm::asset

@@ -37,7 +37,7 @@ struct RowScratch {
 };
 
 /// What is kept of an asset.
-struct Picture {
+struct KeptAsset {
     struct Drawn {
         MapPlace place;
         std::vector<Boundary> boundaries;
@@ -107,7 +107,7 @@ private:
 /// The chords of a picture under a view, band by band.
 class Drawing {
 public:
-    Drawing(const Picture& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
+    Drawing(const KeptAsset& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
             int finerLevels, float roughness = 1)
         : of_(of),
           view_(view),
@@ -120,7 +120,7 @@ public:
     }
 
     void addPicture() {
-        for (const Picture::Drawn& drawn : of_.drawn) {
+        for (const KeptAsset::Drawn& drawn : of_.drawn) {
             Chords chords(drawn.place, view_, scratch_.bands);
             for (const Boundary& boundary : drawn.boundaries) {
                 limits::check();
@@ -206,7 +206,7 @@ private:
         return means;
     }
 
-    static ProgramView programView(const Picture& of, const View& view, const MaterialFunction& materials,
+    static ProgramView programView(const KeptAsset& of, const View& view, const MaterialFunction& materials,
                                    float roughness, bool findsRough) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
         const float minSteep = minSteepness(inverse);
@@ -214,7 +214,7 @@ private:
                 findsRough};
     }
 
-    const Picture& of_;
+    const KeptAsset& of_;
     const View view_;
     RowScratch& scratch_;
     ProgramView programs_;
@@ -223,7 +223,7 @@ private:
 
 }  // namespace
 
-struct Scanner::Impl : Picture {
+struct Scanner::Impl : KeptAsset {
     template <class Store>
     void draw(const View& view, const MaterialFunction& materials, const Store& store);
 

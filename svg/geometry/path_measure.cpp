@@ -74,7 +74,7 @@ PathMeasure::PathMeasure(const scene::Path& path) {
     const auto add = [&](const auto& segment) {
         const double length = lengthTo(segment, 1);
         if (length > 0)
-            pieces_.push_back({segment, length_, length});
+            segments_.push_back({segment, length_, length});
         length_ += length > 0 ? length : 0;
         end = pointAt(segment, 1);
     };
@@ -92,17 +92,18 @@ PathMeasure::PathMeasure(const scene::Path& path) {
 }
 
 PathMeasure::Place PathMeasure::at(double distance) const {
-    const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), distance,
-                                        [](double d, const Piece& piece) { return d < piece.start; });
-    const Piece& piece = *(after - 1);
-    const double along = std::clamp(distance - piece.start, 0.0, piece.length);
+    const auto after =
+        std::upper_bound(segments_.begin() + 1, segments_.end(), distance,
+                         [](double d, const MeasuredSegment& measured) { return d < measured.start; });
+    const MeasuredSegment& measured = *(after - 1);
+    const double along = std::clamp(distance - measured.start, 0.0, measured.length);
     return std::visit(
         [&](const auto& segment) {
-            const double t = parameterAt(segment, along, piece.length);
+            const double t = parameterAt(segment, along, measured.length);
             const glm::dvec2 direction = directionAt(segment, t);
-            return Place{pointAt(segment, t) + direction * (distance - piece.start - along), direction};
+            return Place{pointAt(segment, t) + direction * (distance - measured.start - along), direction};
         },
-        piece.segment);
+        measured.segment);
 }
 
 }  // namespace vtm::svg

@@ -27,12 +27,12 @@ public:
 
 private:
     using Segment = std::variant<LineSegment, geometry::Cubic, ArcSegment>;
-    struct Piece {
+    struct MeasuredSegment {
         Segment segment;
         double start, length;
     };
 
-    std::vector<Piece> pieces_;  ///< of lengths > 0
+    std::vector<MeasuredSegment> segments_;  ///< of lengths > 0
     double length_ = 0;
     bool closed_ = false;
 };

@@ -33,10 +33,10 @@ Location SourceMap::atSource(std::size_t sourceOffset) const {
 Location SourceMap::at(std::size_t parsedOffset) const {
     const auto next =
         std::upper_bound(pieces_.begin(), pieces_.end(), parsedOffset,
-                         [](std::size_t offset, const Piece& piece) { return offset < piece.parsed; });
+                         [](std::size_t offset, const TextPart& piece) { return offset < piece.parsed; });
     if (next == pieces_.begin())
         return atSource(parsedOffset);
-    const Piece& piece = next[-1];
+    const TextPart& piece = next[-1];
     return atSource(piece.source + (piece.fixed ? 0 : parsedOffset - piece.parsed));
 }
 

@@ -30,13 +30,13 @@ public:
     const std::string& fileName() const { return fileName_; }
 
 private:
-    struct Piece {
+    struct TextPart {
         std::size_t parsed, source;
         bool fixed;
     };
     std::string fileName_;
     std::vector<std::size_t> lineStarts_;
-    std::vector<Piece> pieces_;
+    std::vector<TextPart> pieces_;
 };
 
 /// `"text"` on one line, cut short if it is long.

@@ -163,9 +163,9 @@ std::optional<scene::Paint> radialGradient(const ColorLine& line, Circle first, 
                                  inner.radius, stops->stops, line.spread};
 }
 
-std::vector<Piece> sweepGradient(const ColorLine& line, scene::Point center, double start, double end,
-                                 const Extent& extent) {
-    std::vector<Piece> pieces;
+std::vector<ColoredPath> sweepGradient(const ColorLine& line, scene::Point center, double start, double end,
+                                       const Extent& extent) {
+    std::vector<ColoredPath> pieces;
     if (start == end && line.spread != scene::Spread::Pad)
         return pieces;
     const double radius = 2 * reach(extent, center);  // chords of a degree stay outside the extent
@@ -181,9 +181,10 @@ std::vector<Piece> sweepGradient(const ColorLine& line, scene::Point center, dou
     return pieces;
 }
 
-std::vector<Piece> coneGradient(const ColorLine& line, Circle first, Circle second, const Extent& extent) {
+std::vector<ColoredPath> coneGradient(const ColorLine& line, Circle first, Circle second,
+                                      const Extent& extent) {
     constexpr int discs = 256;
-    std::vector<Piece> pieces;
+    std::vector<ColoredPath> pieces;
     const auto [low, high] = coneOffsets(first, second, extent);
     for (int i = 0; i < discs; ++i) {
         const double offset = low + (high - low) * (i + 0.5) / discs;

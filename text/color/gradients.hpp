@@ -40,7 +40,7 @@ struct Extent {
 /// Around the transformed points of a path, controls included.
 Extent boundsOf(const scene::Path& path, const scene::Affine& transform);
 
-struct Piece {
+struct ColoredPath {
     scene::Path path;
     scene::Color color;
 };
@@ -48,9 +48,10 @@ struct Piece {
 /// What scenes have no paint for is cut into pieces of one colour each, in painter's order, which together
 /// cover `extent`, all that the paint fills. A sweep: sectors of a degree, and cuts at the stops. Angles are
 /// degrees, clockwise on the screen.
-std::vector<Piece> sweepGradient(const ColorLine& line, scene::Point center, double start, double end,
-                                 const Extent& extent);
+std::vector<ColoredPath> sweepGradient(const ColorLine& line, scene::Point center, double start, double end,
+                                       const Extent& extent);
 /// Two circles neither of which is in the other: discs.
-std::vector<Piece> coneGradient(const ColorLine& line, Circle first, Circle second, const Extent& extent);
+std::vector<ColoredPath> coneGradient(const ColorLine& line, Circle first, Circle second,
+                                      const Extent& extent);
 
 }  // namespace vtm::text

@@ -51,9 +51,9 @@ PaintFormat plainFormat(std::uint32_t format) {
 }
 
 /// Walks the graph of a glyph's paints. Parts may be shared many times over: the number of visits is bounded.
-class Painter {
+class ColorGlyphPainter {
 public:
-    Painter(const ColorSource& source, std::span<const std::uint8_t> table)
+    ColorGlyphPainter(const ColorSource& source, std::span<const std::uint8_t> table)
         : source_(source), table_(table) {}
 
     /// False where the glyph has no paints.
@@ -214,10 +214,10 @@ private:
     }
 
     /// Pieces in the paint's space.
-    void fill(const std::vector<Piece>& pieces, const Place& place, NodeList& out) {
+    void fill(const std::vector<ColoredPath>& pieces, const Place& place, NodeList& out) {
         visits_ += int(pieces.size()) / 16;  // a piece is less work than a paint
         NodeList nodes;
-        for (const Piece& piece : pieces)
+        for (const ColoredPath& piece : pieces)
             nodes.push_back(
                 {filled(std::make_shared<const scene::Path>(piece.path), place.transform, piece.color)});
         out.push_back({clipped(std::move(nodes), place)});
@@ -275,7 +275,7 @@ private:
 std::optional<scene::Group> paintsOf(const ColorSource& source, GlyphId glyph) {
     hb_face_t* const face = hb_font_get_face(source.outlines.harfbuzz());
     const HbBlob table(hb_face_reference_table(face, HB_TAG('C', 'O', 'L', 'R')));
-    Painter painter(source, bytesOf(table.get()));
+    ColorGlyphPainter painter(source, bytesOf(table.get()));
     scene::Group group;
     if (!painter.drawGlyph(glyph, source.transform, group.children) || painter.isExhausted())
         return std::nullopt;

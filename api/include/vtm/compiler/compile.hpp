@@ -59,7 +59,7 @@ struct Result {
     /// stroke's width, the error of its offset curves is tested at fifteen points of every piece and not
     /// proven between them. Elsewhere it is proven, as are all later stages.
     std::size_t sampledStrokes = 0;
-    std::vector<StageTime> stages;      ///< in order: lower, push, planarise, fit, encode
+    std::vector<StageTime> stages;      ///< in order: lower, divide, planarise, fit, encode
     std::vector<std::string> warnings;  ///< what a limit removed or an approximation changed
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// The lowered picture: the scene with its geometry as closed outlines on the lattice (*layers*) and
+/// The lowered scene: the scene with its geometry as closed outlines on the lattice (*layers*) and
 /// its paints as the asset's records; groups, clips and masks as tables of indices.
 ///
 /// Everything stands in painter's order. A layer is one outline with a fill rule; it belongs to an
@@ -23,7 +23,7 @@ inline constexpr std::uint32_t noIndex = 0xFFFFFFFFu;
 
 struct Layer {
     scene::FillRule rule = scene::FillRule::NonZero;
-    std::uint32_t firstRun = 0, runCount = 0;  ///< of Picture::outlines
+    std::uint32_t firstRun = 0, runCount = 0;  ///< of LoweredScene::outlines
     limits::Place place{};                     ///< of the item or the clip's shape, for messages
 };
 
@@ -31,11 +31,11 @@ struct Layer {
 struct Source {
     asset::Op op = asset::Op::Solid;  ///< Solid, Linear, Radial, Image or Material
     std::array<float, 4> color{};     ///< Solid: premultiplied
-    std::uint32_t data = 0;           ///< otherwise: the record in Picture::data
+    std::uint32_t data = 0;           ///< otherwise: the record in LoweredScene::data
     bool opaque = false;              ///< alpha 1 everywhere
 };
 
-struct PictureItem {
+struct LoweredItem {
     std::uint32_t layer = 0;
     std::uint32_t source = 0;
     float opacity = 1;
@@ -55,7 +55,7 @@ struct ClipExpression {
 
 enum class GroupRole : std::uint8_t { Plain, LuminanceMask, LinearMask, AlphaMask };
 
-struct PictureGroup {
+struct LoweredGroup {
     std::uint32_t parent = noIndex;
     GroupRole role = GroupRole::Plain;
     float opacity = 1;
@@ -68,11 +68,11 @@ struct PictureGroup {
     bool adds = false;
 };
 
-struct Picture {
+struct LoweredScene {
     Outlines outlines;
     std::vector<Layer> layers;
-    std::vector<PictureItem> items;  ///< painter's order; layers ascend
-    std::vector<PictureGroup>
+    std::vector<LoweredItem> items;  ///< painter's order; layers ascend
+    std::vector<LoweredGroup>
         groups;  ///< parents before children; 0 is the ground, the scene's root lies in it
     std::vector<ClipExpression> clips;
     std::vector<Source> sources;
@@ -84,7 +84,7 @@ struct Picture {
 };
 
 /// Copies, for the asset.
-inline std::vector<image::Bitmap> bitmapsOf(const Picture& picture) {
+inline std::vector<image::Bitmap> bitmapsOf(const LoweredScene& picture) {
     std::vector<image::Bitmap> bitmaps;
     for (const auto& image : picture.images)
         bitmaps.push_back(*image);
