@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "svg/convert/converter.hpp"
+#include "svg/css/font_values.hpp"
 #include "svg/css/property_values.hpp"
-#include "svg/css/text_values.hpp"
 #include "svg/xml/data_url.hpp"
 #include "svg/xml/resource.hpp"
 

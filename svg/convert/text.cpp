@@ -7,7 +7,7 @@
 
 #include "scene/place.hpp"
 #include "svg/convert/converter.hpp"
-#include "svg/css/text_values.hpp"
+#include "svg/css/font_values.hpp"
 #include "svg/text/element_font.hpp"
 #include "svg/text/layout.hpp"
 

@@ -1,7 +1,6 @@
 // The content of a `text` element: what it and the elements in it say. Source: SVG 2 sections 11.2 and 11.4.
 
 #include "svg/convert/converter.hpp"
-#include "svg/css/text_values.hpp"
 #include "svg/geometry/path_data.hpp"
 #include "svg/text/content.hpp"
 #include "svg/text/flow.hpp"

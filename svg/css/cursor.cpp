@@ -94,6 +94,15 @@ std::string_view Cursor::identifier() {
     return word;
 }
 
+std::string_view Cursor::word() {
+    std::size_t size = 0;
+    while (size < rest_.size() && !isSpace(rest_[size]) && rest_[size] != '/' && rest_[size] != ',')
+        ++size;
+    const std::string_view word = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return word;
+}
+
 std::string_view Cursor::unit() {
     std::size_t size = 0;
     while (size < rest_.size() && lower(rest_[size]) >= 'a' && lower(rest_[size]) <= 'z')

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "svg/css/cursor.hpp"
 
@@ -23,7 +24,18 @@ std::optional<T> findKeyword(std::string_view text, const Keyword<T> (&table)[N]
     const auto found = std::find_if(std::begin(table), std::end(table), [&](const Keyword<T>& row) {
         return equalsIgnoringCase(row.name, text);
     });
-    return found == std::end(table) ? std::nullopt : std::optional(found->value);
+    if (found == std::end(table))
+        return std::nullopt;
+    return std::optional<T>(std::in_place, found->value);
+}
+
+/// Of properties whose value may be none, as `auto` is: what was read, but nothing where it is invalid. (An
+/// optional that is returned as an optional of optionals would hold none.)
+template <class T>
+std::optional<std::optional<T>> valid(const std::optional<T>& read) {
+    if (!read)
+        return std::nullopt;
+    return std::optional<std::optional<T>>(std::in_place, read);
 }
 
 }  // namespace vtm::svg

@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <unordered_map>
 
+#include "svg/css/font_values.hpp"
 #include "svg/css/font_variants.hpp"
 #include "svg/css/property_values.hpp"
 #include "svg/css/text_values.hpp"

@@ -50,8 +50,7 @@ std::optional<ColorValue> parseColorValue(std::string_view text, const Units&) {
 std::optional<scene::Color> parsePlainColor(std::string_view text, const Units&) { return parseColor(text); }
 
 std::optional<std::optional<scene::Color>> parseBackground(std::string_view text, const Units&) {
-    const auto color = parseColor(text);
-    return color ? std::optional(color) : std::nullopt;
+    return valid(parseColor(text));
 }
 
 std::optional<double> parseOpacity(std::string_view text, const Units&) {
@@ -232,8 +231,7 @@ std::optional<std::string_view> parseTransformText(std::string_view text, const 
 }
 
 std::optional<std::optional<TransformOrigin>> parseOrigin(std::string_view text, const Units& units) {
-    const auto origin = parseTransformOrigin(text, units);
-    return origin ? std::optional(origin) : std::nullopt;
+    return valid(parseTransformOrigin(text, units));
 }
 
 std::optional<std::string_view> readUrl(Cursor& cursor) {

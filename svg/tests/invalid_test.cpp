@@ -108,6 +108,23 @@ TEST(Invalid, PresentationAttributesAreNamed) {
         expectValid("path", attribute, value);
 }
 
+/// Whose value may be none, as `auto` is.
+TEST(Invalid, PropertiesThatMayBeNoneAreNamed) {
+    const auto warnings = [](const std::string& property, const std::string& value) {
+        return warningsOf("<text style='" + property + ": " + value + "'/>");
+    };
+    for (const char* property :
+         {"overflow", "transform-origin", "font-kerning", "font-size-adjust", "white-space", "inline-size",
+          "text-decoration", "text-decoration-thickness", "text-underline-offset"})
+        for (const char* value : {"foo", "/", "underline,overline"})
+            EXPECT_EQ(warnings(property, value),
+                      std::vector<std::string>{"<text>: " + std::string(property) + "=\"" + value +
+                                               "\" is not valid; it is ignored"});
+    EXPECT_TRUE(warnings("inline-size", "auto").empty());
+    EXPECT_TRUE(warnings("font-size-adjust", "none").empty());
+    EXPECT_TRUE(warnings("text-decoration-thickness", "from-font").empty());
+}
+
 TEST(Invalid, DeclarationsAreNamedOnceWhereTheyStand) {
     EXPECT_EQ(
         warningsOf("<rect style='fill: octarine; stroke-width: 1px; unknown: 5' width='9' height='9'/>"),

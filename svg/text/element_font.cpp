@@ -1,7 +1,7 @@
 #include "svg/text/element_font.hpp"
 
+#include "svg/css/font_values.hpp"
 #include "svg/css/font_variants.hpp"
-#include "svg/css/text_values.hpp"
 #include "svg/text/small_caps.hpp"
 
 namespace vtm::svg {
