@@ -7,6 +7,6 @@
 namespace vtm::text {
 
 /// Whether any script or language of the font's table `GSUB` has the feature.
-bool substitutes(const Font& font, Tag feature);
+bool hasFeature(const Font& font, Tag feature);
 
 }  // namespace vtm::text

@@ -74,6 +74,8 @@ public:
             if (at(extent.element).element->tag == Tag::FlowPara)
                 paragraphs.push_back({index[extent.first], extent.element});
         }
+        if (!content_.characters.empty())
+            makeSmallCaps(content_, converter_.fonts());
         return std::move(content_);
     }
 
@@ -261,8 +263,6 @@ private:
 TextContent Converter::textContent(const Element& text, const Scope& scope) {
     std::vector<Paragraph> paragraphs;
     TextContent content = TextCollector(*this).collect(text, scope, paragraphs);
-    if (!content.characters.empty())
-        makeSmallCaps(content, fonts());
     const std::optional<Length> inlineSize = scope.style.inlineSize;
     const double width = inlineSize ? resolve(*inlineSize, Axis::X, scope.viewport) : 0;
     if (!(width > 0) || content.characters.empty() || scope.style.writingMode != WritingMode::Horizontal)
@@ -293,8 +293,6 @@ Box Converter::flowRegion(const Element& flowRoot, const Scope& scope) {
 TextContent Converter::flowContent(const Element& flowRoot, const Scope& scope) {
     std::vector<Paragraph> paragraphs;
     TextContent content = TextCollector(*this).collect(flowRoot, scope, paragraphs);
-    if (!content.characters.empty())
-        makeSmallCaps(content, fonts());
     const Box box = flowRegion(flowRoot, scope);
     if (box.empty() || paragraphs.empty())
         return {};

@@ -41,7 +41,7 @@ Made madeIn(const TextElement& element, text::FontSet& fonts) {
     for (const text::Feature& feature : featuresOf(font ? caps : 0)) {
         const bool lower = feature.tag == fontTag("smcp") || feature.tag == fontTag("pcap");
         const bool upper = feature.tag == fontTag("c2sc") || feature.tag == fontTag("c2pc");
-        const bool missing = (lower || upper) && !text::substitutes(*font, feature.tag);
+        const bool missing = (lower || upper) && !text::hasFeature(*font, feature.tag);
         made.lower |= lower && missing;
         made.upper |= upper && missing;
     }

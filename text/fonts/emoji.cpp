@@ -1,16 +1,11 @@
 #include "text/fonts/emoji.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include "text/character_ranges.hpp"
 
 namespace vtm::text {
 namespace {
 
-struct Range {
-    char32_t first, last;
-};
-
-constexpr Range emoji[]{
+constexpr CharacterRange emoji[]{
     {0x231a, 0x231b},   {0x23e9, 0x23ec},   {0x23f0, 0x23f0},   {0x23f3, 0x23f3},   {0x25fd, 0x25fe},
     {0x2614, 0x2615},   {0x2648, 0x2653},   {0x267f, 0x267f},   {0x2693, 0x2693},   {0x26a1, 0x26a1},
     {0x26aa, 0x26ab},   {0x26bd, 0x26be},   {0x26c4, 0x26c5},   {0x26ce, 0x26ce},   {0x26d4, 0x26d4},
@@ -31,9 +26,6 @@ constexpr Range emoji[]{
 
 }  // namespace
 
-bool isEmojiByDefault(char32_t character) {
-    const auto after = std::ranges::upper_bound(emoji, character, {}, &Range::first);
-    return after != std::begin(emoji) && character <= std::prev(after)->last;
-}
+bool isEmojiByDefault(char32_t character) { return contains(emoji, character); }
 
 }  // namespace vtm::text

@@ -157,11 +157,15 @@ private:
                     open(bestFace(isNamed(family) ? faces : ofColor(faces, color), query), query, answer))
                 return font;
         }
-        for (const Faces& family : fallback(query))
-            if (auto font = open(bestFace(ofColor(filter(family), color), query), query, answer))
+        Faces others;
+        for (const Faces& family : fallback(query)) {
+            const Faces faces = filter(family);
+            if (auto font = open(bestFace(ofColor(faces, color), query), query, answer))
                 return font;
-        for (const Faces& family : fallback(query))
-            if (auto font = open(bestFace(filter(family), query), query, answer))
+            others.push_back(bestFace(faces, query));
+        }
+        for (const FaceEntry* face : others)
+            if (auto font = open(face, query, answer))
                 return font;
         return nullptr;
     }

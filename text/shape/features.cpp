@@ -6,7 +6,7 @@
 
 namespace vtm::text {
 
-bool substitutes(const Font& font, Tag feature) {
+bool hasFeature(const Font& font, Tag feature) {
     hb_face_t* const face = hb_font_get_face(font.harfbuzz());
     unsigned count = hb_ot_layout_table_get_feature_tags(face, HB_OT_TAG_GSUB, 0, nullptr, nullptr);
     std::vector<hb_tag_t> tags(count);

@@ -1,17 +1,11 @@
 #include "text/shape/orientation.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include "text/character_ranges.hpp"
 
 namespace vtm::text {
 namespace {
 
-struct Range {
-    char32_t first, last;
-};
-
-/// Sorted.
-constexpr Range upright[]{
+constexpr CharacterRange upright[]{
     {0x00a7, 0x00a7},   {0x00a9, 0x00a9},   {0x00ae, 0x00ae},   {0x00b1, 0x00b1},   {0x00bc, 0x00be},
     {0x00d7, 0x00d7},   {0x00f7, 0x00f7},   {0x02ea, 0x02eb},   {0x1100, 0x11ff},   {0x1401, 0x167f},
     {0x18b0, 0x18ff},   {0x2016, 0x2016},   {0x2020, 0x2021},   {0x2030, 0x2031},   {0x203b, 0x203c},
@@ -32,10 +26,6 @@ constexpr Range upright[]{
 
 }  // namespace
 
-bool standsUpright(char32_t character) {
-    const auto after = std::upper_bound(std::begin(upright), std::end(upright), character,
-                                        [](char32_t c, const Range& range) { return c < range.first; });
-    return after != std::begin(upright) && character <= std::prev(after)->last;
-}
+bool standsUpright(char32_t character) { return contains(upright, character); }
 
 }  // namespace vtm::text
