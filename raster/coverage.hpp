@@ -4,11 +4,16 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <span>
+#include <vector>
 
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/raster/view.hpp>
+#include "raster/planar_map.hpp"
 
 namespace vtm::asset {
 
@@ -38,5 +43,36 @@ float seg(glm::vec2 p, glm::vec2 q);
 /// What a piece adds to the loop of the region on its left: its own chords, closed along the leaf's
 /// border. (c_left - c_right) times this, summed over the pieces, corrects the corners' colours.
 float pieceSum(const LeafFrame& frame, const Corners& corners, const Piece& piece);
+
+/// Columns first to end - 1 of a row, all covered by the same share.
+struct CoverageRun {
+    int first, end;
+    float share;  ///< in (0, 1]
+};
+
+/// Coverage of all that is not paint 0, as the Scanner (vtm/raster/scan.hpp) sums it, without colours, for
+/// renderers that bring their own. Safe to use from several threads at once.
+class CoverageScanner {
+public:
+    /// std::invalid_argument unless `mask` is a sum of maps. Keeps nothing of it.
+    explicit CoverageScanner(const AssetView& mask);
+    explicit CoverageScanner(const PlanarMap& mask);
+    ~CoverageScanner();
+    CoverageScanner(CoverageScanner&&) noexcept;
+    CoverageScanner& operator=(CoverageScanner&&) noexcept;
+
+    /// Calls row(y, runs) for every row of the view that is covered anywhere, from the first on; the runs
+    /// from left to right, where something is covered. Throws std::length_error if the view is beyond its
+    /// limits.
+    void scan(const View& view,
+              const std::function<void(int y, std::span<const CoverageRun> runs)>& row) const;
+
+private:
+    struct Drawn;
+
+    void add(const PlanarMap& mask);
+
+    std::vector<Drawn> drawn_;
+};
 
 }  // namespace vtm::asset

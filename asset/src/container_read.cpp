@@ -1,4 +1,4 @@
-#include "asset/src/container_read.hpp"
+#include "asset/src/container_layout.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "asset/src/container_layout.hpp"
-#include "asset/src/container_sections.hpp"
 #include "asset/src/validate.hpp"
 
 namespace vtm::asset {

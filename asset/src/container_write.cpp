@@ -2,7 +2,6 @@
 
 #include <vtm/asset/container.hpp>
 #include "asset/src/container_layout.hpp"
-#include "asset/src/container_sections.hpp"
 
 namespace vtm::asset {
 

@@ -16,7 +16,6 @@
 #include "bench/measure/measure.hpp"
 #include "bench/reports/reports.hpp"
 #include "raster/coverage.hpp"
-#include "raster/coverage_scan.hpp"
 
 namespace vtm::bench {
 namespace {

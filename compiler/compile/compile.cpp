@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
-#include "compiler/compile/clock.hpp"
-#include "compiler/compile/compile_excerpt.hpp"
 #include "compiler/compile/settings.hpp"
 #include "compiler/lower/walk_items.hpp"
 #include "compiler/paint/painters.hpp"
 #include "compiler/tree/build_tree.hpp"
 #include "compiler/tree/encode.hpp"
+#include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {
 namespace {

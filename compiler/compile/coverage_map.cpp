@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 
-#include "compiler/compile/compile_excerpt.hpp"
 #include "compiler/compile/settings.hpp"
 #include "compiler/paint/painters.hpp"
 #include "compiler/tree/block.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vtm/compiler/compile.hpp>
+#include "compiler/lower/lower.hpp"
 #include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {
@@ -21,5 +22,8 @@ void certify(const Tree& tree, const ErrorBudget& budget, Result& result);
 double finestPixel(const Result& result);
 /// Result::warnings; `colourError`: of encodePalette.
 std::vector<std::string> warningsOf(const Result& result, const Options& options, float colourError);
+
+/// As compile, which does it for the whole of a scene; that must be valid.
+Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options);
 
 }  // namespace vtm::compiler

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "compiler/compile/compile_excerpt.hpp"
 #include "compiler/compile/settings.hpp"
 
 namespace vtm::compiler {

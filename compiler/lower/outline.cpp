@@ -9,7 +9,6 @@
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/lower/chords.hpp"
-#include "compiler/lower/cubics.hpp"
 #include "compiler/lower/error_budget.hpp"
 #include "compiler/stroke/chords.hpp"
 #include "compiler/stroke/near.hpp"

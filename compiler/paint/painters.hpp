@@ -1,5 +1,6 @@
 /// \file
-/// The two ways of painting regions: the whole picture, or one layer's (or clip's) coverage.
+/// The ways of painting regions: the whole picture, the same with paints that can be edited, or one layer's
+/// (or clip's) coverage.
 #pragma once
 
 #include "compiler/paint/composite.hpp"
@@ -58,6 +59,24 @@ public:
 private:
     const LoweredScene& picture_;
     const std::uint32_t layer_, clip_;  ///< `noIndex` for the one that is not meant
+};
+
+/// A region's paint is the number of its stack, in Palette::stacks: from the topmost item that hides all
+/// below it upwards. So regions of different stacks stay apart even if their colours agree.
+class EditablePainter : public PicturePainter {
+public:
+    /// `names`: of layers.
+    EditablePainter(const LoweredScene& picture, const std::vector<std::uint32_t>& names);
+    std::unique_ptr<Painter> clone() const override { return std::make_unique<EditablePainter>(*this); }
+    PaintId paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
+                  Palette& palette) override;
+    PaintId mean(std::span<const PaintId> paints, Palette& palette) override;
+
+private:
+    const LoweredScene& picture_;
+    const std::vector<std::uint32_t>& names_;
+    std::vector<std::uint8_t> groupHides_, clipped_;  ///< by group
+    Stack stack_;
 };
 
 }  // namespace vtm::compiler

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <vtm/limits/limits.hpp>
-#include "compiler/planar/chord_relations.hpp"
+#include "compiler/planar/edges.hpp"
 
 namespace vtm::compiler {
 namespace {

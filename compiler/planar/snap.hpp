@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "compiler/planar/clipped_run.hpp"
-#include "compiler/planar/cut.hpp"
-#include "compiler/planar/merge.hpp"
+#include "compiler/planar/edges.hpp"
 
 namespace vtm::compiler {
 

@@ -5,12 +5,12 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "compiler/compile/clock.hpp"
 #include "compiler/compile/settings.hpp"
 #include "compiler/lower/lower.hpp"
-#include "compiler/paint/editable.hpp"
+#include "compiler/paint/painters.hpp"
 #include "compiler/tree/encode.hpp"
-#include "compiler/tree/join.hpp"
+#include "compiler/tree/partition.hpp"
+#include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {
 namespace {

@@ -7,7 +7,7 @@
 #include <vtm/compiler/session.hpp>
 #include "compiler/lower/lattice.hpp"
 #include "compiler/lower/outline_cache.hpp"
-#include "compiler/paint/stack_paints.hpp"
+#include "compiler/paint/region_paints.hpp"
 #include "compiler/session/changes.hpp"
 #include "compiler/tree/partition.hpp"
 

@@ -32,8 +32,7 @@
 
 #include "compiler/stroke/bend.hpp"
 #include "compiler/stroke/chords.hpp"
-#include "compiler/stroke/evolute.hpp"
-#include "compiler/stroke/offset_fit.hpp"
+#include "compiler/stroke/stretch.hpp"
 
 namespace vtm::compiler::stroke {
 

@@ -1,5 +1,6 @@
 /// \file
-/// A stretch of a curve as strokes run through it.
+/// A stretch of a curve as strokes run through it, its offset, and its evolute: the centres of its curvature,
+/// from which on its offset runs backward.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "compiler/stroke/bend.hpp"
 #include "compiler/stroke/fit.hpp"
+#include "compiler/stroke/offset.hpp"
 
 namespace vtm::compiler::stroke {
 
@@ -64,6 +66,61 @@ private:
     Span span_;
     Point start_;
     double turn_;
+};
+
+/// The offset at `distance` to the left, run through along the curve, or against it where the curve is
+/// tighter than the distance.
+struct OffsetCurve {
+    const Stretch& stretch;
+    double distance;
+    bool backward;
+
+    Samples samples(double u0, double u1) const {
+        Samples s;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const double f = double(i) / double(s.size() - 1);
+            s[i] = stretch.offset(u0 + (u1 - u0) * f, distance);
+            if (backward)
+                s[i].tangent = -s[i].tangent;
+        }
+        return s;
+    }
+};
+
+/// Goes on to where the offset begins, and with it.
+void appendFit(const OffsetCurve& curve, double tolerance, Side& side);
+
+/// Over u in [0, 1], as the stretch, which must outlive it. A chain of parabolas: between two normals that
+/// differ by at most 45°, both end tangents of the evolute are the normals themselves, and they meet between
+/// curve and offset, in the control point.
+class Evolute {
+public:
+    /// The radius is positive if the stretch bends to the left.
+    Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, const OffsetOptions& options);
+
+    Point at(double u) const;
+    bool isTighterAtEnd() const;
+    /// Where the stretch is tightest.
+    Point tip() const { return at(tightest()); }
+    /// How far it comes from the offset.
+    double depth() const;
+
+    /// Goes on with it, from its start on, where the side has come to within the tolerance.
+    void append(Side& side) const;
+
+private:
+    struct Parabola;
+
+    void append(double u0, double u1, int depth, Side& side) const;
+    double tightest() const;
+    double error(const Parabola& arc, double u0, double u1) const;
+    Point normal(double u) const;
+    double centreDistance(double u) const;
+    Point meeting(double u0, double u1) const;
+
+    Curvature curvature_;
+    const Stretch& stretch_;
+    double radius_, tolerance_, straight_;
 };
 
 }  // namespace vtm::compiler::stroke

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <vtm/compiler/compile.hpp>
-#include "raster/coverage_scan.hpp"
+#include "raster/coverage.hpp"
 
 namespace vtm::compiler {
 namespace {

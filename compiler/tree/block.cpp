@@ -4,8 +4,8 @@
 #include <bit>
 
 #include <vtm/compiler/compile.hpp>
-#include "compiler/compile/clock.hpp"
-#include "compiler/tree/append_node.hpp"
+#include "compiler/tree/encode.hpp"
+#include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {
 namespace {

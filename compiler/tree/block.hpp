@@ -5,7 +5,6 @@
 #include <atomic>
 #include <deque>
 
-#include "compiler/compile/clock.hpp"
 #include "compiler/fit/fit.hpp"
 #include "compiler/planar/planar.hpp"
 #include "compiler/tree/cell.hpp"

@@ -7,9 +7,9 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "compiler/compile/clock.hpp"
-#include "compiler/tree/append_node.hpp"
 #include "compiler/tree/block.hpp"
+#include "compiler/tree/encode.hpp"
+#include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {
 namespace {

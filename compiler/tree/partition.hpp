@@ -1,5 +1,5 @@
 /// \file
-/// The picture in blocks that are kept from one edit to the next.
+/// The picture in blocks that are kept from one edit to the next, and joined to an asset's one map.
 #pragma once
 
 #include <optional>
@@ -61,5 +61,11 @@ private:
     Top top_;
     std::vector<Block> blocks_;
 };
+
+/// Appends the blocks' trees to `next`: nodes, leaves, pieces and count of fallback leaves; `paints`: its
+/// index of each paint. `last`: the asset that was joined before, if paints have the same indices there: the
+/// blocks that were not built since are copied from it. Returns the root.
+asset::Entry joinBlocks(Partition& partition, std::span<const std::uint16_t> paints, const asset::Asset* last,
+                        asset::Asset& next);
 
 }  // namespace vtm::compiler

@@ -2,6 +2,7 @@
 /// A map's tree as the compiler has it, what it is built by, and the painters that its regions ask.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
@@ -84,5 +85,11 @@ struct Tree {
     double error = 0;              ///< the largest ErrorBudget::leaf or mean of the leaves
     std::vector<Square> unproven;  ///< leaves that are means of samples and too large for the tolerance
 };
+
+using Clock = std::chrono::steady_clock;
+
+inline double milliseconds(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
 
 }  // namespace vtm::compiler

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include <vtm/asset/container.hpp>
-#include "compiler/compile/clock.hpp"
 #include "compiler/lower/paints.hpp"
+#include "compiler/tree/tree.hpp"
 #include "paper/compile/mask.hpp"
 
 namespace vtm::paper {

@@ -6,7 +6,7 @@
 
 #include <vtm/compiler/stroke.hpp>
 #include "compiler/lower/outline.hpp"
-#include "compiler/tree/append_node.hpp"
+#include "compiler/tree/encode.hpp"
 #include "paper/compile/cell.hpp"
 #include "paper/compile/mip.hpp"
 

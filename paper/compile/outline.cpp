@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "compiler/lower/cubics.hpp"
+#include "compiler/lower/chords.hpp"
 
 namespace vtm::paper {
 

@@ -1,6 +1,6 @@
 // Coverage against the evaluator's alpha of the same shapes in opaque white.
 
-#include "raster/coverage_scan.hpp"
+#include "raster/coverage.hpp"
 
 #include <bit>
 #include <cmath>

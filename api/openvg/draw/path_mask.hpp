@@ -16,7 +16,7 @@
 
 #include <vtm/scene/path.hpp>
 #include "api/openvg/image/pixels.hpp"
-#include "raster/coverage_scan.hpp"
+#include "raster/coverage.hpp"
 
 namespace vtm::openvg {
 
