@@ -8,6 +8,7 @@
 
 #include <vtm/authoring.hpp>
 #include <vtm/scene/scene.hpp>
+#include "api/src/scene_conversion.hpp"
 #include "scene/level.hpp"
 #include "scene/place.hpp"
 
@@ -62,7 +63,9 @@ private:
 
 }  // namespace
 
-Vtm Vtm::fromScene(const scene::Scene& scene) { return Folder().fold(scene.root); }
+Vtm fromGroup(const scene::Group& group) { return Folder().fold(group); }
+
+Vtm Vtm::fromScene(const scene::Scene& scene) { return fromGroup(scene.root); }
 
 // Author's tree to normal form. The rule that keeps it small: a layer that shows in a mask alone may be taken
 // out of a selection whose sides share all else,
@@ -108,15 +111,10 @@ Found found(const Vtm& vtm, Affine at) {
     return {node, at};
 }
 
-template <class Kind>
-const Kind* as(const VtmNode* node) {
-    return node == nullptr ? nullptr : std::get_if<Kind>(&node->value);
-}
-
 class Unfolder {
 public:
-    Unfolder(double width, double height)
-        : frame_(std::make_shared<const scene::Path>(scene::rectangle({0, 0}, {width, height}))) {}
+    Unfolder(scene::Point min, scene::Point max)
+        : frame_(std::make_shared<const scene::Path>(scene::rectangle(min, max))) {}
 
     /// As one group.
     scene::Group group(const Vtm& vtm, const Affine& at) {
@@ -216,8 +214,12 @@ private:
 
 }  // namespace
 
+scene::Group toGroup(const Vtm& vtm, scene::Point min, scene::Point max) {
+    return Unfolder(min, max).group(vtm, scene::identity);
+}
+
 scene::Scene Vtm::toScene(double width, double height) const {
-    return {width, height, Unfolder(width, height).group(*this, scene::identity)};
+    return {width, height, toGroup(*this, {0, 0}, {width, height})};
 }
 
 }  // namespace vtm
