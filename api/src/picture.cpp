@@ -10,6 +10,7 @@
 #include <vtm/image/encode.hpp>
 #include <vtm/svg/load.hpp>
 #include <vtm/vtm.hpp>
+#include <vtm/vtmtree.hpp>
 #include "api/src/picture_state.hpp"
 
 namespace vtm {
@@ -26,6 +27,10 @@ asset::Asset readAsset(std::span<const std::uint8_t> bytes, const std::string& n
     } catch (const asset::FormatError& error) {
         throw asset::FormatError(name.empty() ? error.what() : name + ": " + error.what());
     }
+}
+
+bool isTreeText(std::span<const std::uint8_t> bytes, const std::string& name) {
+    return isTree(bytes) || name.ends_with(".vtmtree");
 }
 
 double positive(double value, const char* what) {
@@ -79,6 +84,8 @@ Picture Picture::load(const std::string& path, const LoadOptions& options) {
 Picture Picture::load(std::span<const std::uint8_t> bytes, const LoadOptions& options) {
     if (isCompiled(bytes, options.name))
         return Picture(readAsset(bytes, options.name));
+    if (isTreeText(bytes, options.name))
+        return Picture(readTree(bytes, {options.name, options.folder}).toScene());
     svg::Document document = svg::load(bytes, svgOptions(options));
     Picture picture(std::move(document.scene));
     for (const svg::Warning& warning : document.warnings)

@@ -62,8 +62,8 @@ int compile(const CompileOptions& options) {
 
 void addCompile(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<CompileOptions>();
-    CLI::App* command = app.add_subcommand("compile", "Make a .vtm file of an SVG file");
-    command->add_option("IN", options->input, "SVG file, or - for standard input")->required();
+    CLI::App* command = app.add_subcommand("compile", "Make a .vtm file of an SVG or .vtmtree file");
+    command->add_option("IN", options->input, "SVG or .vtmtree file, or - for standard input")->required();
     command->add_option("-o,--output", options->output, "The .vtm file, or - for standard output")
         ->required();
     command->add_flag("--prefilter", options->prefilter,
@@ -71,7 +71,8 @@ void addCompile(CLI::App& app, int& exitCode) {
     command->add_flag("--json", options->json, "Print figures and times as JSON");
     addSourceOptions(*command, options->source);
     command->footer(
-        "Examples:\n  vtm compile tiger.svg -o tiger.vtm\n  vtm compile tiger.svg -o tiger.vtm --prefilter");
+        "Examples:\n  vtm compile tiger.svg -o tiger.vtm\n  vtm compile tiger.svg -o tiger.vtm --prefilter\n"
+        "  vtm compile sign.vtmtree -o sign.vtm");
     command->callback([options, &exitCode] { exitCode = compile(*options); });
 }
 

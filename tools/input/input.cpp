@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include <unistd.h>
 
 #include <vtm/asset/container.hpp>
 #include <vtm/image/codec.hpp>
+#include <vtm/vtmtree.hpp>
 
 namespace vtm::tools {
 
@@ -19,7 +21,8 @@ std::vector<std::uint8_t> bytesOf(const std::string& path) {
 }
 
 /// Text that may be XML, in any encoding, or gzip.
-bool mayBeSvg(std::string_view bytes) {
+bool mayBeSvg(std::span<const std::uint8_t> file) {
+    const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
     const bool gzip = bytes.starts_with("\x1f\x8b");
     const bool utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
     const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
@@ -40,7 +43,13 @@ std::string suffixOf(const std::string& path) {
 bool Input::isAsset() const {
     if (asset::isContainer(bytes))
         return true;
-    return suffixOf(name) == ".vtm" && !mayBeSvg({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return suffixOf(name) == ".vtm" && !vtm::isTree(bytes) && !mayBeSvg(bytes);
+}
+
+bool Input::isTree() const {
+    if (vtm::isTree(bytes))
+        return true;
+    return suffixOf(name) == ".vtmtree" && !asset::isContainer(bytes) && !mayBeSvg(bytes);
 }
 
 Input readInput(const std::string& path) {

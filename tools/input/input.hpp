@@ -25,9 +25,10 @@ struct Input {
     std::vector<std::uint8_t> bytes;
     Stages stages;  ///< reading it
 
-    /// By its first bytes. What is neither a .vtm file nor can be an SVG is whatever its name says, so that
-    /// the message fits.
+    /// By its first bytes. What is neither a .vtm nor a .vtmtree file nor can be an SVG is whatever its name
+    /// says, so that the message fits.
     bool isAsset() const;
+    bool isTree() const;
 };
 
 /// A file, a pipe, or standard input for "-". Throws image::CodecError.

@@ -13,6 +13,7 @@
 #include <vtm/limits/limits.hpp>
 #include <vtm/scene/fit.hpp>
 #include <vtm/scene/scene.hpp>
+#include <vtm/vtmtree.hpp>
 #include "geometry/arc.hpp"
 #include "geometry/box.hpp"
 #include "geometry/cubic.hpp"
@@ -138,7 +139,7 @@ void warnOfNotDrawnYet(Source& source, const std::vector<svg::Warning>& warnings
 
 void loadAsset(Source& source, const Input& input, const SourceOptions& options) {
     if (options.paper)
-        throw std::runtime_error("is a .vtm file; paper mode only draws SVG files");
+        throw std::runtime_error("is a .vtm file; paper mode draws SVG and .vtmtree files only");
     if (!options.svg.exportId.empty() || !options.styleSheet.empty())
         throw std::runtime_error("is a .vtm file; --export-id and --stylesheet need an SVG file");
     source.asset = timed(source.stages, "parse", [&] { return asset::read(input.bytes); });
@@ -146,6 +147,16 @@ void loadAsset(Source& source, const Input& input, const SourceOptions& options)
         throw std::runtime_error("was compiled in another mode than --mode");
     source.width = source.asset->width;
     source.height = source.asset->height;
+}
+
+void parseTree(Source& source, const Input& input, const SourceOptions& options) {
+    if (!options.svg.exportId.empty() || !options.styleSheet.empty())
+        throw std::runtime_error("is a .vtmtree file; --export-id and --stylesheet need an SVG file");
+    source.scene = timed(source.stages, "parse", [&] {
+        return readTree(input.bytes, {input.name, input.folder}).toScene();
+    });
+    source.width = source.scene->width;
+    source.height = source.scene->height;
 }
 
 std::string readStyleSheet(const std::string& path) {
@@ -198,6 +209,8 @@ Source loadSource(Input input, const SourceOptions& options, bool compile) {
     source.stages = std::move(input.stages);
     if (input.isAsset())
         loadAsset(source, input, options);
+    else if (input.isTree())
+        parseTree(source, input, options);
     else
         parseSvg(source, input, options);
     input.bytes = {};

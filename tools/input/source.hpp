@@ -1,5 +1,5 @@
 /// \file
-/// Input files: SVG, parsed and compiled here, or an asset that was compiled before.
+/// Input files: SVG or a text of VTMs, parsed and compiled here, or an asset that was compiled before.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct SourceOptions {
     compiler::Options compiler;
     /// As typed; an asset has its own mode, which must not contradict it.
     std::optional<asset::Mode> mode;
-    bool paper = false;         ///< --mode paper, for SVG files only
+    bool paper = false;         ///< --mode paper, not for assets
     bool hasTolerance = false;  ///< given by the user
     std::string styleSheet;     ///< --stylesheet: a file
     bool strict = false;        ///< --strict: what was left out is an error
@@ -48,7 +48,7 @@ struct Source {
     Stages stages;
 };
 
-/// Whether it is SVG or an asset, its bytes say; warnings go to stderr. An SVG is compiled only if `compile`.
+/// Its bytes say what it is; warnings go to stderr. SVG and .vtmtree files are compiled only if `compile`.
 /// Throws the modules' exceptions, and std::runtime_error where --strict forbids what was left out.
 Source loadSource(Input input, const SourceOptions& options, bool compile = true);
 

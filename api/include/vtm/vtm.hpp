@@ -50,8 +50,8 @@ struct Rgba {
 struct LoadOptions {
     /// Used in messages when a picture is loaded from memory; a file is named by its path.
     std::string name = {};
-    /// Folder to which relative references of an SVG refer. Empty: the folder of the file; from memory,
-    /// relative references are not read.
+    /// Folder to which relative references of an SVG or .vtmtree file refer. Empty: the folder of the file;
+    /// from memory, relative references are not read.
     std::string folder = {};
     double dpi = 96;              ///< pixels an inch, for lengths in physical units; > 0
     std::string language = "en";  ///< of text, and for systemLanguage
@@ -91,12 +91,13 @@ public:
     void save(const std::string& path) const;
 };
 
-/// A picture: an SVG file, a compiled .vtm file or a scene. It is compiled on first use, and again for views
-/// that need finer outlines. Copies share its data. All functions may be called in several threads at once.
+/// A picture: an SVG file, a text of VTMs (.vtmtree), a compiled .vtm file or a scene. It is compiled on
+/// first use, and again for views that need finer outlines. Copies share its data. All functions may be
+/// called in several threads at once.
 class Picture {
 public:
-    /// Loads an SVG file, gzip-compressed or not, or a .vtm file; the bytes decide which. Throws
-    /// svg::ParseError, asset::FormatError, image::CodecError.
+    /// Loads an SVG file, gzip-compressed or not, a .vtmtree file (vtm/vtmtree.hpp) or a .vtm file; the bytes
+    /// decide which. Throws svg::ParseError, TreeError, asset::FormatError, image::CodecError.
     static Picture load(const std::string& path, const LoadOptions& options = {});
     /// The same from memory, which is not needed afterwards.
     static Picture load(std::span<const std::uint8_t> bytes, const LoadOptions& options = {});
