@@ -17,6 +17,7 @@
 #include <vtm/scene/scene.hpp>
 #include <vtm/svg/load.hpp>
 #include <vtm/vtm.hpp>
+#include <vtm/vtmtree.hpp>
 
 namespace vtm {
 namespace {
@@ -134,6 +135,17 @@ TEST(Picture, WarningsAreValues) {
     EXPECT_TRUE(warnings[0].starts_with("test.svg:1:")) << warnings[0];
     picture.render();
     EXPECT_EQ(picture.warnings().size(), warnings.size());
+}
+
+TEST(Picture, TextsOfTreesAreKnownByTheirFirstWord) {
+    const Picture picture =
+        Picture::load(bytesOf("vtmtree 1 size 4 2 draw select rect(0 0, 2 2) red else blue"));
+    EXPECT_EQ(picture.width(), 4);
+    const Image image = picture.render();
+    EXPECT_EQ(image.rgba[0], 255);
+    EXPECT_EQ(image.rgba[3 * 4 + 2], 255);
+    EXPECT_THROW(Picture::load(bytesOf("vtmtree 1 draw red")), TreeError);
+    EXPECT_THROW(Picture::load(bytesOf("size 4 2 draw red"), {.name = "a.vtmtree"}), TreeError);
 }
 
 TEST(Picture, EveryErrorIsAnError) {

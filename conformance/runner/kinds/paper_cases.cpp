@@ -1,5 +1,5 @@
-// Rows of the paper: ROW-what.svg is drawn in paper mode, by its evaluator and its shader, and what the row
-// promises beyond a picture is tried.
+// Rows of the paper: ROW-what.svg or .vtmtree is drawn in paper mode, by its evaluator and its shader, and
+// what the row promises beyond a picture is tried.
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <vtm/compiler/session.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/scene/scene.hpp>
+#include <vtm/vtmtree.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/reference/reference.hpp"
 #include "conformance/runner/judge/judge.hpp"
@@ -231,12 +232,21 @@ Outcome automatic(const Scene& scene) {
                   fmt::format("{} maps, {} bytes, the paper's {}", asset.maps.size(), ours, papers));
 }
 
+/// 17: an author's tree is a text, which reads back as the same tree.
+Outcome authored(const Scene& scene) {
+    const std::string text = writeTree({scene.width, scene.height, Vtm::fromScene(scene)});
+    const Tree back = readTree({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    if (scene::dump(back.toScene()) != scene::dump(scene))
+        return Outcome::failed("the text reads back as another scene");
+    return expect(writeTree(back) == text, "the text is not written as it was read");
+}
+
 Outcome notHere(const Scene&) { return Outcome::failed("there is nothing yet that could be tried"); }
 
 RowCheck checkOfRow(int row) {
     constexpr RowCheck checks[] = {cubics,   twoFunctions, nullptr,  neededSideOnly, nested,    nullptr,
                                    keepsInk, compressed,   earlyOut, lookup,         fourForms, nullptr,
-                                   notHere,  primitive,    traced,   dynamic,        notHere,   automatic};
+                                   notHere,  primitive,    traced,   dynamic,        authored,  automatic};
     return row >= 1 && row <= int(std::size(checks)) ? checks[row - 1] : nullptr;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// A folder's SVG files times its variants.
+/// A folder's SVG and .vtmtree files times its variants.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ struct SvgCase {
     std::string style;  ///< CSS for the element with the id `subject`
     Settings settings;
 
-    /// Throws svg::ParseError, and SuiteError where a style has no subject to apply to.
+    /// Throws svg::ParseError, TreeError, and SuiteError where a style has no subject to apply to.
     scene::Scene scene() const;
 };
 

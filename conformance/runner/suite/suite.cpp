@@ -1,6 +1,8 @@
 #include "conformance/runner/suite/suite.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <sstream>
 
 #include <fmt/core.h>
 
@@ -85,13 +87,30 @@ std::vector<Folder> foldersOf(const fs::path& suite, Extent extent) {
     return folders;
 }
 
-std::string aboutOf(const fs::path& file, const std::string& text) {
+namespace {
+
+/// The first in SVG, or the lines of // that a text begins with.
+std::optional<std::string> firstComment(const std::string& text) {
+    std::string lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line) && line.starts_with("//");)
+        lines += line.substr(2) + "\n";
+    if (!lines.empty())
+        return lines;
     const std::size_t from = text.find("<!--"), to = text.find("-->", from);
     if (from == std::string::npos || to == std::string::npos)
+        return std::nullopt;
+    return text.substr(from + 4, to - from - 4);
+}
+
+}  // namespace
+
+std::string aboutOf(const fs::path& file, const std::string& text) {
+    const std::optional<std::string> comment = firstComment(text);
+    if (!comment)
         throw SuiteError(file.string() + ": has no comment that says what it includes and excludes");
-    const std::string comment = text.substr(from + 4, to - from - 4);
     std::string about;
-    for (const char c : comment) {
+    for (const char c : *comment) {
         const bool space = c == ' ' || c == '\n' || c == '\t' || c == '\r';
         if (!space)
             about += c;

@@ -47,7 +47,8 @@ enum class Extent { Daily, Full };
 /// All folders with a suite.json, the root first, by name.
 std::vector<Folder> foldersOf(const std::filesystem::path& suite, Extent extent = Extent::Daily);
 
-/// A text's first comment in SVG or lines that begin with #: what the file is about. SuiteError without one.
+/// A text's first comment in SVG, or the lines of // that it begins with: what the file is about. SuiteError
+/// without one.
 std::string aboutOf(const std::filesystem::path& file, const std::string& text);
 
 /// The cases of a suite's folder, of all kinds.

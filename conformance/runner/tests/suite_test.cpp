@@ -86,6 +86,17 @@ TEST_F(SuiteFolder, NeedsNoMoreThanFiles) {
     EXPECT_EQ(outcome.status, Outcome::Status::Passed) << outcome.message;
 }
 
+TEST_F(SuiteFolder, TakesTextsOfTreesForPictures) {
+    write("suite.json", R"({"kind": "scene", "bounds": {"max": 4}, "views": {"count": 2}})");
+    write("half.vtmtree", "// A half.\n// No curves.\nvtmtree 1 size 8 8 draw select rect(0 0, 4 8) red\n");
+    const std::vector<Case> cases = loadSuite(folder_);
+    ASSERT_EQ(cases.size(), 1u);
+    EXPECT_EQ(cases[0].name, "mine.half");
+    EXPECT_EQ(cases[0].about, "A half. No curves.");
+    const Outcome outcome = cases[0].run({});
+    EXPECT_EQ(outcome.status, Outcome::Status::Passed) << outcome.message;
+}
+
 TEST_F(SuiteFolder, FoldersBelowChangeWhatTheyName) {
     write("suite.json", R"({"kind": "scene", "bounds": {"max": 4, "rms": 1}})");
     write("a/suite.json", R"({"bounds": {"max": 2}})");
