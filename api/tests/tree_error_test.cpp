@@ -72,6 +72,8 @@ TEST(TreeError, EveryMistakeHasACause) {
          "transform is not finite"},
         {"clip a = { rect(0 0 1 1) stroke 1 }", "clips are made of filled shapes, not of strokes"},
         {"draw layer mask red", "expected luminance, alpha, linear-luminance, found 'red'"},
+        {"draw layer opacity 1 blend normal opacity 1 red", "'opacity' is given twice"},
+        {"shape a = rect(0 0 1 1) stroke 1 dash(1) dash(2)", "'dash' is given twice"},
         {"draw #12", "the colour cannot be read"},
         {"draw rgb(1 2)", "the colour cannot be read"},
         {"draw linear(0 0, 1 0) { 0 red }", "gradient has 1 stops, not 2 or more"},

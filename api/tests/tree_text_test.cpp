@@ -33,8 +33,8 @@ TEST(TreeText, IsTheShortestThatMeansTheTree) {
     EXPECT_EQ(drawnBack(sign), "draw select \"M0 0L4 0L4 4L0 4Z\" #ff0000 else #0000ff\n");
     EXPECT_EQ(drawnBack(sign.placed(scene::translation(1, 2))),
               "draw { select \"M0 0L4 0L4 4L0 4Z\" #ff0000 else #0000ff } placed translate(1 2)\n");
-    EXPECT_EQ(drawnBack(Vtm::over(sign, Vtm::over(red, blue))),
-              "draw {\n    #0000ff\n    #ff0000\n    select \"M0 0L4 0L4 4L0 4Z\" #ff0000 else #0000ff\n}\n");
+    EXPECT_EQ(drawnBack(Vtm::over(sign, Vtm::paint(Color{0, 1, 0, 1}))),
+              "draw {\n    #00ff00\n    select \"M0 0L4 0L4 4L0 4Z\" #ff0000 else #0000ff\n}\n");
     EXPECT_EQ(drawnBack(Vtm::layer(red, blue, {0.5f})),
               "draw {\n    #0000ff\n    layer opacity 0.5 #ff0000\n}\n");
 }
@@ -44,6 +44,7 @@ TEST(TreeText, WritesWhatOccursTwiceOnce) {
     EXPECT_EQ(drawnBack(Vtm::over(sign.placed(scene::scaling(2, 2)), sign)),
               "vtm v1 = select \"M0 0L4 0L4 4L0 4Z\" #ff0000 else #0000ff\n"
               "draw {\n    v1\n    v1 placed scale(2)\n}\n");
+    EXPECT_EQ(drawnBack(Vtm::over(red, red)), "vtm v1 = #ff0000\ndraw {\n    v1\n    v1\n}\n");
     const Mask mask = box(4);
     EXPECT_EQ(drawnBack(Vtm::select(mask, red, Vtm::select(mask, blue))),
               "shape s1 = \"M0 0L4 0L4 4L0 4Z\"\ndraw select s1 #ff0000 else select s1 #0000ff\n");
@@ -95,10 +96,9 @@ TEST(TreeText, HasClipsAndMasks) {
 TEST(TreeText, DeepTreesAreCutIntoNamedParts) {
     Vtm inside = red, outside = red, layers = red, chain = red, placed = red;
     for (int i = 0; i < 300; ++i) {
-        const Vtm paint = Vtm::paint(Color{0, 0, 1, 1});
-        inside = Vtm::select(box(4), inside, paint);
-        outside = Vtm::select(box(4), paint, outside);
-        layers = Vtm::layer(layers, paint, {0.5f});
+        inside = Vtm::select(box(4), inside, blue);
+        outside = Vtm::select(box(4), blue, outside);
+        layers = Vtm::layer(layers, blue, {0.5f});
         placed = Vtm::select(box(4), placed).placed(scene::translation(0.5, 0));
     }
     for (int i = 0; i < 3000; ++i)

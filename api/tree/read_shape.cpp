@@ -71,6 +71,16 @@ scene::Path TreeReader::pathData() {
     return std::move(parsed.path);
 }
 
+bool TreeReader::attribute(std::string_view word, std::vector<std::string_view>& given) {
+    if (in_.peek() != word)
+        return false;
+    if (std::ranges::count(given, word) != 0)
+        in_.fail(in_.rest(), fmt::format("'{}' is given twice", word));
+    given.push_back(word);
+    in_.next();
+    return true;
+}
+
 TreeReader::CountedShape TreeReader::stroked(CountedShape shape, std::string_view at) {
     if (!std::holds_alternative<scene::FillRule>(shape.part.geometry))
         in_.fail(at, "the shape is a stroke already");
@@ -78,16 +88,16 @@ TreeReader::CountedShape TreeReader::stroked(CountedShape shape, std::string_vie
         in_.fail(at, "the shape is placed already; 'stroke' stands before 'placed'");
     scene::StrokeStyle style;
     style.width = in_.number("the width of the stroke");
-    for (;;) {
-        if (in_.accept("cap"))
+    for (std::vector<std::string_view> given;;) {
+        if (attribute("cap", given))
             style.cap = keyword<scene::Cap>(keywords::caps);
-        else if (in_.accept("join"))
+        else if (attribute("join", given))
             style.join = keyword<scene::Join>(keywords::joins);
-        else if (in_.accept("miter"))
+        else if (attribute("miter", given))
             style.miterLimit = in_.number("the mitre limit");
-        else if (in_.accept("dash"))
+        else if (attribute("dash", given))
             style.dashes = dashes();
-        else if (in_.accept("phase"))
+        else if (attribute("phase", given))
             style.dashPhase = in_.number("the dash phase");
         else
             break;
@@ -147,16 +157,16 @@ scene::Link<scene::Clip> TreeReader::within(std::size_t& nodes) {
 
 Compositing TreeReader::compositing(std::size_t& nodes) {
     Compositing how;
-    for (;;) {
-        if (in_.accept("opacity")) {
+    for (std::vector<std::string_view> given;;) {
+        if (attribute("opacity", given)) {
             how.opacity = unit("an opacity");
-        } else if (in_.accept("blend")) {
+        } else if (attribute("blend", given)) {
             how.blend = keyword<scene::BlendMode>(keywords::blends);
-        } else if (in_.accept("clip")) {
+        } else if (attribute("clip", given)) {
             const CountedClip made = clip();
             nodes = sum(nodes, made.nodes);
             how.clip = made.part;
-        } else if (in_.accept("mask")) {
+        } else if (attribute("mask", given)) {
             how.mask = mask(nodes);
         } else {
             return how;

@@ -96,6 +96,8 @@ private:
     template <std::size_t count>
     std::array<double, count> numbers();
 
+    /// Whether the word comes next, which is stepped over; it must not be among those `given` before.
+    bool attribute(std::string_view word, std::vector<std::string_view>& given);
     /// Throws TreeError for `at` where the item breaks a rule of scenes.
     void check(std::string_view at, scene::Item item);
     template <class Check>

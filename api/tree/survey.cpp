@@ -18,12 +18,6 @@ const scene::Pattern* patternOf(const VtmNode& node) {
     return paint ? std::get_if<scene::Pattern>(&paint->paint) : nullptr;
 }
 
-/// Written in a few letters, so it needs no name.
-bool isColor(const VtmNode& node) {
-    const auto* paint = as<PaintNode>(&node);
-    return paint && std::holds_alternative<scene::Color>(paint->paint);
-}
-
 }  // namespace
 
 TreeSurvey::TreeSurvey(const Vtm& root) {
@@ -187,7 +181,7 @@ void TreeSurvey::finish(const VtmNode& node) {
             name(operand);
         info.height = std::max(info.height, infos_[operand].height + levels);
     }
-    if (info.uses > 1 && !isColor(node))
+    if (info.uses > 1)
         name(&node);
 }
 

@@ -22,6 +22,21 @@ def drawings():
     return {f"{i}-{path.name}": data for i, path in enumerate(files) if len(data := path.read_bytes()) <= MAX_BYTES}
 
 
+def trees():
+    """Texts of VTMs."""
+    files = [path for folder in ("examples", "conformance/suites") for path in sorted((ROOT / folder).rglob("*.vtmtree"))]
+    small = {
+        "paints": "draw { linear(0 0, 8 8) reflect transform rotate(9) { 0 red, 1 blue } radial(4 4 3) focus(5 4 1) { 0 #f008 1 lime } "
+                  "pattern(0 0, 4 4) transform scale(2) { red opacity 0.5 } material m red \"vec4 m(vec2 p) { return vec4(1); }\" }",
+        "layers": "clip c = { rect(0 0 4 4) evenodd } within { circle(4 4 3) } draw { blue "
+                  "layer opacity 0.5 blend hue clip c mask linear-luminance { red } select \"M0 0Q1 2 3 4T5 6Z\" red }",
+        "strokes": "shape s = \"M1 1C2 2 3 3 4 1A2 3 9 1 0 6 6\" stroke 2 cap round join bevel miter 3 dash(1 2 3) phase 1 "
+                   "draw select s placed skewX(9) red else select s {} else color(srgb 0.1 0.2 0.3 / 0.4)",
+    }
+    return ({path.name: path.read_bytes() for path in files}
+            | {name: f"vtmtree 1 size 8 8 {text}".encode() for name, text in small.items()})
+
+
 def noise(count, size):
     """Bytes that a target takes for calls or scenes."""
     generator = random.Random(20055)
@@ -117,7 +132,7 @@ def main():
         subprocess.run([program[0], str(out)], check=True)
         return
     seeds = {"svg": drawings, "image": pictures, "font": fonts, "openvg": lambda: noise(40, 1024),
-             "pipeline": lambda: drawings() | noise(200, 512)}[target]()
+             "pipeline": lambda: drawings() | noise(200, 512), "tree": trees}[target]()
     for name, data in seeds.items():
         (out / name).write_bytes(data)
 
