@@ -46,7 +46,7 @@ def dead_commands(root, code):
     for command in re.findall(r"(?:^|\s)\./dev ([a-z-]+)", code):
         if command not in commands:
             yield f"./dev {command}: no such command"
-    for sub in re.findall(r"^(?:\$ )?(?:\./dev )?vtm ([a-z]+)", code):
+    for sub in re.findall(r"^(?:\$ )?(?:\./dev )?vtm ([a-z]+)\b(?! =)", code):
         if not (root / f"tools/commands/{sub}.cpp").is_file():
             yield f"vtm {sub}: no such subcommand"
 

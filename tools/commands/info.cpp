@@ -96,7 +96,8 @@ int info(const InfoOptions& options) {
 void addInfo(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* command = app.add_subcommand("info", "Show what a file contains (an SVG is compiled first)");
-    command->add_option("FILE", options->input, "SVG or .vtm file, or - for standard input")->required();
+    command->add_option("FILE", options->input, "SVG, .vtmtree or .vtm file, or - for standard input")
+        ->required();
     command->add_flag("--json", options->json, "Print the figures as JSON");
     addSourceOptions(*command, options->source);
     command->footer("Examples:\n  vtm info tiger.vtm\n  vtm info tiger.svg --json");

@@ -234,8 +234,10 @@ int render(const RenderOptions& options) {
 
 void addRender(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App* command = app.add_subcommand("render", "Draw SVG or .vtm files as PNG, JPEG, WebP or PPM");
-    auto* inputs = command->add_option("IN", options->inputs, "SVG or .vtm files, or - for standard input");
+    CLI::App* command =
+        app.add_subcommand("render", "Draw SVG, .vtmtree or .vtm files as PNG, JPEG, WebP or PPM");
+    auto* inputs =
+        command->add_option("IN", options->inputs, "SVG, .vtmtree or .vtm files, or - for standard input");
     auto* output =
         command->add_option("-o,--output", options->output,
                             ".png, .jpg, .webp or .ppm file, a directory, or - for standard output");

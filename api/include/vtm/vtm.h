@@ -1,6 +1,6 @@
 /*
- * Loads SVG or .vtm files and renders them to pixels; for C and for languages that bind to C. Plain C99; <vtm/vtm.hpp> is
- * the same in C++.
+ * Loads SVG, .vtmtree or .vtm files and renders them to pixels; for C and for languages that bind to C. Plain C99;
+ * <vtm/vtm.hpp> is the same in C++.
  *
  *     VtmPicture *picture = vtmLoadPicture("tiger.svg");
  *     VtmRenderOptions options = {0};
@@ -37,7 +37,8 @@ const char *vtmVersion(void);
  * it. */
 const char *vtmGetError(void);
 
-/* Loads an SVG file, gzip-compressed or not, or a compiled .vtm file; the bytes decide which. */
+/* Loads an SVG file, gzip-compressed or not, a .vtmtree file (docs/vtmtree.md) or a compiled .vtm file; the bytes
+ * decide which. */
 VtmPicture *vtmLoadPicture(const char *path);
 
 /* The same from memory, which is not needed afterwards. `name` replaces the file name in messages and may be NULL.

@@ -1,4 +1,4 @@
-"""Loads SVG or compiled .vtm files and renders them to NumPy arrays.
+"""Loads SVG, .vtmtree or compiled .vtm files and renders them to NumPy arrays.
 
     import vtm
     picture = vtm.Picture.load("tiger.svg")
@@ -122,7 +122,7 @@ class Image:
 
 
 class Picture:
-    """An SVG file or a compiled .vtm file. Made by load; may be used from several threads at once."""
+    """An SVG file, a .vtmtree file or a compiled .vtm file. Made by load; may be used from several threads at once."""
 
     def __init__(self, handle):
         self._handle = handle
