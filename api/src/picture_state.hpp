@@ -55,7 +55,7 @@ struct Seen {
     asset::View view;
 };
 
-struct __attribute__((visibility("hidden"))) Picture::State {
+struct Picture::State {
     double width = 0, height = 0;
     std::optional<scene::Scene> scene;  ///< not where the picture was loaded compiled
 

@@ -127,6 +127,9 @@ public:
         return result;
     }
 
+    /// Whether an item has the frame for its path.
+    bool fillsFrame() const { return frame_.use_count() > 1; }
+
 private:
     /// In painter's order. Goes down a chain from the top without recursion.
     Nodes nodes(const Vtm& vtm, const Affine& at) {
@@ -214,12 +217,14 @@ private:
 
 }  // namespace
 
-scene::Group toGroup(const Vtm& vtm, scene::Point min, scene::Point max) {
-    return Unfolder(min, max).group(vtm, scene::identity);
+FramedGroup toGroup(const Vtm& vtm, scene::Point min, scene::Point max) {
+    Unfolder unfolder(min, max);
+    scene::Group group = unfolder.group(vtm, scene::identity);
+    return {std::move(group), unfolder.fillsFrame()};
 }
 
 scene::Scene Vtm::toScene(double width, double height) const {
-    return {width, height, toGroup(*this, {0, 0}, {width, height})};
+    return {width, height, toGroup(*this, {0, 0}, {width, height}).group};
 }
 
 }  // namespace vtm

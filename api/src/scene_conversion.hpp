@@ -16,7 +16,13 @@ const Kind* as(const VtmNode* node) {
 
 Vtm fromGroup(const scene::Group& group);
 
-/// Paints over the whole plane fill the rectangle with these corners.
-scene::Group toGroup(const Vtm& vtm, scene::Point min, scene::Point max);
+struct FramedGroup {
+    scene::Group group;
+    bool fillsFrame;  ///< whether there are paints over the whole plane, without which any frame gives the
+                      ///< same
+};
+
+/// Paints over the whole plane fill the frame, the rectangle with these corners.
+FramedGroup toGroup(const Vtm& vtm, scene::Point min, scene::Point max);
 
 }  // namespace vtm

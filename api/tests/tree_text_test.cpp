@@ -93,6 +93,21 @@ TEST(TreeText, HasClipsAndMasks) {
     }
 }
 
+TEST(TreeText, PatternsOfSeveralTilesShareTheirContent) {
+    const auto item = std::make_shared<const scene::Group>(Vtm::select(box(4), red).toScene(8, 8).root);
+    const auto paint =
+        std::make_shared<const scene::Group>(Vtm::over(Vtm::select(box(2), red), blue).toScene(1, 1).root);
+    for (const auto& content : {item, paint}) {
+        const Vtm small = Vtm::paint(scene::Pattern{{0, 0}, {1, 1}, content});
+        const Vtm large = Vtm::paint(scene::Pattern{{0, 0}, {2, 1}, content});
+        checked(Vtm::select(box(4), small, large));
+    }
+    const std::string text =
+        "vtmtree 1 size 8 8 vtm a = { red select rect(0 0 1 1) blue } "
+        "draw { pattern(0 0 1 1) { a } pattern(0 0 2 2) { a } pattern(0 0 1 1) { a } }";
+    checked(readText(text).vtm);
+}
+
 TEST(TreeText, DeepTreesAreCutIntoNamedParts) {
     Vtm inside = red, outside = red, layers = red, chain = red, placed = red;
     for (int i = 0; i < 300; ++i) {

@@ -167,13 +167,19 @@ std::size_t TreeReader::sum(std::size_t a, std::size_t b) {
 }
 
 scene::Link<scene::Group> TreeReader::group(const CountedVtm& content, scene::Point min, scene::Point max) {
-    Content& known = contents_[{content.part.node(), min.x, min.y, max.x, max.y}];
-    if (!known.group) {
-        contentNodes_ = sum(contentNodes_, content.nodes);
-        known.vtm = content.part;
-        obey(in_.rest(),
-             [&] { known.group = std::make_shared<const scene::Group>(toGroup(content.part, min, max)); });
-    }
+    const VtmNode* node = content.part.node();
+    if (const auto known = unframed_.find(node); known != unframed_.end())
+        return known->second.group;
+    Content& known = framed_[{node, min.x, min.y, max.x, max.y}];
+    if (known.group)
+        return known.group;
+    contentNodes_ = sum(contentNodes_, content.nodes);
+    obey(in_.rest(), [&] {
+        FramedGroup made = toGroup(content.part, min, max);
+        known = {content.part, std::make_shared<const scene::Group>(std::move(made.group))};
+        if (!made.fillsFrame)
+            unframed_.emplace(node, known);
+    });
     return known.group;
 }
 

@@ -1,6 +1,7 @@
 // Shapes, clips, compositing, transforms.
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -209,6 +210,9 @@ scene::Affine TreeReader::transform() {
             in_.fail(at, "the transform cannot be read");
         in_.advance(function.size());
         all = scene::compose(all, *map);
+        for (const double number : {all[0].x, all[0].y, all[1].x, all[1].y, all[2].x, all[2].y})
+            if (!(std::abs(number) < svg::maxNumber))
+                in_.fail(at, "the transform has a number beyond 1e30");
     }
     return all;
 }

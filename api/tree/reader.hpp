@@ -116,12 +116,14 @@ private:
     std::unordered_map<std::string, std::string> materials_;  ///< texts by name
     std::unordered_map<std::string, Bitmap> bitmaps_;         ///< by reference
     std::int64_t pixels_ = 0;                                 ///< of all of them
-    /// Contents of masks and patterns by VTM and rectangle, so that what shares a name shares them.
+    /// Contents of masks and patterns by VTM, and by rectangle where that matters, so that what shares a name
+    /// shares them.
     struct Content {
         Vtm vtm;
         scene::Link<scene::Group> group;
     };
-    std::map<std::tuple<const VtmNode*, double, double, double, double>, Content> contents_;
+    std::map<std::tuple<const VtmNode*, double, double, double, double>, Content> framed_;
+    std::unordered_map<const VtmNode*, Content> unframed_;
     std::size_t contentNodes_ = 0;
     std::map<std::pair<const scene::Group*, int>, scene::Link<scene::Mask>> masks_;
     int depth_ = 0;

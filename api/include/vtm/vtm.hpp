@@ -132,7 +132,7 @@ public:
     gl::Texture texture() const;
 
 private:
-    struct State;
+    struct __attribute__((visibility("hidden"))) State;
     std::shared_ptr<State> state_;
 };
 
