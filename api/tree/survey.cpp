@@ -18,6 +18,11 @@ const scene::Pattern* patternOf(const VtmNode& node) {
     return paint ? std::get_if<scene::Pattern>(&paint->paint) : nullptr;
 }
 
+/// As a VTM that comes back as it is when the text is read: groups without effect are left out.
+Vtm normalized(const scene::Group& group) {
+    return fromGroup(toGroup(fromGroup(group), scene::Point(0), scene::Point(0)).group);
+}
+
 }  // namespace
 
 TreeSurvey::TreeSurvey(const Vtm& root) {
@@ -50,7 +55,7 @@ const Vtm& TreeSurvey::content(const std::shared_ptr<const scene::Group>& group)
 
 void TreeSurvey::addContent(const std::shared_ptr<const scene::Group>& group) {
     if (!contents_.contains(group.get()))
-        contents_.emplace(group.get(), fromGroup(*group));
+        contents_.emplace(group.get(), normalized(*group));
 }
 
 void TreeSurvey::addContents(const VtmNode& node) {

@@ -40,7 +40,7 @@ private:
 
     void define() {
         for (const scene::Path* path : survey_.sharedPaths())
-            define(paths_, path, "shape", 's', [&] { text_ += quoted(svg::pathData(*path)); });
+            define(paths_, path, "shape", 's', [&] { text_ += inQuotes(svg::pathData(*path)); });
         for (const scene::Clip* clip : survey_.clips())
             define(clips_, clip, "clip", 'c', [&] { clipBlock(*clip); });
         for (const image::Bitmap* bitmap : survey_.sharedBitmaps())
@@ -178,7 +178,7 @@ private:
     void shape(const std::shared_ptr<const scene::Path>& path, const Geometry& how,
                const scene::Affine& map) {
         const auto name = paths_.find(path.get());
-        text_ += name != paths_.end() ? name->second : quoted(svg::pathData(*path));
+        text_ += name != paths_.end() ? name->second : inQuotes(svg::pathData(*path));
         text_ += geometry(how);
         if (map != scene::identity)
             text_ += " placed " + transform(map);
@@ -233,11 +233,11 @@ private:
 
     void value(const scene::Material& paint) {
         text_ += fmt::format("material {} {}{} {}", paint.name, color(paint.fallback),
-                             paintTransform(paint.transform), quoted(paint.glsl));
+                             paintTransform(paint.transform), inQuotes(paint.glsl));
     }
 
     static std::string encoded(const image::Bitmap& bitmap) {
-        return quoted(svg::dataUrl("image/png", image::encodePng(bitmap)));
+        return inQuotes(svg::dataUrl("image/png", image::encodePng(bitmap)));
     }
 
     const Tree& tree_;

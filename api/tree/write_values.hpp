@@ -13,7 +13,7 @@
 namespace vtm::treetext {
 
 /// In quotes, with \ before " and \.
-std::string quoted(std::string_view text);
+std::string inQuotes(std::string_view text);
 std::string color(const scene::Color& color);
 std::string transform(const scene::Affine& map);
 /// A space and what makes another shape of an outline; empty for a fill by the non-zero rule.

@@ -1,5 +1,5 @@
-// Scenes written as SVG and read again: the same pictures, and from then on the same text. VTM_TEST_ALL=1
-// takes all files and many more random scenes.
+// Scenes written as SVG and as trees, and read again: the same pictures, and from then on the same text.
+// VTM_TEST_ALL=1 takes all files and many more random scenes.
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/svg/load.hpp>
 #include <vtm/svg/write.hpp>
+#include <vtm/vtmtree.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/generate/generate.hpp"
 
@@ -77,6 +78,23 @@ void expectReadsBack(const scene::Scene& scene, bool isImported) {
         expectSamePictures(scene, again.scene);
 }
 
+Tree readAsTree(const std::string& text) {
+    return readTree({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+/// As a tree of VTMs. What was read once stays as it is; so does what the importer made, at once.
+void expectReadsBackAsTree(const scene::Scene& scene, bool isImported) {
+    const std::string made = writeTree({scene.width, scene.height, Vtm::fromScene(scene)});
+    const Tree again = readAsTree(made);
+    const std::string text = writeTree(again);
+    EXPECT_TRUE(text == made || !isImported);
+    const Tree third = readAsTree(text);
+    EXPECT_TRUE(scene::dump(third.toScene()) == scene::dump(again.toScene()));
+    EXPECT_TRUE(writeTree(third) == text);
+    if (!isImported)
+        expectSamePictures(scene, again.toScene());
+}
+
 std::vector<fs::path> svgFiles(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -95,7 +113,9 @@ protected:
         const std::vector<fs::path> files = svgFiles(folder);
         for (std::size_t i = GetParam(); i < files.size(); i += parts) {
             SCOPED_TRACE(files[i].string());
-            expectReadsBack(loadScene(files[i]), true);
+            const scene::Scene scene = loadScene(files[i]);
+            expectReadsBack(scene, true);
+            expectReadsBackAsTree(scene, true);
         }
     }
 
@@ -141,6 +161,7 @@ TEST_P(WrittenPart, OfRandomScenesReadsBack) {
     for (std::uint64_t seed = count * GetParam(); seed < count * (GetParam() + 1); ++seed) {
         SCOPED_TRACE(seed);
         expectReadsBackRounded(generate::randomScene(seed));
+        expectReadsBackAsTree(generate::randomScene(seed), false);
     }
 }
 
@@ -152,6 +173,7 @@ TEST(Written, HardScenesReadBack) {
         for (std::uint64_t seed = 0; seed < (takesAll() ? 20u : 1u); ++seed) {
             SCOPED_TRACE(std::string(family.name) + " " + std::to_string(seed));
             const scene::Scene scene = family.make(seed);
+            expectReadsBackAsTree(scene, false);
             if (std::max(scene.width, scene.height) <= maxSize)
                 expectReadsBackRounded(scene);
             else
