@@ -131,7 +131,7 @@ const std::vector<Breach> breaches{
          for (std::uint32_t kind = 8; kind <= 10; ++kind)
              setWord(f, lineOf(kind - 1) + atKind, kind);
      }},
-    {"section 0xd: kind is unknown", [](Bytes& f) { f = withSection(f, 13, 4, 1); }},
+    {"section 0x11: kind is unknown", [](Bytes& f) { f = withSection(f, 17, 4, 1); }},
     {"section 0x7fffffff: kind is unknown", [](Bytes& f) { f = withSection(f, 0x7FFFFFFF, 4, 1); }},
     {"section leaves: unused word is not zero", [](Bytes& f) { setWord(f, lineOf(leaves) + atUnused, 1); }},
     {"section leaves: records have no size", [](Bytes& f) { setWord(f, lineOf(leaves) + atRecordBytes, 0); }},

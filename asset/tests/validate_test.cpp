@@ -127,7 +127,7 @@ const std::vector<Breach> breaches{
      [](Asset& a) { a.materials[0].glsl.push_back('\0'); }},
     {"materials[0]: text holds a zero byte or is too long", everyPaint,
      [](Asset& a) { a.materials[0].glsl.assign(maxMaterialText + 1, ' '); }},
-    {"maps[0]: unused word is not zero", disc, [](Asset& a) { a.maps[0].unused = 1; }},
+    {"maps[0]: refers to a missing tree of instances", disc, [](Asset& a) { a.maps[0].instances = 1; }},
     {"prefilter[0]: a side is not 2^k or 3 * 2^k texels of at most 4096", everySection,
      [](Asset& a) {
          a.prefilter.size = {0, 4};

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "compiler/compile/settings.hpp"
+#include "compiler/instances/encode_instances.hpp"
+#include "compiler/instances/place_symbols.hpp"
 #include "compiler/lower/walk_items.hpp"
 #include "compiler/paint/painters.hpp"
 #include "compiler/tree/build_tree.hpp"
@@ -49,8 +51,13 @@ private:
 };
 
 /// Returns by how much merging colours that the format cannot all name may have changed one.
-float compileExact(const LoweredScene& picture, MapBuilder& maps, asset::Asset& asset) {
-    const Tree tree = maps.build(allLayers(picture), PicturePainter(picture));
+float compileExact(const LoweredScene& picture, MapBuilder& maps, const PlacedSymbols& placed,
+                   const Palette& placedPaints, asset::Asset& asset) {
+    Tree tree = maps.build(placed.layers, PicturePainter(picture));
+    std::vector<PaintId> inTree(placedPaints.size());
+    for (const PlacedSymbol& symbol : placed.placed)
+        for (const PaintId id : symbol.paints)
+            inTree[id] = tree.palette.add(placedPaints[id]);
     float error = 0;
     const std::vector<std::uint16_t> paints = encodePalette(tree.palette, asset, error);
     asset.nodes.reserve(tree.nodes.size());
@@ -60,6 +67,10 @@ float compileExact(const LoweredScene& picture, MapBuilder& maps, asset::Asset& 
     draw.kind = Command::Kind::DrawMap;
     draw.map = maps.add(tree, paints);
     asset.commands.push_back(draw);
+    std::vector<std::uint16_t> ofPlaced;
+    for (const PaintId id : inTree)
+        ofPlaced.push_back(paints[id]);
+    encodeInstances(placed, ofPlaced, asset);
     return error;
 }
 
@@ -189,7 +200,17 @@ Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const O
     const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
     // Where coverage is a factor, fills end where they are told to.
     const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
-    LoweredScene picture = lower(scene, excerpt, lattice, errorBudget(options), sharing);
+    const bool findsRepeats = options.instances && options.mode == asset::Mode::Exact && !excerpt.isPart;
+    std::vector<LayerOrigin> origins;
+    LoweredScene picture = lower(scene, excerpt, lattice, errorBudget(options), sharing, nullptr,
+                                 findsRepeats ? &origins : nullptr);
+    Palette placedPaints;
+    PlacedSymbols placed;
+    if (findsRepeats)
+        placed =
+            placeSymbols(picture, origins, lattice, excerpt.width, excerpt.height, options, placedPaints);
+    else
+        placed.layers = allLayers(picture);
     const auto lowered = Clock::now();
 
     Result result;
@@ -204,10 +225,11 @@ Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const O
     MapBuilder maps(picture, lattice, options, result);
     float error = 0;
     if (options.mode == asset::Mode::Exact)
-        error = compileExact(picture, maps, asset);
+        error = compileExact(picture, maps, placed, placedPaints, asset);
     else
         error = CompatCompiler(picture, maps, asset).run();
 
+    result.provenError = std::max(result.provenError, placed.error / std::max(excerpt.width, excerpt.height));
     asset.finestPixel = finestPixel(result);
     const TreeTimes& t = maps.times();
     const double built = milliseconds(lowered, Clock::now());

@@ -25,13 +25,15 @@ using scene::Point;
 class Lowering {
 public:
     Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-             const ErrorBudget& budget, Sharing sharing, OutlineCache* cache)
+             const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
+             std::vector<LayerOrigin>* origins)
         : lattice_(lattice),
           budget_(budget),
           sharing_(sharing),
           frame_{{0, 0}, {excerpt.width, excerpt.height}},
           isPart_(excerpt.isPart),
           cache_(cache),
+          origins_(origins),
           paints_(picture_, excerpt) {
         if (cache_)
             picture_.outlines = cache_->take();
@@ -165,10 +167,11 @@ private:
         }
         if (fillSource) {
             fillRuns = isHidden && shared ? RunRange{strokeRuns.first, *shared} : outline(fillOrigin);
-            paint(addLayer(fillRuns, std::get<scene::FillRule>(fill.geometry)), fill, *fillSource, into);
+            paint(addLayer(fillOrigin, fillRuns, std::get<scene::FillRule>(fill.geometry)), fill, *fillSource,
+                  into);
         }
         if (strokeSource)
-            paint(addLayer(strokeRuns, scene::FillRule::NonZero), stroke, *strokeSource, into);
+            paint(addLayer(strokeOrigin, strokeRuns, scene::FillRule::NonZero), stroke, *strokeSource, into);
     }
 
     void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
@@ -242,10 +245,12 @@ private:
         if (cache_ && !known)
             cache_->add(origin, runs,
                         static_cast<std::uint32_t>(picture_.outlines.points.size() - pointsBefore));
-        return addLayer(runs, rule);
+        return addLayer(origin, runs, rule);
     }
 
-    std::uint32_t addLayer(RunRange runs, scene::FillRule rule) {
+    std::uint32_t addLayer(const OutlineOrigin& origin, RunRange runs, scene::FillRule rule) {
+        if (origins_)
+            origins_->push_back({origin.path, origin.transform, origin.stroke, rule});
         picture_.layers.push_back({rule, runs.first, runs.count, place_});
         checkLimits();
         picture_.itemOfLayer.push_back(noIndex);
@@ -309,6 +314,7 @@ private:
     const Box frame_;
     const bool isPart_;
     OutlineCache* const cache_;
+    std::vector<LayerOrigin>* const origins_;
     limits::Place place_;  ///< of what is being lowered
     LoweredScene picture_;
     PaintTable paints_;
@@ -317,8 +323,13 @@ private:
 }  // namespace
 
 LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache) {
-    return Lowering(scene, excerpt, lattice, budget, sharing, cache).take();
+                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
+                   std::vector<LayerOrigin>* origins) {
+    LoweredScene picture = Lowering(scene, excerpt, lattice, budget, sharing, cache, origins).take();
+    if (origins)
+        for (std::size_t i = 0; i < origins->size(); ++i)
+            (*origins)[i].isClip = picture.itemOfLayer[i] == noIndex;
+    return picture;
 }
 
 }  // namespace vtm::compiler

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include <vtm/scene/scene.hpp>
 #include "compiler/lower/error_budget.hpp"
@@ -32,10 +34,20 @@ inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
 /// own, where that hides the difference (docs/regions.md).
 enum class Sharing : std::uint8_t { None, Outlines };
 
+/// What the outline of a layer was made of.
+struct LayerOrigin {
+    std::shared_ptr<const scene::Path> path;
+    scene::Affine transform;                     ///< path space to picture
+    const scene::StrokeStyle* stroke = nullptr;  ///< of the scene; null: filled
+    scene::FillRule rule = scene::FillRule::NonZero;
+    bool isClip = false;
+};
+
 /// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a
 /// `cache`, outlines that it holds are taken from it and others added to it; its store of outlines becomes
-/// the picture's; then nothing is shared.
+/// the picture's; then nothing is shared. `origins`: gets those of the layers.
 LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr);
+                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr,
+                   std::vector<LayerOrigin>* origins = nullptr);
 
 }  // namespace vtm::compiler
