@@ -202,8 +202,9 @@ private:
         require(step * (std::abs(m00) + std::abs(m10)) <= tree.reach &&
                     step * (std::abs(m01) + std::abs(m11)) <= tree.reach,
                 "instances", i, "is larger than its tree says");
-        require(m00 >= -slopeScale && m01 >= -slopeScale && m10 >= -slopeScale && m11 >= -slopeScale,
-                "instances", i, "a coefficient is below -1");
+        require(m00 >= -slopeScale && m01 >= -slopeScale && m10 >= -slopeScale && m11 >= -slopeScale &&
+                    m00 * m11 != m01 * m10,
+                "instances", i, "is flat, or a coefficient is below -1");
     }
 
     /// Its own paints count as work: whoever draws it looks them up.

@@ -173,7 +173,7 @@ TEST(HostileFile, TheTableIsCheckedBehindGoodChecksums) {
 /// With the checksums put right, damage must still end in an error or in an asset that can be drawn.
 TEST(HostileFile, DamageBehindGoodChecksumsIsRefusedOrHarmless) {
     std::mt19937 random(9);
-    for (const Asset& asset : {everySection(), layers(), twoLevels()}) {
+    for (const Asset& asset : {everySection(), layers(), twoLevels(), placedMaps()}) {
         const Bytes good = write(asset);
         int refused = 0;
         constexpr int rounds = 4000;
