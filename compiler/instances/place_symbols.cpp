@@ -188,7 +188,7 @@ private:
     /// Before anything is built: whether enough of the picture repeats. One that hardly does takes no time
     /// and keeps its bytes.
     bool mayPay(std::span<const Repeat> repeats) const {
-        constexpr double minShare = 1.0 / 8;
+        constexpr double minShare = 1.0 / 4;
         std::size_t saved = 0;
         for (const Repeat& repeat : repeats)
             saved += (repeat.occurrences.size() - 1) * chordsOf(repeat.occurrences[0].first, repeat.count);
