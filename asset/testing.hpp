@@ -111,6 +111,9 @@ Asset blendAsset(Blend mode);
 Asset steepHalves(double length);
 image::Raster steepHalvesByPoints(double length, int width, int height, const glm::dmat3x2& toPixels);
 
+/// Maps in maps: two of map 1, which has one of map 2, a disc. In the first it is green, in the second blue.
+Asset placedMaps();
+
 /// Every command of compat mode, with nested groups, masks and clips.
 Asset layers();
 

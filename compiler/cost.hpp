@@ -23,17 +23,19 @@ struct CostModel {
     static constexpr double nominalPixels = 1024;
     static constexpr double perLeafFragment = 50, perPiece = 43, perSolidFragment = 5;
 
-    /// By level: (side + 1)².
-    static constexpr auto area = [] {
+    /// Of a map that is drawn on so many pixels a side.
+    static constexpr std::array<double, asset::maxLevel + 1> areasFor(double side) {
         std::array<double, asset::maxLevel + 1> areas{};
-        double side = nominalPixels;
         for (double& a : areas) {
             a = (side + 1) * (side + 1);
             side /= 4;
         }
         return areas;
-    }();
-    static double drawing(double pieces, unsigned level) {
+    }
+
+    std::array<double, asset::maxLevel + 1> area = areasFor(nominalPixels);  ///< by level: (side + 1)²
+
+    double drawing(double pieces, unsigned level) const {
         return area[level] * (pieces > 0 ? perLeafFragment + pieces * perPiece : perSolidFragment);
     }
     double leaf(double pieces, unsigned level) const {

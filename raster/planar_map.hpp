@@ -66,9 +66,15 @@ struct PlanarMap : MapPlace {
     std::vector<PlanarPiece> pieces;
 };
 
+/// Of the map alone, without those that are placed in it.
 PlanarMap planarMap(const AssetView& asset, const Map& map);
-/// Those that the asset's commands draw. std::invalid_argument unless it is a sum of maps.
+/// With all that are placed in it and in each other, their ends rounded to its lattice. Curves that a
+/// placement shears are cut into parts within 2^-14 of their chords.
+PlanarMap flatPlanarMap(const AssetView& asset, const Map& map);
+/// Flat ones, which the asset's commands draw. std::invalid_argument unless it is a sum of maps.
 std::vector<PlanarMap> planarMaps(const AssetView& asset);
+/// Throws std::invalid_argument unless the asset is a sum of maps.
+void requireSumOfMaps(const AssetView& asset);
 
 // ---- Points ---------------------------------------------------------------------------------------
 

@@ -53,6 +53,10 @@ Asset toAsset(const AssetView& view) {
             .data = copied(view.data),
             .images = copied(view.images),
             .materials = copied(view.materials),
+            .instanceTrees = copied(view.instanceTrees),
+            .instances = copied(view.instances),
+            .symbols = copied(view.symbols),
+            .palettes = copied(view.palettes),
             .fallbackLeaves = view.fallbackLeaves,
             .prefilter = {view.prefilter.size, copied(view.prefilter.texels)},
             .finestPixel = view.finestPixel};
@@ -63,7 +67,9 @@ namespace {
 std::size_t uploadedBytes(const AssetView& asset) {
     std::size_t bytes = asset.nodes.size() * sizeof(Node) + asset.leaves.size() * sizeof(Leaf) +
                         asset.pieces.size() * sizeof(Piece) + asset.paints.size() * sizeof(Paint) +
-                        asset.data.size() * sizeof(Texel);
+                        asset.data.size() * sizeof(Texel) + asset.instanceTrees.size_bytes() +
+                        asset.instances.size_bytes() + asset.symbols.size_bytes() +
+                        asset.palettes.size_bytes();
     for (const image::Bitmap& bitmap : asset.images)
         bytes += bitmap.rgba.size();
     return bytes;
@@ -77,6 +83,7 @@ Summary summarize(const AssetView& asset) {
     summary.prefilterBytes = asset.prefilter.texels.size_bytes();
     summary.leaves = asset.leaves.size();
     summary.pieces = asset.pieces.size();
+    summary.instances = asset.instances.size();
     summary.regions = std::set<Paint>(asset.paints.begin(), asset.paints.end()).size();
     for (const Map& map : asset.maps)
         walk(asset, map.root, [&](Cell cell, Entry entry) {

@@ -10,9 +10,10 @@ namespace vtm::asset {
 
 namespace {
 
-constexpr std::array<const char*, 13> names{
-    "picture", "maps",   "commands",    "nodes",     "leaves",    "pieces",        "paints",
-    "data",    "images", "image bytes", "prefilter", "materials", "material bytes"};
+constexpr std::array<const char*, 17> names{
+    "picture",        "maps",           "commands",  "nodes",       "leaves",    "pieces",
+    "paints",         "data",           "images",    "image bytes", "prefilter", "materials",
+    "material bytes", "instance trees", "instances", "symbols",     "palettes"};
 
 }  // namespace
 

@@ -52,12 +52,16 @@ enum class SectionKind : std::uint32_t {
     Prefilter,
     Materials,
     MaterialBytes,
+    InstanceTrees,
+    Instances,
+    Symbols,
+    Palettes,
     Accuracy = 0x80000000u  ///< a reader may do without it
 };
 /// Sections up to this one stand in every file, empty or not; those after it only where they are not
 /// empty.
 inline constexpr SectionKind lastRequired = SectionKind::ImageBytes;
-inline constexpr SectionKind lastKnown = SectionKind::MaterialBytes;
+inline constexpr SectionKind lastKnown = SectionKind::Palettes;
 /// A reader skips a section of unknown kind if this bit is set, and refuses the file if it is not.
 inline constexpr std::uint32_t ignorableBit = 0x80000000u;
 /// Bounds the table of a hostile file.

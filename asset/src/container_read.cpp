@@ -159,6 +159,10 @@ Contents openContents(Bytes bytes) {
     contents.materials = decodeMaterials(sections.take<MaterialRecord>(SectionKind::Materials),
                                          sections.take<std::uint8_t>(SectionKind::MaterialBytes));
     view.materials = contents.materials;
+    view.instanceTrees = sections.take<InstanceTree>(SectionKind::InstanceTrees);
+    view.instances = sections.take<Instance>(SectionKind::Instances);
+    view.symbols = sections.take<Symbol>(SectionKind::Symbols);
+    view.palettes = sections.take<std::uint16_t>(SectionKind::Palettes);
     readAccuracy(sections, view);
     validate(view);
     return contents;

@@ -67,6 +67,14 @@ std::vector<std::uint8_t> write(const AssetView& asset) {
         sections.push_back(section(SectionKind::Materials, std::span(materials.table)));
         sections.push_back(section(SectionKind::MaterialBytes, std::span(materials.bytes)));
     }
+    const auto addUnlessEmpty = [&](SectionKind kind, auto records) {
+        if (!records.empty())
+            sections.push_back(section(kind, records));
+    };
+    addUnlessEmpty(SectionKind::InstanceTrees, asset.instanceTrees);
+    addUnlessEmpty(SectionKind::Instances, asset.instances);
+    addUnlessEmpty(SectionKind::Symbols, asset.symbols);
+    addUnlessEmpty(SectionKind::Palettes, asset.palettes);
     const AccuracyRecord accuracy{asset.finestPixel.value_or(0)};
     if (asset.finestPixel)
         sections.push_back(section(SectionKind::Accuracy, std::span(&accuracy, 1)));

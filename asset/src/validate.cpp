@@ -1,6 +1,9 @@
 #include "asset/src/validate.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "asset/instances.hpp"
 
 namespace vtm::asset {
 
@@ -12,13 +15,21 @@ struct Extent {
     std::uint64_t drawn = 1;  ///< squares and pieces; saturates above maxDrawn
     std::uint32_t depth = 0;
     std::uint32_t largestPaint = 0;
+    std::uint32_t maps = 1;     ///< in each other
+    bool isPicture = false;     ///< it has leaves, or paints other than 0
+    bool hasInstances = false;  ///< it is a tree of instances
 
     void include(const Extent& child) {
         drawn = std::min(drawn + child.drawn, maxDrawn + 1);
         depth = std::max(depth, child.depth + 1);
         largestPaint = std::max(largestPaint, child.largestPaint);
+        isPicture = isPicture || child.isPicture;
+        hasInstances = hasInstances || child.hasInstances;
     }
 };
+
+/// Paints are named with so many numbers.
+constexpr std::size_t maxPaintNumbers = 0x10000;
 
 class Trees {
 public:
@@ -37,17 +48,19 @@ public:
     Extent extentOf(Entry entry, const char* section, std::size_t index) const {
         switch (entry.kind()) {
             case Entry::Kind::Solid:
-                require(entry.payload() < asset_.paints.size(), section, index,
-                        "entry refers to a missing paint");
-                return {1, 0, entry.payload()};
+                require(entry.payload() < (asset_.symbols.empty() ? asset_.paints.size() : maxPaintNumbers),
+                        section, index, "entry refers to a missing paint");
+                return {1, 0, entry.payload(), 1, entry.payload() != 0, false};
             case Entry::Kind::Leaf:
                 require(entry.payload() < leaves_.size(), section, index, "entry refers to a missing leaf");
                 return leaves_[entry.payload()];
             case Entry::Kind::Node:
                 require(entry.payload() < nodes_.size(), section, index, "entry refers to a missing node");
                 return nodes_[entry.payload()];
+            case Entry::Kind::Instances:
+                break;
         }
-        throw FormatError(fmt::format("{}[{}]: entry's kind is unknown", section, index));
+        return {1, 0, 0, 1, false, true};
     }
 
 private:
@@ -57,11 +70,11 @@ private:
         require(leaf.firstPiece <= asset_.pieces.size() &&
                     leaf.pieceCount <= asset_.pieces.size() - leaf.firstPiece,
                 "leaves", i, "piece range is out of bounds");
-        Extent extent{1u + leaf.pieceCount, 0, *std::ranges::max_element(leaf.corners)};
+        Extent extent{1u + leaf.pieceCount, 0, *std::ranges::max_element(leaf.corners), 1, true, false};
         for (std::size_t p = leaf.firstPiece; p < std::size_t(leaf.firstPiece) + leaf.pieceCount; ++p)
             extent.largestPaint =
                 std::max<std::uint32_t>({extent.largestPaint, asset_.pieces[p].left, asset_.pieces[p].right});
-        require(extent.largestPaint < asset_.paints.size(), "leaves", i,
+        require(!asset_.symbols.empty() || extent.largestPaint < asset_.paints.size(), "leaves", i,
                 "a corner or piece refers to a missing paint");
         return extent;
     }
@@ -82,8 +95,135 @@ void validateMap(const AssetView& asset, std::size_t i) {
     const Map& map = asset.maps[i];
     require(std::abs(map.x) <= largestLength && std::abs(map.y) <= largestLength && isLength(map.side),
             "maps", i, "square is out of range");
-    require(map.unused == 0, "maps", i, "unused word is not zero");
 }
+
+/// The maps, from the last to the first: those that are placed in a map have larger indices.
+class Maps {
+public:
+    Maps(const AssetView& asset, const Trees& trees)
+        : asset_(asset),
+          trees_(trees),
+          extents_(asset.maps.size()),
+          isPlaced_(asset.maps.size()),
+          nodeSeen_(asset.nodes.size()),
+          treeSeen_(asset.instanceTrees.size()),
+          instanceSeen_(asset.instances.size()) {
+        require(asset.symbols.empty() || asset.mode == Mode::Exact, "symbols", 0,
+                "there are some in compat mode");
+        require(asset.instances.size() <= maxInstances, "instances", maxInstances, "there are too many");
+        for (std::size_t i = 0; i < asset.symbols.size(); ++i)
+            validateSymbol(i);
+        for (std::size_t i = asset.maps.size(); i-- > 0;)
+            validateMap(i);
+        const auto missed = std::ranges::find(instanceSeen_, false);
+        require(missed == instanceSeen_.end(), "instances", std::size_t(missed - instanceSeen_.begin()),
+                "is in no map");
+        for (std::size_t i = 0; i < asset.maps.size(); ++i)
+            require(isPlaced_[i] || extents_[i].largestPaint < asset.paints.size(), "maps", i,
+                    "refers to a missing paint");
+    }
+    const std::vector<Extent>& extents() const { return extents_; }
+    bool isPlaced(std::size_t map) const { return isPlaced_[map]; }
+
+private:
+    void validateSymbol(std::size_t i) {
+        const Symbol& symbol = asset_.symbols[i];
+        require(symbol.unused == 0, "symbols", i, "unused word is not zero");
+        require(symbol.map < asset_.maps.size(), "symbols", i, "refers to a missing map");
+        require(std::isfinite(symbol.scale) && symbol.scale > 0, "symbols", i, "scale is out of range");
+        isPlaced_[symbol.map] = true;
+    }
+
+    void validateMap(std::size_t i) {
+        asset::validateMap(asset_, i);
+        const Map& map = asset_.maps[i];
+        Extent& extent = extents_[i];
+        extent = trees_.extentOf(map.root, "maps", i);
+        require(extent.depth <= maxLevel, "maps", i, "tree is too deep");
+        require(!extent.hasInstances, "maps", i, "entry's kind is unknown");
+        for (std::uint32_t tree = map.instances; tree != 0; tree = asset_.instanceTrees[tree - 1].next)
+            addTree(tree - 1, std::uint32_t(i), extent);
+        require(extent.maps <= maxMapDepth, "maps", i, "maps are nested too deeply");
+    }
+
+    void addTree(std::size_t index, std::uint32_t map, Extent& extent) {
+        require(index < treeSeen_.size(), "maps", map, "refers to a missing tree of instances");
+        require(!treeSeen_[index], "instance trees", index, "belongs to several maps");
+        treeSeen_[index] = true;
+        const InstanceTree& tree = asset_.instanceTrees[index];
+        require(tree.unused == 0, "instance trees", index, "unused word is not zero");
+        require(tree.next == 0 || tree.next > index + 1, "instance trees", index,
+                "the next tree's index is not larger");
+        require(tree.reach >= 0 && tree.reach <= 1, "instance trees", index, "reach is out of range");
+        require(!trees_.extentOf(tree.root, "instance trees", index).isPicture, "instance trees", index,
+                "leaves stand among instances");
+        require(trees_.extentOf(tree.root, "instance trees", index).depth <= maxLevel, "instance trees",
+                index, "tree is too deep");
+        addEntry(tree, tree.root, {}, map, extent);
+    }
+
+    /// Every node once, so that the work is bounded.
+    void addEntry(const InstanceTree& tree, Entry entry, Cell cell, std::uint32_t map, Extent& extent) {
+        if (entry.kind() == Entry::Kind::Instances)
+            return addInstances(tree, InstanceRange(entry), cell, map, extent);
+        if (entry.kind() != Entry::Kind::Node)
+            return;
+        const std::uint32_t index = entry.payload();
+        require(!nodeSeen_[index], "nodes", index, "is shared by trees of instances");
+        nodeSeen_[index] = true;
+        for (std::uint32_t i = 0; i < 16; ++i)
+            addEntry(tree, asset_.nodes[index].children[i],
+                     {cell.x * 4 + i % 4, cell.y * 4 + i / 4, cell.level + 1}, map, extent);
+    }
+
+    void addInstances(const InstanceTree& tree, InstanceRange range, Cell cell, std::uint32_t map,
+                      Extent& extent) {
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+            require(i < asset_.instances.size(), "instances", i, "is missing");
+            require(!instanceSeen_[i], "instances", i, "stands in several places");
+            instanceSeen_[i] = true;
+            const Instance& instance = asset_.instances[i];
+            require(instance.symbol() < asset_.symbols.size(), "instances", i, "refers to a missing symbol");
+            const Symbol& symbol = asset_.symbols[instance.symbol()];
+            require(symbol.map > map, "instances", i,
+                    "the index of its map is not larger than that of the map around");
+            const unsigned shift = 2 * (maxLevel - cell.level);
+            const auto [x, y] = instance.centre();
+            require(x >> shift == cell.x && y >> shift == cell.y, "instances", i,
+                    "its centre lies outside its cell");
+            requireWithin(tree, symbol, i);
+            include(symbol, i, extent);
+        }
+    }
+
+    void requireWithin(const InstanceTree& tree, const Symbol& symbol, std::size_t i) const {
+        const auto [m00, m01, m10, m11] = asset_.instances[i].linear();
+        const double step = 0.5 * double(symbol.scale) / double(slopeScale);
+        require(step * (std::abs(m00) + std::abs(m10)) <= tree.reach &&
+                    step * (std::abs(m01) + std::abs(m11)) <= tree.reach,
+                "instances", i, "is larger than its tree says");
+        require(m00 >= -slopeScale && m01 >= -slopeScale && m10 >= -slopeScale && m11 >= -slopeScale &&
+                    m00 * m11 != m01 * m10,
+                "instances", i, "is flat, or a coefficient is below -1");
+    }
+
+    /// Its own paints count as work: whoever draws it looks them up.
+    void include(const Symbol& symbol, std::size_t i, Extent& extent) const {
+        const Extent& inner = extents_[symbol.map];
+        require(std::uint64_t(symbol.palette) + inner.largestPaint <= asset_.palettes.size(), "instances", i,
+                "its symbol's palette is out of bounds");
+        extent.drawn = std::min(extent.drawn + inner.drawn + inner.largestPaint, maxDrawn + 1);
+        extent.maps = std::max(extent.maps, inner.maps + 1);
+        extent.largestPaint = std::max<std::uint32_t>(extent.largestPaint, symbol.ground);
+        for (const std::uint16_t paint : asset_.palettes.subspan(symbol.palette, inner.largestPaint))
+            extent.largestPaint = std::max<std::uint32_t>(extent.largestPaint, paint);
+    }
+
+    const AssetView& asset_;
+    const Trees& trees_;
+    std::vector<Extent> extents_;
+    std::vector<bool> isPlaced_, nodeSeen_, treeSeen_, instanceSeen_;
+};
 
 bool drawsMap(Command::Kind kind) {
     return kind == Command::Kind::DrawMap || kind == Command::Kind::FillMask ||
@@ -102,23 +242,26 @@ unsigned depthAfter(const Command& command, unsigned depth, std::size_t i) {
     return depth - 1;
 }
 
-void validateCommand(const AssetView& asset, const std::vector<Extent>& maps, std::size_t i) {
+void validateCommand(const AssetView& asset, const Maps& maps, std::size_t i) {
     const Command& command = asset.commands[i];
     require(command.kind <= Command::Kind::ClipMask, "commands", i, "kind is unknown");
     require(command.blend <= Blend::PlusLighter, "commands", i, "blend mode is unknown");
     require(isShare(command.opacity), "commands", i, "opacity is out of range");
-    require(!drawsMap(command.kind) || command.map < maps.size(), "commands", i, "refers to a missing map");
+    require(!drawsMap(command.kind) || command.map < asset.maps.size(), "commands", i,
+            "refers to a missing map");
+    require(!drawsMap(command.kind) || !maps.isPlaced(command.map), "commands", i,
+            "draws a map that is placed in another");
     require(command.kind != Command::Kind::FillMask || command.paint < asset.paints.size(), "commands", i,
             "refers to a missing paint");
     const bool isDrawMap = command.kind == Command::Kind::DrawMap;
     require(isDrawMap == (asset.mode == Mode::Exact), "commands", i,
             isDrawMap ? "draws a map in compat mode" : "draws layers in exact mode");
     if (command.kind == Command::Kind::FillMask || command.kind == Command::Kind::ClipMask)
-        require(maps[command.map].largestPaint <= 1, "commands", i,
+        require(maps.extents()[command.map].largestPaint <= 1, "commands", i,
                 "its map is not a mask: it has a paint index above 1");
 }
 
-void validateCommands(const AssetView& asset, const std::vector<Extent>& maps) {
+void validateCommands(const AssetView& asset, const Maps& maps) {
     require(asset.commands.size() <= maxCommands, "commands", maxCommands, "there are too many");
     unsigned depth = 1;
     std::uint64_t drawn = 0;
@@ -127,7 +270,7 @@ void validateCommands(const AssetView& asset, const std::vector<Extent>& maps) {
         validateCommand(asset, maps, i);
         depth = depthAfter(command, depth, i);
         if (drawsMap(command.kind))
-            drawn += maps[command.map].drawn;
+            drawn += maps.extents()[command.map].drawn;
         require(drawn <= maxDrawn, "commands", i, "more squares and pieces are drawn than the limit");
     }
     require(depth == 1, "commands", asset.commands.size(), "a group is not closed at the end");
@@ -153,12 +296,7 @@ void validate(const AssetView& asset) {
     validatePaints(asset);
     validatePieces(asset);
     const Trees trees(asset);
-    std::vector<Extent> maps;
-    for (std::size_t i = 0; i < asset.maps.size(); ++i) {
-        validateMap(asset, i);
-        maps.push_back(trees.extentOf(asset.maps[i].root, "maps", i));
-        require(maps.back().depth <= maxLevel, "maps", i, "tree is too deep");
-    }
+    const Maps maps(asset, trees);
     validateCommands(asset, maps);
     validatePrefilter(asset.prefilter);
 }

@@ -13,7 +13,7 @@ namespace vtm::asset::test {
 namespace {
 
 TEST(Container, ReadsWhatItWrote) {
-    for (const Asset& asset : {everySection(), layers(), disc(), twoLevels(), emptyAsset()}) {
+    for (const Asset& asset : {everySection(), layers(), disc(), twoLevels(), placedMaps(), emptyAsset()}) {
         const Asset copy = read(write(asset));
         EXPECT_EQ(write(copy), write(asset));
         EXPECT_EQ(copy.commands.size(), asset.commands.size());

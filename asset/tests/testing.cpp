@@ -239,6 +239,28 @@ Asset blendAsset(Blend mode) {
         {layer(Op::Linear, below), layer(Op::Push, 0), layer(Op::Radial, above), pop(mode, 0.9f)}, data);
 }
 
+Asset placedMaps() {
+    Asset asset = disc();
+    asset.maps = {{0, 0, mapSide, Entry::make(Entry::Kind::Node, 0), 1},
+                  {0, 0, 1, Entry::make(Entry::Kind::Solid, 0), 2},
+                  {0, 0, 1, asset.maps[0].root, 0}};
+    asset.symbols = {{1, 0, 0, 0.5f, 0}, {1, 0, 1, 0.5f, 0}, {2, 0, 2, 1.0f, 0}};
+    asset.palettes = {2, 3, 1};
+    const std::uint32_t fourth = 1u << 22;
+    constexpr std::int16_t full = 32767, half = 16384;
+    asset.instances = {Instance::make(0, {fourth, fourth}, {full, 0, 0, full}),
+                       Instance::make(1, {3 * fourth, 2 * fourth}, {0, full, -full, 0}),
+                       Instance::make(2, {2 * fourth, 2 * fourth}, {half, 0, 0, half})};
+    asset.nodes.resize(2);
+    asset.nodes[0].children.fill(Entry::make(Entry::Kind::Solid, 0));
+    asset.nodes[1].children.fill(Entry::make(Entry::Kind::Solid, 0));
+    asset.nodes[1].children[5] = InstanceRange::entry(0, 1);
+    asset.nodes[1].children[11] = InstanceRange::entry(1, 1);
+    asset.instanceTrees = {{Entry::make(Entry::Kind::Node, 1), 0.25f, 0, 0},
+                           {InstanceRange::entry(2, 1), 0.26f, 0, 0}};
+    return asset;
+}
+
 Asset layers() {
     Asset asset = emptyAsset();
     asset.mode = Mode::Compat;

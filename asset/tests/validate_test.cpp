@@ -127,7 +127,52 @@ const std::vector<Breach> breaches{
      [](Asset& a) { a.materials[0].glsl.push_back('\0'); }},
     {"materials[0]: text holds a zero byte or is too long", everyPaint,
      [](Asset& a) { a.materials[0].glsl.assign(maxMaterialText + 1, ' '); }},
-    {"maps[0]: unused word is not zero", disc, [](Asset& a) { a.maps[0].unused = 1; }},
+    {"maps[0]: refers to a missing tree of instances", disc, [](Asset& a) { a.maps[0].instances = 1; }},
+    {"instance trees[1]: belongs to several maps", placedMaps, [](Asset& a) { a.maps[0].instances = 2; }},
+    {"instance trees[0]: the next tree's index is not larger", placedMaps,
+     [](Asset& a) { a.instanceTrees[0].next = 1; }},
+    {"instance trees[0]: unused word is not zero", placedMaps,
+     [](Asset& a) { a.instanceTrees[0].unused = 1; }},
+    {"instance trees[0]: reach is out of range", placedMaps,
+     [](Asset& a) { a.instanceTrees[0].reach = std::numeric_limits<float>::quiet_NaN(); }},
+    {"instance trees[0]: leaves stand among instances", placedMaps,
+     [](Asset& a) { a.nodes[1].children[0] = Entry::make(Entry::Kind::Leaf, 0); }},
+    {"nodes[1]: is shared by trees of instances", placedMaps,
+     [](Asset& a) {
+         a.nodes[0].children.fill(Entry::make(Entry::Kind::Solid, 0));
+         a.nodes[0].children[0] = a.nodes[0].children[1] = Entry::make(Entry::Kind::Node, 1);
+         a.nodes[1].children.fill(Entry::make(Entry::Kind::Solid, 0));
+         a.instanceTrees[0].root = Entry::make(Entry::Kind::Node, 0);
+     }},
+    {"instances[0]: is larger than its tree says", placedMaps,
+     [](Asset& a) { a.instanceTrees[0].reach = 0.2f; }},
+    {"instances[0]: its centre lies outside its cell", placedMaps,
+     [](Asset& a) { a.instances[0].bits[0] += 1u << 22; }},
+    {"instances[1]: refers to a missing symbol", placedMaps,
+     [](Asset& a) { a.instances[1].bits[1] |= 1u << 24; }},
+    {"instances[1]: is flat, or a coefficient is below -1", placedMaps,
+     [](Asset& a) { a.instances[1].bits[3] = 0; }},
+    {"instances[2]: stands in several places", placedMaps,
+     [](Asset& a) { a.nodes[1].children[2] = InstanceRange::entry(2, 1); }},
+    {"instances[3]: is missing", placedMaps,
+     [](Asset& a) { a.nodes[1].children[11] = InstanceRange::entry(3, 1); }},
+    {"instances[1]: is in no map", placedMaps,
+     [](Asset& a) { a.nodes[1].children[11] = Entry::make(Entry::Kind::Solid, 0); }},
+    {"instances[2]: the index of its map is not larger than that of the map around", placedMaps,
+     [](Asset& a) { a.symbols[2].map = 1; }},
+    {"instances[1]: its symbol's palette is out of bounds", placedMaps,
+     [](Asset& a) { a.symbols[1].palette = 3; }},
+    {"symbols[0]: refers to a missing map", placedMaps, [](Asset& a) { a.symbols[0].map = 3; }},
+    {"symbols[0]: scale is out of range", placedMaps, [](Asset& a) { a.symbols[0].scale = 0; }},
+    {"symbols[0]: unused word is not zero", placedMaps, [](Asset& a) { a.symbols[0].unused = 1; }},
+    {"symbols[0]: there are some in compat mode", layers,
+     [](Asset& a) {
+         a.symbols.push_back({0, 0, 0, 1, 0});
+     }},
+    {"maps[0]: refers to a missing paint", placedMaps, [](Asset& a) { a.symbols[0].ground = 9; }},
+    {"maps[0]: refers to a missing paint", placedMaps, [](Asset& a) { a.palettes[0] = 9; }},
+    {"commands[0]: draws a map that is placed in another", placedMaps,
+     [](Asset& a) { a.commands[0].map = 1; }},
     {"prefilter[0]: a side is not 2^k or 3 * 2^k texels of at most 4096", everySection,
      [](Asset& a) {
          a.prefilter.size = {0, 4};

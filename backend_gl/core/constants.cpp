@@ -30,6 +30,7 @@ std::string layout() {
            constant("leafExtent", asset::leafExtent) + constant("programTag", asset::programTag) +
            constant("longRamp", longRamp) + constant("kindSolid", asset::Entry::Kind::Solid) +
            constant("kindNode", asset::Entry::Kind::Node) +
+           constant("kindInstances", asset::Entry::Kind::Instances) +
            fmt::format("const int maxStack = {};\nconst float slopeScale = {:.1f};\n", asset::maxStack,
                        asset::slopeScale) +
 

@@ -7,7 +7,8 @@
 namespace vtm::gl::shaders {
 
 extern const std::string_view prelude;
-extern const std::string_view fetch, coverage, blend, gradient, image, paint, region_color, leaf_integral;
+extern const std::string_view fetch, coverage, blend, gradient, image, paint, region_color, placed_paints,
+    leaf_integral;
 extern const std::string_view shadow, cell, tile_vertex, tile_fragment, tile_programs_fragment;
 extern const std::string_view flat_vertex, flat_fragment;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment;

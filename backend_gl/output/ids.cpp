@@ -104,6 +104,8 @@ IdRenderer::~IdRenderer() = default;
 IdTexture IdRenderer::upload(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint) {
     if (!asset::isSumOfMaps(asset) || idOfPaint.size() != asset.paints.size())
         throw std::invalid_argument("ids need an asset of exact mode and one id for each paint");
+    if (!asset.instances.empty())
+        throw std::invalid_argument("ids need an asset without instances: Options::instances = false");
     dropErrors();
     const StateGuard guard(impl_->contract, true);
     auto texture = std::make_unique<IdTexture::Impl>();

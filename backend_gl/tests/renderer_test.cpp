@@ -80,6 +80,7 @@ TEST_F(Gl, ThreeRegions) { expectTwins(*renderer, threeRegions()); }
 TEST_F(Gl, Arcs) { expectTwins(*renderer, disc(), 25, curveTolerance); }
 TEST_F(Gl, TwoLevelTree) { expectTwins(*renderer, twoLevels()); }
 TEST_F(Gl, EveryPaint) { expectTwins(*renderer, everyPaint()); }
+TEST_F(Gl, PlacedMaps) { expectTwins(*renderer, placedMaps(), 25, curveTolerance); }
 TEST_F(Gl, CompatCommands) { expectTwins(*renderer, layers()); }
 
 /// Parts of pixels have their own colours (docs/coverage.md).

@@ -11,6 +11,7 @@
 
 #include <vtm/gl/sampled_texture.hpp>
 #include <vtm/raster/prefilter.hpp>
+#include "asset/instances.hpp"
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/programs.hpp"
 #include "backend_gl/core/shader_text.hpp"
@@ -173,6 +174,11 @@ std::string keyedMaterials(std::span<const Material> materials) {
 
 }  // namespace
 
+unsigned innerMapsOf(const asset::AssetView& asset) {
+    const std::vector<unsigned> depths = asset::mapDepths(asset);
+    return depths.empty() ? 0 : *std::ranges::max_element(depths) - 1;
+}
+
 std::uint32_t materialKey(const Material& material) {
     std::uint32_t hash = 2166136261u;  // FNV-1a
     for (const unsigned char c : material.name + '\n' + material.glsl)
@@ -180,13 +186,18 @@ std::uint32_t materialKey(const Material& material) {
     return hash;
 }
 
-std::string sampleText(Features features, std::span<const Material> materials) {
+std::uint32_t samplingFlags(Features features, unsigned innerMaps) {
+    return features.flags() | ((1u << innerMaps) - 1) * Features::combinations;
+}
+
+std::string sampleText(Features features, unsigned innerMaps, std::span<const Material> materials) {
     using namespace shaders;
-    std::string text = features.defines() + fmt::format("#define FEATURES {}u\n", features.flags());
+    std::string text = features.defines() + fmt::format("#define INNER_MAPS {}\n#define FEATURES {}u\n",
+                                                        innerMaps, samplingFlags(features, innerMaps));
     text += glslConstants() + constants();
     const std::string_view images = features.has(Features::Image) ? image : std::string_view();
     for (const std::string_view part : {sample_asset, fetch, coverage, blend, gradient, images, paint,
-                                        region_color, leaf_integral, sample_prefilter, sample})
+                                        region_color, placed_paints, leaf_integral, sample_prefilter, sample})
         text += part;
     text = head + prefixed(text);
     if (features.has(Features::Material))
@@ -199,10 +210,11 @@ std::string sampleInclude(std::initializer_list<asset::AssetView> assets) {
 }
 
 std::string sampleInclude(std::span<const asset::AssetView> assets) {
-    unsigned flags = 0;
+    unsigned flags = 0, innerMaps = 0;
     std::vector<Material> materials;
     for (const asset::AssetView& asset : assets) {
         flags |= featuresOf(asset).flags();
+        innerMaps = std::max(innerMaps, innerMapsOf(asset));
         for (const Material& material : asset.materials) {
             const auto known = std::ranges::find(materials, material.name, &Material::name);
             if (known == materials.end())
@@ -211,7 +223,7 @@ std::string sampleInclude(std::span<const asset::AssetView> assets) {
                 throw GlError(fmt::format("two different materials are named '{}'", material.name));
         }
     }
-    return sampleText(Features(flags), materials);
+    return sampleText(Features(flags), innerMaps, materials);
 }
 
 }  // namespace vtm::gl

@@ -16,8 +16,14 @@ namespace vtm::gl {
 /// others.
 std::string prefixed(std::string_view glsl);
 
-/// The include for paint programs with these features, and these materials.
-std::string sampleText(Features features, std::span<const asset::Material> materials);
+/// The include for paint programs with these features, maps placed in each other so many levels deep, and
+/// these materials.
+std::string sampleText(Features features, unsigned innerMaps, std::span<const asset::Material> materials);
+
+/// How many levels of placed maps an asset has; 0 without instances.
+unsigned innerMapsOf(const asset::AssetView& asset);
+/// What an asset asks of the include, a bit each: its features, then one for each level of placed maps.
+std::uint32_t samplingFlags(Features features, unsigned innerMaps);
 
 /// What a material is known by among those of all assets: a hash of its name and text.
 std::uint32_t materialKey(const asset::Material& material);

@@ -28,6 +28,7 @@ using asset::Wrap;
 /// First texels of the parts of the one texture that holds all records.
 struct Parts {
     GLuint nodes = 0, leaves = 0, pieces = 0, paints = 0, data = 0, images = 0, rampSums = 0;
+    GLuint instanceTrees = 0, instances = 0, symbols = 0, palettes = 0;
 };
 
 /// Fills of materials name them by their key, since a program may know those of several assets.
@@ -52,6 +53,26 @@ std::vector<asset::Paint> paintsOf(const AssetView& asset) {
     return paints;
 }
 
+/// Two texels a symbol: the record, with the map's index unused; then the map's root and its first tree.
+std::vector<Texel> symbolsOf(const AssetView& asset) {
+    std::vector<Texel> texels;
+    for (const asset::Symbol& symbol : asset.symbols) {
+        const asset::Map& map = asset.maps[symbol.map];
+        texels.push_back(std::bit_cast<Texel>(symbol));
+        texels.push_back({map.root.bits, map.instances, 0, 0});
+    }
+    return texels;
+}
+
+/// Eight numbers a texel.
+std::vector<Texel> palettesOf(const AssetView& asset) {
+    constexpr std::size_t perTexel = sizeof(Texel) / sizeof(std::uint16_t);
+    std::vector<Texel> texels((asset.palettes.size() + perTexel - 1) / perTexel);
+    if (!texels.empty())
+        std::memcpy(static_cast<void*>(texels.data()), asset.palettes.data(), asset.palettes.size_bytes());
+    return texels;
+}
+
 std::vector<Texel> joined(const AssetView& asset, std::span<const Texel> imageList, Parts& parts) {
     std::vector<Texel> texels;
     const std::vector<Texel> data = dataOf(asset);
@@ -62,6 +83,10 @@ std::vector<Texel> joined(const AssetView& asset, std::span<const Texel> imageLi
     parts.data = appendTexels<Texel>(texels, data);
     parts.images = appendTexels<Texel>(texels, imageList);
     parts.rampSums = appendTexels<Texel>(texels, rampSums(asset));
+    parts.instanceTrees = appendTexels(texels, asset.instanceTrees);
+    parts.instances = appendTexels(texels, asset.instances);
+    parts.symbols = appendTexels<Texel>(texels, symbolsOf(asset));
+    parts.palettes = appendTexels<Texel>(texels, palettesOf(asset));
     return texels;
 }
 
@@ -139,6 +164,7 @@ struct SampledTexture::Impl {
           finestPixel(asset.finestPixel),
           map(onlyMap(asset)),
           features(featuresOf(asset)),
+          flags(samplingFlags(features, innerMapsOf(asset))),
           prefilterSize(pyramid.size),
           texels(texelTexture(joined(asset, pictures.list, parts))),
           prefilter(uploadPrefilter(pyramid)),
@@ -148,6 +174,7 @@ struct SampledTexture::Impl {
     std::optional<double> finestPixel;
     asset::Map map;
     Features features;
+    std::uint32_t flags;
     asset::PyramidSize prefilterSize;
     Parts parts;  // before `texels`, which sets it
     TextureHandle texels, prefilter, images;
@@ -169,11 +196,13 @@ struct SampledTexture::Impl {
         glUniform1ui(at("rampSums"), parts.rampSums);
         glUniform1ui(at("nodes"), parts.nodes);
         glUniform1ui(at("root"), map.root.bits);
-        glUniform1ui(at("features"), features.flags());
+        glUniform1ui(at("features"), flags);
         glUniform2f(at("size"), float(width), float(height));
         glUniform3f(at("square"), float(map.x), float(map.y), float(map.side));
         glUniform2f(at("prefilterTexels"), float(prefilterSize.width), float(prefilterSize.height));
         glUniform2i(at("wrapping"), int(wrapping.s), int(wrapping.t));
+        glUniform1ui(at("instances"), map.instances);
+        glUniform4ui(at("placed"), parts.instanceTrees, parts.instances, parts.symbols, parts.palettes);
     }
 
     static void bindUnit(GLuint program, const std::string& uniform, GLuint unit, GLuint texture,

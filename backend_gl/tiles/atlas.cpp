@@ -24,10 +24,9 @@ void copy(std::span<const Item> from, std::vector<Item>& to) {
     to.assign(from.begin(), from.end());
 }
 
-/// With the map as its only one.
-asset::AssetView onlyMap(const asset::Asset& asset, const asset::Map& map, const Command& command) {
+/// That draws this map alone.
+asset::AssetView drawing(const asset::Asset& asset, const Command& command) {
     asset::AssetView view = asset;
-    view.maps = {&map, 1};
     view.commands = {&command, 1};
     return view;
 }
@@ -36,6 +35,7 @@ asset::AssetView onlyMap(const asset::Asset& asset, const asset::Map& map, const
 
 KeptAsset keptOf(const asset::AssetView& asset) {
     KeptAsset kept;
+    copy(asset.maps, kept.asset.maps);
     copy(asset.nodes, kept.asset.nodes);
     copy(asset.leaves, kept.asset.leaves);
     copy(asset.pieces, kept.asset.pieces);
@@ -43,6 +43,10 @@ KeptAsset keptOf(const asset::AssetView& asset) {
     copy(asset.data, kept.asset.data);
     copy(asset.images, kept.asset.images);
     copy(asset.materials, kept.asset.materials);
+    copy(asset.instanceTrees, kept.asset.instanceTrees);
+    copy(asset.instances, kept.asset.instances);
+    copy(asset.symbols, kept.asset.symbols);
+    copy(asset.palettes, kept.asset.palettes);
     kept.programTurns = programTurns(asset);
     kept.changes = asset::changesOf(asset);
     return kept;
@@ -51,8 +55,9 @@ KeptAsset keptOf(const asset::AssetView& asset) {
 const asset::Scanner& ScannedPixels::scannerFor(asset::Sums sums) {
     std::optional<asset::Scanner>& scanner = scanners_[std::size_t(sums)];
     if (!scanner) {
-        const Command command;
-        scanner.emplace(onlyMap(*asset_, map_, command), sums);
+        Command command;
+        command.map = map_;
+        scanner.emplace(drawing(*asset_, command), sums);
     }
     return *scanner;
 }
@@ -107,8 +112,8 @@ bool isStretched(const asset::View& view) {
 
 double tileMargin() { return std::ldexp(1 / cellsPerRadius, -int(tileCellsLog2)); }
 
-Atlas::Atlas(const KeptAsset& asset, const asset::Map& map, std::uint32_t maxTurns)
-    : map_(map), asset_(&asset), maxTurns_(maxTurns), scanned_(asset.asset, map) {}
+Atlas::Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t maxTurns)
+    : map_(asset.asset.maps[map]), asset_(&asset), maxTurns_(maxTurns), scanned_(asset.asset, map) {}
 
 /// By square, row by row.
 std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i64vec2 min,
@@ -166,7 +171,7 @@ const Atlas::Placed& Atlas::prepareCrowded() {
 std::vector<const Atlas::Placed*> Atlas::prepare(int level, glm::i64vec2 min, glm::i64vec2 max) {
     makeRoom();
     if (!pieces_)
-        pieces_.emplace(planarMap(asset_->asset, map_));
+        pieces_.emplace(flatPlanarMap(asset_->asset, map_));
     std::vector<std::vector<const PlanarPiece*>> near;
     std::vector<const Placed*> tiles;
     for (std::int64_t y = min.y; y < max.y; ++y)

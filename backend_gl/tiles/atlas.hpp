@@ -26,11 +26,11 @@ struct KeptAsset {
 };
 KeptAsset keptOf(const asset::AssetView& asset);
 
-/// Of one map, for one view after the other.
+/// Of one map and those in it, for one view after the other.
 class ScannedPixels {
 public:
     /// `asset` must outlive it.
-    ScannedPixels(const asset::Asset& asset, const asset::Map& map) : asset_(&asset), map_(map) {}
+    ScannedPixels(const asset::Asset& asset, std::uint32_t map) : asset_(&asset), map_(map) {}
 
     /// Puts the pixels of a box, that is not empty, into the texture. Materials have their fallback colours.
     void scan(const asset::View& view, const PixelBox& box, asset::Sums sums);
@@ -41,7 +41,7 @@ private:
     const asset::Scanner& scannerFor(asset::Sums sums);
 
     const asset::Asset* asset_;
-    asset::Map map_;
+    std::uint32_t map_;
     std::array<std::optional<asset::Scanner>, 2> scanners_;  ///< by Sums, made when first needed
     glm::ivec2 size_{0};
     TextureHandle texture_;
@@ -65,7 +65,7 @@ bool isStretched(const asset::View& view);
 class Atlas {
 public:
     /// `asset` must outlive it. A cell that would take more than `maxTurns` is crowded.
-    Atlas(const KeptAsset& asset, const asset::Map& map, std::uint32_t maxTurns);
+    Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t maxTurns);
 
     /// What is kept of a Tile.
     struct Placed {

@@ -71,7 +71,7 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::ui
     if (isSumOfMaps(asset)) {
         kept = keptOf(asset);
         for (const asset::Command& command : asset.commands)
-            atlases.emplace_back(kept, asset.maps[command.map], maxTurns);
+            atlases.emplace_back(kept, command.map, maxTurns);
     }
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);

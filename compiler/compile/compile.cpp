@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "compiler/compile/settings.hpp"
+#include "compiler/instances/encode_instances.hpp"
+#include "compiler/instances/place_symbols.hpp"
 #include "compiler/lower/walk_items.hpp"
 #include "compiler/paint/painters.hpp"
 #include "compiler/tree/build_tree.hpp"
@@ -49,8 +51,13 @@ private:
 };
 
 /// Returns by how much merging colours that the format cannot all name may have changed one.
-float compileExact(const LoweredScene& picture, MapBuilder& maps, asset::Asset& asset) {
-    const Tree tree = maps.build(allLayers(picture), PicturePainter(picture));
+float compileExact(const LoweredScene& picture, MapBuilder& maps, const PlacedSymbols& placed,
+                   const Palette& placedPaints, asset::Asset& asset) {
+    Tree tree = maps.build(placed.layers, PicturePainter(picture));
+    std::vector<PaintId> inTree(placedPaints.size());
+    for (const PlacedSymbol& symbol : placed.placed)
+        for (const PaintId id : symbol.paints)
+            inTree[id] = tree.palette.add(placedPaints[id]);
     float error = 0;
     const std::vector<std::uint16_t> paints = encodePalette(tree.palette, asset, error);
     asset.nodes.reserve(tree.nodes.size());
@@ -60,6 +67,10 @@ float compileExact(const LoweredScene& picture, MapBuilder& maps, asset::Asset& 
     draw.kind = Command::Kind::DrawMap;
     draw.map = maps.add(tree, paints);
     asset.commands.push_back(draw);
+    std::vector<std::uint16_t> ofPlaced;
+    for (const PaintId id : inTree)
+        ofPlaced.push_back(paints[id]);
+    encodeInstances(placed, ofPlaced, asset);
     return error;
 }
 
@@ -184,12 +195,61 @@ Result compile(const scene::Scene& scene, const Options& options) {
     return compileExcerpt(scene, wholeOf(scene), options);
 }
 
+namespace {
+
+/// A lowered scene, and what of it is placed.
+struct Lowered {
+    LoweredScene picture;
+    PlacedSymbols placed;
+    Palette paints;  ///< of what is placed
+};
+
+Lowered withoutInstances(LoweredScene picture) {
+    Lowered lowered{std::move(picture), {}, {}};
+    lowered.placed.layers = allLayers(lowered.picture);
+    return lowered;
+}
+
+Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+                      const Options& options) {
+    // Where coverage is a factor, fills end where they are told to.
+    const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
+    const ErrorBudget budget = errorBudget(options);
+    if (!options.instances || options.mode != asset::Mode::Exact || excerpt.isPart)
+        return withoutInstances(lower(scene, excerpt, lattice, budget, sharing));
+    const glm::dvec2 size(excerpt.width, excerpt.height);
+    Lowered lowered;
+    std::vector<LayerOrigin> origins;
+    TilePlan plan;
+    lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &plan);
+    std::vector<TileFill> fills;
+    if (!plan.patterns.empty()) {
+        const std::vector<TileChoice> choices =
+            chooseTiles(lowered.picture, lattice, size, plan.patterns, options.tolerance);
+        TilePlan chosen;
+        chosen.chosen.emplace();
+        for (const TileChoice& choice : choices)
+            chosen.chosen->push_back(choice.cut);
+        origins.clear();
+        lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &chosen);
+        for (std::size_t i = 0; i < choices.size(); ++i)
+            if (!choices[i].blocks.empty())
+                fills.push_back(
+                    {chosen.patterns[i], choices[i].blocks, chosen.firstTiles[i], choices[i].cut.front()});
+    }
+    auto placed = placeSymbols(lowered.picture, origins, fills, lattice, size, options, lowered.paints);
+    if (!placed)
+        return withoutInstances(lower(scene, excerpt, lattice, budget, sharing));
+    lowered.placed = std::move(*placed);
+    return lowered;
+}
+
+}  // namespace
+
 Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
     const auto start = Clock::now();
     const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
-    // Where coverage is a factor, fills end where they are told to.
-    const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
-    LoweredScene picture = lower(scene, excerpt, lattice, errorBudget(options), sharing);
+    auto [picture, placed, placedPaints] = lowerAndPlace(scene, excerpt, lattice, options);
     const auto lowered = Clock::now();
 
     Result result;
@@ -204,10 +264,11 @@ Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const O
     MapBuilder maps(picture, lattice, options, result);
     float error = 0;
     if (options.mode == asset::Mode::Exact)
-        error = compileExact(picture, maps, asset);
+        error = compileExact(picture, maps, placed, placedPaints, asset);
     else
         error = CompatCompiler(picture, maps, asset).run();
 
+    result.provenError = std::max(result.provenError, placed.error / std::max(excerpt.width, excerpt.height));
     asset.finestPixel = finestPixel(result);
     const TreeTimes& t = maps.times();
     const double built = milliseconds(lowered, Clock::now());

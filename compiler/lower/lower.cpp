@@ -25,13 +25,16 @@ using scene::Point;
 class Lowering {
 public:
     Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-             const ErrorBudget& budget, Sharing sharing, OutlineCache* cache)
+             const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
+             std::vector<LayerOrigin>* origins, TilePlan* tiles)
         : lattice_(lattice),
           budget_(budget),
           sharing_(sharing),
           frame_{{0, 0}, {excerpt.width, excerpt.height}},
           isPart_(excerpt.isPart),
           cache_(cache),
+          origins_(origins),
+          tiles_(tiles),
           paints_(picture_, excerpt) {
         if (cache_)
             picture_.outlines = cache_->take();
@@ -165,10 +168,11 @@ private:
         }
         if (fillSource) {
             fillRuns = isHidden && shared ? RunRange{strokeRuns.first, *shared} : outline(fillOrigin);
-            paint(addLayer(fillRuns, std::get<scene::FillRule>(fill.geometry)), fill, *fillSource, into);
+            paint(addLayer(fillOrigin, fillRuns, std::get<scene::FillRule>(fill.geometry)), fill, *fillSource,
+                  into);
         }
         if (strokeSource)
-            paint(addLayer(strokeRuns, scene::FillRule::NonZero), stroke, *strokeSource, into);
+            paint(addLayer(strokeOrigin, strokeRuns, scene::FillRule::NonZero), stroke, *strokeSource, into);
     }
 
     void item(const scene::Item& item, const Affine& outer, std::uint32_t into) {
@@ -206,6 +210,12 @@ private:
         const glm::dvec2 first = glm::floor((box.min - pattern.min) / period);
         const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
         const double tiles = (last.x - first.x + 1) * (last.y - first.y + 1);
+        if (tiles_ && !isInTile_ && tiles > fewTiles && tiles <= double(maxPlacedTiles)) {
+            plannedTiles(
+                pattern,
+                {toPicture, pattern.min, pattern.max, glm::i64vec2(first), glm::i64vec2(last), shape}, index);
+            return;
+        }
         if (!(tiles <= static_cast<double>(maxTiles)))
             throw LimitError(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, maxTiles));
         const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)
@@ -214,6 +224,24 @@ private:
             for (double x = first.x; x <= last.x; ++x)
                 tile(pattern, border, compose(toPicture, scene::translation(x * period.x, y * period.y)),
                      index);
+    }
+
+    void plannedTiles(const scene::Pattern& pattern, const TilePattern& tiles, std::uint32_t into) {
+        tiles_->patterns.push_back(tiles);
+        if (!tiles_->chosen)
+            return;
+        const auto& chosen = (*tiles_->chosen)[tiles_->patterns.size() - 1];
+        const auto border = std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
+        const auto firstLayer = std::uint32_t(picture_.layers.size());
+        tiles_->firstTiles.push_back({firstLayer, 0});
+        isInTile_ = true;
+        for (const glm::i64vec2 at : chosen) {
+            const Point moved = Point(at) * tiles.period();
+            tile(pattern, border, compose(tiles.toPicture, scene::translation(moved.x, moved.y)), into);
+            if (at == chosen.front())
+                tiles_->firstTiles.back().count = std::uint32_t(picture_.layers.size()) - firstLayer;
+        }
+        isInTile_ = false;
     }
 
     void tile(const scene::Pattern& pattern, const std::shared_ptr<const Path>& border,
@@ -242,10 +270,12 @@ private:
         if (cache_ && !known)
             cache_->add(origin, runs,
                         static_cast<std::uint32_t>(picture_.outlines.points.size() - pointsBefore));
-        return addLayer(runs, rule);
+        return addLayer(origin, runs, rule);
     }
 
-    std::uint32_t addLayer(RunRange runs, scene::FillRule rule) {
+    std::uint32_t addLayer(const OutlineOrigin& origin, RunRange runs, scene::FillRule rule) {
+        if (origins_)
+            origins_->push_back({origin.path, origin.transform, origin.stroke, rule});
         picture_.layers.push_back({rule, runs.first, runs.count, place_});
         checkLimits();
         picture_.itemOfLayer.push_back(noIndex);
@@ -309,6 +339,9 @@ private:
     const Box frame_;
     const bool isPart_;
     OutlineCache* const cache_;
+    std::vector<LayerOrigin>* const origins_;
+    TilePlan* const tiles_;
+    bool isInTile_ = false;
     limits::Place place_;  ///< of what is being lowered
     LoweredScene picture_;
     PaintTable paints_;
@@ -317,8 +350,13 @@ private:
 }  // namespace
 
 LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache) {
-    return Lowering(scene, excerpt, lattice, budget, sharing, cache).take();
+                   const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
+                   std::vector<LayerOrigin>* origins, TilePlan* tiles) {
+    LoweredScene picture = Lowering(scene, excerpt, lattice, budget, sharing, cache, origins, tiles).take();
+    if (origins)
+        for (std::size_t i = 0; i < origins->size(); ++i)
+            (*origins)[i].isClip = picture.itemOfLayer[i] == noIndex;
+    return picture;
 }
 
 }  // namespace vtm::compiler

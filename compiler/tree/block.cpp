@@ -175,7 +175,7 @@ BlockBuilder::Built BlockBuilder::buildBest(Cell& cell) {
 
 /// Drawing all of the leaf for nothing would not pay for a node.
 bool BlockBuilder::mayBeWorthSplitting(double pieces, unsigned level) const {
-    return CostModel::drawing(pieces, level) > options_.cost.node();
+    return options_.cost.drawing(pieces, level) > options_.cost.node();
 }
 
 double BlockBuilder::splitCost(const Children& children, double piecesPerRun) const {

@@ -134,6 +134,7 @@ private:
             case Entry::Kind::Leaf:
                 return copy(block, block.leaves[entry.payload()]);
             case Entry::Kind::Node:
+            case Entry::Kind::Instances:  // a built tree has none
                 break;
         }
         const asset::Node& node = block.nodes[entry.payload()];

@@ -20,6 +20,7 @@ asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints,
             case Entry::Kind::Leaf:
                 return Entry::make(e.kind(), e.payload() + leaves);
             case Entry::Kind::Node:
+            case Entry::Kind::Instances:  // a built tree has none
                 break;
         }
         return Entry::make(e.kind(), e.payload() + nodes);

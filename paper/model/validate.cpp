@@ -39,6 +39,8 @@ void checkEntry(const Mask& mask, Entry entry, std::ptrdiff_t parent, const std:
         case Entry::Kind::Node:
             return require(payload < mask.nodes.size() && std::ptrdiff_t(payload) > parent,
                            where + ": no such node below");
+        case Entry::Kind::Instances:
+            break;
     }
     require(false, where + ": unknown kind of entry");
 }

@@ -14,6 +14,7 @@
 #include <glm/vec4.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include "asset/instances.hpp"
 #include "asset/walk.hpp"
 #include "raster/coverage.hpp"
 #include "raster/src/paint.hpp"
@@ -35,23 +36,22 @@ struct PlacedLeaf {
     dvec2 origin;       ///< of the leaf, pixels
     glm::mat2 inverse;  ///< pixels to leaf steps
     float sign;         ///< of the determinant; 0 where the view flattens the plane
-    dvec2 corner;       ///< of the leaf, picture coordinates
-    double step;        ///< a leaf step in picture units
+    Affine2 toPicture;  ///< leaf steps to the picture
 };
 
-PlacedLeaf place(const View& view, dvec2 corner, double side) {
-    const double step = side / leafExtent;
-    const glm::dmat2 linear(view.toPixels[0] * step, view.toPixels[1] * step);
+/// `toPicture`: from the leaf's square, [0, 1]².
+PlacedLeaf place(const View& view, const Affine2& toPicture) {
+    const glm::dmat2 steps = toPicture.linear * (1.0 / leafExtent);
+    const glm::dmat2 linear = glm::dmat2(view.toPixels[0], view.toPixels[1]) * steps;
     const double determinant = glm::determinant(linear);
     const bool flat = !(std::abs(determinant) > std::numeric_limits<double>::min());
     return {linear,
-            view.toPixels * glm::dvec3(corner, 1),
+            view.toPixels * glm::dvec3(toPicture.offset, 1),
             flat ? glm::mat2(0) : glm::mat2(glm::inverse(linear)),
             flat              ? 0.0f
             : determinant > 0 ? 1.0f
                               : -1.0f,
-            corner,
-            step};
+            {steps, toPicture.offset}};
 }
 
 /// The part of the leaf that the bounding box (in leaf coordinates) of the pixel's box meets.
@@ -75,8 +75,8 @@ Overlap overlapOf(const PlacedLeaf& leaf, const LeafFrame& frame) {
 }
 
 PaintPlace placeOf(const PlacedLeaf& leaf, const LeafFrame& frame, vec2 point, float size) {
-    return {vec2(leaf.corner + leaf.step * dvec2(pointIn(leaf, frame, point))),
-            leaf.inverse * (size * float(leaf.step))};
+    return {vec2(leaf.toPicture(dvec2(pointIn(leaf, frame, point)))),
+            glm::mat2(leaf.toPicture.linear) * leaf.inverse * size};
 }
 
 /// What a paint index of a map stands for.
@@ -92,8 +92,10 @@ struct Drawn {
     const MaterialFunction& materials;
     float minSteep;
     RoughBounds rough;
-    bool findsRough;  ///< whether rough pixels are looked for
+    bool findsRough;                       ///< whether rough pixels are looked for
+    const PlacedPaints* placed = nullptr;  ///< of a map that is placed in another
 
+    std::uint32_t paintOf(std::uint32_t number) const { return placed ? (*placed)(number) : number; }
     const AssetView& asset() const { return paints.asset(); }
     bool isSteep(std::uint32_t paint) const {
         return meaning == PaintMeaning::Color && paints.changes()[paint].steepness > minSteep;
@@ -106,15 +108,18 @@ struct Drawn {
             if (isSteep(paint) && std::ranges::find(steep, paint) == steep.end())
                 steep.push_back(paint);
         };
+        if (placed)
+            add(placed->ground());
         if (entry.kind() == Entry::Kind::Solid) {
-            add(entry.payload());
+            add(paintOf(entry.payload()));
             return steep;
         }
         const Leaf& leaf = asset().leaves[entry.payload()];
-        std::ranges::for_each(leaf.corners, add);
+        for (const std::uint16_t corner : leaf.corners)
+            add(paintOf(corner));
         for (const Piece& piece : asset().pieces.subspan(leaf.firstPiece, leaf.pieceCount)) {
-            add(piece.left);
-            add(piece.right);
+            add(paintOf(piece.left));
+            add(paintOf(piece.right));
         }
         return steep;
     }
@@ -157,10 +162,20 @@ private:
     vec4 sum_{0};
 };
 
-/// Calls add(paint, weight) for everything that adds up to the pixel's shares of a square's paints.
+/// Calls addPaint(paint, weight) for everything that adds up to the pixel's shares of a square's paints; of a
+/// placed map each takes the place of its ground.
 template <class Add>
-void addShares(const AssetView& asset, Entry entry, const LeafFrame& frame, Add&& add) {
+void addShares(const Drawn& drawn, Entry entry, const LeafFrame& frame, Add&& addPaint) {
+    const AssetView& asset = drawn.asset();
     const Corners corners = cornersOf(frame);
+    const auto add = [&](std::uint32_t number, float weight) {
+        const std::uint32_t paint = drawn.paintOf(number);
+        if (drawn.placed && paint == drawn.placed->ground())
+            return;
+        addPaint(paint, weight);
+        if (drawn.placed)
+            addPaint(drawn.placed->ground(), -weight);
+    };
     if (entry.kind() == Entry::Kind::Solid) {
         float area = 0;
         for (std::size_t k = 0; k < 4; ++k)
@@ -178,9 +193,9 @@ void addShares(const AssetView& asset, Entry entry, const LeafFrame& frame, Add&
     }
 }
 
-vec4 leafIntegral(const AssetView& asset, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame,
+vec4 leafIntegral(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const LeafFrame& frame,
                   ColorSum sum) {
-    addShares(asset, entry, frame, [&](std::uint32_t paint, float weight) { sum.add(paint, weight); });
+    addShares(drawn, entry, frame, [&](std::uint32_t paint, float weight) { sum.add(paint, weight); });
     return placed.sign * sum.sum();
 }
 
@@ -215,8 +230,8 @@ vec4 quartersOf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const
     for (const vec2 corner : pixelCorners) {
         const LeafFrame quarter{2.0f * frame.linear, 2.0f * frame.origin - corner};
         const PaintPlace place = placeOf(placed, frame, 0.25f + 0.5f * corner, 0.5f);
-        sum += leafIntegral(drawn.asset(), entry, placed, quarter, {drawn, place, true}) -
-               leafIntegral(drawn.asset(), entry, placed, frame, {drawn, place, true});
+        sum += leafIntegral(drawn, entry, placed, quarter, {drawn, place, true}) -
+               leafIntegral(drawn, entry, placed, frame, {drawn, place, true});
     }
     return 0.25f * sum;
 }
@@ -249,7 +264,7 @@ bool isRough(const Drawn& drawn, Entry entry, std::span<const std::uint32_t> ste
     if (std::ranges::none_of(steep, mayBe))
         return false;
     std::vector<float> shares(steep.size());
-    addShares(drawn.asset(), entry, frame, [&](std::uint32_t paint, float weight) {
+    addShares(drawn, entry, frame, [&](std::uint32_t paint, float weight) {
         if (const auto at = std::ranges::find(steep, paint); at != steep.end())
             shares[std::size_t(at - steep.begin())] += weight;
     });
@@ -307,7 +322,7 @@ void addLeaf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const Pi
             if (overlap.empty())
                 continue;
             const PaintPlace place = placeOf(placed, frame, vec2(0.5f), 1);
-            vec4 color = leafIntegral(drawn.asset(), entry, placed, frame, {drawn, place});
+            vec4 color = leafIntegral(drawn, entry, placed, frame, {drawn, place});
             const bool cut = !steep.empty() && isCut(drawn.asset(), entry, overlap, frame);
             if (cut)
                 color += quartersOf(drawn, entry, placed, frame);
@@ -320,18 +335,22 @@ void addLeaf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const Pi
         }
 }
 
-bool isTransparent(PaintMeaning meaning, const AssetView& asset, Entry entry) {
+/// Whether a square changes nothing.
+bool isTransparent(const Drawn& drawn, Entry entry) {
     if (entry.kind() != Entry::Kind::Solid)
         return false;
-    return meaning == PaintMeaning::Coverage ? entry.payload() == 0
-                                             : asset.paints[entry.payload()] == Paint{};
+    const std::uint32_t paint = drawn.paintOf(entry.payload());
+    if (drawn.placed)
+        return paint == drawn.placed->ground();
+    return drawn.meaning == PaintMeaning::Coverage ? paint == 0 : drawn.asset().paints[paint] == Paint{};
 }
 
 }  // namespace
 
-PixelBox pixelsOf(const View& view, dvec2 corner, double side) {
-    const dvec2 origin = view.toPixels * glm::dvec3(corner, 1);
-    const dvec2 x = view.toPixels[0] * side, y = view.toPixels[1] * side, zero(0);
+PixelBox pixelsOf(const View& view, const Affine2& toPicture) {
+    const glm::dmat2 toPixels(view.toPixels[0], view.toPixels[1]);
+    const dvec2 origin = view.toPixels * glm::dvec3(toPicture.offset, 1);
+    const dvec2 x = toPixels * toPicture.linear[0], y = toPixels * toPicture.linear[1], zero(0);
     const dvec2 size(view.width, view.height);
     const dvec2 min = origin + glm::min(x, zero) + glm::min(y, zero);
     const dvec2 max = origin + glm::max(x, zero) + glm::max(y, zero);
@@ -349,19 +368,35 @@ View crop(const View& view, const PixelBox& box) {
 
 namespace {
 
+/// `toPicture`: from the map's square, [0, 1]².
+void addSquares(const Drawn& drawn, const Map& map, const Affine2& toPicture, const View& view,
+                image::Raster& target, RoughPixels& rough) {
+    walk(drawn.asset(), map.root, [&](Cell cell, Entry entry) {
+        if (isTransparent(drawn, entry))
+            return;
+        const double side = std::ldexp(1.0, -2 * int(cell.level));
+        const Affine2 square = compose(toPicture, {glm::dmat2(side), dvec2(cell.x, cell.y) * side});
+        const PixelBox box = pixelsOf(view, square);
+        if (!box.empty())
+            addLeaf(drawn, entry, place(view, square), box, target, rough);
+    });
+}
+
 /// Returns the pixels that want to be drawn finer.
 RoughPixels addMap(const Drawn& drawn, const Map& map, const View& view, image::Raster& target) {
-    const AssetView& asset = drawn.asset();
     RoughPixels rough(view);
-    walk(asset, map.root, [&](Cell cell, Entry entry) {
-        if (isTransparent(drawn.meaning, asset, entry))
-            return;
-        const double side = std::ldexp(map.side, -2 * int(cell.level));
-        const dvec2 corner(map.x + cell.x * side, map.y + cell.y * side);
-        const PixelBox box = pixelsOf(view, corner, side);
-        if (!box.empty())
-            addLeaf(drawn, entry, place(view, corner, side), box, target, rough);
-    });
+    addSquares(drawn, map, placeOf(map), view, target, rough);
+    if (map.instances != 0)
+        forEachMap(drawn.asset(), map, [&](const PlacedMap& placed) {
+            if (&placed.map == &map)
+                return true;
+            if (pixelsOf(view, placed.toPicture).empty())
+                return false;
+            Drawn inner = drawn;
+            inner.placed = &placed.paints;
+            addSquares(inner, placed.map, placed.toPicture, view, target, rough);
+            return true;
+        });
     return rough;
 }
 

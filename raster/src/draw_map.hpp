@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include <vtm/raster/view.hpp>
+#include "asset/instances.hpp"
 #include "raster/src/paint.hpp"
 
 namespace vtm::asset {
@@ -15,8 +16,8 @@ struct PixelBox {
     bool empty() const { return min.x >= max.x || min.y >= max.y; }
 };
 
-/// The pixels of `view` whose boxes can meet the square with min corner `corner`.
-PixelBox pixelsOf(const View& view, glm::dvec2 corner, double side);
+/// The pixels of `view` whose boxes can meet the image of [0, 1]².
+PixelBox pixelsOf(const View& view, const Affine2& toPicture);
 
 /// The view that sees only `box` of `view`.
 View crop(const View& view, const PixelBox& box);

@@ -35,7 +35,7 @@ struct Mask {
 };
 
 Mask coverageOf(const Paints& paints, const Map& map, const View& view) {
-    const PixelBox box = pixelsOf(view, {map.x, map.y}, map.side);
+    const PixelBox box = pixelsOf(view, placeOf(map));
     const View cropped = crop(view, box);
     Mask mask{box, Raster(cropped.width, cropped.height)};
     addCoverage(paints, map, cropped, mask.coverage);

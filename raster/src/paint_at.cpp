@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include <glm/matrix.hpp>
+
+#include "asset/instances.hpp"
 #include "asset/walk.hpp"
 #include "raster/planar_map.hpp"
 
@@ -47,6 +50,31 @@ std::uint32_t paintInLeaf(const AssetView& asset, const Leaf& leaf, dvec2 point)
     return paintBehind(paintOnLeft(leaf, pieces, point.y), changes);
 }
 
+/// Of the map alone; p in [0, 1]² of its square.
+std::uint32_t paintInMap(const AssetView& asset, const Map& map, dvec2 p) {
+    const auto [cell, entry, within] = squareAt(asset, map.root, p);
+    return entry.kind() == Entry::Kind::Solid
+               ? entry.payload()
+               : paintInLeaf(asset, asset.leaves[entry.payload()], within * double(leafExtent));
+}
+
+/// Each placed map that holds the point puts a paint in place of its ground, which is the paint of the map
+/// around or of another one that lies around it.
+std::uint32_t paintInMaps(const AssetView& asset, const Map& map, dvec2 p) {
+    const dvec2 point = placeOf(map)(p);
+    std::vector<Change> changes;
+    forEachMap(asset, map, [&](const PlacedMap& placed) {
+        const dvec2 q = glm::inverse(placed.toPicture.linear) * (point - placed.toPicture.offset);
+        if (!(q.x >= 0 && q.y >= 0 && q.x <= 1 && q.y <= 1))
+            return false;
+        if (const std::uint32_t paint = placed.paints(paintInMap(asset, placed.map, q));
+            paint != placed.paints.ground())
+            changes.push_back({0, placed.paints.ground(), paint});
+        return true;
+    });
+    return paintBehind(0, changes);
+}
+
 }  // namespace
 
 std::uint32_t paintAt(const AssetView& asset, dvec2 point) {
@@ -57,10 +85,7 @@ std::uint32_t paintAt(const AssetView& asset, dvec2 point) {
         const dvec2 p = (point - dvec2(map.x, map.y)) / map.side;
         if (!(p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1))
             continue;
-        const auto [cell, entry, within] = squareAt(asset, map.root, p);
-        return entry.kind() == Entry::Kind::Solid
-                   ? entry.payload()
-                   : paintInLeaf(asset, asset.leaves[entry.payload()], within * double(leafExtent));
+        return map.instances == 0 ? paintInMap(asset, map, p) : paintInMaps(asset, map, p);
     }
     return 0;
 }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "asset/instances.hpp"
 #include "asset/walk.hpp"
 
 namespace vtm::asset {
@@ -236,12 +238,103 @@ PlanarMap planarMap(const AssetView& asset, const Map& map) {
     return result;
 }
 
-std::vector<PlanarMap> planarMaps(const AssetView& asset) {
+// ---- Placed maps ----------------------------------------------------------------------------------
+
+namespace {
+
+/// A shear moves a curve's points along its chord; without one, or where the curve is this flat, the image of
+/// a piece is a piece.
+constexpr double flatSlope = 0x1p-7;
+/// Else it is cut into so many. Of a part with slopes up to tan 22.5°, what the cubic through its ends with
+/// their tangents is off by is below (1/8)^4 / 4 < 2^-14 of the whole chord.
+constexpr int shearedParts = 8;
+
+/// The pieces of a placed map, in lattice coordinates of the one around.
+class Placing {
+public:
+    Placing(const PlacedMap& placed, double innerExtent, const MapPlace& outer,
+            std::vector<PlanarPiece>& pieces)
+        : paints_(placed.paints), pieces_(pieces) {
+        const double scale = outer.extent / outer.side;
+        toOuter_ = {placed.toPicture.linear * (scale / innerExtent),
+                    (placed.toPicture.offset - outer.origin) * scale};
+        isMirrored_ = glm::determinant(toOuter_.linear) < 0;
+    }
+
+    void add(const PlanarPiece& piece) {
+        const std::uint32_t left = paints_(isMirrored_ ? piece.right : piece.left),
+                            right = paints_(isMirrored_ ? piece.left : piece.right);
+        if (left == right)
+            return;
+        const dvec2 d = piece.b - piece.a, chord = toOuter_.linear * d,
+                    across = toOuter_.linear * dvec2(-d.y, d.x);
+        const double length2 = glm::dot(chord, chord);
+        if (length2 == 0)
+            return;
+        const double shear = glm::dot(across, chord) / length2;
+        const double steepest = std::max(std::abs(piece.slopeA), std::abs(piece.slopeB));
+        const int parts = std::abs(shear) * steepest * steepest <= flatSlope * flatSlope ? 1 : shearedParts;
+        dvec2 from = toOuter_(piece.a);
+        for (int i = 0; i < parts; ++i) {
+            const double s0 = double(i) / parts, s1 = double(i + 1) / parts;
+            const dvec2 to = toOuter_(piece.at(s1));
+            const dvec2 part = to - from;
+            const auto slopeAt = [&](double s) {
+                const dvec2 tangent = toOuter_.linear * piece.derivative(s);
+                return cross(part, tangent) / glm::dot(part, tangent);
+            };
+            const bool isStraight = piece.slopeA == 0 && piece.slopeB == 0;
+            const PlanarPiece placed{glm::round(from),
+                                     glm::round(to),
+                                     isStraight ? 0 : slopeAt(s0),
+                                     isStraight ? 0 : slopeAt(s1),
+                                     left,
+                                     right};
+            if (placed.a != placed.b)
+                pieces_.push_back(placed);
+            from = to;
+        }
+    }
+
+private:
+    const PlacedPaints& paints_;
+    std::vector<PlanarPiece>& pieces_;
+    Affine2 toOuter_;
+    bool isMirrored_;
+};
+
+}  // namespace
+
+PlanarMap flatPlanarMap(const AssetView& asset, const Map& map) {
+    PlanarMap flat = planarMap(asset, map);
+    if (map.instances == 0)
+        return flat;
+    std::vector<std::optional<PlanarMap>> inner(asset.maps.size());
+    forEachMap(asset, map, [&](const PlacedMap& placed) {
+        if (&placed.map == &map)
+            return true;
+        std::optional<PlanarMap>& of = inner[std::size_t(&placed.map - asset.maps.data())];
+        if (!of)
+            of = planarMap(asset, placed.map);
+        limits::need(of->pieces.size() * sizeof(PlanarPiece));
+        Placing placing(placed, of->extent, flat, flat.pieces);
+        for (const PlanarPiece& piece : of->pieces)
+            placing.add(piece);
+        return true;
+    });
+    return flat;
+}
+
+void requireSumOfMaps(const AssetView& asset) {
     if (!isSumOfMaps(asset))
         throw std::invalid_argument("only assets of exact mode have a planar map");
+}
+
+std::vector<PlanarMap> planarMaps(const AssetView& asset) {
+    requireSumOfMaps(asset);
     std::vector<PlanarMap> maps;
     for (const Command& command : asset.commands)
-        maps.push_back(planarMap(asset, asset.maps[command.map]));
+        maps.push_back(flatPlanarMap(asset, asset.maps[command.map]));
     return maps;
 }
 

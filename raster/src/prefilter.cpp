@@ -13,6 +13,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/evaluate.hpp>
+#include "asset/instances.hpp"
 #include "asset/records.hpp"
 #include "asset/walk.hpp"
 #include "raster/src/paint.hpp"
@@ -36,8 +37,8 @@ public:
 
     /// A square of a layer. Layers over layers (compat mode) are no finer than the finest of them, so each
     /// is counted for itself.
-    void add(std::uint32_t layer, dvec2 corner, double side, bool hasPieces) {
-        const ivec2 from = cellOf(corner), to = cellOf(corner + side);
+    void add(std::uint32_t layer, dvec2 corner, dvec2 size, bool hasPieces) {
+        const ivec2 from = cellOf(corner), to = cellOf(corner + size);
         for (int y = from.y; y <= to.y; ++y)
             for (int x = from.x; x <= to.x; ++x) {
                 Count& count = counts_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
@@ -81,18 +82,29 @@ bool drawsMap(Command::Kind kind) {
            kind == Command::Kind::ClipMask;
 }
 
+/// Boxes around them, where the map is turned.
+void addSquares(const AssetView& asset, const PlacedMap& placed, std::uint32_t layer,
+                Footprints& footprints) {
+    const glm::dmat2& linear = placed.toPicture.linear;
+    const dvec2 size = glm::abs(linear[0]) + glm::abs(linear[1]);
+    walk(asset, placed.map.root, [&](Cell cell, Entry entry) {
+        const bool isSolid = entry.kind() == Entry::Kind::Solid;
+        if (isSolid && (entry.payload() == 0 || asset.paints[placed.paints(entry.payload())] == Paint{}))
+            return;
+        const double side = std::ldexp(1.0, -2 * int(cell.level));
+        const dvec2 centre = placed.toPicture((dvec2(cell.x, cell.y) + 0.5) * side);
+        footprints.add(layer, centre - 0.5 * side * size, side * size, !isSolid);
+    });
+}
+
 double squaresPerFootprint(const AssetView& asset, PyramidSize size) {
     Footprints footprints(asset, size);
     for (std::uint32_t layer = 0; layer < asset.commands.size(); ++layer) {
         if (!drawsMap(asset.commands[layer].kind))
             continue;
-        const Map& map = asset.maps[asset.commands[layer].map];
-        walk(asset, map.root, [&](Cell cell, Entry entry) {
-            const bool isSolid = entry.kind() == Entry::Kind::Solid;
-            if (isSolid && asset.paints[entry.payload()] == Paint{})
-                return;
-            const double side = std::ldexp(map.side, -2 * int(cell.level));
-            footprints.add(layer, {map.x + cell.x * side, map.y + cell.y * side}, side, !isSolid);
+        forEachMap(asset, asset.maps[asset.commands[layer].map], [&](const PlacedMap& placed) {
+            addSquares(asset, placed, layer, footprints);
+            return true;
         });
     }
     return footprints.mean();

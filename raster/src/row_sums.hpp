@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@
 #include <glm/vec3.hpp>
 
 #include <vtm/raster/view.hpp>
+#include "asset/instances.hpp"
 #include "raster/planar_map.hpp"
 #include "raster/src/float4.hpp"
 
@@ -80,14 +82,18 @@ private:
 
 // ---- Chords ---------------------------------------------------------------------------------------
 
-/// Appends the chords of all pieces that can change a pixel of the view.
+/// Appends the chords of all pieces that can change a pixel of the view. PaintOf: from the paints of pieces
+/// to the picture's.
+template <class PaintOf = std::identity>
 class Chords {
 public:
     Chords(const MapPlace& map, const View& view, Bands& bands)
-        : width_(float(view.width)), height_(float(view.height)), bands_(bands) {
-        const double step = map.side / map.extent;
-        linear_ = glm::dmat2(view.toPixels[0] * step, view.toPixels[1] * step);
-        origin_ = view.toPixels * glm::dvec3(map.origin, 1);
+        : Chords({glm::dmat2(map.side / map.extent), map.origin}, view, bands, {}) {}
+    /// `toPicture` leads from lattice coordinates to the picture.
+    Chords(const Affine2& toPicture, const View& view, Bands& bands, PaintOf paintOf)
+        : width_(float(view.width)), height_(float(view.height)), bands_(bands), paintOf_(paintOf) {
+        linear_ = glm::dmat2(view.toPixels[0], view.toPixels[1]) * toPicture.linear;
+        origin_ = view.toPixels * glm::dvec3(toPicture.offset, 1);
         const double determinant = glm::determinant(linear_);
         mirrored_ = determinant < 0;
         // The largest singular value.
@@ -131,13 +137,14 @@ private:
     }
 
     void addChord(glm::vec2 a, glm::vec2 b, const PlanarPiece& piece) {
-        const auto left = std::uint16_t(mirrored_ ? piece.right : piece.left),
-                   right = std::uint16_t(mirrored_ ? piece.left : piece.right);
+        const auto left = std::uint16_t(paintOf_(mirrored_ ? piece.right : piece.left)),
+                   right = std::uint16_t(paintOf_(mirrored_ ? piece.left : piece.right));
         bands_.add({a, b, left, right}, width_, height_);
     }
 
     float width_, height_;
     Bands& bands_;
+    [[no_unique_address]] PaintOf paintOf_;
     glm::dmat2 linear_;
     glm::dvec2 origin_;
     bool mirrored_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -14,6 +15,7 @@
 #include <glm/vec4.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include "asset/instances.hpp"
 #include "raster/src/blend.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/rough.hpp"
@@ -41,10 +43,15 @@ struct KeptAsset {
     struct Drawn {
         MapPlace place;
         std::vector<Boundary> boundaries;
+        std::uint32_t map = noMap;  ///< in which others are placed
     };
-    Asset asset;                   ///< without trees: paints and what they need
+    static constexpr std::uint32_t noMap = 0xFFFFFFFFu;
+
+    Asset asset;                   ///< paints and what they need; trees only if maps are placed in maps
     std::optional<Paints> paints;  ///< of `asset`
     std::vector<Drawn> drawn;
+    std::vector<Drawn> placed;          ///< by map: those that are placed in others
+    std::optional<MapWalk> placedMaps;  ///< of `asset`
     Sums sums = Sums::Encoded;
     std::vector<Float4> solid;            ///< by paint, as it is added; nothing for programs
     std::vector<std::uint8_t> isProgram;  ///< by paint
@@ -121,11 +128,9 @@ public:
 
     void addPicture() {
         for (const KeptAsset::Drawn& drawn : of_.drawn) {
-            Chords chords(drawn.place, view_, scratch_.bands);
-            for (const Boundary& boundary : drawn.boundaries) {
-                limits::check();
-                chords.add(boundary);
-            }
+            addChords(Chords<>(drawn.place, view_, scratch_.bands), drawn.boundaries);
+            if (drawn.map != KeptAsset::noMap)
+                addPlaced(of_.asset.maps[drawn.map]);
         }
     }
     void addChord(const Chord& chord) { scratch_.bands.add(chord, float(view_.width), float(view_.height)); }
@@ -137,6 +142,38 @@ public:
     }
 
 private:
+    template <class PaintOf>
+    static void addChords(Chords<PaintOf> chords, const std::vector<Boundary>& boundaries) {
+        for (const Boundary& boundary : boundaries) {
+            limits::check();
+            chords.add(boundary);
+        }
+    }
+
+    /// What lies beside the view changes no pixel.
+    void addPlaced(const Map& map) {
+        (*of_.placedMaps)(map, [&](const PlacedMap& placed) {
+            if (&placed.map == &map)
+                return true;
+            if (!isSeen(placed.toPicture))
+                return false;
+            const KeptAsset::Drawn& drawn = of_.placed[std::size_t(&placed.map - of_.asset.maps.data())];
+            const Affine2 toPicture{placed.toPicture.linear * (1 / drawn.place.extent),
+                                    placed.toPicture.offset};
+            addChords(Chords(toPicture, view_, scratch_.bands, std::cref(placed.paints)), drawn.boundaries);
+            return true;
+        });
+    }
+
+    bool isSeen(const Affine2& toPicture) const {
+        const Affine2 toPixels =
+            compose({glm::dmat2(view_.toPixels[0], view_.toPixels[1]), view_.toPixels[2]}, toPicture);
+        const glm::dvec2 centre = toPixels(glm::dvec2(0.5));
+        const glm::dvec2 reach = 0.5 * (glm::abs(toPixels.linear[0]) + glm::abs(toPixels.linear[1])) + 1.0;
+        return centre.x + reach.x > 0 && centre.y + reach.y > 0 && centre.x - reach.x < view_.width &&
+               centre.y - reach.y < view_.height;
+    }
+
     template <class Store>
     void drawBand(int band, Store& store) {
         limits::check();
@@ -221,6 +258,15 @@ private:
     int finerLevels_;
 };
 
+/// Without what is placed in them.
+std::vector<PlanarMap> ownPlanarMaps(const AssetView& asset) {
+    requireSumOfMaps(asset);
+    std::vector<PlanarMap> maps;
+    for (const Command& command : asset.commands)
+        maps.push_back(planarMap(asset, asset.maps[command.map]));
+    return maps;
+}
+
 }  // namespace
 
 struct Scanner::Impl : KeptAsset {
@@ -263,7 +309,30 @@ void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, co
     giveBack(std::move(scratch));
 }
 
-Scanner::Scanner(const AssetView& asset, Sums sums) : Scanner(planarMaps(asset), asset, sums) {}
+Scanner::Scanner(const AssetView& asset, Sums sums) : Scanner(ownPlanarMaps(asset), asset, sums) {
+    if (asset.instances.empty())
+        return;
+    Asset& kept = impl_->asset;
+    kept.maps.assign(asset.maps.begin(), asset.maps.end());
+    kept.nodes.assign(asset.nodes.begin(), asset.nodes.end());
+    kept.leaves.assign(asset.leaves.begin(), asset.leaves.end());
+    kept.pieces.assign(asset.pieces.begin(), asset.pieces.end());
+    kept.instanceTrees.assign(asset.instanceTrees.begin(), asset.instanceTrees.end());
+    kept.instances.assign(asset.instances.begin(), asset.instances.end());
+    kept.symbols.assign(asset.symbols.begin(), asset.symbols.end());
+    kept.palettes.assign(asset.palettes.begin(), asset.palettes.end());
+    for (std::size_t i = 0; i < asset.commands.size(); ++i)
+        impl_->drawn[i].map = asset.commands[i].map;
+    impl_->placed.resize(kept.maps.size());
+    for (const Symbol& symbol : kept.symbols) {
+        KeptAsset::Drawn& drawn = impl_->placed[symbol.map];
+        if (drawn.place.side != 0)
+            continue;  // another symbol has the same map
+        const PlanarMap map = planarMap(kept, kept.maps[symbol.map]);
+        drawn = {map, {map.pieces.begin(), map.pieces.end()}};
+    }
+    impl_->placedMaps.emplace(kept);
+}
 
 Scanner::Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums)
     : impl_(std::make_unique<Impl>()) {

@@ -51,6 +51,14 @@ TEST(PaintAt, OutsideIsTransparent) {
         EXPECT_EQ(paintAt(asset, p), 0u);
 }
 
+TEST(PaintAt, PlacedMapsHaveTheirOwnPaints) {
+    const Asset asset = placedMaps();
+    EXPECT_EQ(paintAt(asset, {mapSide / 4, mapSide / 4}), 2u);
+    EXPECT_EQ(paintAt(asset, {mapSide * 3 / 4, mapSide / 2}), 3u);
+    EXPECT_EQ(paintAt(asset, {mapSide / 10, mapSide / 10}), 0u);
+    EXPECT_EQ(paintAt(asset, {mapSide / 2, mapSide * 9 / 10}), 0u);
+}
+
 TEST(PaintAt, CompatIsRefused) { EXPECT_THROW(paintAt(layers(), {1, 1}), std::invalid_argument); }
 
 /// Pixels that one region fills have its colour, whatever leaves they lie in.

@@ -160,7 +160,7 @@ TEST(Prefilter, GradientsImagesAndGroupsAreAveraged) {
 
 TEST(Prefilter, DoesNotDependOnThreads) {
     const PyramidSize size{256, 192};
-    for (const Asset& asset : {everyPaint(), layers(), disc()}) {
+    for (const Asset& asset : {everyPaint(), layers(), disc(), placedMaps()}) {
         const Prefilter one = buildPrefilter(asset, size, 1);
         EXPECT_EQ(buildPrefilter(asset, size, 5).texels, one.texels);
         EXPECT_EQ(buildPrefilter(asset, size).texels, one.texels);

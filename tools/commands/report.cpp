@@ -47,6 +47,7 @@ Json figures(const asset::Asset& asset) {
             {"pieces", summary.pieces},
             {"fallback_leaves", asset.fallbackLeaves},
             {"regions", summary.regions},
+            {"instances", summary.instances},
             {"max_depth", summary.maxDepth}};
 }
 

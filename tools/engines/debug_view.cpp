@@ -65,7 +65,7 @@ vec3 piecesColor(const Asset& asset, Entry entry, unsigned) {
 vec3 costColor(const Asset& asset, Entry entry, unsigned level) {
     using compiler::CostModel;
     const double side = CostModel::nominalPixels / std::exp2(2.0 * level);
-    const double perPixel = CostModel::drawing(piecesOf(asset, entry), level) / (side * side);
+    const double perPixel = CostModel{}.drawing(piecesOf(asset, entry), level) / (side * side);
     return heat(std::log2(perPixel / CostModel::perSolidFragment) /
                 std::log2(maxNanoseconds / CostModel::perSolidFragment));
 }

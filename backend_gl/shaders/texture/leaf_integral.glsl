@@ -1,9 +1,15 @@
 // The integral of a leaf's colour over the pixel's box, but for the sign of the frame.
-// Requires: fetch.glsl, coverage.glsl, region_color.glsl; LINEAR, RADIAL, IMAGE, GROUPS, MATERIAL.
+// Requires: fetch.glsl, coverage.glsl, region_color.glsl, placed_paints.glsl; LINEAR, RADIAL, IMAGE, GROUPS, MATERIAL.
 // Exports: leafIntegral.
 
 // Of pieceSum()'s loop, at most: straight pieces are one chord.
 float pieceTurns(uvec4 piece) { return piece.z == 0u ? 4.0 : float(chordCount) + 5.0; }
+
+// Of what a square has of the pixel's box.
+float squareArea(Frame frame) {
+    vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
+    return seg(a, b) + seg(b, c) + seg(c, d) + seg(d, a);
+}
 
 #if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
 
@@ -29,24 +35,30 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
             weight = -weight;
         }
         if (weight != 0.0)
-            sum += weight * regionColor(ASSET recent, paint, point, pixel);
+            sum += weight * regionColor(ASSET recent, paintOf(ASSET paint), point, pixel);
     }
+    if (isPlaced())
+        sum -= squareArea(frame) * regionColor(ASSET recent, paintOf(ASSET 0u), point, pixel);
     return sum;
 }
 
 #else
 
+vec4 numberColor(ASSET_IN uint number) { return solidColor(ASSET paintOf(ASSET number)); }
+
 // Twin of pieces_fragment.glsl.
 vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
     vec2 a = cornerOf(frame, 0), b = cornerOf(frame, 1), c = cornerOf(frame, 2), d = cornerOf(frame, 3);
-    vec4 sum = seg(a, b) * solidColor(ASSET low(leaf.z)) + seg(b, c) * solidColor(ASSET high(leaf.z)) +
-               seg(c, d) * solidColor(ASSET low(leaf.w)) + seg(d, a) * solidColor(ASSET high(leaf.w));
+    vec4 sum = seg(a, b) * numberColor(ASSET low(leaf.z)) + seg(b, c) * numberColor(ASSET high(leaf.z)) +
+               seg(c, d) * numberColor(ASSET low(leaf.w)) + seg(d, a) * numberColor(ASSET high(leaf.w));
+    if (isPlaced())
+        sum -= squareArea(frame) * numberColor(ASSET 0u);
     uint end = leaf.x + low(leaf.y);
     for (uint i = leaf.x; i < end && spend(1.0); ++i) {
         uvec4 piece = texelAt(ASSET ASSET_PART(sections).y + i);
         float weight = spend(pieceTurns(piece)) ? pieceSum(frame, piece) : 0.0;
         if (weight != 0.0)
-            sum += weight * (solidColor(ASSET low(piece.w)) - solidColor(ASSET high(piece.w)));
+            sum += weight * (numberColor(ASSET low(piece.w)) - numberColor(ASSET high(piece.w)));
     }
     return sum;
 }

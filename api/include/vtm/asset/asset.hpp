@@ -3,6 +3,7 @@
 ///
 /// A *map* (the paper's VTM) is a 16-tree over a square of the picture. A leaf is solid, or holds
 /// pieces: Hermite cubics over their chords, each with one region on its left and one on its right.
+/// Maps may be placed in other maps: a picture that repeats a shape stores it once.
 /// The records below are exactly what the container stores and what the shaders fetch, as RGBA32UI
 /// texels in little-endian order; docs/asset_format.md explains every bit.
 /// Source: Ray et al. 2005 (discontinuity map, 16-tree); our extension: any number of pieces and
@@ -30,14 +31,15 @@ using Texel = std::array<std::uint32_t, 4>;
 
 /// An entry of the tree. The low two bits hold the kind, the other bits the payload.
 struct Entry {
-    enum class Kind : std::uint32_t { Solid, Leaf, Node };
+    enum class Kind : std::uint32_t { Solid, Leaf, Node, Instances };
     std::uint32_t bits = 0;
 
     static Entry make(Kind kind, std::uint32_t payload) {
         return {(payload << 2) | static_cast<std::uint32_t>(kind)};
     }
     Kind kind() const { return static_cast<Kind>(bits & 3); }
-    /// Solid: an index into Asset::paints. Leaf: into Asset::leaves. Node: into Asset::nodes.
+    /// Solid: an index into Asset::paints. Leaf: into Asset::leaves. Node: into Asset::nodes. Instances: see
+    /// InstanceTree.
     std::uint32_t payload() const { return bits >> 2; }
 };
 
@@ -101,6 +103,72 @@ struct Piece {
     std::int16_t slopeA = 0, slopeB = 0;
     std::uint16_t left = 0, right = 0;
 };
+
+// ---- Instances --------------------------------------------------------------------------------
+
+/// A map that is placed in other maps, with the paints that stand for its own. The paints that such a map
+/// names are numbers of its own: 0 is its outside, which shows the ground, and i > 0 stands for
+/// Asset::palettes[palette + i - 1]. These and the ground are paints of the map in which it is placed. Paints
+/// are evaluated in the picture's space, wherever a map is placed. One texel.
+struct Symbol {
+    std::uint16_t map = 0;     ///< larger than the index of each map in which it is placed
+    std::uint16_t ground = 0;  ///< the paint that lies around and below its regions
+    std::uint32_t palette = 0;
+    float scale = 0;  ///< of Instance::linear
+    std::uint32_t unused = 0;
+};
+
+/// A symbol at a place of another map. A point c of the symbol's map is at centre + linear (c - 1/2); both
+/// count sides of their map's square from its min corner. What is drawn is the map around it plus share ·
+/// (paint - ground) for each of the symbol's regions: exact where the ground is what is drawn without the
+/// symbol, or under it, and where regions of instances that do not lie in each other do not overlap.
+/// One texel: x: centre x (24 bits), low byte of the symbol; y: centre y, high byte; z, w: first and second
+/// column of `linear`, signed, in 1 / slopeScale of Symbol::scale.
+struct Instance {
+    Texel bits{};
+
+    std::uint16_t symbol() const { return std::uint16_t((bits[0] >> 24) | (bits[1] >> 24) << 8); }
+    /// In centreSteps of the square's side.
+    std::array<std::uint32_t, 2> centre() const { return {bits[0] & 0xFFFFFFu, bits[1] & 0xFFFFFFu}; }
+    /// m00, m01 (the image of x), m10, m11.
+    std::array<std::int16_t, 4> linear() const {
+        return {std::int16_t(bits[2] & 0xFFFFu), std::int16_t(bits[2] >> 16), std::int16_t(bits[3] & 0xFFFFu),
+                std::int16_t(bits[3] >> 16)};
+    }
+    static Instance make(std::uint16_t symbol, std::array<std::uint32_t, 2> centre,
+                         std::array<std::int16_t, 4> linear) {
+        const auto pair = [](std::int16_t low, std::int16_t high) {
+            return std::uint32_t(std::uint16_t(low)) | std::uint32_t(std::uint16_t(high)) << 16;
+        };
+        return {{centre[0] | std::uint32_t(symbol & 0xFFu) << 24,
+                 centre[1] | std::uint32_t(symbol >> 8) << 24, pair(linear[0], linear[1]),
+                 pair(linear[2], linear[3])}};
+    }
+};
+inline constexpr double centreSteps = 1u << 24;
+
+/// The instances of a map whose sizes are alike, in a 16-tree over the map's square. Its entries are Solid 0
+/// (none), Node and Instances; the cell of an Instances entry holds the centres of its instances. One texel.
+struct InstanceTree {
+    Entry root;
+    float reach = 0;         ///< no point of an instance is farther from its centre, along x or y; sides
+    std::uint32_t next = 0;  ///< 0, or 1 + the index of the map's next tree, which is larger
+    std::uint32_t unused = 0;
+};
+
+/// The payload of an Instances entry: Asset::instances[first] and those that follow it.
+inline constexpr std::uint32_t maxInstancesPerCell = 64, maxInstances = 1u << 24;
+struct InstanceRange {
+    std::uint32_t first, count;
+
+    explicit InstanceRange(Entry entry) : first(entry.payload() >> 6), count((entry.payload() & 63u) + 1) {}
+    static Entry entry(std::uint32_t first, std::uint32_t count) {
+        return Entry::make(Entry::Kind::Instances, first << 6 | (count - 1));
+    }
+};
+
+/// Max number of maps in each other, the outermost one included.
+inline constexpr unsigned maxMapDepth = 8;
 
 // ---- Paints -----------------------------------------------------------------------------------
 
@@ -196,6 +264,7 @@ struct ImageFill {
 };
 
 static_assert(sizeof(Node) == 64 && sizeof(Leaf) == 16 && sizeof(Piece) == 16);
+static_assert(sizeof(Symbol) == 16 && sizeof(Instance) == 16 && sizeof(InstanceTree) == 16);
 static_assert(sizeof(Instruction) == 16 && sizeof(Gradient) == 48 && sizeof(GradientStop) == 16);
 /// Three texels. `matrix` maps picture coordinates to the space of Asset::materials[material].
 struct MaterialFill {
@@ -226,7 +295,7 @@ inline constexpr double largestLength = 0x1p40;
 struct Map {
     double x = 0, y = 0, side = 0;
     Entry root;
-    std::uint32_t unused = 0;
+    std::uint32_t instances = 0;  ///< 0, or 1 + the index of its first tree in Asset::instanceTrees
 };
 
 /// Max number of pictures on the stack of drawing commands, and max number of commands.
@@ -272,6 +341,10 @@ struct Asset {
     std::vector<Texel> data;  ///< programs, gradients, image and material fills
     std::vector<image::Bitmap> images;
     std::vector<Material> materials;
+    std::vector<InstanceTree> instanceTrees;
+    std::vector<Instance> instances;
+    std::vector<Symbol> symbols;
+    std::vector<std::uint16_t> palettes;
     std::uint32_t fallbackLeaves = 0;  ///< leaves filled with a mean of samples, larger than the tolerance
     Prefilter prefilter;               ///< for minification; optional (vtm/raster/prefilter.hpp)
     /// How far the asset may be magnified: the side, in user units, of the smallest pixel for which every
@@ -297,6 +370,10 @@ struct AssetView {
     std::span<const Texel> data;
     std::span<const image::Bitmap> images;
     std::span<const Material> materials;
+    std::span<const InstanceTree> instanceTrees;
+    std::span<const Instance> instances;
+    std::span<const Symbol> symbols;
+    std::span<const std::uint16_t> palettes;
     std::uint32_t fallbackLeaves = 0;
     PrefilterView prefilter;
     std::optional<double> finestPixel;
@@ -315,6 +392,10 @@ struct AssetView {
           data(a.data),
           images(a.images),
           materials(a.materials),
+          instanceTrees(a.instanceTrees),
+          instances(a.instances),
+          symbols(a.symbols),
+          palettes(a.palettes),
           fallbackLeaves(a.fallbackLeaves),
           prefilter{a.prefilter.size, a.prefilter.texels},
           finestPixel(a.finestPixel) {}
@@ -337,6 +418,7 @@ struct Summary {
     std::size_t solids = 0;  ///< solid entries of the trees
     std::size_t pieces = 0;
     std::size_t regions = 0;  ///< distinct paints
+    std::size_t instances = 0;
     unsigned maxDepth = 0;
 };
 Summary summarize(const AssetView& asset);

@@ -30,6 +30,9 @@ struct Options {
     /// Max depth of the 16-tree. In [0, asset::maxLevel]. Leaves below level 8 exist only where a larger leaf
     /// could not be proven to be within the tolerance.
     unsigned maxDepth = asset::maxLevel;
+    /// Whether what stands several times in the picture becomes a map of its own, which is placed
+    /// (asset::Instance). Exact mode only.
+    bool instances = true;
     /// Max number of pairs of chords to test, about a minute of work; beyond it compile() throws LimitError.
     std::size_t maxWork = 20'000'000'000;
 };

@@ -1,0 +1,32 @@
+/// \file
+/// Which layers lie over a point of the picture.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiler/lower/lowered_scene.hpp"
+
+namespace vtm::compiler {
+
+/// A lowered scene with its runs by rows. It must outlive this.
+class LayersAt {
+public:
+    LayersAt(const LoweredScene& picture, const Square& square);
+
+    /// Those that a point is inside of by their fill rules, ascending. On an outline it is on either side.
+    std::vector<std::uint32_t> operator()(LatticePoint p) const;
+
+private:
+    struct LayerRun {
+        std::uint32_t layer, run;
+        Coord low, high, left;  ///< its least and largest y and its least x
+    };
+    std::size_t rowOf(Coord y) const;
+
+    const LoweredScene& picture_;
+    const Square square_;
+    std::vector<std::vector<LayerRun>> rows_;
+};
+
+}  // namespace vtm::compiler

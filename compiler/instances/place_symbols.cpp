@@ -1,0 +1,656 @@
+#include "compiler/instances/place_symbols.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include <vtm/limits/limits.hpp>
+#include "compiler/instances/boundary.hpp"
+#include "compiler/instances/encode_instances.hpp"
+#include "compiler/instances/layers_at.hpp"
+#include "compiler/instances/repeats.hpp"
+#include "compiler/paint/painters.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::Affine2;
+using glm::dvec2;
+
+Affine2 affine2(const scene::Affine& m) { return {{m[0], m[1]}, m[2]}; }
+
+Affine2 inverse(const Affine2& m) {
+    const glm::dmat2 linear = glm::inverse(m.linear);
+    return {linear, -(linear * m.offset)};
+}
+
+double largestStretch(const Affine2& m) {
+    return compiler::largestStretch({m.linear[0], m.linear[1], m.offset});
+}
+
+struct Box2 {
+    dvec2 min{HUGE_VAL}, max{-HUGE_VAL};
+
+    void add(dvec2 p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    void add(const Box2& box) {
+        add(box.min);
+        add(box.max);
+    }
+    bool isWithin(dvec2 low, dvec2 high) const {
+        return min.x >= low.x && min.y >= low.y && max.x <= high.x && max.y <= high.y;
+    }
+    /// By more than `slack` along both axes.
+    bool overlaps(const Box2& b, double slack) const {
+        return std::min(max.x, b.max.x) - std::max(min.x, b.min.x) > slack &&
+               std::min(max.y, b.max.y) - std::max(min.y, b.min.y) > slack;
+    }
+};
+
+Box2 mapped(const Affine2& m, dvec2 min, dvec2 max) {
+    Box2 box;
+    for (const dvec2 p : {min, max, dvec2(min.x, max.y), dvec2(max.x, min.y)})
+        box.add(m(p));
+    return box;
+}
+
+/// A repeat with its map.
+struct Symbol {
+    std::uint32_t layerCount = 0;
+    SymbolMap map;
+    std::unique_ptr<SymbolBoundary> boundary;
+};
+
+/// A place where a symbol may stand.
+struct Candidate {
+    std::uint32_t symbol = 0;
+    std::uint32_t firstLayer = 0;
+    Affine2 toPicture;
+    Box2 box;                           ///< of its boundaries, in the picture
+    std::vector<PaintId> paints;        ///< by region: the ground first
+    std::vector<std::uint32_t> around;  ///< candidates in whose regions it lies
+    bool isFlat = false;                ///< it stays with the picture's own layers
+};
+
+/// Squares of the picture with the candidates whose boxes meet them.
+class CandidateGrid {
+public:
+    CandidateGrid(std::span<const Candidate> candidates, double side) : side_(side) {
+        constexpr double cellsPerRoot = 2;
+        constexpr int maxCells = 512;
+        cells_ = std::clamp(int(cellsPerRoot * std::sqrt(double(candidates.size()))), 1, maxCells);
+        grid_.resize(std::size_t(cells_) * std::size_t(cells_));
+        for (std::uint32_t i = 0; i < candidates.size(); ++i)
+            forEachCell(candidates[i].box, [&](std::vector<std::uint32_t>& cell) { cell.push_back(i); });
+    }
+    template <class Visit>
+    void forEachCell(const Box2& box, Visit&& visit) {
+        const glm::ivec2 from = cellOf(box.min), to = cellOf(box.max);
+        for (int y = from.y; y <= to.y; ++y)
+            for (int x = from.x; x <= to.x; ++x)
+                visit(grid_[std::size_t(y) * std::size_t(cells_) + std::size_t(x)]);
+    }
+
+private:
+    glm::ivec2 cellOf(dvec2 p) const {
+        return glm::ivec2(glm::clamp(glm::floor(p * (cells_ / side_)), dvec2(0), dvec2(cells_ - 1)));
+    }
+    double side_;
+    int cells_ = 1;
+    std::vector<std::vector<std::uint32_t>> grid_;
+};
+
+/// Records of 16 bytes.
+constexpr std::size_t recordBytes = 16;
+
+class Placer {
+public:
+    Placer(const LoweredScene& picture, std::span<const LayerOrigin> origins, std::span<const TileFill> fills,
+           const Lattice& lattice, dvec2 size, const Options& options, Palette& palette)
+        : picture_(picture),
+          origins_(origins.begin(), origins.end()),
+          lattice_(lattice),
+          size_(size),
+          options_(options),
+          tolerance_(options.tolerance * std::max(size.x, size.y)),
+          palette_(palette),
+          painter_(picture),
+          inside_(picture.layers.size()),
+          isTile_(picture.layers.size()) {
+        for (const TileFill& fill : fills)
+            std::fill_n(isTile_.begin() + fill.tile.first, fill.tile.count, true);
+    }
+
+    std::optional<PlacedSymbols> run(std::span<const TileFill> fills) {
+        const limits::Stage stage("finding repeats", place_);
+        place_ = picture_.layers.empty() ? limits::Place{} : picture_.layers.front().place;
+        for (const TileFill& fill : fills)
+            if (!fill.blocks.empty() && !addTiles(fill))
+                return std::nullopt;
+        std::vector<LayerOrigin> own = origins_;
+        for (std::size_t i = 0; i < own.size(); ++i)
+            if (isTile_[i])
+                own[i].path = nullptr;
+        const std::vector<Repeat> repeats = findRepeats(own, std::max(size_.x, size_.y));
+        if (mayPay(repeats)) {
+            for (const Repeat& repeat : repeats)
+                addRepeat(repeat);
+            keepApart();
+        }
+        return result();
+    }
+
+private:
+    // ---- One repeat ----
+
+    void addRepeat(const Repeat& repeat) {
+        limits::check();
+        place_ = picture_.layers[repeat.occurrences[0].first].place;
+        if (!mayPay(repeat))
+            return;
+        const auto reference = referenceOf(repeat);
+        if (!reference)
+            return;
+        const auto& [of, box] = *reference;
+        const double side = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+        if (!(side > tolerance_))
+            return;
+        std::vector<Candidate> candidates = candidatesOf(repeat, of, box, side);
+        if (candidates.size() < 2 || areCrowded(candidates, (box.max - box.min) / side))
+            return;
+        double stretch = 0;
+        for (const Candidate& candidate : candidates)
+            stretch = std::max(stretch, largestStretch(candidate.toPicture));
+        const SymbolMaker maker(
+            std::span<const LayerOrigin>(origins_).subspan(repeat.occurrences[of].first, repeat.count),
+            box.min, side, stretch / std::max(size_.x, size_.y), options_);
+        makeSymbol(repeat, maker, std::move(candidates));
+    }
+
+    std::size_t chordsOf(std::uint32_t first, std::uint32_t count) const {
+        std::size_t chords = 0;
+        for (std::uint32_t i = first; i < first + count; ++i)
+            for (std::uint32_t r = 0; r < picture_.layers[i].runCount; ++r) {
+                const Run& run = picture_.outlines.runs[picture_.layers[i].firstRun + r];
+                chords += run.last - run.first;
+            }
+        return chords;
+    }
+
+    /// Before anything is built: whether enough of the picture repeats. One that hardly does takes no time
+    /// and keeps its bytes.
+    bool mayPay(std::span<const Repeat> repeats) const {
+        constexpr double minShare = 1.0 / 4;
+        std::size_t saved = 0;
+        for (const Repeat& repeat : repeats)
+            saved += (repeat.occurrences.size() - 1) * chordsOf(repeat.occurrences[0].first, repeat.count);
+        const std::size_t all = chordsOf(0, std::uint32_t(picture_.layers.size()));
+        return double(saved) >= minShare * double(all) && saved > 0;
+    }
+
+    /// A rectangle takes as much as an instance.
+    bool mayPay(const Repeat& repeat) const {
+        constexpr std::size_t minChords = 5;
+        return chordsOf(repeat.occurrences[0].first, repeat.count) >= minChords;
+    }
+
+    Box2 boxOf(std::uint32_t first, std::uint32_t count) const {
+        Box2 box;
+        for (std::uint32_t i = first; i < first + count; ++i)
+            for (std::uint32_t r = 0; r < picture_.layers[i].runCount; ++r) {
+                const Run& run = picture_.outlines.runs[picture_.layers[i].firstRun + r];
+                box.add(lattice_.toUnits(picture_.outlines.points[run.first]));
+                box.add(lattice_.toUnits(picture_.outlines.points[run.last]));
+            }
+        return box;
+    }
+
+    /// An occurrence that the picture's border does not cut, and its box.
+    std::optional<std::pair<std::size_t, Box2>> referenceOf(const Repeat& repeat) const {
+        const dvec2 step(2 / lattice_.stepsPerUnit());
+        for (std::size_t i = 0; i < repeat.occurrences.size(); ++i) {
+            const Box2 box = boxOf(repeat.occurrences[i].first, repeat.count);
+            if (box.isWithin(step, size_ - step))
+                return std::pair(i, box);
+        }
+        return std::nullopt;
+    }
+
+    std::vector<Candidate> candidatesOf(const Repeat& repeat, std::size_t reference, const Box2& box,
+                                        double side) const {
+        std::vector<Candidate> candidates;
+        const Affine2 toReference{glm::dmat2(side), box.min};
+        const Affine2 back = inverse(affine2(repeat.occurrences[reference].fromFirst));
+        const dvec2 slack(slackOf());
+        for (const Repeat::Occurrence& occurrence : repeat.occurrences) {
+            Candidate candidate;
+            candidate.firstLayer = occurrence.first;
+            candidate.toPicture = compose(compose(affine2(occurrence.fromFirst), back), toReference);
+            const dvec2 size = (box.max - box.min) / side;
+            if (mapped(candidate.toPicture, dvec2(0), size).isWithin(-slack, size_ + slack) &&
+                isStorable(candidate.toPicture))
+                candidates.push_back(std::move(candidate));
+        }
+        return candidates;
+    }
+
+    /// Whether most of them must cross each other: their boxes have several times the area that they lie in.
+    static bool areCrowded(std::span<const Candidate> candidates, dvec2 size) {
+        constexpr double maxLayers = 3;
+        double area = 0;
+        Box2 all;
+        for (const Candidate& candidate : candidates) {
+            area += std::abs(glm::determinant(candidate.toPicture.linear)) * size.x * size.y;
+            all.add(mapped(candidate.toPicture, dvec2(0), size));
+        }
+        return area > maxLayers * (all.max.x - all.min.x) * (all.max.y - all.min.y);
+    }
+
+    /// What abutting instances may overlap by, as rounding has it.
+    double slackOf() const { return tolerance_ / 8; }
+
+    bool isStorable(const Affine2& toPicture) const {
+        const double longer = std::max(size_.x, size_.y);
+        return placementError(toPicture.linear / longer) * longer <= slackOf();
+    }
+
+    void makeSymbol(const Repeat& repeat, const SymbolMaker& maker, std::vector<Candidate> candidates) {
+        LayerSets sets;
+        std::optional<SymbolMap> bySets = maker.bySets(sets);
+        if (!bySets)
+            return;
+        const SymbolBoundary all(planarMap(bySets->asset, bySets->asset.maps[0]));
+        const std::optional<dvec2> inner =
+            repeat.count == 1 ? firstOf(all.pointsInside()) : innermost(all, sets);
+        if (!inner)
+            return;
+        for (Candidate& candidate : candidates)
+            candidate.paints = paintsOf(candidate, sets, layersAround(candidate, repeat.count, *inner));
+        const std::vector<std::uint32_t> classes = classesOf(candidates, sets.size());
+        // One layer has two sets, which are classes already unless it shows nowhere.
+        std::optional<SymbolMap> map =
+            repeat.count == 1 && classes.back() == 1 ? std::move(bySets) : maker.byClasses(sets, classes);
+        if (!map)
+            return;
+        auto boundary = std::make_unique<SymbolBoundary>(planarMap(map->asset, map->asset.maps[0]));
+        const std::vector<dvec2> points = boundary->pointsInside();
+        constexpr std::size_t maxParts = 256;
+        if (points.empty() || points.size() > maxParts)
+            return;
+        std::erase_if(candidates, [&](Candidate& candidate) {
+            return !isOverOnePaint(candidate, repeat.count, *inner, points);
+        });
+        const auto number = std::uint32_t(symbols_.size());
+        for (Candidate& candidate : candidates) {
+            candidate.symbol = number;
+            candidate.box = mapped(candidate.toPicture, boundary->min(), boundary->max());
+            candidate.paints = paintsByClass(candidate.paints, classes);
+            candidates_.push_back(std::move(candidate));
+        }
+        symbols_.push_back({repeat.count, std::move(*map), std::move(boundary)});
+    }
+
+    /// A point in a region over which most layers lie, away from its boundaries.
+    static std::optional<dvec2> innermost(const SymbolBoundary& boundary, const LayerSets& sets) {
+        constexpr int grid = 16;
+        std::optional<dvec2> best;
+        std::size_t most = 0;
+        for (int y = 0; y < grid; ++y)
+            for (int x = 0; x < grid; ++x) {
+                const dvec2 p = (dvec2(x, y) + 0.5) / double(grid);
+                const std::size_t layers = sets[boundary.regionAt(p)].size();
+                if (layers > most) {
+                    most = layers;
+                    best = p;
+                }
+            }
+        return best ? best : firstOf(boundary.pointsInside());
+    }
+    static std::optional<dvec2> firstOf(const std::vector<dvec2>& points) {
+        return points.empty() ? std::nullopt : std::optional(points.front());
+    }
+
+    LatticePoint onLattice(dvec2 p) const {
+        const dvec2 steps = scene::apply(lattice_.toSteps(), p);
+        return {Coord(std::lround(steps.x)), Coord(std::lround(steps.y))};
+    }
+
+    /// The layers over a point of a symbol's square, but for its own.
+    std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count, dvec2 point) {
+        if (!layersAt_)
+            layersAt_.emplace(picture_, lattice_.square());
+        std::vector<std::uint32_t> layers = (*layersAt_)(onLattice(candidate.toPicture(point)));
+        std::erase_if(layers, [&](std::uint32_t layer) {
+            return isTile_[layer] || (layer >= candidate.firstLayer && layer < candidate.firstLayer + count);
+        });
+        return layers;
+    }
+
+    /// By set, of the symbol's layers.
+    std::vector<PaintId> paintsOf(const Candidate& candidate, const LayerSets& sets,
+                                  const std::vector<std::uint32_t>& around) {
+        const auto middle = std::ranges::lower_bound(around, candidate.firstLayer);
+        std::vector<PaintId> paints;
+        std::vector<std::uint32_t> layers;
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            layers.assign(around.begin(), middle);
+            for (const std::uint32_t layer : sets[i])
+                layers.push_back(candidate.firstLayer + layer);
+            layers.insert(layers.end(), middle, around.end());
+            for (const std::uint32_t layer : layers)
+                inside_[layer] = true;
+            paints.push_back(painter_.paint(layers, inside_, palette_));
+            for (const std::uint32_t layer : layers)
+                inside_[layer] = false;
+        }
+        return paints;
+    }
+
+    /// Sets that have the same paint wherever the symbol stands are one class; those that show the ground
+    /// everywhere are class 0.
+    static std::vector<std::uint32_t> classesOf(std::span<const Candidate> candidates, std::size_t sets) {
+        std::map<std::vector<PaintId>, std::uint32_t> classes;
+        std::vector<std::uint32_t> classOf;
+        for (std::size_t set = 0; set < sets; ++set) {
+            std::vector<PaintId> paints;
+            for (const Candidate& candidate : candidates)
+                paints.push_back(candidate.paints[set]);
+            classOf.push_back(
+                classes.try_emplace(std::move(paints), std::uint32_t(classes.size())).first->second);
+        }
+        return classOf;
+    }
+
+    static std::vector<PaintId> paintsByClass(std::span<const PaintId> bySet,
+                                              std::span<const std::uint32_t> classes) {
+        std::vector<PaintId> paints;
+        for (std::size_t set = 0; set < classes.size(); ++set)
+            if (classes[set] == paints.size())
+                paints.push_back(bySet[set]);
+        return paints;
+    }
+
+    /// Whether the same layers lie over all parts of a symbol.
+    bool isOverOnePaint(const Candidate& candidate, std::uint32_t count, dvec2 inner,
+                        std::span<const dvec2> points) {
+        const std::vector<std::uint32_t> around = layersAround(candidate, count, inner);
+        return std::ranges::all_of(points,
+                                   [&](dvec2 p) { return layersAround(candidate, count, p) == around; });
+    }
+
+    // ---- Patterns ----
+
+    /// Returns whether the tile could be proven.
+    bool addTiles(const TileFill& fill) {
+        place_ = picture_.layers[fill.pattern.shape].place;
+        limits::check();
+        const dvec2 period = fill.pattern.period();
+        const double side = std::max(period.x, period.y);
+        const Affine2 toPicture = affine2(fill.pattern.toPicture);
+        const SymbolMaker maker(tileOf(fill), fill.pattern.min, side,
+                                largestStretch(toPicture) * side / std::max(size_.x, size_.y), options_);
+        LayerSets sets;
+        const std::optional<SymbolMap> bySets = maker.bySets(sets);
+        if (!bySets)
+            return false;
+        // Blocks in the same layers have the same paints.
+        std::map<std::vector<std::uint32_t>, std::size_t> known;
+        std::vector<Candidate> surroundings;
+        std::vector<std::size_t> surroundingOf;
+        for (const TileBlock& block : fill.blocks) {
+            Candidate candidate;
+            candidate.firstLayer = fill.tile.first;
+            candidate.toPicture = compose(toPicture, squareOf(fill, block));
+            const dvec2 middle = 0.5 * period / side;
+            std::vector<std::uint32_t> around = layersAround(candidate, fill.tile.count, middle);
+            const auto [entry, isNew] = known.try_emplace(around, surroundings.size());
+            if (isNew) {
+                candidate.paints = paintsOf(candidate, sets, around);
+                surroundings.push_back(std::move(candidate));
+            }
+            surroundingOf.push_back(entry->second);
+        }
+        const std::vector<std::uint32_t> classes = classesOf(surroundings, sets.size());
+        const std::optional<SymbolMap> map = maker.byClasses(sets, classes);
+        if (!map)
+            return false;
+        unsigned levels = 0;
+        for (const TileBlock& block : fill.blocks)
+            levels = std::max(levels, block.level);
+        const auto firstMap = std::uint32_t(placed_.maps.size());
+        const std::uint32_t numbers = *std::ranges::max_element(classes);
+        for (std::uint32_t level = levels; level > 0; --level)
+            placed_.maps.push_back(
+                GridMap{firstMap + levels - level + 1, period / side / double(blockTiles), numbers});
+        placed_.maps.push_back(*map);
+        for (std::size_t i = 0; i < fill.blocks.size(); ++i) {
+            const TileBlock& block = fill.blocks[i];
+            placed_.error = std::max(placed_.error, map->error * side * largestStretch(toPicture));
+            placed_.placed.push_back({firstMap + levels - block.level,
+                                      compose(toPicture, squareOf(fill, block)),
+                                      paintsByClass(surroundings[surroundingOf[i]].paints, classes)});
+        }
+        return true;
+    }
+
+    /// The origins of a tile's layers in the pattern's space, as of tile (0, 0).
+    std::vector<LayerOrigin> tileOf(const TileFill& fill) const {
+        const dvec2 moved = dvec2(fill.tileAt) * fill.pattern.period();
+        const scene::Affine toPattern =
+            *scene::inverse(scene::compose(fill.pattern.toPicture, scene::translation(moved.x, moved.y)));
+        std::vector<LayerOrigin> tile(origins_.begin() + fill.tile.first,
+                                      origins_.begin() + fill.tile.first + fill.tile.count);
+        for (LayerOrigin& origin : tile)
+            origin.transform = scene::compose(toPattern, origin.transform);
+        return tile;
+    }
+
+    /// From a block's [0, 1]² to the pattern's space.
+    static Affine2 squareOf(const TileFill& fill, const TileBlock& block) {
+        const dvec2 period = fill.pattern.period();
+        const double side = std::ldexp(std::max(period.x, period.y), int(3 * block.level));
+        static_assert(blockTiles == 8);
+        return {glm::dmat2(side), fill.pattern.min + dvec2(block.at) * period};
+    }
+
+    // ---- All of them ----
+
+    /// Marks candidates as flat that touch something else.
+    void keepApart() {
+        if (candidates_.empty())
+            return;
+        CandidateGrid grid(candidates_, std::max(size_.x, size_.y));
+        std::vector<bool> isCandidates(picture_.layers.size());
+        for (const Candidate& candidate : candidates_)
+            std::fill_n(isCandidates.begin() + candidate.firstLayer, symbols_[candidate.symbol].layerCount,
+                        true);
+        for (std::uint32_t layer = 0; layer < picture_.layers.size(); ++layer)
+            if (!isCandidates[layer] && !isTile_[layer])
+                keepApartFrom(picture_.layers[layer], grid);
+        for (std::uint32_t i = 0; i < candidates_.size(); ++i)
+            keepApartFromOthers(i, grid);
+        // What lies in a candidate and is flat makes that flat too.
+        std::vector<std::uint32_t> flat;
+        for (std::uint32_t i = 0; i < candidates_.size(); ++i)
+            if (candidates_[i].isFlat)
+                flat.push_back(i);
+        flattenAround(std::move(flat));
+        refuseWhatDoesNotPay();
+    }
+
+    void flattenAround(std::vector<std::uint32_t> flat) {
+        while (!flat.empty()) {
+            const std::uint32_t i = flat.back();
+            flat.pop_back();
+            candidates_[i].isFlat = true;
+            for (const std::uint32_t around : candidates_[i].around)
+                if (!candidates_[around].isFlat) {
+                    candidates_[around].isFlat = true;
+                    flat.push_back(around);
+                }
+        }
+    }
+
+    void keepApartFrom(const Layer& layer, CandidateGrid& grid) {
+        place_ = layer.place;
+        const auto& outlines = picture_.outlines;
+        for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
+            limits::check();
+            const Run& run = outlines.runs[r];
+            Box2 runBox;
+            runBox.add(lattice_.toUnits(outlines.points[run.first]));
+            runBox.add(lattice_.toUnits(outlines.points[run.last]));
+            bool isNear = false;
+            grid.forEachCell(runBox, [&](const auto& cell) { isNear = isNear || !cell.empty(); });
+            for (std::uint32_t p = run.first; isNear && p < run.last; ++p) {
+                const Segment2 chord{lattice_.toUnits(outlines.points[p]),
+                                     lattice_.toUnits(outlines.points[p + 1])};
+                Box2 box;
+                box.add(chord.a);
+                box.add(chord.b);
+                grid.forEachCell(box, [&](const std::vector<std::uint32_t>& cell) {
+                    for (const std::uint32_t i : cell)
+                        if (!candidates_[i].isFlat && touches(candidates_[i], chord, box))
+                            candidates_[i].isFlat = true;
+                });
+            }
+        }
+    }
+
+    /// Whether a chord meets a candidate's boundaries or lies in one of its regions.
+    bool touches(const Candidate& candidate, const Segment2& chord, const Box2& box) const {
+        const double slack = slackOf();
+        if (box.max.x - slack <= candidate.box.min.x || box.min.x + slack >= candidate.box.max.x ||
+            box.max.y - slack <= candidate.box.min.y || box.min.y + slack >= candidate.box.max.y)
+            return false;
+        const SymbolBoundary& boundary = *symbols_[candidate.symbol].boundary;
+        const Affine2 toSymbol = inverse(candidate.toPicture);
+        const Segment2 s{toSymbol(chord.a), toSymbol(chord.b)};
+        return boundary.meets(s) || boundary.regionAt(s.a) != 0;
+    }
+
+    void keepApartFromOthers(std::uint32_t i, CandidateGrid& grid) {
+        Candidate& candidate = candidates_[i];
+        place_ = picture_.layers[candidate.firstLayer].place;
+        limits::check();
+        std::vector<std::uint32_t> others;
+        grid.forEachCell(candidate.box, [&](const std::vector<std::uint32_t>& cell) {
+            for (const std::uint32_t j : cell)
+                if (j != i && candidate.box.overlaps(candidates_[j].box, slackOf()))
+                    others.push_back(j);
+        });
+        std::ranges::sort(others);
+        others.erase(std::unique(others.begin(), others.end()), others.end());
+        for (const std::uint32_t j : others) {
+            Candidate& other = candidates_[j];
+            if (j > i && !(candidate.isFlat && other.isFlat) && meet(candidate, other))
+                candidate.isFlat = other.isFlat = true;
+            if (!other.isFlat && liesIn(candidate, other))
+                candidate.around.push_back(j);
+        }
+    }
+
+    bool meet(const Candidate& a, const Candidate& b) const {
+        const SymbolBoundary& boundary = *symbols_[b.symbol].boundary;
+        const Affine2 toB = compose(inverse(b.toPicture), a.toPicture);
+        return std::ranges::any_of(symbols_[a.symbol].boundary->segments(), [&](const Segment2& s) {
+            return boundary.meets({toB(s.a), toB(s.b)});
+        });
+    }
+
+    /// Where their boundaries do not meet: whether a part of one is in a region of the other.
+    bool liesIn(const Candidate& a, const Candidate& b) const {
+        const SymbolBoundary& boundary = *symbols_[b.symbol].boundary;
+        const Affine2 toB = compose(inverse(b.toPicture), a.toPicture);
+        const auto segments = symbols_[a.symbol].boundary->segments();
+        return std::ranges::any_of(segments,
+                                   [&](const Segment2& s) { return boundary.regionAt(toB(s.a)) != 0; });
+    }
+
+    /// Instances must save a fifth of what their pieces take otherwise.
+    void refuseWhatDoesNotPay() {
+        constexpr double minSaving = 0.2;
+        std::vector<std::size_t> counts(symbols_.size());
+        std::vector<std::map<std::vector<PaintId>, int>> paints(symbols_.size());
+        for (const Candidate& candidate : candidates_)
+            if (!candidate.isFlat) {
+                ++counts[candidate.symbol];
+                ++paints[candidate.symbol][candidate.paints];
+            }
+        std::vector<std::uint32_t> flat;
+        for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
+            const std::uint32_t symbol = candidates_[i].symbol;
+            const asset::Asset& map = symbols_[symbol].map.asset;
+            const double pieces = double(recordBytes * map.pieces.size());
+            const double own = pieces + double(recordBytes * map.leaves.size() + sizeof(asset::Map) +
+                                               sizeof(asset::Node) * map.nodes.size());
+            const double forPaints =
+                double(paints[symbol].size()) * double(recordBytes + 2 * candidates_[i].paints.size());
+            const double each = 1.5 * recordBytes;  // its record, and a share of the tree
+            const double count = double(counts[symbol]);
+            if (!candidates_[i].isFlat && count * (pieces * (1 - minSaving) - each) < own + forPaints)
+                flat.push_back(i);
+        }
+        flattenAround(std::move(flat));
+    }
+
+    PlacedSymbols result() {
+        PlacedSymbols placed = std::move(placed_);
+        std::vector<bool> isPlaced = isTile_;
+        std::vector<std::uint32_t> numbers(symbols_.size(), noIndex);
+        for (Candidate& candidate : candidates_) {
+            if (candidate.isFlat)
+                continue;
+            Symbol& symbol = symbols_[candidate.symbol];
+            std::fill_n(isPlaced.begin() + candidate.firstLayer, symbol.layerCount, true);
+            if (std::ranges::all_of(candidate.paints, [&](PaintId p) { return p == candidate.paints[0]; }))
+                continue;  // hidden
+            if (numbers[candidate.symbol] == noIndex) {
+                numbers[candidate.symbol] = std::uint32_t(placed.maps.size());
+                placed.maps.push_back(symbol.map);
+            }
+            placed.error = std::max(placed.error, symbol.map.error * largestStretch(candidate.toPicture));
+            placed.placed.push_back(
+                {numbers[candidate.symbol], candidate.toPicture, std::move(candidate.paints)});
+        }
+        placed.error += placed.placed.empty() ? 0 : slackOf();  // rounding
+        for (std::uint32_t i = 0; i < isPlaced.size(); ++i)
+            if (!isPlaced[i])
+                placed.layers.push_back(i);
+        return placed;
+    }
+
+    const LoweredScene& picture_;
+    const std::vector<LayerOrigin> origins_;
+    const Lattice& lattice_;
+    const dvec2 size_;
+    const Options& options_;
+    const double tolerance_;  ///< user units
+    limits::Place place_;     ///< of what is being looked at, for messages
+    Palette& palette_;
+    PicturePainter painter_;
+    std::vector<std::uint8_t> inside_;  ///< by layer
+    std::vector<bool> isTile_;          ///< by layer: of a tile that blocks are made of
+    PlacedSymbols placed_;              ///< patterns
+    std::optional<LayersAt> layersAt_;
+    std::vector<Symbol> symbols_;
+    std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+std::optional<PlacedSymbols> placeSymbols(const LoweredScene& picture, std::span<const LayerOrigin> origins,
+                                          std::span<const TileFill> fills, const Lattice& lattice,
+                                          glm::dvec2 size, const Options& options, Palette& palette) {
+    return Placer(picture, origins, fills, lattice, size, options, palette).run(fills);
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,423 @@
+// Assets with instances against the same scene without them, and against the reference: random scenes of
+// shapes that stand many times, on backgrounds, in groups and clips, in each other, side by side and across
+// each other.
+//
+// VTM_INSTANCE_SCENES=2000 tries that many.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <glm/mat2x2.hpp>
+
+#include <fmt/core.h>
+
+#include <vtm/asset/container.hpp>
+#include <vtm/compiler/compile.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
+#include "asset/instances.hpp"
+#include "backend_gl/testing.hpp"
+#include "conformance/cases/support.hpp"
+#include "conformance/compare/compare.hpp"
+#include "conformance/reference/reference.hpp"
+#include "raster/planar_map.hpp"
+
+namespace vtm::cases {
+namespace {
+
+using scene::Affine;
+using scene::Color;
+using scene::Group;
+using scene::Item;
+using scene::Path;
+using scene::Point;
+using scene::Scene;
+
+constexpr double side = 256;
+
+/// Shapes that repeat.
+class Repeats {
+public:
+    explicit Repeats(unsigned seed) : random_(seed) {}
+
+    Scene scene() {
+        Scene scene;
+        scene.width = scene.height = side;
+        background(scene.root);
+        const int symbols = 1 + pick(3);
+        for (int i = 0; i < symbols; ++i)
+            place(symbol(), scene.root);
+        if (pick(3) == 0)  // on top of all
+            scene.root.children.push_back({item(blob(20 + uniform(100)), at(uniform(side), uniform(side)))});
+        return scene;
+    }
+
+    /// A few shapes that do not repeat.
+    Scene ground() {
+        Scene scene;
+        scene.width = scene.height = side;
+        background(scene.root);
+        return scene;
+    }
+
+    /// Shapes that lie in a tile and across its borders.
+    Group tile(Point min, Point max) {
+        Group group;
+        const Point size = max - min;
+        for (int i = 0; i < 2; ++i) {
+            Item shape = item(blob((0.2 + uniform(0.4)) * std::min(size.x, size.y)),
+                              at(min.x + uniform(size.x), min.y + uniform(size.y)));
+            if (auto* stroke = std::get_if<scene::StrokeStyle>(&shape.geometry))
+                stroke->width *= 0.05 * size.x;
+            group.children.push_back({std::move(shape)});
+        }
+        return group;
+    }
+    std::shared_ptr<const Path> outline(double radius) { return blob(radius); }
+
+private:
+    double uniform(double to) { return std::uniform_real_distribution<double>(0, to)(random_); }
+    int pick(int n) { return int(random_() % unsigned(n)); }
+    static Affine at(double x, double y) { return scene::translation(x, y); }
+    static Affine turned(double angle) {
+        return {std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle), 0, 0};
+    }
+
+    Color color() {
+        const float a = pick(3) == 0 ? float(0.3 + uniform(0.5)) : 1.0f;
+        return {float(uniform(1)), float(uniform(1)), float(uniform(1)), a};
+    }
+
+    std::shared_ptr<const Path> blob(double radius) {
+        const int n = 3 + pick(6);
+        const double inner = 0.4 + uniform(0.6);
+        Path path;
+        const bool curved = pick(2) == 0;
+        const auto point = [&](double i, double r) {
+            const double angle = 2 * std::numbers::pi * i / n;
+            return Point(std::cos(angle), std::sin(angle)) * r * radius;
+        };
+        path.push_back(scene::MoveTo{point(0, 1)});
+        for (int i = 0; i < n; ++i) {
+            if (curved)
+                path.push_back(scene::CubicTo{point(i + 0.2, 1.2), point(i + 0.8, inner), point(i + 1, 1)});
+            else {
+                path.push_back(scene::LineTo{point(i + 0.5, inner)});
+                path.push_back(scene::LineTo{point(i + 1, 1)});
+            }
+        }
+        path.push_back(scene::Close{});
+        if (pick(3) == 0) {  // a hole
+            for (const double x : {-0.2, 0.2, 0.2, -0.2})
+                path.push_back(path.back().index() == 5
+                                   ? scene::Command(scene::MoveTo{Point(x, -0.2) * radius})
+                                   : scene::Command(scene::LineTo{Point(x, x < 0 ? 0.1 : 0.2) * radius}));
+            path.push_back(scene::Close{});
+        }
+        return std::make_shared<const Path>(std::move(path));
+    }
+
+    Item item(std::shared_ptr<const Path> path, const Affine& transform) {
+        Item item;
+        item.path = std::move(path);
+        item.transform = transform;
+        item.geometry = scene::FillRule::EvenOdd;
+        if (pick(4) == 0) {
+            scene::StrokeStyle stroke;
+            stroke.width = 0.5 + uniform(3);
+            item.geometry = stroke;
+        }
+        item.paint = color();
+        return item;
+    }
+
+    void background(Group& root) {
+        const int n = pick(4);
+        for (int i = 0; i < n; ++i) {
+            Item shape = item(blob(30 + uniform(150)), at(uniform(side), uniform(side)));
+            if (pick(3) == 0) {
+                scene::LinearGradient gradient;
+                gradient.start = {0, 0};
+                gradient.end = {50, 20};
+                gradient.stops = {{0, color()}, {1, color()}};
+                shape.paint = gradient;
+            }
+            root.children.push_back({std::move(shape)});
+        }
+    }
+
+    Group symbol() {
+        Group group;
+        const int n = 1 + pick(3);
+        const double radius = 2 + uniform(8);
+        for (int i = 0; i < n; ++i)
+            group.children.push_back({item(blob(radius * (1 - 0.3 * i)), at(uniform(2), uniform(2)))});
+        return group;
+    }
+
+    static void transform(Group& group, const Affine& by) {
+        for (scene::Node& node : group.children)
+            if (auto* child = std::get_if<Item>(&node.value))
+                child->transform = scene::compose(by, child->transform);
+    }
+
+    void place(const Group& symbol, Group& root) {
+        const bool grid = pick(3) == 0, varied = pick(3) == 0;
+        const double step = 12 + uniform(30);
+        const int count = 10 + pick(90);
+        for (int i = 0; i < count; ++i) {
+            Group instance = symbol;
+            Affine to = at(uniform(side), uniform(side));
+            if (grid)
+                to = at(step * (0.5 + i % 8), step * (0.5 + i / 8));
+            if (!grid || varied)
+                to = scene::compose(to, scene::compose(turned(uniform(7)),
+                                                       scene::scaling(0.4 + uniform(1), 0.4 + uniform(1))));
+            transform(instance, to);
+            if (varied)
+                for (scene::Node& node : instance.children)
+                    std::get<Item>(node.value).paint = color();
+            if (pick(8) == 0)
+                instance.opacity = 0.5f;
+            if (pick(12) == 0)
+                instance.blend = scene::BlendMode::Multiply;
+            root.children.push_back({std::move(instance)});
+        }
+    }
+
+    std::mt19937 random_;
+};
+
+unsigned innerMaps(const asset::Asset& asset) {
+    const std::vector<unsigned> depths = asset::mapDepths(asset);
+    return *std::ranges::max_element(depths) - 1;
+}
+
+asset::View viewOf(unsigned seed, int pixels, double zoom) {
+    asset::View view{pixels, pixels, {}};
+    const double angle = seed % 3 == 0 ? 0 : 0.7 * seed, scale = pixels / side * zoom;
+    view.toPixels = {scale * std::cos(angle),
+                     scale * std::sin(angle),
+                     -scale * std::sin(angle),
+                     scale * std::cos(angle),
+                     0,
+                     0};
+    view.toPixels[2] =
+        glm::dvec2(pixels / 2.0) - glm::dmat2(view.toPixels[0], view.toPixels[1]) * glm::dvec2(side / 2);
+    return view;
+}
+
+image::Raster referenceOf(const Scene& scene, const asset::View& view) {
+    reference::View as;
+    as.width = view.width;
+    as.height = view.height;
+    as.toPixels = view.toPixels;
+    return reference::render(scene, as);
+}
+
+unsigned scenes() {
+    const char* text = std::getenv("VTM_INSTANCE_SCENES");
+    return text ? unsigned(std::strtoul(text, nullptr, 10)) : 200;
+}
+
+/// Compiling the texture's shaders takes a while.
+constexpr unsigned glEvery = 8;
+
+TEST(Instances, DrawWhatTheFlatAssetDraws) {
+    Gl gl;
+    std::size_t withInstances = 0, instances = 0;
+    double worst = 0;
+    for (unsigned seed = 0; seed < scenes(); ++seed) {
+        const Scene scene = Repeats(seed).scene();
+        compiler::Options options;
+        const asset::Asset placed = compiler::compile(scene, options).asset;
+        options.instances = false;
+        const asset::Asset flat = compiler::compile(scene, options).asset;
+        ASSERT_TRUE(flat.instances.empty());
+        withInstances += !placed.instances.empty();
+        instances += placed.instances.size();
+        const asset::Asset again = asset::read(asset::write(placed));
+        const asset::Scanner scanner(again), flatScanner(flat);
+        const bool withGl = seed % glEvery == 0 && !placed.instances.empty();
+        std::optional<gl::test::TextureCanvas> texture, flatTexture;
+        if (withGl) {
+            texture.emplace(again);
+            flatTexture.emplace(flat);
+        }
+        for (const auto& [pixels, zoom] : {std::pair(160, 1.0), std::pair(48, 1.0), std::pair(96, 6.0)}) {
+            SCOPED_TRACE(fmt::format("scene {} on {} pixels, zoom {}", seed, pixels, zoom));
+            const asset::View view = viewOf(seed, pixels, zoom);
+            const image::Raster drawn = scanner.draw(view), evaluated = asset::evaluate(again, view),
+                                truth = referenceOf(scene, view);
+            EXPECT_LE(compare::compare(drawn, evaluated).max, assetMax);
+            const double difference = compare::compare(drawn, truth).max;
+            const double flatDifference = compare::compare(flatScanner.draw(view), truth).max;
+            EXPECT_LE(difference, std::max(referenceMax, flatDifference + 1));
+            worst = std::max(worst, difference);
+            if (!withGl)
+                continue;
+            const auto glDifference = [&](const asset::Asset& of) {
+                return compare::compare(gl.render(of, view), truth).max;
+            };
+            EXPECT_LE(glDifference(again), std::max(referenceMax, glDifference(flat) + 1));
+            if (pixels >= 96) {  // no prefilter
+                const auto textureDifference = [&](gl::test::TextureCanvas& of) {
+                    return compare::compare(of.draw(view), truth).max;
+                };
+                EXPECT_LE(textureDifference(*texture),
+                          std::max(referenceMax, textureDifference(*flatTexture) + 1));
+            }
+        }
+        if (HasFailure())
+            return;
+    }
+    fmt::print("{} of {} scenes have instances, {} in all; largest difference {:.2f}/255\n", withInstances,
+               scenes(), instances, worst);
+    EXPECT_GT(withInstances, scenes() / 2);
+}
+
+/// A pattern of many tiles, turned and skewed, that fills a shape over a background and below another shape;
+/// now and then two of them across each other.
+Scene patterned(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    Scene scene = Repeats(seed).ground();
+    const int patterns = 1 + int(seed % 4 == 0);
+    for (int i = 0; i < patterns; ++i) {
+        scene::Pattern pattern;
+        pattern.min = {uniform(-3, 3), uniform(-3, 3)};
+        pattern.max = pattern.min + Point(uniform(1.5, 5), uniform(1.5, 5));
+        pattern.content = std::make_shared<const Group>(Repeats(seed + 77).tile(pattern.min, pattern.max));
+        if (seed % 2 == 1) {
+            const double angle = uniform(0, 3);
+            pattern.transform = {std::cos(angle), std::sin(angle), -std::sin(angle) * 0.8,
+                                 std::cos(angle), uniform(0, 9),   uniform(0, 9)};
+        }
+        Item filled;
+        const double r = uniform(60, 120);
+        filled.path = seed % 3 == 0 ? std::make_shared<const Path>(scene::rectangle({-r, -r}, {r, r}))
+                                    : Repeats(seed + 99).outline(r);
+        filled.transform = scene::translation(side / 2 + 20 * i, side / 2);
+        filled.geometry = scene::FillRule::NonZero;
+        filled.paint = pattern;
+        filled.opacity = seed % 5 == 0 ? 0.6f : 1.0f;
+        const auto at = std::ptrdiff_t(random() % (scene.root.children.size() + 1));
+        scene.root.children.insert(scene.root.children.begin() + at, scene::Node{std::move(filled)});
+    }
+    return scene;
+}
+
+TEST(Instances, PatternsArePlaced) {
+    Gl gl;
+    std::size_t nested = 0;
+    double worst = 0;
+    for (unsigned seed = 0; seed < scenes() / 8; ++seed) {
+        const Scene scene = patterned(seed);
+        const asset::Asset placed = compiler::compile(scene).asset;
+        nested += innerMaps(placed) > 1;
+        const asset::Scanner scanner(placed);
+        for (const auto& [pixels, zoom] : {std::pair(128, 1.0), std::pair(96, 5.0)}) {
+            SCOPED_TRACE(fmt::format("scene {} on {} pixels, zoom {}", seed, pixels, zoom));
+            const asset::View view = viewOf(seed, pixels, zoom);
+            const image::Raster drawn = scanner.draw(view);
+            EXPECT_LE(compare::compare(drawn, asset::evaluate(placed, view)).max, assetMax);
+            const double difference = compare::compare(drawn, referenceOf(scene, view)).max;
+            EXPECT_LE(difference, referenceMax);
+            worst = std::max(worst, difference);
+            if (seed % 8 == 1) {
+                EXPECT_LE(compare::compare(gl.render(placed, view), drawn).max, referenceMax);
+            }
+            if (seed == 1 && zoom > 1) {
+                EXPECT_LE(compare::compare(gl::test::TextureCanvas(placed).draw(view), drawn).max,
+                          referenceMax);
+            }
+        }
+    }
+    fmt::print("{} of {} scenes have maps in maps; largest difference {:.2f}/255\n", nested, scenes() / 4,
+               worst);
+    EXPECT_GT(nested, scenes() / 32);
+}
+
+TEST(Instances, AMillionTilesAreAFewKilobytes) {
+    scene::Pattern pattern{{0, 0}, {1, 1}, nullptr, scene::identity};
+    pattern.content = std::make_shared<const Group>(Repeats(5).tile({0, 0}, {1, 1}));
+    Scene scene;
+    scene.width = scene.height = 1000;
+    Item filled;
+    filled.path = std::make_shared<const Path>(scene::rectangle({0, 0}, {1000, 1000}));
+    filled.geometry = scene::FillRule::NonZero;
+    filled.paint = pattern;
+    scene.root.children.push_back({filled});
+    EXPECT_LE(asset::write(compiler::compile(scene).asset).size(), 65536u);
+}
+
+/// The whole asset as a map that is placed a few times in a new one: smaller, turned, one with other colours.
+asset::Asset wrapped(asset::Asset asset, std::mt19937& random) {
+    const auto paints = std::uint16_t(asset.paints.size());
+    asset.paints.push_back({0x3F000000u, 0, 0x3F000000u, 0x3F800000u});
+    for (asset::Symbol& symbol : asset.symbols)
+        ++symbol.map;
+    const auto symbols = std::uint16_t(asset.symbols.size());
+    const auto palette = std::uint32_t(asset.palettes.size());
+    for (std::uint16_t i = 1; i < paints; ++i)
+        asset.palettes.push_back(i);
+    for (std::uint16_t i = 1; i < paints; ++i)
+        asset.palettes.push_back(i % 2 == 0 ? i : paints);
+    asset.symbols.push_back({1, 0, palette, 0.5f, 0});
+    asset.symbols.push_back({1, 0, palette + paints - 1, 0.5f, 0});
+    const auto firstInstance = std::uint32_t(asset.instances.size());
+    const double sizes[] = {0.9, 0.5, 0.7};
+    for (unsigned i = 0; i < 3; ++i) {
+        const double angle = std::uniform_real_distribution<double>(0, 6)(random);
+        const auto coefficient = [&](double value) {
+            return std::int16_t(std::lround(sizes[i] * value * double(asset::slopeScale)));
+        };
+        const std::uint32_t at = 1u << 22;  // a fourth of the side
+        asset.instances.push_back(asset::Instance::make(
+            std::uint16_t(symbols + i % 2), {at + 2 * at * (i % 2), at + 2 * at * (i / 2)},
+            {coefficient(std::cos(angle)), coefficient(std::sin(angle)), coefficient(-0.8 * std::sin(angle)),
+             coefficient(0.8 * std::cos(angle))}));
+    }
+    asset.instanceTrees.push_back({asset::InstanceRange::entry(firstInstance, 3), 0.5f, 0, 0});
+    asset::Map root{0, 0, side, asset::Entry::make(asset::Entry::Kind::Solid, 0),
+                    std::uint32_t(asset.instanceTrees.size())};
+    asset.maps.insert(asset.maps.begin(), root);
+    return asset;
+}
+
+TEST(Instances, MayBeNested) {
+    Gl gl;
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        std::mt19937 random(seed);
+        asset::Asset nested = compiler::compile(Repeats(seed).scene()).asset;
+        for (unsigned depth = 2; depth < asset::maxMapDepth && depth < 3 + seed; ++depth) {
+            nested = wrapped(std::move(nested), random);
+            SCOPED_TRACE(fmt::format("scene {}, depth {}", seed, depth));
+            const asset::View view = viewOf(seed + depth, 96, 1.0 + 0.5 * depth);
+            const asset::Asset again = asset::read(asset::write(nested));
+            const image::Raster drawn = asset::Scanner(again).draw(view);
+            EXPECT_LE(compare::compare(drawn, asset::evaluate(again, view)).max, assetMax);
+            EXPECT_LE(compare::compare(drawn, asset::Scanner(asset::planarMaps(again), again).draw(view)).max,
+                      assetMax);
+            EXPECT_LE(compare::compare(drawn, gl.render(again, view)).max, referenceMax);
+            if (depth == 3) {  // close enough for the prefilter to have no share
+                const asset::View close = viewOf(seed, 96, 12);
+                EXPECT_LE(compare::compare(asset::Scanner(again).draw(close),
+                                           gl::test::TextureCanvas(again).draw(close))
+                              .max,
+                          referenceMax);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vtm::cases
