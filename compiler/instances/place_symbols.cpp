@@ -164,7 +164,10 @@ private:
         if (!(side > tolerance_))
             return;
         std::vector<Candidate> candidates = candidatesOf(repeat, of, box, side);
-        if (candidates.size() < 2 || areCrowded(candidates, (box.max - box.min) / side))
+        const dvec2 size = (box.max - box.min) / side;
+        if (chordsOf(repeat.occurrences[of].first, repeat.count) > manyChords)
+            std::erase_if(candidates, [&](const Candidate& c) { return isCrossed(c, repeat.count, size); });
+        if (candidates.size() < 2 || areCrowded(candidates, size))
             return;
         double stretch = 0;
         for (const Candidate& candidate : candidates)
@@ -196,10 +199,12 @@ private:
         return double(saved) >= minShare * double(all) && saved > 0;
     }
 
-    /// A rectangle takes as much as an instance.
+    /// A rectangle takes as much as an instance. The map of a large run that stands only two or three times
+    /// takes as long as it saves, and more where it turns out to be crossed.
     bool mayPay(const Repeat& repeat) const {
-        constexpr std::size_t minChords = 5;
-        return chordsOf(repeat.occurrences[0].first, repeat.count) >= minChords;
+        constexpr std::size_t minChords = 5, minOccurrences = 4;
+        const std::size_t chords = chordsOf(repeat.occurrences[0].first, repeat.count);
+        return chords >= minChords && (chords <= manyChords || repeat.occurrences.size() >= minOccurrences);
     }
 
     Box2 boxOf(std::uint32_t first, std::uint32_t count) const {
@@ -240,6 +245,29 @@ private:
                 candidates.push_back(std::move(candidate));
         }
         return candidates;
+    }
+
+    /// Building a map of so many chords takes longer than to look at points first.
+    static constexpr std::size_t manyChords = 1000;
+
+    /// Whether some points of a run lie under or over layers that others do not, as where two of them
+    /// overlap.
+    bool isCrossed(const Candidate& candidate, std::uint32_t count, dvec2 size) {
+        constexpr int grid = 8;
+        std::optional<std::vector<std::uint32_t>> known;
+        for (int i = 0; i < grid * grid; ++i) {
+            const dvec2 p = (dvec2(i % grid, i / grid) + 0.5) / double(grid) * size;
+            std::vector<std::uint32_t> layers = layersOver(candidate.toPicture(p));
+            const bool isIn =
+                std::erase_if(layers, [&](std::uint32_t layer) {
+                    return layer >= candidate.firstLayer && layer < candidate.firstLayer + count;
+                }) > 0;
+            if (isIn && known && *known != layers)
+                return true;
+            if (isIn)
+                known = std::move(layers);
+        }
+        return false;
     }
 
     /// Whether most of them must cross each other: their boxes have several times the area that they lie in.
@@ -323,11 +351,15 @@ private:
         return {Coord(std::lround(steps.x)), Coord(std::lround(steps.y))};
     }
 
-    /// The layers over a point of a symbol's square, but for its own.
-    std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count, dvec2 point) {
+    std::vector<std::uint32_t> layersOver(dvec2 point) {
         if (!layersAt_)
             layersAt_.emplace(picture_, lattice_.square());
-        std::vector<std::uint32_t> layers = (*layersAt_)(onLattice(candidate.toPicture(point)));
+        return (*layersAt_)(onLattice(point));
+    }
+
+    /// The layers over a point of a symbol's square, but for its own.
+    std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count, dvec2 point) {
+        std::vector<std::uint32_t> layers = layersOver(candidate.toPicture(point));
         std::erase_if(layers, [&](std::uint32_t layer) {
             return isTile_[layer] || (layer >= candidate.firstLayer && layer < candidate.firstLayer + count);
         });
