@@ -67,7 +67,7 @@ class Normalize(Command):
 
     def test_what_is_refused(self):
         self.vtm("compile", self.svg, "-o", "a.vtm")
-        self.assertIn("needs an SVG file", self.vtm("normalize", "a.vtm", "-o", "b.svg", expect=1).stderr)
+        self.assertIn("needs an SVG or a .vtmtree file", self.vtm("normalize", "a.vtm", "-o", "b.svg", expect=1).stderr)
         self.vtm("normalize", self.svg, "-o", "b.png", expect=2)
         before = self.svg.read_bytes()
         os.link(self.svg, self.folder / "link.svg")
