@@ -63,12 +63,11 @@ bool isTree(std::span<const std::uint8_t> bytes);
 Tree readTree(std::span<const std::uint8_t> bytes, const TreeOptions& options = {});
 
 /// Returns the text of a tree. Parts that it contains several times are written once, with a name. Reading
-/// the text returns a tree that draws the same picture. It has the same scene, but for groups without effect in
-/// masks and patterns, paths that are closed twice in a row, and rotations of arcs that are no rounded number of
-/// degrees, which change by a rounding. Such a tree is written as the same text again. Bitmaps are PNG data in
-/// the text.
-/// Throws TreeError for numbers that are not finite or beyond 1e30, and scene::InvalidScene where masks and
-/// patterns nest too deeply. The scene of the tree must be valid.
+/// the text returns a tree that draws the same picture. It has the same scene, but for groups without effect
+/// in masks and patterns, paths that are closed twice in a row, and rotations of arcs that are no rounded
+/// number of degrees, which change by a rounding. Such a tree is written as the same text again. Bitmaps are
+/// PNG data in the text. Throws TreeError for numbers that are not finite or beyond 1e30, and
+/// scene::InvalidScene where masks and patterns nest too deeply. The scene of the tree must be valid.
 std::string writeTree(const Tree& tree);
 
 }  // namespace vtm
