@@ -8,7 +8,6 @@
 
 #include <vtm/authoring.hpp>
 #include <vtm/scene/scene.hpp>
-#include "scene/level.hpp"
 #include "scene/place.hpp"
 
 namespace vtm {
