@@ -5,7 +5,7 @@
 
 #include "svg/css/font_variants.hpp"
 #include "svg/text/element_font.hpp"
-#include "text/features.hpp"
+#include "text/shape.hpp"
 
 namespace vtm::svg {
 namespace {
