@@ -195,22 +195,61 @@ Result compile(const scene::Scene& scene, const Options& options) {
     return compileExcerpt(scene, wholeOf(scene), options);
 }
 
+namespace {
+
+/// A lowered scene, and what of it is placed.
+struct Lowered {
+    LoweredScene picture;
+    PlacedSymbols placed;
+    Palette paints;  ///< of what is placed
+};
+
+Lowered withoutInstances(LoweredScene picture) {
+    Lowered lowered{std::move(picture), {}, {}};
+    lowered.placed.layers = allLayers(lowered.picture);
+    return lowered;
+}
+
+Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
+                      const Options& options) {
+    // Where coverage is a factor, fills end where they are told to.
+    const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
+    const ErrorBudget budget = errorBudget(options);
+    if (!options.instances || options.mode != asset::Mode::Exact || excerpt.isPart)
+        return withoutInstances(lower(scene, excerpt, lattice, budget, sharing));
+    const glm::dvec2 size(excerpt.width, excerpt.height);
+    Lowered lowered;
+    std::vector<LayerOrigin> origins;
+    TilePlan plan;
+    lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &plan);
+    std::vector<TileFill> fills;
+    if (!plan.patterns.empty()) {
+        const std::vector<TileChoice> choices =
+            chooseTiles(lowered.picture, lattice, size, plan.patterns, options.tolerance);
+        TilePlan chosen;
+        chosen.chosen.emplace();
+        for (const TileChoice& choice : choices)
+            chosen.chosen->push_back(choice.cut);
+        origins.clear();
+        lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &chosen);
+        for (std::size_t i = 0; i < choices.size(); ++i)
+            if (!choices[i].blocks.empty())
+                fills.push_back(
+                    {chosen.patterns[i], choices[i].blocks, chosen.firstTiles[i], choices[i].cut.front()});
+    }
+    auto placed = placeSymbols(lowered.picture, origins, fills, lattice, size, options, lowered.paints);
+    if (!placed)
+        return withoutInstances(lower(scene, excerpt, lattice, budget, sharing));
+    lowered.placed = std::move(*placed);
+    return lowered;
+}
+
+}  // namespace
+
 Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
     const auto start = Clock::now();
     const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
-    // Where coverage is a factor, fills end where they are told to.
-    const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
-    const bool findsRepeats = options.instances && options.mode == asset::Mode::Exact && !excerpt.isPart;
-    std::vector<LayerOrigin> origins;
-    LoweredScene picture = lower(scene, excerpt, lattice, errorBudget(options), sharing, nullptr,
-                                 findsRepeats ? &origins : nullptr);
-    Palette placedPaints;
-    PlacedSymbols placed;
-    if (findsRepeats)
-        placed =
-            placeSymbols(picture, origins, lattice, excerpt.width, excerpt.height, options, placedPaints);
-    else
-        placed.layers = allLayers(picture);
+    auto [picture, placed, placedPaints] = lowerAndPlace(scene, excerpt, lattice, options);
     const auto lowered = Clock::now();
 
     Result result;

@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
 #include <vtm/compiler/compile.hpp>
+#include <vtm/limits/limits.hpp>
+#include "compiler/instances/place_symbols.hpp"
 #include "compiler/tree/encode.hpp"
 
 namespace vtm::compiler {
@@ -19,8 +22,14 @@ using asset::Entry;
 using asset::Instance;
 using glm::dvec2;
 
+std::uint16_t nextMap(const Asset& asset) {
+    if (asset.maps.size() > 0xFFFF)
+        throw LimitError("the picture has more than 65535 symbols");
+    return std::uint16_t(asset.maps.size());
+}
+
 /// The map's records, behind those that are there.
-std::uint16_t appendMap(const SymbolMap& symbol, Asset& asset) {
+void appendMap(const SymbolMap& symbol, Asset& asset) {
     const auto nodes = std::uint32_t(asset.nodes.size()), leaves = std::uint32_t(asset.leaves.size()),
                pieces = std::uint32_t(asset.pieces.size());
     const auto moved = [&](Entry entry) {
@@ -38,15 +47,11 @@ std::uint16_t appendMap(const SymbolMap& symbol, Asset& asset) {
     asset.pieces.insert(asset.pieces.end(), symbol.asset.pieces.begin(), symbol.asset.pieces.end());
     asset::Map map = symbol.asset.maps.front();
     map.root = moved(map.root);
-    if (asset.maps.size() > 0xFFFF)
-        throw LimitError("the picture has more than 65535 symbols");
     asset.maps.push_back(map);
-    return std::uint16_t(asset.maps.size() - 1);
 }
 
-double largestCoefficient(const Affine2& m) {
-    return std::max(
-        {std::abs(m.linear[0].x), std::abs(m.linear[0].y), std::abs(m.linear[1].x), std::abs(m.linear[1].y)});
+double largestCoefficient(const glm::dmat2& m) {
+    return std::max({std::abs(m[0].x), std::abs(m[0].y), std::abs(m[1].x), std::abs(m[1].y)});
 }
 
 float notBelow(double value) {
@@ -194,29 +199,93 @@ std::uint32_t appendTrees(const std::vector<Instance>& instances, Asset& asset) 
     return firstTree + 1;
 }
 
+std::uint32_t appendGrid(const GridMap& grid, std::uint16_t inner, SymbolTable& symbols, Asset& asset) {
+    std::vector<std::uint16_t> numbers(grid.paints + 1);
+    std::iota(numbers.begin(), numbers.end(), std::uint16_t(0));
+    constexpr float scale = 1.0f / blockTiles;
+    const std::uint16_t symbol = symbols.add(inner, scale, numbers);
+    std::vector<Instance> instances;
+    for (std::int64_t i = 0; i < blockTiles * blockTiles; ++i)
+        instances.push_back(instanceOf(
+            symbol, scale,
+            {glm::dmat2(double(scale)), dvec2(double(i % blockTiles), double(i / blockTiles)) * grid.step}));
+    return appendTrees(instances, asset);
+}
+
+/// Squares and pieces of a map, those of the maps in it included (asset::maxDrawn).
+std::vector<double> drawnOf(const PlacedSymbols& placed) {
+    std::vector<double> drawn(placed.maps.size());
+    for (std::size_t i = drawn.size(); i-- > 0;) {
+        if (const auto* symbol = std::get_if<SymbolMap>(&placed.maps[i])) {
+            const Asset& map = symbol->asset;
+            drawn[i] = double(1 + 16 * map.nodes.size() + map.pieces.size());
+        } else {
+            const auto& grid = std::get<GridMap>(placed.maps[i]);
+            drawn[i] = 1 + double(blockTiles * blockTiles) * (drawn[grid.map] + grid.paints);
+        }
+    }
+    return drawn;
+}
+
+void checkDrawn(const PlacedSymbols& placed, const Asset& asset) {
+    const std::vector<double> drawn = drawnOf(placed);
+    double sum = double(asset.maps.size() + 16 * asset.nodes.size() + asset.pieces.size());
+    for (const PlacedSymbol& p : placed.placed)
+        sum += drawn[p.map] + double(p.paints.size());
+    if (sum > double(asset::maxDrawn))
+        throw LimitError("the picture's instances need more than " + std::to_string(asset::maxDrawn) +
+                         " squares and pieces");
+}
+
 }  // namespace
+
+double placementError(const glm::dmat2& linear) {
+    double error = 0;
+    const double largest = largestCoefficient(linear);
+    for (const float scale : {notBelow(largest), std::ldexp(1.0f, std::ilogb(largest) + 1)}) {
+        const Affine2 stored = placementOf({0, 0, 0, scale, 0},
+                                           instanceOf(0, scale, {linear, -linear * dvec2(0.5) + dvec2(0.5)}));
+        const glm::dmat2 off = stored.linear - linear;
+        error = std::max({error, 0.5 * (std::abs(off[0].x) + std::abs(off[1].x)),
+                          0.5 * (std::abs(off[0].y) + std::abs(off[1].y))});
+    }
+    return error;
+}
 
 void encodeInstances(const PlacedSymbols& placed, std::span<const std::uint16_t> paints, Asset& asset) {
     if (placed.placed.empty())
         return;
+    checkDrawn(placed, asset);
     const double side = asset.maps.front().side;
-    std::vector<std::uint16_t> maps;
-    for (const SymbolMap& map : placed.maps)
-        maps.push_back(appendMap(map, asset));
+    const std::uint16_t first = nextMap(asset);
+    for (const auto& map : placed.maps) {
+        nextMap(asset);
+        if (const auto* symbol = std::get_if<SymbolMap>(&map))
+            appendMap(*symbol, asset);
+        else
+            asset.maps.push_back({0, 0, 1, Entry::make(Entry::Kind::Solid, 0), 0});
+    }
+    SymbolTable symbols(asset);
+    for (std::size_t i = 0; i < placed.maps.size(); ++i)
+        if (const auto* grid = std::get_if<GridMap>(&placed.maps[i])) {
+            const auto trees = appendGrid(*grid, std::uint16_t(first + grid->map), symbols, asset);
+            asset.maps[first + i].instances = trees;
+        }
     const auto toSquare = [&](const PlacedSymbol& p) {
         return Affine2{p.toPicture.linear / side, p.toPicture.offset / side};
     };
     std::vector<Scales> scales(placed.maps.size());
     for (const PlacedSymbol& p : placed.placed)
-        scales[p.map].add(largestCoefficient(toSquare(p)));
-    SymbolTable symbols(asset);
+        scales[p.map].add(largestCoefficient(toSquare(p).linear));
     std::vector<Instance> instances;
     for (const PlacedSymbol& p : placed.placed) {
+        limits::check();
         std::vector<std::uint16_t> own;
         for (const PaintId paint : p.paints)
             own.push_back(paints[paint]);
-        const float scale = scales[p.map].of(largestCoefficient(toSquare(p)));
-        instances.push_back(instanceOf(symbols.add(maps[p.map], scale, own), scale, toSquare(p)));
+        const float scale = scales[p.map].of(largestCoefficient(toSquare(p).linear));
+        instances.push_back(
+            instanceOf(symbols.add(std::uint16_t(first + p.map), scale, own), scale, toSquare(p)));
     }
     asset.maps.front().instances = appendTrees(instances, asset);
 }

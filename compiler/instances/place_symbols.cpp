@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -13,6 +12,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/instances/boundary.hpp"
+#include "compiler/instances/encode_instances.hpp"
 #include "compiler/instances/layers_at.hpp"
 #include "compiler/instances/repeats.hpp"
 #include "compiler/paint/painters.hpp"
@@ -113,22 +113,33 @@ constexpr std::size_t recordBytes = 16;
 
 class Placer {
 public:
-    Placer(const LoweredScene& picture, std::span<const LayerOrigin> origins, const Lattice& lattice,
-           double width, double height, const Options& options, Palette& palette)
+    Placer(const LoweredScene& picture, std::span<const LayerOrigin> origins, std::span<const TileFill> fills,
+           const Lattice& lattice, dvec2 size, const Options& options, Palette& palette)
         : picture_(picture),
-          origins_(origins),
+          origins_(origins.begin(), origins.end()),
           lattice_(lattice),
-          size_(width, height),
+          size_(size),
           options_(options),
-          tolerance_(options.tolerance * std::max(width, height)),
+          tolerance_(options.tolerance * std::max(size.x, size.y)),
           palette_(palette),
           painter_(picture),
-          inside_(picture.layers.size()) {}
+          inside_(picture.layers.size()),
+          isTile_(picture.layers.size()) {
+        for (const TileFill& fill : fills)
+            std::fill_n(isTile_.begin() + fill.tile.first, fill.tile.count, true);
+    }
 
-    PlacedSymbols run() {
+    std::optional<PlacedSymbols> run(std::span<const TileFill> fills) {
         const limits::Stage stage("finding repeats", place_);
         place_ = picture_.layers.empty() ? limits::Place{} : picture_.layers.front().place;
-        const std::vector<Repeat> repeats = findRepeats(origins_, std::max(size_.x, size_.y));
+        for (const TileFill& fill : fills)
+            if (!fill.blocks.empty() && !addTiles(fill))
+                return std::nullopt;
+        std::vector<LayerOrigin> own = origins_;
+        for (std::size_t i = 0; i < own.size(); ++i)
+            if (isTile_[i])
+                own[i].path = nullptr;
+        const std::vector<Repeat> repeats = findRepeats(own, std::max(size_.x, size_.y));
         if (mayPay(repeats)) {
             for (const Repeat& repeat : repeats)
                 addRepeat(repeat);
@@ -153,13 +164,17 @@ private:
         if (!(side > tolerance_))
             return;
         std::vector<Candidate> candidates = candidatesOf(repeat, of, box, side);
-        if (candidates.size() < 2 || areCrowded(candidates, (box.max - box.min) / side))
+        const dvec2 size = (box.max - box.min) / side;
+        if (chordsOf(repeat.occurrences[of].first, repeat.count) > manyChords)
+            std::erase_if(candidates, [&](const Candidate& c) { return isCrossed(c, repeat.count, size); });
+        if (candidates.size() < 2 || areCrowded(candidates, size))
             return;
         double stretch = 0;
         for (const Candidate& candidate : candidates)
             stretch = std::max(stretch, largestStretch(candidate.toPicture));
-        const SymbolMaker maker(origins_.subspan(repeat.occurrences[of].first, repeat.count), box.min, side,
-                                stretch / std::max(size_.x, size_.y), options_);
+        const SymbolMaker maker(
+            std::span<const LayerOrigin>(origins_).subspan(repeat.occurrences[of].first, repeat.count),
+            box.min, side, stretch / std::max(size_.x, size_.y), options_);
         makeSymbol(repeat, maker, std::move(candidates));
     }
 
@@ -176,7 +191,7 @@ private:
     /// Before anything is built: whether enough of the picture repeats. One that hardly does takes no time
     /// and keeps its bytes.
     bool mayPay(std::span<const Repeat> repeats) const {
-        constexpr double minShare = 1.0 / 8;
+        constexpr double minShare = 1.0 / 4;
         std::size_t saved = 0;
         for (const Repeat& repeat : repeats)
             saved += (repeat.occurrences.size() - 1) * chordsOf(repeat.occurrences[0].first, repeat.count);
@@ -184,10 +199,12 @@ private:
         return double(saved) >= minShare * double(all) && saved > 0;
     }
 
-    /// A rectangle takes as much as an instance.
+    /// A rectangle takes as much as an instance. The map of a large run that stands only two or three times
+    /// takes as long as it saves, and more where it turns out to be crossed.
     bool mayPay(const Repeat& repeat) const {
-        constexpr std::size_t minChords = 5;
-        return chordsOf(repeat.occurrences[0].first, repeat.count) >= minChords;
+        constexpr std::size_t minChords = 5, minOccurrences = 4;
+        const std::size_t chords = chordsOf(repeat.occurrences[0].first, repeat.count);
+        return chords >= minChords && (chords <= manyChords || repeat.occurrences.size() >= minOccurrences);
     }
 
     Box2 boxOf(std::uint32_t first, std::uint32_t count) const {
@@ -230,6 +247,29 @@ private:
         return candidates;
     }
 
+    /// Building a map of so many chords takes longer than to look at points first.
+    static constexpr std::size_t manyChords = 1000;
+
+    /// Whether some points of a run lie under or over layers that others do not, as where two of them
+    /// overlap.
+    bool isCrossed(const Candidate& candidate, std::uint32_t count, dvec2 size) {
+        constexpr int grid = 8;
+        std::optional<std::vector<std::uint32_t>> known;
+        for (int i = 0; i < grid * grid; ++i) {
+            const dvec2 p = (dvec2(i % grid, i / grid) + 0.5) / double(grid) * size;
+            std::vector<std::uint32_t> layers = layersOver(candidate.toPicture(p));
+            const bool isIn =
+                std::erase_if(layers, [&](std::uint32_t layer) {
+                    return layer >= candidate.firstLayer && layer < candidate.firstLayer + count;
+                }) > 0;
+            if (isIn && known && *known != layers)
+                return true;
+            if (isIn)
+                known = std::move(layers);
+        }
+        return false;
+    }
+
     /// Whether most of them must cross each other: their boxes have several times the area that they lie in.
     static bool areCrowded(std::span<const Candidate> candidates, dvec2 size) {
         constexpr double maxLayers = 3;
@@ -245,13 +285,9 @@ private:
     /// What abutting instances may overlap by, as rounding has it.
     double slackOf() const { return tolerance_ / 8; }
 
-    /// Whether the rounding of asset::Instance keeps to an eighth of the tolerance. Half a step of 2^-15 of
-    /// the scale in each coefficient moves a corner by at most 2^-16 of it along each axis; the scale is less
-    /// than twice the largest coefficient.
     bool isStorable(const Affine2& toPicture) const {
-        const double largest = std::max({std::abs(toPicture.linear[0].x), std::abs(toPicture.linear[0].y),
-                                         std::abs(toPicture.linear[1].x), std::abs(toPicture.linear[1].y)});
-        return 2 * largest * std::numbers::sqrt2 * 0x1p-16 <= slackOf();
+        const double longer = std::max(size_.x, size_.y);
+        return placementError(toPicture.linear / longer) * longer <= slackOf();
     }
 
     void makeSymbol(const Repeat& repeat, const SymbolMaker& maker, std::vector<Candidate> candidates) {
@@ -315,13 +351,17 @@ private:
         return {Coord(std::lround(steps.x)), Coord(std::lround(steps.y))};
     }
 
-    /// The layers over a point of a symbol's square, but for its own.
-    std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count, dvec2 point) {
+    std::vector<std::uint32_t> layersOver(dvec2 point) {
         if (!layersAt_)
             layersAt_.emplace(picture_, lattice_.square());
-        std::vector<std::uint32_t> layers = (*layersAt_)(onLattice(candidate.toPicture(point)));
+        return (*layersAt_)(onLattice(point));
+    }
+
+    /// The layers over a point of a symbol's square, but for its own.
+    std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count, dvec2 point) {
+        std::vector<std::uint32_t> layers = layersOver(candidate.toPicture(point));
         std::erase_if(layers, [&](std::uint32_t layer) {
-            return layer >= candidate.firstLayer && layer < candidate.firstLayer + count;
+            return isTile_[layer] || (layer >= candidate.firstLayer && layer < candidate.firstLayer + count);
         });
         return layers;
     }
@@ -378,6 +418,81 @@ private:
                                    [&](dvec2 p) { return layersAround(candidate, count, p) == around; });
     }
 
+    // ---- Patterns ----
+
+    /// Returns whether the tile could be proven.
+    bool addTiles(const TileFill& fill) {
+        place_ = picture_.layers[fill.pattern.shape].place;
+        limits::check();
+        const dvec2 period = fill.pattern.period();
+        const double side = std::max(period.x, period.y);
+        const Affine2 toPicture = affine2(fill.pattern.toPicture);
+        const SymbolMaker maker(tileOf(fill), fill.pattern.min, side,
+                                largestStretch(toPicture) * side / std::max(size_.x, size_.y), options_);
+        LayerSets sets;
+        const std::optional<SymbolMap> bySets = maker.bySets(sets);
+        if (!bySets)
+            return false;
+        // Blocks in the same layers have the same paints.
+        std::map<std::vector<std::uint32_t>, std::size_t> known;
+        std::vector<Candidate> surroundings;
+        std::vector<std::size_t> surroundingOf;
+        for (const TileBlock& block : fill.blocks) {
+            Candidate candidate;
+            candidate.firstLayer = fill.tile.first;
+            candidate.toPicture = compose(toPicture, squareOf(fill, block));
+            const dvec2 middle = 0.5 * period / side;
+            std::vector<std::uint32_t> around = layersAround(candidate, fill.tile.count, middle);
+            const auto [entry, isNew] = known.try_emplace(around, surroundings.size());
+            if (isNew) {
+                candidate.paints = paintsOf(candidate, sets, around);
+                surroundings.push_back(std::move(candidate));
+            }
+            surroundingOf.push_back(entry->second);
+        }
+        const std::vector<std::uint32_t> classes = classesOf(surroundings, sets.size());
+        const std::optional<SymbolMap> map = maker.byClasses(sets, classes);
+        if (!map)
+            return false;
+        unsigned levels = 0;
+        for (const TileBlock& block : fill.blocks)
+            levels = std::max(levels, block.level);
+        const auto firstMap = std::uint32_t(placed_.maps.size());
+        const std::uint32_t numbers = *std::ranges::max_element(classes);
+        for (std::uint32_t level = levels; level > 0; --level)
+            placed_.maps.push_back(
+                GridMap{firstMap + levels - level + 1, period / side / double(blockTiles), numbers});
+        placed_.maps.push_back(*map);
+        for (std::size_t i = 0; i < fill.blocks.size(); ++i) {
+            const TileBlock& block = fill.blocks[i];
+            placed_.error = std::max(placed_.error, map->error * side * largestStretch(toPicture));
+            placed_.placed.push_back({firstMap + levels - block.level,
+                                      compose(toPicture, squareOf(fill, block)),
+                                      paintsByClass(surroundings[surroundingOf[i]].paints, classes)});
+        }
+        return true;
+    }
+
+    /// The origins of a tile's layers in the pattern's space, as of tile (0, 0).
+    std::vector<LayerOrigin> tileOf(const TileFill& fill) const {
+        const dvec2 moved = dvec2(fill.tileAt) * fill.pattern.period();
+        const scene::Affine toPattern =
+            *scene::inverse(scene::compose(fill.pattern.toPicture, scene::translation(moved.x, moved.y)));
+        std::vector<LayerOrigin> tile(origins_.begin() + fill.tile.first,
+                                      origins_.begin() + fill.tile.first + fill.tile.count);
+        for (LayerOrigin& origin : tile)
+            origin.transform = scene::compose(toPattern, origin.transform);
+        return tile;
+    }
+
+    /// From a block's [0, 1]² to the pattern's space.
+    static Affine2 squareOf(const TileFill& fill, const TileBlock& block) {
+        const dvec2 period = fill.pattern.period();
+        const double side = std::ldexp(std::max(period.x, period.y), int(3 * block.level));
+        static_assert(blockTiles == 8);
+        return {glm::dmat2(side), fill.pattern.min + dvec2(block.at) * period};
+    }
+
     // ---- All of them ----
 
     /// Marks candidates as flat that touch something else.
@@ -390,7 +505,7 @@ private:
             std::fill_n(isCandidates.begin() + candidate.firstLayer, symbols_[candidate.symbol].layerCount,
                         true);
         for (std::uint32_t layer = 0; layer < picture_.layers.size(); ++layer)
-            if (!isCandidates[layer])
+            if (!isCandidates[layer] && !isTile_[layer])
                 keepApartFrom(picture_.layers[layer], grid);
         for (std::uint32_t i = 0; i < candidates_.size(); ++i)
             keepApartFromOthers(i, grid);
@@ -520,8 +635,8 @@ private:
     }
 
     PlacedSymbols result() {
-        PlacedSymbols placed;
-        std::vector<bool> isPlaced(picture_.layers.size());
+        PlacedSymbols placed = std::move(placed_);
+        std::vector<bool> isPlaced = isTile_;
         std::vector<std::uint32_t> numbers(symbols_.size(), noIndex);
         for (Candidate& candidate : candidates_) {
             if (candidate.isFlat)
@@ -546,7 +661,7 @@ private:
     }
 
     const LoweredScene& picture_;
-    const std::span<const LayerOrigin> origins_;
+    const std::vector<LayerOrigin> origins_;
     const Lattice& lattice_;
     const dvec2 size_;
     const Options& options_;
@@ -555,6 +670,8 @@ private:
     Palette& palette_;
     PicturePainter painter_;
     std::vector<std::uint8_t> inside_;  ///< by layer
+    std::vector<bool> isTile_;          ///< by layer: of a tile that blocks are made of
+    PlacedSymbols placed_;              ///< patterns
     std::optional<LayersAt> layersAt_;
     std::vector<Symbol> symbols_;
     std::vector<Candidate> candidates_;
@@ -562,10 +679,10 @@ private:
 
 }  // namespace
 
-PlacedSymbols placeSymbols(const LoweredScene& picture, std::span<const LayerOrigin> origins,
-                           const Lattice& lattice, double width, double height, const Options& options,
-                           Palette& palette) {
-    return Placer(picture, origins, lattice, width, height, options, palette).run();
+std::optional<PlacedSymbols> placeSymbols(const LoweredScene& picture, std::span<const LayerOrigin> origins,
+                                          std::span<const TileFill> fills, const Lattice& lattice,
+                                          glm::dvec2 size, const Options& options, Palette& palette) {
+    return Placer(picture, origins, fills, lattice, size, options, palette).run(fills);
 }
 
 }  // namespace vtm::compiler

@@ -7,11 +7,14 @@
 /// it, plus share · (paint - ground) for each of its regions.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "asset/instances.hpp"
 #include "compiler/instances/symbol_map.hpp"
+#include "compiler/instances/tiles.hpp"
 #include "compiler/paint/palette.hpp"
 
 namespace vtm::compiler {
@@ -23,15 +26,15 @@ struct PlacedSymbol {
 };
 
 struct PlacedSymbols {
-    std::vector<SymbolMap> maps;
+    std::vector<std::variant<SymbolMap, GridMap>> maps;
     std::vector<PlacedSymbol> placed;
     std::vector<std::uint32_t> layers;  ///< of the picture, that are left; ascending
     double error = 0;                   ///< no boundary of an instance is farther off, in user units
 };
 
-/// `palette` gets the paints.
-PlacedSymbols placeSymbols(const LoweredScene& picture, std::span<const LayerOrigin> origins,
-                           const Lattice& lattice, double width, double height, const Options& options,
-                           Palette& palette);
+/// `palette` gets the paints. Nothing if a pattern's tile could not be proven.
+std::optional<PlacedSymbols> placeSymbols(const LoweredScene& picture, std::span<const LayerOrigin> origins,
+                                          std::span<const TileFill> fills, const Lattice& lattice,
+                                          glm::dvec2 size, const Options& options, Palette& palette);
 
 }  // namespace vtm::compiler

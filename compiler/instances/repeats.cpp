@@ -114,7 +114,7 @@ private:
     };
 
     Shape shapeOf(const LayerOrigin& origin) {
-        if (origin.path->empty() || !scene::inverse(origin.transform))
+        if (!origin.path || origin.path->empty() || !scene::inverse(origin.transform))
             return {};
         const auto [known, isNew] = paths_.try_emplace(origin.path.get());
         if (isNew) {

@@ -20,7 +20,8 @@ struct Repeat {
     std::vector<Occurrence> occurrences;  ///< ascending; at least two
 };
 
-/// Repeats that share no layer. Outlines are the same if no point differs by more than 2^-20 of `side`.
+/// Repeats that share no layer. Origins without a path are like no other. Outlines are the same if no point
+/// differs by more than 2^-20 of `side`.
 std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, double side);
 
 }  // namespace vtm::compiler

@@ -26,7 +26,7 @@ class Lowering {
 public:
     Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
-             std::vector<LayerOrigin>* origins)
+             std::vector<LayerOrigin>* origins, TilePlan* tiles)
         : lattice_(lattice),
           budget_(budget),
           sharing_(sharing),
@@ -34,6 +34,7 @@ public:
           isPart_(excerpt.isPart),
           cache_(cache),
           origins_(origins),
+          tiles_(tiles),
           paints_(picture_, excerpt) {
         if (cache_)
             picture_.outlines = cache_->take();
@@ -209,6 +210,12 @@ private:
         const glm::dvec2 first = glm::floor((box.min - pattern.min) / period);
         const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
         const double tiles = (last.x - first.x + 1) * (last.y - first.y + 1);
+        if (tiles_ && !isInTile_ && tiles > fewTiles && tiles <= double(maxPlacedTiles)) {
+            plannedTiles(
+                pattern,
+                {toPicture, pattern.min, pattern.max, glm::i64vec2(first), glm::i64vec2(last), shape}, index);
+            return;
+        }
         if (!(tiles <= static_cast<double>(maxTiles)))
             throw LimitError(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, maxTiles));
         const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)
@@ -217,6 +224,24 @@ private:
             for (double x = first.x; x <= last.x; ++x)
                 tile(pattern, border, compose(toPicture, scene::translation(x * period.x, y * period.y)),
                      index);
+    }
+
+    void plannedTiles(const scene::Pattern& pattern, const TilePattern& tiles, std::uint32_t into) {
+        tiles_->patterns.push_back(tiles);
+        if (!tiles_->chosen)
+            return;
+        const auto& chosen = (*tiles_->chosen)[tiles_->patterns.size() - 1];
+        const auto border = std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
+        const auto firstLayer = std::uint32_t(picture_.layers.size());
+        tiles_->firstTiles.push_back({firstLayer, 0});
+        isInTile_ = true;
+        for (const glm::i64vec2 at : chosen) {
+            const Point moved = Point(at) * tiles.period();
+            tile(pattern, border, compose(tiles.toPicture, scene::translation(moved.x, moved.y)), into);
+            if (at == chosen.front())
+                tiles_->firstTiles.back().count = std::uint32_t(picture_.layers.size()) - firstLayer;
+        }
+        isInTile_ = false;
     }
 
     void tile(const scene::Pattern& pattern, const std::shared_ptr<const Path>& border,
@@ -315,6 +340,8 @@ private:
     const bool isPart_;
     OutlineCache* const cache_;
     std::vector<LayerOrigin>* const origins_;
+    TilePlan* const tiles_;
+    bool isInTile_ = false;
     limits::Place place_;  ///< of what is being lowered
     LoweredScene picture_;
     PaintTable paints_;
@@ -324,8 +351,8 @@ private:
 
 LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
                    const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
-                   std::vector<LayerOrigin>* origins) {
-    LoweredScene picture = Lowering(scene, excerpt, lattice, budget, sharing, cache, origins).take();
+                   std::vector<LayerOrigin>* origins, TilePlan* tiles) {
+    LoweredScene picture = Lowering(scene, excerpt, lattice, budget, sharing, cache, origins, tiles).take();
     if (origins)
         for (std::size_t i = 0; i < origins->size(); ++i)
             (*origins)[i].isClip = picture.itemOfLayer[i] == noIndex;

@@ -4,7 +4,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
+
+#include <glm/gtc/type_precision.hpp>
 
 #include <vtm/scene/scene.hpp>
 #include "compiler/lower/error_budget.hpp"
@@ -28,7 +31,8 @@ inline Excerpt wholeOf(const scene::Scene& scene) {
 /// Limits of lowering; beyond them a LimitError.
 inline constexpr std::size_t maxChords = 50'000'000;
 inline constexpr std::size_t maxLayers = 4'000'000;
-inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill
+inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill, that are lowered one by one
+inline constexpr std::size_t maxPlacedTiles = std::size_t(1) << 24;  ///< ... that are placed as maps
 
 /// Outlines: a fill right below an opaque stroke of its own path may take an outline of the stroke's for its
 /// own, where that hides the difference (docs/regions.md).
@@ -43,11 +47,38 @@ struct LayerOrigin {
     bool isClip = false;
 };
 
+/// A pattern fill of many tiles: tile (x, y) is the pattern's content in [min, max], moved by x and y
+/// periods.
+struct TilePattern {
+    scene::Affine toPicture;   ///< from the pattern's space
+    scene::Point min, max;     ///< of tile (0, 0), there
+    glm::i64vec2 first, last;  ///< tiles that the shape's box meets
+    std::uint32_t shape = 0;   ///< layer of what is filled
+
+    scene::Point period() const { return max - min; }
+};
+
+/// Some layers that follow each other.
+struct LayerRange {
+    std::uint32_t first = 0, count = 0;
+};
+
+/// How patterns of many tiles are lowered: at first none of their tiles, which gives TilePatterns; then,
+/// where `chosen` says so for each of them, some of their tiles in that order.
+struct TilePlan {
+    std::vector<TilePattern> patterns;
+    std::optional<std::vector<std::vector<glm::i64vec2>>> chosen;
+    std::vector<LayerRange> firstTiles;  ///< layers of the first chosen tile of each pattern
+};
+/// Patterns of fewer tiles are lowered as they are.
+inline constexpr double fewTiles = 64;
+
 /// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a
 /// `cache`, outlines that it holds are taken from it and others added to it; its store of outlines becomes
-/// the picture's; then nothing is shared. `origins`: gets those of the layers.
+/// the picture's; then nothing is shared. `origins`: gets those of the layers. Without `tiles` all are
+/// lowered.
 LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
                    const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr,
-                   std::vector<LayerOrigin>* origins = nullptr);
+                   std::vector<LayerOrigin>* origins = nullptr, TilePlan* tiles = nullptr);
 
 }  // namespace vtm::compiler

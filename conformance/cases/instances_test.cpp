@@ -4,6 +4,7 @@
 //
 // VTM_INSTANCE_SCENES=2000 tries that many.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -20,6 +21,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/scan.hpp>
+#include "asset/instances.hpp"
 #include "backend_gl/testing.hpp"
 #include "conformance/cases/support.hpp"
 #include "conformance/compare/compare.hpp"
@@ -55,6 +57,29 @@ public:
             scene.root.children.push_back({item(blob(20 + uniform(100)), at(uniform(side), uniform(side)))});
         return scene;
     }
+
+    /// A few shapes that do not repeat.
+    Scene ground() {
+        Scene scene;
+        scene.width = scene.height = side;
+        background(scene.root);
+        return scene;
+    }
+
+    /// Shapes that lie in a tile and across its borders.
+    Group tile(Point min, Point max) {
+        Group group;
+        const Point size = max - min;
+        for (int i = 0; i < 2; ++i) {
+            Item shape = item(blob((0.2 + uniform(0.4)) * std::min(size.x, size.y)),
+                              at(min.x + uniform(size.x), min.y + uniform(size.y)));
+            if (auto* stroke = std::get_if<scene::StrokeStyle>(&shape.geometry))
+                stroke->width *= 0.05 * size.x;
+            group.children.push_back({std::move(shape)});
+        }
+        return group;
+    }
+    std::shared_ptr<const Path> outline(double radius) { return blob(radius); }
 
 private:
     double uniform(double to) { return std::uniform_real_distribution<double>(0, to)(random_); }
@@ -169,6 +194,11 @@ private:
     std::mt19937 random_;
 };
 
+unsigned innerMaps(const asset::Asset& asset) {
+    const std::vector<unsigned> depths = asset::mapDepths(asset);
+    return *std::ranges::max_element(depths) - 1;
+}
+
 asset::View viewOf(unsigned seed, int pixels, double zoom) {
     asset::View view{pixels, pixels, {}};
     const double angle = seed % 3 == 0 ? 0 : 0.7 * seed, scale = pixels / side * zoom;
@@ -250,6 +280,83 @@ TEST(Instances, DrawWhatTheFlatAssetDraws) {
     fmt::print("{} of {} scenes have instances, {} in all; largest difference {:.2f}/255\n", withInstances,
                scenes(), instances, worst);
     EXPECT_GT(withInstances, scenes() / 2);
+}
+
+/// A pattern of many tiles, turned and skewed, that fills a shape over a background and below another shape;
+/// now and then two of them across each other.
+Scene patterned(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    Scene scene = Repeats(seed).ground();
+    const int patterns = 1 + int(seed % 4 == 0);
+    for (int i = 0; i < patterns; ++i) {
+        scene::Pattern pattern;
+        pattern.min = {uniform(-3, 3), uniform(-3, 3)};
+        pattern.max = pattern.min + Point(uniform(1.5, 5), uniform(1.5, 5));
+        pattern.content = std::make_shared<const Group>(Repeats(seed + 77).tile(pattern.min, pattern.max));
+        if (seed % 2 == 1) {
+            const double angle = uniform(0, 3);
+            pattern.transform = {std::cos(angle), std::sin(angle), -std::sin(angle) * 0.8,
+                                 std::cos(angle), uniform(0, 9),   uniform(0, 9)};
+        }
+        Item filled;
+        const double r = uniform(60, 120);
+        filled.path = seed % 3 == 0 ? std::make_shared<const Path>(scene::rectangle({-r, -r}, {r, r}))
+                                    : Repeats(seed + 99).outline(r);
+        filled.transform = scene::translation(side / 2 + 20 * i, side / 2);
+        filled.geometry = scene::FillRule::NonZero;
+        filled.paint = pattern;
+        filled.opacity = seed % 5 == 0 ? 0.6f : 1.0f;
+        const auto at = std::ptrdiff_t(random() % (scene.root.children.size() + 1));
+        scene.root.children.insert(scene.root.children.begin() + at, scene::Node{std::move(filled)});
+    }
+    return scene;
+}
+
+TEST(Instances, PatternsArePlaced) {
+    Gl gl;
+    std::size_t nested = 0;
+    double worst = 0;
+    for (unsigned seed = 0; seed < scenes() / 8; ++seed) {
+        const Scene scene = patterned(seed);
+        const asset::Asset placed = compiler::compile(scene).asset;
+        nested += innerMaps(placed) > 1;
+        const asset::Scanner scanner(placed);
+        for (const auto& [pixels, zoom] : {std::pair(128, 1.0), std::pair(96, 5.0)}) {
+            SCOPED_TRACE(fmt::format("scene {} on {} pixels, zoom {}", seed, pixels, zoom));
+            const asset::View view = viewOf(seed, pixels, zoom);
+            const image::Raster drawn = scanner.draw(view);
+            EXPECT_LE(compare::compare(drawn, asset::evaluate(placed, view)).max, assetMax);
+            const double difference = compare::compare(drawn, referenceOf(scene, view)).max;
+            EXPECT_LE(difference, referenceMax);
+            worst = std::max(worst, difference);
+            if (seed % 8 == 1) {
+                EXPECT_LE(compare::compare(gl.render(placed, view), drawn).max, referenceMax);
+            }
+            if (seed == 1 && zoom > 1) {
+                EXPECT_LE(compare::compare(gl::test::TextureCanvas(placed).draw(view), drawn).max,
+                          referenceMax);
+            }
+        }
+    }
+    fmt::print("{} of {} scenes have maps in maps; largest difference {:.2f}/255\n", nested, scenes() / 4,
+               worst);
+    EXPECT_GT(nested, scenes() / 32);
+}
+
+TEST(Instances, AMillionTilesAreAFewKilobytes) {
+    scene::Pattern pattern{{0, 0}, {1, 1}, nullptr, scene::identity};
+    pattern.content = std::make_shared<const Group>(Repeats(5).tile({0, 0}, {1, 1}));
+    Scene scene;
+    scene.width = scene.height = 1000;
+    Item filled;
+    filled.path = std::make_shared<const Path>(scene::rectangle({0, 0}, {1000, 1000}));
+    filled.geometry = scene::FillRule::NonZero;
+    filled.paint = pattern;
+    scene.root.children.push_back({filled});
+    EXPECT_LE(asset::write(compiler::compile(scene).asset).size(), 65536u);
 }
 
 /// The whole asset as a map that is placed a few times in a new one: smaller, turned, one with other colours.

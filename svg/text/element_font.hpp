@@ -1,6 +1,6 @@
 /// \file
-/// A text content element's style in, the font that it asks for and its lines out; and small capitals that are
-/// made of capitals where a font has none (CSS Fonts 4 section 6.6).
+/// A text content element's style in, the font that it asks for and its lines out; and small capitals that
+/// are made of capitals where a font has none (CSS Fonts 4 section 6.6).
 #pragma once
 
 #include <memory>

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "asset/instances.hpp"
 #include "asset/walk.hpp"
 #include "backend_gl/debug.hpp"
 #include "compiler/cost.hpp"
@@ -74,7 +75,7 @@ vec3 costColor(const Asset& asset, Entry entry, unsigned level) {
 
 using ColorOf = vec3 (*)(const Asset&, Entry, unsigned level);
 
-/// The same trees, every square of one colour.
+/// The same trees, every square of one colour, without the maps that are placed in them.
 class Squares {
 public:
     Squares(const Asset& asset, ColorOf colorOf) : from_(asset), colorOf_(colorOf) {
@@ -83,8 +84,10 @@ public:
         to_.maps = asset.maps;
         to_.commands = asset.commands;
         to_.paints = {asset::Paint{}};
-        for (asset::Map& map : to_.maps)
+        for (asset::Map& map : to_.maps) {
             map.root = made(map.root, 0);
+            map.instances = 0;
+        }
     }
     Asset take() { return std::move(to_); }
 
@@ -193,16 +196,30 @@ private:
     const asset::View& view_;
 };
 
+const vec3 placedColor(0.55f, 0.2f, 0.7f);
+
+/// Of placed maps the box around each.
 void drawCells(Canvas& canvas, const Asset& asset) {
-    for (const asset::Map& map : asset.maps)
+    for (const asset::Command& command : asset.commands) {
+        const asset::Map& map = asset.maps[command.map];
         asset::walk(asset, map.root, [&](asset::Cell cell, Entry) {
             const double side = map.side / std::exp2(2.0 * cell.level);
             canvas.outline(map.x + cell.x * side, map.y + cell.y * side, side, heat(cell.level / maxLevel));
         });
+        asset::forEachMap(asset, map, [&](const asset::PlacedMap& placed) {
+            const glm::dmat2& linear = placed.toPicture.linear;
+            const glm::dvec2 size = glm::abs(linear[0]) + glm::abs(linear[1]);
+            const glm::dvec2 corner = placed.toPicture(glm::dvec2(0.5)) - 0.5 * size;
+            if (&placed.map != &map)
+                canvas.outline(corner.x, corner.y, std::max(size.x, size.y), placedColor);
+            return true;
+        });
+    }
 }
 
 void drawTiles(Canvas& canvas, const Asset& asset, const asset::View& view) {
-    for (const asset::Map& map : asset.maps) {
+    for (const asset::Command& command : asset.commands) {
+        const asset::Map& map = asset.maps[command.map];
         const gl::TileGrid grid = gl::tileGrid(map, view);
         const glm::dvec2 scale(view.toPixels[0].x, view.toPixels[1].y), origin = view.toPixels[2];
         const glm::dvec2 corner(map.x, map.y), size(view.width, view.height);

@@ -184,6 +184,8 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
         ->each([&options](const std::string&) { options.hasTolerance = true; })
         ->check(CLI::Range(std::ldexp(1.0, -26), std::ldexp(1.0, -6)))
         ->capture_default_str();
+    command.add_flag("--no-instances{false}", options.compiler.instances,
+                     "Store shapes that repeat each time, not once");
     addImportOptions(command, options);
 }
 

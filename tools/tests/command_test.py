@@ -237,6 +237,22 @@ class CompileAndInfo(Drawing):
         self.assertEqual(report["unproven_squares"], [])
         self.assertEqual(report["sampled_strokes"], 0)
 
+    def test_what_repeats_is_stored_once_unless_asked_otherwise(self):
+        flower = "M0-9C5-9 9-5 9 0C9 5 5 9 0 9C-4 4 -8 6 -9 0C-9-5-5-9 0-9Z"
+        self.write("repeats.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">' + "".join(
+            f'<path d="{flower}" fill="#36c" transform="translate({20 * x + 10} {20 * y + 10})"/>'
+            for x in range(20) for y in range(20)) + "</svg>")
+        self.vtm("compile", "repeats.svg", "-o", "once.vtm")
+        self.vtm("compile", "repeats.svg", "-o", "each.vtm", "--no-instances")
+        once, each = (json.loads(self.vtm("info", name, "--json").stdout) for name in ("once.vtm", "each.vtm"))
+        self.assertEqual((once["instances"], each["instances"]), (400, 0))
+        self.assertLess(once["bytes"] * 10, each["bytes"])
+        for engine in ("cpu", "gl"):
+            for name in ("once", "each"):
+                self.vtm("render", name + ".vtm", "-o", name + ".png", "--engine", engine)
+            self.vtm("diff", "once.png", "each.png", "--max", "4", "--mean", "0.1")
+        self.vtm("render", "once.vtm", "-o", "cells.png", "--debug-view", "cells")
+
     def test_compiled_file_draws_the_same(self):
         report = json.loads(self.vtm("compile", self.svg, "-o", "square.vtm", "--json").stdout)
         self.check_figures(report)

@@ -1,0 +1,255 @@
+#include "compiler/instances/tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <vtm/compiler/compile.hpp>
+#include <vtm/limits/limits.hpp>
+#include "compiler/instances/encode_instances.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using glm::dvec2;
+using glm::i64vec2;
+
+/// A grid of tiles with those that are not free: touched by an outline or beyond the picture.
+class TileGrid {
+public:
+    TileGrid(const TilePattern& pattern, const Lattice& lattice, dvec2 size)
+        : pattern_(pattern), size_(pattern.last - pattern.first + i64vec2(1)) {
+        toTiles_ = *scene::inverse(pattern.toPicture);
+        isCut_.resize(std::size_t(size_.x) * std::size_t(size_.y));
+        // Outlines that run along a tile's border have been rounded to the lattice.
+        const double step = 2 / lattice.stepsPerUnit();
+        const dvec2 reach = (glm::abs(scene::applyVector(toTiles_, {step, 0})) +
+                             glm::abs(scene::applyVector(toTiles_, {0, step}))) /
+                            pattern.period();
+        constexpr double minSlack = 1e-6;
+        slack_ = glm::max(reach, dvec2(minSlack));
+        cutBeyond(size, step);
+    }
+
+    i64vec2 size() const { return size_; }
+    bool isFree(i64vec2 at) const { return !isCut_[index(at)]; }
+
+    /// In the picture.
+    void cut(dvec2 a, dvec2 b) {
+        a = toGrid(a);
+        b = toGrid(b);
+        if (a.x > b.x)
+            std::swap(a, b);
+        const double from = std::max(std::floor(a.x - slack_.x), 0.0),
+                     to = std::min(std::floor(b.x + slack_.x), double(size_.x - 1));
+        for (double x = from; x <= to; ++x) {
+            // What lies in the column, but for its borders.
+            const double left = std::max(a.x, x + slack_.x), right = std::min(b.x, x + 1 - slack_.x);
+            if (left > right)
+                continue;
+            const double slope = b.x > a.x ? (b.y - a.y) / (b.x - a.x) : 0;
+            const double y0 = b.x > a.x ? a.y + (left - a.x) * slope : a.y,
+                         y1 = b.x > a.x ? a.y + (right - a.x) * slope : b.y;
+            const double low = std::floor(std::min(y0, y1) + slack_.y),
+                         high = std::floor(std::max(y0, y1) - slack_.y);
+            for (double y = std::max(low, 0.0); y <= std::min(high, double(size_.y - 1)); ++y)
+                isCut_[index({std::int64_t(x), std::int64_t(y)})] = true;
+        }
+    }
+
+private:
+    std::size_t index(i64vec2 at) const {
+        return std::size_t(at.y) * std::size_t(size_.x) + std::size_t(at.x);
+    }
+    dvec2 toGrid(dvec2 p) const {
+        return (scene::apply(toTiles_, p) - pattern_.min) / pattern_.period() - dvec2(pattern_.first);
+    }
+
+    void cutBeyond(dvec2 size, double step) {
+        for (std::int64_t y = 0; y < size_.y; ++y) {
+            limits::check();
+            for (std::int64_t x = 0; x < size_.x; ++x) {
+                const dvec2 corner = pattern_.min + dvec2(pattern_.first + i64vec2(x, y)) * pattern_.period();
+                for (const dvec2 c : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}) {
+                    const dvec2 p = scene::apply(pattern_.toPicture, corner + c * pattern_.period());
+                    if (p.x < -step || p.y < -step || p.x > size.x + step || p.y > size.y + step)
+                        isCut_[index({x, y})] = true;
+                }
+            }
+        }
+    }
+
+    const TilePattern& pattern_;
+    const i64vec2 size_;
+    scene::Affine toTiles_;
+    dvec2 slack_;
+    std::vector<bool> isCut_;
+};
+
+/// Blocks of free tiles, as large as they are free: level by level, from the tiles up.
+class Blocks {
+public:
+    Blocks(const TileGrid& grid, unsigned maxLevel) {
+        levels_.push_back({grid.size(), {}});
+        for (std::int64_t y = 0; y < grid.size().y; ++y)
+            for (std::int64_t x = 0; x < grid.size().x; ++x)
+                levels_[0].isFree.push_back(grid.isFree({x, y}));
+        while (levels_.size() <= maxLevel &&
+               std::ranges::find(levels_.back().isFree, true) != levels_.back().isFree.end())
+            levels_.push_back(above(levels_.back()));
+    }
+
+    /// Calls visit(block) for those that no free block holds.
+    template <class Visit>
+    void forEach(Visit&& visit) const {
+        for (unsigned level = 0; level < levels_.size(); ++level)
+            for (std::int64_t y = 0; y < levels_[level].size.y; ++y)
+                for (std::int64_t x = 0; x < levels_[level].size.x; ++x) {
+                    const i64vec2 at(x, y);
+                    if (levels_[level].at(at) &&
+                        (level + 1 == levels_.size() || !levels_[level + 1].at(at / blockTiles)))
+                        visit(TileBlock{level, at});
+                }
+    }
+
+private:
+    struct Level {
+        i64vec2 size;
+        std::vector<bool> isFree;
+
+        /// False beyond it.
+        bool at(i64vec2 p) const {
+            return p.x < size.x && p.y < size.y &&
+                   isFree[std::size_t(p.y) * std::size_t(size.x) + std::size_t(p.x)];
+        }
+    };
+    static Level above(const Level& level) {
+        Level next{(level.size + blockTiles - std::int64_t(1)) / blockTiles, {}};
+        for (std::int64_t y = 0; y < next.size.y; ++y)
+            for (std::int64_t x = 0; x < next.size.x; ++x) {
+                bool isFree = true;
+                for (std::int64_t i = 0; isFree && i < blockTiles * blockTiles; ++i)
+                    isFree = level.at(i64vec2(x, y) * blockTiles + i64vec2(i % blockTiles, i / blockTiles));
+                next.isFree.push_back(isFree);
+            }
+        return next;
+    }
+    std::vector<Level> levels_;
+};
+
+class Choosing {
+public:
+    Choosing(const LoweredScene& picture, const Lattice& lattice, dvec2 size,
+             std::span<const TilePattern> patterns, double tolerance)
+        : tolerance_(tolerance),
+          picture_(picture),
+          lattice_(lattice),
+          size_(size),
+          patterns_(patterns),
+          layersAt_(picture, lattice.square()) {}
+
+    TileChoice choose(std::size_t number) const {
+        const TilePattern& pattern = patterns_[number];
+        TileGrid grid(pattern, lattice_, size_);
+        for (const Layer& layer : picture_.layers)
+            for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
+                limits::check();
+                const Run& run = picture_.outlines.runs[r];
+                for (std::uint32_t p = run.first; p < run.last; ++p)
+                    grid.cut(lattice_.toUnits(picture_.outlines.points[p]),
+                             lattice_.toUnits(picture_.outlines.points[p + 1]));
+            }
+        TileChoice choice;
+        std::vector<i64vec2> cut;
+        Blocks(grid, maxLevelOf(pattern)).forEach([&](TileBlock block) {
+            const std::int64_t side = sideOf(block);
+            switch (placeOf(number, block.at * side, side)) {
+                case Place::Outside:
+                    break;
+                case Place::Inside:
+                    block.at = block.at * side + pattern.first;
+                    choice.blocks.push_back(block);
+                    break;
+                case Place::Shared:
+                    for (std::int64_t i = 0; i < side * side && cut.size() <= maxTiles; ++i)
+                        cut.push_back(block.at * side + i64vec2(i % side, i / side) + pattern.first);
+            }
+        });
+        for (std::int64_t y = 0; y < grid.size().y; ++y)
+            for (std::int64_t x = 0; x < grid.size().x; ++x)
+                if (!grid.isFree({x, y}))
+                    cut.push_back(i64vec2(x, y) + pattern.first);
+        if (cut.size() > maxTiles)
+            throw LimitError(fmt::format("outlines cut {} tiles or more of a pattern; the limit is {}",
+                                         cut.size(), maxTiles));
+        if (!choice.blocks.empty())
+            choice.cut.push_back(choice.blocks.front().at);
+        std::ranges::sort(cut, {}, [](i64vec2 p) { return std::pair(p.y, p.x); });
+        choice.cut.insert(choice.cut.end(), cut.begin(), cut.end());
+        return choice;
+    }
+
+private:
+    /// Where a block lies to the shape that is filled; Shared: in another pattern of many tiles too.
+    enum class Place { Outside, Inside, Shared };
+
+    static std::int64_t sideOf(TileBlock block) {
+        std::int64_t side = 1;
+        for (unsigned i = 0; i < block.level; ++i)
+            side *= blockTiles;
+        return side;
+    }
+
+    /// Blocks that can be placed within an eighth of the tolerance. The picture's map and the tile's take two
+    /// of asset::maxMapDepth.
+    unsigned maxLevelOf(const TilePattern& pattern) const {
+        const double longer = std::max(size_.x, size_.y);
+        double side = std::max(pattern.period().x, pattern.period().y) / longer;
+        unsigned level = 0;
+        const glm::dmat2 linear(pattern.toPicture[0], pattern.toPicture[1]);
+        while (level < asset::maxMapDepth - 2 &&
+               placementError(linear * (side * double(blockTiles))) <= tolerance_ / 8) {
+            side *= double(blockTiles);
+            ++level;
+        }
+        return level;
+    }
+
+    Place placeOf(std::size_t number, i64vec2 at, std::int64_t side) const {
+        const TilePattern& pattern = patterns_[number];
+        const dvec2 centre =
+            pattern.min + (dvec2(at + pattern.first) + 0.5 * double(side)) * pattern.period();
+        const dvec2 steps = scene::apply(lattice_.toSteps(), scene::apply(pattern.toPicture, centre));
+        const std::vector<std::uint32_t> layers =
+            layersAt_({Coord(std::lround(steps.x)), Coord(std::lround(steps.y))});
+        const auto holds = [&](const TilePattern& p) { return std::ranges::binary_search(layers, p.shape); };
+        if (!holds(pattern))
+            return Place::Outside;
+        for (const TilePattern& other : patterns_)
+            if (&other != &pattern && holds(other))
+                return Place::Shared;
+        return Place::Inside;
+    }
+
+    const double tolerance_;
+    const LoweredScene& picture_;
+    const Lattice& lattice_;
+    const dvec2 size_;
+    const std::span<const TilePattern> patterns_;
+    const LayersAt layersAt_;
+};
+
+}  // namespace
+
+std::vector<TileChoice> chooseTiles(const LoweredScene& picture, const Lattice& lattice, dvec2 size,
+                                    std::span<const TilePattern> patterns, double tolerance) {
+    const Choosing choosing(picture, lattice, size, patterns, tolerance);
+    std::vector<TileChoice> choices;
+    for (std::size_t i = 0; i < patterns.size(); ++i)
+        choices.push_back(choosing.choose(i));
+    return choices;
+}
+
+}  // namespace vtm::compiler
