@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "asset/instances.hpp"
 #include "asset/walk.hpp"
 #include "conformance/cases/asset_properties.hpp"
 #include "conformance/cases/certify.hpp"
@@ -18,12 +19,12 @@ using glm::dvec2;
 
 dvec2 DrawnBoundary::Curve::at(double s) const {
     const double t = s * (1 - s) * (slopeA * (1 - s) - slopeB * s);
-    return a + s * ab + t * dvec2(-ab.y, ab.x);
+    return a + s * ab + t * across;
 }
 
 dvec2 DrawnBoundary::Curve::derivative(double s) const {
     const double t = slopeA * (1 - s) * (1 - 3 * s) - slopeB * s * (2 - 3 * s);
-    return ab + t * dvec2(-ab.y, ab.x);
+    return ab + t * across;
 }
 
 /// Newton's steps from the foot on the chord: pieces are nearly straight.
@@ -41,37 +42,49 @@ double DrawnBoundary::Curve::distance(dvec2 from) const {
 }
 
 DrawnBoundary::DrawnBoundary(const asset::Asset& asset) {
-    constexpr double scale{asset::slopeScale};
-    for (const asset::Map& map : asset.maps) {
-        asset::walk(asset, map.root, [&](asset::Cell cell, asset::Entry entry) {
-            if (entry.kind() != asset::Entry::Kind::Leaf)
-                return;
-            const double side = std::ldexp(map.side, -2 * int(cell.level)), step = side / asset::leafExtent;
-            const dvec2 corner = dvec2(map.x, map.y) + side * dvec2(cell.x, cell.y);
-            const asset::Leaf& leaf = asset.leaves[entry.payload()];
-            for (std::uint32_t i = 0; i < leaf.pieceCount; ++i) {
-                const asset::Piece& p = asset.pieces[leaf.firstPiece + i];
-                const dvec2 a = corner + step * dvec2(p.a[0], p.a[1]),
-                            b = corner + step * dvec2(p.b[0], p.b[1]);
-                curves_.push_back({a, b - a, p.slopeA / scale, p.slopeB / scale});
-                if (asset::sideOf(p.a) >= 0)
-                    crossings_.push_back(a);
-                if (asset::sideOf(p.b) >= 0)
-                    crossings_.push_back(b);
-            }
+    for (const asset::Command& command : asset.commands)
+        asset::forEachMap(asset, asset.maps[command.map], [&](const asset::PlacedMap& placed) {
+            add(asset, placed);
+            return true;
         });
-        for (const BorderGap& gap : borderGaps(asset, map, 0))
-            curves_.push_back({gap.from, gap.to - gap.from, 0, 0});
-    }
+}
+
+void DrawnBoundary::add(const asset::Asset& asset, const asset::PlacedMap& placed) {
+    constexpr double scale{asset::slopeScale};
+    const asset::Map& map = placed.map;
+    const auto toPicture = [&](dvec2 p) { return placed.toPicture((p - dvec2(map.x, map.y)) / map.side); };
+    const glm::dmat2 linear = placed.toPicture.linear * (1 / map.side);
+    const auto addCurve = [&](dvec2 a, dvec2 b, double slopeA, double slopeB) {
+        const dvec2 ab = b - a;
+        curves_.push_back({toPicture(a), linear * ab, linear * dvec2(-ab.y, ab.x), slopeA, slopeB});
+    };
+    asset::walk(asset, map.root, [&](asset::Cell cell, asset::Entry entry) {
+        if (entry.kind() != asset::Entry::Kind::Leaf)
+            return;
+        const double side = std::ldexp(map.side, -2 * int(cell.level)), step = side / asset::leafExtent;
+        const dvec2 corner = dvec2(map.x, map.y) + side * dvec2(cell.x, cell.y);
+        const asset::Leaf& leaf = asset.leaves[entry.payload()];
+        for (std::uint32_t i = 0; i < leaf.pieceCount; ++i) {
+            const asset::Piece& p = asset.pieces[leaf.firstPiece + i];
+            const dvec2 a = corner + step * dvec2(p.a[0], p.a[1]), b = corner + step * dvec2(p.b[0], p.b[1]);
+            addCurve(a, b, p.slopeA / scale, p.slopeB / scale);
+            if (asset::sideOf(p.a) >= 0)
+                crossings_.push_back(toPicture(a));
+            if (asset::sideOf(p.b) >= 0)
+                crossings_.push_back(toPicture(b));
+        }
+    });
+    for (const BorderGap& gap : borderGaps(asset, map, 0))
+        addCurve(gap.from, gap.to, 0, 0);
 }
 
 double DrawnBoundary::distance(dvec2 from, double maximum) const {
     double best = std::numeric_limits<double>::infinity();
     for (const Curve& curve : curves_) {
-        // Slopes within tan 22.5° keep the curve within an eighth of its length of the chord.
+        // Slopes within tan 22.5° keep the curve within an eighth of `across` of the chord.
         const dvec2 b = curve.a + curve.ab,
                     off = glm::max(glm::min(curve.a, b) - from, from - glm::max(curve.a, b));
-        if (std::max(off.x, off.y) <= maximum + glm::length(curve.ab) / 8)
+        if (std::max(off.x, off.y) <= maximum + glm::length(curve.across) / 8)
             best = std::min(best, curve.distance(from));
     }
     return best <= maximum ? best : std::numeric_limits<double>::infinity();

@@ -9,6 +9,7 @@
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/scene/scene.hpp>
+#include "asset/instances.hpp"
 
 namespace vtm::cases {
 
@@ -25,14 +26,17 @@ public:
     const std::vector<glm::dvec2>& crossings() const { return crossings_; }
 
 private:
-    /// a + s ab + t(s) perp(ab), t(s) = slopeA s (1 - s)² - slopeB s² (1 - s). Picture units.
+    /// a + s ab + t(s) across, t(s) = slopeA s (1 - s)² - slopeB s² (1 - s). Picture units. In a map that is
+    /// not placed in another one, `across` is perp(ab).
     struct Curve {
-        glm::dvec2 a, ab;
+        glm::dvec2 a, ab, across;
         double slopeA, slopeB;
         glm::dvec2 at(double s) const;
         glm::dvec2 derivative(double s) const;
         double distance(glm::dvec2 from) const;
     };
+    void add(const asset::Asset& asset, const asset::PlacedMap& placed);
+
     std::vector<Curve> curves_;
     std::vector<glm::dvec2> crossings_;
 };

@@ -3,6 +3,7 @@
 #include <vtm/asset/container.hpp>
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/paint_at.hpp>
 #include <vtm/raster/prefilter.hpp>
 #include <vtm/raster/scan.hpp>
 
@@ -31,8 +32,12 @@ void checkColors(const vtm::image::Raster& raster) {
 void use(const Asset& asset) {
     const View view{side, side, {side / asset.width, 0, 0, side / asset.height, 0, 0}};
     checkColors(evaluate(asset, view));
-    if (isSumOfMaps(asset))
+    if (isSumOfMaps(asset)) {
         checkColors(Scanner(asset).draw(view));
+        require(
+            paintAt(asset, {asset.width / 3, asset.height / 3}) < asset.paints.size() || asset.paints.empty(),
+            "a paint that is not there");
+    }
     summarize(asset);
 }
 

@@ -17,9 +17,14 @@ Asset withPrefilter(Asset asset) {
 }  // namespace
 
 int main(int, char** arguments) {
-    const Asset assets[] = {test::emptyAsset(),          test::halfPlane(),  test::disc(),
-                            test::twoLevels(),           test::everyPaint(), test::blendAsset(Blend::Hue),
-                            withPrefilter(test::wedge())};
+    const Asset assets[] = {test::emptyAsset(),
+                            test::halfPlane(),
+                            test::disc(),
+                            test::twoLevels(),
+                            test::everyPaint(),
+                            test::blendAsset(Blend::Hue),
+                            withPrefilter(test::wedge()),
+                            test::placedMaps()};
     int number = 0;
     for (const Asset& asset : assets)
         vtm::image::writeFile(std::string(arguments[1]) + "/" + std::to_string(number++) + ".vtm",

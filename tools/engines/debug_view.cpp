@@ -162,6 +162,15 @@ public:
         fill({from.x, from.y}, {to.x + 1, from.y + 1}, color);
         fill({from.x, from.y + 1}, {from.x + 1, to.y + 1}, color);
     }
+    /// All four sides.
+    void frame(glm::dvec2 corner, glm::dvec2 size, vec3 color) {
+        const glm::ivec2 from(glm::floor(limited(pixel(corner.x, corner.y)))),
+            to(glm::floor(limited(pixel(corner.x + size.x, corner.y + size.y))));
+        fill(from, {to.x + 1, from.y + 1}, color);
+        fill({from.x, to.y}, to + 1, color);
+        fill(from, {from.x + 1, to.y + 1}, color);
+        fill({to.x, from.y}, to + 1, color);
+    }
     /// At least some pixels wide, so that it can be seen.
     void mark(double x, double y, double side, vec3 color) {
         constexpr double minimum = 5;
@@ -211,7 +220,7 @@ void drawCells(Canvas& canvas, const Asset& asset) {
             const glm::dvec2 size = glm::abs(linear[0]) + glm::abs(linear[1]);
             const glm::dvec2 corner = placed.toPicture(glm::dvec2(0.5)) - 0.5 * size;
             if (&placed.map != &map)
-                canvas.outline(corner.x, corner.y, std::max(size.x, size.y), placedColor);
+                canvas.frame(corner, size, placedColor);
             return true;
         });
     }
