@@ -6,5 +6,4 @@
 #include "svg/geometry/path_data.hpp"  // IWYU pragma: export
 #include "svg/geometry/transform.hpp"  // IWYU pragma: export
 #include "svg/write/values.hpp"        // IWYU pragma: export
-#include "svg/xml/data_url.hpp"        // IWYU pragma: export
 #include "svg/xml/resource.hpp"        // IWYU pragma: export

@@ -1,6 +1,7 @@
 /// \file
-/// One line of text in, glyphs in visual order out. Source: UAX 9 (order), UAX 24 (scripts), UAX 29
-/// (clusters), UAX 50 (orientation), CSS Fonts 4 section 5.2 (fonts by cluster).
+/// One line of text in, glyphs in visual order out; and where lines may end. Source: UAX 9 (order), UAX 14
+/// (line breaks), UAX 24 (scripts), UAX 29 (clusters), UAX 50 (orientation), CSS Fonts 4 section 5.2 (fonts
+/// by cluster).
 #pragma once
 
 #include <cstddef>
@@ -62,5 +63,11 @@ bool isMark(char32_t character);
 /// Clusters from the line's visual start to its end; together they hold every character once. Characters
 /// without a glyph in any font are the primary font's .notdef.
 std::vector<Cluster> shape(const Line& line, FontSet& fonts);
+
+/// Whether any script or language of the font's table `GSUB` has the feature.
+bool hasFeature(const Font& font, Tag feature);
+
+/// For every character whether a line may end behind it. `language`: BCP 47.
+std::vector<bool> lineBreaks(const std::u32string& text, const std::string& language);
 
 }  // namespace vtm::text

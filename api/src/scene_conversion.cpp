@@ -9,7 +9,6 @@
 #include <vtm/authoring.hpp>
 #include <vtm/scene/scene.hpp>
 #include "api/src/scene_conversion.hpp"
-#include "scene/level.hpp"
 #include "scene/place.hpp"
 
 namespace vtm {

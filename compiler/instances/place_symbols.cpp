@@ -583,9 +583,13 @@ private:
         others.erase(std::unique(others.begin(), others.end()), others.end());
         for (const std::uint32_t j : others) {
             Candidate& other = candidates_[j];
-            if (j > i && !(candidate.isFlat && other.isFlat) && meet(candidate, other))
+            if (candidate.isFlat && other.isFlat)
+                continue;
+            const Position position =
+                j > i && meet(candidate, other) ? Position::Partly : positionIn(candidate, other);
+            if (position == Position::Partly)
                 candidate.isFlat = other.isFlat = true;
-            if (!other.isFlat && liesIn(candidate, other))
+            else if (position == Position::Inside)
                 candidate.around.push_back(j);
         }
     }
@@ -598,13 +602,20 @@ private:
         });
     }
 
-    /// Where their boundaries do not meet: whether a part of one is in a region of the other.
-    bool liesIn(const Candidate& a, const Candidate& b) const {
+    /// Where a candidate lies to the regions of another.
+    enum class Position { Outside, Partly, Inside };
+
+    /// By the ends of its boundary's chords: what touches the other's boundary may have gone unseen by
+    /// meet().
+    Position positionIn(const Candidate& a, const Candidate& b) const {
         const SymbolBoundary& boundary = *symbols_[b.symbol].boundary;
         const Affine2 toB = compose(inverse(b.toPicture), a.toPicture);
         const auto segments = symbols_[a.symbol].boundary->segments();
-        return std::ranges::any_of(segments,
-                                   [&](const Segment2& s) { return boundary.regionAt(toB(s.a)) != 0; });
+        const auto inside = std::ranges::count_if(
+            segments, [&](const Segment2& s) { return boundary.regionAt(toB(s.a)) != 0; });
+        return inside == 0                      ? Position::Outside
+               : inside == std::ssize(segments) ? Position::Inside
+                                                : Position::Partly;
     }
 
     /// Instances must save a fifth of what their pieces take otherwise.

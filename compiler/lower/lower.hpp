@@ -71,7 +71,7 @@ struct TilePlan {
     std::vector<LayerRange> firstTiles;  ///< layers of the first chosen tile of each pattern
 };
 /// Patterns of fewer tiles are lowered as they are.
-inline constexpr double fewTiles = 64;
+inline constexpr double fewTiles = 400;
 
 /// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a
 /// `cache`, outlines that it holds are taken from it and others added to it; its store of outlines becomes

@@ -1,7 +1,5 @@
 #include "scene/place.hpp"
 
-#include "scene/level.hpp"
-
 namespace vtm::scene {
 
 namespace {

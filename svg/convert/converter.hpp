@@ -20,7 +20,7 @@
 #include "svg/css/style.hpp"
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/geometry/shapes.hpp"
-#include "svg/geometry/viewbox.hpp"
+#include "svg/geometry/transform.hpp"
 #include "svg/text/layout.hpp"
 #include "svg/xml/element.hpp"
 #include "svg/xml/report.hpp"
@@ -131,7 +131,7 @@ private:
     void addDashes(const Element& element, const Scope& scope, CachedShape& shape,
                    scene::StrokeStyle& stroke);
 
-    // paint.cpp: fill and stroke values; gradient.cpp; pattern.cpp
+    // paint.cpp: fill and stroke values, gradients, patterns
     /// A paint server that cannot be used, so that the fallback is; one that paints nothing; a paint.
     struct Invalid {};
     struct Nothing {};
@@ -153,7 +153,7 @@ private:
     };
     std::shared_ptr<const scene::Group> patternContent(const Element& owner, const Viewport& viewport);
 
-    // clip.cpp, mask.cpp, effects.cpp
+    // effects.cpp: clips, masks and what else makes a group
     struct Effects {
         bool draw = true;  ///< false: the element is not rendered at all
         std::shared_ptr<const scene::Clip> clip;

@@ -8,6 +8,154 @@
 #include "svg/css/property_values.hpp"
 
 namespace vtm::svg {
+
+// ---- Clip paths (CSS Masking 1 section 7) -------------------------------------------------------
+
+std::shared_ptr<const scene::Clip> intersect(const std::shared_ptr<const scene::Clip>& first,
+                                             const std::shared_ptr<const scene::Clip>& second) {
+    if (!first || !second)
+        return first ? first : second;
+    auto both = std::make_shared<scene::Clip>(*first);
+    both->clip = intersect(first->clip, second);
+    return both;
+}
+
+std::shared_ptr<const scene::Clip> Converter::clipOf(const Element& element, const Scope& scope,
+                                                     const Box& box) {
+    if (scope.style.clipPath.empty())
+        return nullptr;
+    const Element* clipPath = resource(scope.style.clipPath, Tag::ClipPath, element);
+    return clipPath ? clip(*clipPath, scope, box) : nullptr;
+}
+
+std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, const Scope& scope,
+                                                   const Box& box) {
+    const Expansion expansion(active_, clipPath);
+    if (!expansion || !spend()) {
+        reporter_.warn(Kind::Reference, clipPath, "refers to itself, directly or indirectly");
+        return nullptr;
+    }
+    const Level level(*this, clipPath);
+    if (!level)
+        return nullptr;
+    // On the heap: clips and masks nest deep, and the stack may be small.
+    const auto innerScope = std::make_unique<Scope>(scope);
+    Scope& inner = *innerScope;
+    inner.style = styleOf(clipPath);
+    ++inner.depth;
+    inner.transform =
+        scene::compose(scope.transform, transformFrom(inner.style.transform, inner.style, scope.viewport));
+    if (trim(clipPath.get("clipPathUnits")) == "objectBoundingBox")
+        inner.transform = scene::compose(inner.transform, unitSquareTo(box));
+    auto made = std::make_shared<scene::Clip>();
+    if (scene::inverse(inner.transform))
+        for (const Element* child : clipPath.children)
+            addClipChild(*child, inner, *made);
+    const auto ownScope = std::make_unique<Scope>(scope);
+    Scope& own = *ownScope;
+    own.style = inner.style;
+    made->clip = clipOf(clipPath, own, box);
+    return made;
+}
+
+void Converter::addClipChild(const Element& child, const Scope& parent, scene::Clip& clip) {
+    if (child.tag == Tag::Text)
+        return addClipText(child, parent, clip);
+    if (isShape(child.tag))
+        addClipShape(child, parent, nullptr, clip);
+    if (child.tag != Tag::Use)
+        return;
+    const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
+    const Element* target = tree_.byHref(hrefOf(child).value_or(std::string_view{}));
+    if (!scope || !target || !(isShape(target->tag) || target->tag == Tag::Text))
+        return;
+    if (target->tag == Tag::Text)
+        return addClipText(*target, *scope, clip);
+    const Box box = boxAround(*scope, [&] {
+        Nodes unused;
+        convertElement(*target, *scope, unused);
+    });
+    addClipShape(*target, *scope, clipOf(child, *scope, box), clip);
+}
+
+void Converter::addClipShape(const Element& child, const Scope& parent,
+                             const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip) {
+    const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
+    CachedShape* shape = scope && scope->style.visible ? shapeOf(child, *scope) : nullptr;
+    if (!shape || !isWithinReach(geometry::mapped(boxOf(*shape), scope->transform)))
+        return;
+    const CachedShape own = *shape;  // what the child's own clip draws may replace the cache's entry
+    clip.shapes.push_back({own.path, scope->transform, scope->style.clipRule,
+                           intersect(clipOf(child, *scope, *own.box), around), placeOf(child)});
+}
+
+// ---- Masks (CSS Masking 1 section 8) ------------------------------------------------------------
+
+namespace {
+
+/// The mask region in user space: by default a tenth of the box more on each side.
+Box regionOf(const LengthReader& written, bool boxUnits, const Box& box) {
+    const Viewport unit{1, 1};
+    const LengthReader reader{written.element, written.style, boxUnits ? unit : written.viewport,
+                              written.units};
+    const auto get = [&](std::string_view name, Axis axis, double percent) {
+        return reader.length(name, axis).value_or(resolve({percent, true}, axis, reader.viewport));
+    };
+    const Rect rect{get("x", Axis::X, -10), get("y", Axis::Y, -10), get("width", Axis::X, 120),
+                    get("height", Axis::Y, 120)};
+    return boxUnits ? geometry::mapped(toBox(rect), unitSquareTo(box)) : toBox(rect);
+}
+
+}  // namespace
+
+std::shared_ptr<const scene::Mask> Converter::maskOf(const Element& element, const Scope& scope,
+                                                     const Box& box) {
+    if (scope.style.mask.empty())
+        return nullptr;
+    const Element* found = resource(scope.style.mask, Tag::Mask, element);
+    return found ? mask(*found, scope, box) : nullptr;
+}
+
+std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const Scope& scope,
+                                                   const Box& box) {
+    const Expansion expansion(active_, element);
+    if (!expansion || !spend()) {
+        reporter_.warn(Kind::Reference, element, "refers to itself, directly or indirectly");
+        return nullptr;
+    }
+    const Level level(*this, element);
+    if (!level)
+        return nullptr;
+    // On the heap: clips and masks nest deep, and the stack may be small.
+    const auto innerScope = std::make_unique<Scope>(scope);
+    Scope& inner = *innerScope;
+    inner.style = styleOf(element);
+    ++inner.depth;
+    const bool boxUnits = trim(element.get("maskUnits")) != "userSpaceOnUse";
+    const bool boxContent = trim(element.get("maskContentUnits")) == "objectBoundingBox";
+    auto content = std::make_shared<scene::Group>();
+    const Box region = regionOf(lengths(element, inner), boxUnits, box);
+    const bool hasBox = box.width() > 0 && box.height() > 0;
+    const bool reachable = hasBox || !(boxUnits || boxContent);  // without a box the mask hides everything
+    if (reachable && region.width() > 0 && region.height() > 0) {
+        if (boxContent)
+            inner.transform = scene::compose(scope.transform, unitSquareTo(box));
+        Nodes nodes;
+        if (scene::inverse(inner.transform))
+            withoutOutlines([&] { convertChildren(element, inner, nodes); });
+        appendClipped({region.min.x, region.min.y, region.width(), region.height()}, scope.transform,
+                      std::move(nodes), content->children);
+    }
+    const auto ownScope = std::make_unique<Scope>(scope);
+    Scope& own = *ownScope;
+    own.style = inner.style;
+    content->mask = maskOf(element, own, box);
+    return std::make_shared<const scene::Mask>(
+        scene::Mask{std::move(content), inner.style.maskKind, inner.style.linearColors});
+}
+
+// ---- Effects ------------------------------------------------------------------------------------
+
 namespace {
 
 bool blends(const scene::Node& node) {

@@ -5,7 +5,6 @@
 #include "svg/convert/converter.hpp"
 #include "svg/css/font_values.hpp"
 #include "svg/css/property_values.hpp"
-#include "svg/xml/data_url.hpp"
 #include "svg/xml/resource.hpp"
 
 namespace vtm::svg {

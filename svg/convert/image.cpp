@@ -6,7 +6,6 @@
 
 #include <vtm/image/codec.hpp>
 #include "svg/convert/converter.hpp"
-#include "svg/xml/data_url.hpp"
 #include "svg/xml/document.hpp"
 #include "svg/xml/resource.hpp"
 

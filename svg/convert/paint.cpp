@@ -1,10 +1,14 @@
-// Values of fill and stroke. Source: SVG 2 section 13.2.
-
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 #include "svg/convert/converter.hpp"
 
 namespace vtm::svg {
+
+// ---- Values of fill and stroke (SVG 2 section 13.2) ---------------------------------------------
 
 scene::Paint mapPaint(scene::Paint paint, const scene::Affine& change) {
     std::visit(
@@ -109,6 +113,211 @@ TemplateChain Converter::templateChain(const Element& server) {
                            fmt::format("refers to \"{}\", which is not here", *href));
     }
     return chain;
+}
+
+// ---- Linear and radial gradients (SVG 2 section 14.2) -------------------------------------------
+
+namespace {
+
+/// How close to the end circle the focal circle may come, as a share of its radius. On the circle the
+/// cone of offsets opens to a half plane and a division by zero shows.
+constexpr double focusLimit = 1 - 1e-5;
+
+scene::Spread spreadOf(const TemplateChain& chain) {
+    const std::string_view text = trim(inherited(chain, "spreadMethod"));
+    return text == "reflect"  ? scene::Spread::Reflect
+           : text == "repeat" ? scene::Spread::Repeat
+                              : scene::Spread::Pad;
+}
+
+/// Reads a gradient's coordinates, in bounding box units or in user units.
+struct Coordinates {
+    const TemplateChain& chain;
+    Tag tag;
+    Viewport viewport;
+    Units units;
+
+    std::optional<double> find(std::string_view name, Axis axis) const {
+        const auto length = parseLength(inherited(chain, name, tag), units);
+        return length ? std::optional(resolve(*length, axis, viewport)) : std::nullopt;
+    }
+    double get(std::string_view name, Axis axis, double percent) const {
+        return find(name, axis).value_or(resolve({percent, true}, axis, viewport));
+    }
+};
+
+scene::Paint linear(const Coordinates& at, std::vector<scene::GradientStop> stops, scene::Spread spread,
+                    const scene::Affine& transform) {
+    const scene::Point start(at.get("x1", Axis::X, 0), at.get("y1", Axis::Y, 0));
+    const scene::Point end(at.get("x2", Axis::X, 100), at.get("y2", Axis::Y, 0));
+    if (start == end)
+        return stops.back().color;
+    return scene::LinearGradient{start, end, std::move(stops), spread, transform};
+}
+
+/// A focal circle outside the end circle is moved inside along the line of centres (SVG 1.1 section
+/// 13.2.3): the scene knows no cones.
+scene::Paint radial(const Coordinates& at, std::vector<scene::GradientStop> stops, scene::Spread spread,
+                    const scene::Affine& transform) {
+    const scene::Point center(at.get("cx", Axis::X, 50), at.get("cy", Axis::Y, 50));
+    const double radius = at.get("r", Axis::Diagonal, 50),
+                 focal = std::max(0.0, at.get("fr", Axis::Diagonal, 0));
+    if (!(radius > 0) || focal >= radius)
+        return stops.back().color;
+    scene::Point focus(at.find("fx", Axis::X).value_or(center.x), at.find("fy", Axis::Y).value_or(center.y));
+    const double distance = glm::distance(focus, center), maximum = (radius - focal) * focusLimit;
+    if (distance > maximum)
+        focus = center + (focus - center) * (maximum / distance);
+    return scene::RadialGradient{center, radius, focus, focal, std::move(stops), spread, transform};
+}
+
+}  // namespace
+
+/// Stops of the first gradient in the chain that has any.
+const std::vector<scene::GradientStop>& Converter::gradientStops(const TemplateChain& chain) {
+    static const std::vector<scene::GradientStop> nothing;
+    for (const Element* gradient : chain) {
+        limits::check();
+        const auto [found, isNew] = stops_.try_emplace(gradient);
+        if (isNew)
+            found->second = stopsIn(*gradient);
+        if (!found->second.empty())
+            return found->second;
+    }
+    return nothing;
+}
+
+/// Offsets clamped and never decreasing.
+std::vector<scene::GradientStop> Converter::stopsIn(const Element& gradient) {
+    std::vector<scene::GradientStop> stops;
+    float last = 0;
+    for (const Element* child : gradient.children) {
+        limits::check();
+        if (child->tag != Tag::Stop)
+            continue;
+        const double offset = parseFraction(child->get("offset")).value_or(0);
+        last = std::max(last, static_cast<float>(std::clamp(offset, 0.0, 1.0)));
+        const Style& style = styleOf(*child);
+        scene::Color color = resolveColor(style.stopColor, style);
+        color.a *= static_cast<float>(style.stopOpacity);
+        stops.push_back({last, color});
+    }
+    return stops;
+}
+
+Converter::ServerResult Converter::gradient(const Element& server, const Scope& scope, const Box& box) {
+    const TemplateChain chain = templateChain(server);
+    std::vector<scene::GradientStop> stops = gradientStops(chain);
+    if (stops.empty())
+        return Invalid{};
+    if (stops.size() == 1)
+        return scene::Paint(stops.front().color);
+    const bool userSpace = trim(inherited(chain, "gradientUnits")) == "userSpaceOnUse";
+    if (!userSpace && !(box.width() > 0 && box.height() > 0))
+        return Invalid{};
+    const Viewport viewport = userSpace ? scope.viewport : Viewport{1, 1};
+    const Style& style = styleOf(server);
+    scene::Affine transform = transformFrom(inherited(chain, "gradientTransform"), style, viewport);
+    if (!userSpace)
+        transform = scene::compose(unitSquareTo(box), transform);
+    if (!scene::inverse(transform))
+        return Nothing{};
+    const Coordinates at{chain, server.tag, viewport, unitsFor(style)};
+    const scene::Spread spread = spreadOf(chain);
+    return server.tag == Tag::LinearGradient ? linear(at, std::move(stops), spread, transform)
+                                             : radial(at, std::move(stops), spread, transform);
+}
+
+// ---- Patterns (SVG 2 section 14.3) --------------------------------------------------------------
+// The scene's pattern space is the content's own: viewBox and content units go into the paint's transform, so
+// that all users of a pattern share one content.
+
+namespace {
+
+/// The first pattern in the chain that has elements in it, null if none has.
+const Element* contentOwner(const TemplateChain& chain) {
+    const auto hasElements = [](const Element* pattern) {
+        return std::any_of(pattern->children.begin(), pattern->children.end(),
+                           [](const Element* child) { return child->tag != Tag::CharacterData; });
+    };
+    const auto found = std::find_if(chain.begin(), chain.end(), hasElements);
+    return found == chain.end() ? nullptr : *found;
+}
+
+/// The tile in the pattern's coordinate system.
+Rect tileOf(const TemplateChain& chain, bool boxUnits, const Viewport& viewport, const Units& units,
+            const Box& box) {
+    const Viewport reference = boxUnits ? Viewport{1, 1} : viewport;
+    const auto get = [&](std::string_view name, Axis axis) {
+        const auto length = parseLength(inherited(chain, name), units);
+        return length ? resolve(*length, axis, reference) : 0;
+    };
+    Rect tile{get("x", Axis::X), get("y", Axis::Y), get("width", Axis::X), get("height", Axis::Y)};
+    if (boxUnits)
+        tile = {box.min.x + tile.x * box.width(), box.min.y + tile.y * box.height(), tile.width * box.width(),
+                tile.height * box.height()};
+    return tile;
+}
+
+}  // namespace
+
+Converter::ServerResult Converter::pattern(const Element& server, const Scope& scope, const Box& box) {
+    const TemplateChain chain = templateChain(server);
+    const Element* owner = contentOwner(chain);
+    if (!owner)
+        return Nothing{};
+    const auto viewBox = parseViewBox(inherited(chain, "viewBox"));
+    const bool boxUnits = trim(inherited(chain, "patternUnits")) != "userSpaceOnUse";
+    const bool boxContent = !viewBox && trim(inherited(chain, "patternContentUnits")) == "objectBoundingBox";
+    if ((boxUnits || boxContent) && !(box.width() > 0 && box.height() > 0))
+        return Invalid{};
+    const Style& style = styleOf(server);
+    const Rect tile = tileOf(chain, boxUnits, scope.viewport, unitsFor(style), box);
+    if (!(tile.width > 0 && tile.height > 0) || isEmptyViewBox(inherited(chain, "viewBox")))
+        return Nothing{};
+    // Without a viewBox the content's origin is the tile's corner.
+    const scene::Affine scale = boxContent ? scene::scaling(box.width(), box.height()) : scene::identity;
+    const scene::Affine toTile =
+        viewBox ? scene::fittedMap(*viewBox, parseAspectRatio(inherited(chain, "preserveAspectRatio")), tile)
+                : scene::compose(scene::translation(tile.x, tile.y), scale);
+    const scene::Affine transform =
+        scene::compose(transformFrom(inherited(chain, "patternTransform"), style, scope.viewport), toTile);
+    const auto toContent = scene::inverse(toTile);
+    if (!scene::inverse(transform) || !toContent)
+        return Nothing{};
+    const Viewport inner = viewBox ? Viewport{viewBox->width, viewBox->height} : rootSize_;
+    const Box period = geometry::mapped(toBox(tile), *toContent);
+    if (!(period.width() > 0 && period.height() > 0) || !isWithinReach(period))
+        return Nothing{};
+    auto content = patternContent(*owner, inner);
+    if (!content)
+        return Invalid{};
+    return scene::Paint(scene::Pattern{period.min, period.max, std::move(content), transform});
+}
+
+/// Sharing saves the conversion, but whoever walks the scene meets the content each time: every use
+/// spends what the first one did.
+std::shared_ptr<const scene::Group> Converter::patternContent(const Element& owner,
+                                                              const Viewport& viewport) {
+    if (const auto found = patterns_.find(&owner); found != patterns_.end())
+        return spend(found->second.visits) ? found->second.group : nullptr;
+    const Expansion expansion(active_, owner);
+    if (!expansion || !spend()) {
+        reporter_.warn(Kind::Reference, owner, "refers to itself, directly or indirectly");
+        return nullptr;
+    }
+    const Level level(*this, owner);
+    if (!level)
+        return nullptr;
+    auto content = std::make_shared<scene::Group>();
+    Scope scope;
+    scope.style = styleOf(owner);
+    scope.viewport = viewport;
+    scope.depth = static_cast<int>(active_.size());
+    const std::size_t before = budget_.visits;
+    withoutOutlines([&] { convertChildren(owner, scope, content->children); });
+    patterns_.emplace(&owner, PatternContent{content, 1 + before - budget_.visits});
+    return content;
 }
 
 }  // namespace vtm::svg

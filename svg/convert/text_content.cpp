@@ -3,8 +3,8 @@
 #include "svg/convert/converter.hpp"
 #include "svg/geometry/path_data.hpp"
 #include "svg/text/content.hpp"
+#include "svg/text/element_font.hpp"
 #include "svg/text/flow.hpp"
-#include "svg/text/small_caps.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "svg/convert/converter.hpp"
-#include "svg/geometry/bounds.hpp"
+#include "svg/geometry/path_geometry.hpp"
 
 namespace vtm::svg {
 namespace {

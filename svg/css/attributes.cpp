@@ -5,7 +5,6 @@
 
 #include "svg/css/length.hpp"
 #include "svg/geometry/transform.hpp"
-#include "svg/geometry/viewbox.hpp"
 
 namespace vtm::svg {
 namespace {

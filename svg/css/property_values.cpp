@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "svg/css/color.hpp"
-#include "svg/css/keyword.hpp"
 
 namespace vtm::svg {
 namespace {

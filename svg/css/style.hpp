@@ -79,7 +79,7 @@ struct TextStyle {
     text::Slant fontSlant = text::Slant::Normal;
     std::optional<double> fontSizeAdjust;           ///< x-height by font size
     std::string_view fontFeatures, fontVariations;  ///< as written, empty: normal
-    std::uint64_t fontVariants = 0;  ///< rows of the table of font-variant's keywords (font_variants.hpp)
+    std::uint64_t fontVariants = 0;  ///< rows of the table of font-variant's keywords (font_values.hpp)
     std::optional<bool> kerning;     ///< nothing: auto
     bool synthesizeWeight = true, synthesizeSlant = true, synthesizeSmallCaps = true;
     Length letterSpacing, wordSpacing;  ///< percentages refer to the font size

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "svg/css/color.hpp"
-#include "svg/css/keyword.hpp"
 #include "svg/css/property_values.hpp"
 
 namespace vtm::svg {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "svg/geometry/segments.hpp"
+#include "svg/geometry/path_geometry.hpp"
 
 namespace vtm::svg {
 

@@ -7,7 +7,7 @@
 
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/tests/support.hpp"
-#include "svg/xml/data_url.hpp"
+#include "svg/xml/resource.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -3,7 +3,6 @@
 #include "svg/css/color.hpp"
 #include "svg/css/length.hpp"
 #include "svg/geometry/transform.hpp"
-#include "svg/geometry/viewbox.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {

@@ -7,7 +7,7 @@
 #include "svg/css/cursor.hpp"
 #include "svg/tests/support.hpp"
 #include "svg/write/values.hpp"
-#include "svg/xml/data_url.hpp"
+#include "svg/xml/resource.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -1,11 +1,12 @@
 /// \file
 /// Text content in, shaped clusters out, chunk by chunk. A chunk begins where a character has an absolute
-/// position, and where a path begins or ends (SVG 2 section 11.5).
+/// position, and where a path begins or ends (SVG 2 section 11.5). What comes out is fitted to
+/// `textLength` and `lengthAdjust` (SVG 2 section 11.5, "Apply the textLength attribute").
 #pragma once
 
-#include <vector>
-
 #include <glm/vec2.hpp>
+
+#include <vector>
 
 #include "svg/text/content.hpp"
 #include "svg/text/element_font.hpp"
@@ -29,5 +30,9 @@ struct ShapedCluster {
 std::vector<ShapedCluster> shapeChunks(const TextContent& content,
                                        const std::vector<ElementFont>& elementFonts, text::FontSet& fonts,
                                        bool vertical);
+
+/// Moves and stretches clusters on one line so that each element has the length that it asks for; what
+/// follows it moves with its end.
+void adjustLengths(const TextContent& content, std::vector<ShapedCluster>& clusters, bool vertical);
 
 }  // namespace vtm::svg

@@ -4,7 +4,7 @@
 
 #include "svg/text/chunks.hpp"
 #include "svg/text/element_font.hpp"
-#include "text/breaks.hpp"
+#include "text/shape.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -12,7 +12,6 @@
 #include "svg/text/chunks.hpp"
 #include "svg/text/decoration.hpp"
 #include "svg/text/element_font.hpp"
-#include "svg/text/text_length.hpp"
 
 namespace vtm::svg {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <glm/common.hpp>
 
-#include "svg/geometry/bounds.hpp"
+#include "svg/geometry/path_geometry.hpp"
 #include "svg/write/values.hpp"
 #include "svg/write/writer.hpp"
 

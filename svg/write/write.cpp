@@ -9,7 +9,7 @@
 
 #include <vtm/svg/load.hpp>
 #include "svg/css/cursor.hpp"
-#include "svg/geometry/bounds.hpp"
+#include "svg/geometry/path_geometry.hpp"
 #include "svg/write/values.hpp"
 #include "svg/write/writer.hpp"
 

@@ -71,7 +71,7 @@ private:
     std::optional<std::string> value(const scene::ImagePaint& image);
     std::optional<std::string> value(const scene::Material& material);
 
-    // image.cpp
+    // paint.cpp: items that are painted with bitmaps
     void image(const scene::Item& item, const scene::ImagePaint& paint);
     std::string cutAttribute(const scene::Item& item, const scene::ImagePaint& paint);
     const std::string& picture(const std::shared_ptr<const image::Bitmap>& bitmap);

@@ -1,5 +1,5 @@
 /// \file
-/// From a file's bytes to UTF-8 text.
+/// From a file's bytes to XML text: UTF-8, entities replaced.
 #pragma once
 
 #include <cstdint>

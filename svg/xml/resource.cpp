@@ -1,11 +1,90 @@
 #include "svg/xml/resource.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <vtm/image/codec.hpp>
-#include "svg/xml/data_url.hpp"
+#include "svg/css/cursor.hpp"
 
 namespace vtm::svg {
+namespace {
+
+int base64Digit(char c) {
+    if (c >= 'A' && c <= 'Z')
+        return c - 'A';
+    if (c >= 'a' && c <= 'z')
+        return c - 'a' + 26;
+    if (isDigit(c))
+        return c - '0' + 52;
+    if (c == '+' || c == '-')
+        return 62;
+    return c == '/' || c == '_' ? 63 : -1;
+}
+
+/// RFC 4648, both alphabets, white space allowed anywhere.
+std::vector<std::uint8_t> decodeBase64(std::string_view text) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(text.size() / 4 * 3);
+    unsigned buffer = 0;
+    int bits = 0;
+    for (const char c : text) {
+        if (isSpace(c))
+            continue;
+        if (c == '=')
+            break;
+        const int digit = base64Digit(c);
+        if (digit < 0)
+            throw image::CodecError("the base64 data is malformed");
+        buffer = buffer << 6 | static_cast<unsigned>(digit);
+        bits += 6;
+        if (bits >= 8) {
+            bits -= 8;
+            bytes.push_back(static_cast<std::uint8_t>(buffer >> bits & 0xff));
+        }
+    }
+    return bytes;
+}
+
+}  // namespace
+
+bool isDataUrl(std::string_view href) { return equalsIgnoringCase(href.substr(0, 5), "data:"); }
+
+std::string percentDecoded(std::string_view text) {
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool escape =
+            text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
+        decoded.push_back(escape ? static_cast<char>(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2]))
+                                 : text[i]);
+        i += escape ? 2 : 0;
+    }
+    return decoded;
+}
+
+/// RFC 4648 section 4.
+std::string dataUrl(std::string_view type, std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string url = "data:" + std::string(type) + ";base64,";
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        unsigned group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < count ? bytes[i + k] : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            url += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return url;
+}
+
+std::vector<std::uint8_t> decodeDataUrl(std::string_view href) {
+    const std::size_t comma = href.find(',');
+    if (comma == href.npos)
+        throw image::CodecError("the data URL has no data");
+    const std::string decoded = percentDecoded(href.substr(comma + 1));
+    if (trim(href.substr(0, comma)).ends_with("base64"))
+        return decodeBase64(decoded);
+    return {decoded.begin(), decoded.end()};
+}
 
 std::vector<std::uint8_t> readResource(std::string_view href, const std::string& directory) {
     if (isDataUrl(href))

@@ -1,13 +1,23 @@
 /// \file
-/// What a document refers to: files and `data:` URLs.
+/// What a document refers to: files and `data:` URLs (RFC 2397).
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace vtm::svg {
+
+bool isDataUrl(std::string_view href);
+/// Throws image::CodecError where it is malformed.
+std::vector<std::uint8_t> decodeDataUrl(std::string_view href);
+/// Invalid escapes stay as they are.
+std::string percentDecoded(std::string_view text);
+
+/// `data:TYPE;base64,…`
+std::string dataUrl(std::string_view type, std::span<const std::uint8_t> bytes);
 
 /// The bytes of a `data:` URL, or of a relative reference below `directory`. Absolute paths and other schemes
 /// are not read. Throws image::CodecError.

@@ -1,6 +1,7 @@
 /// \file
-/// The table COLR, version 1. Source: OpenType 1.9.1. Debian 12's FreeType is built without it, and HarfBuzz
-/// reads it from version 7 on. Numbers of the variable formats are those of the default instance.
+/// The table COLR, version 1, and its paints that transform another one. Source: OpenType 1.9.1. Debian 12's
+/// FreeType is built without it, and HarfBuzz reads it from version 7 on. Numbers of the variable formats are
+/// those of the default instance.
 #pragma once
 
 #include <cstddef>
@@ -34,5 +35,34 @@ private:
 
     std::span<const std::uint8_t> table_;
 };
+
+/// As COLR numbers them; the variable format of most is the next number.
+enum class PaintFormat {
+    ColrLayers = 1,
+    Solid = 2,
+    LinearGradient = 4,
+    RadialGradient = 6,
+    SweepGradient = 8,
+    Glyph = 10,
+    ColrGlyph = 11,
+    Transform = 12,
+    Translate = 14,
+    Scale = 16,
+    ScaleAround = 18,
+    ScaleUniform = 20,
+    ScaleUniformAround = 22,
+    Rotate = 24,
+    RotateAround = 26,
+    Skew = 28,
+    SkewAround = 30,
+    Composite = 32
+};
+
+/// What the numbers of the paint say, from after its child; `at` is where the paint begins. y down. Nothing
+/// for formats that do not transform.
+std::optional<scene::Affine> readTransform(const ColrTable& table, PaintFormat format, std::size_t at,
+                                           TableCursor from);
+
+scene::Point readPoint(TableCursor& from);  ///< two words, turned y down
 
 }  // namespace vtm::text

@@ -6,7 +6,6 @@
 #include "text/color/colr_table.hpp"
 #include "text/color/composite.hpp"
 #include "text/color/gradients.hpp"
-#include "text/color/transforms.hpp"
 #include "text/fonts/handles.hpp"
 
 namespace vtm::text {

@@ -1,5 +1,6 @@
 /// \file
-/// The fonts that a document brings along. Source: CSS Fonts 4 section 4.
+/// The fonts that a document brings along, and the containers that they come in. Source: CSS Fonts 4 section
+/// 4, WOFF 1.0, WOFF 2.0.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,15 @@
 #include <vector>
 
 #include "text/fonts/face_entry.hpp"
+#include "text/fonts/handles.hpp"
 
 namespace vtm::text {
+
+/// What a document's font may take once it is decompressed: four times the largest fonts of Noto.
+inline constexpr std::size_t maxFontBytes = 128u << 20;
+
+/// A copy of a font or collection, out of its WOFF or WOFF2 where it is in one. Throws FontError.
+HbBlob sfntOf(std::span<const std::uint8_t> bytes);
 
 class DocumentFonts {
 public:

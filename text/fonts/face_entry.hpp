@@ -1,6 +1,6 @@
 /// \file
-/// What a face can stand for, known without reading its file. Source: CSS Fonts 4 section 5.2 for the choice
-/// within a family.
+/// What a face can stand for, known without reading its file, and how it is set up for a query. Source: CSS
+/// Fonts 4 sections 5.2 (the choice within a family) and 2.
 #pragma once
 
 #include <fontconfig/fontconfig.h>
@@ -38,5 +38,8 @@ const FaceEntry* bestFace(const std::vector<const FaceEntry*>& faces, const Font
 
 /// Those that cover the cluster.
 std::vector<const FaceEntry*> covering(std::vector<const FaceEntry*> faces, std::u32string_view cluster);
+
+/// The variation axes and the synthesis of a face for a query.
+Instance instanceOf(const Face& face, const FaceEntry& entry, const FontQuery& query);
 
 }  // namespace vtm::text

@@ -1,8 +1,11 @@
 #include "text/shape.hpp"
 
+#include <hb-ot.h>
 #include <hb.h>
+#include <linebreak.h>
 
 #include <algorithm>
+#include <mutex>
 
 #include "text/shape/runs.hpp"
 
@@ -110,6 +113,26 @@ std::vector<Cluster> shape(const Line& line, FontSet& fonts) {
         else
             appendBlank(line, run, clusters);
     return clusters;
+}
+
+bool hasFeature(const Font& font, Tag feature) {
+    hb_face_t* const face = hb_font_get_face(font.harfbuzz());
+    unsigned count = hb_ot_layout_table_get_feature_tags(face, HB_OT_TAG_GSUB, 0, nullptr, nullptr);
+    std::vector<hb_tag_t> tags(count);
+    hb_ot_layout_table_get_feature_tags(face, HB_OT_TAG_GSUB, 0, &count, tags.data());
+    return std::find(tags.begin(), tags.end(), feature) != tags.end();
+}
+
+std::vector<bool> lineBreaks(const std::u32string& text, const std::string& language) {
+    static std::once_flag once;
+    std::call_once(once, init_linebreak);
+    std::vector<char> breaks(text.size());
+    set_linebreaks_utf32(reinterpret_cast<const utf32_t*>(text.data()), text.size(), language.c_str(),
+                         breaks.data());
+    std::vector<bool> allowed;
+    for (const char kind : breaks)
+        allowed.push_back(kind == LINEBREAK_MUSTBREAK || kind == LINEBREAK_ALLOWBREAK);
+    return allowed;
 }
 
 }  // namespace vtm::text

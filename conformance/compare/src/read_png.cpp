@@ -55,7 +55,7 @@ void expandToRgba(Reader& reader) {
     png_read_update_info(reader.png, reader.info);
 }
 
-/// As our encoder marks its files (image/src/png_write.cpp).
+/// As our encoder marks its files (image/src/png.cpp).
 bool saysStraight(const Reader& reader) {
     png_textp texts = nullptr;
     const int count = png_get_text(reader.png, reader.info, &texts, nullptr);
