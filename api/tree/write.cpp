@@ -179,7 +179,7 @@ private:
                const scene::Affine& map) {
         const auto name = paths_.find(path.get());
         text_ += name != paths_.end() ? name->second : inQuotes(svg::pathData(*path));
-        text_ += geometry(how);
+        text_ += treetext::geometry(how);
         if (map != scene::identity)
             text_ += " placed " + transform(map);
     }

@@ -206,9 +206,10 @@ std::uint32_t appendGrid(const GridMap& grid, std::uint16_t inner, SymbolTable& 
     const std::uint16_t symbol = symbols.add(inner, scale, numbers);
     std::vector<Instance> instances;
     for (std::int64_t i = 0; i < blockTiles * blockTiles; ++i)
-        instances.push_back(instanceOf(
-            symbol, scale,
-            {glm::dmat2(double(scale)), dvec2(double(i % blockTiles), double(i / blockTiles)) * grid.step}));
+        instances.push_back(
+            instanceOf(symbol, scale,
+                       {glm::dmat2(double(scale)),
+                        grid.first + dvec2(double(i % blockTiles), double(i / blockTiles)) * grid.step}));
     return appendTrees(instances, asset);
 }
 

@@ -9,7 +9,8 @@
 
 namespace vtm::compiler {
 
-/// A lowered scene with its runs by rows. It must outlive this.
+/// A lowered scene with its small layers by cells of a grid, and the runs of the others by rows. It must
+/// outlive this.
 class LayersAt {
 public:
     LayersAt(const LoweredScene& picture, const Square& square);
@@ -22,11 +23,20 @@ private:
         std::uint32_t layer, run;
         Coord low, high, left;  ///< its least and largest y and its least x
     };
+    struct SmallLayer {
+        std::uint32_t layer;
+        LatticePoint min, max;
+    };
     std::size_t rowOf(Coord y) const;
+    int cellOf(Coord v, Coord first) const;
+    bool isInside(std::uint32_t layer, int winding) const;
+    bool addSmall(std::uint32_t layer);
 
     const LoweredScene& picture_;
     const Square square_;
     std::vector<std::vector<LayerRun>> rows_;
+    int cells_ = 1;  ///< a side
+    std::vector<std::vector<SmallLayer>> grid_;
 };
 
 }  // namespace vtm::compiler

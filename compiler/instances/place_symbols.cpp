@@ -174,7 +174,7 @@ private:
             stretch = std::max(stretch, largestStretch(candidate.toPicture));
         const SymbolMaker maker(
             std::span<const LayerOrigin>(origins_).subspan(repeat.occurrences[of].first, repeat.count),
-            box.min, side, stretch / std::max(size_.x, size_.y), options_);
+            cornerOf(box, side), side, stretch / std::max(size_.x, size_.y), options_);
         makeSymbol(repeat, maker, std::move(candidates));
     }
 
@@ -229,10 +229,13 @@ private:
         return std::nullopt;
     }
 
+    /// Of a square with the box in its middle, so that its centre lies in the picture.
+    static dvec2 cornerOf(const Box2& box, double side) { return 0.5 * (box.min + box.max) - 0.5 * side; }
+
     std::vector<Candidate> candidatesOf(const Repeat& repeat, std::size_t reference, const Box2& box,
                                         double side) const {
         std::vector<Candidate> candidates;
-        const Affine2 toReference{glm::dmat2(side), box.min};
+        const Affine2 toReference{glm::dmat2(side), cornerOf(box, side)};
         const Affine2 back = inverse(affine2(repeat.occurrences[reference].fromFirst));
         const dvec2 slack(slackOf());
         for (const Repeat::Occurrence& occurrence : repeat.occurrences) {
@@ -240,7 +243,8 @@ private:
             candidate.firstLayer = occurrence.first;
             candidate.toPicture = compose(compose(affine2(occurrence.fromFirst), back), toReference);
             const dvec2 size = (box.max - box.min) / side;
-            if (mapped(candidate.toPicture, dvec2(0), size).isWithin(-slack, size_ + slack) &&
+            if (mapped(candidate.toPicture, 0.5 - 0.5 * size, 0.5 + 0.5 * size)
+                    .isWithin(-slack, size_ + slack) &&
                 isStorable(candidate.toPicture))
                 candidates.push_back(std::move(candidate));
         }
@@ -256,7 +260,7 @@ private:
         constexpr int grid = 8;
         std::optional<std::vector<std::uint32_t>> known;
         for (int i = 0; i < grid * grid; ++i) {
-            const dvec2 p = (dvec2(i % grid, i / grid) + 0.5) / double(grid) * size;
+            const dvec2 p = 0.5 + ((dvec2(i % grid, i / grid) + 0.5) / double(grid) - 0.5) * size;
             std::vector<std::uint32_t> layers = layersOver(candidate.toPicture(p));
             const bool isIn =
                 std::erase_if(layers, [&](std::uint32_t layer) {
@@ -270,16 +274,17 @@ private:
         return false;
     }
 
+    static constexpr double maxCrowd = 3;
+
     /// Whether most of them must cross each other: their boxes have several times the area that they lie in.
     static bool areCrowded(std::span<const Candidate> candidates, dvec2 size) {
-        constexpr double maxLayers = 3;
         double area = 0;
         Box2 all;
         for (const Candidate& candidate : candidates) {
             area += std::abs(glm::determinant(candidate.toPicture.linear)) * size.x * size.y;
-            all.add(mapped(candidate.toPicture, dvec2(0), size));
+            all.add(mapped(candidate.toPicture, 0.5 - 0.5 * size, 0.5 + 0.5 * size));
         }
-        return area > maxLayers * (all.max.x - all.min.x) * (all.max.y - all.min.y);
+        return area > maxCrowd * (all.max.x - all.min.x) * (all.max.y - all.min.y);
     }
 
     /// What abutting instances may overlap by, as rounding has it.
@@ -427,7 +432,7 @@ private:
         const dvec2 period = fill.pattern.period();
         const double side = std::max(period.x, period.y);
         const Affine2 toPicture = affine2(fill.pattern.toPicture);
-        const SymbolMaker maker(tileOf(fill), fill.pattern.min, side,
+        const SymbolMaker maker(tileOf(fill), fill.pattern.min + 0.5 * (period - side), side,
                                 largestStretch(toPicture) * side / std::max(size_.x, size_.y), options_);
         LayerSets sets;
         const std::optional<SymbolMap> bySets = maker.bySets(sets);
@@ -441,7 +446,7 @@ private:
             Candidate candidate;
             candidate.firstLayer = fill.tile.first;
             candidate.toPicture = compose(toPicture, squareOf(fill, block));
-            const dvec2 middle = 0.5 * period / side;
+            const dvec2 middle(0.5);
             std::vector<std::uint32_t> around = layersAround(candidate, fill.tile.count, middle);
             const auto [entry, isNew] = known.try_emplace(around, surroundings.size());
             if (isNew) {
@@ -460,8 +465,7 @@ private:
         const auto firstMap = std::uint32_t(placed_.maps.size());
         const std::uint32_t numbers = *std::ranges::max_element(classes);
         for (std::uint32_t level = levels; level > 0; --level)
-            placed_.maps.push_back(
-                GridMap{firstMap + levels - level + 1, period / side / double(blockTiles), numbers});
+            placed_.maps.push_back(gridOf(firstMap + levels - level + 1, period / side, numbers));
         placed_.maps.push_back(*map);
         for (std::size_t i = 0; i < fill.blocks.size(); ++i) {
             const TileBlock& block = fill.blocks[i];
@@ -485,20 +489,43 @@ private:
         return tile;
     }
 
-    /// From a block's [0, 1]² to the pattern's space.
+    /// `period`: in sides of the tile's square, in the middle of which a tile lies, as a block does in its
+    /// own.
+    static GridMap gridOf(std::uint32_t map, dvec2 period, std::uint32_t paints) {
+        const double share = 1.0 / double(blockTiles);
+        return {map, (1 - share) * 0.5 * (1.0 - period), share * period, paints};
+    }
+
+    /// From a block's [0, 1]² to the pattern's space: a block lies in the middle of its square.
     static Affine2 squareOf(const TileFill& fill, const TileBlock& block) {
         const dvec2 period = fill.pattern.period();
         const double side = std::ldexp(std::max(period.x, period.y), int(3 * block.level));
         static_assert(blockTiles == 8);
-        return {glm::dmat2(side), fill.pattern.min + dvec2(block.at) * period};
+        const dvec2 size = period * std::ldexp(1.0, int(3 * block.level));
+        return {glm::dmat2(side), fill.pattern.min + dvec2(block.at) * period + 0.5 * (size - side)};
     }
 
     // ---- All of them ----
+
+    bool areAllCrowded() const {
+        double area = 0;
+        Box2 all;
+        for (const Candidate& candidate : candidates_) {
+            const dvec2 size = candidate.box.max - candidate.box.min;
+            area += size.x * size.y;
+            all.add(candidate.box);
+        }
+        return area > maxCrowd * (all.max.x - all.min.x) * (all.max.y - all.min.y);
+    }
 
     /// Marks candidates as flat that touch something else.
     void keepApart() {
         if (candidates_.empty())
             return;
+        if (areAllCrowded()) {
+            candidates_.clear();
+            return;
+        }
         CandidateGrid grid(candidates_, std::max(size_.x, size_.y));
         std::vector<bool> isCandidates(picture_.layers.size());
         for (const Candidate& candidate : candidates_)

@@ -28,6 +28,7 @@ public:
             size = std::max({size, std::abs(p.x - origin.x), std::abs(p.y - origin.y)});
         });
         size_ = std::ldexp(1.0, std::ilogb(std::max(size, 0x1p-200)) + 1);
+        add(bits(size_));
         for (const scene::Command& command : path) {
             add(command.index());
             std::visit([&](const auto& c) { addCommand(c); }, command);

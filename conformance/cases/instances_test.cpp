@@ -315,6 +315,59 @@ Scene patterned(unsigned seed) {
     return scene;
 }
 
+/// Shapes whose paths differ in their size alone: hatching, as drawings of waveforms have it.
+TEST(Instances, SizesAreNotMixedUp) {
+    Scene scene;
+    scene.width = scene.height = side;
+    scene::StrokeStyle stroke;
+    stroke.cap = scene::Cap::Round;
+    for (int i = 0; i < 200; ++i) {
+        const double length = std::ldexp(3, i % 3);
+        Item line;
+        line.path = std::make_shared<const Path>(
+            Path{scene::MoveTo{{0, 0}}, scene::CubicTo{{length, 0}, {0, length / 2}, {length, length}}});
+        line.transform = scene::translation(6 + 12 * (i % 20), 6 + 24 * (i / 20));
+        line.geometry = stroke;
+        line.paint = Color{0, 0, 0, 1};
+        scene.root.children.push_back({line});
+    }
+    const asset::Asset placed = compiler::compile(scene).asset;
+    EXPECT_GE(placed.instances.size(), 60u);
+    const asset::View view = viewOf(0, 512, 1);
+    EXPECT_LE(compare::compare(asset::Scanner(placed).draw(view), referenceOf(scene, view)).max,
+              referenceMax);
+}
+
+/// Tall and wide shapes at the picture's borders, whose squares reach beyond it.
+TEST(Instances, LieAtTheBorders) {
+    Scene scene;
+    scene.width = side;
+    scene.height = side / 2;
+    for (int i = 0; i < 40; ++i) {
+        Item shape;
+        const bool tall = i % 2 == 0;
+        shape.path = std::make_shared<const Path>(
+            Path{scene::MoveTo{{0, 0}}, scene::CubicTo{{30, 1}, {30, 3}, {60, 4}}, scene::LineTo{{57, 4}},
+                 scene::CubicTo{{33, 3}, {27, 1}, {0, 4}}, scene::Close{}});
+        const Affine wide =
+                         scene::translation((i / 2) % 4 * 64 + (i / 2 % 4 == 3 ? 4 : 0), 5.5 * (i / 2) + 4),
+                     upright = scene::compose(
+                         scene::translation(i / 2 % 2 == 0 ? 4 + i : side - i, 64 * (i % 4 / 2)),
+                         Affine{0, 1, -1, 0, 0, 0});
+        shape.transform = tall ? upright : wide;
+        shape.geometry = scene::FillRule::NonZero;
+        shape.paint = Color{0.5f, 0, 0.2f, 1};
+        scene.root.children.push_back({shape});
+    }
+    const asset::Asset placed = compiler::compile(scene).asset;
+    EXPECT_GT(placed.instances.size(), 10u);
+    for (const unsigned seed : {0u, 1u}) {
+        const asset::View view = viewOf(seed, 400, 0.9);
+        EXPECT_LE(compare::compare(asset::Scanner(placed).draw(view), referenceOf(scene, view)).max,
+                  referenceMax);
+    }
+}
+
 TEST(Instances, PatternsArePlaced) {
     Gl gl;
     std::size_t nested = 0;
