@@ -32,6 +32,7 @@ MODULES = {
     "asset": {"image", "limits"},
     "raster": {"asset", "image", "limits"},
     "compiler": {"scene", "geometry", "raster", "asset", "image", "limits"},
+    "font": {"text", "scene", "geometry", "compiler", "raster", "asset", "image", "limits"},
     "paper": {"scene", "geometry", "compiler", "raster", "asset", "image", "limits"},
     "paper/gl": {"paper", "backend_gl", "raster", "asset", "image", "limits"},
     "api": {"svg", "text", "scene", "compiler", "raster", "asset", "image", "limits"},
@@ -57,6 +58,7 @@ PUBLIC = {  # folders of api/include/vtm, and the modules whose public headers t
     "asset": "asset",
     "raster": "raster",
     "compiler": "compiler",
+    "font": "font",
     "gl": "backend_gl",
 }
 PUBLIC_ROOT = pathlib.PurePosixPath("api/include")
@@ -73,7 +75,7 @@ ANYWHERE = None
 LIBRARIES = {
     r"glm/.*": ANYWHERE,
     r"fmt/.*": ANYWHERE,
-    r"tbb/.*": {"compiler", "bench", "tests"},
+    r"tbb/.*": {"compiler", "font", "bench", "tests"},
     r"gtest/.*|gmock/.*": ANYWHERE,
     r"pugixml\.hpp": {"svg"},
     r"hb(-ot)?\.h|fribidi\.h|linebreak\.h|fontconfig/.*|woff2/.*": {"text", "conformance/cases"},

@@ -46,6 +46,9 @@ public:
     virtual const std::string& family() const = 0;  ///< as the file spells it
     virtual double unitsPerEm() const = 0;
     virtual const FontMetrics& metrics() const = 0;
+    virtual std::string familyName() const = 0;  ///< in the font itself; may be empty
+    virtual GlyphId glyphCount() const = 0;
+    virtual std::vector<char32_t> characters() const = 0;  ///< that have glyphs, ascending
 
     /// Nothing where the font has no glyph for the character; 0 selects no variation.
     virtual std::optional<GlyphId> glyphOf(char32_t character, char32_t variationSelector = 0) const = 0;

@@ -50,6 +50,7 @@ struct FontFace {
         char32_t first, last;
     };
     std::vector<Range> characters;  ///< unicode-range; empty: all
+    unsigned index = 0;             ///< of a collection's faces
 };
 
 /// Fonts of one document. Faces of the options' directories and of the system are shared between sets.
@@ -61,7 +62,7 @@ public:
     FontSet(const FontSet&) = delete;
     FontSet& operator=(const FontSet&) = delete;
 
-    /// Adds a face of the document's own: sfnt, WOFF, WOFF2 or a collection's first face. Throws FontError.
+    /// Adds a face of the document's own: sfnt, WOFF, WOFF2 or one of a collection. Throws FontError.
     void add(const FontFace& face, std::span<const std::uint8_t> bytes);
 
     /// The family itself, not one that stands for it, is in the set. Generic names always are.

@@ -59,7 +59,10 @@ Asset toAsset(const AssetView& view) {
             .palettes = copied(view.palettes),
             .fallbackLeaves = view.fallbackLeaves,
             .prefilter = {view.prefilter.size, copied(view.prefilter.texels)},
-            .finestPixel = view.finestPixel};
+            .finestPixel = view.finestPixel,
+            .font = view.font,
+            .glyphs = copied(view.glyphs),
+            .glyphParts = copied(view.glyphParts)};
 }
 
 namespace {
@@ -84,6 +87,7 @@ Summary summarize(const AssetView& asset) {
     summary.leaves = asset.leaves.size();
     summary.pieces = asset.pieces.size();
     summary.instances = asset.instances.size();
+    summary.glyphs = asset.glyphs.size();
     summary.regions = std::set<Paint>(asset.paints.begin(), asset.paints.end()).size();
     for (const Map& map : asset.maps)
         walk(asset, map.root, [&](Cell cell, Entry entry) {

@@ -18,9 +18,10 @@ constexpr std::array<const char*, 17> names{
 }  // namespace
 
 std::string nameOf(SectionKind kind) {
-    if (kind == SectionKind::Accuracy)
-        return "accuracy";
+    constexpr std::array<const char*, 4> ignorable{"accuracy", "font", "glyphs", "glyph parts"};
     const auto index = std::size_t(kind);
+    if (index >= ignorableBit && index - ignorableBit < ignorable.size())
+        return ignorable[index - ignorableBit];
     return index < names.size() ? names[index] : fmt::format("{:#x}", index);
 }
 

@@ -56,7 +56,10 @@ enum class SectionKind : std::uint32_t {
     Instances,
     Symbols,
     Palettes,
-    Accuracy = 0x80000000u  ///< a reader may do without it
+    Accuracy = 0x80000000u,  ///< a reader may do without it and those that follow
+    Font,
+    Glyphs,
+    GlyphParts
 };
 /// Sections up to this one stand in every file, empty or not; those after it only where they are not
 /// empty.

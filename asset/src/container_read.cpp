@@ -138,6 +138,15 @@ void readAccuracy(const Sections& sections, AssetView& view) {
     view.finestPixel = records[0].finestPixel;
 }
 
+void readFont(const Sections& sections, AssetView& view) {
+    const auto records = sections.take<Font>(SectionKind::Font);
+    asset::require(records.size() <= 1, "font", records.size(), "must be one record");
+    if (!records.empty())
+        view.font = records[0];
+    view.glyphs = sections.take<Glyph>(SectionKind::Glyphs);
+    view.glyphParts = sections.take<GlyphPart>(SectionKind::GlyphParts);
+}
+
 }  // namespace
 
 Contents openContents(Bytes bytes) {
@@ -164,6 +173,7 @@ Contents openContents(Bytes bytes) {
     view.symbols = sections.take<Symbol>(SectionKind::Symbols);
     view.palettes = sections.take<std::uint16_t>(SectionKind::Palettes);
     readAccuracy(sections, view);
+    readFont(sections, view);
     validate(view);
     return contents;
 }

@@ -78,6 +78,10 @@ std::vector<std::uint8_t> write(const AssetView& asset) {
     const AccuracyRecord accuracy{asset.finestPixel.value_or(0)};
     if (asset.finestPixel)
         sections.push_back(section(SectionKind::Accuracy, std::span(&accuracy, 1)));
+    if (asset.font)
+        sections.push_back(section(SectionKind::Font, std::span(&*asset.font, 1)));
+    addUnlessEmpty(SectionKind::Glyphs, asset.glyphs);
+    addUnlessEmpty(SectionKind::GlyphParts, asset.glyphParts);
     return assemble(sections);
 }
 

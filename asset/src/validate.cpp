@@ -286,6 +286,29 @@ void validatePrefilter(const PrefilterView& prefilter) {
             "number of texels does not match the size");
 }
 
+void validateFont(const AssetView& asset) {
+    require(asset.font.has_value() == !asset.glyphs.empty(), "font", 0,
+            "is there without glyphs, or they without it");
+    if (asset.font)
+        require(std::isfinite(asset.font->ascent) && std::isfinite(asset.font->descent), "font", 0,
+                "a height is out of range");
+    for (std::size_t i = 0; i < asset.glyphs.size(); ++i) {
+        const Glyph& glyph = asset.glyphs[i];
+        require(i == 0 || asset.glyphs[i - 1].id < glyph.id, "glyphs", i, "ids do not ascend");
+        require(glyph.firstPart() + glyph.partCount() <= asset.glyphParts.size(), "glyphs", i,
+                "refers to missing parts");
+        require(std::isfinite(glyph.advance), "glyphs", i, "advance is out of range");
+    }
+    require(asset.font || asset.glyphParts.empty(), "glyph parts", 0, "are there without glyphs");
+    for (std::size_t i = 0; i < asset.glyphParts.size(); ++i) {
+        const GlyphPart& part = asset.glyphParts[i];
+        require(part.unused == 0, "glyph parts", i, "unused word is not zero");
+        require(part.map < asset.maps.size(), "glyph parts", i, "refers to a missing map");
+        require(asset.maps[part.map].instances == 0, "glyph parts", i, "its map holds others");
+        require(std::isfinite(part.x) && std::isfinite(part.y), "glyph parts", i, "place is out of range");
+    }
+}
+
 }  // namespace
 
 void validate(const AssetView& asset) {
@@ -299,6 +322,7 @@ void validate(const AssetView& asset) {
     const Maps maps(asset, trees);
     validateCommands(asset, maps);
     validatePrefilter(asset.prefilter);
+    validateFont(asset);
 }
 
 }  // namespace vtm::asset

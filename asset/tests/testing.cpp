@@ -258,6 +258,9 @@ Asset placedMaps() {
     asset.nodes[1].children[11] = InstanceRange::entry(1, 1);
     asset.instanceTrees = {{Entry::make(Entry::Kind::Node, 1), 0.25f, 0, 0},
                            {InstanceRange::entry(2, 1), 0.26f, 0, 0}};
+    asset.font = Font{0x123456789ABCDEF0u, 0.75f, 0.25f};
+    asset.glyphs = {{3, 0, 0.25f, ' '}, {36, 1 | 1 << 24, 0.5f, 'i'}};
+    asset.glyphParts = {{2, 0, 0, 0}, {2, 0.25f, -0.5f, 0}};
     return asset;
 }
 

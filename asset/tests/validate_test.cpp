@@ -169,6 +169,23 @@ const std::vector<Breach> breaches{
      [](Asset& a) {
          a.symbols.push_back({0, 0, 0, 1, 0});
      }},
+    {"font[0]: is there without glyphs, or they without it", placedMaps, [](Asset& a) { a.glyphs.clear(); }},
+    {"font[0]: is there without glyphs, or they without it", placedMaps, [](Asset& a) { a.font.reset(); }},
+    {"font[0]: a height is out of range", placedMaps,
+     [](Asset& a) { a.font->descent = std::numeric_limits<float>::infinity(); }},
+    {"glyphs[1]: ids do not ascend", placedMaps, [](Asset& a) { a.glyphs[1].id = 3; }},
+    {"glyphs[1]: refers to missing parts", placedMaps, [](Asset& a) { a.glyphs[1].parts += 1; }},
+    {"glyph parts[0]: are there without glyphs", placedMaps,
+     [](Asset& a) {
+         a.glyphs.clear();
+         a.font.reset();
+     }},
+    {"glyph parts[1]: refers to a missing map", placedMaps, [](Asset& a) { a.glyphParts[1].map = 3; }},
+    {"glyph parts[1]: its map holds others", placedMaps, [](Asset& a) { a.glyphParts[1].map = 1; }},
+    {"glyph parts[0]: unused word is not zero", placedMaps, [](Asset& a) { a.glyphParts[0].unused = 1; }},
+    {"glyph parts[0]: place is out of range", placedMaps,
+     [](Asset& a) { a.glyphParts[0].y = std::nanf(""); }},
+    {"glyphs[0]: advance is out of range", placedMaps, [](Asset& a) { a.glyphs[0].advance = std::nanf(""); }},
     {"maps[0]: refers to a missing paint", placedMaps, [](Asset& a) { a.symbols[0].ground = 9; }},
     {"maps[0]: refers to a missing paint", placedMaps, [](Asset& a) { a.palettes[0] = 9; }},
     {"commands[0]: draws a map that is placed in another", placedMaps,

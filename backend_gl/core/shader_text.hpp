@@ -12,7 +12,7 @@ extern const std::string_view fetch, coverage, blend, gradient, image, paint, re
 extern const std::string_view shadow, cell, tile_vertex, tile_fragment, tile_programs_fragment;
 extern const std::string_view flat_vertex, flat_fragment;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment;
-extern const std::string_view sample_asset, sample_prefilter, sample;
+extern const std::string_view sample_asset, sample_prefilter, sample_tree, sample_maps, sample_page, sample;
 extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_fragment;
 extern const std::string_view output, compose_fragment, screen_vertex, id_fragment;
 

@@ -31,11 +31,13 @@ vec4 shade(vec2 p) {
 
 TEST_F(Gl, EveryPermutationOfTheIncludeCompiles) {
     for (unsigned flags = 0; flags < Features::combinations; ++flags)
-        EXPECT_NO_THROW(test::ShaderCanvas(sampleText(Features(flags), flags % 3, stripes), oneTexture))
+        EXPECT_NO_THROW(
+            test::ShaderCanvas(sampleText(Features(flags), {flags % 3, flags % 2 == 1}, stripes), oneTexture))
             << flags;
     // Three samplers each: 15 of the 16 that WebGL 2 guarantees.
     EXPECT_NO_THROW(test::ShaderCanvas(
-        sampleText(Features(Features::combinations - 1), asset::maxMapDepth - 1, stripes), fiveTextures));
+        sampleText(Features(Features::combinations - 1), {asset::maxMapDepth - 1, true}, stripes),
+        fiveTextures));
 }
 
 /// glslangValidator knows nothing beyond GLSL ES 3.00, so what it accepts WebGL 2 accepts.
@@ -47,7 +49,7 @@ TEST(SampleInclude, EveryPermutationIsValid) {
     for (unsigned flags = 0; flags < Features::combinations; ++flags)
         std::ofstream(folder / fmt::format("{:02}.frag", flags))
             << "#version 300 es\n"
-            << sampleText(Features(flags), flags % 3, stripes) << fiveTextures
+            << sampleText(Features(flags), {flags % 3, flags % 2 == 1}, stripes) << fiveTextures
             << "out vec4 color;\nvoid main() { color = shade(gl_FragCoord.xy); }\n";
     const std::string log = (folder / "log").string();
     const int status =
@@ -60,7 +62,7 @@ TEST(SampleInclude, EveryPermutationIsValid) {
 TEST_F(Gl, TheIncludeLeavesAllNamesToTheUser) {
     // As functions, structures, constants and macros, whichever they are in our own shaders.
     EXPECT_NO_THROW(test::ShaderCanvas(
-        sampleText(Features(Features::combinations - 1), asset::maxMapDepth - 1, stripes), R"(
+        sampleText(Features(Features::combinations - 1), {asset::maxMapDepth - 1, true}, stripes), R"(
 #define LINEAR 7
 #define ASSET 9
 #define FEATURES 3
@@ -84,7 +86,7 @@ vec4 shade(vec2 p) { return vtm_sample(sign, p) + low(p.x) + sections; })"));
 
 TEST_F(Gl, UsersLinesAreCountedFromTheirOwnText) {
     try {
-        test::ShaderCanvas(sampleText({}, 0, {}), "vec4 shade(vec2 p) {\n    return vec4(missing);\n}");
+        test::ShaderCanvas(sampleText({}, {}, {}), "vec4 shade(vec2 p) {\n    return vec4(missing);\n}");
         ADD_FAILURE();
     } catch (const GlError& error) {
         EXPECT_NE(std::string(error.what()).find("0:2("), std::string::npos) << error.what();

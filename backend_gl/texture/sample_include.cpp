@@ -186,18 +186,22 @@ std::uint32_t materialKey(const Material& material) {
     return hash;
 }
 
-std::uint32_t samplingFlags(Features features, unsigned innerMaps) {
-    return features.flags() | ((1u << innerMaps) - 1) * Features::combinations;
+std::uint32_t samplingFlags(Features features, SampledKinds kinds) {
+    const std::uint32_t maps = (1u << kinds.innerMaps) - 1,
+                        pages = kinds.pages ? 1u << asset::maxMapDepth : 0;
+    return features.flags() | (maps | pages) * Features::combinations;
 }
 
-std::string sampleText(Features features, unsigned innerMaps, std::span<const Material> materials) {
+std::string sampleText(Features features, SampledKinds kinds, std::span<const Material> materials) {
     using namespace shaders;
-    std::string text = features.defines() + fmt::format("#define INNER_MAPS {}\n#define FEATURES {}u\n",
-                                                        innerMaps, samplingFlags(features, innerMaps));
+    std::string text = features.defines() +
+                       fmt::format("#define INNER_MAPS {}\n#define TEXT_PAGES {}\n#define FEATURES {}u\n",
+                                   kinds.innerMaps, int(kinds.pages), samplingFlags(features, kinds));
     text += glslConstants() + constants();
     const std::string_view images = features.has(Features::Image) ? image : std::string_view();
-    for (const std::string_view part : {sample_asset, fetch, coverage, blend, gradient, images, paint,
-                                        region_color, placed_paints, leaf_integral, sample_prefilter, sample})
+    for (const std::string_view part :
+         {sample_asset, fetch, coverage, blend, gradient, images, paint, region_color, placed_paints,
+          leaf_integral, sample_prefilter, sample_tree, sample_maps, sample_page, sample})
         text += part;
     text = head + prefixed(text);
     if (features.has(Features::Material))
@@ -205,16 +209,13 @@ std::string sampleText(Features features, unsigned innerMaps, std::span<const Ma
     return text + "#line 1 0\n";
 }
 
-std::string sampleInclude(std::initializer_list<asset::AssetView> assets) {
-    return sampleInclude(std::span(assets.begin(), assets.size()));
-}
-
-std::string sampleInclude(std::span<const asset::AssetView> assets) {
-    unsigned flags = 0, innerMaps = 0;
+std::string includeFor(std::span<const asset::AssetView> assets, bool pages) {
+    unsigned flags = 0;
+    SampledKinds kinds{0, pages};
     std::vector<Material> materials;
     for (const asset::AssetView& asset : assets) {
         flags |= featuresOf(asset).flags();
-        innerMaps = std::max(innerMaps, innerMapsOf(asset));
+        kinds.innerMaps = std::max(kinds.innerMaps, innerMapsOf(asset));
         for (const Material& material : asset.materials) {
             const auto known = std::ranges::find(materials, material.name, &Material::name);
             if (known == materials.end())
@@ -223,7 +224,13 @@ std::string sampleInclude(std::span<const asset::AssetView> assets) {
                 throw GlError(fmt::format("two different materials are named '{}'", material.name));
         }
     }
-    return sampleText(Features(flags), innerMaps, materials);
+    return sampleText(Features(flags), kinds, materials);
 }
+
+std::string sampleInclude(std::initializer_list<asset::AssetView> assets) {
+    return includeFor(std::span(assets.begin(), assets.size()), false);
+}
+
+std::string sampleInclude(std::span<const asset::AssetView> assets) { return includeFor(assets, false); }
 
 }  // namespace vtm::gl

@@ -16,14 +16,23 @@ namespace vtm::gl {
 /// others.
 std::string prefixed(std::string_view glsl);
 
-/// The include for paint programs with these features, maps placed in each other so many levels deep, and
-/// these materials.
-std::string sampleText(Features features, unsigned innerMaps, std::span<const asset::Material> materials);
+/// What the include draws besides single maps.
+struct SampledKinds {
+    unsigned innerMaps = 0;  ///< how many levels deep maps are placed in each other
+    bool pages = false;      ///< pages of text
+};
+
+/// The include for paint programs with these features, such pictures, and these materials.
+std::string sampleText(Features features, SampledKinds kinds, std::span<const asset::Material> materials);
+
+/// The include for these assets, and for pages of text if wanted: sampleInclude().
+std::string includeFor(std::span<const asset::AssetView> assets, bool pages);
 
 /// How many levels of placed maps an asset has; 0 without instances.
 unsigned innerMapsOf(const asset::AssetView& asset);
-/// What an asset asks of the include, a bit each: its features, then one for each level of placed maps.
-std::uint32_t samplingFlags(Features features, unsigned innerMaps);
+/// What an asset asks of the include, a bit each: its features, then one for each level of placed maps, then
+/// one for pages.
+std::uint32_t samplingFlags(Features features, SampledKinds kinds);
 
 /// What a material is known by among those of all assets: a hash of its name and text.
 std::uint32_t materialKey(const asset::Material& material);

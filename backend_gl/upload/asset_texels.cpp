@@ -54,6 +54,21 @@ TextureHandle texelTexture(std::vector<asset::Texel> texels) {
     return layOut(std::move(texels), 1, texelColumnsLog2, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
 }
 
+void updateTexels(GLuint texture, std::size_t first, std::span<const asset::Texel> texels) {
+    constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
+    glBindTexture(GL_TEXTURE_2D, texture);
+    while (!texels.empty()) {
+        const std::size_t column = first % columns;
+        // The rest of a row that is begun, else all whole rows at once, else the start of a last row.
+        const std::size_t rows = column == 0 ? std::max<std::size_t>(1, texels.size() / columns) : 1;
+        const std::size_t width = std::min(texels.size(), columns - column);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, GLint(column), GLint(first / columns), GLsizei(width),
+                        GLsizei(rows), GL_RGBA_INTEGER, GL_UNSIGNED_INT, texels.data());
+        first += width * rows;
+        texels = texels.subspan(width * rows);
+    }
+}
+
 TextureHandle imageTexture(std::vector<std::uint8_t> rgba) {
     return layOut(std::move(rgba), 4, imageColumnsLog2, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
 }

@@ -12,12 +12,13 @@
 
 namespace vtm::gl {
 
-/// Returns the first of the records' texels.
+/// Returns the first of the records' texels. Small records share texels; the last one is filled up with
+/// zeros.
 template <class Record>
 GLuint appendTexels(std::vector<asset::Texel>& texels, std::span<const Record> records) {
-    static_assert(sizeof(Record) % sizeof(asset::Texel) == 0);
-    const std::size_t first = texels.size();
-    texels.resize(first + records.size_bytes() / sizeof(asset::Texel));
+    const std::size_t first = texels.size(), size = sizeof(asset::Texel);
+    static_assert(sizeof(Record) % sizeof(asset::Texel) == 0 || sizeof(asset::Texel) % sizeof(Record) == 0);
+    texels.resize(first + (records.size_bytes() + size - 1) / size);
     if (!records.empty())
         std::memcpy(static_cast<void*>(texels.data() + first), records.data(), records.size_bytes());
     return GLuint(first);
@@ -32,6 +33,8 @@ ImageTexels imageTexels(const asset::AssetView& asset);
 
 /// RGBA32UI, 2^texelColumnsLog2 wide. Throws GlError where they are too many.
 TextureHandle texelTexture(std::vector<asset::Texel> texels);
+/// Changes texels of such a texture from `first` on: those only are sent.
+void updateTexels(GLuint texture, std::size_t first, std::span<const asset::Texel> texels);
 /// RGBA8, 2^imageColumnsLog2 wide. Throws likewise.
 TextureHandle imageTexture(std::vector<std::uint8_t> rgba);
 

@@ -11,8 +11,8 @@
 #include <glm/matrix.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include "asset/place.hpp"
 #include "compiler/instances/boundary.hpp"
-#include "compiler/instances/encode_instances.hpp"
 #include "compiler/instances/layers_at.hpp"
 #include "compiler/instances/repeats.hpp"
 #include "compiler/paint/painters.hpp"
@@ -292,7 +292,7 @@ private:
 
     bool isStorable(const Affine2& toPicture) const {
         const double longer = std::max(size_.x, size_.y);
-        return placementError(toPicture.linear / longer) * longer <= slackOf();
+        return asset::placementError(toPicture.linear / longer) * longer <= slackOf();
     }
 
     void makeSymbol(const Repeat& repeat, const SymbolMaker& maker, std::vector<Candidate> candidates) {

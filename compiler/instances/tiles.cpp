@@ -8,7 +8,7 @@
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/limits/limits.hpp>
-#include "compiler/instances/encode_instances.hpp"
+#include "asset/place.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -210,7 +210,7 @@ private:
         unsigned level = 0;
         const glm::dmat2 linear(pattern.toPicture[0], pattern.toPicture[1]);
         while (level < asset::maxMapDepth - 2 &&
-               placementError(linear * (side * double(blockTiles))) <= tolerance_ / 8) {
+               asset::placementError(linear * (side * double(blockTiles))) <= tolerance_ / 8) {
             side *= double(blockTiles);
             ++level;
         }

@@ -185,7 +185,7 @@ FaceEntry entryOf(const FontFace& face, std::shared_ptr<const Face> font) {
 
 void DocumentFonts::add(const FontFace& face, std::span<const std::uint8_t> bytes) {
     const HbBlob sfnt = sfntOf(bytes);
-    auto font = openFace(sfnt.get(), 0, face.family);
+    auto font = openFace(sfnt.get(), face.index, face.family);
     if (!font)
         throw FontError("the font has no glyphs");
     if (font->hasTooLargeGlyphs())

@@ -6,6 +6,7 @@
 #include <hb-ot.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -178,6 +179,25 @@ std::optional<GlyphId> OpenTypeFont::glyphOf(char32_t character, char32_t variat
                            ? hb_font_get_variation_glyph(font_.get(), character, variationSelector, &glyph)
                            : hb_font_get_nominal_glyph(font_.get(), character, &glyph);
     return found ? std::optional(glyph) : std::nullopt;
+}
+
+std::string OpenTypeFont::familyName() const {
+    std::array<char, 256> name{};
+    auto length = static_cast<unsigned>(name.size());
+    hb_ot_name_get_utf8(face_->harfbuzz(), HB_OT_NAME_ID_FONT_FAMILY, HB_LANGUAGE_INVALID, &length,
+                        name.data());
+    return name.data();
+}
+
+GlyphId OpenTypeFont::glyphCount() const { return hb_face_get_glyph_count(face_->harfbuzz()); }
+
+std::vector<char32_t> OpenTypeFont::characters() const {
+    const HbSet set(hb_set_create());
+    hb_face_collect_unicodes(face_->harfbuzz(), set.get());
+    std::vector<char32_t> characters;
+    for (hb_codepoint_t c = HB_SET_VALUE_INVALID; hb_set_next(set.get(), &c);)
+        characters.push_back(c);
+    return characters;
 }
 
 double OpenTypeFont::advanceOf(GlyphId glyph) const {

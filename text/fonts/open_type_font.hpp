@@ -22,6 +22,9 @@ public:
     const std::string& family() const override { return face_->family(); }
     double unitsPerEm() const override { return unitsPerEm_; }
     const FontMetrics& metrics() const override { return metrics_; }
+    std::string familyName() const override;
+    GlyphId glyphCount() const override;
+    std::vector<char32_t> characters() const override;
     std::optional<GlyphId> glyphOf(char32_t character, char32_t variationSelector) const override;
     double advanceOf(GlyphId glyph) const override;
     std::shared_ptr<const scene::Path> outlineOf(GlyphId glyph) const override;

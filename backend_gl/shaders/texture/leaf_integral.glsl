@@ -13,6 +13,12 @@ float squareArea(Frame frame) {
 
 #if LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL
 
+vec4 numberColor(ASSET_IN inout Recent recent, uint number, vec2 point, mat3x2 pixel) {
+    if (onPage)
+        return pageColor(number);
+    return regionColor(ASSET recent, paintOf(ASSET number), point, pixel);
+}
+
 // One loop over the four corners and both sides of every piece, so that the paint interpreter, which
 // compilers inline, stands in the program once.
 vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
@@ -35,16 +41,18 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
             weight = -weight;
         }
         if (weight != 0.0)
-            sum += weight * regionColor(ASSET recent, paintOf(ASSET paint), point, pixel);
+            sum += weight * numberColor(ASSET recent, paint, point, pixel);
     }
     if (isPlaced())
-        sum -= squareArea(frame) * regionColor(ASSET recent, paintOf(ASSET 0u), point, pixel);
+        sum -= squareArea(frame) * numberColor(ASSET recent, 0u, point, pixel);
     return sum;
 }
 
 #else
 
-vec4 numberColor(ASSET_IN uint number) { return solidColor(ASSET paintOf(ASSET number)); }
+vec4 numberColor(ASSET_IN uint number) {
+    return onPage ? pageColor(number) : solidColor(ASSET paintOf(ASSET number));
+}
 
 // Twin of pieces_fragment.glsl.
 vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {

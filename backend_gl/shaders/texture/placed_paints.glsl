@@ -1,14 +1,24 @@
 // The asset's paint for a number that a placed map names: through the palettes of all maps around. Twin of PlacedPaints
 // in asset/instances.hpp.
-// Requires: sample_asset.glsl, fetch.glsl; INNER_MAPS.
-// Exports: isPlaced, paintOf; innerDepth, innerPalettes, innerGrounds, which sample.glsl sets.
+// Requires: sample_asset.glsl, fetch.glsl; INNER_MAPS, TEXT_PAGES.
+// Exports: isPlaced, paintOf; innerDepth, innerPalettes, innerGrounds, which sample_maps.glsl sets; onPage, pageColor,
+// pageGround, pageInk, which sample_page.glsl sets.
+
+#if TEXT_PAGES
+bool onPage = false;       // a glyph of a page is added up
+vec4 pageGround, pageInk;  // outside it and inside, premultiplied
+vec4 pageColor(uint number) { return number == 0u ? pageGround : pageInk; }
+#else
+const bool onPage = false;
+vec4 pageColor(uint number) { return vec4(0.0); }
+#endif
 
 #if INNER_MAPS
 
 int innerDepth = 0;  // of the map that is being added up
 uint innerPalettes[INNER_MAPS], innerGrounds[INNER_MAPS];
 
-bool isPlaced() { return innerDepth > 0; }
+bool isPlaced() { return innerDepth > 0 || onPage; }
 
 uint paletteAt(Vtm vtm, uint place) {
     uint word = texelAt(vtm, vtm.placed.w + place / 8u)[place / 2u & 3u];
@@ -23,7 +33,7 @@ uint paintOf(Vtm vtm, uint number) {
 
 #else
 
-bool isPlaced() { return false; }
+bool isPlaced() { return onPage; }
 uint paintOf(ASSET_IN uint number) { return number; }
 
 #endif

@@ -1,5 +1,5 @@
 // An asset as a uniform: `uniform Vtm sign;`. backend_gl/texture/sampled_texture.cpp binds it.
-// Requires: IMAGE, INNER_MAPS. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART, spend for fetch.glsl; turnsLeft.
+// Requires: IMAGE, INNER_MAPS, TEXT_PAGES. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART, spend for fetch.glsl; turnsLeft.
 
 struct Vtm {
     usampler2D texels;     // all records
@@ -17,6 +17,9 @@ struct Vtm {
     vec3 square;           // the tree's: least x and y, side
     vec2 prefilterTexels;  // of the finest level
     ivec2 wrapping;        // beyond [0, 1] of s and of t
+#if TEXT_PAGES
+    uint page;             // first texel of a page of text; 0: a picture
+#endif
 #if INNER_MAPS
     uint instances;        // 0, or 1 + the index of the map's first tree of instances
     uvec4 placed;          // first texels of the trees of instances, the instances, the symbols and the palettes

@@ -285,6 +285,35 @@ inline constexpr std::size_t maxMaterials = 256, maxMaterialName = 64, maxMateri
 
 static_assert(sizeof(ImageFill) == 32 && sizeof(MaterialFill) == 48);
 
+// ---- Fonts ------------------------------------------------------------------------------------
+
+/// An outline of a glyph: a part that touches no other, as the dot of an i. Glyphs share parts. One texel.
+struct GlyphPart {
+    std::uint32_t map = 0;  ///< lies in ems, y down; number 0 is outside, 1 inside
+    float x = 0, y = 0;     ///< from the glyph's origin to that of the map, ems
+    std::uint32_t unused = 0;
+};
+
+/// A glyph of the font that an asset holds. One texel.
+struct Glyph {
+    std::uint32_t id = 0;         ///< in the font
+    std::uint32_t parts = 0;      ///< of Asset::glyphParts: the first, and 2^24 times their number
+    float advance = 0;            ///< along a horizontal line, ems
+    std::uint32_t character = 0;  ///< a character that it stands for; 0: none
+
+    std::uint32_t firstPart() const { return parts & 0xFFFFFFu; }
+    std::uint32_t partCount() const { return parts >> 24; }
+};
+inline constexpr std::size_t maxGlyphParts = 255;  ///< of one glyph
+
+/// The font that an asset's glyphs are of (vtm/font/font_maps.hpp). One texel.
+struct Font {
+    std::uint64_t key = 0;          ///< differs where files, faces, variations or tolerances do
+    float ascent = 0, descent = 0;  ///< above and below the baseline, ems, both positive as a rule
+};
+
+static_assert(sizeof(Glyph) == 16 && sizeof(GlyphPart) == 16 && sizeof(Font) == 16);
+
 // ---- Whole ------------------------------------------------------------------------------------
 
 /// Max magnitude of a map's position and of the picture's size; its inverse is the min side and size. Numbers
@@ -351,6 +380,10 @@ struct Asset {
     /// drawn boundary lies within a sixteenth of a pixel of the scene's. 0: any size. Empty if unknown, as in
     /// files written before the format stored it. Images and gradients have limits of their own.
     std::optional<double> finestPixel;
+    /// Where maps are a font's glyphs; the commands then draw a specimen.
+    std::optional<Font> font;
+    std::vector<Glyph> glyphs;  ///< by ascending id
+    std::vector<GlyphPart> glyphParts;
 };
 
 /// Max distance between drawn and true boundaries at finestPixel, in pixels.
@@ -377,6 +410,9 @@ struct AssetView {
     std::uint32_t fallbackLeaves = 0;
     PrefilterView prefilter;
     std::optional<double> finestPixel;
+    std::optional<Font> font;
+    std::span<const Glyph> glyphs;
+    std::span<const GlyphPart> glyphParts;
 
     AssetView() = default;
     AssetView(const Asset& a)  // NOLINT(google-explicit-constructor): converts implicitly
@@ -398,7 +434,10 @@ struct AssetView {
           palettes(a.palettes),
           fallbackLeaves(a.fallbackLeaves),
           prefilter{a.prefilter.size, a.prefilter.texels},
-          finestPixel(a.finestPixel) {}
+          finestPixel(a.finestPixel),
+          font(a.font),
+          glyphs(a.glyphs),
+          glyphParts(a.glyphParts) {}
 };
 
 /// Returns for each image whether a paint program reads its mip levels (a trilinear or bicubic fill).
@@ -419,6 +458,7 @@ struct Summary {
     std::size_t pieces = 0;
     std::size_t regions = 0;  ///< distinct paints
     std::size_t instances = 0;
+    std::size_t glyphs = 0;
     unsigned maxDepth = 0;
 };
 Summary summarize(const AssetView& asset);

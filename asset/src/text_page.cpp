@@ -1,0 +1,244 @@
+#include <vtm/asset/text_page.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "asset/place.hpp"
+#include "asset/walk.hpp"
+
+namespace vtm::asset {
+
+using glm::dvec2;
+
+// ---- Validity ---------------------------------------------------------------------------------------
+
+namespace {
+
+void requireOf(bool holds, const char* what, std::size_t i, const char* how) {
+    if (!holds)
+        throw std::invalid_argument(fmt::format("text page: {}[{}]: {}", what, i, how));
+}
+
+bool isColor(const PageColor& color) {
+    return std::ranges::all_of(color, [](float c) { return c >= 0 && c <= 1; });
+}
+
+/// Sides, and with them places and sizes, stay far from the limits of single precision.
+constexpr double largestPage = 0x1p20, smallestPage = 0x1p-20;
+
+void validateSymbols(const TextPage& page, const AssetView& font) {
+    for (std::size_t i = 0; i < page.symbols.size(); ++i) {
+        const PageSymbol& symbol = page.symbols[i];
+        requireOf(isColor(symbol.color), "symbols", i, "colour is out of range");
+        requireOf(symbol.next == 0 || (symbol.next > i && symbol.next < page.symbols.size()), "symbols", i,
+                  "the next one does not follow it");
+        requireOf(std::abs(symbol.offset.x) <= largestPage && std::abs(symbol.offset.y) <= largestPage,
+                  "symbols", i, "offset is out of range");
+        if (symbol.map == 0)
+            continue;
+        requireOf(symbol.map < font.maps.size() && font.maps[symbol.map].instances == 0, "symbols", i,
+                  "refers to a missing map");
+        const double area = glm::determinant(symbol.linear);
+        requireOf(std::isfinite(area) && area != 0, "symbols", i, "matrix is singular");
+        for (const double m :
+             {symbol.linear[0].x, symbol.linear[0].y, symbol.linear[1].x, symbol.linear[1].y})
+            requireOf(std::abs(m) <= largestPage, "symbols", i, "matrix is out of range");
+    }
+}
+
+void validateCells(const TextPage& page, const PageCells& cells) {
+    const std::size_t count = std::size_t(cells.columns) * cells.rows;
+    requireOf(cells.columns > 0 && cells.rows > 0 && count <= maxInstances, "cells", 0,
+              "number is out of range");
+    requireOf(cells.symbols.size() == count, "cells", cells.symbols.size(), "symbols must be one a cell");
+    requireOf(cells.colors.empty() || cells.colors.size() == count, "cells", cells.colors.size(),
+              "colours must be one a cell");
+    for (const double size : {cells.size.x, cells.size.y})
+        requireOf(size > 0 && size <= largestPage, "cells", 0, "size is out of range");
+    for (const double place : {cells.corner.x, cells.corner.y, cells.origin.x, cells.origin.y})
+        requireOf(std::abs(place) <= largestPage, "cells", 0, "place is out of range");
+    requireOf(page.glyphs.empty(), "cells", 0, "stand beside glyphs");
+    requireOf(!page.symbols.empty() && page.symbols[0].map == 0, "symbols", 0, "is not blank");
+    for (std::size_t i = 0; i < count; ++i) {
+        requireOf(cells.symbols[i] < page.symbols.size(), "cells", i, "refers to a missing symbol");
+        requireOf(cells.colors.empty() || cells.colors[i] < cells.palette.size(), "cells", i,
+                  "refers to a missing colour");
+    }
+    for (std::size_t i = 0; i < cells.palette.size(); ++i)
+        requireOf(isColor(cells.palette[i]), "palette", i, "colour is out of range");
+}
+
+}  // namespace
+
+void validate(const TextPage& page, const AssetView& font) {
+    for (const double side : {page.width, page.height})
+        requireOf(side >= smallestPage && side <= largestPage, "page", 0, "size is out of range");
+    requireOf(isColor(page.ground), "page", 0, "ground is out of range");
+    requireOf(page.symbols.size() <= 0x10000, "symbols", page.symbols.size(), "there are too many");
+    validateSymbols(page, font);
+    for (std::size_t i = 0; i < page.glyphs.size(); ++i) {
+        const PageGlyph& glyph = page.glyphs[i];
+        requireOf(glyph.symbol < page.symbols.size(), "glyphs", i, "refers to a missing symbol");
+        requireOf(std::abs(glyph.origin.x) <= largestPage && std::abs(glyph.origin.y) <= largestPage,
+                  "glyphs", i, "place is out of range");
+    }
+    if (page.cells)
+        validateCells(page, *page.cells);
+}
+
+// ---- As an asset ------------------------------------------------------------------------------------
+
+namespace {
+
+PageColor premultiplied(const PageColor& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
+
+PageColor over(const PageColor& top, const PageColor& below) {
+    PageColor result{};
+    for (std::size_t i = 0; i < 4; ++i)
+        result[i] = top[i] + below[i] * (1 - top[3]);
+    return result;
+}
+
+class PageAsset {
+public:
+    PageAsset(const TextPage& page, const AssetView& font) : page_(page), font_(font) {
+        side_ = std::max(page.width, page.height);
+        asset_.width = page.width;
+        asset_.height = page.height;
+        asset_.commands = {Command{}};
+        asset_.finestPixel = 0;
+        ground_ = premultiplied(page.ground);
+        asset_.paints = {Paint{}};
+        addGround();
+    }
+
+    Asset make() {
+        std::vector<Placement> placements;
+        forEachGlyph([&](const PageSymbol& symbol, dvec2 origin, const PageColor& color) {
+            placements.push_back(placementOf(symbol, origin, color));
+        });
+        const std::uint32_t trees = appendInstances(placements, asset_);
+        asset_.maps.front().instances = trees;
+        asset_.fallbackLeaves = font_.fallbackLeaves;
+        return std::move(asset_);
+    }
+
+private:
+    template <class Visit>
+    void forEachGlyph(Visit&& visit) const {
+        for (const PageGlyph& glyph : page_.glyphs)
+            visitShown(page_.symbols[glyph.symbol], glyph.origin, page_.symbols[glyph.symbol].color, visit);
+        if (!page_.cells)
+            return;
+        for (std::size_t i = 0; i < page_.cells->symbols.size(); ++i)
+            for (std::uint32_t s = page_.cells->symbols[i]; s != 0; s = page_.symbols[s].next)
+                visitCell(i, page_.symbols[s], visit);
+    }
+
+    template <class Visit>
+    void visitCell(std::size_t i, const PageSymbol& symbol, Visit&& visit) const {
+        const PageCells& cells = *page_.cells;
+        const dvec2 cell(double(i % cells.columns), double(i / cells.columns));
+        visitShown(symbol, cells.corner + cell * cells.size + cells.origin,
+                   cells.colors.empty() ? symbol.color : cells.palette[cells.colors[i]], visit);
+    }
+
+    /// An instance's centre must lie in the page's square; what lies beyond is not seen, or hardly.
+    template <class Visit>
+    void visitShown(const PageSymbol& symbol, dvec2 origin, const PageColor& color, Visit&& visit) const {
+        if (symbol.map == 0)
+            return;
+        const dvec2 centre = placeOf(symbol, origin)(dvec2(0.5));
+        if (centre.x >= 0 && centre.y >= 0 && centre.x < 1 && centre.y < 1)
+            visit(symbol, origin, color);
+    }
+
+    /// From the map's [0, 1]² to the page's square.
+    Affine2 placeOf(const PageSymbol& symbol, dvec2 origin) const {
+        const Map& map = font_.maps[symbol.map];
+        const Affine2 toPage{symbol.linear / side_, (origin + symbol.offset) / side_};
+        return compose(toPage, asset::placeOf(map));
+    }
+
+    Placement placementOf(const PageSymbol& symbol, dvec2 origin, const PageColor& color) {
+        const auto [map, isNew] = maps_.try_emplace(symbol.map, std::uint16_t(0));
+        if (isNew)
+            map->second = appendMap(extractMap(font_, symbol.map), asset_);
+        const Affine2 place = placeOf(symbol, origin);
+        include(symbol, place);
+        return {map->second, {groundPaint_, paintOf(over(premultiplied(color), ground_))}, place};
+    }
+
+    /// How far the page may be magnified: the glyph's own error, enlarged, and that of its stored place.
+    void include(const PageSymbol& symbol, const Affine2& place) {
+        const double enlarged = std::max(glm::length(symbol.linear[0]), glm::length(symbol.linear[1])) *
+                                font_.finestPixel.value_or(0);
+        const double stored = (placementError(place.linear) + 0.5 / centreSteps) * side_;
+        asset_.finestPixel = std::max(*asset_.finestPixel, enlarged + stored / finestShare);
+    }
+
+    std::uint16_t paintOf(const PageColor& color) {
+        const auto [paint, isNew] = paints_.try_emplace(color, std::uint16_t(asset_.paints.size()));
+        if (isNew)
+            asset_.paints.push_back(std::bit_cast<Paint>(color));
+        return paint->second;
+    }
+
+    /// A page that is not square ends where a line crosses the map's only leaf.
+    void addGround() {
+        asset_.maps = {{0, 0, side_, Entry::make(Entry::Kind::Solid, 0), 0}};
+        if (ground_[3] == 0)
+            return;
+        groundPaint_ = paintOf(ground_);
+        const std::uint16_t g = groundPaint_;
+        if (page_.width == page_.height) {
+            asset_.maps.front().root = Entry::make(Entry::Kind::Solid, g);
+            return;
+        }
+        asset_.finestPixel = 0.5 / leafExtent * side_ / finestShare;
+        const bool isWide = page_.width > page_.height;
+        const auto end =
+            std::uint16_t(std::lround(std::min(page_.width, page_.height) / side_ * double(leafExtent)));
+        Piece piece;
+        // The page lies on the left of the line.
+        piece.a = isWide ? std::array{std::uint16_t(leafExtent), end} : std::array{end, std::uint16_t(0)};
+        piece.b = isWide ? std::array{std::uint16_t(0), end} : std::array{end, std::uint16_t(leafExtent)};
+        piece.left = g;
+        asset_.pieces = {piece};
+        Leaf leaf;
+        leaf.pieceCount = 1;
+        leaf.corners =
+            isWide ? std::array<std::uint16_t, 4>{g, g, 0, 0} : std::array<std::uint16_t, 4>{g, 0, 0, g};
+        asset_.leaves = {leaf};
+        asset_.maps.front().root = Entry::make(Entry::Kind::Leaf, 0);
+    }
+
+    const TextPage& page_;
+    const AssetView& font_;
+    double side_ = 1;
+    PageColor ground_{};
+    std::uint16_t groundPaint_ = 0;
+    Asset asset_;
+    std::map<std::uint32_t, std::uint16_t> maps_;
+    std::map<PageColor, std::uint16_t> paints_;
+};
+
+}  // namespace
+
+Asset pageAsset(const TextPage& page, const AssetView& font) {
+    validate(page, font);
+    try {
+        return PageAsset(page, font).make();
+    } catch (const TooManyInstances& error) {
+        throw std::invalid_argument(error.what());
+    }
+}
+
+}  // namespace vtm::asset

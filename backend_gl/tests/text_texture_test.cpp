@@ -1,0 +1,227 @@
+// Pages of text in a user's shader, against the same pages as assets drawn by the CPU.
+#include <vtm/gl/text_texture.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <stdexcept>
+
+#include <vtm/font/typesetter.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
+#include "backend_gl/core/gl.hpp"
+#include "backend_gl/testing.hpp"
+#include "backend_gl/tests/gl_fixture.hpp"
+#include "raster/testing_views.hpp"
+
+namespace vtm::gl {
+namespace {
+
+using asset::TextPage;
+using asset::View;
+using image::Raster;
+
+constexpr double tolerance = 2.0 / 255;
+
+font::FontMaps dejavu(const char* name) {
+    std::ifstream file(std::string("/usr/share/fonts/truetype/dejavu/") + name, std::ios::binary);
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+    return font::FontMaps(bytes);
+}
+
+class PageCanvas {
+public:
+    PageCanvas()
+        : canvas_(textInclude(), R"(
+uniform Vtm page;
+uniform mat3 toPage;
+vec4 shade(vec2 pixel) {
+    return vtm_sample_proj(page, toPage * vec3(pixel, 1.0) / gl_FragCoord.w);
+})") {}
+
+    Raster draw(TextTexture& texture, std::size_t index, const TextPage& page, const View& view) {
+        const glm::dmat3 toPixels(glm::dvec3(view.toPixels[0], 0), glm::dvec3(view.toPixels[1], 0),
+                                  glm::dvec3(view.toPixels[2], 1));
+        const glm::dmat3 toSt(1 / page.width, 0, 0, 0, 1 / page.height, 0, 0, 0, 1);
+        canvas_.set("toPage", toSt * glm::inverse(toPixels));
+        texture.bind(canvas_.program(), "page", 0, index);
+        return canvas_.draw(view.width, view.height);
+    }
+
+private:
+    test::ShaderCanvas canvas_;
+};
+
+double worst(const Raster& a, const Raster& b) {
+    EXPECT_EQ(a.rgba.size(), b.rgba.size());
+    double difference = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        difference = std::max(difference, double(std::abs(a.rgba[i] - b.rgba[i])));
+    return difference;
+}
+
+TextPage letters(font::FontMaps& font) {
+    font::Typesetter setter(font, 300, 200, {1, 1, 0.9f, 1});
+    setter.add(U"Heading", {20, 10, 260, 60}, {.size = 40, .color = {0.7f, 0, 0, 1}});
+    std::u32string text;
+    for (int i = 0; i < 20; ++i)
+        text += U"AVATAR, waffles & çédille; ";
+    setter.add(text, {20, 70, 260, 120}, {.size = 9});
+    return setter.page();
+}
+
+TextPage cells(font::FontMaps& font) {
+    font::CellText text;
+    text.columns = 30;
+    text.rows = 8;
+    for (unsigned i = 0; i < 240; ++i) {
+        text.text += char32_t(U'!' + i % 90);
+        text.colors.push_back(std::uint8_t(i / 7 % 3));
+    }
+    text.palette = {{1, 1, 1, 1}, {0, 1, 0.3f, 1}, {1, 0.5f, 0, 0.6f}};
+    text.ground = {0, 0, 0.2f, 1};
+    return font::Typesetter::cells(font, text);
+}
+
+View viewOf(const TextPage& page, std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    const double scale = 400 / page.width * std::exp2(5 * unit(random));
+    return asset::test::turnedView(60, 40, {page.width * unit(random), page.height * unit(random)}, scale,
+                                   6.28 * unit(random), 0.4 * unit(random), unit(random) < 0.3);
+}
+
+TEST_F(Gl, PagesShowWhatTheirAssetsDo) {
+    font::FontMaps serif = dejavu("DejaVuSerif.ttf"), mono = dejavu("DejaVuSansMono.ttf");
+    std::mt19937 random(3);
+    PageCanvas canvas;
+    for (const bool isCells : {false, true}) {
+        font::FontMaps& font = isCells ? mono : serif;
+        const TextPage page = isCells ? cells(font) : letters(font);
+        const asset::Asset maps = font.asset(), flat = asset::pageAsset(page, maps);
+        const asset::Scanner scanner(flat);
+        TextTexture texture(maps, {page});
+        for (int i = 0; i < 40; ++i) {
+            const View view = viewOf(page, random);
+            EXPECT_LE(worst(canvas.draw(texture, 0, page, view), scanner.draw(view)), tolerance)
+                << i << (isCells ? " cells" : " letters");
+        }
+    }
+}
+
+TEST_F(Gl, PagesFarAwayAreGrey) {
+    font::FontMaps serif = dejavu("DejaVuSerif.ttf");
+    const TextPage page = letters(serif);
+    const asset::Asset maps = serif.asset();
+    const asset::Scanner scanner(asset::pageAsset(page, maps));
+    TextTexture texture(maps, {page});
+    PageCanvas canvas;
+    for (const double scale : {0.6, 0.3, 0.15, 0.05, 0.02}) {
+        const View view = asset::test::turnedView(40, 40, {150, 100}, scale, 0.3, 0, false);
+        EXPECT_LE(worst(canvas.draw(texture, 0, page, view), scanner.draw(view)), 10.0 / 255) << scale;
+    }
+}
+
+TEST_F(Gl, PageTablesTakeAByteOrEightACharacter) {
+    font::FontMaps serif = dejavu("DejaVuSerif.ttf"), mono = dejavu("DejaVuSansMono.ttf");
+    font::CellText text;
+    text.columns = 100;
+    text.rows = 60;
+    for (unsigned i = 0; i < 6000; ++i)
+        text.text += char32_t(U'!' + i % 90);
+    const TextPage terminal = font::Typesetter::cells(mono, text);
+    const std::size_t symbols = terminal.symbols.size() * 48;
+    EXPECT_LE(TextTexture(mono.asset(), {terminal}).bytes(0), 6000 + symbols + 200);
+
+    font::Typesetter setter(serif, 600, 800);
+    std::u32string words;
+    while (words.size() < 5000)
+        words += U"The quick brown fox jumps over lazy dogs. ";
+    ASSERT_EQ(setter.add(words, {40, 40, 520, 740}, {.size = 10}), words.size());
+    const TextPage page = setter.page();
+    TextTexture texture(serif.asset(), {page});
+    EXPECT_LE(texture.bytes(0), 8 * words.size() + page.symbols.size() * 48);
+}
+
+TEST_F(Gl, PagesCanBeReplaced) {
+    font::FontMaps mono = dejavu("DejaVuSansMono.ttf");
+    const auto pageOf = [&](const std::u32string& shown) {
+        font::CellText text;
+        text.columns = 10;
+        text.rows = 2;
+        text.text = shown;
+        return font::Typesetter::cells(mono, text);
+    };
+    TextPage first = pageOf(U"first"), second = pageOf(U"second");
+    TextTexture texture(mono.asset(), {first, second});
+    PageCanvas canvas;
+    const auto expectBoth = [&] {
+        const asset::Asset maps = mono.asset();
+        for (const std::size_t i : {0u, 1u}) {
+            const TextPage& page = i == 0 ? first : second;
+            const View view =
+                asset::test::turnedView(90, 40, {page.width / 2, page.height / 2}, 1, 0, 0, false);
+            EXPECT_LE(worst(canvas.draw(texture, i, page, view),
+                            asset::Scanner(asset::pageAsset(page, maps)).draw(view)),
+                      tolerance)
+                << i;
+        }
+    };
+    expectBoth();
+    const asset::Asset before = mono.asset();
+    first = pageOf(U"rifts");
+    texture.update(0, first, mono.asset());  // the same letters
+    expectBoth();
+    first = pageOf(U"QUITE OTHER");  // the font grows
+    texture.update(0, first, mono.asset());
+    expectBoth();
+    second = pageOf(U"longer than before");
+    texture.update(1, second, mono.asset());
+    expectBoth();
+    EXPECT_THROW(texture.update(2, first, mono.asset()), std::out_of_range);
+    EXPECT_THROW(texture.update(0, pageOf(U"Z@"), before), std::invalid_argument);
+    expectBoth();
+}
+
+TEST_F(Gl, PagesStandBesidePictures) {
+    font::FontMaps mono = dejavu("DejaVuSansMono.ttf");
+    font::CellText text;
+    text.columns = text.rows = 1;
+    text.text = U"M";
+    const TextPage page = font::Typesetter::cells(mono, text);
+    asset::Asset square;
+    square.width = square.height = 1;
+    square.maps = {{0, 0, 1, asset::Entry::make(asset::Entry::Kind::Solid, 1), 0}};
+    square.paints = {{}, {0, 0, 0x3F800000u, 0x3F800000u}};
+    square.commands = {asset::Command{}};
+    SampledTexture picture(square);
+    TextTexture letter(mono.asset(), {page});
+    test::ShaderCanvas canvas(textInclude({square}), R"(
+uniform Vtm page, picture;
+vec4 shade(vec2 pixel) {
+    vec2 st = pixel / 32.0;
+    vec4 below = vtm_sample(picture, st), ink = vtm_sample(page, st);
+    return ink + below * (1.0 - ink.a);
+})");
+    picture.bind(canvas.program(), "picture", 0);
+    letter.bind(canvas.program(), "page", 2, 0);
+    const Raster drawn = canvas.draw(32, 32);
+    const asset::Scanner scanner(asset::pageAsset(page, mono.asset()));
+    View view{32, 32, {}};
+    view.toPixels = {32 / page.width, 0, 0, 32 / page.height, 0, 0};
+    const Raster ink = scanner.draw(view);
+    for (std::size_t i = 0; i < ink.rgba.size(); i += 4) {
+        EXPECT_NEAR(drawn.rgba[i + 3], 1, tolerance);
+        EXPECT_NEAR(drawn.rgba[i + 2], 1 - ink.rgba[i + 3], tolerance);
+    }
+    // An include without pages shows that it cannot draw one.
+    test::ShaderCanvas other(sampleInclude({square}), R"(
+uniform Vtm page;
+vec4 shade(vec2 pixel) { return vtm_sample(page, pixel / 8.0); })");
+    letter.bind(other.program(), "page", 0, 0);
+    const Raster magenta = other.draw(8, 8);
+    EXPECT_EQ(magenta.rgba[0], 1);
+    EXPECT_EQ(magenta.rgba[1], 0);
+}
+
+}  // namespace
+}  // namespace vtm::gl

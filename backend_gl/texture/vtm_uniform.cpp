@@ -1,0 +1,173 @@
+#include "backend_gl/texture/vtm_uniform.hpp"
+
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "backend_gl/core/constants.hpp"
+#include "backend_gl/core/requirements.hpp"
+#include "backend_gl/core/turns.hpp"
+#include "backend_gl/texture/sample_include.hpp"
+#include "backend_gl/upload/asset_texels.hpp"
+
+namespace vtm::gl {
+
+namespace {
+
+using asset::AssetView;
+using asset::Texel;
+using asset::Wrap;
+
+/// Fills of materials name them by their key, since a program may know those of several assets.
+std::vector<Texel> dataOf(const AssetView& asset) {
+    std::vector<Texel> data(asset.data.begin(), asset.data.end());
+    for (const asset::Paint& paint : asset.paints)
+        for (std::uint32_t i = 0; asset::isProgram(paint) && i < paint[1]; ++i) {
+            const auto in = std::bit_cast<asset::Instruction>(asset.data[paint[0] + i]);
+            if (in.op == asset::Op::Material)
+                data[in.argument + 1][2] = materialKey(asset.materials[asset.data[in.argument + 1][2]]);
+        }
+    return data;
+}
+
+/// Programs with their turns in the word that is free.
+std::vector<asset::Paint> paintsOf(const AssetView& asset) {
+    std::vector<asset::Paint> paints(asset.paints.begin(), asset.paints.end());
+    const std::vector<std::uint32_t> turns = programTurns(asset, ImageTurns::CountedByShaders);
+    for (std::size_t i = 0; i < paints.size(); ++i)
+        if (asset::isProgram(paints[i]))
+            paints[i][2] = turns[i];
+    return paints;
+}
+
+/// Two texels a symbol: the record, with the map's index unused; then the map's root and its first tree.
+std::vector<Texel> symbolsOf(const AssetView& asset) {
+    std::vector<Texel> texels;
+    for (const asset::Symbol& symbol : asset.symbols) {
+        const asset::Map& map = asset.maps[symbol.map];
+        texels.push_back(std::bit_cast<Texel>(symbol));
+        texels.push_back({map.root.bits, map.instances, 0, 0});
+    }
+    return texels;
+}
+
+}  // namespace
+
+std::vector<Texel> recordTexels(const AssetView& asset, std::span<const Texel> imageList, Parts& parts) {
+    std::vector<Texel> texels;
+    const std::vector<Texel> data = dataOf(asset);
+    parts.nodes = appendTexels(texels, asset.nodes);
+    parts.leaves = appendTexels(texels, asset.leaves);
+    parts.pieces = appendTexels(texels, asset.pieces);
+    parts.paints = appendTexels<asset::Paint>(texels, paintsOf(asset));
+    parts.data = appendTexels<Texel>(texels, data);
+    parts.images = appendTexels<Texel>(texels, imageList);
+    parts.rampSums = appendTexels<Texel>(texels, rampSums(asset));
+    parts.instanceTrees = appendTexels(texels, asset.instanceTrees);
+    parts.instances = appendTexels(texels, asset.instances);
+    parts.symbols = appendTexels<Texel>(texels, symbolsOf(asset));
+    parts.palettes = appendTexels(texels, asset.palettes);
+    return texels;
+}
+
+TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter) {
+    const asset::PyramidSize& size = prefilter.size;
+    const int largest = limit(GL_MAX_TEXTURE_SIZE);
+    if (int(size.width) > largest || int(size.height) > largest)
+        throw GlError(fmt::format("prefilter of {} x {} texels: the driver's limit is {} per side",
+                                  size.width, size.height, largest));
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    TextureHandle texture(id);
+    glBindTexture(GL_TEXTURE_2D, id);
+    glTexStorage2D(GL_TEXTURE_2D, GLsizei(size.levels()), GL_RGBA8, GLsizei(size.width),
+                   GLsizei(size.height));
+    for (unsigned l = 0; l < size.levels(); ++l) {
+        const asset::PyramidSize level = size.level(l);
+        glTexSubImage2D(GL_TEXTURE_2D, GLint(l), 0, 0, GLsizei(level.width), GLsizei(level.height), GL_RGBA,
+                        GL_UNSIGNED_BYTE, prefilter.texels.data() + size.texelsBefore(l));
+    }
+    checkErrors("upload of a prefilter");
+    return texture;
+}
+
+namespace {
+
+GLint wrapMode(Wrap wrap) {
+    return wrap == Wrap::Repeat ? GL_REPEAT : wrap == Wrap::Mirror ? GL_MIRRORED_REPEAT : GL_CLAMP_TO_EDGE;
+}
+
+/// Trilinear. Beyond a border the shader itself makes it transparent.
+SamplerHandle makeSampler(Wrapping wrapping) {
+    GLuint id = 0;
+    glGenSamplers(1, &id);
+    SamplerHandle sampler(id);
+    glSamplerParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glSamplerParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(id, GL_TEXTURE_WRAP_S, wrapMode(wrapping.s));
+    glSamplerParameteri(id, GL_TEXTURE_WRAP_T, wrapMode(wrapping.t));
+    return sampler;
+}
+
+}  // namespace
+
+GLuint Samplers::of(Wrapping wrapping) {
+    SamplerHandle& found = samplers_[unsigned(wrapping.s) * wrapCount + unsigned(wrapping.t)];
+    if (found.get() == 0)
+        found = makeSampler(wrapping);
+    return found.get();
+}
+
+void VtmUniform::set(GLuint program, const std::string& name, Wrapping wrapping) const {
+    const auto at = [&](const char* member) {
+        return glGetUniformLocation(program, (name + '.' + member).c_str());
+    };
+    glUniform4ui(at("sections"), parts.leaves, parts.pieces, parts.paints, parts.data);
+    glUniform1ui(at("imageSection"), parts.images);
+    glUniform1ui(at("rampSums"), parts.rampSums);
+    glUniform1ui(at("nodes"), parts.nodes);
+    glUniform1ui(at("root"), map.root.bits);
+    glUniform1ui(at("features"), flags);
+    glUniform2f(at("size"), float(width), float(height));
+    glUniform3f(at("square"), float(map.x), float(map.y), float(map.side));
+    glUniform2f(at("prefilterTexels"), float(prefilterSize.width), float(prefilterSize.height));
+    glUniform2i(at("wrapping"), int(wrapping.s), int(wrapping.t));
+    glUniform1ui(at("page"), page);
+    glUniform1ui(at("instances"), map.instances);
+    glUniform4ui(at("placed"), parts.instanceTrees, parts.instances, parts.symbols, parts.palettes);
+}
+
+Binding::Binding(GLuint program, const std::string& name, unsigned firstUnit, unsigned units)
+    : savedProgram_(limit(GL_CURRENT_PROGRAM)),
+      savedUnit_(limit(GL_ACTIVE_TEXTURE)),
+      program_(program),
+      name_(name),
+      firstUnit_(firstUnit) {
+    checkErrors("something before a texture was bound");
+    const unsigned maximum = unsigned(limit(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
+    if (firstUnit + units > maximum || firstUnit > maximum)
+        throw GlError(fmt::format("'{}' needs texture units {} to {}: the driver has {}", name, firstUnit,
+                                  firstUnit + units - 1, maximum));
+    if (glGetUniformLocation(program, (name + ".texels").c_str()) < 0)
+        throw GlError(fmt::format("program {} has no 'uniform Vtm {}', or does not use it", program, name));
+    glUseProgram(program);
+}
+
+Binding::~Binding() {
+    // One that was deleted while it was current is gone once another is.
+    glUseProgram(glIsProgram(GLuint(savedProgram_)) ? GLuint(savedProgram_) : 0);
+    glActiveTexture(GLenum(savedUnit_));
+}
+
+void Binding::texture(const char* member, unsigned unit, GLuint texture, GLuint sampler) const {
+    unused(member, unit);
+    glActiveTexture(GL_TEXTURE0 + firstUnit_ + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glBindSampler(firstUnit_ + unit, sampler);
+}
+
+void Binding::unused(const char* member, unsigned unit) const {
+    glUniform1i(glGetUniformLocation(program_, (name_ + '.' + member).c_str()), GLint(firstUnit_ + unit));
+}
+
+}  // namespace vtm::gl
