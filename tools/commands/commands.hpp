@@ -14,6 +14,7 @@ void addCompile(CLI::App& app, int& exitCode);
 void addInfo(CLI::App& app, int& exitCode);
 void addDiff(CLI::App& app, int& exitCode);
 void addNormalize(CLI::App& app, int& exitCode);
+void addFont(CLI::App& app, int& exitCode);
 void addTrace(CLI::App& app, int& exitCode);
 
 }  // namespace vtm::tools

@@ -130,6 +130,7 @@ void addSubcommands(CLI::App& app, int& exitCode) {
     addInfo(app, exitCode);
     addDiff(app, exitCode);
     addNormalize(app, exitCode);
+    addFont(app, exitCode);
     addTrace(app, exitCode);
     for (CLI::App* command : app.get_subcommands({})) {
         addQuiet(*command);

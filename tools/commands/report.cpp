@@ -48,6 +48,7 @@ Json figures(const asset::Asset& asset) {
             {"fallback_leaves", asset.fallbackLeaves},
             {"regions", summary.regions},
             {"instances", summary.instances},
+            {"glyphs", summary.glyphs},
             {"max_depth", summary.maxDepth}};
 }
 
