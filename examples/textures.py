@@ -18,6 +18,14 @@ except ImportError as missing:
 HERE = pathlib.Path(__file__).parent
 
 
+FONTS = pathlib.Path("/usr/share/fonts/truetype/dejavu")
+INPUTS = {
+    "animated_shape": [],
+    "book": [FONTS / "DejaVuSerif.ttf", *sorted((HERE.parent / "docs").glob("*.md"))],
+    "terminal": [FONTS / "DejaVuSansMono.ttf", HERE / "terminal.cpp"],
+}
+
+
 def check(condition, words):
     if not condition:
         sys.exit(f"wrong: {words}")
@@ -64,8 +72,11 @@ def animated_shape(pixels):
 def main():
     program, out = sys.argv[1:]
     name = pathlib.Path(program).name
-    folder = [] if name == "animated_shape" else [HERE]
-    subprocess.run([program, *folder, out], check=True)
+    inputs = INPUTS.get(name, [HERE])
+    if any(not path.exists() for path in inputs):
+        print(f"skipped: {inputs[0]} is absent")
+        sys.exit(77)
+    subprocess.run([program, *inputs, out], check=True)
     globals()[name](numpy.asarray(Image.open(out).convert("RGB")))
 
 

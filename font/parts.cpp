@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include <vtm/asset/asset.hpp>
 #include "font/contact.hpp"
 
 namespace vtm::font {
@@ -78,19 +79,31 @@ Path mapped(const Path& path, double scale, Point by) {
     return result;
 }
 
+namespace {
+
+Part partOf(const Path& path) {
+    const Point first = std::get<scene::MoveTo>(path.front()).to;
+    return {mapped(path, 1, -first), first};
+}
+
+}  // namespace
+
 std::vector<Part> partsOf(const Path& outline, double em) {
+    constexpr std::size_t maxContours = 1000;  // each is compared with each; nothing is shared by such glyphs
     const std::vector<Path> contours = contoursOf(outline);
+    if (contours.size() > maxContours)
+        return {partOf(outline)};
     const std::vector<std::size_t> groups = groupsOf(contours, em);
     std::map<std::size_t, Path> paths;
     for (std::size_t i = 0; i < contours.size(); ++i) {
         Path& path = paths[groups[i]];
         path.insert(path.end(), contours[i].begin(), contours[i].end());
     }
+    if (paths.size() > asset::maxGlyphParts)
+        return {partOf(outline)};
     std::vector<Part> parts;
-    for (const auto& [group, path] : paths) {
-        const Point first = std::get<scene::MoveTo>(path.front()).to;
-        parts.push_back({mapped(path, 1, -first), first});
-    }
+    for (const auto& [group, path] : paths)
+        parts.push_back(partOf(path));
     return parts;
 }
 

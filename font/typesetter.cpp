@@ -249,35 +249,39 @@ namespace {
 bool isLineFeed(char32_t c) { return c == U'\n' || c == U'\r' || c == U'\u2028' || c == U'\u2029'; }
 bool isBlank(char32_t c) { return c == U' ' || c == U'\t' || isLineFeed(c); }
 
-/// Lines of a text: greedy, as many words as fit; blanks at the end stick out.
-struct LineEnd {
-    std::size_t shown, next;  ///< the characters that are drawn end, the next line begins
-};
-LineEnd lineEnd(std::u32string_view text, std::size_t first, const std::vector<bool>& breaks,
-                const std::vector<double>& advances, double room) {
-    const auto withoutBlanks = [&](std::size_t end) {
-        while (end > first && isBlank(text[end - 1]))
-            --end;
-        return end;
-    };
+/// Where the first paragraph ends: behind its line feed.
+std::size_t paragraphEnd(std::u32string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (isLineFeed(text[i]))
+            return text.substr(i, 2) == U"\r\n" ? i + 2 : i + 1;
+    return text.size();
+}
+
+/// Where the line of a paragraph ends that begins at `first`: greedy, as many words as fit; blanks stick out.
+std::size_t lineEnd(std::u32string_view text, std::size_t first, const std::vector<bool>& breaks,
+                    const std::vector<double>& advances, double room) {
     double width = 0;
     std::size_t allowed = first;
     for (std::size_t i = first; i < text.size(); ++i) {
-        if (isLineFeed(text[i])) {
-            const bool isPair = text[i] == U'\r' && i + 1 < text.size() && text[i + 1] == U'\n';
-            return {withoutBlanks(i), i + (isPair ? 2 : 1)};
-        }
         width += advances[i];
         if (width > room && !isBlank(text[i]) && allowed > first)
-            return {withoutBlanks(allowed), allowed};
+            return allowed;
         if (breaks[i])
             allowed = i + 1;
     }
-    return {withoutBlanks(text.size()), text.size()};
+    return text.size();
+}
+
+std::u32string_view withoutBlanksAtEnd(std::u32string_view line) {
+    while (!line.empty() && isBlank(line.back()))
+        line.remove_suffix(1);
+    return line;
 }
 
 void check(const TextBox& box, const TextStyle& style) {
     require(isPositive(style.size) && isPositive(style.lineHeight), "typesetter: sizes must be positive");
+    for (const Feature& feature : style.features)
+        tagOf(feature.tag);
     for (const double length : {box.x, box.y, box.width, box.height})
         require(std::isfinite(length), "typesetter: a box's lengths must be finite");
 }
@@ -299,32 +303,36 @@ Typesetter::~Typesetter() = default;
 
 std::size_t Typesetter::add(std::u32string_view text, const TextBox& box, const TextStyle& style) {
     check(box, style);
-    const text::Font& font = *impl_->font.font;
-    const double ascent = font.metrics().ascent / font.unitsPerEm(),
-                 descent = font.metrics().descent / font.unitsPerEm();
-    const std::vector<bool> breaks = text::lineBreaks(std::u32string(text), style.language);
-    const std::vector<double> advances = impl_->advancesOf(text, style);
-    const double room = (style.vertical ? box.height : box.width) / style.size,
-                 across = (style.vertical ? box.width : box.height) / style.size;
+    const double size = style.size, room = (style.vertical ? box.height : box.width) / size,
+                 across = (style.vertical ? box.width : box.height) / size;
+    const text::FontMetrics& metrics = impl_->font.font->metrics();
+    const double ascent = metrics.ascent / impl_->font.em(), descent = metrics.descent / impl_->font.em();
     // A vertical line is as wide as high letters lying on their sides.
     const double before = style.vertical ? 0.5 * (ascent + descent) : ascent,
                  after = style.vertical ? before : descent;
     constexpr double rounding = 1e-9;
-    std::size_t first = 0;
-    for (double baseline = before; first < text.size() && baseline + after <= across + rounding;
-         baseline += style.lineHeight) {
-        limits::check();
-        const LineEnd end = lineEnd(text, first, breaks, advances, room);
-        double length = 0;
-        const std::vector<LineGlyph> glyphs =
-            impl_->glyphsOf(text.substr(first, end.shown - first), style, length);
-        const double along = startOf(style.align, style.rightToLeft && !style.vertical, room, length);
-        const dvec2 start =
-            style.vertical ? dvec2(box.width / style.size - baseline, along) : dvec2(along, baseline);
-        impl_->place(glyphs, dvec2(box.x, box.y) + start * style.size, style);
-        first = end.next;
+    double baseline = before;
+    const auto isFull = [&] { return baseline + after > across + rounding; };
+    std::size_t set = 0;
+    while (set < text.size() && !isFull()) {
+        const std::u32string_view paragraph = text.substr(set, paragraphEnd(text.substr(set)));
+        const std::vector<bool> breaks = text::lineBreaks(std::u32string(paragraph), style.language);
+        const std::vector<double> advances = impl_->advancesOf(paragraph, style);
+        std::size_t first = 0;
+        for (; first < paragraph.size() && !isFull(); baseline += style.lineHeight) {
+            limits::check();
+            const std::size_t end = lineEnd(paragraph, first, breaks, advances, room);
+            double length = 0;
+            const std::vector<LineGlyph> glyphs =
+                impl_->glyphsOf(withoutBlanksAtEnd(paragraph.substr(first, end - first)), style, length);
+            const double along = startOf(style.align, style.rightToLeft && !style.vertical, room, length);
+            const dvec2 start = style.vertical ? dvec2(across - baseline, along) : dvec2(along, baseline);
+            impl_->place(glyphs, dvec2(box.x, box.y) + start * size, style);
+            first = end;
+        }
+        set += first;
     }
-    return first;
+    return set;
 }
 
 TextPage Typesetter::page() const { return impl_->page; }

@@ -61,7 +61,7 @@ public:
         for (const std::array<Texel, 4>& layer : layers_)
             texels_.insert(texels_.end(), layer.begin(), layer.end());
         const asset::PageColor ground = premultiplied(page_.ground);
-        texels_[0] = {GLuint(layers_.size()), layers, symbols, 0};
+        texels_[0] = {GLuint(layers_.size()), layers, symbols, page_.cells ? 3u : 2u};
         texels_[1] = floats(ground[0], ground[1], ground[2], ground[3]);
         return std::move(texels_);
     }
@@ -98,6 +98,8 @@ private:
             texels_.push_back({root, symbol.next, unorm(0), unorm(2)});
             texels_.push_back(
                 floats(place.linear[0].x, place.linear[0].y, place.linear[1].x, place.linear[1].y));
+            if (!page_.cells)
+                continue;
             const dvec2 centre = inCell(place(dvec2(0.5)));
             texels_.push_back(floats(centre.x, centre.y, 0, 0));
         }

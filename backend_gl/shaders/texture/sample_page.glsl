@@ -1,7 +1,7 @@
 // What a footprint has of a page of text: glyphs in the cells of a grid, whose maps are a font's. docs/fonts.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl, sample_tree.glsl; TEXT_PAGES; constant leafExtent.
 // Twin of: page_texels.cpp, which writes the texels. Lengths are in sides of the page's square, floats unless stated:
-//     page      number of layers, first texel of the layers, of the symbols, unused (uints)
+//     page      number of layers, first texel of the layers, of the symbols, texels of a symbol (uints)
 //               ground, premultiplied
 //     layer     columns, rows, first texel of the cells, of the glyphs (uints)
 //               min corner of the first cell, size of a cell
@@ -9,7 +9,7 @@
 //               1 if a cell names its symbol, colours or 0, palette, unused (uints)
 //     symbol    root of the map, next symbol in the cell or 0, colour over the ground as four 16-bit unorms (uints)
 //               linear map from the map's square, columns
-//               centre of that square in its cell, unused
+//               centre of that square in its cell, unused; on pages of cells only
 //     cells     8 bits: symbol, 0 for none; or 32 bits: first glyph, 2^24 times the number of glyphs
 //     glyph     8 bytes: centre x and y in 24 bits each, over [-1/2, 3/2); symbol in the high bytes
 // Exports: addPage.
@@ -76,7 +76,7 @@ bool stepGlyphs(Vtm vtm, CopyFootprint part, PageLayer layer, inout GlyphWalk wa
 }
 
 // Goes on to the next glyph that the footprint meets.
-bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uint symbols, inout GlyphWalk walk,
+bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout GlyphWalk walk,
                out CopyFootprint part, out uint root) {
     uint symbol;
     vec2 centre;
@@ -84,7 +84,7 @@ bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uint symbols, ino
     while (!found && spend(1.0) && stepGlyphs(vtm, around, layer, walk, symbol, centre)) {
         if (symbol == 0u)
             continue;
-        uint place = symbols + 3u * symbol;
+        uint place = page.z + page.w * symbol;
         uvec4 record = texelAt(vtm, place);
         vec4 linear = uintBitsToFloat(texelAt(vtm, place + 1u));
         if (layer.kinds.x == 1u) {
@@ -99,11 +99,11 @@ bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uint symbols, ino
     return found;
 }
 
-void addLayer(Vtm vtm, CopyFootprint around, PageLayer layer, uint symbols, inout vec4 sum) {
+void addLayer(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout vec4 sum) {
     GlyphWalk walk = walkGlyphs(around, layer);
     CopyFootprint part = around;
     uint root = 0u;
-    while (spend(1.0) && nextGlyph(vtm, around, layer, symbols, walk, part, root))
+    while (spend(1.0) && nextGlyph(vtm, around, layer, page, walk, part, root))
         addTree(vtm, part, root, sum);
 }
 
@@ -121,7 +121,7 @@ void addPage(Vtm vtm, CopyFootprint part, inout vec4 sum) {
         uint at = page.y + 4u * i;
         PageLayer layer = PageLayer(texelAt(vtm, at), texelAt(vtm, at + 3u), uintBitsToFloat(texelAt(vtm, at + 1u)),
                                     uintBitsToFloat(texelAt(vtm, at + 2u)));
-        addLayer(vtm, part, layer, page.z, sum);
+        addLayer(vtm, part, layer, page, sum);
     }
     onPage = false;
 }

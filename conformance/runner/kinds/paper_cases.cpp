@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/core.h>
 
+#include <vtm/asset/container.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/session.hpp>
+#include <vtm/font/typesetter.hpp>
+#include <vtm/gl/text_texture.hpp>
+#include <vtm/image/codec.hpp>
 #include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
 #include <vtm/scene/scene.hpp>
 #include <vtm/vtmtree.hpp>
 #include "conformance/cases/support.hpp"
@@ -241,12 +247,54 @@ Outcome authored(const Scene& scene) {
     return expect(writeTree(back) == text, "the text is not written as it was read");
 }
 
-Outcome notHere(const Scene&) { return Outcome::failed("there is nothing yet that could be tried"); }
+/// 13: 256 characters of a font take the paper's 128 KB, a page of text 8 bytes a character, cells of one
+/// size 1 byte; the scene's lines, set again, look the same.
+Outcome fontEngine(const Scene& scene) {
+    constexpr const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf";
+    if (!std::filesystem::exists(file))
+        return Outcome::skipped(fmt::format("{} is not installed", file));
+    font::FontMaps font(image::readFile(file));
+    std::u32string latin;
+    for (char32_t c = U' '; latin.size() < 256; ++c)
+        if (font.advanceOf(c))
+            latin += c;
+    font.addCharacters(latin);
+    if (const std::size_t bytes = asset::write(font.asset()).size(); bytes > 128 << 10)
+        return Outcome::failed(fmt::format("256 glyphs take {} bytes", bytes));
+
+    font::Typesetter lines(font, scene.width, scene.height);
+    constexpr double size = 56, lineHeight = 72;
+    lines.add(U"Vector\nTexture\nMaps", {16, lineHeight - font.ascent() * size, scene.width, scene.height},
+              {.size = size, .lineHeight = lineHeight / size});
+    const asset::View view = cases::wholePicture(scene, raster);
+    const Raster drawn = asset::Scanner(asset::pageAsset(lines.page(), font.asset())).draw(view);
+    if (const double d =
+            compare::compare(drawn, reference::render(scene, {view.width, view.height, view.toPixels})).max;
+        !(d <= 4))
+        return Outcome::failed(fmt::format("the lines differ by {}", d));
+
+    font::Typesetter page(font, 600, 800);
+    std::u32string text;
+    while (text.size() < 5000)
+        text += U"Pages of text are tables over one font. ";
+    page.add(text, {40, 40, 520, 720}, {.size = 10});
+    font::CellText cells{.columns = 100, .rows = 50, .text = text.substr(0, 5000)};
+    const std::vector<asset::TextPage> pages{page.page(), font::Typesetter::cells(font, cells)};
+    renderer();  // a current context
+    const gl::TextTexture texture(font.asset(), pages);
+    constexpr double symbolBytes = 48;  // at most: a page's symbols stand beside its characters
+    for (const auto& [i, bytes] : {std::pair<std::size_t, double>(0, 8), {1, 1}})
+        if (const double each =
+                (double(texture.bytes(i)) - symbolBytes * double(pages[i].symbols.size())) / 5000;
+            each > bytes * 1.05)
+            return Outcome::failed(fmt::format("{:.2f} bytes a character instead of {}", each, bytes));
+    return Outcome::passed();
+}
 
 RowCheck checkOfRow(int row) {
-    constexpr RowCheck checks[] = {cubics,   twoFunctions, nullptr,  neededSideOnly, nested,    nullptr,
-                                   keepsInk, compressed,   earlyOut, lookup,         fourForms, nullptr,
-                                   notHere,  primitive,    traced,   dynamic,        authored,  automatic};
+    constexpr RowCheck checks[] = {cubics,     twoFunctions, nullptr,  neededSideOnly, nested,    nullptr,
+                                   keepsInk,   compressed,   earlyOut, lookup,         fourForms, nullptr,
+                                   fontEngine, primitive,    traced,   dynamic,        authored,  automatic};
     return row >= 1 && row <= int(std::size(checks)) ? checks[row - 1] : nullptr;
 }
 

@@ -59,11 +59,11 @@ std::u32string fromUtf8(std::string_view text);
 
 /// Text in cells of one size, as on a terminal.
 struct CellText {
-    unsigned columns = 0, rows = 0;    ///< > 0, at most 65536 each
-    std::u32string text;               ///< row by row; cells that it does not reach are blank
-    double size = 16;                  ///< page units an em, > 0
-    std::vector<std::uint8_t> colors;  ///< of the cells, in `palette`; empty: palette[0] everywhere
-    std::vector<Color> palette{{0, 0, 0, 1}};
+    unsigned columns = 0, rows = 0;         ///< > 0, at most 65536 each
+    std::u32string text = {};               ///< row by row; cells that it does not reach are blank
+    double size = 16;                       ///< page units an em, > 0
+    std::vector<std::uint8_t> colors = {};  ///< of the cells, in `palette`; empty: palette[0] everywhere
+    std::vector<Color> palette = {{0, 0, 0, 1}};
     Color ground{0, 0, 0, 0};
 };
 
