@@ -19,8 +19,8 @@ struct Part {
     PartKey key() const;
 };
 
-/// Of a path of closed subpaths without arcs; NonZero filled. Lengths are font units, `em` of them an em. One of more
-/// parts than a glyph may have stays whole.
+/// Of a path of closed subpaths without arcs; NonZero filled. Lengths are font units, `em` of them an em. One
+/// of more parts than a glyph may have stays whole.
 std::vector<Part> partsOf(const scene::Path& outline, double em);
 
 /// A path's points times `scale`, plus `by`. Without arcs.

@@ -31,8 +31,8 @@ vec4 shade(vec2 p) {
 
 TEST_F(Gl, EveryPermutationOfTheIncludeCompiles) {
     for (unsigned flags = 0; flags < Features::combinations; ++flags)
-        EXPECT_NO_THROW(
-            test::ShaderCanvas(sampleText(Features(flags), {flags % 3, flags % 16 == 5}, stripes), oneTexture))
+        EXPECT_NO_THROW(test::ShaderCanvas(sampleText(Features(flags), {flags % 3, flags % 16 == 5}, stripes),
+                                           oneTexture))
             << flags;
     // Three samplers each: 15 of the 16 that WebGL 2 guarantees.
     EXPECT_NO_THROW(test::ShaderCanvas(

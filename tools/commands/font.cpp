@@ -104,6 +104,8 @@ Json makeFont(const FontOptions& options) {
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
     warnOfMissing(options, missing);
     const asset::Asset asset = font.asset();
+    if (asset.glyphParts.empty() && font.glyphCount() > 1)
+        warn(fmt::format("{}: warning: none of these glyphs has an outline", nameOf(options.input)));
     const std::vector<std::uint8_t> bytes = asset::write(asset);
     writeOutput(options.output, bytes);
     const std::size_t made = font.glyphCount() - known;

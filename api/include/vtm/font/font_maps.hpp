@@ -34,10 +34,10 @@ struct Variation {
 };
 
 struct Options {
-    unsigned face = 0;                  ///< of a collection, from 0
+    unsigned face = 0;                       ///< of a collection, from 0
     std::vector<Variation> variations = {};  ///< of axes that the font does not have: ignored
-    /// Max distance of drawn and true outlines, ems; in [2^-22, 2^-8]. By default an eighth of a unit of fonts with
-    /// 2048 units an em: a hundredth of a pixel at 160 pixels an em, a sixteenth of one at 1024.
+    /// Max distance of drawn and true outlines, ems; in [2^-22, 2^-8]. By default an eighth of a unit of
+    /// fonts with 2048 units an em: a hundredth of a pixel at 160 pixels an em, a sixteenth of one at 1024.
     double tolerance = 1.0 / 16384;
     /// As compiler::Options has it, for a glyph that fills 1024 pixels; in [1, 1e6]. Glyphs are drawn small,
     /// so their bytes count for more.
