@@ -24,7 +24,7 @@ Asset extractMap(const AssetView& from, std::uint32_t map);
 std::uint16_t appendMap(const AssetView& from, Asset& asset);
 
 /// A map at a place of another map.
-struct Placement {
+struct PlacementInSquare {
     std::uint16_t map = 0;
     std::vector<std::uint16_t> paints;  ///< for the numbers of the map: paints[0] is the ground
     Affine2 toSquare;                   ///< from the map's [0, 1]² to that of the map around
@@ -32,7 +32,7 @@ struct Placement {
 
 /// Appends instances in trees, with the symbols and palettes that they need. Returns what becomes
 /// Map::instances of the map around; 0 for none. Throws TooManyInstances.
-std::uint32_t appendInstances(std::span<const Placement> placements, Asset& asset);
+std::uint32_t appendInstances(std::span<const PlacementInSquare> placements, Asset& asset);
 
 /// By how much rounding an instance moves a corner of [0, 1]² at most, along x or y, in sides of the square
 /// around: `linear` leads there.

@@ -69,6 +69,32 @@ def animated_shape(pixels):
         check(abs(drawn - area) < 0.002, f"frame {i} covers {drawn:.4f}, the curve {area:.4f}")
 
 
+def star_swarm(pixels):
+    # 1000 stars of two colours on one sky; each keeps its area whatever its place.
+    sky = (abs(pixels.astype(int) - numpy.array([0x12, 0x20, 0x3a])).max(axis=2) <= 1).mean()
+    check(0.75 < sky < 0.95, f"{sky:.3f} of the picture is sky")
+    gold = (abs(pixels.astype(int) - numpy.array([0xff, 0xd7, 0x5e])).max(axis=2) <= 1)
+    red = (abs(pixels.astype(int) - numpy.array([0xe8, 0x64, 0x3c])).max(axis=2) <= 1)
+    check(0.8 < gold.sum() / red.sum() < 4, "a third of the stars has its colours exchanged")
+    squares = (gold | red)[:600, :960].reshape(25, 24, 40, 24).any(axis=(1, 3))
+    check(squares.mean() > 0.7, f"a star in {squares.mean():.2f} of the squares")
+
+
+def book(pixels):
+    paper = pixels.min(axis=2) > 200
+    check(0.15 < paper.mean() < 0.6, "the book's paper")
+    # Lines of text on the left page: rows of the turned page alternate, and are not grey all over.
+    text = pixels[200:420, 120:400].astype(float).mean(axis=2)
+    check(text.std() > 20, "letters are dark on the paper")
+
+
+def terminal(pixels):
+    for name, channel in (("red marks", 0), ("blue numbers", 2)):
+        others = [c for c in range(3) if c != channel]
+        strong = pixels[:, :, channel].astype(int) - pixels[:, :, others].max(axis=2)
+        check((strong > 30).sum() > 200, name)
+
+
 def main():
     program, out = sys.argv[1:]
     name = pathlib.Path(program).name

@@ -99,7 +99,7 @@ void addSpecimen(Asset& asset) {
             shown.push_back(&glyph);
     const auto columns = std::max<std::size_t>(1, std::size_t(std::ceil(std::sqrt(double(shown.size())))));
     const double side = specimenCell * double(columns);
-    std::vector<asset::Placement> placements;
+    std::vector<asset::PlacementInSquare> placements;
     double stored = 0;
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const dvec2 origin =

@@ -221,15 +221,15 @@ std::uint32_t appendTrees(const std::vector<Instance>& instances, Asset& asset) 
 
 }  // namespace
 
-std::uint32_t appendInstances(std::span<const Placement> placements, Asset& asset) {
+std::uint32_t appendInstances(std::span<const PlacementInSquare> placements, Asset& asset) {
     if (placements.empty())
         return 0;
     std::map<std::uint16_t, Scales> scales;
-    for (const Placement& placement : placements)
+    for (const PlacementInSquare& placement : placements)
         scales[placement.map].add(largestCoefficient(placement.toSquare.linear));
     SymbolTable symbols(asset);
     std::vector<Instance> instances;
-    for (const Placement& placement : placements) {
+    for (const PlacementInSquare& placement : placements) {
         limits::check();
         const float scale = scales[placement.map].of(largestCoefficient(placement.toSquare.linear));
         instances.push_back(

@@ -120,7 +120,7 @@ public:
     }
 
     Asset make() {
-        std::vector<Placement> placements;
+        std::vector<PlacementInSquare> placements;
         forEachGlyph([&](const PageSymbol& symbol, dvec2 origin, const PageColor& color) {
             placements.push_back(placementOf(symbol, origin, color));
         });
@@ -167,7 +167,7 @@ private:
         return compose(toPage, asset::placeOf(map));
     }
 
-    Placement placementOf(const PageSymbol& symbol, dvec2 origin, const PageColor& color) {
+    PlacementInSquare placementOf(const PageSymbol& symbol, dvec2 origin, const PageColor& color) {
         const auto [map, isNew] = maps_.try_emplace(symbol.map, std::uint16_t(0));
         if (isNew)
             map->second = appendMap(extractMap(font_, symbol.map), asset_);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <vtm/asset/container.hpp>
+#include <vtm/asset/placements.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include "asset/testing.hpp"
 #include "backend_gl/core/gl.hpp"
@@ -368,6 +369,54 @@ TEST_F(Gl, AnIncludeForOtherAssetsIsSeenAtOnce) {
     const Raster raster = canvas.draw(8, 8);
     for (std::size_t i = 0; i < raster.rgba.size(); ++i)
         ASSERT_EQ(raster.rgba[i], i % 4 == 1 ? 0 : 1);  // magenta
+}
+
+/// An animation: a thousand discs move, and only their records are sent.
+TEST_F(Gl, ChangedPlacementsAreShownAtOnce) {
+    Asset ground = emptyAsset();
+    ground.width = ground.height = 64;
+    ground.maps = {{0, 0, 64, asset::Entry::make(asset::Entry::Kind::Solid, 1), 0}};
+    ground.paints = {{}, {0, 0, 0x3F000000u, 0x3F800000u}};
+    const asset::Placement one = asset::addPicture(ground, disc());
+    const auto frame = [&](double time) {
+        std::vector<asset::Placement> placements;
+        for (int i = 0; i < 1000; ++i) {
+            asset::Placement moved = one;
+            moved.paints[0] = 1;
+            const double angle = time + i, scale = 0.8 / 64;
+            const glm::dmat2 linear(scale * std::cos(angle), scale * std::sin(angle),
+                                    -scale * std::sin(angle), scale * std::cos(angle));
+            const glm::dvec2 middle(2.0 * (i % 31) + 2 + 0.4 * std::cos(time),
+                                    1.9 * (i / 31) + 1.5 + 0.3 * std::sin(time));
+            moved.toPicture = glm::dmat3x2(linear * one.toPicture[0], linear * one.toPicture[1],
+                                           linear * (one.toPicture[2] - glm::dvec2(32)) + middle);
+            placements.push_back(moved);
+        }
+        return asset::withPlacements(ground, placements);
+    };
+    SampledTexture texture(frame(0));
+    test::ShaderCanvas canvas(sampleInclude({frame(0)}), R"(
+uniform Vtm picture;
+uniform mat3 toPicture;
+vec4 shade(vec2 pixel) { return vtm_sample_proj(picture, toPicture * vec3(pixel, 1.0) / gl_FragCoord.w); })");
+    const std::size_t first = texture.update(frame(0.1), false);
+    for (const double time : {0.2, 0.5, 1.4}) {
+        const Asset now = frame(time);
+        const std::size_t sent = texture.update(now, false);
+        EXPECT_LT(sent, first);
+        EXPECT_GE(sent, 1000u * 16);
+        // The records of instances and the tree that finds them.
+        EXPECT_LE(sent, (now.instances.size() + 4 * now.nodes.size() + now.instanceTrees.size() + 64) * 16);
+        const View view = turnedView(60, 60, {32 + time, 30}, 12, 0.3);
+        const glm::dmat3 toPixels(glm::dvec3(view.toPixels[0], 0), glm::dvec3(view.toPixels[1], 0),
+                                  glm::dvec3(view.toPixels[2], 1));
+        canvas.set("toPicture", glm::dmat3(1.0 / 64, 0, 0, 0, 1.0 / 64, 0, 0, 0, 1) * glm::inverse(toPixels));
+        texture.bind(canvas.program(), "picture", 0);
+        EXPECT_LE(worst(canvas.draw(60, 60), asset::evaluate(now, view)), tolerance) << time;
+    }
+    EXPECT_EQ(texture.update(frame(1.4), false), 0u);
+    EXPECT_THROW(texture.update(everyPaint(), false), std::invalid_argument);
+    EXPECT_GT(texture.update(asset::withPlacements(ground, std::vector(1, one)), true), 0u);
 }
 
 }  // namespace

@@ -1,5 +1,12 @@
 #include <vtm/gl/sampled_texture.hpp>
 
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/features.hpp"
 #include "backend_gl/core/requirements.hpp"
 #include "backend_gl/core/state_guard.hpp"
@@ -12,6 +19,30 @@ namespace vtm::gl {
 namespace {
 
 using asset::AssetView;
+using asset::Texel;
+
+/// Whole rows.
+std::size_t roomOf(std::size_t texels) {
+    constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
+    return std::max<std::size_t>(1, (texels + columns - 1) / columns) * columns;
+}
+
+/// Where `next` differs from `before`, [first, end); what lies closely together is one range, as each is a
+/// call.
+std::vector<std::pair<std::size_t, std::size_t>> changedRanges(const std::vector<Texel>& before,
+                                                               const std::vector<Texel>& next) {
+    constexpr std::size_t gap = 32;
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        if (i < before.size() && before[i] == next[i])
+            continue;
+        if (!ranges.empty() && i - ranges.back().second < gap)
+            ranges.back().second = i + 1;
+        else
+            ranges.emplace_back(i, i + 1);
+    }
+    return ranges;
+}
 
 const asset::Map& onlyMap(const AssetView& asset) {
     if (asset.mode != asset::Mode::Exact)
@@ -34,13 +65,48 @@ struct SampledTexture::Impl {
         uniform.map = onlyMap(asset);
         uniform.flags = samplingFlags(features, {innerMapsOf(asset), false});
         uniform.prefilterSize = pyramid.size;
-        texels = texelTexture(recordTexels(asset, pictures.list, uniform.parts));
+        std::vector<Texel> all = recordTexels(asset, pictures.list, uniform.parts);
+        room = roomOf(all.size());
+        texels = texelTexture(std::move(all));
         if (features.has(Features::Image))
             images = imageTexture(std::move(pictures.rgba));
     }
 
+    std::size_t update(const AssetView& asset) {
+        const std::uint32_t flags = samplingFlags(featuresOf(asset), {innerMapsOf(asset), false});
+        if (flags != uniform.flags || !asset.images.empty())
+            throw std::invalid_argument(
+                "update of a texture: the asset has other kinds of paints, or maps nested more or less deep");
+        std::vector<Texel> next = recordTexels(asset, {}, uniform.parts);
+        uniform.width = asset.width;
+        uniform.height = asset.height;
+        uniform.map = onlyMap(asset);
+        finestPixel = asset.finestPixel;
+        const std::size_t sent = next.size() > room ? sendAll(next) : sendChanges(next);
+        records = std::move(next);
+        return sent * sizeof(Texel);
+    }
+
+    std::size_t sendAll(const std::vector<Texel>& next) {
+        room = roomOf(next.size());
+        texels = texelTexture(next);
+        return next.size();
+    }
+
+    std::size_t sendChanges(const std::vector<Texel>& next) const {
+        std::size_t sent = 0;
+        for (const auto& [first, end] : changedRanges(records, next)) {
+            updateTexels(texels.get(), first, std::span(next).subspan(first, end - first));
+            sent += end - first;
+        }
+        checkErrors("update of a texture");
+        return sent;
+    }
+
     std::optional<double> finestPixel;
     VtmUniform uniform;
+    std::size_t room = 0;        ///< texels that the texture holds
+    std::vector<Texel> records;  ///< those of the last update
     TextureHandle texels, prefilter, images;
     Samplers samplers;
 };
@@ -62,6 +128,26 @@ SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOpt
 SampledTexture::~SampledTexture() = default;
 SampledTexture::SampledTexture(SampledTexture&&) noexcept = default;
 SampledTexture& SampledTexture::operator=(SampledTexture&&) noexcept = default;
+
+std::size_t SampledTexture::update(const AssetView& asset, bool means) {
+    onlyMap(asset);
+    requireCurrentContext();
+    checkErrors("something before this texture was updated");
+    asset::Prefilter made;
+    asset::PrefilterView pyramid = asset.prefilter;
+    if (means && pyramid.size.empty()) {
+        made = asset::buildPrefilter(asset);
+        pyramid = {made.size, made.texels};
+    }
+    const StateContract contract;
+    const StateGuard guard(contract, true);
+    const std::size_t sent = impl_->update(asset);
+    if (means) {
+        impl_->prefilter = uploadPrefilter(pyramid);
+        impl_->uniform.prefilterSize = pyramid.size;
+    }
+    return sent;
+}
 
 std::optional<double> SampledTexture::finestPixel() const { return impl_->finestPixel; }
 

@@ -56,17 +56,18 @@ std::vector<Texel> symbolsOf(const AssetView& asset) {
 std::vector<Texel> recordTexels(const AssetView& asset, std::span<const Texel> imageList, Parts& parts) {
     std::vector<Texel> texels;
     const std::vector<Texel> data = dataOf(asset);
-    parts.nodes = appendTexels(texels, asset.nodes);
     parts.leaves = appendTexels(texels, asset.leaves);
     parts.pieces = appendTexels(texels, asset.pieces);
     parts.paints = appendTexels<asset::Paint>(texels, paintsOf(asset));
     parts.data = appendTexels<Texel>(texels, data);
     parts.images = appendTexels<Texel>(texels, imageList);
     parts.rampSums = appendTexels<Texel>(texels, rampSums(asset));
-    parts.instanceTrees = appendTexels(texels, asset.instanceTrees);
-    parts.instances = appendTexels(texels, asset.instances);
+    // What changes when instances move stands last (SampledTexture::update).
     parts.symbols = appendTexels<Texel>(texels, symbolsOf(asset));
     parts.palettes = appendTexels(texels, asset.palettes);
+    parts.nodes = appendTexels(texels, asset.nodes);
+    parts.instanceTrees = appendTexels(texels, asset.instanceTrees);
+    parts.instances = appendTexels(texels, asset.instances);
     return texels;
 }
 

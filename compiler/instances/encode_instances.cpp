@@ -13,14 +13,14 @@ namespace vtm::compiler {
 namespace {
 
 using asset::Asset;
-using asset::Placement;
+using asset::PlacementInSquare;
 using glm::dvec2;
 
 std::uint32_t appendGrid(const GridMap& grid, std::uint16_t inner, Asset& asset) {
     std::vector<std::uint16_t> numbers(grid.paints + 1);
     std::iota(numbers.begin(), numbers.end(), std::uint16_t(0));
     const glm::dmat2 linear(1.0 / double(blockTiles));
-    std::vector<Placement> tiles;
+    std::vector<PlacementInSquare> tiles;
     for (std::int64_t i = 0; i < blockTiles * blockTiles; ++i)
         tiles.push_back(
             {inner,
@@ -74,7 +74,7 @@ void append(const PlacedSymbols& placed, std::span<const std::uint16_t> paints, 
             const std::uint32_t trees = appendGrid(*grid, std::uint16_t(first + grid->map), asset);
             asset.maps[first + i].instances = trees;
         }
-    std::vector<Placement> placements;
+    std::vector<PlacementInSquare> placements;
     for (const PlacedSymbol& p : placed.placed) {
         std::vector<std::uint16_t> own;
         for (const PaintId paint : p.paints)

@@ -60,7 +60,7 @@ asset::Asset alone(const asset::Asset& font, const asset::Glyph& glyph) {
     asset.maps = {{0, 0, 3, asset::Entry::make(asset::Entry::Kind::Solid, 0), 0}};
     asset.paints = font.paints;
     asset.commands = {asset::Command{}};
-    std::vector<asset::Placement> placements;
+    std::vector<asset::PlacementInSquare> placements;
     for (std::uint32_t i = 0; i < glyph.partCount(); ++i) {
         const asset::GlyphPart& part = font.glyphParts[glyph.firstPart() + i];
         const asset::Map& map = font.maps[part.map];

@@ -7,6 +7,7 @@
 ///     down
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -47,6 +48,14 @@ public:
     ~SampledTexture();
     SampledTexture(SampledTexture&&) noexcept;
     SampledTexture& operator=(SampledTexture&&) noexcept;
+
+    /// Shows another asset instead, as one whose placements changed (vtm/asset/placements.hpp). Sends only
+    /// the records that differ from those of the update before, as long as they fit in the texture;
+    /// everything the first time. Returns the bytes sent. With `means`, the pyramid of means is made anew,
+    /// which costs more than all the rest; without, views from far away show the picture as it was. Throws as
+    /// the constructor does, and std::invalid_argument if the asset needs another include (sampleInclude) or
+    /// has images.
+    std::size_t update(const asset::AssetView& asset, bool means = true);
 
     /// How far the picture may be magnified: asset::Asset::finestPixel, in user units. A fragment whose
     /// footprint is narrower (the derivatives of st times the picture's width and height) sees boundaries
