@@ -83,7 +83,7 @@ LIBRARIES = {
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
     r"libdeflate\.h": {"image"},
     r"VG/.*|vtm/(vtm|vg|vg_image|gles)\.h": ANYWHERE,
-    r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "api/egl", "api/gl", "api/gles"},
+    r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "bench", "api/egl", "api/gl", "api/gles"},
     r"dlfcn\.h": {"api", "api/openvg", "api/egl"},
     r"stddef\.h|stdint\.h": {"api"},
     r"stdio\.h": {"api/egl", "tests"},
