@@ -20,6 +20,9 @@ struct CompileOptions {
     unsigned maxDepth = 5;
     /// The mip of a mask begins with 2^mipLog2 texels a side. In [0, 10].
     unsigned mipLog2 = 6;
+    /// Composes sequences of items as balanced trees, so that a pixel visits the nodes near it only. Without,
+    /// as in the paper, it visits all of them. Both draw the same picture.
+    bool balanced = true;
 };
 
 /// Cells of all masks, and masks, beyond these numbers are a compiler::LimitError.
@@ -30,6 +33,11 @@ struct CompileResult {
     CompileOptions options;
     /// The mask of each item, in painter's order (groups in depth).
     std::vector<std::uint32_t> maskOfItem;
+    /// Nodes with bounds, and the masks, [first, end), that these hold.
+    struct BoundedNode {
+        std::uint32_t node = 0, firstMask = 0, endMask = 0;
+    };
+    std::vector<BoundedNode> bounded;
     /// By mask: cells of the last level that would need more than two pieces and one operator.
     std::vector<std::size_t> approximated;
     std::vector<compiler::StageTime> stages;  ///< "masks"

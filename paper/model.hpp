@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
@@ -78,11 +79,20 @@ struct Side {
     friend bool operator==(const Side&, const Side&) = default;
 };
 
+/// A rectangle of the picture, in 65535ths of its width and of its height.
+struct Bounds {
+    std::array<std::uint16_t, 2> min{0, 0}, max{0xFFFF, 0xFFFF};
+    friend bool operator==(const Bounds&, const Bounds&) = default;
+};
+
 /// b·inside + (1 - b)·outside (row 4), b = opacity · coverage of the mask.
 struct Node {
     std::uint32_t mask = noIndex;  ///< none: coverage 1
     float opacity = 1;             ///< in [0, 1]
     Side inside, outside;
+    /// Instead of mask and opacity: b is 1 where a mask within these bounds may cover some of a pixel, else
+    /// 0. So a pixel steps over a whole sequence of nodes that lies elsewhere.
+    std::optional<Bounds> bounds = std::nullopt;
 };
 
 /// The most nodes that wait while a pixel is computed: a shader's array is of fixed size. Painter's

@@ -87,7 +87,6 @@ protected:
         ASSERT_NO_THROW(asset::validate(asset));
         ASSERT_EQ(asset.commands.size(), 1u);
         EXPECT_EQ(asset.commands[0].kind, asset::Command::Kind::DrawMap);
-        EXPECT_EQ(asset.maps.size(), 1u);
         expectAgreement(scene, asset, reference::Mode::Exact);
     }
 

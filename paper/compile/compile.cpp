@@ -7,9 +7,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include <vtm/asset/container.hpp>
 #include "compiler/lower/paints.hpp"
@@ -25,6 +27,21 @@ MaskOptions maskOptions(const Asset& asset, const CompileOptions& o) {
             o.tolerance * std::max(asset.width, asset.height),
             o.maxDepth,
             o.mipLog2};
+}
+
+/// Of the masks [first, end): their squares lie within.
+Bounds boundsOf(const Asset& asset, std::uint32_t first, std::uint32_t end) {
+    constexpr double steps = 0xFFFF;
+    glm::dvec2 min(1), max(0);
+    const glm::dvec2 size(asset.width, asset.height);
+    for (std::uint32_t i = first; i < end; ++i) {
+        const Mask& mask = asset.masks[i];
+        min = glm::min(min, glm::dvec2(mask.x, mask.y) / size);
+        max = glm::max(max, (glm::dvec2(mask.x, mask.y) + mask.side) / size);
+    }
+    const auto stored = [&](double place) { return std::uint16_t(std::clamp(place, 0.0, steps)); };
+    return {{stored(std::floor(min.x * steps)), stored(std::floor(min.y * steps))},
+            {stored(std::ceil(max.x * steps)), stored(std::ceil(max.y * steps))}};
 }
 
 /// The scene's paints as the palette of an asset.
@@ -95,22 +112,51 @@ private:
             ++missing_[{"blend modes", "drawn as normal"}];
         if (g.mask)
             ++missing_[{"masks by luminance or alpha", "drawn without"}];
-        std::uint32_t inside = rest;
-        for (const scene::Node& node : g.children) {
-            limits::check();
-            if (const auto* item = std::get_if<scene::Item>(&node.value))
-                inside = this->item(*item, inside);
-            else if (const auto* chosen = std::get_if<scene::Select>(&node.value))
-                inside = select(*chosen, inside);
-            else
-                inside = group(std::get<scene::Group>(node.value), inside);
-        }
+        std::uint32_t inside = sequence(g.children, rest);
         if (inside == rest)
             return rest;
         // A group with normal blending is as if its children stood in its place, so o G + (1 - o) T.
         if (g.opacity < 1)
             inside = push({noIndex, g.opacity, {0, inside, false}, {0, rest, false}});
         return g.clip ? clipped(*g.clip, inside, rest) : inside;
+    }
+
+    /// Painter's order. A part of a long sequence stands behind a node that knows its bounds, and so on down.
+    std::uint32_t sequence(std::span<const scene::Node> nodes, std::uint32_t rest) {
+        constexpr std::size_t parts = 4;
+        if (nodes.size() <= parts || !result_.options.balanced) {
+            for (const scene::Node& node : nodes)
+                rest = shown(node, rest);
+            return rest;
+        }
+        for (std::size_t i = 0; i < parts; ++i) {
+            const std::size_t first = nodes.size() * i / parts, end = nodes.size() * (i + 1) / parts;
+            const auto firstMask = std::uint32_t(result_.asset.masks.size());
+            const std::uint32_t inside = sequence(nodes.subspan(first, end - first), rest);
+            if (end - first > 1 && inside != rest)
+                rest = bounded(inside, rest, firstMask);
+            else
+                rest = inside;
+        }
+        return rest;
+    }
+
+    std::uint32_t bounded(std::uint32_t inside, std::uint32_t rest, std::uint32_t firstMask) {
+        Node node{noIndex, 1, {0, inside, false}, {0, rest, false}};
+        const auto endMask = std::uint32_t(result_.asset.masks.size());
+        node.bounds = boundsOf(result_.asset, firstMask, endMask);
+        const std::uint32_t index = push(node);
+        result_.bounded.push_back({index, firstMask, endMask});
+        return index;
+    }
+
+    std::uint32_t shown(const scene::Node& node, std::uint32_t rest) {
+        limits::check();
+        if (const auto* item = std::get_if<scene::Item>(&node.value))
+            return this->item(*item, rest);
+        if (const auto* chosen = std::get_if<scene::Select>(&node.value))
+            return select(*chosen, rest);
+        return group(std::get<scene::Group>(node.value), rest);
     }
 
     /// The model itself: a mask and two sides.
@@ -196,6 +242,12 @@ CompileResult compile(const scene::Scene& scene, const CompileOptions& options) 
     try {
         validate(result.asset);
     } catch (const asset::FormatError& error) {
+        // Trees let more nodes wait than a sequence does.
+        if (!result.bounded.empty()) {
+            CompileOptions plain = options;
+            plain.balanced = false;
+            return compile(scene, plain);
+        }
         throw compiler::LimitError(std::string("paper mode cannot represent this picture: ") + error.what());
     }
     if (const std::size_t cells = result.approximatedCells(); cells > 0)
@@ -212,6 +264,9 @@ void rebuildMask(CompileResult& result, std::size_t item, const scene::Item& cha
                          maskOptions(result.asset, result.options));
     result.asset.masks[index] = std::move(made.mask);
     result.approximated[index] = made.approximated;
+    for (const CompileResult::BoundedNode& b : result.bounded)
+        if (index >= b.firstMask && index < b.endMask)
+            result.asset.nodes[b.node].bounds = boundsOf(result.asset, b.firstMask, b.endMask);
 }
 
 }  // namespace vtm::paper

@@ -69,11 +69,20 @@ private:
     void visit(const Pending::Entry& entry, Pending& pending) {
         const Node& node = asset_.nodes[entry.node];
         ++sample_.cost.nodes;
-        double b = node.opacity;
+        double b = node.bounds ? (isNear(*node.bounds) ? 1.0 : 0.0) : double(node.opacity);
         if (b > 0 && node.mask != noIndex)
             b *= maskCoverage(asset_.masks[node.mask], point_, pixel_, sample_.cost);
         show(node.inside, entry.weight * b, pending);
         show(node.outside, entry.weight * (1 - b), pending);
+    }
+
+    /// Masks cover nothing of pixels that are further from their squares (isFar in mask.cpp).
+    bool isNear(const Bounds& bounds) const {
+        const dvec2 unit = dvec2(asset_.width, asset_.height) / 65535.0;
+        const dvec2 reach(2 * pixel_.longer);
+        const dvec2 min = unit * dvec2(bounds.min[0], bounds.min[1]) - reach,
+                    max = unit * dvec2(bounds.max[0], bounds.max[1]) + reach;
+        return point_.x > min.x && point_.y > min.y && point_.x < max.x && point_.y < max.y;
     }
 
     /// Row 4: a side without weight is not evaluated.

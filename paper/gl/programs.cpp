@@ -6,6 +6,7 @@
 #include "backend_gl/core/shader_text.hpp"
 #include "paper/evaluate.hpp"
 #include "paper/gl/shader_text.hpp"
+#include "paper/gl/texels.hpp"
 
 namespace vtm::paper {
 
@@ -14,9 +15,10 @@ namespace {
 /// The numbers that C++ and the shaders share.
 std::string constants() {
     return fmt::format(
-               "const uint paperNone = {}u;\nconst uint paperIntersection = {}u;\nconst int paperPending = "
+               "const uint paperNone = {}u;\nconst uint paperBounds = {}u;\nconst uint paperIntersection = "
+               "{}u;\nconst int paperPending = "
                "{};\n",
-               noIndex, 1 + unsigned(Operator::Intersection), maxPending) +
+               noIndex, hasBounds, 1 + unsigned(Operator::Intersection), maxPending) +
            fmt::format(
                "const float paperMargin = {:.17g};\nconst float paperExtent = {:.1f};\n"
                "const float paperSlopeScale = {:.17g};\nconst float paperMaxLod = {:.1f};\n",

@@ -62,8 +62,13 @@ Sections appendTexels(const Asset& asset, std::vector<Texel>& data) {
     Sections sections;
     sections.nodes = std::uint32_t(data.size());
     for (const Node& n : asset.nodes) {
-        data.push_back({n.mask, std::bit_cast<std::uint32_t>(n.opacity), paintOf(n.inside), n.inside.rest});
-        data.push_back({0, 0, paintOf(n.outside), n.outside.rest});
+        const Bounds bounds = n.bounds.value_or(Bounds());
+        const auto corner = [](const std::array<std::uint16_t, 2>& c) {
+            return c[0] | std::uint32_t(c[1]) << 16;
+        };
+        data.push_back({n.bounds ? hasBounds : n.mask, std::bit_cast<std::uint32_t>(n.opacity),
+                        paintOf(n.inside), n.inside.rest});
+        data.push_back({corner(bounds.min), corner(bounds.max), paintOf(n.outside), n.outside.rest});
     }
     sections.masks = std::uint32_t(data.size());
     data.resize(data.size() + 2 * asset.masks.size());

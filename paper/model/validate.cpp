@@ -75,6 +75,7 @@ void checkNode(const Asset& asset, std::size_t index) {
     const std::string where = fmt::format("node {}", index);
     require(node.mask == noIndex || node.mask < asset.masks.size(), where + ": no such mask");
     require(node.opacity >= 0 && node.opacity <= 1, where + ": its opacity is not in [0, 1]");
+    require(!node.bounds || node.mask == noIndex, where + ": it has a mask beside its bounds");
     checkSide(asset, node.inside, index, where);
     checkSide(asset, node.outside, index, where);
 }

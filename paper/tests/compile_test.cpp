@@ -219,6 +219,60 @@ TEST(PaperRow5, ClipsAndTheOpacityOfGroupsAreNodesToo) {
     expectColor(result, {50, 50}, {0, 0, 1, 1});
 }
 
+/// Discs all over the picture, some of them in groups with opacity or a clip.
+scene::Scene manyDiscs(unsigned seed, std::size_t count) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<scene::Node> nodes;
+    const auto one = [&] {
+        const auto channel = [&] { return float(unit(random)); };
+        return filled(
+            disc({-10 + 120 * unit(random), -10 + 120 * unit(random)}, 1 + 8 * unit(random) * unit(random)),
+            scene::Color{channel(), channel(), channel(), unit(random) < 0.5 ? 1.0f : channel()});
+    };
+    while (nodes.size() < count) {
+        if (unit(random) > 0.2) {
+            nodes.push_back({one()});
+            continue;
+        }
+        scene::Group group;
+        for (int i = 0; i < 9; ++i)
+            group.children.push_back({one()});
+        if (unit(random) < 0.5)
+            group.opacity = 0.5f;
+        nodes.push_back({group});
+    }
+    return sceneOf(std::move(nodes));
+}
+
+TEST(PaperRow5, BalancedTreesDrawWhatSequencesDo) {
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        const scene::Scene scene = manyDiscs(seed, 10 + 60 * seed);
+        const CompileResult tree = compile(scene), sequence = compile(scene, {.balanced = false});
+        EXPECT_FALSE(tree.bounded.empty());
+        EXPECT_TRUE(sequence.bounded.empty());
+        for (const double zoom : {0.07, 0.6, 3.0}) {
+            const asset::View view{60, 60, {zoom, 0.2 * zoom, -0.2 * zoom, zoom, 3.3, -2.1}};
+            Cost few, many;
+            EXPECT_EQ(evaluate(tree.asset, view, &few).rgba, evaluate(sequence.asset, view, &many).rgba)
+                << seed;
+            EXPECT_LE(few.nodes, many.nodes * 3 / 2) << seed;
+        }
+    }
+}
+
+TEST(PaperRow5, BalancedTreesStepOverWhatLiesElsewhere) {
+    std::vector<scene::Node> nodes;
+    for (int i = 0; i < 256; ++i)  // row by row, as drawings are made part by part
+        nodes.push_back({filled(disc({3 + 6.0 * (i % 16), 3 + 6.0 * (i / 16)}, 2.5))});
+    const scene::Scene scene = sceneOf(nodes);
+    const asset::View view{100, 100, {1, 0, 0, 1, 0, 0}};
+    Cost few, many;
+    evaluate(compile(scene).asset, view, &few);
+    evaluate(compile(scene, {.balanced = false}).asset, view, &many);
+    EXPECT_LT(few.nodes * 8, many.nodes);
+}
+
 TEST(PaperRow5, SelectionsAreTheModelItself) {
     scene::Group inside, outside;
     inside.children = {{filled(scene::rectangle({0, 0}, {100, 50}))}};
@@ -348,6 +402,18 @@ TEST(PaperRow16, AChangedShapeTouchesItsOwnMaskOnly) {
     const asset::View view{50, 50, {0.5, 0, 0, 0.5, 0, 0}};
     EXPECT_EQ(evaluate(result.asset, view).rgba, evaluate(anew.asset, view).rgba);
     EXPECT_THROW(rebuildMask(result, 2, moved), std::out_of_range);
+}
+
+TEST(PaperRow16, BoundsFollowTheShape) {
+    std::vector<scene::Node> nodes;
+    for (int i = 0; i < 20; ++i)
+        nodes.push_back({filled(disc({5 + 4.0 * i, 10}, 2))});
+    CompileResult result = compile(sceneOf(nodes));
+    ASSERT_FALSE(result.bounded.empty());
+    const scene::Item moved = filled(disc({60, 80}, 6), scene::Color{0, 1, 0, 1});
+    rebuildMask(result, 3, moved);
+    expectColor(result, {60, 80}, {1, 0, 0, 1});  // paints stay
+    expectColor(result, {17, 10}, {0, 0, 0, 0});
 }
 
 TEST(PaperRow16, ShapesMayLeaveThePictureAndComeBack) {

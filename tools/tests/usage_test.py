@@ -13,7 +13,7 @@ class Proposals(Command):
                              ("inof", "info"), ("Trace", "trace")):
             self.assertIn(f"did you mean '{meant}'?", self.vtm(typed, self.svg, expect=2).stderr)
         said = self.vtm("frobnicate", expect=2).stderr
-        self.assertIn("the subcommands are render, compile, info, diff, normalize, trace", said)
+        self.assertIn("the subcommands are render, compile, info, diff, normalize, font, trace", said)
 
     def test_a_file_in_place_of_a_subcommand(self):
         self.assertIn("vtm render square.svg -o", self.vtm("square.svg", expect=2).stderr)

@@ -1,5 +1,5 @@
 // The recursion of the paper mode as a loop: weights flow down the graph of nodes (rows 4, 5, 14).
-// Requires: paint.glsl, paper_mask.glsl; constants paperPending, paperNone.
+// Requires: paint.glsl, paper_mask.glsl; constants paperPending, paperNone, paperBounds.
 // Twin of: paper/evaluate/evaluate.cpp.
 
 uniform vec4 pixelToPicture;  // linear part, by columns
@@ -37,6 +37,14 @@ float frameCoverage(vec2 point) {
     return clamp(0.5 + min(distances.x, distances.y), 0.0, 1.0);
 }
 
+// Whether masks within these bounds may cover something of the pixel.
+bool isNear(uvec2 corners, vec2 point) {
+    vec2 unit = pictureSize / 65535.0, reach = vec2(2.0 * pixelLonger);
+    vec2 lower = unit * vec2(low(corners.x), high(corners.x)) - reach;
+    vec2 upper = unit * vec2(low(corners.y), high(corners.y)) + reach;
+    return all(greaterThan(point, lower)) && all(lessThan(point, upper));
+}
+
 void main() {
     vec2 d = gl_FragCoord.xy - pictureAnchor.zw;
     vec2 point = pictureAnchor.xy + pixelToPicture.xy * d.x + pixelToPicture.zw * d.y;
@@ -52,7 +60,9 @@ void main() {
         uint node = paperSections.y + 2u * pendingNode[pendingCount];
         uvec4 inside = dataAt(node), outside = dataAt(node + 1u);
         float b = uintBitsToFloat(inside.y);
-        if (b > 0.0 && inside.x != paperNone)
+        if (inside.x == paperBounds)
+            b = isNear(outside.xy, point) ? 1.0 : 0.0;
+        else if (b > 0.0 && inside.x != paperNone)
             b *= maskCoverage(inside.x, point);
         for (int i = 0; i < 2; ++i) {
             float share = weight * (i == 0 ? b : 1.0 - b);
