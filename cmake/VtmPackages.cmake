@@ -27,9 +27,9 @@ execute_process(COMMAND gzip -9nc ${vtm_changelog} OUTPUT_FILE ${vtm_changelog}.
 # Libraries where the loader looks.
 file(WRITE ${PROJECT_BINARY_DIR}/package/triggers "activate-noawait ldconfig\n")
 
-# vtm_package(component name section what [DEPENDS ...] [RECOMMENDS ...] [EXTRA control files...])
+# vtm_package(component name section what [DEPENDS ...] [RECOMMENDS ...] [SUGGESTS ...] [EXTRA control files...])
 function(vtm_package component name section what)
-    cmake_parse_arguments(ARG "" "" "DEPENDS;RECOMMENDS;EXTRA" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "DEPENDS;RECOMMENDS;SUGGESTS;EXTRA" ${ARGN})
     string(TOUPPER ${component} COMPONENT)
     list(JOIN ARG_DEPENDS ", " depends)
     list(JOIN ARG_RECOMMENDS ", " recommends)
@@ -38,6 +38,7 @@ function(vtm_package component name section what)
     set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_SECTION ${section} PARENT_SCOPE)
     set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
     set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_RECOMMENDS "${recommends}" PARENT_SCOPE)
+    set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_SUGGESTS "${ARG_SUGGESTS}" PARENT_SCOPE)
     set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_CONTROL_EXTRA "${ARG_EXTRA}" PARENT_SCOPE)
     set(CPACK_DEBIAN_${COMPONENT}_DESCRIPTION "${what}" PARENT_SCOPE)
     set(documents ${CMAKE_INSTALL_DATADIR}/doc/${name})
@@ -65,7 +66,7 @@ place of the system's EGL.")
 endif()
 if(TARGET vtm)
     vtm_package(tools vtm-tools graphics "Draw, compile and inspect vector pictures
-The command vtm draws SVG files as pictures and compiles them to .vtm files.")
+The command vtm draws SVG files as pictures and compiles them to .vtm files." SUGGESTS libpotrace0)
 endif()
 if(VTM_PYTHON AND BUILD_SHARED_LIBS)
     vtm_package(python python3-vtm python "Vector pictures in Python, as NumPy arrays

@@ -84,7 +84,7 @@ LIBRARIES = {
     r"libdeflate\.h": {"image"},
     r"VG/.*|vtm/(vtm|vg|vg_image|gles)\.h": ANYWHERE,
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "bench", "api/egl", "api/gl", "api/gles"},
-    r"dlfcn\.h": {"api", "api/openvg", "api/egl"},
+    r"dlfcn\.h": {"api", "api/openvg", "api/egl", "trace"},
     r"stddef\.h|stdint\.h": {"api"},
     r"stdio\.h": {"api/egl", "tests"},
     r"CLI/.*": {"tools", "conformance/runner"},

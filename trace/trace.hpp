@@ -1,7 +1,7 @@
 /// \file
-/// Bitmaps in, scenes out: vectorising (paper row 15). The outlines are found by potrace, an optional
-/// component, since its licence is the GPL; built without it, `available()` is false and everything else here
-/// works as if it were not there.
+/// Bitmaps in, scenes out: vectorising (paper row 15). The outlines are found by potrace, whose library is loaded when
+/// it is first needed, since its licence is the GPL: what is built here does not contain it. Where it is not
+/// installed, or its header was not when this was built, `available()` is false.
 #pragma once
 
 #include <vtm/error.hpp>
@@ -24,7 +24,7 @@ class TraceError : public Error {
     using Error::Error;
 };
 
-/// Whether potrace was built in.
+/// Whether potrace can be used.
 bool available();
 
 /// A scene of the picture's size in pixels, one item a colour. Colours are clustered by how far apart they

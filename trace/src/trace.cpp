@@ -1,6 +1,7 @@
 #include "trace/trace.hpp"
 
 #include <string>
+#include <type_traits>
 
 #include <vtm/limits/limits.hpp>
 #include "trace/src/palette.hpp"
@@ -8,6 +9,8 @@
 #ifdef VTM_WITH_POTRACE
 #include <cmath>
 #include <memory>
+
+#include <dlfcn.h>
 
 #include <potracelib.h>
 #endif
@@ -28,6 +31,33 @@ scene::Scene trace(const image::Bitmap&, const Options&) {
 namespace {
 
 using scene::Point;
+
+/// potrace's functions, from its library where that is installed. It stays loaded.
+struct Potrace {
+    decltype(&potrace_param_default) defaults = nullptr;
+    decltype(&potrace_param_free) freeParameters = nullptr;
+    decltype(&potrace_trace) trace = nullptr;
+    decltype(&potrace_state_free) freeState = nullptr;
+
+    Potrace() {
+        void* const library = dlopen("libpotrace.so.0", RTLD_NOW | RTLD_LOCAL);
+        if (!library)
+            return;
+        const auto find = [&](auto& function, const char* name) {
+            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
+        };
+        find(defaults, "potrace_param_default");
+        find(freeParameters, "potrace_param_free");
+        find(trace, "potrace_trace");
+        find(freeState, "potrace_state_free");
+    }
+    bool isThere() const { return defaults && freeParameters && trace && freeState; }
+};
+
+const Potrace& potrace() {
+    static const Potrace loaded;
+    return loaded;
+}
 
 constexpr double smoothest = 1.3334;
 constexpr int largestSpeckle = 1'000'000;
@@ -95,14 +125,14 @@ void append(scene::Path& path, const potrace_curve_t& curve, int height) {
 
 /// The outlines of the set pixels, holes turning the other way round.
 scene::Path outlineOf(const Bits& bits, const Options& options) {
-    const std::unique_ptr<potrace_param_t, decltype(&potrace_param_free)> parameters(potrace_param_default(),
-                                                                                     &potrace_param_free);
+    const std::unique_ptr<potrace_param_t, decltype(&potrace_param_free)> parameters(
+        potrace().defaults(), potrace().freeParameters);
     if (!parameters)
         throw std::bad_alloc();
     parameters->turdsize = options.speckle;
     parameters->alphamax = options.smooth;
     const std::unique_ptr<potrace_state_t, decltype(&potrace_state_free)> state(
-        potrace_trace(parameters.get(), bits.get()), &potrace_state_free);
+        potrace().trace(parameters.get(), bits.get()), potrace().freeState);
     if (!state || state->status != POTRACE_STATUS_OK)
         throw TraceError("potrace could not trace the picture");
     scene::Path path;
@@ -113,10 +143,12 @@ scene::Path outlineOf(const Bits& bits, const Options& options) {
 
 }  // namespace
 
-bool available() { return true; }
+bool available() { return potrace().isThere(); }
 
 scene::Scene trace(const image::Bitmap& bitmap, const Options& options) {
     check(bitmap, options);
+    if (!available())
+        throw TraceError("potrace is not installed (libpotrace.so.0)");
     const limits::Stage stage("tracing");
     const Palette palette = quantise(bitmap, options.colors);
     scene::Scene scene{double(bitmap.width), double(bitmap.height), {}};
