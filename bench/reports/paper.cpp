@@ -1,4 +1,4 @@
-// Rows 9 to 11 of the paper: docs/paper.md.
+// Rows 5 to 13 of the paper: docs/paper.md.
 
 #include <algorithm>
 #include <array>
@@ -8,13 +8,19 @@
 
 #include <fmt/core.h>
 
+#include <vtm/asset/container.hpp>
+#include <vtm/authoring.hpp>
+#include <vtm/font/typesetter.hpp>
 #include <vtm/gl/context.hpp>
+#include <vtm/gl/text_texture.hpp>
 #include <vtm/image/codec.hpp>
 #include "bench/measure/measure.hpp"
 #include "bench/measure/shader_count.hpp"
 #include "bench/reports/reports.hpp"
 #include "paper/compile.hpp"
+#include "paper/evaluate.hpp"
 #include "paper/gl/pattern.hpp"
+#include "paper/gl/renderer.hpp"
 
 namespace vtm::bench {
 namespace {
@@ -158,12 +164,101 @@ void timeForms(const std::string& tile, const paper::CompileResult& compiled, co
     }
 }
 
+// ---- Rows 5 and 13 ----------------------------------------------------------------------------------
+
+/// Figure 7: three VTMs over four gradients, two of them the sides of the third. A sign on a sign.
+scene::Scene signOnASign() {
+    const auto gradient = [](scene::Color from, scene::Color to, double angle) {
+        scene::LinearGradient made;
+        made.start = {128 - 120 * std::cos(angle), 128 - 120 * std::sin(angle)};
+        made.end = {128 + 120 * std::cos(angle), 128 + 120 * std::sin(angle)};
+        made.stops = {{0, from}, {1, to}};
+        return Vtm::paint(made);
+    };
+    const auto disc = [](double radius) {
+        const scene::Point left(128 - radius, 128), right(128 + radius, 128);
+        return filled(scene::Path{scene::MoveTo{left}, scene::ArcTo{{radius, radius}, 0, false, true, right},
+                                  scene::ArcTo{{radius, radius}, 0, false, true, left}, scene::Close{}});
+    };
+    const Mask arrow = filled(
+        scene::polygon({{128, 60}, {176, 120}, {144, 120}, {144, 196}, {112, 196}, {112, 120}, {80, 120}}));
+    const Vtm inner = Vtm::select(arrow, gradient({1, 1, 1, 1}, {0.8f, 0.85f, 1, 1}, 1.6),
+                                  gradient({0.1f, 0.3f, 0.8f, 1}, {0, 0.1f, 0.4f, 1}, 0.8));
+    const Vtm outer = Vtm::select(filled(scene::rectangle({12, 12}, {244, 244})),
+                                  gradient({1, 0.9f, 0.2f, 1}, {0.9f, 0.5f, 0, 1}, 0),
+                                  gradient({0.3f, 0.5f, 0.3f, 1}, {0.6f, 0.8f, 0.9f, 1}, 1.2));
+    return Vtm::select(disc(96), inner, outer).toScene(256, 256);
+}
+
+void addRow(Report& report, const std::string& row, const std::string& ours, const std::string& paper) {
+    report.summary.push_back({{"row", row}, {"ours", ours}, {"paper", paper}});
+}
+
+void timeSign(const Options& options, Report& report) {
+    const scene::Scene scene = signOnASign();
+    const paper::CompileResult compiled = paper::compile(scene);
+    const asset::View view = viewOf(options.side, 1, 0);
+    asset::View whole{options.side, options.side, {}};
+    const double scale = options.side / scene.width;
+    whole.toPixels = {scale, 0, 0, scale, 0, 0};
+    paper::Cost cost;
+    paper::evaluate(compiled.asset, whole, &cost);
+    const double pixels = double(options.side) * options.side;
+    paper::Pattern pattern(stars(1, paperDepth).asset.masks.at(0), {false, false, false});
+    paper::Renderer renderer;
+    const paper::Texture texture(compiled.asset);
+    const Paired time = pairwise([&] { pattern.draw(view); }, [&] { renderer.render(texture, whole); },
+                                 options.quick ? 1000 : 6000, 41);
+    if (!options.pictures.empty())
+        image::writeFile(options.pictures + "/sign on a sign.png",
+                         image::encodePng(image::toBitmap(renderer.render(texture, whole))));
+    addRow(report, "5: three VTMs over four gradients",
+           fmt::format(
+               "{} nodes, {:.2f} visited a pixel; {:.3g} ms with reading back, {:.2f} of row 11's first form",
+               compiled.asset.nodes.size(), double(cost.nodes) / pixels, time.second, time.ratio),
+           "62 fps beside 61 fps");
+}
+
+void countText(Report& report) {
+    const std::string folder = "/usr/share/fonts/truetype/dejavu/";
+    if (!std::filesystem::exists(folder + "DejaVuSerif.ttf") ||
+        !std::filesystem::exists(folder + "DejaVuSansMono.ttf")) {
+        report.notes.push_back("the DejaVu fonts are not installed: row 13 is not counted");
+        return;
+    }
+    font::FontMaps serif(image::readFile(folder + "DejaVuSerif.ttf")),
+        mono(image::readFile(folder + "DejaVuSansMono.ttf"));
+    std::u32string latin, text;
+    for (char32_t c = U' '; latin.size() < 256; ++c)
+        if (serif.advanceOf(c))
+            latin += c;
+    while (text.size() < 5000)
+        text += U"The sign on the sign shows the sign again. ";
+    text.resize(5000);
+    font::CellText cells;
+    cells.columns = 100;
+    cells.rows = 50;
+    cells.text = text;
+    font::Typesetter setter(serif, 600, 800);
+    setter.add(text, {40, 40, 520, 720}, {.size = 10});
+    const asset::TextPage fixed = font::Typesetter::cells(mono, cells), variable = setter.page();
+    serif.addCharacters(latin);
+    const std::size_t fontBytes = asset::write(serif.asset()).size();
+    const gl::TextTexture fixedTexture(mono.asset(), {fixed}), variableTexture(serif.asset(), {variable});
+    const auto each = [](std::size_t bytes) {
+        return fmt::format("{:.2f} bytes a character of 5000, symbols included", double(bytes) / 5000);
+    };
+    addRow(report, "13: text of fixed width", each(fixedTexture.bytes(0)), "1 byte");
+    addRow(report, "13: text of variable width", each(variableTexture.bytes(0)), "8 bytes");
+    addRow(report, "13: a font, 256 glyphs", fmt::format("{:.0f} KB", double(fontBytes) / 1024), "128 KB");
+}
+
 }  // namespace
 
 Report paper(const Options& options) {
     Report report;
     report.name = "paper";
-    report.title = "The paper's lookup: rows 9 to 11";
+    report.title = "The paper's figures: rows 5 to 13";
     report.text = fmt::format(
         "One mask, a tile of stars, repeated over {0} × {0} pixels by `paper::Pattern`. Rows 6 to 10: "
         "texture lookups and "
@@ -183,6 +278,8 @@ Report paper(const Options& options) {
     const gl::Context context;
     timeForms("a star, 2 levels", stars(1, paperDepth), options, report);
     timeForms("nine stars, 3 levels", stars(3, 3), options, report);
+    timeSign(options, report);
+    countText(report);
     report.text += "\n\nDrawn on " + context.renderer() + ", " + context.version() + ".";
     return report;
 }

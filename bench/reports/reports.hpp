@@ -35,7 +35,7 @@ Report startup(const Options& options);
 Report compression(const Options& options);
 /// Recolouring and moving items in a session against encoding anew.
 Report editing(const Options& options);
-/// Rows 6 to 11 of the paper: what its lookup costs in the compiled shader and on this driver.
+/// Rows 5 to 13 of the paper: what its lookup costs in the compiled shader and on this driver.
 Report paper(const Options& options);
 /// vgDrawPath under changing matrices against cairo: the Tiger or the file named, many paths, glyphs, an
 /// edited path.
