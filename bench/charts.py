@@ -175,6 +175,18 @@ def draw_zoom(zoom):
     yield lines.svg()
 
 
+def draw_recursion(recursion):
+    """How much smaller than a flat grid each picture is, and how long it takes with instances."""
+    forms = [("flat / tree", "tree", 2), ("flat / instances", "instances", 1), ("flat / both", "both", 3)]
+    rows = []
+    for column, name, colour in forms:
+        dots = [(row[column], row["file"]) for row in recursion["rows"]]
+        rows.append((name, dots, statistics.median(v for v, _ in dots), plot.COLOURS[colour]))
+    times = [(row["both / tree"], row["file"]) for row in recursion["rows"]]
+    rows.append(("time, both / tree", times, statistics.median(v for v, _ in times), plot.COLOURS[0]))
+    yield plot.strips("Smaller than a flat grid by so many times; drawn in so much of the time", "times (a dot a file, a bar the median)", rows, mark=1)
+
+
 def draw_none(_):
     """Its table says it."""
     return ()
@@ -187,5 +199,5 @@ CHARTS = {
     "drawing": draw_times, "error": draw_errors, "memory": draw_memory, "sides": draw_sides,
     "pipeline": lambda report: draw_steps("From the file to the first frame", report, "file", PIPELINE),
     "startup": lambda report: draw_steps("Until the first frame in a fresh process", report, "start", STARTUP),
-    "micro": draw_micro, "texture": draw_texture, "paper": draw_paper, "compression": draw_none, "scaling": draw_scaling,
+    "micro": draw_micro, "texture": draw_texture, "paper": draw_paper, "pages": draw_none, "compression": draw_none, "recursion": draw_recursion, "scaling": draw_scaling,
     "peers": draw_none, "editing": draw_none, "openvg": draw_none, "sweep": draw_sweep, "zoom": draw_zoom}

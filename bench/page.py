@@ -12,7 +12,7 @@ import re
 import statistics
 import sys
 
-from charts import CHARTS, VIEWS, draw_balance, draw_zoom, engines_of, errors_of, files_alike, name_of, spread, times_of
+from charts import CHARTS, VIEWS, draw_balance, draw_recursion, draw_zoom, engines_of, errors_of, files_alike, name_of, spread, times_of
 
 START, END = "<!-- bench: written by ./dev bench --record -->", "<!-- /bench -->"
 STYLE = """
@@ -146,8 +146,9 @@ def main():
         sys.exit(f"{a.folder}: no results")
     (a.folder / "index.html").write_text(page(reports))
     print(a.folder / "index.html")
-    if "zoom" in reports:
-        (a.folder / "zoom.svg").write_text(next(draw_zoom(reports["zoom"])))
+    for name, draw in (("zoom", draw_zoom), ("recursion", draw_recursion)):
+        if name in reports:
+            (a.folder / f"{name}.svg").write_text(next(draw(reports[name])))
     if a.readme:
         if not headline(reports):
             sys.exit(f"{a.folder}: no drawing.json, which the table is made of")

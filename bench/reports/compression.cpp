@@ -43,12 +43,13 @@ struct Factors {
 
 /// Leaves as the compiler likes them, and of at most two pieces, as the paper's cells.
 void addScene(const std::string& name, const scene::Scene& scene, Report& report, Factors& all) {
-    const asset::Asset asset = compiler::compile(scene).asset;
+    const asset::Asset asset = compiler::compile(scene, {.instances = false}).asset;
     const double bytes = double(asset::summarize(asset).bytes);
     const unsigned finest = levelHolding(squareFigures(asset), 1);
     all.usual.push_back(flatBytes(asset, finest) / bytes);
 
-    const asset::Asset pairs = compiler::compile(scene, {.piecesPerLeaf = 2, .maxDepth = pairDepth}).asset;
+    const asset::Asset pairs =
+        compiler::compile(scene, {.piecesPerLeaf = 2, .maxDepth = pairDepth, .instances = false}).asset;
     const double pairBytes = double(asset::summarize(pairs).bytes);
     const unsigned usual = levelHolding(squareFigures(pairs), nearlyAll);
     all.asInPaper.push_back(paperBytes(pairs, usual) / pairBytes);

@@ -33,6 +33,8 @@ Report pages(const Options& options);
 Report startup(const Options& options);
 /// Bytes against a flat grid of equal finest cells, on the files and on a font.
 Report compression(const Options& options);
+/// What trees and instances save against a flat grid, and cost.
+Report recursion(const Options& options);
 /// Recolouring and moving items in a session against encoding anew.
 Report editing(const Options& options);
 /// Rows 5 to 13 of the paper: what its lookup costs in the compiled shader and on this driver.
