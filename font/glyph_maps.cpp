@@ -85,9 +85,12 @@ geometry::Box boundsOf(const Path& path) {
     return box;
 }
 
-/// One map: the outline in the smallest square around it, which is where the map says.
-Asset compiledOutline(const Path& path, const Options& how) {
-    const geometry::Box box = boundsOf(path);
+/// One map: what lies within `clip` of the outline, in the smallest square around that, which is where the
+/// map says.
+Asset compiledOutline(const Path& path, const Options& how, const geometry::Box* clip = nullptr) {
+    geometry::Box box = boundsOf(path);
+    if (clip)
+        box = box.intersection(*clip);
     constexpr double smallestSide = 0x1p-10;  // of outlines without area
     const double side = std::max({box.width(), box.height(), smallestSide});
     const dvec2 corner = 0.5 * (box.min + box.max) - 0.5 * side;
@@ -96,6 +99,11 @@ Asset compiledOutline(const Path& path, const Options& how) {
     scene::Item item;
     item.path = std::make_shared<const Path>(mapped(path, 1, -corner));
     scene.root.children.push_back({std::move(item)});
+    if (clip) {
+        scene::ClipShape shape;
+        shape.path = std::make_shared<const Path>(scene::rectangle(clip->min - corner, clip->max - corner));
+        scene.root.clip = std::make_shared<const scene::Clip>(scene::Clip{{shape}, {}});
+    }
     compiler::Options options;
     options.instances = false;
     options.tolerance = std::clamp(how.tolerance / side, 0x1p-24, 0x1p-6);
@@ -217,6 +225,17 @@ const std::vector<asset::GlyphPart>& GlyphMaps::partsOf(const std::vector<GlyphA
             all.insert(all.end(), moved.begin(), moved.end());
         }
     return groups_[group] = compile({all}).front();
+}
+
+const std::vector<asset::GlyphPart>& GlyphMaps::clippedPartsOf(GlyphId glyph, const geometry::Box& box) {
+    const auto [known, isNew] = clipped_.try_emplace({glyph, box.min.x, box.min.y, box.max.x, box.max.y});
+    const auto outline = outlineOf(glyph);
+    if (!isNew || !outline)
+        return known->second;
+    const Path path = mapped(*outline, 1 / em(), dvec2(0));
+    if (!boundsOf(path).intersection(box).empty())
+        known->second = {{append(compiledOutline(path, options, &box)), 0, 0, 0}};
+    return known->second;
 }
 
 void GlyphMaps::take(const asset::AssetView& made, const asset::Glyph& glyph) {

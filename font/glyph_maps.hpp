@@ -10,6 +10,7 @@
 
 #include <vtm/font/font_maps.hpp>
 #include "font/parts.hpp"
+#include "geometry/box.hpp"
 #include "text/font.hpp"
 #include "text/font_set.hpp"
 
@@ -35,6 +36,8 @@ public:
     const std::vector<asset::GlyphPart>& partsOf(text::GlyphId glyph);
     /// Of the union of several glyphs' outlines.
     const std::vector<asset::GlyphPart>& partsOf(const std::vector<GlyphAt>& glyphs);
+    /// What lies within a box, ems, of a glyph's outline.
+    const std::vector<asset::GlyphPart>& clippedPartsOf(text::GlyphId glyph, const geometry::Box& box);
     /// The outline in font units; null if it is blank.
     std::shared_ptr<const scene::Path> outlineOf(text::GlyphId glyph) const;
     /// Takes a glyph and its maps from an asset of the same font.
@@ -62,6 +65,8 @@ private:
 
     std::map<PartKey, std::uint32_t> maps_;  ///< by their outline
     std::map<std::vector<GlyphAt>, std::vector<asset::GlyphPart>> groups_;
+    std::map<std::tuple<text::GlyphId, double, double, double, double>, std::vector<asset::GlyphPart>>
+        clipped_;
 };
 
 struct FontMaps::Impl : GlyphMaps {

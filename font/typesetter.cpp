@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 
@@ -341,15 +342,17 @@ TextPage Typesetter::page() const { return impl_->page; }
 
 namespace {
 
-/// The first parts of characters, then, since a cell names its symbol in a byte, all the others.
+/// The first parts of glyphs, then, since a cell names its symbol in a byte, all the others.
 class CellSymbols {
 public:
-    CellSymbols(GlyphMaps& font, double size) : font_(font), size_(size), first_{PageSymbol{}} {}
+    /// `box`: of a cell, from a glyph's origin, ems.
+    CellSymbols(GlyphMaps& font, double size, const geometry::Box& box)
+        : font_(font), size_(size), box_(box), first_{PageSymbol{}} {}
 
-    std::uint8_t of(char32_t character) {
-        const auto [known, isNew] = known_.try_emplace(character, std::uint8_t(0));
+    std::uint8_t of(GlyphId glyph, bool isClipped) {
+        const auto [known, isNew] = known_.try_emplace({glyph, isClipped}, std::uint8_t(0));
         if (isNew)
-            known->second = add(character);
+            known->second = add(isClipped ? font_.clippedPartsOf(glyph, box_) : font_.partsOf(glyph));
         return known->second;
     }
 
@@ -368,12 +371,11 @@ public:
     }
 
 private:
-    std::uint8_t add(char32_t character) {
-        const auto& parts = font_.partsOf(font_.font->glyphOf(character).value_or(0));
+    std::uint8_t add(const std::vector<asset::GlyphPart>& parts) {
         if (parts.empty())
             return 0;
         if (first_.size() == maxCellSymbols)
-            throw LimitError("a page of cells has at most 255 different characters");
+            throw LimitError("a page of cells has at most 255 different glyphs");
         const auto symbolOf = [&](const asset::GlyphPart& part) {
             PageSymbol symbol;
             symbol.map = part.map;
@@ -389,10 +391,28 @@ private:
 
     GlyphMaps& font_;
     const double size_;
-    std::map<char32_t, std::uint8_t> known_;
+    const geometry::Box box_;
+    std::map<std::pair<GlyphId, bool>, std::uint8_t> known_;
     std::vector<PageSymbol> first_;
     std::map<std::size_t, std::vector<PageSymbol>> more_;
 };
+
+/// Which cells' glyphs touch one in a cell beside, as the lines of boxes do. They end with their cells then.
+std::vector<bool> touchingCells(const std::vector<std::optional<GlyphId>>& glyphs, std::size_t columns,
+                                dvec2 step, Contacts& contacts) {
+    std::vector<bool> result(glyphs.size(), false);
+    for (std::size_t i = 0; i < glyphs.size(); ++i)
+        for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 1}, {0, 1}, {1, 1}}) {
+            const std::ptrdiff_t x = std::ptrdiff_t(i % columns) + dx;
+            const std::size_t beside = i + std::size_t(dy) * columns + std::size_t(dx);
+            if (x < 0 || x >= std::ptrdiff_t(columns) || beside >= glyphs.size() || !glyphs[i] ||
+                !glyphs[beside])
+                continue;
+            if (contacts.touch(*glyphs[i], *glyphs[beside], dvec2(dx, dy) * step))
+                result[i] = result[beside] = true;
+        }
+    return result;
+}
 
 }  // namespace
 
@@ -418,10 +438,17 @@ TextPage Typesetter::cells(FontMaps& maps, const CellText& text) {
     page.width = cells.size.x * text.columns;
     page.height = cells.size.y * text.rows;
     page.ground = text.ground;
-    CellSymbols symbols(font, text.size);
-    cells.symbols.resize(count, 0);
+    std::vector<std::optional<GlyphId>> glyphs(count);
     for (std::size_t i = 0; i < text.text.size(); ++i)
-        cells.symbols[i] = symbols.of(text.text[i]);
+        if (text.text[i] != U' ')
+            glyphs[i] = font.font->glyphOf(text.text[i]).value_or(0);
+    Contacts contacts(font);
+    const std::vector<bool> touching = touchingCells(glyphs, text.columns, cells.size / text.size, contacts);
+    CellSymbols symbols(font, text.size, {{0, -maps.ascent()}, {width, maps.descent()}});
+    cells.symbols.resize(count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+        if (glyphs[i])
+            cells.symbols[i] = symbols.of(*glyphs[i], touching[i]);
     page.symbols = symbols.take();
     cells.colors = text.colors;
     cells.palette = text.palette;

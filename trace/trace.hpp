@@ -1,7 +1,7 @@
 /// \file
-/// Bitmaps in, scenes out: vectorising (paper row 15). The outlines are found by potrace, whose library is loaded when
-/// it is first needed, since its licence is the GPL: what is built here does not contain it. Where it is not
-/// installed, or its header was not when this was built, `available()` is false.
+/// Bitmaps in, scenes out: vectorising (paper row 15). The outlines are found by potrace, whose library is
+/// loaded when it is first needed, since its licence is the GPL: what is built here does not contain it.
+/// Where it is not installed, or its header was not when this was built, `available()` is false.
 #pragma once
 
 #include <vtm/error.hpp>

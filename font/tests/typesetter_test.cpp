@@ -163,6 +163,34 @@ TEST(Typesetter, CellsAreBytes) {
                   4);
 }
 
+/// Lines of boxes reach beyond their cells; counted twice there, they would be too bright.
+TEST(Typesetter, LinesOfBoxesAreEven) {
+    FontMaps font(fileOf(dejavu / "DejaVuSansMono.ttf"));
+    CellText text;
+    text.columns = 8;
+    text.rows = 4;
+    text.text = U"┌──┬──┐ │  │  │ ├──┼──┤ └──┴──┘ ";
+    text.palette = {{0.4f, 0.5f, 0.3f, 1}};
+    text.ground = {0.1f, 0, 0.05f, 1};
+    const asset::TextPage page = Typesetter::cells(font, text);
+    const asset::Asset asset = asset::pageAsset(page, font.asset());
+    const asset::View view = viewOver(0, 0, page.width, page.height, 800, 0.02);
+    const image::Raster drawn = asset::Scanner(asset).draw(view);
+    double brightest = 0;
+    for (std::size_t i = 0; i < drawn.rgba.size(); i += 4)
+        brightest = std::max(brightest, double(drawn.rgba[i + 1]));
+    EXPECT_NEAR(brightest, 0.5, 1.5 / 255);
+    // The middle of a line is ink all along.
+    const double y = page.height / 8;
+    for (double x = page.width * 0.1; x < page.width * 0.8; x += page.width / 500) {
+        const glm::dvec2 p = view.toPixels * glm::dvec3(x, y, 1);
+        double ink = 0;
+        for (int dy = -12; dy <= 12; ++dy)
+            ink = std::max(ink, double(drawn.pixel(int(p.x), int(p.y) + dy)[1]));
+        EXPECT_NEAR(ink, 0.5, 2.0 / 255) << x;
+    }
+}
+
 TEST(Typesetter, GroundLiesBelowTranslucentText) {
     FontMaps font(fileOf(dejavu / "DejaVuSans.ttf"));
     Typesetter setter(font, 80, 40, {0.2f, 0.4f, 0.9f, 1});

@@ -44,7 +44,8 @@ std::vector<std::uint8_t> assetOf(const scene::Scene& scene, const TraceOptions&
 int run(const TraceOptions& options) {
     if (!trace::available())
         throw UsageError(
-            "trace: potrace is missing: install it (libpotrace0), or, if this vtm was built without its header "
+            "trace: potrace is missing: install it (libpotrace0), or, if this vtm was built without its "
+            "header "
             "(libpotrace-dev), build again with -DVTM_WITH_POTRACE=ON");
     requireSuffix(options.output, {".svg", ".vtm"});
     refuseLoss({options.input}, {options.output});

@@ -44,7 +44,7 @@ struct Potrace {
         if (!library)
             return;
         const auto find = [&](auto& function, const char* name) {
-            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
+            function = reinterpret_cast<std::remove_reference_t<decltype(function)> >(dlsym(library, name));
         };
         find(defaults, "potrace_param_default");
         find(freeParameters, "potrace_param_free");
