@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -109,7 +110,7 @@ PageColor over(const PageColor& top, const PageColor& below) {
 class PageAsset {
 public:
     PageAsset(const TextPage& page, const AssetView& font) : page_(page), font_(font) {
-        side_ = std::max(page.width, page.height);
+        side_ = 2 * std::max(page.width, page.height);
         asset_.width = page.width;
         asset_.height = page.height;
         asset_.commands = {Command{}};
@@ -150,20 +151,29 @@ private:
                    cells.colors.empty() ? symbol.color : cells.palette[cells.colors[i]], visit);
     }
 
-    /// An instance's centre must lie in the page's square; what lies beyond is not seen, or hardly.
     template <class Visit>
     void visitShown(const PageSymbol& symbol, dvec2 origin, const PageColor& color, Visit&& visit) const {
         if (symbol.map == 0)
             return;
-        const dvec2 centre = placeOf(symbol, origin)(dvec2(0.5));
-        if (centre.x >= 0 && centre.y >= 0 && centre.x < 1 && centre.y < 1)
-            visit(symbol, origin, color);
+        const Affine2 place = placeOf(symbol, origin);
+        const dvec2 centre = place(dvec2(0.5)),
+                    reach = 0.5 * (glm::abs(place.linear[0]) + glm::abs(place.linear[1]));
+        const dvec2 page = dvec2(page_.width, page_.height) / side_;
+        if (glm::any(glm::greaterThanEqual(centre - reach, corner + page)) ||
+            glm::any(glm::lessThanEqual(centre + reach, dvec2(corner))))
+            return;  // not seen
+        if (glm::any(glm::lessThan(centre, dvec2(0))) || glm::any(glm::greaterThanEqual(centre, dvec2(1))))
+            throw std::invalid_argument(
+                "text page: a glyph is seen, but its middle lies half a page beside the page");
+        visit(symbol, origin, color);
     }
 
-    /// From the map's [0, 1]² to the page's square.
+    /// From the map's [0, 1]² to the square, twice as wide as the page, that the page lies in the middle of:
+    /// so the middles of glyphs may lie beside the page.
+    static constexpr double corner = 0.25;  // of the page, in that square
     Affine2 placeOf(const PageSymbol& symbol, dvec2 origin) const {
         const Map& map = font_.maps[symbol.map];
-        const Affine2 toPage{symbol.linear / side_, (origin + symbol.offset) / side_};
+        const Affine2 toPage{symbol.linear / side_, (origin + symbol.offset) / side_ + corner};
         return compose(toPage, asset::placeOf(map));
     }
 
@@ -191,33 +201,49 @@ private:
         return paint->second;
     }
 
-    /// A page that is not square ends where a line crosses the map's only leaf.
+    /// The page lies in the middle four of the root's sixteen cells, and fills them along its longer side.
     void addGround() {
-        asset_.maps = {{0, 0, side_, Entry::make(Entry::Kind::Solid, 0), 0}};
+        asset_.maps = {{-corner * side_, -corner * side_, side_, Entry::make(Entry::Kind::Solid, 0), 0}};
         if (ground_[3] == 0)
             return;
         groundPaint_ = paintOf(ground_);
-        const std::uint16_t g = groundPaint_;
-        if (page_.width == page_.height) {
-            asset_.maps.front().root = Entry::make(Entry::Kind::Solid, g);
-            return;
-        }
-        asset_.finestPixel = 0.5 / leafExtent * side_ / finestShare;
-        const bool isWide = page_.width > page_.height;
-        const auto end =
-            std::uint16_t(std::lround(std::min(page_.width, page_.height) / side_ * double(leafExtent)));
-        Piece piece;
-        // The page lies on the left of the line.
-        piece.a = isWide ? std::array{std::uint16_t(leafExtent), end} : std::array{end, std::uint16_t(0)};
-        piece.b = isWide ? std::array{std::uint16_t(0), end} : std::array{end, std::uint16_t(leafExtent)};
-        piece.left = g;
-        asset_.pieces = {piece};
+        Node node;
+        for (int y = 1; y <= 2; ++y)
+            for (int x = 1; x <= 2; ++x)
+                node.children[std::size_t(4 * y + x)] =
+                    groundCell({4 * page_.width / side_ - (x - 1), 4 * page_.height / side_ - (y - 1)});
+        asset_.nodes = {node};
+        asset_.maps.front().root = Entry::make(Entry::Kind::Node, 0);
+        asset_.finestPixel = 0.5 / leafExtent * side_ / 4 / finestShare;
+    }
+
+    /// A cell that the page covers from its min corner up to `end`, along one of the axes at least all of it.
+    Entry groundCell(dvec2 end) {
+        const auto stored = [](double place) {
+            return std::uint16_t(std::lround(std::clamp(place, 0.0, 1.0) * double(leafExtent)));
+        };
+        const std::uint16_t x = stored(end.x), y = stored(end.y), all = leafExtent, g = groundPaint_;
+        if (x == 0 || y == 0)
+            return Entry::make(Entry::Kind::Solid, 0);
+        if (x == all && y == all)
+            return Entry::make(Entry::Kind::Solid, g);
+        Piece piece;  // the page lies on its left
         Leaf leaf;
+        leaf.firstPiece = std::uint32_t(asset_.pieces.size());
         leaf.pieceCount = 1;
-        leaf.corners =
-            isWide ? std::array<std::uint16_t, 4>{g, g, 0, 0} : std::array<std::uint16_t, 4>{g, 0, 0, g};
-        asset_.leaves = {leaf};
-        asset_.maps.front().root = Entry::make(Entry::Kind::Leaf, 0);
+        if (x == all) {
+            piece.a = {all, y};
+            piece.b = {0, y};
+            leaf.corners = {g, g, 0, 0};
+        } else {
+            piece.a = {x, 0};
+            piece.b = {x, all};
+            leaf.corners = {g, 0, 0, g};
+        }
+        piece.left = g;
+        asset_.pieces.push_back(piece);
+        asset_.leaves.push_back(leaf);
+        return Entry::make(Entry::Kind::Leaf, std::uint32_t(asset_.leaves.size() - 1));
     }
 
     const TextPage& page_;

@@ -108,6 +108,25 @@ TEST_F(Gl, PagesShowWhatTheirAssetsDo) {
     }
 }
 
+TEST_F(Gl, PagesMayBeEmptyOrCutLetters) {
+    font::FontMaps sans = dejavu("DejaVuSans.ttf");
+    PageCanvas canvas;
+    for (const std::u32string_view text : {U"", U"OO", U"O"}) {
+        font::Typesetter setter(sans, 60, 40, {1, 1, 1, 1});
+        const double left = text.size() == 1 ? -500 : -25;
+        setter.add(text, {left, -20, 200, 200}, {.size = 50});
+        const TextPage page = setter.page();
+        TextTexture texture(sans.asset(), {page});
+        const asset::Scanner scanner(asset::pageAsset(page, sans.asset()));
+        for (const double scale : {0.1, 4.0, 20.0}) {
+            const View view = asset::test::turnedView(60, 40, {30, 20}, scale, 0, 0, false);
+            EXPECT_LE(worst(canvas.draw(texture, 0, page, view), scanner.draw(view)),
+                      scale < 1 ? 0.05 : tolerance)
+                << text.size() << " " << scale;
+        }
+    }
+}
+
 TEST_F(Gl, PagesFarAwayAreGrey) {
     font::FontMaps serif = dejavu("DejaVuSerif.ttf");
     const TextPage page = letters(serif);

@@ -207,6 +207,26 @@ TEST(Typesetter, GroundLiesBelowTranslucentText) {
     EXPECT_LE(differenceOf(setter.page(), font.asset(), scene, viewOver(-20, -20, 120, 80, 200, 0.3)), 4);
 }
 
+TEST(Typesetter, LettersAreCutByThePagesEdge) {
+    FontMaps font(fileOf(dejavu / "DejaVuSans.ttf"));
+    Typesetter setter(font, 60, 40, {1, 1, 1, 1});
+    setter.add(U"OO", {-25, -20, 200, 200}, {.size = 50, .color = {0, 0, 0.5f, 1}});
+    const scene::Scene scene = sceneOf(
+        fmt::format(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='40'><rect width='60' height='40' "
+            "fill='white'/><text x='-25' y='{}' font-family='DejaVu Sans' font-size='50' "
+            "fill='#000080'>OO</text></svg>",
+            -20 + 50 * font.ascent()),
+        dejavu);
+    const asset::TextPage page = setter.page();
+    EXPECT_EQ(page.glyphs.size(), 2u);
+    EXPECT_LE(differenceOf(page, font.asset(), scene, viewOver(0, 0, 60, 40, 240)), 4);
+    Typesetter far(font, 60, 40);
+    far.add(U"O", {-500, 0, 200, 200}, {.size = 50});
+    EXPECT_TRUE(asset::pageAsset(far.page(), font.asset()).instances.empty());
+    EXPECT_TRUE(asset::pageAsset(Typesetter(font, 60, 40).page(), font.asset()).instances.empty());
+}
+
 TEST(Typesetter, RefusesNonsense) {
     FontMaps font(fileOf(dejavu / "DejaVuSans.ttf"));
     EXPECT_THROW(Typesetter(font, 0, 10), std::invalid_argument);
