@@ -1,10 +1,19 @@
 // Pages of text in a user's shader, against the same pages as assets drawn by the CPU.
 #include <vtm/gl/text_texture.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <stdexcept>
+
+#include <fmt/core.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <vtm/font/typesetter.hpp>
 #include <vtm/raster/evaluate.hpp>
@@ -106,6 +115,75 @@ TEST_F(Gl, PagesShowWhatTheirAssetsDo) {
                 << i << (isCells ? " cells" : " letters");
         }
     }
+}
+
+/// Only the pixels on the page: letters that stick out end with the page in the texture, and do not in the
+/// asset.
+Raster onPage(Raster drawn, const TextPage& page, const View& view) {
+    const glm::dmat2 toPage = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    const glm::dvec2 reach = 0.6 * (glm::abs(toPage[0]) + glm::abs(toPage[1])), size(page.width, page.height);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const glm::dvec2 p = toPage * (glm::dvec2(x + 0.5, y + 0.5) - view.toPixels[2]);
+            if (glm::any(glm::lessThan(p, reach)) || glm::any(glm::greaterThan(p, size - reach)))
+                std::fill_n(drawn.pixel(x, y), 4, 0.f);
+        }
+    return drawn;
+}
+
+/// Random texts of letters from everywhere in a font, of many sizes, colours and directions. VTM_PAGES=500
+/// tries so many.
+TEST_F(Gl, RandomPagesShowWhatTheirAssetsDo) {
+    const char* wanted = std::getenv("VTM_PAGES");
+    const unsigned count = wanted ? unsigned(std::strtoul(wanted, nullptr, 10)) : 12;
+    PageCanvas canvas;
+    double largest = 0;
+    for (unsigned seed = 0; seed < count; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> unit(0, 1);
+        font::FontMaps font = dejavu(seed % 3 == 0 ? "DejaVuSans.ttf" : "DejaVuSerif.ttf");
+        const std::vector<char32_t> all = font.characters();
+        const auto color = [&](float alpha) {
+            return font::Color{unit(random), unit(random), unit(random), alpha};
+        };
+        const double width = 50 + 500 * unit(random), height = 50 + 500 * unit(random);
+        font::Typesetter setter(font, width, height, color(seed % 4 == 0 ? 0.f : 1.f));
+        double y = 0;
+        for (int i = 0; i < 6; ++i) {
+            font::TextStyle style;
+            style.size = 6 + 60 * std::pow(unit(random), 4);
+            style.color = color(unit(random) < 0.3 ? unit(random) : 1);
+            style.rightToLeft = unit(random) < 0.3;
+            style.vertical = seed % 5 == 4;
+            style.lineHeight = 1.6;
+            std::u32string text;
+            for (int k = 0; k < 60; ++k)
+                text += k % 7 == 6           ? U' '
+                        : unit(random) < 0.5 ? char32_t(U'!' + random() % 94)
+                                             : all[random() % all.size()];
+            const double room = style.vertical ? width : height;
+            const double next = y + 0.3 * room * unit(random);
+            if (style.vertical)
+                setter.add(text, {y, 0, next - y, height}, style);
+            else
+                setter.add(text, {0, y, width, next - y}, style);
+            y = next;
+        }
+        const TextPage page = setter.page();
+        const asset::Asset maps = font.asset(), flat = asset::pageAsset(page, maps);
+        const asset::Scanner scanner(flat);
+        TextTexture texture(maps, {page});
+        for (int i = 0; i < 6; ++i) {
+            const View view = viewOf(page, random);
+            const double difference = worst(onPage(canvas.draw(texture, 0, page, view), page, view),
+                                            onPage(scanner.draw(view), page, view));
+            // The asset's boundaries may be off, by which the table's are not.
+            const double off = *flat.finestPixel * asset::finestShare * glm::length(view.toPixels[0]);
+            EXPECT_LE(difference, 3.0 / 255 + off) << seed << " view " << i;
+            largest = std::max(largest, difference);
+        }
+    }
+    fmt::print("{} pages, max {:.2f}/255\n", count, 255 * largest);
 }
 
 TEST_F(Gl, PagesMayBeEmptyOrCutLetters) {

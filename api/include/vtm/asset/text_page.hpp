@@ -59,8 +59,9 @@ struct TextPage {
 /// symbol and map exists, and matrices are regular. `font` must be valid.
 void validate(const TextPage& page, const AssetView& font);
 
-/// The page as an asset of its own, in which glyphs are instances: for engines that know no pages. Throws
-/// std::invalid_argument as validate() does, and if the format cannot hold them.
+/// The page as an asset of its own, in which glyphs are instances: for engines that know no pages. Letters
+/// that stick out of the page are drawn beyond it. Throws std::invalid_argument as validate() does, and if
+/// the format cannot hold them.
 Asset pageAsset(const TextPage& page, const AssetView& font);
 
 }  // namespace vtm::asset
