@@ -13,6 +13,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/limits/limits.hpp>
 #include "asset/place.hpp"
+#include "font/tag.hpp"
 #include "geometry/cubic.hpp"
 
 namespace vtm::font {
@@ -24,13 +25,6 @@ using scene::Path;
 using text::GlyphId;
 
 constexpr const char* familyName = "font";  // in a set of its own
-
-text::Tag tagOf(const std::string& name) {
-    if (name.size() != 4)
-        throw std::invalid_argument(fmt::format("'{}' is not an axis of four characters", name));
-    const auto byte = [&](std::size_t i) { return text::Tag(static_cast<unsigned char>(name[i])); };
-    return byte(0) << 24 | byte(1) << 16 | byte(2) << 8 | byte(3);
-}
 
 /// FNV-1a.
 class Hash {

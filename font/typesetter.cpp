@@ -14,6 +14,7 @@
 #include <vtm/limits/limits.hpp>
 #include "font/contact.hpp"
 #include "font/glyph_maps.hpp"
+#include "font/tag.hpp"
 #include "text/shape.hpp"
 #include "text/utf8.hpp"
 
@@ -34,14 +35,6 @@ void require(bool holds, const char* what) {
 }
 
 bool isPositive(double value) { return std::isfinite(value) && value > 0; }
-
-text::Tag tagOf(const std::string& name) {
-    require(name.size() == 4, "typesetter: a feature's tag has four characters");
-    text::Tag tag = 0;
-    for (const char c : name)
-        tag = tag << 8 | static_cast<unsigned char>(c);
-    return tag;
-}
 
 /// A glyph where its line has it: ems, from the line's start; y down.
 struct LineGlyph {

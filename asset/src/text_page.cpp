@@ -94,18 +94,17 @@ void validate(const TextPage& page, const AssetView& font) {
         validateCells(page, *page.cells);
 }
 
+PageColor colorOn(const PageColor& color, const PageColor& ground) {
+    PageColor result{};
+    for (std::size_t i = 0; i < 3; ++i)
+        result[i] = color[i] * color[3] + ground[i] * ground[3] * (1 - color[3]);
+    result[3] = color[3] + ground[3] * (1 - color[3]);
+    return result;
+}
+
 // ---- As an asset ------------------------------------------------------------------------------------
 
 namespace {
-
-PageColor premultiplied(const PageColor& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
-
-PageColor over(const PageColor& top, const PageColor& below) {
-    PageColor result{};
-    for (std::size_t i = 0; i < 4; ++i)
-        result[i] = top[i] + below[i] * (1 - top[3]);
-    return result;
-}
 
 class PageAsset {
 public:
@@ -115,7 +114,7 @@ public:
         asset_.height = page.height;
         asset_.commands = {Command{}};
         asset_.finestPixel = 0;
-        ground_ = premultiplied(page.ground);
+        ground_ = colorOn(page.ground, {});
         asset_.paints = {Paint{}};
         addGround();
     }
@@ -183,7 +182,7 @@ private:
             map->second = appendMap(extractMap(font_, symbol.map), asset_);
         const Affine2 place = placeOf(symbol, origin);
         include(symbol, place);
-        return {map->second, {groundPaint_, paintOf(over(premultiplied(color), ground_))}, place};
+        return {map->second, {groundPaint_, paintOf(colorOn(color, page_.ground))}, place};
     }
 
     /// How far the page may be magnified: the glyph's own error, enlarged, and that of its stored place.

@@ -22,16 +22,6 @@ using glm::dvec2;
 std::uint32_t bitsOf(double value) { return std::bit_cast<std::uint32_t>(float(value)); }
 Texel floats(double x, double y, double z, double w) { return {bitsOf(x), bitsOf(y), bitsOf(z), bitsOf(w)}; }
 
-asset::PageColor premultiplied(const asset::PageColor& c) {
-    return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]};
-}
-asset::PageColor over(const asset::PageColor& top, const asset::PageColor& below) {
-    asset::PageColor result{};
-    for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = top[i] + below[i] * (1 - top[3]);
-    return result;
-}
-
 /// Places of glyphs: 24 bits over twice the page's side, from half a side before it on.
 constexpr double placeSteps = 1u << 23, firstPlace = -0.5;
 
@@ -60,7 +50,7 @@ public:
         const GLuint layers = first_ + GLuint(texels_.size());
         for (const std::array<Texel, 4>& layer : layers_)
             texels_.insert(texels_.end(), layer.begin(), layer.end());
-        const asset::PageColor ground = premultiplied(page_.ground);
+        const asset::PageColor ground = asset::colorOn(page_.ground, {});
         texels_[0] = {GLuint(layers_.size()), layers, symbols, page_.cells ? 3u : 2u};
         texels_[1] = floats(ground[0], ground[1], ground[2], ground[3]);
         return std::move(texels_);
@@ -85,10 +75,9 @@ private:
 
     GLuint addSymbols() {
         const GLuint first = first_ + GLuint(texels_.size());
-        const asset::PageColor ground = premultiplied(page_.ground);
         for (std::size_t i = 0; i < page_.symbols.size(); ++i) {
             const PageSymbol& symbol = page_.symbols[i];
-            const asset::PageColor color = over(premultiplied(symbol.color), ground);
+            const asset::PageColor color = asset::colorOn(symbol.color, page_.ground);
             const auto unorm = [&](std::size_t low) {
                 const auto of = [](float c) { return std::uint32_t(std::lround(c * 65535)); };
                 return of(color[low]) | of(color[low + 1]) << 16;
@@ -131,7 +120,7 @@ private:
             colors = append(cells.colors);
             std::vector<Texel> inks;
             for (const asset::PageColor& color : cells.palette)
-                inks.push_back(std::bit_cast<Texel>(over(premultiplied(color), premultiplied(page_.ground))));
+                inks.push_back(std::bit_cast<Texel>(asset::colorOn(color, page_.ground)));
             palette = append(inks);
         }
         addLayer({cells.columns, cells.rows}, symbols, 0, cells.corner / side_, size, before, behind, colors,

@@ -161,8 +161,8 @@ OpenTypeFont::OpenTypeFont(std::shared_ptr<const Face> face, Instance instance)
       font_(hb_font_create(face_->harfbuzz())),
       unitsPerEm_(hb_face_get_upem(face_->harfbuzz())),
       instance_(std::move(instance)) {
-    const int scale = static_cast<int>(unitsPerEm_) * harfbuzzScale;
-    hb_font_set_scale(font_.get(), scale, scale);
+    const int steps = static_cast<int>(unitsPerEm_) * harfbuzzScale;
+    hb_font_set_scale(font_.get(), steps, steps);
     std::vector<hb_variation_t> axes;
     for (const auto& [axis, value] : instance_.axes)
         axes.push_back({axis, value});

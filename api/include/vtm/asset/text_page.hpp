@@ -55,6 +55,9 @@ struct TextPage {
     std::optional<PageCells> cells;
 };
 
+/// What a colour on a ground looks like, both straight: premultiplied.
+PageColor colorOn(const PageColor& color, const PageColor& ground);
+
 /// Throws std::invalid_argument, which names the record, unless every number is finite and in range, every
 /// symbol and map exists, and matrices are regular. `font` must be valid.
 void validate(const TextPage& page, const AssetView& font);
