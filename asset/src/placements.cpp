@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
+#include <vtm/asset/container.hpp>
 #include "asset/place.hpp"
 
 namespace vtm::asset {
@@ -139,6 +140,26 @@ private:
     std::vector<std::uint32_t> nodeIndex_, instanceIndex_, treeIndex_;
 };
 
+double stretchOf(const Affine2& place) {
+    return std::max(glm::length(place.linear[0]), glm::length(place.linear[1]));
+}
+
+/// By how much placements make maps larger than they were, or, where they were not placed, than their own
+/// size: so much larger are the errors of their boundaries. At least 1.
+double enlargement(const AssetView& asset, std::span<const Placement> placements) {
+    std::map<std::uint32_t, double> known;
+    for (const Placement& before : placementsOf(asset)) {
+        double& largest = known[before.map];
+        largest = std::max(largest, stretchOf(affineOf(before.toPicture)));
+    }
+    double largest = 1;
+    for (const Placement& p : placements) {
+        const auto before = known.try_emplace(p.map, asset.maps[p.map].side).first->second;
+        largest = std::max(largest, stretchOf(affineOf(p.toPicture)) / before);
+    }
+    return largest;
+}
+
 }  // namespace
 
 // ---- The functions -----------------------------------------------------------------------------------
@@ -183,8 +204,9 @@ Asset withPlacements(const AssetView& asset, std::span<const Placement> placemen
             require(paint < asset.paints.size(), "refers to a missing paint");
         const Affine2 place = affineOf(p.toPicture);
         const double area = glm::determinant(place.linear);
-        require(std::isfinite(area) && area != 0 && std::isfinite(place.offset.x + place.offset.y),
-                "its matrix is singular");
+        require(std::isfinite(area) && std::isfinite(place.offset.x + place.offset.y),
+                "its matrix is not finite");
+        require(area != 0, "its matrix is singular");
         const dvec2 centre = place(dvec2(0.5)),
                     reach = 0.5 * (glm::abs(place.linear[0]) + glm::abs(place.linear[1]));
         if (glm::any(glm::greaterThanEqual(centre - reach, size)) ||
@@ -198,11 +220,16 @@ Asset withPlacements(const AssetView& asset, std::span<const Placement> placemen
         placed.push_back({std::uint16_t(p.map), p.paints, inSquare});
     }
     Asset result = Stripped(asset, drawn).make(drawn);
+    if (result.finestPixel)
+        *result.finestPixel *= enlargement(asset, placements);
     try {
         const std::uint32_t trees = appendInstances(placed, result);
         result.maps[drawn].instances = trees;
+        validate(result);
     } catch (const TooManyInstances& error) {
         throw std::invalid_argument(error.what());
+    } catch (const FormatError& error) {  // rounded to a line, or too much to draw
+        throw std::invalid_argument(fmt::format("placements: {}", error.what()));
     }
     return result;
 }

@@ -142,6 +142,19 @@ TEST(Placements, LeaveInnerMapsAlone) {
     EXPECT_EQ(one.instances.size(), 2u);  // and the one inside
 }
 
+/// Errors of boundaries grow with the placement, and so does the finest pixel.
+TEST(Placements, EnlargedOnesAreLessFine) {
+    Asset asset = compiled(sky, 400, 300);
+    Placement one = addPicture(asset, compiled(star, 20, 20));
+    one.paints[0] = 1;
+    const double fine = *withPlacements(asset, std::vector{one}).finestPixel;
+    EXPECT_EQ(fine, *asset.finestPixel);
+    one.toPicture *= 5;
+    const Asset large = withPlacements(asset, std::vector{one});
+    EXPECT_NEAR(*large.finestPixel, 5 * fine, 1e-6 * fine);
+    EXPECT_NEAR(*withPlacements(large, std::vector{one}).finestPixel, 5 * fine, 1e-3 * fine);
+}
+
 TEST(Placements, BeyondThePictureAreLeftOut) {
     Asset asset = compiled(sky, 400, 300);
     Placement one = addPicture(asset, compiled(star, 20, 20));
@@ -180,9 +193,11 @@ TEST(Placements, AreRefusedByName) {
     EXPECT_EQ(refusal([](Placement& p) { p.toPicture[0] = p.toPicture[1]; }),
               "placements[1]: its matrix is singular");
     EXPECT_EQ(refusal([](Placement& p) { p.toPicture[2].x = std::nan(""); }),
-              "placements[1]: its matrix is singular");
+              "placements[1]: its matrix is not finite");
     EXPECT_EQ(refusal([](Placement& p) { p.toPicture[2].x = -12; }),
               "placements[1]: its middle lies outside the picture's square");
+    // Regular, but a line once it is stored.
+    EXPECT_NE(refusal([](Placement& p) { p.toPicture[0] = p.toPicture[1] + glm::dvec2(0, 1e-6); }), "");
     EXPECT_THROW(placementsOf(layers()), std::invalid_argument);
     EXPECT_THROW(addPicture(asset, everyPaint()), std::invalid_argument);
     EXPECT_THROW(addPicture(asset, placedMaps()), std::invalid_argument);

@@ -37,9 +37,10 @@ struct Placement {
 std::vector<Placement> placementsOf(const AssetView& asset);
 
 /// A copy of the asset with these in place of its own. Placements that lie beyond the picture are left out.
-/// Throws std::invalid_argument, which names the placement, if the asset has not one map to draw, a map or a
-/// paint is missing, a matrix is singular, the middle of a map lies outside the picture's square while a part
-/// of it is seen, or the format cannot hold them.
+/// Where they enlarge a map, Asset::finestPixel grows as much. Throws std::invalid_argument, which names the
+/// placement, if the asset has not one map to draw, a map or a paint is missing, a matrix is singular, the
+/// middle of a map lies outside the picture's square while a part of it is seen, or the format cannot hold
+/// them.
 Asset withPlacements(const AssetView& asset, std::span<const Placement> placements);
 
 /// Adds a picture's only map to another asset, where it is to be placed, and its paints. Returns a placement
