@@ -19,6 +19,10 @@ using Bytes = std::vector<std::uint8_t>;
 /// Debian's fonts-dejavu-core.
 inline const std::filesystem::path dejavu = "/usr/share/fonts/truetype/dejavu";
 
+/// Its fonts-hosny-amiri and fonts-wqy-microhei.
+inline const std::filesystem::path amiri = "/usr/share/fonts/opentype/fonts-hosny-amiri/Amiri-Regular.ttf",
+                                   microHei = "/usr/share/fonts/truetype/wqy/wqy-microhei.ttc";
+
 inline Bytes fileOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     EXPECT_TRUE(file) << path;
