@@ -2,6 +2,7 @@
 // bitmap.
 
 #include <GLES3/gl3.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +11,14 @@
 #include <fmt/core.h>
 #include <glm/matrix.hpp>
 
+#include <vtm/compiler/compile.hpp>
 #include <vtm/font/typesetter.hpp>
 #include <vtm/gl/text_texture.hpp>
 #include <vtm/image/codec.hpp>
 #include <vtm/raster/scan.hpp>
 #include "backend_gl/testing.hpp"
+#include "bench/engines/contest.hpp"
+#include "bench/input/text_pages.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/reports.hpp"
 
@@ -208,6 +212,31 @@ std::string errors(const Raster& drawn, const Raster& truth) {
     return fmt::format("{:.2g}, {:.3g}", std::sqrt(squares / double(truth.rgba.size())), max);
 }
 
+/// A flat page of as many characters by Qt's OpenGL engine, which draws its outlines anew in every frame.
+void addQt(const Options& options, int side, Report& report) {
+    constexpr Kind turning{.name = "turning"};
+    Contenders all = contenders(options, report.notes);
+    std::erase_if(all,
+                  [](const Contender& one) { return !one.ours && !one.engine->name().starts_with("qt-gl"); });
+    const auto folder = std::filesystem::temp_directory_path() / fmt::format("vtm_bench_pages_{}", getpid());
+    std::filesystem::create_directories(folder);
+    const std::vector<File> files = writeTextPages(folder, report.notes);
+    if (!files.empty()) {
+        CompiledFile page{files.front(), load(files.front()), {}};
+        page.asset = compiler::compile(page.scene).asset;
+        prepare(all, page, {&turning, 1}, options, report.notes);
+        takeTurns(all, page, turning, side, patienceOf(options), report.notes);
+        for (const Contender& one : all)
+            if (!one.times.empty())
+                report.rows.push_back({{"view", "flat, a page of paths"},
+                                       {"as", one.engine->name()},
+                                       {"ms", fmt::format("{:.3g}", median(one.times))},
+                                       {"rms, max", "-"},
+                                       {"bytes", asset::summarize(page.asset).bytes}});
+    }
+    std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 
 Report pages(const Options& options) {
@@ -226,6 +255,8 @@ Report pages(const Options& options) {
         "brackets the ratio to it, pair by pair; then rms and max error of 255 against the mean of 36 points "
         "a pixel. Bytes without "
         "the font ({{}} bytes for both) and without pyramids of means, but with the bitmap's. Into RGBA32F. "
+        "Last, a flat page of as many characters turning, as a picture by our engines and by Qt's OpenGL "
+        "engine, with one sample and with four. "
         "On {1}, {3}.",
         side, context.renderer(), errorPixels, context.version());
     const std::string serif = std::string(fontFolder) + "DejaVuSerif.ttf",
@@ -260,6 +291,7 @@ Report pages(const Options& options) {
                  {"bytes", way->bytes}});
         }
     }
+    addQt(options, side, report);
     return report;
 }
 

@@ -1,5 +1,7 @@
 #include <vtm/image/codec.hpp>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -46,7 +48,8 @@ TEST(Codec, HugePngIsRefusedBeforeItsPixelsAreAllocated) {
 }
 
 TEST(Codec, FilesSurviveWritingAndReading) {
-    const std::string path = (std::filesystem::temp_directory_path() / "vtm_codec_test.bin").string();
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("vtm_codec_test_" + std::to_string(getpid()))).string();
     const std::vector<std::uint8_t> bytes{0, 1, 255, 13, 10};
     writeFile(path, bytes);
     EXPECT_EQ(readFile(path), bytes);

@@ -110,7 +110,7 @@ TEST(Image, BrokenOnesAreWarnings) {
 class ImageFiles : public testing::Test {
 protected:
     void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() / "vtm_svg_image_test";
+        folder_ = std::filesystem::temp_directory_path() / ("vtm_svg_image_test_" + std::to_string(getpid()));
         std::filesystem::create_directories(folder_);
         std::ofstream(folder_ / "a b.svg")
             << document("<rect width='1' height='1'/><image href='a%20b.svg'/>");

@@ -1,6 +1,8 @@
 #include <fstream>
 #include <set>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "conformance/runner/suite/expectations.hpp"
@@ -33,7 +35,7 @@ TEST(Variants, AreProductsOfAxesAndUnionsOfSets) {
 /// A suite of its own in a temporary folder.
 class SuiteFolder : public testing::Test {
 protected:
-    SuiteFolder() { fs::remove_all(folder_); }
+    ~SuiteFolder() override { fs::remove_all(folder_.parent_path()); }
     void write(const std::string& name, const std::string& text) {
         fs::create_directories((folder_ / name).parent_path());
         std::ofstream(folder_ / name) << text;
@@ -46,7 +48,8 @@ protected:
         }
         return {};
     }
-    fs::path folder_ = fs::path(testing::TempDir()) / "mine";
+    /// Tests run side by side.
+    fs::path folder_ = fs::path(testing::TempDir()) / ("vtm_suite_" + std::to_string(getpid())) / "mine";
     const std::string square_ =
         "<!-- A square.\n  No curves. --><svg xmlns=\"http://www.w3.org/2000/svg\" width=\"64\" "
         "height=\"64\"><path id=\"subject\" d=\"M9,9H50V50H9Z\"/></svg>";
