@@ -14,7 +14,6 @@ namespace vtm::compiler {
 namespace {
 
 using scene::Affine;
-using scene::Color;
 using scene::GradientStop;
 using scene::Point;
 using scene::Spread;
@@ -34,7 +33,7 @@ struct Range {
 /// A stop where it stands on the unrolled ramp.
 struct Stop {
     double at;
-    Color color;
+    scene::Color color;
 };
 
 std::array<Point, 4> corners(glm::dvec2 size) {
@@ -51,14 +50,14 @@ Range shown(const Affine& toRamp, glm::dvec2 size) {
     return {range.low - more, range.high + more};
 }
 
-Color hashCombine(const Color& a, const Color& b, double share) {
+scene::Color interpolated(const scene::Color& a, const scene::Color& b, double share) {
     const auto mix = [&](float x, float y) { return float(double(x) + (double(y) - double(x)) * share); };
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b), mix(a.a, b.a)};
 }
 
 /// One period, from `start` on; `isTurned`: from its end to its beginning.
 void append(std::vector<Stop>& stops, const std::vector<GradientStop>& period, double start, bool isTurned) {
-    const auto add = [&](double offset, const Color& color) {
+    const auto add = [&](double offset, const scene::Color& color) {
         stops.push_back({start + (isTurned ? 1 - offset : offset), color});
     };
     std::vector<GradientStop> inOrder = period;
@@ -83,14 +82,14 @@ std::vector<Stop> unrolled(const Ramp& ramp, const Range& range) {
 }
 
 /// The colour at u, of stops that do not lie there.
-Color colorAt(const std::vector<Stop>& stops, double u) {
+scene::Color colorAt(const std::vector<Stop>& stops, double u) {
     const auto above = std::ranges::upper_bound(stops, u, {}, &Stop::at);
     if (above == stops.begin())
         return stops.front().color;
     const Stop& below = *(above - 1);
     if (above == stops.end())
         return below.color;
-    return hashCombine(below.color, above->color, (u - below.at) / (above->at - below.at));
+    return interpolated(below.color, above->color, (u - below.at) / (above->at - below.at));
 }
 
 std::vector<GradientStop> within(const std::vector<Stop>& stops, const Range& range) {
@@ -159,7 +158,6 @@ std::optional<Ramp> straightened(const scene::RadialGradient& gradient, const Af
 namespace {
 
 using scene::Affine;
-using scene::Color;
 using scene::compose;
 using scene::GradientStop;
 
@@ -171,7 +169,7 @@ constexpr double largestPlace = 0x1p60;
 /// The largest number below 1, which a focal radius may not reach.
 constexpr float belowOne = 0x1.fffffep-1f;
 
-std::array<float, 4> premultiplied(const Color& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
+std::array<float, 4> premultiplied(const scene::Color& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
 
 std::uint16_t unorm16(float v) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f));
@@ -198,7 +196,7 @@ Affine gradientFrame(const scene::LinearGradient& g) {
 }  // namespace
 
 std::optional<std::uint32_t> PaintTable::add(const scene::Paint& paint, const Affine& item) {
-    if (const auto* color = std::get_if<Color>(&paint))
+    if (const auto* color = std::get_if<scene::Color>(&paint))
         return solid(*color);
     if (const auto* g = std::get_if<scene::LinearGradient>(&paint))
         return linear(*g, compose(item, g->transform));
@@ -227,7 +225,7 @@ std::uint32_t PaintTable::add(Source source) {
     return static_cast<std::uint32_t>(picture_.sources.size() - 1);
 }
 
-std::optional<std::uint32_t> PaintTable::solid(const Color& c) {
+std::optional<std::uint32_t> PaintTable::solid(const scene::Color& c) {
     return add({asset::Op::Solid, premultiplied(c), 0, c.a >= 1});
 }
 

@@ -14,7 +14,7 @@
 namespace vtm::compiler {
 
 /// 64 well-mixed bits (SplitMix64): sums and exclusive ors of them vanish by chance once in 2^64.
-inline std::uint64_t hashCombine(std::uint64_t value) {
+inline std::uint64_t hashValue(std::uint64_t value) {
     std::uint64_t z = (value + 1) * 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;

@@ -232,11 +232,11 @@ bool Planariser::labelFromBorder() {
 
 // ---- certify ----------------------------------------------------------------------------------
 
-/// Of each edge: hashCombine(left) - hashCombine(right), as seen going from a to b.
+/// Of each edge: hashValue(left) - hashValue(right), as seen going from a to b.
 void Planariser::findFlows() {
     flows_.resize(leaf_.sides.size());
     std::transform(leaf_.sides.begin(), leaf_.sides.end(), flows_.begin(), [](const Sides& sides) {
-        return sides.left == sides.right ? 0 : hashCombine(sides.left) - hashCombine(sides.right);
+        return sides.left == sides.right ? 0 : hashValue(sides.left) - hashValue(sides.right);
     });
 }
 
@@ -259,7 +259,7 @@ bool Planariser::certifyVertices() const {
 
 bool Planariser::certifySides() const {
     for (std::size_t side = 0; side < 4; ++side) {
-        std::uint64_t sum = hashCombine(leaf_.corners[side]) - hashCombine(leaf_.corners[(side + 1) % 4]);
+        std::uint64_t sum = hashValue(leaf_.corners[side]) - hashValue(leaf_.corners[(side + 1) % 4]);
         for (const EdgeEnd end : leaf_.vertices.border(side))
             sum += flow(end);
         if (sum != 0)

@@ -13,7 +13,7 @@ namespace vtm::compiler::stroke {
 namespace {
 
 /// Halvings of a chord that was guessed too long.
-constexpr int maxHalvings = 12;
+constexpr int maxChordHalvings = 12;
 /// Chords of a curve; where more are guessed, halving makes them.
 constexpr double maxDensity = 4096;
 /// Of these, so many are placed at once.
@@ -140,7 +140,7 @@ private:
                 continue;
             side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], k - appended);
             for (int i = 0; i < many; ++i)
-                chord(vertex(t[i]), vertex(t[i + 1]), maxHalvings);
+                chord(vertex(t[i]), vertex(t[i + 1]), maxChordHalvings);
             appended = k + many;
         }
         side_.addLines(&x_[std::size_t(appended + 1)], &y_[std::size_t(appended + 1)], count - appended);

@@ -87,7 +87,7 @@ public:
     explicit BitPaints(std::span<const int> corner) : layers_(static_cast<std::uint32_t>(corner.size())) {
         std::vector<Layer> layers;
         for (int winding : corner)
-            layers.push_back({scene::FillRule::NonZero, winding, hashCombine(layers.size())});
+            layers.push_back({scene::FillRule::NonZero, winding, hashValue(layers.size())});
         enter(layers);
     }
 

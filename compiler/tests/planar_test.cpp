@@ -222,8 +222,8 @@ TEST(Planar, boundariesBetweenEqualPaintsAreNotVisible) {
     } one;
     const TestLeaf test =
         leafOf(square, {{{500, 500}, {2000, 900}, {1900, 3000}}, {{700, 400}, {2100, 1900}, {400, 3100}}});
-    const RegionPaints::Layer layers[] = {{scene::FillRule::NonZero, test.corner[0], hashCombine(0)},
-                                          {scene::FillRule::NonZero, test.corner[1], hashCombine(1)}};
+    const RegionPaints::Layer layers[] = {{scene::FillRule::NonZero, test.corner[0], hashValue(0)},
+                                          {scene::FillRule::NonZero, test.corner[1], hashValue(1)}};
     one.enter(layers);
     Planariser planariser;
     const PlanarLeaf& leaf = planariser.run(square, test.points(), test.cell.clippedRuns, one);

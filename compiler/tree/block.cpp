@@ -63,8 +63,7 @@ void LeafRegions::enter(const Cell& cell, Palette& palette) {
     auto known = cell.windings.begin();
     for (std::uint32_t layer : layers) {
         const bool isKnown = known != cell.windings.end() && known->layer == layer;
-        entered_.push_back(
-            {picture_.layers[layer].rule, isKnown ? (known++)->winding : 0, hashCombine(layer)});
+        entered_.push_back({picture_.layers[layer].rule, isKnown ? (known++)->winding : 0, hashValue(layer)});
     }
     RegionPaints::enter(entered_);
 }
@@ -73,7 +72,7 @@ PaintId LeafRegions::solid(Cell& cell, Culler& culler, Palette& palette) {
     std::uint64_t key = 0;
     for (const LayerWinding& w : cell.windings)
         if (compiler::isInside(picture_.layers[w.layer], w.winding))
-            key ^= hashCombine(w.layer);
+            key ^= hashValue(w.layer);
     if (const PaintId paint = known(key); paint != NumberMap::unknown)
         return paint;
     culler.run(cell);
@@ -230,7 +229,7 @@ std::size_t BlockBuilder::distinctChords(const Cell& cell, std::size_t maximum) 
     for (const ClippedRun& s : cell.clippedRuns) {
         const auto [a, b] = std::minmax(points_[s.first], points_[s.last]);
         const std::uint32_t chords = s.last - s.first;
-        std::uint32_t& known = seen[hashCombine(sortKey(a)) + hashCombine(hashCombine(sortKey(b)) + chords)];
+        std::uint32_t& known = seen[hashValue(sortKey(a)) + hashValue(hashValue(sortKey(b)) + chords)];
         if (known == NumberMap::unknown)
             count += known = chords;
         if (count > maximum)
