@@ -1,13 +1,12 @@
 #include "compiler/instances/encode_instances.hpp"
 
-#include <numeric>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <vtm/compiler/compile.hpp>
 #include "asset/place.hpp"
-#include "compiler/instances/place_symbols.hpp"
+#include "compiler/instances/placed_symbols.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -16,17 +15,21 @@ using asset::Asset;
 using asset::PlacementInSquare;
 using glm::dvec2;
 
-std::uint32_t appendGrid(const GridMap& grid, std::uint16_t inner, Asset& asset) {
-    std::vector<std::uint16_t> numbers(grid.paints + 1);
-    std::iota(numbers.begin(), numbers.end(), std::uint16_t(0));
-    const glm::dmat2 linear(1.0 / double(blockTiles));
-    std::vector<PlacementInSquare> tiles;
-    for (std::int64_t i = 0; i < blockTiles * blockTiles; ++i)
-        tiles.push_back(
-            {inner,
-             numbers,
-             {linear, grid.first + dvec2(double(i % blockTiles), double(i / blockTiles)) * grid.step}});
-    return asset::appendInstances(tiles, asset);
+/// `side`: of the square around, in the units that the placements lead to. `first`: the asset's index of the
+/// first map. `paints`: the asset's number of each paint.
+template <class PaintOf>
+std::uint32_t appendPlaced(std::span<const PlacedSymbol> placed, double side, std::uint16_t first,
+                           PaintOf&& paintOf, Asset& asset) {
+    std::vector<PlacementInSquare> placements;
+    for (const PlacedSymbol& p : placed) {
+        std::vector<std::uint16_t> paints;
+        for (const PaintId paint : p.paints)
+            paints.push_back(paintOf(paint));
+        placements.push_back({std::uint16_t(first + p.map),
+                              std::move(paints),
+                              {p.toOuter.linear / side, p.toOuter.offset / side}});
+    }
+    return asset::appendInstances(placements, asset);
 }
 
 Asset emptyMap() {
@@ -43,8 +46,9 @@ std::vector<double> drawnOf(const PlacedSymbols& placed) {
             const Asset& map = symbol->asset;
             drawn[i] = double(1 + 16 * map.nodes.size() + map.pieces.size());
         } else {
-            const auto& grid = std::get<GridMap>(placed.maps[i]);
-            drawn[i] = 1 + double(blockTiles * blockTiles) * (drawn[grid.map] + grid.paints);
+            drawn[i] = 1;
+            for (const PlacedSymbol& p : std::get<GroupMap>(placed.maps[i]).placed)
+                drawn[i] += drawn[p.map] + double(p.paints.size());
         }
     }
     return drawn;
@@ -70,20 +74,13 @@ void append(const PlacedSymbols& placed, std::span<const std::uint16_t> paints, 
         else
             asset::appendMap(emptyMap(), asset);
     for (std::size_t i = 0; i < placed.maps.size(); ++i)
-        if (const auto* grid = std::get_if<GridMap>(&placed.maps[i])) {
-            const std::uint32_t trees = appendGrid(*grid, std::uint16_t(first + grid->map), asset);
+        if (const auto* group = std::get_if<GroupMap>(&placed.maps[i])) {
+            const std::uint32_t trees = appendPlaced(
+                group->placed, 1, first, [](PaintId paint) { return std::uint16_t(paint); }, asset);
             asset.maps[first + i].instances = trees;
         }
-    std::vector<PlacementInSquare> placements;
-    for (const PlacedSymbol& p : placed.placed) {
-        std::vector<std::uint16_t> own;
-        for (const PaintId paint : p.paints)
-            own.push_back(paints[paint]);
-        placements.push_back({std::uint16_t(first + p.map),
-                              std::move(own),
-                              {p.toPicture.linear / side, p.toPicture.offset / side}});
-    }
-    const std::uint32_t trees = asset::appendInstances(placements, asset);
+    const std::uint32_t trees = appendPlaced(
+        placed.placed, side, first, [&](PaintId paint) { return paints[paint]; }, asset);
     asset.maps.front().instances = trees;
 }
 

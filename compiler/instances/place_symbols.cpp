@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -12,7 +13,9 @@
 
 #include <vtm/limits/limits.hpp>
 #include "asset/place.hpp"
+#include "compiler/instances/affine2.hpp"
 #include "compiler/instances/boundary.hpp"
+#include "compiler/instances/group_placements.hpp"
 #include "compiler/instances/layers_at.hpp"
 #include "compiler/instances/repeats.hpp"
 #include "compiler/paint/painters.hpp"
@@ -22,45 +25,6 @@ namespace {
 
 using asset::Affine2;
 using glm::dvec2;
-
-Affine2 affine2(const scene::Affine& m) { return {{m[0], m[1]}, m[2]}; }
-
-Affine2 inverse(const Affine2& m) {
-    const glm::dmat2 linear = glm::inverse(m.linear);
-    return {linear, -(linear * m.offset)};
-}
-
-double largestStretch(const Affine2& m) {
-    return compiler::largestStretch({m.linear[0], m.linear[1], m.offset});
-}
-
-struct Box2 {
-    dvec2 min{HUGE_VAL}, max{-HUGE_VAL};
-
-    void add(dvec2 p) {
-        min = glm::min(min, p);
-        max = glm::max(max, p);
-    }
-    void add(const Box2& box) {
-        add(box.min);
-        add(box.max);
-    }
-    bool isWithin(dvec2 low, dvec2 high) const {
-        return min.x >= low.x && min.y >= low.y && max.x <= high.x && max.y <= high.y;
-    }
-    /// By more than `slack` along both axes.
-    bool overlaps(const Box2& b, double slack) const {
-        return std::min(max.x, b.max.x) - std::max(min.x, b.min.x) > slack &&
-               std::min(max.y, b.max.y) - std::max(min.y, b.min.y) > slack;
-    }
-};
-
-Box2 mapped(const Affine2& m, dvec2 min, dvec2 max) {
-    Box2 box;
-    for (const dvec2 p : {min, max, dvec2(min.x, max.y), dvec2(max.x, min.y)})
-        box.add(m(p));
-    return box;
-}
 
 /// A repeat with its map.
 struct Symbol {
@@ -489,11 +453,21 @@ private:
         return tile;
     }
 
-    /// `period`: in sides of the tile's square, in the middle of which a tile lies, as a block does in its
-    /// own.
-    static GridMap gridOf(std::uint32_t map, dvec2 period, std::uint32_t paints) {
-        const double share = 1.0 / double(blockTiles);
-        return {map, (1 - share) * 0.5 * (1.0 - period), share * period, paints};
+    /// 8 × 8 of a map. `period`: in sides of the tile's square, in the middle of which a tile lies, as a
+    /// block does in its own.
+    static GroupMap gridOf(std::uint32_t map, dvec2 period, std::uint32_t paints) {
+        constexpr double share = 1.0 / double(blockTiles);
+        GroupMap grid{{}, paints};
+        std::vector<PaintId> numbers(paints + 1);
+        std::iota(numbers.begin(), numbers.end(), PaintId(0));
+        for (std::int64_t i = 0; i < blockTiles * blockTiles; ++i) {
+            const dvec2 at(double(i % blockTiles), double(i / blockTiles));
+            grid.placed.push_back(
+                {map,
+                 {glm::dmat2(share), (1 - share) * 0.5 * (1.0 - period) + at * share * period},
+                 numbers});
+        }
+        return grid;
     }
 
     /// From a block's [0, 1]² to the pattern's space: a block lies in the middle of its square.
@@ -695,7 +669,7 @@ private:
         for (std::uint32_t i = 0; i < isPlaced.size(); ++i)
             if (!isPlaced[i])
                 placed.layers.push_back(i);
-        return placed;
+        return groupPlacements(std::move(placed), slackOf(), size_);
     }
 
     const LoweredScene& picture_;

@@ -9,28 +9,12 @@
 
 #include <optional>
 #include <span>
-#include <variant>
-#include <vector>
 
-#include "asset/instances.hpp"
-#include "compiler/instances/symbol_map.hpp"
+#include "compiler/instances/placed_symbols.hpp"
 #include "compiler/instances/tiles.hpp"
 #include "compiler/paint/palette.hpp"
 
 namespace vtm::compiler {
-
-struct PlacedSymbol {
-    std::uint32_t map = 0;        ///< of PlacedSymbols::maps
-    asset::Affine2 toPicture;     ///< from the map's square, [0, 1]², to user units
-    std::vector<PaintId> paints;  ///< by region: the ground first
-};
-
-struct PlacedSymbols {
-    std::vector<std::variant<SymbolMap, GridMap>> maps;
-    std::vector<PlacedSymbol> placed;
-    std::vector<std::uint32_t> layers;  ///< of the picture, that are left; ascending
-    double error = 0;                   ///< no boundary of an instance is farther off, in user units
-};
 
 /// `palette` gets the paints. Nothing if a pattern's tile could not be proven.
 std::optional<PlacedSymbols> placeSymbols(const LoweredScene& picture, std::span<const LayerOrigin> origins,

@@ -89,13 +89,6 @@ std::uint64_t hashOf(const LayerOrigin& origin, scene::FillRule rule) {
     return h;
 }
 
-/// What a layer shows, wherever it lies.
-struct Shape {
-    std::uint64_t key = 0;  ///< 0: of no other layer's kind
-    Affine frame{};         ///< from the outline's own space to the picture
-    double size = 0;        ///< of the outline there
-};
-
 class Shapes {
 public:
     explicit Shapes(std::span<const LayerOrigin> origins) {
@@ -133,25 +126,52 @@ private:
     std::vector<Shape> shapes_;
 };
 
-// ---- Runs of layers -------------------------------------------------------------------------------
+// ---- Runs -----------------------------------------------------------------------------------------
 
-/// Longer runs of layers are not compared.
-constexpr std::size_t maxRun = 4096;
+/// What a repeat is to save.
+enum class Saving {
+    Layers,  ///< one that lies in its next occurrence is cut short there
+    Records
+};
+
+/// A shape with the one that follows it, as they lie to each other: rounded to 14 bits, so that an image has
+/// the same number in all likelihood.
+std::uint64_t pairKey(const Shape& shape, const Shape& next) {
+    const auto inverse = scene::inverse(shape.frame);
+    if (shape.key == 0 || next.key == 0 || !inverse)
+        return 0;
+    constexpr double steps = 1 << 14;
+    const Affine between = scene::compose(*inverse, next.frame);
+    std::uint64_t key = hashCombine(shape.key, next.key);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 2; ++row)
+            key = hashCombine(key, bits(std::round(between[column][row] * steps) + 0.0));  // -0 is 0
+    return key | 1;
+}
 
 class Search {
 public:
-    Search(std::vector<Shape> shapes, double side)
-        : shapes_(std::move(shapes)), isTaken_(shapes_.size()), slack_(std::ldexp(side, -20)) {
-        for (std::uint32_t i = 0; i < shapes_.size(); ++i)
-            if (shapes_[i].key != 0)
-                places_[shapes_[i].key].push_back(i);
+    Search(std::vector<Shape> shapes, double slack, Saving saving)
+        : shapes_(std::move(shapes)),
+          starts_(shapes_.size()),
+          isTaken_(shapes_.size()),
+          slack_(slack),
+          saving_(saving) {
+        for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+            if (saving == Saving::Layers)
+                starts_[i] = shapes_[i].key;
+            else if (i + 1 < shapes_.size())
+                starts_[i] = pairKey(shapes_[i], shapes_[i + 1]);
+            if (starts_[i] != 0)
+                places_[starts_[i]].push_back(i);
+        }
     }
 
     std::vector<Repeat> run() {
         std::vector<Repeat> repeats;
         for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
             limits::check();
-            if (shapes_[i].key == 0 || isTaken_[i] || places_[shapes_[i].key].size() < 2)
+            if (starts_[i] == 0 || isTaken_[i] || places_[starts_[i]].size() < 2)
                 continue;
             Repeat repeat = repeatFrom(i);
             if (repeat.occurrences.size() < 2)
@@ -164,7 +184,10 @@ public:
     }
 
 private:
-    /// How many layers from `to` on are images of those from `from` on, under one map.
+    /// Longer runs are not compared.
+    static constexpr std::size_t maxLayers = 4096, maxRecords = 256;
+
+    /// How many shapes from `to` on are images of those from `from` on, under one map.
     std::size_t matching(std::uint32_t from, std::uint32_t to, std::size_t maximum) const {
         const auto inverse = scene::inverse(shapes_[from].frame);
         if (!inverse)
@@ -187,19 +210,28 @@ private:
         return isNear({0, 0}) && isNear({shape.size, 0}) && isNear({0, shape.size});
     }
 
-    /// The run from layer i on that saves most layers: as long as its next occurrence, or shorter where more
-    /// places hold only its beginning.
+    /// The run from shape i on that saves most.
     Repeat repeatFrom(std::uint32_t i) const {
-        const std::vector<std::uint32_t>& places = places_.at(shapes_[i].key);
+        const std::vector<std::uint32_t>& places = places_.at(starts_[i]);
         const auto next = std::ranges::upper_bound(places, i);
         if (next == places.end())
             return {};
-        const std::size_t longest = matching(i, *next, std::min<std::size_t>(*next - i, maxRun));
+        std::size_t longest = maxRecords;
+        if (saving_ == Saving::Layers)
+            longest = matching(i, *next, std::min<std::size_t>(*next - i, maxLayers));
         if (longest == 0)
             return {};
         std::vector<std::size_t> lengths;  // by place
         for (auto place = next; place != places.end(); ++place)
-            lengths.push_back(matching(i, *place, longest));
+            lengths.push_back(matching(i, *place, std::min<std::size_t>(longest, *place - i)));
+        const std::span others(next, places.end());
+        const std::size_t length = saving_ == Saving::Layers ? lengthForLayers(lengths, longest)
+                                                             : lengthForRecords(i, others, lengths);
+        return length == 0 ? Repeat{} : occurrences(i, others, lengths, length);
+    }
+
+    /// As long as the next occurrence, or shorter where more places hold only the beginning.
+    static std::size_t lengthForLayers(const std::vector<std::size_t>& lengths, std::size_t longest) {
         std::vector<std::size_t> atLeast(longest + 1);
         for (const std::size_t length : lengths)
             ++atLeast[length];
@@ -211,32 +243,69 @@ private:
                 best = length;
             }
         }
-        return occurrences(i, {next, places.end()}, lengths, best);
+        return best;
+    }
+
+    /// Of n runs of `length` records, n + length are left. 0 if none are saved.
+    std::size_t lengthForRecords(std::uint32_t i, std::span<const std::uint32_t> places,
+                                 const std::vector<std::size_t>& lengths) const {
+        std::vector<bool> isLength(maxRecords + 1);
+        for (const std::size_t length : lengths)
+            isLength[length] = true;
+        std::size_t best = 0, saved = 0;
+        for (std::size_t length = 2; length <= maxRecords; ++length) {
+            if (!isLength[length])
+                continue;
+            std::size_t count = 1;
+            forEachOccurrence(i, places, lengths, length, [&](std::uint32_t) { ++count; });
+            const std::size_t before = count * length, after = count + length;
+            if (before > after && before - after > saved) {
+                saved = before - after;
+                best = length;
+            }
+        }
+        return best;
+    }
+
+    /// Calls visit(place) for those that hold a run of that length and lie in no other that was visited.
+    template <class Visit>
+    static void forEachOccurrence(std::uint32_t i, std::span<const std::uint32_t> places,
+                                  const std::vector<std::size_t>& lengths, std::size_t length,
+                                  Visit&& visit) {
+        std::size_t end = i + length;
+        for (std::size_t p = 0; p < places.size(); ++p)
+            if (lengths[p] >= length && places[p] >= end) {
+                visit(places[p]);
+                end = places[p] + length;
+            }
     }
 
     Repeat occurrences(std::uint32_t i, std::span<const std::uint32_t> places,
                        const std::vector<std::size_t>& lengths, std::size_t length) const {
         Repeat repeat{std::uint32_t(length), {{i, scene::identity}}};
         const Affine inverse = *scene::inverse(shapes_[i].frame);
-        std::uint32_t end = i + repeat.count;
-        for (std::size_t p = 0; p < places.size(); ++p)
-            if (lengths[p] >= length && places[p] >= end) {
-                repeat.occurrences.push_back({places[p], scene::compose(shapes_[places[p]].frame, inverse)});
-                end = places[p] + repeat.count;
-            }
+        forEachOccurrence(i, places, lengths, length, [&](std::uint32_t place) {
+            repeat.occurrences.push_back({place, scene::compose(shapes_[place].frame, inverse)});
+        });
         return repeat;
     }
 
     std::vector<Shape> shapes_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places_;  ///< by key
+    std::vector<std::uint64_t> starts_;  ///< what a run that begins with each of them may be like; 0: nothing
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places_;  ///< by start
     std::vector<bool> isTaken_;
     const double slack_;
+    const Saving saving_;
 };
 
 }  // namespace
 
 std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, double side) {
-    return Search(Shapes(origins).take(), side).run();
+    return Search(Shapes(origins).take(), std::ldexp(side, -20), Saving::Layers).run();
+}
+
+std::vector<Repeat> findRuns(std::vector<Shape> shapes, double slack) {
+    return Search(std::move(shapes), slack, Saving::Records).run();
 }
 
 }  // namespace vtm::compiler

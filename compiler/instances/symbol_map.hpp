@@ -35,14 +35,6 @@ struct SymbolMap {
     double error = 0;    ///< no boundary is farther off, in sides of its square
 };
 
-/// A map of 8 × 8 of another, each an eighth as wide, with that map's own paints.
-struct GridMap {
-    std::uint32_t map = 0;     ///< of PlacedSymbols::maps, behind this one
-    glm::dvec2 first{0};       ///< min corner of the first one's square, in sides of its own
-    glm::dvec2 step{0};        ///< from one to the next
-    std::uint32_t paints = 0;  ///< that the map names, but for 0
-};
-
 /// Makes maps of one run of layers.
 class SymbolMaker {
 public:

@@ -59,6 +59,27 @@ public:
         return scene;
     }
 
+    /// Groups of groups of shapes that repeat.
+    Scene groups() {
+        Scene scene;
+        scene.width = scene.height = side;
+        background(scene.root);
+        Group shapes = symbol();
+        transform(shapes, scene::scaling(0.25, 0.25));
+        Group group;
+        const int members = 4 + pick(6);
+        for (int i = 0; i < members; ++i) {
+            Group member = shapes;
+            transform(member, scene::compose(at(6 * (i % 3) + uniform(2), 6 * (i / 3) + uniform(2)),
+                                             turned(uniform(7))));
+            if (pick(4) == 0)
+                std::get<Item>(member.children.front().value).paint = color();
+            group.children.push_back({std::move(member)});
+        }
+        place(group, scene.root);
+        return scene;
+    }
+
     /// A few shapes that do not repeat.
     Scene ground() {
         Scene scene;
@@ -81,6 +102,18 @@ public:
         return group;
     }
     std::shared_ptr<const Path> outline(double radius) { return blob(radius); }
+
+    template <class Visit>
+    static void forEachItem(Group& group, const Visit& visit) {
+        for (scene::Node& node : group.children)
+            if (auto* child = std::get_if<Item>(&node.value))
+                visit(*child);
+            else
+                forEachItem(std::get<Group>(node.value), visit);
+    }
+    static void transform(Group& group, const Affine& by) {
+        forEachItem(group, [&](Item& item) { item.transform = scene::compose(by, item.transform); });
+    }
 
 private:
     double uniform(double to) { return std::uniform_real_distribution<double>(0, to)(random_); }
@@ -162,12 +195,6 @@ private:
         return group;
     }
 
-    static void transform(Group& group, const Affine& by) {
-        for (scene::Node& node : group.children)
-            if (auto* child = std::get_if<Item>(&node.value))
-                child->transform = scene::compose(by, child->transform);
-    }
-
     void place(const Group& symbol, Group& root) {
         const bool grid = pick(3) == 0, varied = pick(3) == 0;
         const double step = 12 + uniform(30);
@@ -182,8 +209,7 @@ private:
                                                        scene::scaling(0.4 + uniform(1), 0.4 + uniform(1))));
             transform(instance, to);
             if (varied)
-                for (scene::Node& node : instance.children)
-                    std::get<Item>(node.value).paint = color();
+                forEachItem(instance, [&](Item& item) { item.paint = color(); });
             if (pick(8) == 0)
                 instance.opacity = 0.5f;
             if (pick(12) == 0)
@@ -288,6 +314,38 @@ TEST(Instances, DrawWhatTheFlatAssetDraws) {
     fmt::print("{} of {} scenes have instances, {} in all; largest difference {:.2f}/255\n", withInstances,
                scenes(), instances, worst);
     EXPECT_GT(withInstances, scenes() / 2);
+}
+
+TEST(Instances, GroupsThatRepeatAreMapsOfMaps) {
+    Gl gl;
+    std::size_t nested = 0;
+    double worst = 0;
+    for (unsigned seed = 0; seed < scenes() / 8; ++seed) {
+        const Scene scene = Repeats(seed).groups();
+        const asset::Asset placed = compiler::compile(scene).asset;
+        const bool isNested = innerMaps(placed) > 1;
+        nested += isNested;
+        const asset::Scanner scanner(placed);
+        for (const auto& [pixels, zoom] : {std::pair(128, 1.0), std::pair(40, 1.0), std::pair(96, 7.0)}) {
+            SCOPED_TRACE(fmt::format("scene {} on {} pixels, zoom {}", seed, pixels, zoom));
+            const asset::View view = viewOf(seed, pixels, zoom);
+            const image::Raster drawn = scanner.draw(view);
+            EXPECT_LE(compare::compare(drawn, asset::evaluate(placed, view)).max, assetMax);
+            const double difference = compare::compare(drawn, referenceOf(scene, view)).max;
+            EXPECT_LE(difference, referenceMax);
+            worst = std::max(worst, difference);
+            if (seed % 8 == 1) {
+                EXPECT_LE(compare::compare(gl.render(placed, view), drawn).max, referenceMax);
+            }
+            if (seed % 16 == 1 && zoom > 1 && !meetsPrefilter(placed, view)) {
+                EXPECT_LE(compare::compare(gl::test::TextureCanvas(placed).draw(view), drawn).max,
+                          referenceMax);
+            }
+        }
+    }
+    fmt::print("{} of {} scenes have maps in maps; largest difference {:.2f}/255\n", nested, scenes() / 8,
+               worst);
+    EXPECT_GT(nested, scenes() / 32);
 }
 
 /// A pattern of many tiles, turned and skewed, that fills a shape over a background and below another shape;
@@ -402,9 +460,40 @@ TEST(Instances, PatternsArePlaced) {
             }
         }
     }
-    fmt::print("{} of {} scenes have maps in maps; largest difference {:.2f}/255\n", nested, scenes() / 4,
+    fmt::print("{} of {} scenes have maps in maps; largest difference {:.2f}/255\n", nested, scenes() / 8,
                worst);
     EXPECT_GT(nested, scenes() / 32);
+}
+
+TEST(Instances, FourThousandShapesInGroupsOfGroupsAreAFewKilobytes) {
+    const auto outline = Repeats(5).outline(1);
+    const auto grid = [](const scene::Node& node, double step) {
+        Group group;
+        for (int i = 0; i < 16; ++i) {
+            Group member;
+            member.children.push_back(node);
+            const Affine to =
+                scene::compose(scene::translation(step * (i % 4) + 0.1 * step * (i / 4), step * (i / 4)),
+                               scene::scaling(0.8, 0.8));
+            Repeats::transform(member, to);
+            group.children.push_back({std::move(member)});
+        }
+        return scene::Node{std::move(group)};
+    };
+    Item shape;
+    shape.path = outline;
+    shape.geometry = scene::FillRule::NonZero;
+    shape.paint = Color{0, 0, 0, 1};
+    Scene scene;
+    scene.width = scene.height = side;
+    scene.root.children.push_back(grid(grid(grid({shape}, 3), 12), 48));
+    Repeats::transform(scene.root, scene::translation(10, 10));
+    const asset::Asset placed = compiler::compile(scene).asset;
+    EXPECT_GE(innerMaps(placed), 2u);
+    EXPECT_LE(asset::write(placed).size(), 8192u);
+    const asset::View view = viewOf(0, 300, 1);
+    EXPECT_LE(compare::compare(asset::Scanner(placed).draw(view), referenceOf(scene, view)).max,
+              referenceMax);
 }
 
 TEST(Instances, AMillionTilesAreAFewKilobytes) {
