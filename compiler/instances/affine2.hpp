@@ -1,16 +1,13 @@
 /// \file
-/// Places of symbols: maps between their spaces and the picture's, and boxes.
+/// Places of symbols: maps between their spaces and the picture's.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
-#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
-#include <vtm/scene/path.hpp>
+#include <vtm/scene/affine.hpp>
 #include "asset/instances.hpp"
 #include "compiler/lower/outline.hpp"
+#include "geometry/box.hpp"
 
 namespace vtm::compiler {
 
@@ -25,33 +22,17 @@ inline asset::Affine2 inverse(const asset::Affine2& m) {
 
 inline double largestStretch(const asset::Affine2& m) { return compiler::largestStretch(affine(m)); }
 
-struct Box2 {
-    glm::dvec2 min{HUGE_VAL}, max{-HUGE_VAL};
-
-    void add(glm::dvec2 p) {
-        min = glm::min(min, p);
-        max = glm::max(max, p);
-    }
-    void add(const Box2& box) {
-        add(box.min);
-        add(box.max);
-    }
-    bool isWithin(glm::dvec2 low, glm::dvec2 high) const {
-        return min.x >= low.x && min.y >= low.y && max.x <= high.x && max.y <= high.y;
-    }
-    /// By more than `slack` along both axes.
-    bool overlaps(const Box2& b, double slack) const {
-        return std::min(max.x, b.max.x) - std::max(min.x, b.min.x) > slack &&
-               std::min(max.y, b.max.y) - std::max(min.y, b.min.y) > slack;
-    }
-};
-
-/// Of the image of the box [min, max].
-inline Box2 mapped(const asset::Affine2& m, glm::dvec2 min, glm::dvec2 max) {
-    Box2 box;
-    for (const glm::dvec2 p : {min, max, glm::dvec2(min.x, max.y), glm::dvec2(max.x, min.y)})
-        box.add(m(p));
-    return box;
+/// By more than `slack` along both axes.
+inline bool overlap(const geometry::Box& a, const geometry::Box& b, double slack) {
+    const geometry::Box both = a.intersection(b);
+    return both.width() > slack && both.height() > slack;
 }
+
+inline geometry::Box mapped(const asset::Affine2& m, const geometry::Box& box) {
+    return geometry::mapped(box, affine(m));
+}
+
+/// The square of a map.
+inline constexpr geometry::Box unitSquare{glm::dvec2(0), glm::dvec2(1)};
 
 }  // namespace vtm::compiler

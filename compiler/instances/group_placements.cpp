@@ -117,9 +117,9 @@ private:
 
     /// Nothing if it does not pay, or cannot be stored as exactly as it must be.
     std::optional<Group> groupOf(const Repeat& repeat) const {
-        Box2 box;
+        geometry::Box box;
         for (std::uint32_t i = 0; i < repeat.count; ++i)
-            box.add(mapped(first(repeat, i).toOuter, dvec2(0), dvec2(1)));
+            box.add(mapped(first(repeat, i).toOuter, unitSquare));
         const dvec2 size = box.max - box.min;
         const double side = std::max(size.x, size.y);
         const Affine2 square{glm::dmat2(side), 0.5 * (box.min + box.max) - 0.5 * side};
@@ -149,10 +149,10 @@ private:
     static bool areCrowded(std::span<const Affine2> places) {
         constexpr double maxCrowd = 3;
         double area = 0;
-        Box2 all;
+        geometry::Box all;
         for (const Affine2& place : places) {
             area += std::abs(glm::determinant(place.linear));
-            all.add(mapped(place, dvec2(0), dvec2(1)));
+            all.add(mapped(place, unitSquare));
         }
         return area > maxCrowd * (all.max.x - all.min.x) * (all.max.y - all.min.y);
     }

@@ -24,7 +24,11 @@ namespace vtm::compiler {
 namespace {
 
 using asset::Affine2;
+using geometry::Box;
 using glm::dvec2;
+
+/// Of that size, in the middle of a map's square.
+Box middle(dvec2 size) { return {0.5 - 0.5 * size, 0.5 + 0.5 * size}; }
 
 /// A repeat with its map.
 struct Symbol {
@@ -38,7 +42,7 @@ struct Candidate {
     std::uint32_t symbol = 0;
     std::uint32_t firstLayer = 0;
     Affine2 toPicture;
-    Box2 box;                           ///< of its boundaries, in the picture
+    Box box;                            ///< of its boundaries, in the picture
     std::vector<PaintId> paints;        ///< by region: the ground first
     std::vector<std::uint32_t> around;  ///< candidates in whose regions it lies
     bool isFlat = false;                ///< it stays with the picture's own layers
@@ -56,7 +60,7 @@ public:
             forEachCell(candidates[i].box, [&](std::vector<std::uint32_t>& cell) { cell.push_back(i); });
     }
     template <class Visit>
-    void forEachCell(const Box2& box, Visit&& visit) {
+    void forEachCell(const Box& box, Visit&& visit) {
         const glm::ivec2 from = cellOf(box.min), to = cellOf(box.max);
         for (int y = from.y; y <= to.y; ++y)
             for (int x = from.x; x <= to.x; ++x)
@@ -103,7 +107,7 @@ public:
         for (std::size_t i = 0; i < own.size(); ++i)
             if (isTile_[i])
                 own[i].path = nullptr;
-        const std::vector<Repeat> repeats = findRepeats(own, std::max(size_.x, size_.y));
+        const std::vector<Repeat> repeats = findRepeats(own, weights(), imageSlack());
         if (mayPay(repeats)) {
             for (const Repeat& repeat : repeats)
                 addRepeat(repeat);
@@ -152,6 +156,19 @@ private:
         return chords;
     }
 
+    /// A rectangle takes as much as an instance.
+    static constexpr std::size_t minChords = 5;
+
+    /// By layer: what takes more than an instance.
+    std::vector<double> weights() const {
+        std::vector<double> weights;
+        for (std::uint32_t i = 0; i < picture_.layers.size(); ++i) {
+            const std::size_t chords = chordsOf(i, 1);
+            weights.push_back(chords < minChords ? 0 : double(chords));
+        }
+        return weights;
+    }
+
     /// Before anything is built: whether enough of the picture repeats. One that hardly does takes no time
     /// and keeps its bytes.
     bool mayPay(std::span<const Repeat> repeats) const {
@@ -163,16 +180,16 @@ private:
         return double(saved) >= minShare * double(all) && saved > 0;
     }
 
-    /// A rectangle takes as much as an instance. The map of a large run that stands only two or three times
-    /// takes as long as it saves, and more where it turns out to be crossed.
+    /// The map of a large run that stands only two or three times takes as long as it saves, and more where
+    /// it turns out to be crossed.
     bool mayPay(const Repeat& repeat) const {
-        constexpr std::size_t minChords = 5, minOccurrences = 4;
+        constexpr std::size_t minOccurrences = 4;
         const std::size_t chords = chordsOf(repeat.occurrences[0].first, repeat.count);
         return chords >= minChords && (chords <= manyChords || repeat.occurrences.size() >= minOccurrences);
     }
 
-    Box2 boxOf(std::uint32_t first, std::uint32_t count) const {
-        Box2 box;
+    Box boxOf(std::uint32_t first, std::uint32_t count) const {
+        Box box;
         for (std::uint32_t i = first; i < first + count; ++i)
             for (std::uint32_t r = 0; r < picture_.layers[i].runCount; ++r) {
                 const Run& run = picture_.outlines.runs[picture_.layers[i].firstRun + r];
@@ -183,20 +200,20 @@ private:
     }
 
     /// An occurrence that the picture's border does not cut, and its box.
-    std::optional<std::pair<std::size_t, Box2>> referenceOf(const Repeat& repeat) const {
+    std::optional<std::pair<std::size_t, Box>> referenceOf(const Repeat& repeat) const {
         const dvec2 step(2 / lattice_.stepsPerUnit());
         for (std::size_t i = 0; i < repeat.occurrences.size(); ++i) {
-            const Box2 box = boxOf(repeat.occurrences[i].first, repeat.count);
-            if (box.isWithin(step, size_ - step))
+            const Box box = boxOf(repeat.occurrences[i].first, repeat.count);
+            if (Box{step, size_ - step}.contains(box))
                 return std::pair(i, box);
         }
         return std::nullopt;
     }
 
     /// Of a square with the box in its middle, so that its centre lies in the picture.
-    static dvec2 cornerOf(const Box2& box, double side) { return 0.5 * (box.min + box.max) - 0.5 * side; }
+    static dvec2 cornerOf(const Box& box, double side) { return 0.5 * (box.min + box.max) - 0.5 * side; }
 
-    std::vector<Candidate> candidatesOf(const Repeat& repeat, std::size_t reference, const Box2& box,
+    std::vector<Candidate> candidatesOf(const Repeat& repeat, std::size_t reference, const Box& box,
                                         double side) const {
         std::vector<Candidate> candidates;
         const Affine2 toReference{glm::dmat2(side), cornerOf(box, side)};
@@ -207,8 +224,7 @@ private:
             candidate.firstLayer = occurrence.first;
             candidate.toPicture = compose(compose(affine2(occurrence.fromFirst), back), toReference);
             const dvec2 size = (box.max - box.min) / side;
-            if (mapped(candidate.toPicture, 0.5 - 0.5 * size, 0.5 + 0.5 * size)
-                    .isWithin(-slack, size_ + slack) &&
+            if (Box{-slack, size_ + slack}.contains(mapped(candidate.toPicture, middle(size))) &&
                 isStorable(candidate.toPicture))
                 candidates.push_back(std::move(candidate));
         }
@@ -243,16 +259,20 @@ private:
     /// Whether most of them must cross each other: their boxes have several times the area that they lie in.
     static bool areCrowded(std::span<const Candidate> candidates, dvec2 size) {
         double area = 0;
-        Box2 all;
+        Box all;
         for (const Candidate& candidate : candidates) {
             area += std::abs(glm::determinant(candidate.toPicture.linear)) * size.x * size.y;
-            all.add(mapped(candidate.toPicture, 0.5 - 0.5 * size, 0.5 + 0.5 * size));
+            all.add(mapped(candidate.toPicture, middle(size)));
         }
         return area > maxCrowd * (all.max.x - all.min.x) * (all.max.y - all.min.y);
     }
 
     /// What abutting instances may overlap by, as rounding has it.
     double slackOf() const { return tolerance_ / 8; }
+    /// By which layers may differ from images of each other, and again from where a run's map has them. At
+    /// the default tolerance it is a thousandth of a unit in a picture of 1000, as is what three decimals
+    /// leave open.
+    double imageSlack() const { return tolerance_ / 16; }
 
     bool isStorable(const Affine2& toPicture) const {
         const double longer = std::max(size_.x, size_.y);
@@ -288,7 +308,7 @@ private:
         const auto number = std::uint32_t(symbols_.size());
         for (Candidate& candidate : candidates) {
             candidate.symbol = number;
-            candidate.box = mapped(candidate.toPicture, boundary->min(), boundary->max());
+            candidate.box = mapped(candidate.toPicture, {boundary->min(), boundary->max()});
             candidate.paints = paintsByClass(candidate.paints, classes);
             candidates_.push_back(std::move(candidate));
         }
@@ -483,7 +503,7 @@ private:
 
     bool areAllCrowded() const {
         double area = 0;
-        Box2 all;
+        Box all;
         for (const Candidate& candidate : candidates_) {
             const dvec2 size = candidate.box.max - candidate.box.min;
             area += size.x * size.y;
@@ -538,7 +558,7 @@ private:
         for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
             limits::check();
             const Run& run = outlines.runs[r];
-            Box2 runBox;
+            Box runBox;
             runBox.add(lattice_.toUnits(outlines.points[run.first]));
             runBox.add(lattice_.toUnits(outlines.points[run.last]));
             bool isNear = false;
@@ -546,7 +566,7 @@ private:
             for (std::uint32_t p = run.first; isNear && p < run.last; ++p) {
                 const Segment2 chord{lattice_.toUnits(outlines.points[p]),
                                      lattice_.toUnits(outlines.points[p + 1])};
-                Box2 box;
+                Box box;
                 box.add(chord.a);
                 box.add(chord.b);
                 grid.forEachCell(box, [&](const std::vector<std::uint32_t>& cell) {
@@ -559,7 +579,7 @@ private:
     }
 
     /// Whether a chord meets a candidate's boundaries or lies in one of its regions.
-    bool touches(const Candidate& candidate, const Segment2& chord, const Box2& box) const {
+    bool touches(const Candidate& candidate, const Segment2& chord, const Box& box) const {
         const double slack = slackOf();
         if (box.max.x - slack <= candidate.box.min.x || box.min.x + slack >= candidate.box.max.x ||
             box.max.y - slack <= candidate.box.min.y || box.min.y + slack >= candidate.box.max.y)
@@ -577,7 +597,7 @@ private:
         std::vector<std::uint32_t> others;
         grid.forEachCell(candidate.box, [&](const std::vector<std::uint32_t>& cell) {
             for (const std::uint32_t j : cell)
-                if (j != i && candidate.box.overlaps(candidates_[j].box, slackOf()))
+                if (j != i && overlap(candidate.box, candidates_[j].box, slackOf()))
                     others.push_back(j);
         });
         std::ranges::sort(others);
@@ -650,6 +670,8 @@ private:
         PlacedSymbols placed = std::move(placed_);
         std::vector<bool> isPlaced = isTile_;
         std::vector<std::uint32_t> numbers(symbols_.size(), noIndex);
+        // What was written together stands together, for groups.
+        std::ranges::stable_sort(candidates_, {}, &Candidate::firstLayer);
         for (Candidate& candidate : candidates_) {
             if (candidate.isFlat)
                 continue;
@@ -665,7 +687,7 @@ private:
             placed.placed.push_back(
                 {numbers[candidate.symbol], candidate.toPicture, std::move(candidate.paints)});
         }
-        placed.error += placed.placed.empty() ? 0 : slackOf();  // rounding
+        placed.error += placed.placed.empty() ? 0 : slackOf() + 2 * imageSlack();  // rounding, and images
         for (std::uint32_t i = 0; i < isPlaced.size(); ++i)
             if (!isPlaced[i])
                 placed.layers.push_back(i);

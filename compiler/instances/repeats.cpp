@@ -8,6 +8,8 @@
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/containers/hash.hpp"
+#include "compiler/instances/alike_paths.hpp"
+#include "compiler/lower/outline.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -16,113 +18,65 @@ using scene::Affine;
 using scene::Path;
 using scene::Point;
 
-/// A path but for where it lies: its coordinates relative to its first point, in steps of 2^-22 of its size,
-/// so that the roundings of whoever wrote it do not tell equal outlines apart.
-constexpr int sizeBits = 22;
+/// A length in units of a kind. Where the kind has the path's own size it stays as it is, else it is rounded
+/// to 14 bits, so that an image has the same one.
+std::uint64_t lengthBits(double length, double scale) {
+    if (scale == 1)
+        return bits(length);
+    int exponent = 0;
+    const double mantissa = std::frexp(length / scale, &exponent);
+    return bits(std::ldexp(std::round(std::ldexp(mantissa, 14)), exponent));
+}
 
-class PathHash {
-public:
-    PathHash(const Path& path, Point origin) : origin_(origin) {
-        double size = 0;
-        forEachPoint(path, [&](Point p) {
-            size = std::max({size, std::abs(p.x - origin.x), std::abs(p.y - origin.y)});
-        });
-        size_ = std::ldexp(1.0, std::ilogb(std::max(size, 0x1p-200)) + 1);
-        add(bits(size_));
-        for (const scene::Command& command : path) {
-            add(command.index());
-            std::visit([&](const auto& c) { addCommand(c); }, command);
-        }
-    }
-    std::uint64_t hash() const { return hash_; }
-    double size() const { return size_; }
-
-private:
-    template <class Visit>
-    static void forEachPoint(const Path& path, Visit&& visit) {
-        for (const scene::Command& command : path)
-            if (const auto end = scene::endOf(command))
-                visit(*end);
-    }
-
-    void add(std::uint64_t value) { hash_ = hashCombine(hash_, value); }
-    void length(double value) { add(std::uint64_t(std::llround(std::ldexp(value / size_, sizeBits)))); }
-    void point(Point p) {
-        length(p.x - origin_.x);
-        length(p.y - origin_.y);
-    }
-    void addCommand(const scene::MoveTo& c) { point(c.to); }
-    void addCommand(const scene::LineTo& c) { point(c.to); }
-    void addCommand(const scene::QuadTo& c) {
-        point(c.control);
-        point(c.to);
-    }
-    void addCommand(const scene::CubicTo& c) {
-        point(c.control1);
-        point(c.control2);
-        point(c.to);
-    }
-    void addCommand(const scene::ArcTo& c) {
-        length(c.radii.x);
-        length(c.radii.y);
-        add(bits(c.rotation));
-        add(2u * unsigned(c.largeArc) + unsigned(c.sweep));
-        point(c.to);
-    }
-    void addCommand(const scene::Close&) {}
-
-    const Point origin_;
-    double size_ = 1;
-    std::uint64_t hash_ = 0;
-};
-
-std::uint64_t hashOf(const LayerOrigin& origin, scene::FillRule rule) {
-    std::uint64_t h = hashCombine(unsigned(origin.isClip), std::uint64_t(rule));
+/// `scale`: of the path, in units of its kind.
+std::uint64_t hashOf(const LayerOrigin& origin, double scale) {
+    std::uint64_t h = hashCombine(unsigned(origin.isClip), std::uint64_t(origin.rule));
     if (!origin.stroke)
         return h;
     const scene::StrokeStyle& s = *origin.stroke;
-    for (const std::uint64_t value :
-         {bits(s.width), std::uint64_t(s.cap), std::uint64_t(s.join), bits(s.miterLimit), bits(s.dashPhase)})
+    for (const std::uint64_t value : {lengthBits(s.width, scale), std::uint64_t(s.cap), std::uint64_t(s.join),
+                                      bits(s.miterLimit), lengthBits(s.dashPhase, scale)})
         h = hashCombine(h, value);
     for (const double dash : s.dashes)
-        h = hashCombine(h, bits(dash));
+        h = hashCombine(h, lengthBits(dash, scale));
     return h;
 }
 
 class Shapes {
 public:
-    explicit Shapes(std::span<const LayerOrigin> origins) {
+    Shapes(std::span<const LayerOrigin> origins, std::span<const double> weights, double slack)
+        : slack_(slack) {
+        for (const LayerOrigin& origin : origins)
+            if (mayRepeat(origin)) {
+                double& stretch = stretches_[origin.path.get()];
+                stretch = std::max(stretch, largestStretch(origin.transform));
+            }
         shapes_.reserve(origins.size());
-        for (const LayerOrigin& origin : origins) {
+        for (std::size_t i = 0; i < origins.size(); ++i) {
             limits::check();
-            shapes_.push_back(shapeOf(origin));
+            shapes_.push_back(mayRepeat(origins[i]) ? shapeOf(origins[i], weights[i]) : Shape{});
         }
     }
     std::vector<Shape> take() { return std::move(shapes_); }
 
 private:
-    struct Known {
-        std::uint64_t hash;
-        Point origin;
-        double size;
-    };
-
-    Shape shapeOf(const LayerOrigin& origin) {
-        if (!origin.path || origin.path->empty() || !scene::inverse(origin.transform))
-            return {};
-        const auto [known, isNew] = paths_.try_emplace(origin.path.get());
-        if (isNew) {
-            const Point start = std::get<scene::MoveTo>(origin.path->front()).to;
-            const PathHash hash(*origin.path, start);
-            known->second = {hash.hash(), start, hash.size()};
-        }
-        const Known& path = known->second;
-        const std::uint64_t key = hashCombine(hashOf(origin, origin.rule), path.hash);
-        return {key | 1, scene::compose(origin.transform, scene::translation(path.origin.x, path.origin.y)),
-                path.size};
+    static bool mayRepeat(const LayerOrigin& origin) {
+        return origin.path && !origin.path->empty() && scene::inverse(origin.transform);
     }
 
-    std::unordered_map<const Path*, Known> paths_;
+    Shape shapeOf(const LayerOrigin& origin, double weight) {
+        const auto [known, isNew] = images_.try_emplace(origin.path.get());
+        if (isNew)
+            known->second = paths_.add(*origin.path, slack_ / stretches_[origin.path.get()]);
+        const AlikePaths::Image& path = known->second;
+        const std::uint64_t key = hashCombine(hashOf(origin, path.scale), path.kind);
+        return {key | 1, scene::compose(origin.transform, path.fromKind), path.size, weight};
+    }
+
+    const double slack_;
+    AlikePaths paths_;
+    std::unordered_map<const Path*, double> stretches_;  ///< largest, into the picture
+    std::unordered_map<const Path*, AlikePaths::Image> images_;
     std::vector<Shape> shapes_;
 };
 
@@ -130,7 +84,7 @@ private:
 
 /// What a repeat is to save.
 enum class Saving {
-    Layers,  ///< one that lies in its next occurrence is cut short there
+    Layers,  ///< by weight; one that would reach its next occurrence ends there
     Records
 };
 
@@ -213,7 +167,8 @@ private:
     /// The run from shape i on that saves most.
     Repeat repeatFrom(std::uint32_t i) const {
         const std::vector<std::uint32_t>& places = places_.at(starts_[i]);
-        const auto next = std::ranges::upper_bound(places, i);
+        const auto next = std::find_if(std::ranges::upper_bound(places, i), places.end(),
+                                       [&](std::uint32_t place) { return !isTaken_[place]; });
         if (next == places.end())
             return {};
         std::size_t longest = maxRecords;
@@ -225,23 +180,29 @@ private:
         for (auto place = next; place != places.end(); ++place)
             lengths.push_back(matching(i, *place, std::min<std::size_t>(longest, *place - i)));
         const std::span others(next, places.end());
-        const std::size_t length = saving_ == Saving::Layers ? lengthForLayers(lengths, longest)
+        const std::size_t length = saving_ == Saving::Layers ? lengthForLayers(i, lengths, longest)
                                                              : lengthForRecords(i, others, lengths);
         return length == 0 ? Repeat{} : occurrences(i, others, lengths, length);
     }
 
     /// As long as the next occurrence, or shorter where more places hold only the beginning.
-    static std::size_t lengthForLayers(const std::vector<std::size_t>& lengths, std::size_t longest) {
+    std::size_t lengthForLayers(std::uint32_t i, const std::vector<std::size_t>& lengths,
+                                std::size_t longest) const {
         std::vector<std::size_t> atLeast(longest + 1);
         for (const std::size_t length : lengths)
             ++atLeast[length];
-        std::size_t best = 1, saved = 0, count = 0;
+        double weight = 0;
+        for (std::size_t k = 0; k < longest; ++k)
+            weight += shapes_[i + k].weight;
+        std::size_t best = longest, count = 0;
+        double saved = 0;
         for (std::size_t length = longest; length > 0; --length) {
             count += atLeast[length];
-            if (count * length > saved) {
-                saved = count * length;
+            if (double(count) * weight > saved) {
+                saved = double(count) * weight;
                 best = length;
             }
+            weight -= shapes_[i + length - 1].weight;
         }
         return best;
     }
@@ -300,8 +261,9 @@ private:
 
 }  // namespace
 
-std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, double side) {
-    return Search(Shapes(origins).take(), std::ldexp(side, -20), Saving::Layers).run();
+std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, std::span<const double> weights,
+                                double slack) {
+    return Search(Shapes(origins, weights, slack).take(), slack, Saving::Layers).run();
 }
 
 std::vector<Repeat> findRuns(std::vector<Shape> shapes, double slack) {

@@ -20,15 +20,18 @@ struct Repeat {
     std::vector<Occurrence> occurrences;  ///< ascending; at least two
 };
 
-/// Repeats that share no layer, each as long as saves most layers. Origins without a path are like no other.
-/// Outlines are the same if no point differs by more than 2^-20 of `side`.
-std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, double side);
+/// Repeats that share no layer, each as long as saves most by the weights of its layers. Origins without a
+/// path are like no other. No point of an outline, and none of a run, is farther than `slack`, in user units,
+/// from where it would be as an image of the first.
+std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, std::span<const double> weights,
+                                double slack);
 
 /// What a layer or a placement shows, wherever it stands.
 struct Shape {
     std::uint64_t key = 0;  ///< the same for all that are alike; 0: like no other
     scene::Affine frame{};  ///< from its own space to the picture
     double size = 1;        ///< of it in its own space
+    double weight = 1;      ///< what is saved where a run's map shows it
 };
 
 /// Repeats of two shapes or more that share none, each as long as saves most records, if one record places a

@@ -149,6 +149,36 @@ TEST_F(Recordings, GlyphsAreWhatCallsDraw) {
               edgeTolerance);
 }
 
+/// Glyphs of a font that stand many times are stored once.
+TEST_F(Recordings, GlyphsAreInstances) {
+    const auto bytesOf = [&](int rows) {
+        const Recording recording = record(
+            [&] {
+                const VGFont font = vgCreateFont(2);
+                const VGfloat origin[] = {0.5f, 0.25f}, escapement[] = {64.1f, 0};
+                for (VGuint glyph = 0; glyph < 2; ++glyph) {
+                    const VGPath path = glyph == 0 ? star() : ellipse(20, 20, 30, 25);
+                    vgSetGlyphToPath(font, glyph, path, VG_FALSE, origin, escapement);
+                    vgDestroyPath(path);
+                }
+                useColor({0, 0, 0.5f, 1});
+                for (int row = 0; row < rows; ++row) {
+                    const VGuint indices[] = {0, 1, 1, 0, 1, 0, 0, 1, 0, 1};
+                    const VGfloat start[] = {3.3f, 64.1f * VGfloat(row)};
+                    vgSetfv(VG_GLYPH_ORIGIN, 2, start);
+                    vgDrawGlyphs(font, 10, indices, nullptr, nullptr, VG_FILL_PATH, VG_TRUE);
+                }
+                vgDestroyFont(font);
+            },
+            650, 650);
+        size_t size = 0;
+        vtmGetRecordingBytes(recording.get(), &size);
+        return size;
+    };
+    constexpr std::size_t glyphs = 90, perInstance = 32;
+    EXPECT_LE(bytesOf(10), bytesOf(1) + glyphs * perInstance);
+}
+
 TEST_F(Recordings, ScissoringCuts) {
     EXPECT_LE(difference([&] {
                   const VGint rectangles[] = {4, 4, 20, 30, 16, 20, 30, 40, 50, 50, 0, 10};

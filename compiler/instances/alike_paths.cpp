@@ -1,0 +1,150 @@
+#include "compiler/instances/alike_paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "compiler/containers/hash.hpp"
+#include "geometry/arc.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using scene::Path;
+using scene::Point;
+
+/// Calls visit(point) for all points that a path is made of, and three of each arc's: an ellipse is known by
+/// them.
+template <class Visit>
+class PointWalk {
+public:
+    explicit PointWalk(Visit visit) : visit_(std::move(visit)) {}
+
+    void operator()(const scene::MoveTo& c) { visit(c.to); }
+    void operator()(const scene::LineTo& c) { visit(c.to); }
+    void operator()(const scene::QuadTo& c) {
+        visit(c.control);
+        visit(c.to);
+    }
+    void operator()(const scene::CubicTo& c) {
+        visit(c.control1);
+        visit(c.control2);
+        visit(c.to);
+    }
+    void operator()(const scene::ArcTo& c) {
+        const auto arc = geometry::centerForm({last_, c.radii, c.rotation, c.largeArc, c.sweep, c.to});
+        for (const double share : {0.25, 0.5, 0.75})
+            visit_(arc ? arc->at(arc->start + share * arc->sweep) : glm::mix(last_, c.to, share));
+        visit(c.to);
+    }
+    void operator()(const scene::Close&) {}
+
+private:
+    void visit(Point p) {
+        visit_(p);
+        last_ = p;
+    }
+    Visit visit_;
+    Point last_{0};
+};
+
+/// Of a turn, the one of a few usual ones that moves no point by more than `slack`: then instances of one
+/// size have one matrix, bit for bit.
+std::complex<double> usual(std::complex<double> factor, double slack) {
+    const double length = std::abs(factor);
+    if (!(length > 0))
+        return factor;
+    const std::complex<double> unit = factor / length;
+    for (const std::complex<double> turn : {std::complex<double>(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+        if (std::abs(factor - turn) <= slack)
+            return turn;
+        else if (std::abs(factor - length * turn) <= slack)
+            return length * turn;
+    return std::abs(factor - unit) <= slack ? unit : factor;
+}
+
+}  // namespace
+
+AlikePaths::Points AlikePaths::pointsOf(const Path& path) {
+    Points points;
+    PointWalk walk([&](Point p) { points.fromMean.emplace_back(p.x, p.y); });
+    for (const scene::Command& command : path) {
+        points.commands = hashCombine(points.commands, command.index());
+        std::visit(walk, command);
+    }
+    for (const Complex p : points.fromMean)
+        points.mean += p;
+    const auto count = double(points.fromMean.size());
+    points.mean /= count;
+    double squares = 0;
+    for (Complex& p : points.fromMean) {
+        p -= points.mean;
+        squares += std::norm(p);
+    }
+    points.radius = std::sqrt(squares / count);
+    points.roundness = points.radius > 0 ? std::abs(points.fromMean.front()) / points.radius : 0;
+    return points;
+}
+
+/// By least squares: the factor is the mean of conj(q) p over that of |q|².
+std::optional<AlikePaths::Turn> AlikePaths::turnOf(const Points& from, const Points& to, double slack) {
+    if (from.fromMean.size() != to.fromMean.size())
+        return std::nullopt;
+    if (from.radius == 0 || to.radius <= slack)
+        return from.radius == 0 && to.radius == 0 ? std::optional(Turn{1, false}) : std::nullopt;
+    const std::size_t count = from.fromMean.size();
+    double reach = 0;
+    Complex direct = 0, mirrored = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        direct += std::conj(from.fromMean[i]) * to.fromMean[i];
+        mirrored += from.fromMean[i] * to.fromMean[i];
+        reach = std::max(reach, std::abs(from.fromMean[i]));
+    }
+    const bool isMirrored = std::abs(mirrored) > std::abs(direct) * (1 + 0x1p-30);
+    const double squares = double(count) * from.radius * from.radius;
+    const Turn turn{usual((isMirrored ? mirrored : direct) / squares, slack / (2 * reach)), isMirrored};
+    for (std::size_t i = 0; i < count; ++i) {
+        const Complex q = isMirrored ? std::conj(from.fromMean[i]) : from.fromMean[i];
+        if (!(std::abs(turn.factor * q - to.fromMean[i]) <= slack))
+            return std::nullopt;
+    }
+    return turn;
+}
+
+AlikePaths::Image AlikePaths::image(std::uint32_t kind, const Kind& of, const Points& points,
+                                    const Turn& turn) {
+    const Complex y = turn.isMirrored ? Complex(0, -1) : Complex(0, 1);
+    const Complex along = turn.factor, across = turn.factor * y;
+    const Complex start = of.origin - of.points.mean;
+    const Complex origin = points.mean + turn.factor * (turn.isMirrored ? std::conj(start) : start);
+    return {kind,
+            {Point(along.real(), along.imag()), Point(across.real(), across.imag()),
+             Point(origin.real(), origin.imag())},
+            std::abs(turn.factor),
+            of.size};
+}
+
+AlikePaths::Image AlikePaths::add(const Path& path, double slack) {
+    Points points = pointsOf(path);
+    auto& known = byCommands_[points.commands];
+    // The first point, the mean and the radius may all be off by the slack.
+    const double near = points.radius > 0 ? 4 * slack / points.radius : 0;
+    constexpr int maxTried = 32;
+    int tried = 0;
+    for (auto k = known.lower_bound(points.roundness - near);
+         k != known.end() && k->first <= points.roundness + near && tried < maxTried; ++k, ++tried)
+        if (const auto turn = turnOf(kinds_[k->second].points, points, slack))
+            return image(k->second, kinds_[k->second], points, *turn);
+    const auto number = std::uint32_t(kinds_.size());
+    known.emplace(points.roundness, number);
+    Kind kind{std::move(points), {}, 0};
+    kind.origin = kind.points.mean + kind.points.fromMean.front();
+    for (const Complex p : kind.points.fromMean)
+        kind.size = std::max(kind.size, std::abs(p - kind.points.fromMean.front()));
+    const Image first = image(number, kind, kind.points, {1, false});
+    kinds_.push_back(std::move(kind));
+    return first;
+}
+
+}  // namespace vtm::compiler
