@@ -133,7 +133,8 @@ private:
             return;
         std::vector<Candidate> candidates = candidatesOf(repeat, of, box, side);
         const dvec2 size = (box.max - box.min) / side;
-        if (chordsOf(repeat.occurrences[of].first, repeat.count) > manyChords)
+        if (candidates.size() * manyChords <
+            usualOccurrences * chordsOf(repeat.occurrences[of].first, repeat.count))
             std::erase_if(candidates, [&](const Candidate& c) { return isCrossed(c, repeat.count, size); });
         if (candidates.size() < 2 || areCrowded(candidates, size))
             return;
@@ -231,8 +232,9 @@ private:
         return candidates;
     }
 
-    /// Building a map of so many chords takes longer than to look at points first.
-    static constexpr std::size_t manyChords = 1000;
+    /// Building a map of so many chords takes longer than to look at points first, and pays only if there are
+    /// as many occurrences. A few points settle it sooner for half the chords where there are half as many.
+    static constexpr std::size_t manyChords = 1000, usualOccurrences = 4;
 
     /// Whether some points of a run lie under or over layers that others do not, as where two of them
     /// overlap.
