@@ -47,6 +47,8 @@ bool isPng(Bytes bytes) {
 Bitmap decodePng(Bytes bytes) {
     PngImage png;
     png.require(png_image_begin_read_from_memory(&png.image, bytes.data(), bytes.size()));
+    // Without a gamma in the file 16 bits mean sRGB too, as browsers have it.
+    png.image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     png.image.format = PNG_FORMAT_RGBA;
     Bitmap bitmap = makeBitmap(png.image.width, png.image.height);
     png.require(png_image_finish_read(&png.image, nullptr, bitmap.rgba.data(), 0, nullptr));

@@ -89,8 +89,8 @@ void Converter::convertMarker(const Element& marker, const ContextElement& conte
     const LengthReader reader = lengths(marker, scope);
     const Rect viewport{0, 0, reader.lengthOr("markerWidth", Axis::X, 3),
                         reader.lengthOr("markerHeight", Axis::Y, 3)};
-    if (!(viewport.width > 0 && viewport.height > 0) || !scope.style.displayed ||
-        isEmptyViewBox(marker.get("viewBox")))
+    // `display` of the marker itself does not matter (SVG 2 section 13.7.1).
+    if (!(viewport.width > 0 && viewport.height > 0) || isEmptyViewBox(marker.get("viewBox")))
         return;
     const auto viewBox = parseViewBox(marker.get("viewBox"));
     const scene::Affine inner =

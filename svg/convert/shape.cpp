@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "svg/convert/converter.hpp"
 #include "svg/geometry/path_measure.hpp"
 
@@ -112,8 +114,13 @@ std::optional<scene::StrokeStyle> Converter::strokeStyle(const Element& element,
     const Style& style = scope.style;
     scene::StrokeStyle stroke;
     stroke.width = resolve(style.strokeWidth, Axis::Diagonal, scope.viewport);
-    if (!(stroke.width > 0) || stroke.width > maxCoordinate)
+    if (!(stroke.width > 0))
         return std::nullopt;
+    if (stroke.width > maxCoordinate) {
+        reporter_.warn(Kind::Limit, element,
+                       fmt::format("the stroke is drawn {} wide, not wider", maxCoordinate));
+        stroke.width = maxCoordinate;
+    }
     stroke.cap = style.cap;
     stroke.join = style.join;
     stroke.miterLimit = style.miterLimit;

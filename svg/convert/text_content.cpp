@@ -197,7 +197,7 @@ private:
         made.right = trim(element.get("side")) == "right";
         const auto offset = parseLength(element.get("startOffset"), converter_.unitsFor(scope.style));
         if (offset && offset->percent)
-            made.startOffset = offset->value / 100 * made.measure.length();
+            made.startOffset = offset->of(made.measure.length());
         else if (offset)
             made.startOffset = offset->value * lengthScale(element, made.measure.length());
         content_.paths.push_back(std::move(made));

@@ -21,7 +21,7 @@ std::optional<double> rootSide(const LengthReader& reader, std::string_view name
                                const std::optional<double>& viewBoxSide, double fallback) {
     const auto length = parseLength(reader.text(name), reader.units);
     if (length && length->percent)
-        return length->value / 100 * viewBoxSide.value_or(fallback);
+        return length->of(viewBoxSide.value_or(fallback));
     return length ? std::optional(resolve(*length, axis, reader.viewport)) : std::nullopt;
 }
 

@@ -1,12 +1,17 @@
 #include "svg/css/cascade.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <unordered_map>
 
+#include <vtm/image/codec.hpp>
 #include <vtm/limits/limits.hpp>
+#include "svg/css/conditions.hpp"
 #include "svg/css/css.hpp"
 #include "svg/css/cursor.hpp"
 #include "svg/css/style.hpp"
+#include "svg/css/variables.hpp"
+#include "svg/xml/resource.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -78,33 +83,65 @@ std::string_view sheetText(const Element& style, Tree& tree) {
 /// Declarations of known properties, whose values are none of theirs.
 void check(const Element& element, const std::vector<RawDeclaration>& declarations, Reporter& reporter) {
     for (const RawDeclaration& raw : declarations)
-        if (const Property* property = findProperty(raw.name); property && !isValid(*property, raw.value))
+        if (const Property* property = findProperty(raw.name);
+            property && !hasVariables(raw.value) && !isValid(*property, raw.value))
             reporter.warnInvalid(element, raw.name, raw.value);
 }
 
-/// Appends the rules of a sheet that stands in `element`; its fonts go to the tree.
-void readSheet(std::string_view text, const Element& element, Tree& tree, std::vector<Rule>& rules,
-               Reporter& reporter) {
-    StyleSheet sheet = parseStyleSheet(text);
-    for (Rule& rule : sheet.rules) {
-        check(element, rule.declarations, reporter);
-        rules.push_back(std::move(rule));
-    }
-    for (const std::vector<RawDeclaration>& descriptors : sheet.fontFaces) {
-        FontFaceRule& rule = tree.fontFaces.emplace_back();
-        rule.sheet = &element;
-        for (const RawDeclaration& descriptor : descriptors)
-            rule.descriptors.push_back({descriptor.name, descriptor.value});
-    }
-}
+/// Sheets with what they import, in the order of the cascade.
+class SheetReader {
+public:
+    SheetReader(Tree& tree, const Options& options, Reporter& reporter)
+        : tree_(tree), options_(options), reporter_(reporter) {}
 
-std::vector<Rule> readSheets(Tree& tree, std::string_view sheet, Reporter& reporter) {
-    std::vector<Rule> rules;
-    readSheet(tree.ownedText.emplace_back(withoutComments(sheet)), *tree.root, tree, rules, reporter);
+    /// Reads the rules of a sheet that stands in `element`; its fonts go to the tree.
+    void read(std::string_view text, const Element& element, int depth = 0) {
+        StyleSheet sheet = parseStyleSheet(text);
+        for (const Import& import : sheet.imports)
+            if (mediaHolds(import.media))
+                readImport(import.href, element, depth);
+        for (Rule& rule : sheet.rules) {
+            check(element, rule.declarations, reporter_);
+            rules_.push_back(std::move(rule));
+        }
+        for (const std::vector<RawDeclaration>& descriptors : sheet.fontFaces) {
+            FontFaceRule& rule = tree_.fontFaces.emplace_back();
+            rule.sheet = &element;
+            for (const RawDeclaration& descriptor : descriptors)
+                rule.descriptors.push_back({descriptor.name, descriptor.value});
+        }
+    }
+    std::vector<Rule> take() { return std::move(rules_); }
+
+private:
+    void readImport(std::string_view href, const Element& element, int depth) {
+        constexpr int maxImports = 8;  // of sheets in each other
+        if (depth == maxImports)
+            return reporter_.warn(Warning::Kind::Reference, element,
+                                  "style sheets import each other too deeply");
+        try {
+            const std::vector<std::uint8_t> bytes = readResource(href, options_.resourceDirectory);
+            const std::string text(bytes.begin(), bytes.end());
+            read(tree_.ownedText.emplace_back(withoutComments(text)), element, depth + 1);
+        } catch (const image::CodecError& error) {
+            reporter_.warn(Warning::Kind::Reference, element,
+                           "the style sheet " + quoted(href) + " cannot be read: " + error.what());
+        }
+    }
+
+    Tree& tree_;
+    const Options& options_;
+    Reporter& reporter_;
+    std::vector<Rule> rules_;
+};
+
+std::vector<Rule> readSheets(Tree& tree, const Options& options, Reporter& reporter) {
+    SheetReader reader(tree, options, reporter);
+    reader.read(tree.ownedText.emplace_back(withoutComments(options.styleSheet)), *tree.root);
     for (const Element& element : tree.elements)
-        if (element.tag == Tag::Style && isCss(element))
-            readSheet(sheetText(element, tree), element, tree, rules, reporter);
-    return rules;
+        if (element.tag == Tag::Style && isCss(element) && mediaHolds(element.get("media")))
+            reader.read(sheetText(element, tree), element);
+    return reader.take();
 }
 
 /// Values in attributes may hold CSS comments too.
@@ -125,43 +162,87 @@ void addPresentationAttributes(Element& element, Tree& tree, Reporter& reporter)
         if (!property || !property->attribute)
             continue;
         const std::string_view value = trim(cleaned(attribute.value, tree));
-        if (isStyled(element.tag) && !isValid(*property, value))
+        if (isStyled(element.tag) && !hasVariables(value) && !isValid(*property, value))
             reporter.warnInvalid(element, attribute.name, attribute.value);
         element.declarations.push_back({property, value});
     }
 }
 
-void add(Element& element, const std::vector<RawDeclaration>& declarations, bool important) {
-    for (const RawDeclaration& raw : declarations)
-        if (const Property* property = findProperty(raw.name); property && raw.important == important)
-            element.declarations.push_back({property, raw.value});
-}
+/// Fills the declarations of elements, in the order of the document.
+class Declarer {
+public:
+    Declarer(Tree& tree, Reporter& reporter) : tree_(tree), reporter_(reporter) {}
 
-void addAll(Element& element, const std::vector<Candidate>& rules, Tree& tree, Reporter& reporter) {
-    addPresentationAttributes(element, tree, reporter);
-    const auto style = parseDeclarations(cleaned(element.get("style"), tree));
-    if (isStyled(element.tag))
-        check(element, style, reporter);
-    for (const bool important : {false, true}) {
-        for (const Candidate& candidate : rules)
-            add(element, candidate.rule->declarations, important);
-        add(element, style, important);
+    void declare(Element& element, const std::vector<Candidate>& rules) {
+        addPresentationAttributes(element, tree_, reporter_);
+        const auto style = parseDeclarations(cleaned(element.get("style"), tree_));
+        if (isStyled(element.tag))
+            check(element, style, reporter_);
+        std::shared_ptr<Variables> own;
+        for (const bool important : {false, true}) {
+            for (const Candidate& candidate : rules)
+                add(element, candidate.rule->declarations, important, own);
+            add(element, style, important, own);
+        }
+        const std::shared_ptr<const Variables> variables = own ? own : inherited(element);
+        if (variables)
+            variables_.emplace(&element, variables);
+        substitute(element, variables.get());
     }
-}
+
+private:
+    std::shared_ptr<const Variables> inherited(const Element& element) const {
+        const auto found = variables_.find(element.parent);
+        return found == variables_.end() ? nullptr : found->second;
+    }
+
+    void add(Element& element, const std::vector<RawDeclaration>& declarations, bool important,
+             std::shared_ptr<Variables>& own) {
+        for (const RawDeclaration& raw : declarations) {
+            if (raw.important != important)
+                continue;
+            if (const Property* property = findProperty(raw.name)) {
+                element.declarations.push_back({property, raw.value});
+            } else if (raw.name.starts_with("--")) {
+                if (!own)
+                    own = std::make_shared<Variables>(inherited(element));
+                own->declare(raw.name, raw.value);
+            }
+        }
+    }
+
+    /// A value that cannot be had counts as unset (CSS Custom Properties 1 section 3.1).
+    void substitute(Element& element, const Variables* variables) {
+        static const Variables none(nullptr);
+        for (Declaration& declaration : element.declarations) {
+            if (!hasVariables(declaration.value))
+                continue;
+            const auto value = (variables ? *variables : none).substituted(declaration.value);
+            const bool holds = value && isValid(*declaration.property, trim(*value));
+            declaration.value =
+                holds ? trim(tree_.ownedText.emplace_back(*value)) : std::string_view("unset");
+        }
+    }
+
+    Tree& tree_;
+    Reporter& reporter_;
+    std::unordered_map<const Element*, std::shared_ptr<const Variables>> variables_;
+};
 
 }  // namespace
 
-void cascade(Tree& tree, std::string_view sheet, Reporter& reporter) {
+void cascade(Tree& tree, const Options& options, Reporter& reporter) {
     const limits::Stage stage("matching styles");
-    const std::vector<Rule> rules = readSheets(tree, sheet, reporter);
+    const std::vector<Rule> rules = readSheets(tree, options, reporter);
     SelectorIndex index;
     for (const Rule& rule : rules)
         index.add(rule);
+    Declarer declarer(tree, reporter);
     long steps = maxMatchingSteps;
     for (Element& element : tree.elements) {
         limits::check();
         if (element.tag != Tag::CharacterData)
-            addAll(element, index.match(element, steps), tree, reporter);
+            declarer.declare(element, index.match(element, steps));
     }
     if (steps <= 0)
         reporter.warn(Warning::Kind::Limit, *tree.root,

@@ -1,5 +1,5 @@
 /// \file
-/// Colours. Source: SVG 1.1 section 4.2, CSS Color 4 sections 4 to 7.
+/// Colours. Source: SVG 1.1 section 4.2, CSS Color 4 sections 4 to 10, CSS Color 5 section 3.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,9 @@
 
 namespace vtm::svg {
 
-/// A named colour, `#` notation, rgb(), rgba(), hsl(), hsla() or transparent; `currentColor` is not
-/// one. Stays where it is, or stops at the offending place, if there is none.
+/// A named colour, `#` notation, transparent, or one of the functions rgb(), hsl(), hwb(), lab(), lch(),
+/// oklab(), oklch(), color() and color-mix(), cut to sRGB; `currentColor` is not one. Stays where it is, or
+/// stops at the offending place, if there is none.
 std::optional<scene::Color> readColor(Cursor& cursor);
 /// The whole text, an icc-color() behind it ignored.
 std::optional<scene::Color> parseColor(std::string_view text);

@@ -119,4 +119,25 @@ std::string_view Cursor::until(char end) {
     return part;
 }
 
+std::size_t extentOf(std::string_view text, std::string_view ends) {
+    int depth = 0;
+    char quote = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '\\')
+            ++i;
+        else if (quote)
+            quote = c == quote ? '\0' : quote;
+        else if (c == '"' || c == '\'')
+            quote = c;
+        else if (depth == 0 && ends.find(c) != ends.npos)
+            return i;
+        else if (c == '(' || c == '[' || c == '{')
+            ++depth;
+        else if ((c == ')' || c == ']' || c == '}') && depth > 0)
+            --depth;
+    }
+    return text.size();
+}
+
 }  // namespace vtm::svg

@@ -22,6 +22,9 @@ std::string_view trim(std::string_view text);
 /// ASCII letters only.
 bool equalsIgnoringCase(std::string_view a, std::string_view b);
 
+/// Length of the text up to one of `ends` that stands outside quotes, brackets and escapes.
+std::size_t extentOf(std::string_view text, std::string_view ends);
+
 class Cursor {
 public:
     explicit Cursor(std::string_view text) : rest_(text) {}

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "svg/css/math.hpp"
+
 namespace vtm::svg {
 namespace {
 
@@ -44,6 +46,13 @@ std::optional<double> unitSize(std::string_view unit, const Units& units) {
 }  // namespace
 
 std::optional<Length> readLength(Cursor& cursor, const Units& units) {
+    if (startsMath(cursor)) {
+        const auto math = readMath(cursor, units);
+        if (!math)
+            return std::nullopt;
+        return math->hasPercent ? Length{math->percent, true, math->length}
+                                : Length{math->isLength ? math->length : math->number};
+    }
     const std::optional<double> value = cursor.number();
     if (!value)
         return std::nullopt;
@@ -60,21 +69,25 @@ std::optional<Length> parseLength(std::string_view text, const Units& units) {
 }
 
 double resolve(Length length, Axis axis, const Viewport& viewport) {
-    if (!length.percent)
-        return length.value;
     switch (axis) {
         case Axis::X:
-            return length.value / 100 * viewport.width;
+            return length.of(viewport.width);
         case Axis::Y:
-            return length.value / 100 * viewport.height;
+            return length.of(viewport.height);
         case Axis::Diagonal:
             break;
     }
-    return length.value / 100 * std::hypot(viewport.width, viewport.height) / std::numbers::sqrt2;
+    return length.of(std::hypot(viewport.width, viewport.height) / std::numbers::sqrt2);
 }
 
 std::optional<double> parseFraction(std::string_view text) {
     Cursor cursor(trim(text));
+    if (startsMath(cursor)) {
+        const auto math = readMath(cursor, {});
+        if (!math || !cursor.atEnd() || math->length != 0 || (math->isLength && !math->hasPercent))
+            return std::nullopt;
+        return math->hasPercent ? math->percent / 100 : math->number;
+    }
     std::optional<double> value = cursor.number();
     if (value && cursor.consume('%'))
         *value /= 100;

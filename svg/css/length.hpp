@@ -28,6 +28,10 @@ struct Units {
 struct Length {
     double value = 0;
     bool percent = false;
+    double plus = 0;  ///< user units on top of a percentage, as calc() may have it
+
+    /// Of what percentages refer to.
+    double of(double whole) const { return percent ? value / 100 * whole + plus : value; }
 };
 
 enum class Axis { X, Y, Diagonal };

@@ -222,7 +222,7 @@ std::optional<double> parseFontSize(std::string_view text, const Units& units) {
     const auto length = parseWidth(text, units);
     if (!length)
         return std::nullopt;
-    return length->percent ? length->value / 100 * units.fontSize : length->value;
+    return length->of(units.fontSize);
 }
 
 std::optional<std::string_view> parseTransformText(std::string_view text, const Units& units) {

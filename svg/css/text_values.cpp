@@ -106,7 +106,7 @@ std::optional<double> parseLineHeight(std::string_view text, const Units& units)
     const auto length = parseWidth(text, units);
     if (!length || !(units.fontSize > 0))
         return std::nullopt;
-    return length->percent ? length->value / 100 : length->value / units.fontSize;
+    return length->of(units.fontSize) / units.fontSize;
 }
 
 /// Justified lines begin at the start.

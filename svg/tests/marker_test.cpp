@@ -21,6 +21,9 @@ TEST(Marker, StandsAtItsVertexInStrokeWidths) {
     ASSERT_EQ(at.size(), 1u);
     expectNear(at[0], {2, 0, 0, 2, 10, 20});
 }
+TEST(Marker, AppliesWhateverItsDisplay) {
+    EXPECT_EQ(markersOn("display='none'", path("M 10 20 H 50")).size(), 1u);
+}
 TEST(Marker, MayUseUserUnits) {
     expectNear(markersOn("markerUnits='userSpaceOnUse'", path("M 10 20 H 50")).at(0), {1, 0, 0, 1, 10, 20});
 }

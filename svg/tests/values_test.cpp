@@ -162,5 +162,62 @@ TEST(ViewBox, NoneStretches) {
                {1, 0, 0, 2, 5, 0});
 }
 
+TEST(Values, ColorsOfOtherSpaces) {
+    for (const char* red :
+         {"hwb(0 0% 0%)", "hwb(0deg 0% 0% / 1)", "lab(54.2905 80.8049 69.8910)",
+          "lab(54.2905% 64.64% 55.91%)", "lch(54.2905 106.8372 40.8576)", "oklab(0.62796 0.22486 0.12585)",
+          "oklch(0.62796 0.25768 29.2339)", "oklch(62.796% 0.25768 29.2339deg)", "color(srgb 1 0 0)",
+          "color(srgb 100% 0% none)", "color(display-p3 0.9175 0.2003 0.1386)", "color(a98-rgb 0.85859 0 0)",
+          "color(prophoto-rgb 0.70225 0.27572 0.10355)", "color(rec2020 0.79198 0.23098 0.07376)",
+          "color(xyz 0.41239 0.21264 0.01933)", "color(xyz-d50 0.43607 0.22249 0.01392)",
+          "color(srgb-linear 1 0 0)", "color-mix(in srgb, red, red)", "color-mix(in oklab, red 30%, red)"})
+        EXPECT_EQ(rgb(red), 0xff0000) << red;
+    EXPECT_EQ(rgb("hwb(120 50% 50%)"), 0x808080);
+    EXPECT_EQ(rgb("hwb(90 20% 30%)"), 0x73b333);
+    EXPECT_EQ(rgb("lab(100 0 0)"), 0xffffff);
+    EXPECT_EQ(rgb("color(srgb-linear 0.2142 0.2142 0.2142)"), 0x808080);
+    EXPECT_EQ(rgb("color(display-p3 0 1 0)"), 0x00ff00) << "cut to sRGB";
+    EXPECT_EQ(rgb("color-mix(in srgb, red 25%, blue)"), 0x4000bf);
+    EXPECT_EQ(rgb("color-mix(in srgb-linear, red, blue)"), 0xbc00bc);
+    EXPECT_EQ(rgb("color-mix(in oklab, white, black)"), 0x636363);
+    EXPECT_FLOAT_EQ(parseColor("color-mix(in srgb, red 20%, lime 40%)")->a, 0.6f);
+    EXPECT_EQ(rgb("color-mix(in srgb, color-mix(in srgb, red, red), 0% blue)"), 0xff0000);
+    EXPECT_FLOAT_EQ(parseColor("oklch(0.5 0.1 20 / 40%)")->a, 0.4f);
+    for (const char* wrong : {"hwb(0, 0%, 0%)", "lab(50 0)", "lab(50 0 0 0)", "color(nowhere 0 0 0)",
+                              "color(srgb 1 0)", "color-mix(red, blue)", "color-mix(in srgb, red)",
+                              "color-mix(in srgb, red 0%, blue 0%)", "color-mix(in srgb, red 120%, blue)"})
+        EXPECT_EQ(rgb(wrong), -1) << wrong;
+}
+
+TEST(Values, MathIsDone) {
+    Units units;
+    units.fontSize = 10;
+    const auto of = [&](std::string_view text, double whole = 200) {
+        const auto length = parseLength(text, units);
+        return length ? length->of(whole) : -1e9;
+    };
+    EXPECT_DOUBLE_EQ(of("calc(2px + 3em)"), 32);
+    EXPECT_DOUBLE_EQ(of("calc(50% - 10px)"), 90);
+    EXPECT_DOUBLE_EQ(of("calc(2 * (3px + 1em) / 4)"), 6.5);
+    EXPECT_DOUBLE_EQ(of("calc( 100%/4 )"), 50);
+    EXPECT_DOUBLE_EQ(of("CALC(1px*2*3)"), 6);
+    EXPECT_DOUBLE_EQ(of("calc(2 * 3)"), 6);
+    EXPECT_DOUBLE_EQ(of("min(3px, 1em, 2px + 0.5px)"), 2.5);
+    EXPECT_DOUBLE_EQ(of("max(10%, 30%)"), 60);
+    EXPECT_DOUBLE_EQ(of("clamp(5px, 1px, 9px)"), 5);
+    EXPECT_DOUBLE_EQ(of("calc(min(1px, 2px) + calc(3px))"), 4);
+    EXPECT_DOUBLE_EQ(*parseFraction("calc(1 / 4)"), 0.25);
+    EXPECT_DOUBLE_EQ(*parseFraction("calc(10% + 5%)"), 0.15);
+    for (const char* wrong :
+         {"calc()", "calc(1px", "calc(1px+2px)", "calc(1px + 2)", "calc(1px * 2px)", "calc(2 / 1px)",
+          "calc(1px / 0)", "min(10%, 3px)", "clamp(1px, 2px)", "calc(1px,2px)", "calc(1px) 2", "calc(foo)"})
+        EXPECT_FALSE(parseLength(wrong, units)) << wrong;
+    std::string deep;
+    for (int i = 0; i < 5000; ++i)
+        deep += "calc(";
+    EXPECT_FALSE(parseLength(deep + "1px", units));
+    EXPECT_FALSE(parseFraction("calc(1px)"));
+}
+
 }  // namespace
 }  // namespace vtm::svg

@@ -23,9 +23,7 @@ struct Bar {
     double top, bottom;  ///< below the decorating element's baseline
 };
 
-double resolved(const Length& length, const ElementFont& font) {
-    return length.percent ? length.value / 100 * font.size : length.value;
-}
+double resolved(const Length& length, const ElementFont& font) { return length.of(font.size); }
 
 /// Below the baseline. In vertical text the underline is at the letters' edge, `under left` (CSS Text
 /// Decoration 4 section 2.8.1).

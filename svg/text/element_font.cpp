@@ -154,8 +154,7 @@ double heightOf(Baseline baseline, const ElementFont& font) {
 double shiftOf(const TextElement& element, const ElementFont& around) {
     const BaselineShift& shift = element.scope.style.baselineShift;
     if (shift.kind == BaselineShift::Kind::Length)
-        return shift.length.percent ? shift.length.value / 100 * element.scope.style.fontSize
-                                    : shift.length.value;
+        return shift.length.of(element.scope.style.fontSize);
     if (!around.primary)
         return 0;
     const text::FontMetrics& metrics = around.primary->metrics();

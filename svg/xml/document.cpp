@@ -223,7 +223,7 @@ std::unique_ptr<ParsedDocument> parseDocument(std::span<const std::uint8_t> byte
     text = expandEntities(std::move(text), document->map);
     document->tree = parseXml(std::move(text), document->map);
     checkAttributes(*document->tree, document->reporter);
-    cascade(*document->tree, options.styleSheet, document->reporter);
+    cascade(*document->tree, options, document->reporter);
     return document;
 }
 
