@@ -119,6 +119,14 @@ TEST(PngEncoder, SixteenBitsAreWrittenAsTheyAre) {
     EXPECT_EQ(decoded.rgba[7], 64);
 }
 
+TEST(PngEncoder, SixteenBitsWithoutAGammaAreSrgb) {
+    const auto encoder = makeEncoder(FileFormat::Png, 2, 1, {.depth = 16});
+    encoder->add(std::vector<std::uint8_t>{0x40, 0x40, 0x80, 0x80, 0xC0, 0xC0, 255, 255, 0, 0, 1, 1, 10, 10,
+                                           255, 255});
+    EXPECT_EQ(decode(encoder->finish()).rgba,
+              (std::vector<std::uint8_t>{0x40, 0x80, 0xC0, 255, 0, 1, 10, 255}));
+}
+
 TEST(JpegEncoder, IsCloseAndQualityCounts) {
     Bitmap picture = gradient(64, 48);
     for (std::size_t i = 3; i < picture.rgba.size(); i += 4)

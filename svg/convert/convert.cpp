@@ -166,8 +166,7 @@ std::optional<Scope> Converter::enter(const Element& element, const Scope& paren
                 parent.viewport, parent.context, parent.depth + 1};
     if (!scope.style.displayed)
         return std::nullopt;
-    scope.transform =
-        scene::compose(parent.transform, transformFrom(scope.style.transform, scope.style, parent.viewport));
+    scope.transform = scene::compose(parent.transform, transformOf(element, scope));
     if (element.tag == Tag::Use) {
         const LengthReader reader = lengths(element, scope);
         const scene::Affine shift =
@@ -204,6 +203,32 @@ scene::Affine Converter::transformFrom(std::string_view text, const Style& style
         return transform.value_or(scene::identity);
     return aroundPoint(*transform, {resolve(style.transformOrigin->x, Axis::X, viewport),
                                     resolve(style.transformOrigin->y, Axis::Y, viewport)});
+}
+
+scene::Affine Converter::transformOf(const Element& element, const Scope& scope) {
+    const Style& style = scope.style;
+    if (!style.transformsInBox || style.transform.empty())
+        return transformFrom(style.transform, style, scope.viewport);
+    const Box box = ownBox(element, scope);
+    const Viewport size{std::max(box.width(), 0.0), std::max(box.height(), 0.0)};
+    const auto transform = parseTransform(style.transform, unitsFor(style), size);
+    if (!transform || box.empty())
+        return transform.value_or(scene::identity);
+    const TransformOrigin origin = style.transformOrigin.value_or(TransformOrigin{});
+    return aroundPoint(*transform, box.min + scene::Point(origin.x.of(size.width), origin.y.of(size.height)));
+}
+
+/// Of what the element fills, before its own transform.
+Box Converter::ownBox(const Element& element, const Scope& scope) {
+    if (isShape(element.tag)) {
+        CachedShape* shape = shapeOf(element, scope);
+        return shape ? boxOf(*shape) : Box{};
+    }
+    const std::size_t first = outlines_.size();
+    Nodes measured;
+    const Box box = boxAround(scope, [&] { convertContent(element, scope, measured); });
+    outlines_.resize(first);  // who else listens hears of it where it is drawn
+    return box;
 }
 
 const Style& Converter::styleOf(const Element& element) {

@@ -97,6 +97,9 @@ private:
     std::optional<Scope> enter(const Element& element, const Scope& parent);
     void convertSwitch(const Element& element, const Scope& scope, Nodes& out);
     scene::Affine transformFrom(std::string_view text, const Style& style, const Viewport& viewport) const;
+    /// Of an element in a scope that has its style, and the transform and viewport of its parent.
+    scene::Affine transformOf(const Element& element, const Scope& scope);
+    Box ownBox(const Element& element, const Scope& scope);
     const Style& styleOf(const Element& element);
     LengthReader lengths(const Element& element, const Scope& scope) const;
     Units unitsFor(const Style& style) const;

@@ -116,6 +116,16 @@ std::optional<bool> parseDisplay(std::string_view text, const Units&) {
     return !equalsIgnoringCase(text, "none");
 }
 
+/// Whether the box is the element's own. That of the stroke is taken for that of the fill.
+std::optional<bool> parseTransformBox(std::string_view text, const Units&) {
+    static constexpr Keyword<bool> table[]{{"view-box", false},
+                                           {"fill-box", true},
+                                           {"content-box", true},
+                                           {"stroke-box", true},
+                                           {"border-box", true}};
+    return findKeyword(text, table);
+}
+
 std::optional<std::optional<bool>> parseOverflow(std::string_view text, const Units&) {
     static constexpr Keyword<std::optional<bool>> table[]{
         {"visible", true}, {"auto", true}, {"hidden", false}, {"scroll", false}, {"clip", false}};

@@ -59,6 +59,7 @@ std::optional<double> parseMiterLimit(std::string_view text, const Units&);
 std::optional<Dashes> parseDashes(std::string_view text, const Units&);
 std::optional<bool> parseVisibility(std::string_view text, const Units&);
 std::optional<bool> parseDisplay(std::string_view text, const Units&);
+std::optional<bool> parseTransformBox(std::string_view text, const Units& units);
 std::optional<std::optional<bool>> parseOverflow(std::string_view text, const Units&);
 /// url() or none; anything else that CSS allows there (shapes, image masks) is not supported.
 std::optional<std::string_view> parseReference(std::string_view text, const Units&);

@@ -220,6 +220,7 @@ std::vector<Property> makeTable() {
         property<&Own::nonScalingStroke, parseVectorEffect>("vector-effect"),
         property<&Own::transform, parseTransformText>("transform"),
         property<&Own::transformOrigin, parseOrigin>("transform-origin"),
+        property<&Own::transformsInBox, parseTransformBox>("transform-box", false),
     };
     addGeometry(table, std::make_index_sequence<std::size(geometryNames)>{});
     return table;

@@ -129,6 +129,7 @@ struct Own {
     bool nonScalingStroke = false;
     std::string_view transform;  ///< as written, known to be well formed
     std::optional<TransformOrigin> transformOrigin;
+    bool transformsInBox = false;  ///< transform-box: the origin lies in the element's own box
     Baseline alignmentBaseline = Baseline::Auto;
     BaselineShift baselineShift;
     unsigned textLines = 0;  ///< TextLines that the element adds; those of its ancestors go on

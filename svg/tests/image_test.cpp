@@ -128,6 +128,22 @@ protected:
 TEST_F(ImageFiles, AreReadBelowTheResourceDirectory) {
     EXPECT_EQ(itemsOf(load("<image href='a%20b.svg'/>")).size(), 1u);
 }
+TEST_F(ImageFiles, StyleSheetsAreImported) {
+    std::ofstream(folder_ / "a.css") << "@import 'b.css'; rect { fill: lime }";
+    std::ofstream(folder_ / "b.css") << "@import 'a.css'; rect { fill: red; stroke: blue }";
+    const std::string body =
+        "<style>@import url(\"a.css\") screen; @import url(a.css) print;</style>"
+        "<rect width='1' height='1'/>";
+    const auto items = itemsOf(load(body));
+    ASSERT_EQ(items.size(), 2u);
+    EXPECT_EQ(rgbOf(items[0].paint), 0x00ff00);
+    EXPECT_EQ(rgbOf(items[1].paint), 0x0000ff);
+    EXPECT_EQ(load(body).warnings.size(), 1u) << "in a circle";
+    EXPECT_EQ(
+        rgbOf(itemsOf(load("<style>@import 'none.css';</style><rect width='1' height='1'/>")).at(0).paint),
+        0);
+    EXPECT_EQ(load("<style>@import 'none.css';</style>").warnings.size(), 1u);
+}
 TEST_F(ImageFiles, AreNotReadWithoutOne) {
     const Document loaded = load("<image href='a%20b.svg'/>", false);
     EXPECT_TRUE(itemsOf(loaded).empty());

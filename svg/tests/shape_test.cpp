@@ -78,6 +78,19 @@ TEST(Shape, HiddenShapesAreNotDrawnButTheirVisibleChildrenAre) {
     EXPECT_FALSE(
         drawsNothing("<g visibility='hidden'><rect width='9' height='9' visibility='visible'/></g>"));
 }
+TEST(Shape, MayTurnAboutItsOwnBox) {
+    const std::string style =
+        "style='transform-box: fill-box; transform-origin: center; transform: rotate(90deg)'";
+    const std::string rect = "<rect x='20' y='30' width='10' height='4' ";
+    const auto centre = [](const scene::Item& item) { return scene::apply(item.transform, {25, 32}); };
+    expectNear(centre(itemOf(rect + style + "/>")), {25, 32});
+    expectNear(centre(itemOf("<g " + style + ">" + rect + "/></g>")), {25, 32});
+    expectNear(centre(itemOf("<g " + style + "><g " + style + ">" + rect + "/></g></g>")), {25, 32});
+    // Without an origin it is the box's corner; percentages of translations are the box's.
+    const std::string corner = "style='transform-box: fill-box; transform: ";
+    expectNear(scene::apply(itemOf(rect + corner + "scale(2)'/>").transform, {20, 30}), {20, 30});
+    expectNear(scene::apply(itemOf(rect + corner + "translate(50%, 100%)'/>").transform, {20, 30}), {25, 34});
+}
 TEST(Shape, UndisplayedGroupsAreNotDrawn) {
     EXPECT_TRUE(drawsNothing("<g display='none'><rect width='9' height='9' display='inline'/></g>"));
 }
