@@ -45,7 +45,7 @@ void validateGradient(const Data& data, std::size_t texel) {
     const auto g = recordAt<Gradient>(data.asset.data, texel);
     require(areFinite(g.matrix), "data", texel, "gradient's matrix is not finite");
     require(g.spread <= Spread::Repeat, "data", texel, "gradient's spread is unknown");
-    require(std::isfinite(g.fx) && std::isfinite(g.fy) && g.fr >= 0 && g.fr < 1, "data", texel,
+    require(std::isfinite(g.fx) && std::isfinite(g.fy) && std::isfinite(g.fr) && g.fr >= 0, "data", texel,
             "gradient's focal circle is out of range");
     require(g.stopCount >= 1, "data", texel, "gradient has no stops");
     require(data.holds(texel + head, g.stopCount), "data", texel, "gradient's stops are out of bounds");

@@ -276,7 +276,7 @@ TEST(Validate, Gradients) {
               "data[0]: gradient's stops are out of bounds");
     EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.spread = Spread(3); }),
               "data[0]: gradient's spread is unknown");
-    EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.fr = 1; }),
+    EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.fr = -1; }),
               "data[0]: gradient's focal circle is out of range");
     EXPECT_EQ(gradientRefusal([](Gradient& g, Stops&) { g.matrix[4] = INFINITY; }),
               "data[0]: gradient's matrix is not finite");

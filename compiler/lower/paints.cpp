@@ -165,9 +165,9 @@ using scene::GradientStop;
 /// square coordinates in single precision. A gradient that is shorter than this part of the picture shows its
 /// last stop, or the mean of its stops, whether it is enlarged to that length or not.
 constexpr double largestPlace = 0x1p60;
-
-/// The largest number below 1, which a focal radius may not reach.
-constexpr float belowOne = 0x1.fffffep-1f;
+/// Neither the focus nor its circle's radius is further from the end circle's centre than this, in its radii,
+/// so that engines can multiply four such numbers.
+constexpr double farthestFocus = 0x1p30;
 
 std::array<float, 4> premultiplied(const scene::Color& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
 
@@ -268,10 +268,15 @@ std::optional<std::uint32_t> PaintTable::radial(const scene::RadialGradient& g, 
     asset::Gradient gradient;
     gradient.matrix = numbers(*inverse);
     gradient.spread = static_cast<asset::Spread>(g.spread);
-    gradient.fx = static_cast<float>((g.focus.x - g.center.x) / g.radius);
-    gradient.fy = static_cast<float>((g.focus.y - g.center.y) / g.radius);
-    gradient.fr = std::min(belowOne, static_cast<float>(g.focalRadius / g.radius));
-    return add({asset::Op::Radial, {}, record(gradient, g.stops), allOpaque(g.stops)});
+    const Point focus = (g.focus - g.center) / g.radius;
+    const double shrunk = std::min(1.0, farthestFocus / std::max(glm::length(focus), 1.0));
+    gradient.fx = static_cast<float>(focus.x * shrunk);
+    gradient.fy = static_cast<float>(focus.y * shrunk);
+    gradient.fr = static_cast<float>(std::min(g.focalRadius / g.radius, farthestFocus));
+    // Circles that do not lie within each other leave a part of the plane free.
+    constexpr float minGap = 0x1p-20f;  // more than rounding
+    const bool isWhole = std::hypot(gradient.fx, gradient.fy) + gradient.fr <= 1 - minGap;
+    return add({asset::Op::Radial, {}, record(gradient, g.stops), isWhole && allOpaque(g.stops)});
 }
 
 std::optional<std::uint32_t> PaintTable::bitmap(const scene::ImagePaint& image, const Affine& toPicture) {

@@ -119,10 +119,6 @@ TemplateChain Converter::templateChain(const Element& server) {
 
 namespace {
 
-/// How close to the end circle the focal circle may come, as a share of its radius. On the circle the
-/// cone of offsets opens to a half plane and a division by zero shows.
-constexpr double focusLimit = 1 - 1e-5;
-
 scene::Spread spreadOf(const TemplateChain& chain) {
     const std::string_view text = trim(inherited(chain, "spreadMethod"));
     return text == "reflect"  ? scene::Spread::Reflect
@@ -155,19 +151,16 @@ scene::Paint linear(const Coordinates& at, std::vector<scene::GradientStop> stop
     return scene::LinearGradient{start, end, std::move(stops), spread, transform};
 }
 
-/// A focal circle outside the end circle is moved inside along the line of centres (SVG 1.1 section
-/// 13.2.3): the scene knows no cones.
+/// A focal circle outside the end circle makes a cone (SVG 2 section 14.2.3), where SVG 1.1 moved it inside.
 scene::Paint radial(const Coordinates& at, std::vector<scene::GradientStop> stops, scene::Spread spread,
                     const scene::Affine& transform) {
     const scene::Point center(at.get("cx", Axis::X, 50), at.get("cy", Axis::Y, 50));
     const double radius = at.get("r", Axis::Diagonal, 50),
                  focal = std::max(0.0, at.get("fr", Axis::Diagonal, 0));
-    if (!(radius > 0) || focal >= radius)
+    const scene::Point focus(at.find("fx", Axis::X).value_or(center.x),
+                             at.find("fy", Axis::Y).value_or(center.y));
+    if (!(radius > 0) || (focus == center && focal == radius))
         return stops.back().color;
-    scene::Point focus(at.find("fx", Axis::X).value_or(center.x), at.find("fy", Axis::Y).value_or(center.y));
-    const double distance = glm::distance(focus, center), maximum = (radius - focal) * focusLimit;
-    if (distance > maximum)
-        focus = center + (focus - center) * (maximum / distance);
     return scene::RadialGradient{center, radius, focus, focal, std::move(stops), spread, transform};
 }
 

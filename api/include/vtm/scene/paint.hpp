@@ -43,12 +43,14 @@ struct LinearGradient {
     Affine transform = identity;
 };
 
-/// SVG 2's two circles: offset 0 on the focal circle, 1 on the end circle.
+/// SVG 2's two circles: offset 0 on the focal circle, 1 on the end circle. The circles between and beyond
+/// fill the plane if the focal circle lies inside the end circle, else a cone, outside of which nothing is
+/// drawn; of several circles through a point the one of the largest offset counts.
 struct RadialGradient {
     Point center;                     ///< of the end circle
     double radius;                    ///< > 0
-    Point focus;                      ///< strictly inside the end circle
-    double focalRadius = 0;           ///< in [0, radius)
+    Point focus;                      ///< of the focal circle, which must differ from the end circle
+    double focalRadius = 0;           ///< >= 0
     std::vector<GradientStop> stops;  ///< at least two
     Spread spread = Spread::Pad;
     Affine transform = identity;
