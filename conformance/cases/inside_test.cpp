@@ -118,6 +118,22 @@ TEST_F(Inside, GradientsImagesPatternsAndMaterials) {
         expectInside(sceneOf({{disc({20, 24}, 18, cold)}, {disc({26, 24}, 18, paint, 0.75f)}}));
 }
 
+/// The focus outside, a focal circle that is larger, one that crosses; some of the disc lies outside the
+/// cone.
+TEST_F(Inside, RadialGradientsThatAreCones) {
+    const std::vector<scene::GradientStop> stops{{0, Color{1, 1, 0, 1}}, {1, Color{0, 0, 1, 0.5f}}};
+    for (const scene::Spread spread : {scene::Spread::Pad, scene::Spread::Reflect})
+        for (const auto& [focus, focalRadius] : {std::pair(scene::Point(47, 24), 0.0),
+                                                 {{24, 24}, 30},
+                                                 {{40, 30}, 9},
+                                                 {{24, 47}, 20},
+                                                 {{44, 24}, 0}})
+            expectInside(sceneOf(
+                {{disc({20, 24}, 18, cold)},
+                 {disc({26, 24}, 18, scene::RadialGradient{{24, 24}, 20, focus, focalRadius, stops, spread},
+                       0.75f)}}));
+}
+
 TEST_F(Inside, GroupsWithOpacityAndEveryBlendMode) {
     for (int mode = 0; mode <= int(scene::BlendMode::PlusLighter); ++mode) {
         SCOPED_TRACE(mode);
