@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
 #include <variant>
 
 #include "compiler/containers/hash.hpp"
@@ -78,12 +78,17 @@ AlikePaths::Points AlikePaths::pointsOf(const Path& path) {
     const auto count = double(points.fromMean.size());
     points.mean /= count;
     double squares = 0;
+    Complex moment = 0;
     for (Complex& p : points.fromMean) {
         p -= points.mean;
         squares += std::norm(p);
+        moment += p * p;
     }
     points.radius = std::sqrt(squares / count);
-    points.roundness = points.radius > 0 ? std::abs(points.fromMean.front()) / points.radius : 0;
+    // The weight keeps shapes apart in which one part grows as the other shrinks.
+    constexpr double weight = 1.618;
+    if (squares > 0)
+        points.form = std::abs(points.fromMean.front()) / points.radius + weight * std::abs(moment) / squares;
     return points;
 }
 
@@ -128,16 +133,21 @@ AlikePaths::Image AlikePaths::image(std::uint32_t kind, const Kind& of, const Po
 AlikePaths::Image AlikePaths::add(const Path& path, double slack) {
     Points points = pointsOf(path);
     auto& known = byCommands_[points.commands];
-    // The first point, the mean and the radius may all be off by the slack.
-    const double near = points.radius > 0 ? 4 * slack / points.radius : 0;
-    constexpr int maxTried = 32;
-    int tried = 0;
-    for (auto k = known.lower_bound(points.roundness - near);
-         k != known.end() && k->first <= points.roundness + near && tried < maxTried; ++k, ++tried)
-        if (const auto turn = turnOf(kinds_[k->second].points, points, slack))
-            return image(k->second, kinds_[k->second], points, *turn);
+    // Points, their mean and the radius may all be off by the slack.
+    const double near = points.radius > 0 ? 8 * (1 + points.form) * slack / points.radius : 0;
+    constexpr int maxTried = 32;  // the nearest
+    auto above = known.lower_bound(points.form), below = above;
+    for (int tried = 0; tried < maxTried; ++tried) {
+        const double up = above == known.end() ? HUGE_VAL : above->first - points.form;
+        const double down = below == known.begin() ? HUGE_VAL : points.form - std::prev(below)->first;
+        if (!(std::min(up, down) <= near))
+            break;
+        const std::uint32_t kind = up <= down ? (above++)->second : (--below)->second;
+        if (const auto turn = turnOf(kinds_[kind].points, points, slack))
+            return image(kind, kinds_[kind], points, *turn);
+    }
     const auto number = std::uint32_t(kinds_.size());
-    known.emplace(points.roundness, number);
+    known.emplace(points.form, number);
     Kind kind{std::move(points), {}, 0};
     kind.origin = kind.points.mean + kind.points.fromMean.front();
     for (const Complex p : kind.points.fromMean)

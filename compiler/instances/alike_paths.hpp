@@ -34,8 +34,8 @@ private:
         std::uint64_t commands = 0;  ///< hash
         Complex mean;
         std::vector<Complex> fromMean;
-        double radius = 0;     ///< root of the mean square of |fromMean|
-        double roundness = 0;  ///< |fromMean[0]| / radius: the same for all images
+        double radius = 0;  ///< root of the mean square of |fromMean|
+        double form = 0;    ///< a number that all images have in common
     };
     struct Kind {
         Points points;
@@ -53,7 +53,7 @@ private:
     static Image image(std::uint32_t kind, const Kind& of, const Points& points, const Turn& turn);
 
     std::vector<Kind> kinds_;
-    /// Kinds by their roundness, by their commands.
+    /// Kinds by their form, by their commands.
     std::unordered_map<std::uint64_t, std::multimap<double, std::uint32_t>> byCommands_;
 };
 

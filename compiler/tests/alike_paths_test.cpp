@@ -107,6 +107,28 @@ TEST(AlikePaths, DifferByMoreThanTheSlack) {
     EXPECT_EQ(paths.add(other, slack).kind, 5u);
 }
 
+/// Many of one kind of drawing: stars with eight points, the inner radius as they like.
+TEST(AlikePaths, AreFoundAmongManyOfTheirCommands) {
+    const auto star = [](double inner) {
+        Path path;
+        for (int i = 0; i < 16; ++i) {
+            const double angle = std::acos(-1) / 8 * i, radius = i % 2 == 0 ? 10 : inner;
+            const Point p = radius * Point(std::cos(angle), 0.7 * std::sin(angle));
+            path.push_back(i == 0 ? scene::Command(scene::MoveTo{p}) : scene::Command(scene::LineTo{p}));
+        }
+        return path;
+    };
+    AlikePaths paths;
+    constexpr std::uint32_t count = 1000;
+    const auto innerOf = [](std::uint32_t i) { return 1 + 8.0 * i / count; };
+    for (std::uint32_t i = 0; i < count; ++i)
+        ASSERT_EQ(paths.add(star(innerOf(i)), slack).kind, i);
+    for (std::uint32_t i = 0; i < count; ++i)
+        EXPECT_EQ(
+            paths.add(mapped(star(innerOf(i)), similarity(1.5, 0.1 * i, i % 2 == 0, {200, 3})), slack).kind,
+            i);
+}
+
 TEST(AlikePaths, ArcsTurn) {
     AlikePaths paths;
     paths.add({scene::MoveTo{{0, 0}}, scene::ArcTo{{5, 4}, 0.3, false, true, {6, 0}}}, slack);

@@ -102,7 +102,7 @@ bool queryHolds(std::string_view text) {
     return holds != isNegated;
 }
 
-constexpr int maxDepth = 16;  ///< of brackets in each other
+constexpr int maxBrackets = 16;  ///< of brackets in each other
 
 bool supports(std::string_view text, int depth);
 
@@ -125,7 +125,7 @@ bool supportsTerm(Cursor& cursor, int depth) {
 }
 
 bool supports(std::string_view text, int depth) {
-    if (depth > maxDepth)
+    if (depth > maxBrackets)
         return false;
     Cursor cursor(trim(text));
     bool holds = supportsTerm(cursor, depth);

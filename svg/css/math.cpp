@@ -9,7 +9,7 @@
 namespace vtm::svg {
 namespace {
 
-constexpr int maxDepth = 32;  ///< of brackets in each other
+constexpr int maxNested = 32;  ///< of brackets in each other
 constexpr std::array<std::string_view, 4> functions{"calc(", "min(", "max(", "clamp("};
 
 MathValue scaled(MathValue v, double by) {
@@ -29,7 +29,7 @@ public:
     MathReader(Cursor& cursor, const Units& units) : cursor_(cursor), units_(units) {}
 
     std::optional<MathValue> function(int depth) {
-        if (depth > maxDepth)
+        if (depth > maxNested)
             return std::nullopt;
         for (const std::string_view name : functions)
             if (cursor_.consume(name))
@@ -128,7 +128,7 @@ private:
         if (startsMath(cursor_))
             return function(depth + 1);
         if (cursor_.consume('(')) {
-            const auto inner = depth < maxDepth ? sum(depth + 1) : std::nullopt;
+            const auto inner = depth < maxNested ? sum(depth + 1) : std::nullopt;
             return inner && cursor_.consume(')') ? inner : std::nullopt;
         }
         Cursor ahead = cursor_;
