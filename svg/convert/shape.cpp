@@ -95,14 +95,16 @@ void Converter::strokeShape(const Element& element, const Scope& scope, CachedSh
     auto stroke = paint(scope.style.stroke, element, scope, boxOf(shape));
     if (!stroke)
         return;
-    scene::Item item{shape.path,
+    // A 4096th of its width is far below what is seen of a stroke.
+    const auto path = withoutTinyControls(*shape.path, style->width / 4096);
+    scene::Item item{path ? path : shape.path,
                      scope.transform,
                      std::move(*style),
                      std::move(*stroke),
                      static_cast<float>(scope.style.strokeOpacity),
                      placeOf(element)};
     if (scope.style.nonScalingStroke) {  // the stroke is made in the picture's space
-        item.path = std::make_shared<const scene::Path>(mapPath(scope.transform, *shape.path));
+        item.path = std::make_shared<const scene::Path>(mapPath(scope.transform, *item.path));
         item.paint = mapPaint(std::move(item.paint), scope.transform);
         item.transform = scene::identity;
     }

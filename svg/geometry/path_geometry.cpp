@@ -74,6 +74,34 @@ Path mapPath(const Affine& transform, const Path& path) {
     return std::move(mapper.out);
 }
 
+std::shared_ptr<const scene::Path> withoutTinyControls(const scene::Path& path, double reach) {
+    std::shared_ptr<scene::Path> result;
+    scene::Point from{}, start{};
+    const auto isTiny = [&](scene::Point control, scene::Point end) {
+        return control != end && glm::distance(control, end) < reach;
+    };
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const auto change = [&](const scene::Command& command) {
+            if (!result)
+                result = std::make_shared<scene::Path>(path);
+            (*result)[i] = command;
+        };
+        if (const auto* move = std::get_if<scene::MoveTo>(&path[i])) {
+            start = move->to;
+        } else if (const auto* cubic = std::get_if<scene::CubicTo>(&path[i])) {
+            const bool first = isTiny(cubic->control1, from), second = isTiny(cubic->control2, cubic->to);
+            if (first || second)
+                change(scene::CubicTo{first ? from : cubic->control1, second ? cubic->to : cubic->control2,
+                                      cubic->to});
+        } else if (const auto* quad = std::get_if<scene::QuadTo>(&path[i])) {
+            if (isTiny(quad->control, from) || isTiny(quad->control, quad->to))
+                change(scene::LineTo{quad->to});
+        }
+        from = scene::endOf(path[i]).value_or(start);
+    }
+    return result;
+}
+
 bool isDrawable(const Path& path, const Affine& transform) {
     const auto fine = [&](Point p) {
         const Point mapped = scene::apply(transform, p);

@@ -3,6 +3,7 @@
 /// where finished nodes can have drawn something.
 #pragma once
 
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -28,6 +29,10 @@ Box boundingBox(const scene::Path& path, const scene::Affine& transform);
 
 /// The mapped outline; arcs become cubics (within 4e-6 of their radius).
 scene::Path mapPath(const scene::Affine& transform, const scene::Path& path);
+
+/// Without what no one means: a control point that is nearer to its end than `reach` is put on it, where it
+/// would turn a stroke's cap or join by any angle. Null if there is none.
+std::shared_ptr<const scene::Path> withoutTinyControls(const scene::Path& path, double reach);
 
 /// A vertex of a path and the directions in which the path reaches and leaves it (not normalised;
 /// zero where there is none). Source: SVG 2 section 9.5.5 (path segments of zero length).

@@ -78,6 +78,20 @@ TEST(Shape, HiddenShapesAreNotDrawnButTheirVisibleChildrenAre) {
     EXPECT_FALSE(
         drawsNothing("<g visibility='hidden'><rect width='9' height='9' visibility='visible'/></g>"));
 }
+TEST(Shape, ControlsThatLieOnTheirEndsButForRoundingDoNotTurnCaps) {
+    const auto strokeOf = [](const std::string& data) {
+        return *itemOf("<path fill='none' stroke='red' stroke-width='8' d='" + data + "'/>").path;
+    };
+    const auto cubic =
+        std::get<scene::CubicTo>(strokeOf("M 5 5 C 5.001 5.001 40 9 40.0012 9.001 H 60").at(1));
+    EXPECT_EQ(cubic.control1, scene::Point(5, 5));
+    EXPECT_NE(cubic.control2, scene::Point(40, 9));
+    const auto meant = std::get<scene::CubicTo>(strokeOf("M 5 5 C 5.01 5.01 40 9 40 9").at(1));
+    EXPECT_EQ(meant.control1, scene::Point(5.01, 5.01));
+    EXPECT_TRUE(std::holds_alternative<scene::LineTo>(strokeOf("M 5 5 Q 5 5.001 40 9").at(1)));
+    EXPECT_TRUE(std::holds_alternative<scene::CubicTo>(
+        *std::next(itemOf("<path d='M 5 5 C 5.0001 5.0001 40 9 40 9'/>").path->begin())));
+}
 TEST(Shape, MayTurnAboutItsOwnBox) {
     const std::string style =
         "style='transform-box: fill-box; transform-origin: center; transform: rotate(90deg)'";
