@@ -111,9 +111,38 @@ public:
                 rule.descriptors.push_back({descriptor.name, descriptor.value});
         }
     }
+    /// What stands in `<?xml-stylesheet type="text/css" href="…" media="…"?>`.
+    void readLinked(std::string_view instruction) {
+        const std::string_view type = attributeOf(instruction, "type"),
+                               href = attributeOf(instruction, "href");
+        const bool isCss = type.empty() || equalsIgnoringCase(type, "text/css");
+        if (isCss && !href.empty() && attributeOf(instruction, "alternate") != "yes" &&
+            mediaHolds(attributeOf(instruction, "media")))
+            readImport(href, *tree_.root, 0);
+    }
     std::vector<Rule> take() { return std::move(rules_); }
 
 private:
+    /// `name="value"`, empty if it is not there.
+    static std::string_view attributeOf(std::string_view text, std::string_view name) {
+        for (Cursor cursor(text); !cursor.atEnd();) {
+            cursor.skipSpaces();
+            const std::string_view found = cursor.identifier();
+            cursor.skipSpaces();
+            if (!cursor.consume('='))
+                return {};
+            cursor.skipSpaces();
+            const char quote = cursor.peek();
+            if (quote != '"' && quote != '\'')
+                return {};
+            cursor.advance();
+            const std::string_view value = cursor.until(quote);
+            if (found == name)
+                return value;
+        }
+        return {};
+    }
+
     void readImport(std::string_view href, const Element& element, int depth) {
         constexpr int maxImports = 8;  // of sheets in each other
         if (depth == maxImports)
@@ -138,6 +167,8 @@ private:
 std::vector<Rule> readSheets(Tree& tree, const Options& options, Reporter& reporter) {
     SheetReader reader(tree, options, reporter);
     reader.read(tree.ownedText.emplace_back(withoutComments(options.styleSheet)), *tree.root);
+    for (const std::string_view instruction : tree.styleSheets)
+        reader.readLinked(instruction);
     for (const Element& element : tree.elements)
         if (element.tag == Tag::Style && isCss(element) && mediaHolds(element.get("media")))
             reader.read(sheetText(element, tree), element);

@@ -144,6 +144,19 @@ TEST_F(ImageFiles, StyleSheetsAreImported) {
         0);
     EXPECT_EQ(load("<style>@import 'none.css';</style>").warnings.size(), 1u);
 }
+TEST_F(ImageFiles, StyleSheetsAreLinked) {
+    std::ofstream(folder_ / "a.css") << "rect { fill: lime }";
+    std::ofstream(folder_ / "p.css") << "rect { fill: red }";
+    Options options;
+    options.resourceDirectory = folder_.string();
+    const std::string linked =
+        "<?xml version='1.0'?><?xml-stylesheet type='text/css' href='a.css'?>"
+        "<?xml-stylesheet href=\"p.css\" media='print'?><?xml-stylesheet href='p.css' alternate='yes'?>"
+        "<?xml-stylesheet href='p.css' type='text/xsl'?><?xml-stylesheet nonsense?>";
+    const Document loaded = loadText(linked + document("<rect width='1' height='1'/>"), options);
+    EXPECT_EQ(rgbOf(itemsOf(loaded).at(0).paint), 0x00ff00);
+    EXPECT_TRUE(loaded.warnings.empty());
+}
 TEST_F(ImageFiles, AreNotReadWithoutOne) {
     const Document loaded = load("<image href='a%20b.svg'/>", false);
     EXPECT_TRUE(itemsOf(loaded).empty());

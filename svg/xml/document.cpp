@@ -164,12 +164,15 @@ std::unique_ptr<Tree> parseXml(std::string text, const SourceMap& map) {
     tree->text = std::move(text);
     const bool keepsAllText = tree->text.find("tref") != std::string::npos;
     pugi::xml_document document;
-    const pugi::xml_parse_result result =
-        document.load_buffer_inplace(tree->text.data(), tree->text.size(),
-                                     pugi::parse_default | pugi::parse_ws_pcdata, pugi::encoding_utf8);
+    const pugi::xml_parse_result result = document.load_buffer_inplace(
+        tree->text.data(), tree->text.size(), pugi::parse_default | pugi::parse_ws_pcdata | pugi::parse_pi,
+        pugi::encoding_utf8);
     if (!result)
         throw ParseError(map.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
                          result.description());
+    for (const pugi::xml_node& node : document.children())
+        if (node.type() == pugi::node_pi && std::string_view(node.name()) == "xml-stylesheet")
+            tree->styleSheets.push_back(node.value());
     const pugi::xml_node root = document.document_element();
     tree->root = Builder(*tree, map, keepsAllText).build(root, nullptr, 1);
     if (tree->root->tag != Tag::Svg)

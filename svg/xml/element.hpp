@@ -108,6 +108,7 @@ struct Tree {
     std::deque<std::string> ownedText;  ///< what had to be rewritten, such as CSS without its comments
     std::deque<Element> elements;
     std::vector<FontFaceRule> fontFaces;
+    std::vector<std::string_view> styleSheets;  ///< `<?xml-stylesheet …?>`, what stands in each
     Element* root = nullptr;
     std::unordered_map<std::string_view, Element*> ids;  ///< the first element of each id
 
