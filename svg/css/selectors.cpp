@@ -8,6 +8,12 @@
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {
+
+// Where Selector is complete.
+Condition::Condition(ConditionKind of, std::string_view named, std::string_view valued,
+                     std::vector<Nth> numbered)
+    : kind(of), name(named), value(valued), nths(std::move(numbered)) {}
+
 namespace {
 
 std::optional<ConditionKind> attributeOperator(Cursor& cursor) {

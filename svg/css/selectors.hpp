@@ -41,10 +41,13 @@ struct Nth {
 
 struct Condition {
     ConditionKind kind;
-    std::string_view name{}, value{};
-    std::vector<Nth> nths{};            ///< of Nth: all of them hold
-    std::vector<Selector> selectors{};  ///< of Is and Not
-    bool isSpecific = true;             ///< false for :where()
+    std::string_view name, value;
+    std::vector<Nth> nths;            ///< of Nth: all of them hold
+    std::vector<Selector> selectors;  ///< of Is and Not
+    bool isSpecific = true;           ///< false for :where()
+
+    explicit Condition(ConditionKind of, std::string_view named = {}, std::string_view valued = {},
+                       std::vector<Nth> numbered = {});
 };
 
 enum class Combinator { None, Descendant, Child, NextSibling, LaterSibling };
