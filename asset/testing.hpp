@@ -116,5 +116,7 @@ Asset placedMaps();
 
 /// Every command of compat mode, with nested groups, masks and clips.
 Asset layers();
+/// A disc, and over it another that a filter of three primitives and two pictures draws.
+Asset filtered();
 
 }  // namespace vtm::asset::test

@@ -46,10 +46,10 @@ struct CompileResult {
 };
 
 /// Clips and opacity of groups are nodes as well: a clip is a mask between two sides, a group's opacity
-/// a node without a mask. Blend modes other than normal, masks by luminance or alpha and
-/// pattern paints cannot be said: such groups are drawn as if they had none, such items not at all, with a
-/// warning. Throws scene::InvalidScene, compiler::LimitError,
-/// std::invalid_argument (options out of range).
+/// a node without a mask. Blend modes other than normal, masks by luminance or alpha,
+/// filters and pattern paints cannot be said: such groups are drawn as if they had none, such items not at
+/// all, with a warning. Throws scene::InvalidScene, compiler::LimitError, std::invalid_argument (options out
+/// of range).
 CompileResult compile(const scene::Scene& scene, const CompileOptions& options = {});
 
 /// Row 16: remakes the mask of an item whose path, transform, fill rule or stroke changed, and

@@ -31,6 +31,7 @@ private:
 /// `part` itself, which may be null, under the identity.
 std::shared_ptr<const Clip> placed(const std::shared_ptr<const Clip>& part, const Affine& transform);
 std::shared_ptr<const Mask> placed(const std::shared_ptr<const Mask>& part, const Affine& transform);
+std::shared_ptr<const Filter> placed(const std::shared_ptr<const Filter>& part, const Affine& transform);
 
 Group placed(Group part, const Affine& transform);
 

@@ -51,9 +51,8 @@ svg::Options svgOptions(const LoadOptions& options) {
 }
 
 std::string textOf(const svg::Warning& warning) {
-    const std::string text = fmt::format("{}:{}:{}: {}", warning.where.file, warning.where.line,
-                                         warning.where.column, warning.message);
-    return warning.count == 1 ? text : fmt::format("{} ({} places)", text, warning.count);
+    return fmt::format("{}:{}:{}: {}", warning.where.file, warning.where.line, warning.where.column,
+                       warning.message);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ using scene::compose;
 class Folder {
 public:
     Vtm fold(const scene::Group& group) {
-        return Vtm::layer(children(group), {}, {group.opacity, group.blend, group.clip, group.mask});
+        return Vtm::layer(children(group), {},
+                          {group.opacity, group.blend, group.clip, group.mask, group.filter});
     }
 
 private:
@@ -40,7 +41,7 @@ private:
 
     Vtm lay(const scene::Group& group, Vtm below) {
         return Vtm::layer(children(group), std::move(below),
-                          {group.opacity, group.blend, group.clip, group.mask});
+                          {group.opacity, group.blend, group.clip, group.mask, group.filter});
     }
 
     Vtm lay(const scene::Select& select, Vtm below) {
@@ -166,8 +167,8 @@ private:
     static Nodes composited(Nodes content, const Compositing& how, const Affine& at) {
         if (how.isPlain() && std::none_of(content.begin(), content.end(), blends))
             return content;
-        scene::Group group{std::move(content), how.opacity, how.blend, placed(how.clip, at),
-                           placed(how.mask, at)};
+        scene::Group group{std::move(content),   how.opacity,          how.blend,
+                           placed(how.clip, at), placed(how.mask, at), placed(how.filter, at)};
         return {{std::move(group)}};
     }
 

@@ -159,6 +159,8 @@ private:
             text_ += fmt::format("opacity {} ", svg::number(how.opacity));
         if (how.blend != scene::BlendMode::Normal)
             text_ += fmt::format("blend {} ", keywords::blends[std::size_t(how.blend)]);
+        if (how.filter)
+            throw TreeError("a filter cannot be written as a tree");
         if (how.clip)
             text_ += fmt::format("clip {} ", clips_.at(how.clip.get()));
         if (how.mask)

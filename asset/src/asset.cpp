@@ -19,7 +19,7 @@ std::vector<Record> copied(std::span<const Record> records) {
 
 bool isSumOfMaps(const AssetView& asset) {
     return asset.mode == Mode::Exact && std::ranges::all_of(asset.commands, [](const Command& command) {
-               return command.kind == Command::Kind::DrawMap;
+               return command.kind == Command::Kind::DrawMap && command.paint == 0;
            });
 }
 
@@ -57,6 +57,9 @@ Asset toAsset(const AssetView& view) {
             .instances = copied(view.instances),
             .symbols = copied(view.symbols),
             .palettes = copied(view.palettes),
+            .filters = copied(view.filters),
+            .filterPrimitives = copied(view.filterPrimitives),
+            .filterWords = copied(view.filterWords),
             .fallbackLeaves = view.fallbackLeaves,
             .prefilter = {view.prefilter.size, copied(view.prefilter.texels)},
             .finestPixel = view.finestPixel,

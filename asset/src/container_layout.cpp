@@ -10,10 +10,26 @@ namespace vtm::asset {
 
 namespace {
 
-constexpr std::array<const char*, 17> names{
-    "picture",        "maps",           "commands",  "nodes",       "leaves",    "pieces",
-    "paints",         "data",           "images",    "image bytes", "prefilter", "materials",
-    "material bytes", "instance trees", "instances", "symbols",     "palettes"};
+constexpr std::array<const char*, 20> names{"picture",
+                                            "maps",
+                                            "commands",
+                                            "nodes",
+                                            "leaves",
+                                            "pieces",
+                                            "paints",
+                                            "data",
+                                            "images",
+                                            "image bytes",
+                                            "prefilter",
+                                            "materials",
+                                            "material bytes",
+                                            "instance trees",
+                                            "instances",
+                                            "symbols",
+                                            "palettes",
+                                            "filters",
+                                            "filter primitives",
+                                            "filter words"};
 
 }  // namespace
 

@@ -56,6 +56,9 @@ enum class SectionKind : std::uint32_t {
     Instances,
     Symbols,
     Palettes,
+    Filters,
+    FilterPrimitives,
+    FilterWords,
     Accuracy = 0x80000000u,  ///< a reader may do without it and those that follow
     Font,
     Glyphs,
@@ -64,7 +67,7 @@ enum class SectionKind : std::uint32_t {
 /// Sections up to this one stand in every file, empty or not; those after it only where they are not
 /// empty.
 inline constexpr SectionKind lastRequired = SectionKind::ImageBytes;
-inline constexpr SectionKind lastKnown = SectionKind::Palettes;
+inline constexpr SectionKind lastKnown = SectionKind::FilterWords;
 /// A reader skips a section of unknown kind if this bit is set, and refuses the file if it is not.
 inline constexpr std::uint32_t ignorableBit = 0x80000000u;
 /// Bounds the table of a hostile file.

@@ -172,6 +172,9 @@ Contents openContents(Bytes bytes) {
     view.instances = sections.take<Instance>(SectionKind::Instances);
     view.symbols = sections.take<Symbol>(SectionKind::Symbols);
     view.palettes = sections.take<std::uint16_t>(SectionKind::Palettes);
+    view.filters = sections.take<Filter>(SectionKind::Filters);
+    view.filterPrimitives = sections.take<FilterPrimitive>(SectionKind::FilterPrimitives);
+    view.filterWords = sections.take<std::uint32_t>(SectionKind::FilterWords);
     readAccuracy(sections, view);
     readFont(sections, view);
     validate(view);

@@ -75,6 +75,9 @@ std::vector<std::uint8_t> write(const AssetView& asset) {
     addUnlessEmpty(SectionKind::Instances, asset.instances);
     addUnlessEmpty(SectionKind::Symbols, asset.symbols);
     addUnlessEmpty(SectionKind::Palettes, asset.palettes);
+    addUnlessEmpty(SectionKind::Filters, asset.filters);
+    addUnlessEmpty(SectionKind::FilterPrimitives, asset.filterPrimitives);
+    addUnlessEmpty(SectionKind::FilterWords, asset.filterWords);
     const AccuracyRecord accuracy{asset.finestPixel.value_or(0)};
     if (asset.finestPixel)
         sections.push_back(section(SectionKind::Accuracy, std::span(&accuracy, 1)));

@@ -230,50 +230,101 @@ bool drawsMap(Command::Kind kind) {
            kind == Command::Kind::ClipMask;
 }
 
-/// Depth of the stack of pictures after a command.
-unsigned depthAfter(const Command& command, unsigned depth, std::size_t i) {
-    if (command.kind == Command::Kind::Push) {
-        require(depth < maxPictures, "commands", i, "stack of pictures overflows");
-        return depth + 1;
+/// The stack of pictures as the commands change it. The inputs of a filter lie on each other.
+class PictureStack {
+public:
+    explicit PictureStack(const AssetView& asset) : asset_(asset) {}
+
+    void run(std::size_t i) {
+        const Command& command = asset_.commands[i];
+        switch (command.kind) {
+            case Command::Kind::Push:
+                return push({plain, 0}, i);
+            case Command::Kind::PushInput:
+                return push(inputAfter(pictures_.back(), command.map), i);
+            case Command::Kind::Filter:
+                return filter(command.map, i);
+            default:
+                if (drawsMap(command.kind))
+                    return;
+                require(pictures_.size() > 1 && pictures_.back().filter == plain, "commands", i,
+                        "pops the last picture, or an input of a filter");
+                pictures_.pop_back();
+        }
     }
-    if (drawsMap(command.kind))
-        return depth;
-    require(depth > 1, "commands", i, "pops the last picture");
-    return depth - 1;
+    bool isAtEnd() const { return pictures_.size() == 1; }
+
+private:
+    static constexpr std::uint32_t plain = 0xFFFFFFFFu;
+    struct Picture {
+        std::uint32_t filter, number;  ///< an input of that filter
+    };
+
+    std::uint32_t inputs(std::uint32_t filter) const { return asset_.filters[filter].pictures; }
+
+    Picture inputAfter(const Picture& below, std::uint32_t filter) const {
+        const bool goesOn = below.filter == filter && below.number + 1 < inputs(filter);
+        return {filter, goesOn ? below.number + 1 : 0};
+    }
+    void push(const Picture& picture, std::size_t i) {
+        require(pictures_.size() < maxPictures, "commands", i, "stack of pictures overflows");
+        pictures_.push_back(picture);
+    }
+    void filter(std::uint32_t index, std::size_t i) {
+        const Picture& last = pictures_.back();
+        require(last.filter == index && last.number + 1 == inputs(index), "commands", i,
+                "filters pictures that were not pushed for it");
+        pictures_.resize(pictures_.size() - inputs(index));
+        push({plain, 0}, i);
+    }
+
+    const AssetView& asset_;
+    std::vector<Picture> pictures_{{plain, 0}};
+};
+
+bool usesFilter(Command::Kind kind) {
+    return kind == Command::Kind::PushInput || kind == Command::Kind::Filter;
 }
 
 void validateCommand(const AssetView& asset, const Maps& maps, std::size_t i) {
     const Command& command = asset.commands[i];
-    require(command.kind <= Command::Kind::ClipMask, "commands", i, "kind is unknown");
+    require(command.kind <= Command::Kind::Filter, "commands", i, "kind is unknown");
     require(command.blend <= Blend::PlusLighter, "commands", i, "blend mode is unknown");
     require(isShare(command.opacity), "commands", i, "opacity is out of range");
     require(!drawsMap(command.kind) || command.map < asset.maps.size(), "commands", i,
             "refers to a missing map");
     require(!drawsMap(command.kind) || !maps.isPlaced(command.map), "commands", i,
             "draws a map that is placed in another");
+    require(command.kind != Command::Kind::DrawMap || command.paint == 0 ||
+                std::uint64_t(command.paint) + maps.extents()[command.map].largestPaint < asset.paints.size(),
+            "commands", i, "its map refers to missing paints");
     require(command.kind != Command::Kind::FillMask || command.paint < asset.paints.size(), "commands", i,
             "refers to a missing paint");
-    const bool isDrawMap = command.kind == Command::Kind::DrawMap;
-    require(isDrawMap == (asset.mode == Mode::Exact), "commands", i,
-            isDrawMap ? "draws a map in compat mode" : "draws layers in exact mode");
-    if (command.kind == Command::Kind::FillMask || command.kind == Command::Kind::ClipMask)
+    require(!usesFilter(command.kind) || command.map < asset.filters.size(), "commands", i,
+            "refers to a missing filter");
+    const bool isMask = command.kind == Command::Kind::FillMask || command.kind == Command::Kind::ClipMask;
+    require(asset.mode == Mode::Exact || command.kind != Command::Kind::DrawMap, "commands", i,
+            "draws a map in compat mode");
+    require(asset.mode != Mode::Exact || !(isMask || (!drawsMap(command.kind) && asset.filters.empty())),
+            "commands", i, "draws layers in exact mode");
+    if (isMask)
         require(maps.extents()[command.map].largestPaint <= 1, "commands", i,
                 "its map is not a mask: it has a paint index above 1");
 }
 
 void validateCommands(const AssetView& asset, const Maps& maps) {
     require(asset.commands.size() <= maxCommands, "commands", maxCommands, "there are too many");
-    unsigned depth = 1;
+    PictureStack stack(asset);
     std::uint64_t drawn = 0;
     for (std::size_t i = 0; i < asset.commands.size(); ++i) {
         const Command& command = asset.commands[i];
         validateCommand(asset, maps, i);
-        depth = depthAfter(command, depth, i);
+        stack.run(i);
         if (drawsMap(command.kind))
             drawn += maps.extents()[command.map].drawn;
         require(drawn <= maxDrawn, "commands", i, "more squares and pieces are drawn than the limit");
     }
-    require(depth == 1, "commands", asset.commands.size(), "a group is not closed at the end");
+    require(stack.isAtEnd(), "commands", asset.commands.size(), "a group is not closed at the end");
 }
 
 void validatePrefilter(const PrefilterView& prefilter) {
@@ -320,6 +371,7 @@ void validate(const AssetView& asset) {
     validatePieces(asset);
     const Trees trees(asset);
     const Maps maps(asset, trees);
+    validateFilters(asset);
     validateCommands(asset, maps);
     validatePrefilter(asset.prefilter);
     validateFont(asset);

@@ -20,5 +20,6 @@ inline void require(bool holds, const char* section, std::size_t index, const ch
 inline bool isShare(float value) { return value >= 0 && value <= 1; }
 
 void validatePaints(const AssetView& asset);
+void validateFilters(const AssetView& asset);
 
 }  // namespace vtm::asset

@@ -158,7 +158,9 @@ void validatePaints(const AssetView& asset) {
     validateImages(asset);
     validateMaterials(asset);
     require(!asset.paints.empty() && asset.paints[0] == Paint{}, "paints", 0, "must be transparent");
-    require(asset.paints.size() <= 65536, "paints", 65536, "index needs more than 16 bits");
+    // Each command that draws a map may say where its paints begin.
+    require(asset.paints.size() <= 65536 || !asset.filters.empty(), "paints", 65536,
+            "index needs more than 16 bits");
     const Data data(asset);
     for (std::size_t i = 0; i < asset.paints.size(); ++i)
         if (isProgram(asset.paints[i]))

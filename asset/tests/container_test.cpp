@@ -13,7 +13,8 @@ namespace vtm::asset::test {
 namespace {
 
 TEST(Container, ReadsWhatItWrote) {
-    for (const Asset& asset : {everySection(), layers(), disc(), twoLevels(), placedMaps(), emptyAsset()}) {
+    for (const Asset& asset :
+         {everySection(), layers(), disc(), twoLevels(), placedMaps(), filtered(), emptyAsset()}) {
         const Asset copy = read(write(asset));
         EXPECT_EQ(write(copy), write(asset));
         EXPECT_EQ(copy.commands.size(), asset.commands.size());

@@ -308,4 +308,21 @@ Asset layers() {
     return asset;
 }
 
+Asset filtered() {
+    Asset asset = disc();
+    const auto word = [](float v) { return std::bit_cast<std::uint32_t>(v); };
+    const std::array<double, 4> box{4, 4, 60, 60};
+    asset.filterWords = {0, word(2), word(1.5f), word(1), 2, 3, word(6), word(0), word(0), word(0), word(0)};
+    asset.filterPrimitives = {{FilterOp::GaussianBlur, 1, 0, 1, 2, 0, box},
+                              {FilterOp::Picture, 0, 3, 0, 1, 0, box},
+                              {FilterOp::Composite, 0, 4, 2, 5, 0, box}};
+    asset.filters = {{{1, 0, 0, 1, 0, 0}, box, 0, 3, 2, 0}};
+    using K = Command::Kind;
+    asset.commands = {
+        {K::DrawMap, {}, 1, 0, 0}, {K::Push, {}, 1, 0, 0},      {K::PushInput, {}, 1, 0, 0},
+        {K::DrawMap, {}, 1, 0, 0}, {K::PushInput, {}, 1, 0, 0}, {K::DrawMap, {}, 1, 0, 0},
+        {K::Filter, {}, 1, 0, 0},  {K::Pop, {}, 1, 0, 0},       {K::Pop, Blend::Multiply, 0.5f, 0, 0}};
+    return asset;
+}
+
 }  // namespace vtm::asset::test

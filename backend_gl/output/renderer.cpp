@@ -126,7 +126,13 @@ struct Renderer::Impl {
     void draw(UploadedAsset& asset, const Destination& d) {
         if (asset.atlases.empty() && d.finish.has(Finish::LinearLight))
             throw std::invalid_argument(
-                "linear light is for exact mode; compat mode does as other renderers do");
+                "linear light is for exact mode without filters; compat mode does as other renderers do");
+        if (asset.filtered) {
+            const OneDrawBuffer one;
+            for (const PixelBox& box : d.boxes)
+                drawFiltered(asset, d, box);
+            return check("drawing");
+        }
         if (asset.scanner && d.finish.flags() == 0 && d.bits == 8) {
             const OneDrawBuffer one;
             for (const PixelBox& box : d.boxes)
@@ -161,6 +167,14 @@ struct Renderer::Impl {
     void drawScanned(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
         const asset::View view = viewOf(d.view, box);
         asset.scanner->draw(view, {bytePixels.room(box.size()), std::size_t(view.width) * 4});
+        bytePixels.draw(resources, d, box);
+    }
+
+    /// Filters read beyond the box, so it is not divided.
+    void drawFiltered(const UploadedAsset& asset, const Destination& d, const PixelBox& box) {
+        const image::Raster drawn = asset::evaluate(*asset.filtered, viewOf(d.view, box));
+        std::ranges::transform(drawn.rgba, bytePixels.room(box.size()),
+                               [](float v) { return std::uint8_t(v * 255 + 0.5f); });
         bytePixels.draw(resources, d, box);
     }
 
@@ -219,7 +233,8 @@ struct Renderer::Impl {
             output.framebuffer = target.framebuffer.get();
             output.alpha = Output::Alpha::Straight;
             const asset::View part = viewOf(view, box);
-            drawByShaders(asset, destinationOf(part, output, 0));
+            const Destination destination = destinationOf(part, output, 0);
+            asset.filtered ? draw(asset, destination) : drawByShaders(asset, destination);
             const std::size_t first =
                 (std::size_t(box.min.y) * std::size_t(view.width) + std::size_t(box.min.x)) * 4;
             readBack(target, part, GL_UNSIGNED_BYTE, view.width, &bitmap.rgba[first]);
@@ -247,7 +262,7 @@ Texture Renderer::upload(const asset::AssetView& asset) {
         if (impl_->scans && asset::isSumOfMaps(asset) && asset.materials.empty())
             texture->scanner.emplace(asset);
         // Users' errors come at once, not with the first picture.
-        if (texture->features.has(Features::Material))
+        if (texture->features.has(Features::Material) && !texture->filtered)
             asset.mode == asset::Mode::Exact ? programs.tile(texture->features, texture->materialSet, {})
                                              : programs.fill(texture->features, texture->materialSet);
         return Texture(std::move(texture), *this);
@@ -256,6 +271,8 @@ Texture Renderer::upload(const asset::AssetView& asset) {
 
 image::Raster Renderer::render(const Texture& texture, const asset::View& view) {
     asset::validate(view);
+    if (const auto& filtered = texture.impl_->filtered)
+        return asset::evaluate(*filtered, view);
     image::Raster raster(view.width, view.height);
     impl_->call([&](const StateGuard&) {
         impl_->paintParts(

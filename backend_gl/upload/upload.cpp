@@ -63,11 +63,15 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::uint32_t maxTurns)
     : maps(asset.maps.begin(), asset.maps.end()),
       commands(asset.commands.begin(), asset.commands.end()),
-      list(isSumOfMaps(asset) ? InstanceList{} : makeInstances(asset)),
+      list(isSumOfMaps(asset) || !asset.filters.empty() ? InstanceList{} : makeInstances(asset)),
       features(featuresOf(asset)),
       materialSet(materials),
       paints(asset.paints.begin(), asset.paints.end()),
       finestPixel(asset.finestPixel) {
+    if (!asset.filters.empty()) {
+        filtered = toAsset(asset);
+        return;
+    }
     if (isSumOfMaps(asset)) {
         kept = keptOf(asset);
         for (const asset::Command& command : asset.commands)

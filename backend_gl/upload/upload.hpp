@@ -36,6 +36,7 @@ struct UploadedAsset {
     std::vector<asset::Paint> paints;
     std::optional<double> finestPixel;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
+    std::optional<asset::Asset> filtered;   ///< with filters: drawn on the CPU, nothing of it is uploaded
     KeptAsset kept;                         ///< of a sum of maps
     std::vector<Atlas> atlases;             ///< exact: of each map drawn
     Sections sections;

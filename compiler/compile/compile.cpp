@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/compile/settings.hpp"
+#include "compiler/filters/compile_filtered.hpp"
 #include "compiler/instances/encode_instances.hpp"
 #include "compiler/instances/place_symbols.hpp"
 #include "compiler/lower/walk_items.hpp"
@@ -244,9 +245,7 @@ Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const L
     return lowered;
 }
 
-}  // namespace
-
-Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
+Result compilePlain(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
     const auto start = Clock::now();
     const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
     auto [picture, placed, placedPaints] = lowerAndPlace(scene, excerpt, lattice, options);
@@ -275,6 +274,13 @@ Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const O
     result.stages = stageTimes(milliseconds(start, lowered), built, t);
     result.warnings = warningsOf(result, options, error);
     return result;
+}
+
+}  // namespace
+
+Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
+    return hasFilters(scene) ? compileFiltered(scene, excerpt, options, compilePlain)
+                             : compilePlain(scene, excerpt, options);
 }
 
 }  // namespace vtm::compiler

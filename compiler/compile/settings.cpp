@@ -29,6 +29,9 @@ void checkOptions(const Options& o) {
             fmt::format("nanosecondsPerByte is {}, not in [1, 1e6]", o.nanosecondsPerByte));
     if (o.piecesPerLeaf && (*o.piecesPerLeaf < 1 || *o.piecesPerLeaf > 4096))
         throw std::invalid_argument(fmt::format("piecesPerLeaf is {}, not in [1, 4096]", *o.piecesPerLeaf));
+    if (o.filterPixels > maxFilterPixels)
+        throw std::invalid_argument(
+            fmt::format("filterPixels is {}, not in [0, {}]", o.filterPixels, maxFilterPixels));
     if (o.maxDepth > asset::maxLevel)
         throw std::invalid_argument(
             fmt::format("maxDepth is {}, not in [0, {}]", o.maxDepth, asset::maxLevel));

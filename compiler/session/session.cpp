@@ -1,6 +1,7 @@
 #include <vtm/compiler/session.hpp>
 
 #include "compiler/compile/settings.hpp"
+#include "compiler/filters/compile_filtered.hpp"
 #include "compiler/session/editor.hpp"
 
 namespace vtm::compiler {
@@ -11,9 +12,10 @@ public:
 
     void update(const scene::Scene& scene) {
         scene::validate(scene, [&](const scene::Path& path) { return kept_ && kept_->cache.knows(path); });
-        if (options_.mode != asset::Mode::Exact) {
+        if (options_.mode != asset::Mode::Exact || hasFilters(scene)) {
             result_ = compile(scene, options_);
             update_ = {.anew = true};
+            kept_.reset();
             return;
         }
         std::unique_ptr<Kept> kept = std::move(kept_);  // lost if anything throws

@@ -110,6 +110,8 @@ private:
     std::uint32_t group(const scene::Group& g, std::uint32_t rest) {
         if (g.blend != scene::BlendMode::Normal)
             ++missing_[{"blend modes", "drawn as normal"}];
+        if (g.filter)
+            ++missing_[{"filters", "drawn without"}];
         if (g.mask)
             ++missing_[{"masks by luminance or alpha", "drawn without"}];
         std::uint32_t inside = sequence(g.children, rest);

@@ -2,19 +2,12 @@
 /// Adding one map to a raster: the sum of all its leaves over every pixel.
 #pragma once
 
-#include <glm/vec2.hpp>
-
 #include <vtm/raster/view.hpp>
 #include "asset/instances.hpp"
 #include "raster/src/paint.hpp"
+#include "raster/src/pixel_box.hpp"
 
 namespace vtm::asset {
-
-/// Pixels [min, max) of a raster.
-struct PixelBox {
-    glm::ivec2 min{0}, max{0};
-    bool empty() const { return min.x >= max.x || min.y >= max.y; }
-};
 
 /// The pixels of `view` whose boxes can meet the image of [0, 1]².
 PixelBox pixelsOf(const View& view, const Affine2& toPicture);

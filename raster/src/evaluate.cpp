@@ -1,16 +1,20 @@
 #include <vtm/raster/evaluate.hpp>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <vector>
 
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <vtm/limits/limits.hpp>
+#include <vtm/raster/scan.hpp>
+#include "raster/filter/run_filter.hpp"
 #include "raster/src/blend.hpp"
+#include "raster/src/canvas.hpp"
 #include "raster/src/draw_map.hpp"
-#include "raster/src/float4.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/rough.hpp"
 
@@ -19,18 +23,14 @@ namespace vtm::asset {
 namespace {
 
 using glm::vec2;
-using glm::vec4;
 using image::Raster;
-
-vec4 load(const float* pixel) { return glm::make_vec4(pixel); }
-
-void store(float* pixel, vec4 color) { std::copy_n(glm::value_ptr(color), 4, pixel); }
 
 /// Share of each pixel of a box that a map covers.
 struct Mask {
     PixelBox box;
     Raster coverage;
 
+    /// Of a pixel of the box.
     float at(int x, int y) const { return unit(coverage.pixel(x - box.min.x, y - box.min.y)[0]); }
 };
 
@@ -58,35 +58,30 @@ private:
     glm::dvec2 origin_;
 };
 
-void fillMask(const Paints& paints, const Command& command, const View& view,
-              const MaterialFunction& materials, Raster& top) {
-    const Mask mask = coverageOf(paints, paints.asset().maps[command.map], view);
-    const PixelCentres centre(view);
-    for (int y = mask.box.min.y; y < mask.box.max.y; ++y)
+void fillMask(const Paints& paints, const Command& command, const MaterialFunction& materials, Canvas& top) {
+    const Mask mask = coverageOf(paints, paints.asset().maps[command.map], top.view());
+    if (mask.box.empty())
+        return;
+    const PixelCentres centre(top.view());
+    top.include(mask.box);
+    for (int y = mask.box.min.y; y < mask.box.max.y; ++y) {
+        Float4* row = top.row(y);
         for (int x = mask.box.min.x; x < mask.box.max.x; ++x) {
             const float coverage = mask.at(x, y);
             if (coverage == 0)
                 continue;
-            const vec4 source = paints.color(command.paint, centre(x, y), materials) * coverage;
-            store(top.pixel(x, y), over(source, load(top.pixel(x, y))));
+            Float4& pixel = row[x - top.box().min.x];
+            pixel = over(coverage * float4(paints.color(command.paint, centre(x, y), materials)), pixel);
         }
+    }
 }
 
-void clipMask(const Paints& paints, const Command& command, const View& view, Raster& top) {
-    const Mask mask = coverageOf(paints, paints.asset().maps[command.map], view);
-    for (int y = 0; y < top.height; ++y)
-        for (int x = 0; x < top.width; ++x) {
-            const bool inside =
-                x >= mask.box.min.x && x < mask.box.max.x && y >= mask.box.min.y && y < mask.box.max.y;
-            store(top.pixel(x, y), load(top.pixel(x, y)) * (inside ? mask.at(x, y) : 0.0f));
-        }
-}
-
-/// What the whole picture on top of the stack does to one below.
-template <class Combine>
-void combine(const Raster& source, Raster& top, Combine&& combineColors) {
-    for (std::size_t i = 0; i < top.rgba.size(); i += 4)
-        store(&top.rgba[i], combineColors(load(&source.rgba[i]), load(&top.rgba[i])));
+void clipMask(const Paints& paints, const Command& command, Canvas& top) {
+    const Mask mask = coverageOf(paints, paints.asset().maps[command.map], top.view());
+    top.restrictTo(mask.box);
+    for (int y = top.box().min.y; y < top.box().max.y; ++y)
+        for (int x = top.box().min.x; x < top.box().max.x; ++x)
+            top.row(y)[x - top.box().min.x] *= mask.at(x, y);
 }
 
 Op maskOp(Command::Kind kind) {
@@ -100,42 +95,179 @@ Op maskOp(Command::Kind kind) {
     }
 }
 
-void pop(const Command& command, std::vector<Raster>& stack) {
-    const Raster source = std::move(stack.back());
-    stack.pop_back();
-    if (command.kind == Command::Kind::Pop)
-        combine(source, stack.back(),
-                [&](vec4 s, vec4 b) { return blend(command.blend, s * command.opacity, b); });
+void composite(const Canvas& source, const Command& command, Canvas& top) {
+    if (command.blend == Blend::Normal)
+        combine(source, top, [&](Float4 b, Float4 s) { return over(command.opacity * s, b); });
     else
-        combine(source, stack.back(),
-                [&](vec4 s, vec4 b) { return b * maskFactor(maskOp(command.kind), s); });
+        combine(source, top, [&](Float4 b, Float4 s) {
+            return float4(blend(command.blend, command.opacity * toVec4(s), toVec4(b)));
+        });
 }
 
-void execute(const Paints& paints, const Command& command, const View& view,
-             const MaterialFunction& materials, int levels, std::vector<Raster>& stack) {
-    switch (command.kind) {
-        case Command::Kind::DrawMap:
-            return addColors(paints, paints.asset().maps[command.map], view, materials, levels, stack.back());
-        case Command::Kind::FillMask:
-            return fillMask(paints, command, view, materials, stack.back());
-        case Command::Kind::ClipMask:
-            return clipMask(paints, command, view, stack.back());
-        case Command::Kind::Push:
-            stack.emplace_back(view.width, view.height);
-            return;
-        default:
-            return pop(command, stack);
+/// Where the mask has no pixels, nothing is left.
+void applyMask(const Canvas& mask, Op op, Canvas& top) {
+    top.restrictTo(mask.box());
+    for (int y = top.box().min.y; y < top.box().max.y; ++y) {
+        const Float4* factors = mask.row(y) + (top.box().min.x - mask.box().min.x);
+        Float4* row = top.row(y);
+        for (int x = 0; x < top.box().width(); ++x)
+            row[x] *= op == Op::PopMaskAlpha ? factors[x][3] : maskFactor(op, toVec4(factors[x]));
     }
 }
 
+/// The pictures that commands draw into.
+class Stack {
+public:
+    Stack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels, bool scans)
+        : paints_(paints), materials_(materials), levels_(levels), scans_(scans) {
+        push(view);
+    }
+
+    void execute(const Command& command) {
+        limits::check();
+        switch (command.kind) {
+            case Command::Kind::DrawMap:
+                return drawMap(command);
+            case Command::Kind::FillMask:
+                return fillMask(paints_, command, materials_, top().canvas);
+            case Command::Kind::ClipMask:
+                return clipMask(paints_, command, top().canvas);
+            case Command::Kind::Push:
+                return push(top().canvas.view());
+            case Command::Kind::PushInput:
+                return pushInput(command.map);
+            case Command::Kind::Filter:
+                return filter(paints_.asset().filters[command.map]);
+            default:
+                return pop(command);
+        }
+    }
+    Raster take() { return top().canvas.toRaster(); }
+
+private:
+    struct Picture {
+        Canvas canvas;
+        /// Of an input of a filter: where that works, and the input's number.
+        std::shared_ptr<const FilterPlace> place = nullptr;
+        std::uint32_t filter = 0, number = 0;
+    };
+
+    Picture& top() { return pictures_.back(); }
+    void push(const View& view) { pictures_.push_back({Canvas(view)}); }
+
+    // ---- Maps ----
+
+    void drawMap(const Command& command) {
+        const Map& map = paints_.asset().maps[command.map];
+        Canvas& canvas = top().canvas;
+        const PixelBox box = pixelsOf(canvas.view(), placeOf(map));
+        if (box.empty())
+            return;
+        const View view = crop(canvas.view(), box);
+        const Raster drawn = scans_ ? scanned(command, view) : summed(command, view);
+        canvas.include(box);
+        for (int y = 0; y < view.height; ++y) {
+            const float* from = drawn.pixel(0, y);
+            Float4* row = canvas.row(y + box.min.y) + (box.min.x - canvas.box().min.x);
+            for (int x = 0; x < view.width; ++x, from += 4)
+                row[x] += Float4{from[0], from[1], from[2], from[3]};
+        }
+    }
+
+    Raster summed(const Command& command, const View& view) {
+        const Paints& paints = paintsFrom(command.paint);
+        Raster drawn(view.width, view.height);
+        addColors(paints, paints.asset().maps[command.map], view, materials_, levels_, drawn);
+        return drawn;
+    }
+
+    /// Faster where a map is seen once and whole.
+    Raster scanned(const Command& command, const View& view) const {
+        Command alone = command;
+        alone.paint = 0;
+        AssetView part = paints_.asset();
+        part.commands = {&alone, 1};
+        part.paints = part.paints.subspan(command.paint, paintEnd(command.paint) - command.paint);
+        if (std::ranges::none_of(part.paints, isProgram)) {
+            part.data = {};
+            part.images = {};
+        }
+        return Scanner(part).draw(view, materials_);
+    }
+
+    /// Where the paints of the next map begin.
+    std::size_t paintEnd(std::uint32_t first) const {
+        std::size_t end = paints_.asset().paints.size();
+        for (const Command& command : paints_.asset().commands)
+            if (command.kind == Command::Kind::DrawMap && command.paint > first)
+                end = std::min<std::size_t>(end, command.paint);
+        return end;
+    }
+
+    const Paints& paintsFrom(std::uint32_t first) {
+        if (first == 0)
+            return paints_;
+        auto& paints = paintsFrom_[first];
+        if (!paints) {
+            AssetView view = paints_.asset();
+            view.paints = view.paints.subspan(first);
+            paints = std::make_unique<Paints>(view);
+        }
+        return *paints;
+    }
+
+    // ---- Groups and filters ----
+
+    void pop(const Command& command) {
+        const Canvas source = std::move(top().canvas);
+        pictures_.pop_back();
+        if (command.kind == Command::Kind::Pop)
+            composite(source, command, top().canvas);
+        else
+            applyMask(source, maskOp(command.kind), top().canvas);
+    }
+
+    void pushInput(std::uint32_t index) {
+        const AssetView& asset = paints_.asset();
+        const Picture& last = top();
+        const bool goesOn =
+            last.place && last.filter == index && last.number + 1 < asset.filters[index].pictures;
+        const auto place = goesOn ? last.place
+                                  : std::make_shared<const FilterPlace>(
+                                        placeOf(asset, asset.filters[index], last.canvas.view()));
+        const std::uint32_t number = goesOn ? last.number + 1 : 0;
+        push(place->viewOf(number));
+        top().place = place;
+        top().filter = index;
+        top().number = number;
+    }
+
+    void filter(const Filter& filter) {
+        const auto place = top().place;
+        std::vector<Canvas> inputs;
+        for (auto from = pictures_.end() - std::ptrdiff_t(filter.pictures); from != pictures_.end(); ++from)
+            inputs.push_back(std::move(from->canvas));
+        for (std::uint32_t i = 0; i < filter.pictures; ++i)
+            pictures_.pop_back();
+        pictures_.push_back({runFilter(paints_.asset(), filter, *place, inputs, top().canvas.view())});
+    }
+
+    const Paints& paints_;
+    const MaterialFunction& materials_;
+    const int levels_;
+    const bool scans_;  ///< maps, instead of adding up their leaves
+    std::vector<Picture> pictures_;
+    std::map<std::uint32_t, std::unique_ptr<Paints>> paintsFrom_;
+};
+
 /// Rough pixels so many levels finer.
-Raster drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels) {
+Raster drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
+             bool scans) {
     validate(view);
-    std::vector<Raster> stack(1, Raster(view.width, view.height));
+    Stack stack(paints, view, materials, levels, scans);
     for (const Command& command : paints.asset().commands)
-        execute(paints, command, view, materials, levels, stack);
-    std::ranges::transform(stack.back().rgba, stack.back().rgba.begin(), unit);
-    return std::move(stack.back());
+        stack.execute(command);
+    return stack.take();
 }
 
 }  // namespace
@@ -145,11 +277,12 @@ Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction
 }
 
 Raster evaluateAsShaders(const AssetView& asset, const View& view, const MaterialFunction& materials) {
-    return drawn(Paints(asset), view, materials, 0);
+    return drawn(Paints(asset), view, materials, 0, false);
 }
 
 Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials) {
-    return drawn(paints, view, materials, finerLevels(paints.asset(), view));
+    const bool scans = !paints.asset().filters.empty();
+    return drawn(paints, view, materials, finerLevels(paints.asset(), view), scans);
 }
 
 }  // namespace vtm::asset

@@ -294,6 +294,8 @@ private:
 template <class Store>
 void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, const Store& store) {
     validate(view);
+    if (view.width == 0 || view.height == 0)
+        return;
     const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
     if (drawn.empty() || !(std::abs(determinant) > std::numeric_limits<double>::min())) {
         for (int y = 0; y < view.height; ++y)

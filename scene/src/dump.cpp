@@ -3,6 +3,7 @@
 // number, and only named by the number after that.
 
 #include <array>
+#include <span>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -23,6 +24,10 @@ constexpr std::array joinNames{"miter", "miter-clip", "round", "bevel"};
 constexpr std::array ruleNames{"nonzero", "evenodd"};
 constexpr std::array filterNames{"nearest", "bilinear", "trilinear", "bicubic"};
 constexpr std::array maskNames{"luminance", "alpha"};
+constexpr std::array transferNames{"table", "discrete", "linear", "gamma"};
+constexpr std::array compositeNames{"over", "in", "out", "atop", "xor", "lighter", "arithmetic"};
+constexpr std::array edgeNames{"duplicate", "wrap", "none"};
+constexpr std::array channelNames{"r", "g", "b", "a"};
 
 template <std::size_t N, class Enum>
 const char* name(const std::array<const char*, N>& names, Enum value) {
@@ -74,6 +79,73 @@ std::string gradientTail(const Gradient& g) {
         line += " " + text(stop.offset) + " " + text(stop.color);
     return line;
 }
+
+std::string list(std::span<const float> numbers) {
+    std::string line;
+    for (const float v : numbers)
+        line += " " + text(v);
+    return line;
+}
+
+struct LightText {
+    std::string operator()(const DistantLight& l) const {
+        return " distant" + list(std::array{l.azimuth, l.elevation});
+    }
+    std::string operator()(const PointLight& l) const { return " point" + list(l.position); }
+    std::string operator()(const SpotLight& l) const {
+        return " spot" + list(l.position) + list(l.pointsAt) + list(std::array{l.exponent, l.coneAngle});
+    }
+};
+
+struct OperationText {
+    std::string operator()(const BlendFilter& f) const {
+        return std::string("blend ") + name(blendNames, f.mode);
+    }
+    std::string operator()(const ColorMatrixFilter& f) const { return "matrix" + list(f.matrix); }
+    std::string operator()(const ComponentTransferFilter& f) const {
+        std::string line = "transfer";
+        for (const TransferFunction& function : f.functions)
+            line += std::string(" ") + name(transferNames, function.kind) + list(function.values);
+        return line;
+    }
+    std::string operator()(const CompositeFilter& f) const {
+        return std::string("composite ") + name(compositeNames, f.op) + list(f.k);
+    }
+    std::string operator()(const ConvolveMatrixFilter& f) const {
+        return fmt::format("convolve {} x {} target {} {} edge {}", f.columns, f.rows, f.targetX, f.targetY,
+                           name(edgeNames, f.edge)) +
+               (f.preserveAlpha ? " preserve-alpha" : "") + list(std::array{f.divisor, f.bias}) +
+               list(f.kernel);
+    }
+    std::string operator()(const LightingFilter& f) const {
+        return (f.specular ? "specular" : "diffuse") +
+               list(std::array{f.surfaceScale, f.constant, f.exponent}) + " " + text(f.color) +
+               std::visit(LightText{}, f.light);
+    }
+    std::string operator()(const DisplacementMapFilter& f) const {
+        return fmt::format("displace {} {} {}", text(f.scale), name(channelNames, f.x),
+                           name(channelNames, f.y));
+    }
+    std::string operator()(const DropShadowFilter& f) const {
+        return "shadow" + list(std::array{f.dx, f.dy, f.deviationX, f.deviationY}) + " " + text(f.color);
+    }
+    std::string operator()(const FloodFilter& f) const { return "flood " + text(f.color); }
+    std::string operator()(const GaussianBlurFilter& f) const {
+        return "blur" + list(std::array{f.deviationX, f.deviationY});
+    }
+    std::string operator()(const PictureFilter&) const { return "picture"; }
+    std::string operator()(const MergeFilter&) const { return "merge"; }
+    std::string operator()(const MorphologyFilter& f) const {
+        return (f.dilate ? "dilate" : "erode") + list(std::array{f.radiusX, f.radiusY});
+    }
+    std::string operator()(const OffsetFilter& f) const { return "offset" + list(std::array{f.dx, f.dy}); }
+    std::string operator()(const TileFilter&) const { return "tile"; }
+    std::string operator()(const TurbulenceFilter& f) const {
+        return fmt::format("{} {} {} octaves {} seed {}{}", f.fractalNoise ? "noise" : "turbulence",
+                           text(f.frequencyX), text(f.frequencyY), f.octaves, f.seed,
+                           f.stitch ? " stitched" : "");
+    }
+};
 
 class Dumper {
 public:
@@ -129,6 +201,8 @@ private:
             clip(g.clip);
         if (g.mask)
             mask(g.mask);
+        if (g.filter)
+            filter(g.filter);
         for (const Node& child : g.children)
             node(child);
     }
@@ -237,6 +311,29 @@ private:
         Indent in(*this);
         if (isNew)
             content(shapes->content);
+    }
+
+    void filter(const std::shared_ptr<const Filter>& shared) {
+        const auto [head, isNew] = label("filter", shared);
+        if (!isNew)
+            return line(head);
+        const Filter& f = *shared;
+        line(head + " " + text(f.min) + " " + text(f.max) + matrix(f.transform));
+        Indent in(*this);
+        for (std::size_t i = 0; i < f.primitives.size(); ++i)
+            primitive(i, f.primitives[i]);
+    }
+
+    void primitive(std::size_t index, const FilterPrimitive& p) {
+        std::string head = std::to_string(index) + ": " + std::visit(OperationText{}, p.operation);
+        for (const FilterInput& input : p.inputs)
+            head += input.kind == FilterInput::Kind::SourceGraphic ? " source"
+                    : input.kind == FilterInput::Kind::SourceAlpha ? " alpha"
+                                                                   : " " + std::to_string(input.result);
+        line(head + (p.linear ? " linear in " : " in ") + text(p.min) + " " + text(p.max));
+        Indent in(*this);
+        if (const auto* picture = std::get_if<PictureFilter>(&p.operation); picture && !tooDeep())
+            content(picture->content);
     }
 
     std::string out_;

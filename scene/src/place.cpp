@@ -28,6 +28,17 @@ public:
         return std::make_shared<const Mask>(Mask{group(part->content), part->kind, part->linear});
     }
 
+    std::shared_ptr<const Filter> filter(const std::shared_ptr<const Filter>& part) {
+        if (!part)
+            return nullptr;
+        auto filter = std::make_shared<Filter>(*part);
+        filter->transform = compose(m_, filter->transform);
+        for (FilterPrimitive& primitive : filter->primitives)
+            if (auto* picture = std::get_if<PictureFilter>(&primitive.operation))
+                picture->content = group(picture->content);
+        return filter;
+    }
+
     void group(Group& part) { place(part); }
 
 private:
@@ -46,6 +57,7 @@ private:
             std::visit([&](auto& value) { place(value); }, child.value);
         group.clip = clip(group.clip);
         group.mask = mask(group.mask);
+        group.filter = filter(group.filter);
     }
     void place(Select& select) {
         const Level level(depth_);
@@ -66,6 +78,10 @@ std::shared_ptr<const Clip> placed(const std::shared_ptr<const Clip>& part, cons
 
 std::shared_ptr<const Mask> placed(const std::shared_ptr<const Mask>& part, const Affine& m) {
     return m == identity ? part : Placer(m).mask(part);
+}
+
+std::shared_ptr<const Filter> placed(const std::shared_ptr<const Filter>& part, const Affine& m) {
+    return m == identity ? part : Placer(m).filter(part);
 }
 
 Group placed(Group part, const Affine& transform) {

@@ -77,6 +77,8 @@ private:
         Height height = g.clip ? clip(g.clip) : 0;
         if (g.mask)
             height = std::max(height, mask(*g.mask));
+        if (g.filter)
+            height = std::max(height, filter(*g.filter));
         for (std::size_t i = 0; i < g.children.size(); ++i) {
             enter(std::to_string(i));
             height = std::max(height, node(g.children[i]));
@@ -168,6 +170,17 @@ private:
         report(fault(m));
         leave();
         return content("mask", m.content);
+    }
+
+    Height filter(const Filter& f) {
+        enter("filter");
+        report(fault(f));
+        Height height = 0;
+        for (const FilterPrimitive& primitive : f.primitives)
+            if (const auto* picture = std::get_if<PictureFilter>(&primitive.operation))
+                height = std::max(height, content("picture", picture->content));
+        leave();
+        return height;
     }
 
     const std::function<bool(const Path&)>& isKnown_;

@@ -10,15 +10,8 @@ namespace vtm::scene {
 
 namespace {
 
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-bool finite(const Affine& m) { return finite(m[0]) && finite(m[1]) && finite(m[2]); }
 bool inUnit(float v) { return v >= 0 && v <= 1; }
 bool positive(double v) { return std::isfinite(v) && v > 0; }
-
-template <class Enum>
-bool known(Enum value, Enum last) {
-    return int(value) >= 0 && value <= last;
-}
 
 /// What GLSL leaves to its users: no leading gl_, no double underscore (GLSL ES 3.00 section 3.8).
 bool isMaterialName(const std::string& name) {

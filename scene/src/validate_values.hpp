@@ -3,11 +3,21 @@
 /// nothing.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include <vtm/scene/scene.hpp>
 
 namespace vtm::scene {
+
+inline bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+inline bool finite(const Affine& m) { return finite(m[0]) && finite(m[1]) && finite(m[2]); }
+
+/// Whether an enum that ends with `last` has the value.
+template <class Enum>
+bool known(Enum value, Enum last) {
+    return int(value) >= 0 && value <= last;
+}
 
 std::string fault(const Scene& scene);
 std::string fault(const Path& path);
@@ -24,5 +34,6 @@ std::string fault(const Shape& shape);
 std::string fault(const Group& group);
 std::string fault(const ClipShape& shape);
 std::string fault(const Mask& mask);
+std::string fault(const Filter& filter);  ///< but for the pictures in it
 
 }  // namespace vtm::scene

@@ -28,6 +28,7 @@
 namespace vtm::svg {
 
 using Nodes = std::vector<scene::Node>;
+using FilterList = std::vector<std::shared_ptr<const scene::Filter>>;
 
 /// What all documents of one load, nested images included, may use together.
 struct Budget {
@@ -159,6 +160,7 @@ private:
     // effects.cpp: clips, masks and what else makes a group
     struct Effects {
         bool draw = true;  ///< false: the element is not rendered at all
+        FilterList filters;
         std::shared_ptr<const scene::Clip> clip;
         std::shared_ptr<const scene::Mask> mask;
     };
@@ -168,7 +170,6 @@ private:
     /// The box, in the scope's user space, of the shapes that `convert` meets.
     Box boxAround(const Scope& scope, const std::function<void()>& convert);
     Effects effectsOf(const Element& element, const Scope& scope, const Box& box);
-    bool filterAllowsDrawing(const Element& element, const Style& style);
     /// What an href to a mask or clipPath leads to; nothing (and a warning) if it leads nowhere.
     const Element* resource(std::string_view href, Tag tag, const Element& user);
     std::shared_ptr<const scene::Clip> clip(const Element& clipPath, const Scope& scope, const Box& box);
@@ -178,6 +179,13 @@ private:
     std::shared_ptr<const scene::Clip> clipOf(const Element& element, const Scope& scope, const Box& box);
     std::shared_ptr<const scene::Mask> mask(const Element& maskElement, const Scope& scope, const Box& box);
     std::shared_ptr<const scene::Mask> maskOf(const Element& element, const Scope& scope, const Box& box);
+
+    // filter.cpp
+    class FilterBuilder;
+    /// In the order in which they apply; nothing if the element is not rendered.
+    std::optional<FilterList> filtersOf(const Element& element, const Scope& scope, const Box& box);
+    TemplateChain filterChain(const Element& filter);
+    scene::Link<scene::Group> filterImage(const Element& element, const Scope& scope, const Box& region);
 
     // text_content.cpp, text.cpp
     class TextCollector;
@@ -227,6 +235,9 @@ private:
     static std::optional<Viewport> sizeOf(const ImageContent& content);
     void placeBitmap(const std::shared_ptr<const image::Bitmap>& bitmap, const Element& element,
                      const Rect& viewport, const AspectRatio& ratio, const Scope& scope, Nodes& out);
+    /// As an image of the element.
+    void placeNested(NestedDocument& document, const Element& element, const Rect& viewport,
+                     const AspectRatio& ratio, const Scope& scope, Nodes& out);
     void placeDocument(NestedDocument& document, const Rect& viewport, const AspectRatio& ratio,
                        const Scope& scope, Nodes& out);
 

@@ -1,8 +1,9 @@
-// What turns an element into a group: opacity, blending, isolation, clips, masks (and filters).
+// What turns an element into a group: opacity, blending, isolation, clips, masks, filters.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "svg/convert/converter.hpp"
 #include "svg/css/property_values.hpp"
@@ -166,7 +167,7 @@ bool blends(const scene::Node& node) {
 /// A group that only its opacity tells from its one child gives way to that child.
 bool foldsIntoChild(const scene::Group& group) {
     return group.children.size() == 1 && !std::holds_alternative<scene::Select>(group.children[0].value) &&
-           group.blend == scene::BlendMode::Normal && !group.clip && !group.mask &&
+           group.blend == scene::BlendMode::Normal && !group.clip && !group.mask && !group.filter &&
            !blends(group.children.front());
 }
 
@@ -182,10 +183,10 @@ scene::Node folded(scene::Group group) {
 }  // namespace
 
 void appendGroup(scene::Group group, bool isolated, Nodes& out) {
-    if (group.children.empty() || group.opacity <= 0)
+    if ((group.children.empty() && !group.filter) || group.opacity <= 0)
         return;
-    const bool plain =
-        group.opacity >= 1 && group.blend == scene::BlendMode::Normal && !group.clip && !group.mask;
+    const bool plain = group.opacity >= 1 && group.blend == scene::BlendMode::Normal && !group.clip &&
+                       !group.mask && !group.filter;
     const bool needsIsolation = isolated && std::any_of(group.children.begin(), group.children.end(), blends);
     if (plain && !needsIsolation)
         std::move(group.children.begin(), group.children.end(), std::back_inserter(out));
@@ -210,6 +211,13 @@ void Converter::appendWithEffects(const Element& element, const Scope& scope, No
     withoutOutlines([&] { effects = effectsOf(element, scope, box); });
     if (!effects.draw)
         return;
+    for (auto& filter : effects.filters) {
+        if (group.filter) {
+            scene::Group inner = std::exchange(group, {});
+            group.children.push_back({std::move(inner)});
+        }
+        group.filter = std::move(filter);
+    }
     group.opacity = static_cast<float>(scope.style.opacity);
     group.blend = scope.style.blend;
     group.clip = std::move(effects.clip);
@@ -229,8 +237,10 @@ Box Converter::boxAround(const Scope& scope, const std::function<void()>& conver
 
 Converter::Effects Converter::effectsOf(const Element& element, const Scope& scope, const Box& box) {
     Effects effects;
-    effects.draw = filterAllowsDrawing(element, scope.style);
-    if (effects.draw) {
+    std::optional<FilterList> filters = filtersOf(element, scope, box);
+    effects.draw = filters.has_value();
+    if (filters) {
+        effects.filters = std::move(*filters);
         effects.clip = clipOf(element, scope, box);
         effects.mask = maskOf(element, scope, box);
     }
@@ -243,18 +253,6 @@ const Element* Converter::resource(std::string_view href, Tag tag, const Element
         return element;
     reporter_.warn(Kind::Reference, user, fmt::format("\"{}\" refers to an element of the wrong kind", href));
     return nullptr;
-}
-
-bool Converter::filterAllowsDrawing(const Element& element, const Style& style) {
-    for (Cursor cursor(style.filter); !cursor.atEnd(); cursor.skipSpaces()) {
-        if (const auto href = readUrl(cursor); href && !resource(*href, Tag::Filter, element))
-            return false;
-        else if (!href)
-            cursor.until(')');
-        reporter_.warn(Kind::Filter, element,
-                       "filters are not supported yet; the element is drawn without its filter");
-    }
-    return true;
 }
 
 }  // namespace vtm::svg

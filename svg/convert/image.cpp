@@ -77,10 +77,14 @@ void Converter::convertImage(const Element& element, const Scope& scope, Nodes& 
     const AspectRatio ratio = parseAspectRatio(element.get("preserveAspectRatio"));
     if (const auto* bitmap = std::get_if<std::shared_ptr<const image::Bitmap>>(&content))
         placeBitmap(*bitmap, element, viewport, ratio, scope, out);
-    else if (const auto* document = std::get_if<std::shared_ptr<NestedDocument>>(&content)) {
-        (*document)->converter.standFor(placeOf(element));
-        placeDocument(**document, viewport, ratio, scope, out);
-    }
+    else if (const auto* document = std::get_if<std::shared_ptr<NestedDocument>>(&content))
+        placeNested(**document, element, viewport, ratio, scope, out);
+}
+
+void Converter::placeNested(NestedDocument& document, const Element& element, const Rect& viewport,
+                            const AspectRatio& ratio, const Scope& scope, Nodes& out) {
+    document.converter.standFor(placeOf(element));
+    placeDocument(document, viewport, ratio, scope, out);
 }
 
 /// OpenType 1.9, table `SVG `: the viewport is an em, nothing is clipped to it, and the text gives its

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "svg/css/color.hpp"
+#include "svg/css/filter_values.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -139,8 +140,11 @@ std::optional<std::string_view> parseReference(std::string_view text, const Unit
     return readUrl(cursor);
 }
 
-std::optional<std::string_view> parseFilter(std::string_view text, const Units&) {
-    return equalsIgnoringCase(text, "none") ? std::string_view{} : text;
+std::optional<std::string_view> parseFilter(std::string_view text, const Units& units) {
+    const auto list = parseFilterList(text, units);
+    if (!list)
+        return std::nullopt;
+    return list->empty() ? std::string_view{} : text;
 }
 
 /// `paint-order`: the stages that are not named follow in their normal order.
@@ -196,6 +200,11 @@ std::optional<bool> parseIsolation(std::string_view text, const Units&) {
 std::optional<scene::MaskKind> parseMaskType(std::string_view text, const Units&) {
     static constexpr Keyword<scene::MaskKind> table[]{{"luminance", scene::MaskKind::Luminance},
                                                       {"alpha", scene::MaskKind::Alpha}};
+    return findKeyword(text, table);
+}
+
+std::optional<bool> parseFilterColors(std::string_view text, const Units&) {
+    static constexpr Keyword<bool> table[]{{"auto", true}, {"sRGB", false}, {"linearRGB", true}};
     return findKeyword(text, table);
 }
 

@@ -69,6 +69,8 @@ std::optional<scene::BlendMode> parseBlend(std::string_view text, const Units&);
 std::optional<bool> parseIsolation(std::string_view text, const Units&);
 std::optional<scene::MaskKind> parseMaskType(std::string_view text, const Units&);
 std::optional<bool> parseColorInterpolation(std::string_view text, const Units&);
+/// color-interpolation-filters, whose `auto` is linear light.
+std::optional<bool> parseFilterColors(std::string_view text, const Units&);
 std::optional<scene::ImageFilter> parseImageRendering(std::string_view text, const Units&);
 std::optional<bool> parseVectorEffect(std::string_view text, const Units&);
 /// Here the units' font size is the parent's.

@@ -110,6 +110,7 @@ struct Inherited : TextStyle {
     std::string_view markerStart, markerMid, markerEnd;  ///< hrefs, empty: none
     std::array<PaintStage, 3> paintOrder{PaintStage::Fill, PaintStage::Stroke, PaintStage::Markers};
     bool linearColors = false;  ///< color-interpolation
+    bool linearFilters = true;  ///< color-interpolation-filters
     scene::ImageFilter imageFilter = scene::ImageFilter::Trilinear;
 };
 
@@ -125,6 +126,8 @@ struct Own {
     scene::MaskKind maskKind = scene::MaskKind::Luminance;
     ColorValue stopColor{false, {0, 0, 0, 1}};
     double stopOpacity = 1;
+    ColorValue floodColor{false, {0, 0, 0, 1}}, lightingColor{false, {1, 1, 1, 1}};
+    double floodOpacity = 1;
     std::optional<scene::Color> background;
     bool nonScalingStroke = false;
     std::string_view transform;  ///< as written, known to be well formed

@@ -191,21 +191,6 @@ TEST(Unsupported, ElementsAreNamed) {
     ASSERT_EQ(loaded.warnings.size(), 1u);
     EXPECT_NE(loaded.warnings[0].message.find("<foreignObject>"), std::string::npos);
 }
-TEST(Unsupported, FiltersAreCountedOnce) {
-    const Document loaded = loadBody(
-        "<filter id='f'/><g filter='url(#f) blur(2px)'><rect width='1' height='1'/></g>"
-        "<rect width='1' height='1' filter='url(#f)'/><foreignObject/>");
-    ASSERT_EQ(loaded.warnings.size(), 2u);
-    EXPECT_EQ(loaded.warnings[0].kind, Warning::Kind::Filter);
-    EXPECT_EQ(loaded.warnings[0].count, 2u);
-    EXPECT_EQ(loaded.warnings[1].kind, Warning::Kind::Element);
-    EXPECT_EQ(loaded.warnings[1].count, 1u);
-}
-TEST(Unsupported, FilteredElementsAreDrawnWithout) {
-    const Document loaded = loadBody("<filter id='f'/><rect width='1' height='1' filter='url(#f)'/>");
-    EXPECT_EQ(itemsOf(loaded).size(), 1u);
-    EXPECT_EQ(loaded.warnings.size(), 1u);
-}
 TEST(Unsupported, ElementsWithAMissingFilterAreNotDrawn) {
     EXPECT_EQ(count("<rect width='1' height='1' filter='url(#f)'/>"), 0u);
 }

@@ -27,7 +27,7 @@ std::string regionAttributes(const Box& content) {
 
 /// A mask has no attributes but `mask` for what a group has.
 bool isMaskedOnly(const Group& content) {
-    return content.opacity == 1 && content.blend == BlendMode::Normal && !content.clip;
+    return content.opacity == 1 && content.blend == BlendMode::Normal && !content.clip && !content.filter;
 }
 
 Item solid(const Shape& shape, const Color& color) {

@@ -17,8 +17,6 @@ namespace vtm::svg {
 
 using namespace scene;
 
-namespace {
-
 const char* nameOf(BlendMode mode) {
     constexpr const char* names[] = {"normal",     "multiply",    "screen",     "overlay",    "darken",
                                      "lighten",    "color-dodge", "color-burn", "hard-light", "soft-light",
@@ -27,7 +25,11 @@ const char* nameOf(BlendMode mode) {
     return names[int(mode)];
 }
 
-bool isPlain(const Group& g) { return g.opacity == 1 && g.blend == BlendMode::Normal && !g.clip && !g.mask; }
+namespace {
+
+bool isPlain(const Group& g) {
+    return g.opacity == 1 && g.blend == BlendMode::Normal && !g.clip && !g.mask && !g.filter;
+}
 
 bool hasBlendingChild(const Group& g) {
     return std::any_of(g.children.begin(), g.children.end(), [](const Node& node) {
@@ -98,7 +100,9 @@ void Writer::group(const Group& g) {
     const Level level(*this);
     if (!(g.opacity > 0))
         return;
-    const Part inner = aside([&] { children(g); });
+    Part inner = aside([&] { children(g); });
+    if (g.filter)
+        inner = filtered(*g.filter, inner);
     if (inner.text.empty())
         return;
     const std::string attributes = groupAttributes(g);

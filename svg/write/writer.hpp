@@ -76,6 +76,10 @@ private:
     std::string cutAttribute(const scene::Item& item, const scene::ImagePaint& paint);
     const std::string& picture(const std::shared_ptr<const image::Bitmap>& bitmap);
 
+    // filter.cpp: an attribute for a filter; a group with it
+    std::string filter(const scene::Filter& filter);
+    Part filtered(const scene::Filter& made, const Part& source);
+
     // effects.cpp: ids of clips and masks; selections
     const std::string& clip(const std::shared_ptr<const scene::Clip>& shapes);
     std::string clipShape(const scene::ClipShape& shape);
@@ -103,6 +107,9 @@ private:
 
 /// Whether what is mapped by it is not seen.
 bool isFlat(const scene::Affine& map);
+
+/// The keyword of `mix-blend-mode`.
+const char* nameOf(scene::BlendMode mode);
 
 /// ` NAME="url(#ID)"`.
 std::string reference(std::string_view name, const std::string& id);

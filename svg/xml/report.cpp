@@ -68,26 +68,14 @@ bool Reporter::wasSeen(const Element& element, const std::string& message) {
 bool Reporter::isFull() const { return !warnings_.empty() && warnings_.back().message == moreAreLeftOut; }
 
 void Reporter::warn(Warning::Kind kind, const Element& element, const std::string& what) {
-    const bool counted = kind == Warning::Kind::Filter;
-    if (!counted && isFull())
+    if (isFull())
         return;
     const std::string message = fmt::format("<{}>: {}", element.name, what);
     if (wasSeen(element, message))
         return;
-    if (counted)
-        return count({kind, map_.at(element.offset), message});
     warnings_.push_back({kind, map_.at(element.offset), message});
     if (warnings_.size() >= maxWarnings)
         warnings_.back() = {Warning::Kind::Limit, warnings_.back().where, moreAreLeftOut};
-}
-
-void Reporter::count(Warning warning) {
-    // At the front, for the last one says whether there are too many.
-    const auto found = std::ranges::find(warnings_, warning.kind, &Warning::kind);
-    if (found == warnings_.end())
-        warnings_.insert(warnings_.begin(), std::move(warning));
-    else
-        ++found->count;
 }
 
 }  // namespace vtm::svg

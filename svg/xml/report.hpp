@@ -42,8 +42,7 @@ private:
 /// `"text"` on one line, cut short if it is long.
 std::string quoted(std::string_view text);
 
-/// Collects warnings, each once a place, up to a limit. Text and filters are counted in one warning each,
-/// before all others.
+/// Collects warnings, each once a place, up to a limit.
 class Reporter {
 public:
     static constexpr std::size_t maxWarnings = 1000;
@@ -61,8 +60,6 @@ public:
 private:
     bool wasSeen(const Element& element, const std::string& message);
     bool isFull() const;
-    /// In the warning of its kind, if there is one.
-    void count(Warning warning);
 
     const SourceMap& map_;
     std::vector<Warning>& warnings_;

@@ -49,6 +49,7 @@ Json figures(const asset::Asset& asset) {
             {"regions", summary.regions},
             {"instances", summary.instances},
             {"glyphs", summary.glyphs},
+            {"filters", asset.filters.size()},
             {"max_depth", summary.maxDepth}};
 }
 

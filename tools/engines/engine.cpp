@@ -85,10 +85,15 @@ public:
 
 void CpuEngine::draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
                      const image::RowSink& sink) {
-    if (source.paper || !asset::isSumOfMaps(*source.asset))
+    if (source.paper || source.asset->mode != asset::Mode::Exact)
         throw std::runtime_error("the cpu engine only draws exact mode");
     if (!source.asset->materials.empty())
         warnOfMaterials(source);
+    if (!asset::isSumOfMaps(*source.asset)) {
+        const image::Raster drawn =
+            timed(source.stages, "render", [&] { return asset::evaluate(*source.asset, view); });
+        return image::giveRows(drawn, writer, sink);
+    }
     const asset::Scanner scanner =
         timed(source.stages, "upload", [&] { return asset::Scanner(*source.asset); });
     double sinking = 0;  // is not drawing
@@ -126,8 +131,9 @@ private:
     Engine* drawing_;
 };
 
+/// Exact pictures without materials, also those with filters, which are computed on the CPU everywhere.
 bool scannerDraws(const Source& source) {
-    return source.asset && asset::isSumOfMaps(*source.asset) && source.asset->materials.empty();
+    return source.asset && source.asset->mode == asset::Mode::Exact && source.asset->materials.empty();
 }
 
 AutomaticEngine::AutomaticEngine(asset::Mode mode, const std::string& programCache)

@@ -119,20 +119,8 @@ std::optional<scene::Rect> drawnBounds(const scene::Scene& scene) {
 
 // ---- What is left out -----------------------------------------------------------------------------
 
-using Kind = svg::Warning::Kind;
-
 std::string placeOf(const svg::Location& where) {
     return fmt::format("{}:{}:{}", where.file, where.line, where.column);
-}
-
-bool isNotDrawnYet(const svg::Warning& warning) { return warning.kind == Kind::Filter; }
-
-/// One line for all, at the first in the file.
-void warnOfNotDrawnYet(Source& source, const std::vector<svg::Warning>& warnings) {
-    const auto filters = std::ranges::find_if(warnings, isNotDrawnYet);
-    if (filters != warnings.end())
-        warnOf(source, fmt::format("{}: warning: {} {} not drawn yet", placeOf(filters->where),
-                                   filters->count, filters->count == 1 ? "filter is" : "filters are"));
 }
 
 // ---- Loading --------------------------------------------------------------------------------------
@@ -242,10 +230,8 @@ void warnOf(Source& source, const std::string& message) {
 }
 
 void warnOf(Source& source, const std::vector<svg::Warning>& warnings) {
-    warnOfNotDrawnYet(source, warnings);
     for (const svg::Warning& warning : warnings)
-        if (!isNotDrawnYet(warning))
-            warnOf(source, fmt::format("{}: warning: {}", placeOf(warning.where), warning.message));
+        warnOf(source, fmt::format("{}: warning: {}", placeOf(warning.where), warning.message));
 }
 
 void refuseLeftOut(const Source& source) {

@@ -186,6 +186,12 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
         ->capture_default_str();
     command.add_flag("--no-instances{false}", options.compiler.instances,
                      "Store shapes that repeat each time, not once");
+    command
+        .add_option(
+            "--filter-pixels", options.compiler.filterPixels,
+            "Draw what is filtered now, as an image of so many pixels along the picture's longer side; 0: "
+            "compute filters whenever the picture is drawn")
+        ->check(CLI::Range(0u, compiler::maxFilterPixels));
     addImportOptions(command, options);
 }
 

@@ -107,9 +107,9 @@ class StandardStreams(Command):
         self.assertIn(b"max: 0.00", figures)
 
     def test_messages_go_to_standard_error_and_name_the_stream(self):
-        out, said = self.piped("render", "-", "-o", "-", given=SQUARE.replace("<rect", "<g filter='blur(1px)'/><rect").encode())
+        out, said = self.piped("render", "-", "-o", "-", given=SQUARE.replace("<rect", "<use/><rect", 1).encode())
         self.assertTrue(out.startswith(b"\x89PNG"))
-        self.assertRegex(said, r"^<stdin>:2:\d+: warning: 2 filters are not drawn yet\n$")
+        self.assertRegex(said, r"^<stdin>:2:\d+: warning: <use>: refers to nothing\n$")
         out, said = self.piped("render", "-", "-o", "-", given=b"", expect=1)
         self.assertEqual(out, b"")
         self.assertRegex(said, r"^<stdin>:1:1: ")

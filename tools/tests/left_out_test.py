@@ -1,29 +1,34 @@
 #!/usr/bin/env python3
-"""What vtm says of what it leaves out: filters, anything else; --strict. left_out_test.py VTM"""
+"""What vtm says of what it leaves out: filters in error, anything else; --strict. left_out_test.py VTM"""
 from support import SQUARE, Command, main
 
 TEXT = "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='20'>\n"
 
 
 class LeftOut(Command):
-    def test_filters_are_counted_in_one_line(self):
-        self.write("a.svg", f"{TEXT} <filter id='f'/><rect filter='url(#f)' width='9' height='9'/>"
-                   "<g filter='url(#f)'><rect width='9' height='9'/></g></svg>")
-        said = "a.svg:2:19: warning: 2 filters are not drawn yet\n"
-        self.vtm("compile", "a.svg", "-o", "a.vtm")
+    def test_filters_in_error_are_named(self):
+        self.write("a.svg", f"{TEXT} <filter id='f'><feDiffuseLighting/></filter>"
+                   "<rect filter='url(#f)' width='9' height='9'/></svg>")
+        said = "a.svg:2:18: warning: <feDiffuseLighting>: is in error; its result is transparent\n"
         for arguments in (("render", "a.svg", "-o", "o.png"), ("compile", "a.svg", "-o", "o.vtm"), ("info", "a.svg")):
             self.assertEqual(self.vtm(*arguments).stderr, said)
 
-    def test_one_filter(self):
+    def test_filters_are_no_loss(self):
         self.write("a.svg", TEXT + "<rect style='filter: blur(2px)' width='9' height='9'/></svg>")
-        self.assertEqual(self.vtm("render", "a.svg", "-o", "o.png").stderr,
-                         "a.svg:2:2: warning: 1 filter is not drawn yet\n")
+        self.assertEqual(self.vtm("render", "a.svg", "-o", "o.png", "--strict").stderr, "")
+
+    def test_filters_that_are_drawn_now(self):
+        self.write("a.svg", TEXT + "<rect style='filter: blur(2px)' width='9' height='9'/></svg>")
+        said = self.vtm("compile", "a.svg", "-o", "a.vtm", "--filter-pixels", "256").stderr
+        self.assertIn("is an image, drawn with 256 pixels along the picture's longer side", said)
+        self.assertIn("filters:", self.vtm("info", "a.vtm").stdout)
+        self.assertEqual(self.vtm("compile", "a.svg", "-o", "a.vtm", "--filter-pixels", "9999", expect=2).returncode, 2)
 
     def test_once_a_file_of_a_batch(self):
         for name in ("a", "b"):
-            self.write(f"{name}.svg", TEXT + "<g filter='blur(1px)'/><g filter='blur(2px)'/></svg>")
+            self.write(f"{name}.svg", TEXT + "<rect width='9' height='9' filter='url(#f)'/></svg>")
         said = self.vtm("render", "a.svg", "b.svg", "-o", "pictures").stderr
-        self.assertEqual(said.count("2 filters are not drawn yet"), 2)
+        self.assertEqual(said.count('"#f" refers to an element of the wrong kind'), 2)
 
     def test_what_is_not_shown_is_no_loss(self):
         self.write("a.svg", TEXT + "<g filter='blur(1px)' display='none'/><defs><foreignObject/></defs></svg>")
@@ -31,7 +36,7 @@ class LeftOut(Command):
 
 
 class Strict(Command):
-    LOSSES = {"font": "<text font-family='No Such Family'>a</text>", "filter": "<rect style='filter:blur(2px)' width='9' height='9'/>",
+    LOSSES = {"font": "<text font-family='No Such Family'>a</text>", "filter": "<rect style='filter:url(#f)' width='9' height='9'/>",
               "element": "<foreignObject/>", "value": "<rect width='9' height='9' fill='octarine'/>",
               "reference": "<use href='#none'/>", "image": "<image href='none.png' width='9' height='9'/>"}
 

@@ -49,7 +49,10 @@ SharedWorker& sharedWorker() {
     return one;
 }
 
-bool scannerDraws(const asset::Asset& asset) { return asset::isSumOfMaps(asset) && asset.materials.empty(); }
+/// Also pictures with filters, which are computed on the CPU everywhere.
+bool scannerDraws(const asset::Asset& asset) {
+    return asset.mode == asset::Mode::Exact && asset.materials.empty();
+}
 
 /// From EGL's devices alone, without a context.
 bool mayBeFaster(const asset::Asset& asset) {

@@ -33,9 +33,12 @@ struct Compositing {
     scene::BlendMode blend = scene::BlendMode::Normal;
     std::shared_ptr<const scene::Clip> clip = nullptr;
     std::shared_ptr<const scene::Mask> mask = nullptr;
+    std::shared_ptr<const scene::Filter> filter = nullptr;
 
     /// Source over, as it is.
-    bool isPlain() const { return opacity == 1 && blend == scene::BlendMode::Normal && !clip && !mask; }
+    bool isPlain() const {
+        return opacity == 1 && blend == scene::BlendMode::Normal && !clip && !mask && !filter;
+    }
 };
 
 struct VtmNode;

@@ -317,4 +317,11 @@ FlatScene flattenScene(const scene::Scene& scene, const View& view, double flatn
     return maker.take();
 }
 
+FlatScene flattenGroup(const scene::Group& group, const View& view, double flatness, Patterns patterns,
+                       const MaterialFunction& materials) {
+    Maker maker(view, flatness, patterns, materials);
+    maker.addRoot(group, nullptr);
+    return maker.take();
+}
+
 }  // namespace vtm::reference

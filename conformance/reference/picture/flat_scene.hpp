@@ -74,5 +74,8 @@ enum class Patterns {
 /// What lies outside the scene's rectangle is cut off by a clip of the root.
 FlatScene flattenScene(const scene::Scene& scene, const View& view, double flatness, Patterns patterns,
                        const MaterialFunction& materials);
+/// A group, not cut off by anything.
+FlatScene flattenGroup(const scene::Group& group, const View& view, double flatness, Patterns patterns,
+                       const MaterialFunction& materials);
 
 }  // namespace vtm::reference

@@ -5,6 +5,7 @@
 #include "conformance/reference/coverage/bands.hpp"
 #include "conformance/reference/coverage/coverage.hpp"
 #include "conformance/reference/coverage/rows.hpp"
+#include "conformance/reference/picture/layered.hpp"
 #include "conformance/reference/reference.hpp"
 
 namespace vtm::reference {
@@ -37,6 +38,47 @@ image::Raster renderRows(const FlatScene& picture, const MakeRows& makeRows) {
     return raster;
 }
 
+image::Raster renderFlat(const View& view, const Options& options, const auto& flatten) {
+    const bool isCompat = options.mode == Mode::Compat;
+    const FlatScene picture =
+        flatten(view, options.flatness, isCompat ? Patterns::Sampled : Patterns::LaidOut, options.materials);
+    if (isCompat)
+        return renderRows(picture, [&] { return std::make_unique<CompatRows>(picture); });
+    return renderRows(picture, [&] { return std::make_unique<ExactRows>(picture, options.samples); });
+}
+
+Pixels drawNodes(const scene::NodeList& nodes, const Affine& toPixels, const Pixels& place,
+                 const Options& options) {
+    Pixels drawn = place.blank();
+    if (place.width == 0 || place.height == 0)
+        return drawn;
+    scene::Group group;
+    group.children = nodes;
+    View view{place.width, place.height, toPixels};
+    view.toPixels[2] -= glm::dvec2(place.x0, place.y0);
+    const image::Raster raster =
+        renderFlat(view, options, [&](const auto&... how) { return flattenGroup(group, how...); });
+    drawn.fill([&](int x, int y) {
+        const float* p = raster.pixel(x - place.x0, y - place.y0);
+        return Colour(p[0], p[1], p[2], p[3]);
+    });
+    return drawn;
+}
+
+image::Raster renderFiltered(const scene::Scene& scene, const View& view, const Options& options) {
+    const Pixels drawn =
+        drawLayered(scene, view.toPixels, Pixels(0, 0, view.width, view.height), options.mode == Mode::Compat,
+                    [&](const scene::NodeList& nodes, const Affine& toPixels, const Pixels& place) {
+                        return drawNodes(nodes, toPixels, place, options);
+                    });
+    image::Raster raster(view.width, view.height);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+            for (int c = 0; c < 4; ++c)
+                raster.pixel(x, y)[c] = float(drawn.get(x, y)[c]);
+    return raster;
+}
+
 }  // namespace
 
 image::Raster render(const scene::Scene& scene, const View& view, const Options& options) {
@@ -47,14 +89,9 @@ image::Raster render(const scene::Scene& scene, const View& view, const Options&
         throw std::invalid_argument("reference: " + std::to_string(options.samples) + " samples");
     if (!(options.flatness > 0))
         throw std::invalid_argument("reference: flatness must be > 0");
-    if (options.mode == Mode::Compat) {
-        const FlatScene picture =
-            flattenScene(scene, view, options.flatness, Patterns::Sampled, options.materials);
-        return renderRows(picture, [&] { return std::make_unique<CompatRows>(picture); });
-    }
-    const FlatScene picture =
-        flattenScene(scene, view, options.flatness, Patterns::LaidOut, options.materials);
-    return renderRows(picture, [&] { return std::make_unique<ExactRows>(picture, options.samples); });
+    return hasFilters(scene.root)
+               ? renderFiltered(scene, view, options)
+               : renderFlat(view, options, [&](const auto&... how) { return flattenScene(scene, how...); });
 }
 
 }  // namespace vtm::reference

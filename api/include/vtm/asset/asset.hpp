@@ -285,6 +285,59 @@ inline constexpr std::size_t maxMaterials = 256, maxMaterialName = 64, maxMateri
 
 static_assert(sizeof(ImageFill) == 32 && sizeof(MaterialFill) == 48);
 
+// ---- Filters ----------------------------------------------------------------------------------
+
+/// What a primitive computes. Its parameters are floats in Asset::filterWords, in this order.
+enum class FilterOp : std::uint32_t {
+    Blend,              ///< blend mode
+    ColorMatrix,        ///< 20 numbers, row by row
+    ComponentTransfer,  ///< for red, green, blue, alpha: kind (TransferKind), number of values, values
+    Composite,          ///< operator (CompositeOp), k1, k2, k3, k4
+    ConvolveMatrix,     ///< columns, rows, target x, target y, divisor, bias, edge (FilterEdge), preserve
+                        ///< alpha (0, 1), kernel
+    Lighting,           ///< specular (0, 1), surface scale, constant, exponent, red, green, blue, kind of
+                        ///< light (LightKind), position (3; distant: azimuth, elevation, 0), points at (3),
+                        ///< spot's exponent, cone angle
+    DisplacementMap,    ///< scale, channel of x, channel of y (0 to 3)
+    DropShadow,         ///< dx, dy, deviation x, deviation y, straight red, green, blue, alpha
+    Flood,              ///< straight red, green, blue, alpha
+    GaussianBlur,       ///< deviation x, deviation y
+    Picture,            ///< number of the picture among those that were pushed for the filter; 0: the group
+    Merge,              ///< none
+    Morphology,         ///< radius x, radius y, dilate (0, 1)
+    Offset,             ///< dx, dy
+    Tile,               ///< none
+    Turbulence          ///< frequency x, frequency y, octaves, seed, stitch (0, 1), fractal noise (0, 1)
+};
+enum class TransferKind : std::uint32_t { Table, Discrete, Linear, Gamma };
+enum class CompositeOp : std::uint32_t { Over, In, Out, Atop, Xor, Lighter, Arithmetic };
+enum class FilterEdge : std::uint32_t { Duplicate, Wrap, None };
+enum class LightKind : std::uint32_t { Distant, Point, Spot };
+
+/// A step of a filter. vtm/scene/filter.hpp says what each operation means.
+struct FilterPrimitive {
+    FilterOp op = FilterOp::Merge;
+    std::uint32_t linear = 0;  ///< 1: computes in linear light; 0: on sRGB-encoded values
+    /// Of Asset::filterWords: first the inputs (0: the filtered picture, 1: its alpha, 2 + i: the result of
+    /// the filter's primitive i), then the parameters.
+    std::uint32_t firstWord = 0, inputs = 0, parameters = 0;
+    std::uint32_t unused = 0;
+    std::array<double, 4> region{};  ///< min x, min y, max x, max y of the subregion in the filter's space
+};
+
+/// A filter: `matrix` maps its user space to the picture.
+struct Filter {
+    std::array<double, 6> matrix{1, 0, 0, 1, 0, 0};
+    std::array<double, 4> region{};  ///< min x, min y, max x, max y
+    std::uint32_t firstPrimitive = 0, primitives = 0;
+    std::uint32_t pictures = 1;  ///< that are pushed for it: what is filtered, then those of its operations
+    std::uint32_t unused = 0;
+};
+inline constexpr std::size_t maxFilterPrimitives = 4096;  ///< of one filter
+inline constexpr std::size_t maxKernel = 1024;            ///< entries of a convolution's kernel
+
+static_assert(sizeof(FilterPrimitive) == 56 && sizeof(Filter) == 96);
+
 // ---- Fonts ------------------------------------------------------------------------------------
 
 /// An outline of a glyph: a part that touches no other, as the dot of an i. Glyphs share parts. One texel.
@@ -335,7 +388,7 @@ inline constexpr std::size_t maxCommands = 1u << 22;
 /// with one picture.
 struct Command {
     enum class Kind : std::uint32_t {
-        DrawMap,   ///< top += map, whose paints are Asset::paints; the only command in exact mode
+        DrawMap,   ///< top += map; its paint 0 is Asset::paints[paint], and so on
         FillMask,  ///< s = coverage(map) · paint; top = s over top. The map's paint indices
                    ///< are 0 outside and 1 inside
         Push,      ///< push a transparent picture
@@ -343,18 +396,22 @@ struct Command {
         PopMaskLuminance,
         PopMaskLinear,
         PopMaskAlpha,  ///< these three as in Op
-        ClipMask       ///< top = top · coverage(map)
+        ClipMask,      ///< top = top · coverage(map)
+        PushInput,  ///< push a transparent picture on the raster of a filter, whose index `map` is: first for
+                    ///< what is filtered, then for each of the pictures of its operations
+        Filter      ///< replaces them by one picture, the filter's result on the raster of the one below
     };
     Kind kind = Kind::DrawMap;
     Blend blend = Blend::Normal;
     float opacity = 1;
-    std::uint32_t map = 0;
+    std::uint32_t map = 0;  ///< or the index of a filter
     std::uint32_t paint = 0;
 };
 static_assert(sizeof(Map) == 32 && sizeof(Command) == 20);
 
 enum class Mode : std::uint32_t {
-    Exact,  ///< coverage-weighted mean of disjoint regions; one DrawMap, no seams
+    Exact,  ///< coverage-weighted mean of disjoint regions: one DrawMap, no seams. Where there are filters:
+            ///< one for what lies below and above each, and within it; no FillMask, no ClipMask
     Compat  ///< layers composited with `over`, coverage as alpha, as other renderers do
 };
 
@@ -374,6 +431,9 @@ struct Asset {
     std::vector<Instance> instances;
     std::vector<Symbol> symbols;
     std::vector<std::uint16_t> palettes;
+    std::vector<Filter> filters;
+    std::vector<FilterPrimitive> filterPrimitives;
+    std::vector<std::uint32_t> filterWords;
     std::uint32_t fallbackLeaves = 0;  ///< leaves filled with a mean of samples, larger than the tolerance
     Prefilter prefilter;               ///< for minification; optional (vtm/raster/prefilter.hpp)
     /// How far the asset may be magnified: the side, in user units, of the smallest pixel for which every
@@ -407,6 +467,9 @@ struct AssetView {
     std::span<const Instance> instances;
     std::span<const Symbol> symbols;
     std::span<const std::uint16_t> palettes;
+    std::span<const Filter> filters;
+    std::span<const FilterPrimitive> filterPrimitives;
+    std::span<const std::uint32_t> filterWords;
     std::uint32_t fallbackLeaves = 0;
     PrefilterView prefilter;
     std::optional<double> finestPixel;
@@ -432,6 +495,9 @@ struct AssetView {
           instances(a.instances),
           symbols(a.symbols),
           palettes(a.palettes),
+          filters(a.filters),
+          filterPrimitives(a.filterPrimitives),
+          filterWords(a.filterWords),
           fallbackLeaves(a.fallbackLeaves),
           prefilter{a.prefilter.size, a.prefilter.texels},
           finestPixel(a.finestPixel),

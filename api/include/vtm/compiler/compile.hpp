@@ -33,9 +33,15 @@ struct Options {
     /// Whether what stands several times in the picture becomes a map of its own, which is placed
     /// (asset::Instance). Exact mode only.
     bool instances = true;
+    /// 0: filters are computed when the picture is drawn, at the resolution of the view. Otherwise: what is
+    /// filtered is drawn now, as an image of so many pixels along the picture's longer side, for what cannot
+    /// run filters: textures in users' shaders. At most maxFilterPixels.
+    unsigned filterPixels = 0;
     /// Max number of pairs of chords to test, about a minute of work; beyond it compile() throws LimitError.
     std::size_t maxWork = 20'000'000'000;
 };
+
+inline constexpr unsigned maxFilterPixels = 8192;
 
 /// Wall time of a stage, milliseconds.
 struct StageTime {

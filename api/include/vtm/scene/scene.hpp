@@ -15,6 +15,7 @@
 #include <vtm/error.hpp>
 #include <vtm/limits/limits.hpp>
 #include <vtm/scene/affine.hpp>
+#include <vtm/scene/filter.hpp>
 #include <vtm/scene/nested.hpp>
 #include <vtm/scene/paint.hpp>
 #include <vtm/scene/path.hpp>
@@ -107,14 +108,16 @@ public:
     ~NodeList();
 };
 
-/// An isolated group: its children are composited on transparent black; the result is cut by `clip`,
-/// multiplied by `mask` and `opacity`, and blended with what lies below it in the parent.
+/// An isolated group: its children are composited on transparent black; the result is replaced by what
+/// `filter` makes of it, cut by `clip`, multiplied by `mask` and `opacity`, and blended with what lies below
+/// it in the parent.
 struct Group {
     NodeList children;
     float opacity = 1;  ///< in [0, 1]
     BlendMode blend = BlendMode::Normal;
-    Link<Clip> clip;  ///< may be null
-    Link<Mask> mask;  ///< may be null
+    Link<Clip> clip;                       ///< may be null
+    Link<Mask> mask;                       ///< may be null
+    Link<Filter> filter = Link<Filter>();  ///< may be null
 };
 
 /// One of two pictures at every point: `inside` where the mask is inside, `outside` elsewhere. It is a

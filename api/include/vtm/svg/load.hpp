@@ -37,8 +37,7 @@ private:
 /// not one of its own. The picture is drawn without it.
 struct Warning {
     enum class Kind {
-        Filter,     ///< elements with filters, which are drawn without; one warning for all of a document and
-                    ///< its images, at the first
+        Filter,     ///< a filter that is in error, or part of one
         Font,       ///< a family that is not there or a font that cannot be used: another one is
         Element,    ///< another element that is not drawn
         Value,      ///< an attribute, a property or path data that cannot be read or drawn
@@ -48,7 +47,6 @@ struct Warning {
     Kind kind = Kind::Element;
     Location where;
     std::string message;
-    std::size_t count = 1;  ///< places that it speaks of
 };
 
 struct Options {

@@ -1,0 +1,388 @@
+#include "compiler/filters/compile_filtered.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <vtm/raster/evaluate.hpp>
+#include "compiler/filters/append_asset.hpp"
+#include "compiler/filters/bounds.hpp"
+#include "compiler/filters/filter_records.hpp"
+#include "compiler/filters/find_filters.hpp"
+#include "geometry/box.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::Command;
+using geometry::Box;
+using scene::Group;
+using scene::Node;
+using scene::NodeList;
+
+/// What is compiled beside a filter's region, as a share of its size: a pixel of an icon of 8.
+constexpr double regionRoom = 1.0 / 8;
+/// What is compiled beside the picture, as a share of its size: pixels at its border read beyond it.
+constexpr double margin = 1.0 / 64;
+
+/// Of the longer side of the picture, for what is drawn as an image where nothing else is said; and of the
+/// image at most.
+constexpr double usualBakedPixels = 2048, maxBakedSide = 8192;
+
+class FilteredCompiler {
+public:
+    FilteredCompiler(const Excerpt& excerpt, const Options& options, const CompilePlain& compilePlain)
+        : excerpt_(excerpt), options_(options), compilePlain_(compilePlain) {
+        asset::Asset& asset = result_.asset;
+        asset.width = excerpt.width;
+        asset.height = excerpt.height;
+        asset.mode = options.mode;
+        asset.paints.emplace_back();
+        asset.finestPixel = 0;
+    }
+
+    Result run(const Group& root) {
+        const Box frame{{0, 0}, {excerpt_.width, excerpt_.height}};
+        if (isPlain(root)) {
+            Picture ground{frame, true};
+            children(root.children, ground);
+        } else {
+            Picture ground{frame, true};
+            group(root, ground);
+        }
+        cutToFrame(frame);
+        return std::move(result_);
+    }
+
+    /// Without filters: what they would make is drawn as images.
+    Result runBaked(const Group& root) {
+        const Box frame{{0, 0}, {excerpt_.width, excerpt_.height}};
+        scene::Scene part;
+        part.width = part.height = 1;  // the excerpt says what is drawn
+        if (isPlain(root))
+            for (const Node& node : root.children)
+                part.root.children.push_back(finder_.isIn(node) ? imageOf(node, frame) : node);
+        else
+            part.root.children.push_back(imageOf({root}, frame));
+        Result result = compilePlain_(part, excerpt_, options_);
+        result.warnings.push_back("what is filtered is an image, drawn with " +
+                                  std::to_string(options_.filterPixels) +
+                                  " pixels along the picture's longer side");
+        return result;
+    }
+
+private:
+    /// A picture on the stack, while commands draw on it.
+    struct Picture {
+        Box seen;             ///< what of it is needed; in the space of the excerpt
+        bool isBlank = true;  ///< nothing has been drawn on it
+    };
+
+    static bool isPlain(const Group& g) {
+        return g.opacity == 1 && g.blend == scene::BlendMode::Normal && !g.clip && !g.mask && !g.filter;
+    }
+    /// Whether what it does depends on what was drawn on the same picture before.
+    static bool blends(const Node& node) {
+        const auto* g = std::get_if<Group>(&node.value);
+        return g && g->blend != scene::BlendMode::Normal;
+    }
+
+    // ---- Commands ----
+
+    Command& emit(Command::Kind kind) {
+        auto& commands = result_.asset.commands;
+        if (commands.size() >= asset::maxCommands)
+            throw LimitError("the picture needs more than " + std::to_string(asset::maxCommands) +
+                             " commands");
+        commands.emplace_back().kind = kind;
+        return commands.back();
+    }
+    void push(Command::Kind kind = Command::Kind::Push, std::uint32_t filter = 0) {
+        if (++depth_ > asset::maxPictures)
+            throw LimitError("groups with filters are nested more than " +
+                             std::to_string(asset::maxPictures - 1) + " levels deep");
+        emit(kind).map = filter;
+    }
+    void pop(Command::Kind kind) {
+        --depth_;
+        emit(kind);
+    }
+
+    // ---- Nodes ----
+
+    void children(const NodeList& nodes, Picture& on) {
+        NodeList run;
+        for (const Node& node : nodes) {
+            limits::check();
+            if (finder_.isIn(node)) {
+                draw(std::exchange(run, {}), on);
+                filtered(node, on);
+            } else if (blends(node) && !on.isBlank && mode() == asset::Mode::Exact) {
+                draw(std::exchange(run, {}), on);
+                group(std::get<Group>(node.value), on);
+            } else {
+                run.push_back(node);
+            }
+        }
+        draw(std::move(run), on);
+    }
+
+    asset::Mode mode() const { return options_.mode; }
+
+    void filtered(const Node& node, Picture& on) {
+        if (const auto* g = std::get_if<Group>(&node.value))
+            return group(*g, on);
+        draw({baked(node, on.seen)}, on);
+    }
+
+    void group(const Group& g, Picture& on) {
+        push();
+        Picture inner{on.seen};
+        if (g.filter)
+            filter(*g.filter, g.children, inner);
+        else
+            children(g.children, inner);
+        if (g.clip)
+            clip(g.clip, inner);
+        if (g.mask)
+            mask(*g.mask, inner);
+        pop(Command::Kind::Pop);
+        Command& last = result_.asset.commands.back();
+        last.opacity = g.opacity;
+        last.blend = static_cast<asset::Blend>(g.blend);
+        on.isBlank = false;
+    }
+
+    /// What a filter makes of nodes, on a blank picture.
+    void filter(const scene::Filter& f, const NodeList& nodes, Picture& on) {
+        const std::uint32_t index = appendFilter(f, excerpt_.fromScene, result_.asset);
+        push(Command::Kind::PushInput, index);
+        Picture source{readBy(f, on.seen)};
+        children(nodes, source);
+        std::uint32_t inputs = 1;
+        for (const scene::FilterPrimitive& primitive : f.primitives)
+            if (const auto* picture = std::get_if<scene::PictureFilter>(&primitive.operation)) {
+                push(Command::Kind::PushInput, index);
+                Picture input{readBy(f, on.seen)};
+                const Group& content = *picture->content;
+                if (isPlain(content))
+                    children(content.children, input);
+                else
+                    group(content, input);
+                ++inputs;
+            }
+        emit(Command::Kind::Filter).map = index;
+        depth_ -= inputs - 1;
+        pop(Command::Kind::Pop);
+        on.isBlank = false;
+    }
+
+    /// What a filter reads to find what is seen of its result.
+    Box readBy(const scene::Filter& f, const Box& seen) const {
+        const scene::Affine toExcerpt = scene::compose(excerpt_.fromScene, f.transform);
+        // The filter cuts its region's border pixels off itself; they are whole here, however large they are.
+        const scene::Point room = regionRoom * (f.max - f.min);
+        const Box region = geometry::mapped({f.min - room, f.max + room}, toExcerpt);
+        const scene::Point reach = reachOf(f);
+        if (!(std::isfinite(reach.x) && std::isfinite(reach.y)))
+            return region;
+        const scene::Point across = glm::abs(toExcerpt[0]) * reach.x + glm::abs(toExcerpt[1]) * reach.y;
+        const scene::Point more = across + margin * (seen.max - seen.min);
+        return region.intersection({seen.min - more, seen.max + more});
+    }
+
+    void clip(const scene::Link<scene::Clip>& shapes, const Picture& of) {
+        Group white;
+        white.children.push_back(whiteBox(of.seen));
+        white.clip = shapes;
+        push();
+        Picture factor{of.seen};
+        draw({Node{std::move(white)}}, factor);
+        pop(Command::Kind::PopMaskAlpha);
+    }
+
+    void mask(const scene::Mask& m, const Picture& of) {
+        push();
+        Picture factor{of.seen};
+        if (isPlain(*m.content))
+            children(m.content->children, factor);
+        else
+            group(*m.content, factor);
+        pop(m.kind == scene::MaskKind::Alpha ? Command::Kind::PopMaskAlpha
+            : m.linear                       ? Command::Kind::PopMaskLinear
+                                             : Command::Kind::PopMaskLuminance);
+    }
+
+    /// What filters draw beyond the picture is not part of it.
+    void cutToFrame(const Box& frame) {
+        push();
+        Picture factor{frame};
+        draw({whiteBox(frame)}, factor);
+        pop(Command::Kind::PopMaskAlpha);
+    }
+
+    /// A box of the excerpt's space.
+    Node whiteBox(const Box& box) const {
+        const scene::Affine toScene = *scene::inverse(excerpt_.fromScene);
+        return {scene::Item{std::make_shared<const scene::Path>(scene::rectangle(box.min, box.max)), toScene,
+                            scene::FillRule::NonZero, scene::Color{1, 1, 1, 1}}};
+    }
+
+    // ---- Pictures without filters ----
+
+    void draw(NodeList nodes, Picture& on) {
+        if (nodes.empty())
+            return;
+        scene::Scene part;
+        part.width = part.height = 1;  // the excerpt says what is drawn
+        part.root.children = std::move(nodes);
+        const std::optional<Excerpt> excerpt = excerptOf(part, on.seen);
+        if (!excerpt)
+            return;
+        const scene::Point by = excerptOffset_;
+        Options options = options_;
+        const double longer = std::max(excerpt->width, excerpt->height);
+        options.tolerance =
+            std::clamp(options_.tolerance * std::max(excerpt_.width, excerpt_.height) / longer,
+                       std::ldexp(1.0, -26), std::ldexp(1.0, -6));
+        Result drawn = compilePlain_(part, *excerpt, options);
+        take(std::move(drawn), by, on);
+    }
+
+    /// What is seen of a part and not empty.
+    std::optional<Excerpt> excerptOf(const scene::Scene& part, const Box& seen) {
+        Box box = boundsOf(part.root.children, excerpt_.fromScene).intersection(seen);
+        if (box.empty() || !std::isfinite(box.width()) || !std::isfinite(box.height()))
+            return std::nullopt;
+        // Some room, so that no outline lies on the border of its map.
+        const scene::Point room(std::max({box.width(), box.height(), 64 * scene::minSide}) / 64);
+        box = Box{box.min - room, box.max + room}.intersection(seen);
+        Excerpt excerpt = excerpt_;
+        excerptOffset_ = box.min;
+        excerpt.fromScene[2] -= box.min;
+        excerpt.width = box.width();
+        excerpt.height = box.height();
+        if (std::max(excerpt.width, excerpt.height) > scene::maxSide ||
+            std::min(excerpt.width, excerpt.height) < scene::minSide)
+            return std::nullopt;
+        return excerpt;
+    }
+
+    void take(Result drawn, scene::Point by, Picture& on) {
+        const bool onTop = mode() == asset::Mode::Compat || on.isBlank;
+        if (!onTop)
+            push();
+        const double longer = std::max(drawn.asset.width, drawn.asset.height);
+        result_.provenError = std::max(
+            result_.provenError, drawn.provenError * longer / std::max(excerpt_.width, excerpt_.height));
+        result_.asset.finestPixel = std::max(*result_.asset.finestPixel, drawn.asset.finestPixel.value_or(0));
+        result_.asset.fallbackLeaves += drawn.asset.fallbackLeaves;
+        result_.sampledStrokes += drawn.sampledStrokes;
+        for (const UnprovenSquare& square : drawn.unproven)
+            result_.unproven.push_back({square.x + by.x, square.y + by.y, square.side});
+        for (std::string& warning : drawn.warnings)
+            if (std::ranges::find(result_.warnings, warning) == result_.warnings.end())
+                result_.warnings.push_back(std::move(warning));
+        addTimes(drawn.stages);
+        appendAsset(std::move(drawn.asset), by, result_.asset);
+        if (!onTop)
+            pop(Command::Kind::Pop);
+        on.isBlank = false;
+    }
+
+    void addTimes(const std::vector<StageTime>& stages) {
+        if (result_.stages.empty())
+            result_.stages = stages;
+        else
+            for (std::size_t i = 0; i < stages.size(); ++i)
+                result_.stages[i].milliseconds += stages[i].milliseconds;
+    }
+
+    // ---- Where a filter cannot be a command ----
+
+    /// Patterns and selections are drawn in many places, or by a rule of their own: what is filtered in them
+    /// is drawn once, as an image.
+    Node baked(const Node& node, const Box& seen) {
+        Node copy = node;
+        if (auto* item = std::get_if<scene::Item>(&copy.value)) {
+            auto& pattern = std::get<scene::Pattern>(item->paint);
+            const scene::Affine toExcerpt =
+                scene::compose(excerpt_.fromScene, scene::compose(item->transform, pattern.transform));
+            pattern.content = baked(*pattern.content, {pattern.min, pattern.max}, toExcerpt);
+        }
+        if (auto* select = std::get_if<scene::Select>(&copy.value)) {
+            const Box box = geometry::mapped(seen, *scene::inverse(excerpt_.fromScene));
+            for (scene::Link<Group>* side : {&select->inside, &select->outside})
+                if (*side && finder_.isIn(**side))
+                    *side = baked(**side, box, excerpt_.fromScene);
+        }
+        return copy;
+    }
+
+    /// A node that is an image of what of another lies in the box, blended as that.
+    Node imageOf(const Node& node, const Box& seen) {
+        Node copy = node;
+        scene::BlendMode blend = scene::BlendMode::Normal;
+        if (auto* group = std::get_if<Group>(&copy.value))
+            blend = std::exchange(group->blend, scene::BlendMode::Normal);
+        Group content;
+        content.children.push_back(std::move(copy));
+        const Box drawn = boundsOf(content.children, excerpt_.fromScene).intersection(seen);
+        Group image;
+        image.blend = blend;
+        if (!drawn.empty())
+            image.children = baked(content, geometry::mapped(drawn, *scene::inverse(excerpt_.fromScene)),
+                                   excerpt_.fromScene)
+                                 ->children;
+        return {std::move(image)};
+    }
+
+    /// An image of what of a group lies in the box. `toExcerpt`: from the space of the group.
+    scene::Link<Group> baked(const Group& content, const Box& box, const scene::Affine& toExcerpt) {
+        const auto lengthOf = [](scene::Point v) { return std::hypot(v.x, v.y); };
+        const double baked = options_.filterPixels > 0 ? options_.filterPixels : usualBakedPixels;
+        const double pixels = baked / std::max(excerpt_.width, excerpt_.height);
+        const auto side = [&](double length, scene::Point axis) {
+            return std::clamp(std::ceil(length * lengthOf(axis) * pixels), 1.0, maxBakedSide);
+        };
+        const scene::Point size(side(box.width(), toExcerpt[0]), side(box.height(), toExcerpt[1]));
+        const scene::Point scale = size / (box.max - box.min);
+        scene::Scene part;
+        part.width = part.height = 1;
+        part.root.children.push_back({content});
+        const Excerpt excerpt{
+            {scale.x, 0, 0, scale.y, -scale.x * box.min.x, -scale.y * box.min.y}, size.x, size.y, false};
+        Options options = options_;
+        options.filterPixels = 0;
+        const Result drawn = compileFiltered(part, excerpt, options, compilePlain_);
+        scene::ImagePaint paint;
+        paint.bitmap = std::make_shared<const image::Bitmap>(
+            image::toBitmap(asset::evaluate(drawn.asset, {int(size.x), int(size.y)})));
+        auto image = std::make_shared<Group>();
+        image->children.push_back(
+            {scene::Item{std::make_shared<const scene::Path>(scene::rectangle({0, 0}, size)),
+                         *scene::inverse(excerpt.fromScene), scene::FillRule::NonZero, std::move(paint)}});
+        return image;
+    }
+
+    const Excerpt& excerpt_;
+    const Options& options_;
+    const CompilePlain& compilePlain_;
+    Result result_;
+    FilterFinder finder_;
+    unsigned depth_ = 1;  ///< pictures on the stack
+    scene::Point excerptOffset_{0};
+};
+
+}  // namespace
+
+bool hasFilters(const scene::Scene& scene) { return FilterFinder().isIn(scene.root); }
+
+Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                       const CompilePlain& compilePlain) {
+    FilteredCompiler compiler(excerpt, options, compilePlain);
+    return options.filterPixels > 0 ? compiler.runBaked(scene.root) : compiler.run(scene.root);
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,79 @@
+// Operations that show their input elsewhere.
+
+#include <algorithm>
+#include <cmath>
+
+#include <vtm/limits/limits.hpp>
+#include "raster/filter/curves.hpp"
+#include "raster/filter/operations.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+/// read(x, y) at the centre of each pixel of the step's box.
+template <class Read>
+Layer madeOf(const FilterStep& step, Read read) {
+    Layer result(step.box, step.linear);
+    for (int y = step.box.min.y; y < step.box.max.y && !result.empty(); ++y) {
+        limits::check();
+        Float4* row = result.row(y);
+        for (int x = step.box.min.x; x < step.box.max.x; ++x)
+            *row++ = read(x, y);
+    }
+    return result;
+}
+
+}  // namespace
+
+Layer offset(const FilterStep& step) {
+    const glm::dvec2 by = glm::dvec2(step.parameters[0], step.parameters[1]) * step.scale;
+    const glm::dvec2 whole = glm::round(by);
+    if (!(std::abs(by.x) < 1e8 && std::abs(by.y) < 1e8))
+        return Layer(step.box, step.linear);
+    const Layer& input = *step.inputs[0];
+    constexpr double sameplace = 1.0 / 1024;  // of a pixel: less shows in no 8-bit colour
+    if (step.inWholePixels ||
+        (std::abs(by.x - whole.x) < sameplace && std::abs(by.y - whole.y) < sameplace)) {
+        const glm::ivec2 shift(whole);
+        Layer result = cropped(input, step.box.moved(-shift));
+        result.box = step.box;
+        return result;
+    }
+    return madeOf(
+        step, [&](int x, int y) { return bilinear(input, float(x + 0.5 - by.x), float(y + 0.5 - by.y)); });
+}
+
+Layer displace(const FilterStep& step) {
+    const FilterParameters& p = step.parameters;
+    const float byX = float(p[0] * step.scale.x), byY = float(p[0] * step.scale.y);
+    const int channelX = int(p[1]), channelY = int(p[2]);
+    const Layer& input = *step.inputs[0];
+    const Layer& map = *step.inputs[1];
+    Layer result = madeOf(step, [&](int x, int y) {
+        const Float4 moved = straightened(map.at(x, y));
+        return bilinear(input, float(x) + 0.5f + byX * (moved[channelX] - 0.5f),
+                        float(y) + 0.5f + byY * (moved[channelY] - 0.5f));
+    });
+    result.linear = input.linear;
+    return result;
+}
+
+Layer tile(const FilterStep& step) {
+    const PixelRect& region = step.regions[0];
+    const glm::dvec2 size = region.max - region.min;
+    const Layer& input = *step.inputs[0];
+    constexpr double least = 1.0 / 64;  // of a pixel: below, a tile shows nothing
+    if (!(size.x >= least && size.y >= least))
+        return Layer(step.box, step.linear);
+    const auto wrapped = [](double v, double min, double length) {
+        return min + (v - min) - length * std::floor((v - min) / length);
+    };
+    const auto read = [&](double x, double y) {
+        return input.at(int(std::floor(wrapped(x, region.min.x, size.x))),
+                        int(std::floor(wrapped(y, region.min.y, size.y))));
+    };
+    return madeOf(step, [&](int x, int y) { return read(x + 0.5, y + 0.5); });
+}
+
+}  // namespace vtm::asset
