@@ -48,7 +48,9 @@ const asset::Map& onlyMap(const AssetView& asset) {
     if (asset.mode != asset::Mode::Exact)
         throw GlError("an asset of compat mode cannot be sampled: it has layers, not regions");
     if (asset.commands.size() != 1 || asset.commands[0].kind != asset::Command::Kind::DrawMap)
-        throw GlError("only an asset that draws one map can be sampled");
+        throw GlError(asset.filters.empty()
+                          ? "only an asset that draws one map can be sampled"
+                          : "an asset with filters cannot be sampled: compile it with Options::filterPixels");
     return asset.maps[asset.commands[0].map];
 }
 

@@ -84,7 +84,7 @@ scene::Scene sceneOf(const scene::Path& path, scene::FillRule rule, double side)
 
 Measurement::Measurement(const std::string& name)
     : scene_(loadScene(sharedDirectory() / "corpus" / (name + ".svg"))),
-      asset_(compiler::compile(scene_).asset) {}
+      asset_(compiler::compile(scene_, {.filterPixels = 1024}).asset) {}
 
 image::Raster truthOf(const std::string& name, int size) {
     return compare::readPng((sharedDirectory() / fmt::format("corpus/truth/{}.{}.png", name, size)).string());

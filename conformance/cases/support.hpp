@@ -55,7 +55,7 @@ std::vector<CorpusFile> corpusFiles();
 /// A scene of one filled path on nothing, `side` units wide and high.
 scene::Scene sceneOf(const scene::Path& path, scene::FillRule rule, double side);
 
-/// A file of the corpus, compiled.
+/// A file of the corpus, compiled for a texture.
 class Measurement {
 public:
     /// Throws the modules' exceptions.

@@ -116,9 +116,10 @@ void applyMask(const Canvas& mask, Op op, Canvas& top) {
 }
 
 /// The pictures that commands draw into.
-class Stack {
+class PictureStack {
 public:
-    Stack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels, bool scans)
+    PictureStack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
+                 bool scans)
         : paints_(paints), materials_(materials), levels_(levels), scans_(scans) {
         push(view);
     }
@@ -264,7 +265,7 @@ private:
 Raster drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
              bool scans) {
     validate(view);
-    Stack stack(paints, view, materials, levels, scans);
+    PictureStack stack(paints, view, materials, levels, scans);
     for (const Command& command : paints.asset().commands)
         stack.execute(command);
     return stack.take();

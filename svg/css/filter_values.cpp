@@ -8,13 +8,14 @@
 namespace vtm::svg {
 namespace {
 
-using Kind = FilterFunction::Kind;
+using FunctionKind = FilterFunction::Kind;
 
-constexpr Keyword<Kind> functions[]{{"blur", Kind::Blur},           {"brightness", Kind::Brightness},
-                                    {"contrast", Kind::Contrast},   {"drop-shadow", Kind::DropShadow},
-                                    {"grayscale", Kind::Grayscale}, {"hue-rotate", Kind::HueRotate},
-                                    {"invert", Kind::Invert},       {"opacity", Kind::Opacity},
-                                    {"saturate", Kind::Saturate},   {"sepia", Kind::Sepia}};
+constexpr Keyword<FunctionKind> functionNames[]{
+    {"blur", FunctionKind::Blur},           {"brightness", FunctionKind::Brightness},
+    {"contrast", FunctionKind::Contrast},   {"drop-shadow", FunctionKind::DropShadow},
+    {"grayscale", FunctionKind::Grayscale}, {"hue-rotate", FunctionKind::HueRotate},
+    {"invert", FunctionKind::Invert},       {"opacity", FunctionKind::Opacity},
+    {"saturate", FunctionKind::Saturate},   {"sepia", FunctionKind::Sepia}};
 
 /// A length that is no percentage.
 std::optional<double> readPlainLength(Cursor& cursor, const Units& units) {
@@ -86,19 +87,20 @@ bool readAmount(std::string_view text, FilterFunction& function) {
     const auto amount = text.empty() ? std::optional(1.0) : parseFraction(text);
     if (!amount || *amount < 0)
         return false;
-    const Kind kind = function.kind;
-    const bool mayExceedOne = kind == Kind::Brightness || kind == Kind::Contrast || kind == Kind::Saturate;
+    const FunctionKind kind = function.kind;
+    const bool mayExceedOne =
+        kind == FunctionKind::Brightness || kind == FunctionKind::Contrast || kind == FunctionKind::Saturate;
     function.amount = mayExceedOne ? *amount : std::min(*amount, 1.0);
     return true;
 }
 
 bool readArguments(std::string_view text, const Units& units, FilterFunction& function) {
     switch (function.kind) {
-        case Kind::Blur:
+        case FunctionKind::Blur:
             return readBlur(text, units, function);
-        case Kind::DropShadow:
+        case FunctionKind::DropShadow:
             return readDropShadow(text, units, function);
-        case Kind::HueRotate:
+        case FunctionKind::HueRotate:
             return readHueRotate(text, function);
         default:
             return readAmount(text, function);
@@ -106,7 +108,7 @@ bool readArguments(std::string_view text, const Units& units, FilterFunction& fu
 }
 
 std::optional<FilterFunction> readFunction(Cursor& cursor, const Units& units) {
-    const auto kind = findKeyword(cursor.identifier(), functions);
+    const auto kind = findKeyword(cursor.identifier(), functionNames);
     if (!kind || !cursor.consume('('))
         return std::nullopt;
     const std::size_t length = extentOf(cursor.rest(), ")");

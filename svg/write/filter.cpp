@@ -212,7 +212,7 @@ Writer::Part Writer::filtered(const Filter& made, const Part& source) {
             : "<g" + transformAttribute("transform", *inverse(transform)) + ">\n" + source.text + "</g>\n";
     Part part;
     part.text = "<g" + transformAttribute("transform", transform) + filter(made) + ">\n" + inner + "</g>\n";
-    part.box = geometry::mapped({made.min, made.max}, transform);
+    part.box = geometry::mapped(Box{made.min, made.max}, transform);
     return part;
 }
 

@@ -131,7 +131,7 @@ private:
     Engine* drawing_;
 };
 
-/// Exact pictures without materials, also those with filters, which are computed on the CPU everywhere.
+/// Exact pictures without materials.
 bool scannerDraws(const Source& source) {
     return source.asset && source.asset->mode == asset::Mode::Exact && source.asset->materials.empty();
 }
@@ -151,6 +151,8 @@ void AutomaticEngine::draw(Source& source, const asset::View& view, const image:
 Engine& AutomaticEngine::engineFor(Source& source) {
     const bool scans = scannerDraws(source);
     Engine& onCpu = scans ? *scanner_ : *twin_;
+    if (source.asset && !source.asset->filters.empty())
+        return onCpu;
     if (driver(source) == gl::Driver::None || (scans && driver(source) == gl::Driver::Software))
         return onCpu;
     if (!startsGl(source))

@@ -18,7 +18,7 @@ namespace {
 Colour straight(const Colour& c) {
     return c.a >= 1.0 / 1024 ? Colour(c.r / c.a, c.g / c.a, c.b / c.a, c.a) : Colour(0);
 }
-Colour premultiplied(const Colour& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
+Colour multipliedByAlpha(const Colour& c) { return {c.r * c.a, c.g * c.a, c.b * c.a, c.a}; }
 Colour limited(const Colour& c) { return glm::clamp(c, 0.0, 1.0); }
 
 /// No channel above alpha.
@@ -28,7 +28,7 @@ Colour valid(const Colour& c) {
 }
 
 Colour colourOf(const scene::Color& c, const Reading& in) {
-    const Colour made = premultiplied({c.r, c.g, c.b, c.a});
+    const Colour made = multipliedByAlpha({c.r, c.g, c.b, c.a});
     return in.linear ? linearised(made) : made;
 }
 
@@ -47,7 +47,7 @@ Pixels operate(const scene::ColorMatrixFilter& f, const Reading& in, Pixels resu
             const float* m = &f.matrix[std::size_t(row) * 5];
             made[row] = m[0] * c.r + m[1] * c.g + m[2] * c.b + m[3] * c.a + m[4];
         }
-        return premultiplied(limited(made));
+        return multipliedByAlpha(limited(made));
     });
     return result;
 }
@@ -81,7 +81,7 @@ Pixels operate(const scene::ComponentTransferFilter& f, const Reading& in, Pixel
         Colour made;
         for (int channel = 0; channel < 4; ++channel)
             made[channel] = transferred(f.functions[std::size_t(channel)], c[channel]);
-        return premultiplied(limited(made));
+        return multipliedByAlpha(limited(made));
     });
     return result;
 }
@@ -151,7 +151,7 @@ Pixels operate(const scene::ConvolveMatrixFilter& f, const Reading& in, Pixels r
         const Colour made = sum / double(f.divisor) + double(f.bias) * (f.preserveAlpha ? 1 : alpha);
         if (!f.preserveAlpha)
             return valid(made);
-        return premultiplied(limited({made.r, made.g, made.b, alpha}));
+        return multipliedByAlpha(limited({made.r, made.g, made.b, alpha}));
     });
     return result;
 }
