@@ -116,6 +116,11 @@ std::vector<Engine> SceneSubject::engines(std::size_t view) const {
     std::vector<Engine> engines = settings_.engines;
     if (view >= judgedReferences)
         std::erase(engines, Engine::Reference);
+    // The scanner draws single maps, and finer pixels are other pixels for a filter.
+    if (!asset_.filters.empty()) {
+        std::erase(engines, Engine::Scan);
+        std::erase(engines, Engine::Reference);
+    }
     return engines;
 }
 
