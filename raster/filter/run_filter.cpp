@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
@@ -84,19 +86,21 @@ private:
     Layer primitive(std::size_t index) {
         const FilterPrimitive& primitive = primitives_[index];
         const bool linear = primitive.linear != 0;
-        std::vector<Layer> layers;
+        std::map<std::pair<std::uint32_t, bool>, Layer> layers;  ///< each once, however often it is read
+        std::vector<const Layer*> pointers;
         std::vector<PixelRect> regions;
         const auto inputs = inputsOf(asset_, primitive);
         for (std::size_t k = 0; k < inputs.size(); ++k) {
             const bool isMoved = primitive.op == FilterOp::DisplacementMap && k == 0;
-            layers.push_back(input(inputs[k], isMoved ? spaceOf(inputs[k]) : linear));
+            const bool space = isMoved ? spaceOf(inputs[k]) : linear;
+            const auto [layer, isNew] = layers.try_emplace({inputs[k], space});
+            if (isNew)
+                layer->second = input(inputs[k], space);
+            pointers.push_back(&layer->second);
             regions.push_back(inputs[k] < firstResult ? place_.region : place_.regions[resultOf(inputs[k])]);
         }
         if (regions.empty())
             regions.push_back(place_.regions[index]);
-        std::vector<const Layer*> pointers;
-        for (const Layer& layer : layers)
-            pointers.push_back(&layer);
         const FilterStep step{parametersOf(asset_, primitive),
                               pointers,
                               regions,
