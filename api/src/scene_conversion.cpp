@@ -147,7 +147,8 @@ private:
             } else {
                 const auto& select = std::get<SelectNode>(node->value);
                 const auto* inside = as<LayerNode>(select.inside.node());
-                if (inside && inside->below == select.outside) {
+                // What a filter makes of a part is not that part of what it makes of the whole.
+                if (inside && !inside->how.filter && inside->below == select.outside) {
                     fromTop.push_back(composited(cut(select.mask, inside->top, place), inside->how, place));
                     next = found(inside->below, place);
                 } else if (!select.outside.node()) {

@@ -35,7 +35,7 @@ Vtm Vtm::select(Mask mask, Vtm inside, Vtm outside) {
 Vtm Vtm::over(Vtm top, Vtm below) { return layer(std::move(top), std::move(below), {}); }
 
 Vtm Vtm::layer(Vtm top, Vtm below, Compositing how) {
-    if (!top.node_)
+    if (!top.node_ && !how.filter)
         return below;
     if (!below.node_ && how.isPlain())
         return top;

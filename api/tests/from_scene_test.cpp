@@ -66,6 +66,35 @@ TEST(FromScene, ALongChainTakesNoStackAndNoMoreItems) {
     EXPECT_EQ(Vtm::fromScene(scene).toScene(64, 64).root.children.size(), count);
 }
 
+std::shared_ptr<const scene::Filter> blur() {
+    scene::FilterPrimitive primitive;
+    primitive.operation = scene::GaussianBlurFilter{2, 2};
+    primitive.inputs.resize(1);
+    primitive.max = {64, 64};
+    scene::Filter filter;
+    filter.max = {64, 64};
+    filter.primitives.push_back(primitive);
+    return std::make_shared<const scene::Filter>(filter);
+}
+
+TEST(FromScene, GroupsWithFiltersStayEvenIfTheyAreEmpty) {
+    scene::Group full, empty;
+    empty.filter = full.filter = blur();
+    full.children = {{square(2, scene::Color{})}};
+    const scene::Scene scene = sceneOf({{square(0, scene::Color{})}, {full}, {empty}});
+    EXPECT_EQ(scene::dump(Vtm::fromScene(scene).toScene(64, 64)), scene::dump(scene));
+}
+
+TEST(FromScene, AFilterDoesNotMoveOutOfASelection) {
+    const Vtm ground = Vtm::fromScene(sceneOf({{square(0, scene::Color{})}}));
+    const Vtm top = Vtm::fromScene(sceneOf({{square(5, scene::Color{})}}));
+    const Mask mask = filled(scene::rectangle({3, 3}, {9, 9}));
+    const scene::Group root =
+        Vtm::select(mask, Vtm::layer(top, ground, {.filter = blur()}), ground).toScene(64, 64).root;
+    ASSERT_EQ(root.children.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<scene::Select>(root.children[0].value));
+}
+
 class Example : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(FromScene, Example,
                          testing::Values("lighthouse", "rose_window", "gauge", "planet", "blend"),

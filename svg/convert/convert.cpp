@@ -166,7 +166,7 @@ std::optional<Scope> Converter::enter(const Element& element, const Scope& paren
                 parent.viewport, parent.context, parent.depth + 1};
     if (!scope.style.displayed)
         return std::nullopt;
-    scope.transform = scene::compose(parent.transform, transformOf(element, scope));
+    scope.transform = nested(parent.transform, transformOf(element, scope));
     if (element.tag == Tag::Use) {
         const LengthReader reader = lengths(element, scope);
         const scene::Affine shift =

@@ -131,6 +131,20 @@ Affine aroundPoint(const Affine& transform, glm::dvec2 origin) {
                           scene::translation(-origin.x, -origin.y));
 }
 
+Affine nested(const Affine& outer, const Affine& inner) {
+    Affine result = scene::compose(outer, inner);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 2; ++row) {
+            const double magnitude = std::abs(outer[0][row] * inner[column][0]) +
+                                     std::abs(outer[1][row] * inner[column][1]) +
+                                     (column == 2 ? std::abs(outer[2][row]) : 0);
+            const double whole = row == column ? std::round(result[column][row]) : 0;
+            if (whole <= 1 && std::abs(result[column][row] - whole) <= cancellationError * magnitude)
+                result[column][row] = whole;
+        }
+    return result;
+}
+
 std::optional<Affine> parseTransform(std::string_view text, const Units& units, const Viewport& viewport) {
     Affine result = scene::identity;
     text = trim(text);

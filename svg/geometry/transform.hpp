@@ -21,6 +21,12 @@ std::optional<scene::Affine> parseTransform(std::string_view text, const Units& 
 
 scene::Affine rotation(double degrees);
 
+/// compose(outer, inner), in which terms that cancel leave exactly 0, or 1 on the diagonal: an entry is a sum
+/// of products, and what is left of it below cancellationError times the sum of their magnitudes is rounding.
+/// A transform inside its inverse is so the identity, as in the groups with filters that svg::write writes.
+scene::Affine nested(const scene::Affine& outer, const scene::Affine& inner);
+inline constexpr double cancellationError = 0x1p-49;  ///< both factors in error by 4 units in the last place
+
 /// transform-origin: an offset from the reference box's corner.
 struct TransformOrigin {
     Length x, y;

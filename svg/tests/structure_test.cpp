@@ -90,6 +90,24 @@ TEST(Group, TransformsMultiply) {
         "height='1'/></g></g>");
     expectNear(item.transform, {2, 0, 0, 2, 12, 22});
 }
+TEST(Group, ATransformInsideItsInverseIsTheIdentity) {
+    for (const char* degrees : {"45", "30", "77.7"}) {
+        const std::string turn = degrees;
+        EXPECT_EQ(itemOf("<g transform='rotate(-" + turn + " 100 100)'><rect transform='rotate(" + turn +
+                         " 100 100)' width='1' height='1'/></g>")
+                      .transform,
+                  scene::identity)
+            << turn;
+    }
+}
+TEST(Group, SmallTransformsAreNotRounding) {
+    const scene::Item item = itemOf(
+        "<g transform='scale(1e-9) translate(1e-9)'><rect transform='rotate(1e-9)' "
+        "width='1' height='1'/></g>");
+    EXPECT_EQ(item.transform[0].x, 1e-9);
+    EXPECT_NEAR(item.transform[0].y, 1e-9 * 1.7453292519943295e-11, 1e-30);
+    EXPECT_EQ(item.transform[2].x, 1e-9 * 1e-9);
+}
 TEST(Group, WithoutEffectsDissolves) {
     EXPECT_EQ(loadBody("<g><g><rect width='1' height='1'/></g><a><rect width='1' height='1'/></a></g>")
                   .scene.root.children.size(),
