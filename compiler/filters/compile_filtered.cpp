@@ -33,7 +33,10 @@ constexpr double usualBakedPixels = 2048, maxBakedSide = 8192;
 class FilteredCompiler {
 public:
     FilteredCompiler(const Excerpt& excerpt, const Options& options, const CompilePlain& compilePlain)
-        : excerpt_(excerpt), options_(options), compilePlain_(compilePlain) {
+        : excerpt_(excerpt),
+          options_(options),
+          compilePlain_(compilePlain),
+          frame_{{0, 0}, {excerpt.width, excerpt.height}} {
         asset::Asset& asset = result_.asset;
         asset.width = excerpt.width;
         asset.height = excerpt.height;
@@ -43,28 +46,20 @@ public:
     }
 
     Result run(const Group& root) {
-        const Box frame{{0, 0}, {excerpt_.width, excerpt_.height}};
-        if (isPlain(root)) {
-            Picture ground{frame, true};
-            children(root.children, ground);
-        } else {
-            Picture ground{frame, true};
-            group(root, ground);
-        }
-        cutToFrame(frame);
+        Picture ground{frame_, true};
+        content(root, ground);
         return std::move(result_);
     }
 
     /// Without filters: what they would make is drawn as images.
     Result runBaked(const Group& root) {
-        const Box frame{{0, 0}, {excerpt_.width, excerpt_.height}};
         scene::Scene part;
         part.width = part.height = 1;  // the excerpt says what is drawn
         if (isPlain(root))
             for (const Node& node : root.children)
-                part.root.children.push_back(finder_.isIn(node) ? imageOf(node, frame) : node);
+                part.root.children.push_back(finder_.isIn(node) ? imageOf(node, frame_) : node);
         else
-            part.root.children.push_back(imageOf({root}, frame));
+            part.root.children.push_back(imageOf({root}, frame_));
         Result result = compilePlain_(part, excerpt_, options_);
         result.warnings.push_back("what is filtered is an image, drawn with " +
                                   std::to_string(options_.filterPixels) +
@@ -75,8 +70,9 @@ public:
 private:
     /// A picture on the stack, while commands draw on it.
     struct Picture {
-        Box seen;             ///< what of it is needed; in the space of the excerpt
-        bool isBlank = true;  ///< nothing has been drawn on it
+        Box seen;                  ///< what of it is needed; in the space of the excerpt
+        bool endsAtFrame = false;  ///< what is drawn on it ends where the picture does
+        bool isBlank = true;       ///< nothing has been drawn on it
     };
 
     static bool isPlain(const Group& g) {
@@ -136,9 +132,17 @@ private:
         draw({baked(node, on.seen)}, on);
     }
 
+    /// What a group shows by itself.
+    void content(const Group& g, Picture& on) {
+        if (isPlain(g))
+            children(g.children, on);
+        else
+            group(g, on);
+    }
+
     void group(const Group& g, Picture& on) {
         push();
-        Picture inner{on.seen};
+        Picture inner{on.seen, on.endsAtFrame};
         if (g.filter)
             filter(*g.filter, g.children, inner);
         else
@@ -165,16 +169,15 @@ private:
             if (const auto* picture = std::get_if<scene::PictureFilter>(&primitive.operation)) {
                 push(Command::Kind::PushInput, index);
                 Picture input{readBy(f, on.seen)};
-                const Group& content = *picture->content;
-                if (isPlain(content))
-                    children(content.children, input);
-                else
-                    group(content, input);
+                content(*picture->content, input);
                 ++inputs;
             }
         emit(Command::Kind::Filter).map = index;
         depth_ -= inputs - 1;
         pop(Command::Kind::Pop);
+        const scene::Affine toExcerpt = scene::compose(excerpt_.fromScene, f.transform);
+        if (on.endsAtFrame && !frame_.contains(geometry::mapped({f.min, f.max}, toExcerpt)))
+            cutToFrame();
         on.isBlank = false;
     }
 
@@ -194,31 +197,34 @@ private:
 
     void clip(const scene::Link<scene::Clip>& shapes, const Picture& of) {
         Group white;
-        white.children.push_back(whiteBox(of.seen));
+        white.children.push_back(whiteBox(around(of.seen)));
         white.clip = shapes;
         push();
-        Picture factor{of.seen};
+        Picture factor{around(of.seen)};
         draw({Node{std::move(white)}}, factor);
         pop(Command::Kind::PopMaskAlpha);
     }
 
     void mask(const scene::Mask& m, const Picture& of) {
         push();
-        Picture factor{of.seen};
-        if (isPlain(*m.content))
-            children(m.content->children, factor);
-        else
-            group(*m.content, factor);
+        Picture factor{around(of.seen)};
+        content(*m.content, factor);
         pop(m.kind == scene::MaskKind::Alpha ? Command::Kind::PopMaskAlpha
             : m.linear                       ? Command::Kind::PopMaskLinear
                                              : Command::Kind::PopMaskLuminance);
     }
 
-    /// What filters draw beyond the picture is not part of it.
-    void cutToFrame(const Box& frame) {
+    /// Factors are whole where what they multiply ends.
+    static Box around(const Box& seen) {
+        const scene::Point more = margin * (seen.max - seen.min);
+        return {seen.min - more, seen.max + more};
+    }
+
+    /// What a filter draws beyond the picture is not part of it.
+    void cutToFrame() {
         push();
-        Picture factor{frame};
-        draw({whiteBox(frame)}, factor);
+        Picture factor{frame_};
+        draw({whiteBox(frame_)}, factor);
         pop(Command::Kind::PopMaskAlpha);
     }
 
@@ -237,36 +243,33 @@ private:
         scene::Scene part;
         part.width = part.height = 1;  // the excerpt says what is drawn
         part.root.children = std::move(nodes);
-        const std::optional<Excerpt> excerpt = excerptOf(part, on.seen);
-        if (!excerpt)
+        const std::optional<Box> box = boxOf(part, on.seen);
+        if (!box)
             return;
-        const scene::Point by = excerptOffset_;
+        Excerpt excerpt = excerpt_;
+        excerpt.fromScene[2] -= box->min;
+        excerpt.width = box->width();
+        excerpt.height = box->height();
         Options options = options_;
-        const double longer = std::max(excerpt->width, excerpt->height);
+        const double longer = std::max(excerpt.width, excerpt.height);
         options.tolerance =
             std::clamp(options_.tolerance * std::max(excerpt_.width, excerpt_.height) / longer,
                        std::ldexp(1.0, -26), std::ldexp(1.0, -6));
-        Result drawn = compilePlain_(part, *excerpt, options);
-        take(std::move(drawn), by, on);
+        Result drawn = compilePlain_(part, excerpt, options);
+        take(std::move(drawn), box->min, on);
     }
 
-    /// What is seen of a part and not empty.
-    std::optional<Excerpt> excerptOf(const scene::Scene& part, const Box& seen) {
+    /// Around what is seen of a part, in the space of the excerpt; nothing if that is nothing.
+    std::optional<Box> boxOf(const scene::Scene& part, const Box& seen) const {
         Box box = boundsOf(part.root.children, excerpt_.fromScene).intersection(seen);
         if (box.empty() || !std::isfinite(box.width()) || !std::isfinite(box.height()))
             return std::nullopt;
         // Some room, so that no outline lies on the border of its map.
         const scene::Point room(std::max({box.width(), box.height(), 64 * scene::minSide}) / 64);
         box = Box{box.min - room, box.max + room}.intersection(seen);
-        Excerpt excerpt = excerpt_;
-        excerptOffset_ = box.min;
-        excerpt.fromScene[2] -= box.min;
-        excerpt.width = box.width();
-        excerpt.height = box.height();
-        if (std::max(excerpt.width, excerpt.height) > scene::maxSide ||
-            std::min(excerpt.width, excerpt.height) < scene::minSide)
-            return std::nullopt;
-        return excerpt;
+        const bool isPicture = std::max(box.width(), box.height()) <= scene::maxSide &&
+                               std::min(box.width(), box.height()) >= scene::minSide;
+        return isPicture ? std::optional(box) : std::nullopt;
     }
 
     void take(Result drawn, scene::Point by, Picture& on) {
@@ -371,8 +374,8 @@ private:
     const CompilePlain& compilePlain_;
     Result result_;
     FilterFinder finder_;
+    const Box frame_;
     unsigned depth_ = 1;  ///< pictures on the stack
-    scene::Point excerptOffset_{0};
 };
 
 }  // namespace

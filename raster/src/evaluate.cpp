@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include <glm/matrix.hpp>
@@ -121,6 +122,9 @@ public:
     PictureStack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
                  bool scans)
         : paints_(paints), materials_(materials), levels_(levels), scans_(scans) {
+        for (const Command& command : paints.asset().commands)
+            if (command.kind == Command::Kind::DrawMap)
+                firstPaints_.insert(command.paint);
         push(view);
     }
 
@@ -189,6 +193,8 @@ private:
         AssetView part = paints_.asset();
         part.commands = {&alone, 1};
         part.paints = part.paints.subspan(command.paint, paintEnd(command.paint) - command.paint);
+        if (part.maps[command.map].instances == 0)
+            part.instances = {};
         if (std::ranges::none_of(part.paints, isProgram)) {
             part.data = {};
             part.images = {};
@@ -198,11 +204,8 @@ private:
 
     /// Where the paints of the next map begin.
     std::size_t paintEnd(std::uint32_t first) const {
-        std::size_t end = paints_.asset().paints.size();
-        for (const Command& command : paints_.asset().commands)
-            if (command.kind == Command::Kind::DrawMap && command.paint > first)
-                end = std::min<std::size_t>(end, command.paint);
-        return end;
+        const auto next = firstPaints_.upper_bound(first);
+        return next == firstPaints_.end() ? paints_.asset().paints.size() : *next;
     }
 
     const Paints& paintsFrom(std::uint32_t first) {
@@ -256,7 +259,8 @@ private:
     const Paints& paints_;
     const MaterialFunction& materials_;
     const int levels_;
-    const bool scans_;  ///< maps, instead of adding up their leaves
+    const bool scans_;                     ///< maps, instead of adding up their leaves
+    std::set<std::uint32_t> firstPaints_;  ///< of the maps that are drawn
     std::vector<Picture> pictures_;
     std::map<std::uint32_t, std::unique_ptr<Paints>> paintsFrom_;
 };

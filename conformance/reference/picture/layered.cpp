@@ -21,8 +21,10 @@ class Layers {
 public:
     Layers(bool wholePixels, const DrawPlain& draw) : wholePixels_(wholePixels), draw_(draw) {}
 
-    /// A group with all that it does to its content, on nothing.
-    Pixels group(const scene::Group& g, const scene::Affine& toPixels, const Pixels& place) const {
+    /// A group with all that it does to its content, on nothing. What ends at the frame: shapes by their
+    /// geometry, what a filter makes by the share of each pixel.
+    Pixels group(const scene::Group& g, const scene::Affine& toPixels, const Pixels& place,
+                 const scene::Link<scene::Clip>& frame = {}) const {
         Pixels made = place.blank();
         if (g.filter) {
             scene::Group source;
@@ -31,16 +33,13 @@ public:
                             [&](const scene::Group& content, const scene::Affine& to, const Pixels& at) {
                                 return group(content, to, at);
                             });
+            if (frame)
+                cut(frame, toPixels, made);
         } else {
-            children(g.children, toPixels, made);
+            children(g.children, toPixels, frame, made);
         }
-        if (g.clip) {
-            scene::Group white;
-            white.children.push_back(everything(toPixels, place));
-            white.clip = g.clip;
-            const Pixels share = draw_({scene::Node{std::move(white)}}, toPixels, place);
-            made.fill([&](int x, int y) { return made.get(x, y) * share.get(x, y).a; });
-        }
+        if (g.clip)
+            cut(g.clip, toPixels, made);
         if (g.mask) {
             const Pixels mask = group(*g.mask->content, toPixels, place);
             made.fill([&](int x, int y) {
@@ -54,7 +53,9 @@ public:
         return made;
     }
 
-    void children(const scene::NodeList& nodes, const scene::Affine& toPixels, Pixels& on) const {
+private:
+    void children(const scene::NodeList& nodes, const scene::Affine& toPixels,
+                  const scene::Link<scene::Clip>& frame, Pixels& on) const {
         scene::NodeList run;
         bool isBlank = true;
         const auto lay = [&](const Pixels& above, scene::BlendMode mode) {
@@ -63,7 +64,7 @@ public:
         };
         const auto finish = [&] {
             if (!run.empty())
-                lay(draw_(std::exchange(run, {}), toPixels, on), scene::BlendMode::Normal);
+                lay(drawCut(std::exchange(run, {}), frame, toPixels, on), scene::BlendMode::Normal);
         };
         for (const scene::Node& node : nodes) {
             if (!hasFilters(node) && !(blends(node) && !isBlank)) {
@@ -72,9 +73,24 @@ public:
             }
             finish();
             const auto& g = std::get<scene::Group>(node.value);
-            lay(group(g, toPixels, on), g.blend);
+            lay(group(g, toPixels, on, frame), g.blend);
         }
         finish();
+    }
+
+    Pixels drawCut(scene::NodeList nodes, const scene::Link<scene::Clip>& clip, const scene::Affine& toPixels,
+                   const Pixels& place) const {
+        if (!clip)
+            return draw_(nodes, toPixels, place);
+        scene::Group clipped;
+        clipped.children = std::move(nodes);
+        clipped.clip = clip;
+        return draw_({scene::Node{std::move(clipped)}}, toPixels, place);
+    }
+
+    void cut(const scene::Link<scene::Clip>& clip, const scene::Affine& toPixels, Pixels& made) const {
+        const Pixels share = drawCut({everything(toPixels, made)}, clip, toPixels, made);
+        made.fill([&](int x, int y) { return made.get(x, y) * share.get(x, y).a; });
     }
 
     /// White on all pixels.
@@ -85,7 +101,6 @@ public:
             scene::Item{path, *scene::inverse(toPixels), scene::FillRule::NonZero, scene::Color{1, 1, 1, 1}}};
     }
 
-private:
     const bool wholePixels_;
     const DrawPlain& draw_;
 };
@@ -99,15 +114,12 @@ bool hasFilters(const scene::Group& group) {
 
 Pixels drawLayered(const scene::Scene& scene, const scene::Affine& toPixels, const Pixels& place,
                    bool wholePixels, const DrawPlain& draw) {
-    const Layers layers(wholePixels, draw);
-    Pixels made = layers.group(scene.root, toPixels, place);
-    scene::NodeList frame;
-    frame.push_back({scene::Item{
-        std::make_shared<const scene::Path>(scene::rectangle({0, 0}, {scene.width, scene.height})),
-        scene::identity, scene::FillRule::NonZero, scene::Color{1, 1, 1, 1}}});
-    const Pixels share = draw(frame, toPixels, place);
-    made.fill([&](int x, int y) { return made.get(x, y) * share.get(x, y).a; });
-    return made;
+    scene::Clip frame;
+    frame.shapes.push_back(
+        {std::make_shared<const scene::Path>(scene::rectangle({0, 0}, {scene.width, scene.height})),
+         scene::identity, scene::FillRule::NonZero, nullptr});
+    return Layers(wholePixels, draw)
+        .group(scene.root, toPixels, place, std::make_shared<const scene::Clip>(std::move(frame)));
 }
 
 }  // namespace vtm::reference
