@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "compiler/compile/settings.hpp"
 #include "compiler/filters/compile_filtered.hpp"
 #include "compiler/instances/encode_instances.hpp"
@@ -229,10 +231,15 @@ Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const L
             chooseTiles(lowered.picture, lattice, size, plan.patterns, options.tolerance);
         TilePlan chosen;
         chosen.chosen.emplace();
+        const auto leftOut = std::ranges::count_if(choices, &TileChoice::isLeftOut);
         for (const TileChoice& choice : choices)
             chosen.chosen->push_back(choice.cut);
         origins.clear();
         lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &chosen);
+        if (leftOut > 0)
+            lowered.picture.warnings.push_back(
+                fmt::format("outlines cut more than {} tiles of {} pattern fills, which are left out",
+                            maxTiles, leftOut));
         for (std::size_t i = 0; i < choices.size(); ++i)
             if (!choices[i].blocks.empty())
                 fills.push_back(
@@ -273,6 +280,7 @@ Result compilePlain(const scene::Scene& scene, const Excerpt& excerpt, const Opt
     const double built = milliseconds(lowered, Clock::now());
     result.stages = stageTimes(milliseconds(start, lowered), built, t);
     result.warnings = warningsOf(result, options, error);
+    result.warnings.insert(result.warnings.end(), picture.warnings.begin(), picture.warnings.end());
     return result;
 }
 

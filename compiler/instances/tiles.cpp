@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include <vtm/compiler/compile.hpp>
@@ -182,8 +181,7 @@ public:
                 if (!grid.isFree({x, y}))
                     cut.push_back(i64vec2(x, y) + pattern.first);
         if (cut.size() > maxTiles)
-            throw LimitError(fmt::format("outlines cut {} tiles or more of a pattern; the limit is {}",
-                                         cut.size(), maxTiles));
+            return {.cut = {}, .blocks = {}, .isLeftOut = true};
         if (!choice.blocks.empty())
             choice.cut.push_back(choice.blocks.front().at);
         std::ranges::sort(cut, {}, [](i64vec2 p) { return std::pair(p.y, p.x); });

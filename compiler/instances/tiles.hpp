@@ -23,10 +23,10 @@ struct TileChoice {
     /// drawn where it stands.
     std::vector<glm::i64vec2> cut;
     std::vector<TileBlock> blocks;
+    bool isLeftOut = false;  ///< too many tiles are cut: there are no others either
 };
 
-/// `picture` without any of the patterns' tiles; `tolerance`: Options::tolerance. Throws LimitError where too
-/// many tiles are cut.
+/// `picture` without any of the patterns' tiles; `tolerance`: Options::tolerance.
 std::vector<TileChoice> chooseTiles(const LoweredScene& picture, const Lattice& lattice, glm::dvec2 size,
                                     std::span<const TilePattern> patterns, double tolerance);
 

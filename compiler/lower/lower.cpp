@@ -216,8 +216,10 @@ private:
                 {toPicture, pattern.min, pattern.max, glm::i64vec2(first), glm::i64vec2(last), shape}, index);
             return;
         }
-        if (!(tiles <= static_cast<double>(maxTiles)))
-            throw LimitError(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, maxTiles));
+        if (!(tiles <= static_cast<double>(maxTiles))) {
+            leaveOut(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, maxTiles));
+            return;
+        }
         const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)
                                    : std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
         for (double y = first.y; y <= last.y; ++y)
@@ -291,16 +293,32 @@ private:
                        lattice_.clampMin(), lattice_.clampMax());
         } else {
             const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
-            if (stretch > 0 && std::isfinite(stretch)) {
-                const auto first = addStroke(
-                    picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
-                    budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
-                    lattice_.clampMin(), lattice_.clampMax(), nearFrame(origin.transform));
-                if (sides)
-                    *sides = first;
-            }
+            if (stretch > 0 && std::isfinite(stretch))
+                strokeOutline(origin, stretch, sides);
         }
         return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
+    }
+
+    /// A stroke beyond the limits is left out, with a warning.
+    void strokeOutline(const OutlineOrigin& origin, double stretch, std::optional<std::uint32_t>* sides) {
+        const std::size_t points = picture_.outlines.points.size(), runs = picture_.outlines.runs.size();
+        try {
+            const auto first =
+                addStroke(picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
+                          budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
+                          lattice_.clampMin(), lattice_.clampMax(), nearFrame(origin.transform));
+            if (sides)
+                *sides = first;
+        } catch (const LimitError& error) {
+            picture_.outlines.points.resize(points);
+            picture_.outlines.runs.resize(runs);
+            leaveOut(error.what());
+        }
+    }
+
+    void leaveOut(const std::string& why) {
+        picture_.warnings.push_back(
+            fmt::format("{}:{}: {}; it is left out", place_.line, place_.column, why));
     }
 
     /// What of a path's space a stroke must be right in; everywhere if nothing is said.

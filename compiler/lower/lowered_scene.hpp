@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
@@ -81,6 +82,7 @@ struct LoweredScene {
     std::vector<asset::Material> materials;
     std::vector<std::uint32_t> itemOfLayer;  ///< noIndex: a clip's layer
     std::size_t sampledStrokes = 0;          ///< Result::sampledStrokes
+    std::vector<std::string> warnings;       ///< what a limit removed
 };
 
 /// Copies, for the asset.

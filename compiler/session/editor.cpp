@@ -181,6 +181,7 @@ private:
             certify(block.tree, treeOptions_.budget, report);
         next.finestPixel = finestPixel(report);
         report.warnings = warningsOf(report, options_, colourError_);
+        report.warnings.insert(report.warnings.end(), picture_.warnings.begin(), picture_.warnings.end());
         report.stages = stageTimes(milliseconds(start, lowered), milliseconds(lowered, Clock::now()), times_);
 
         if (!newImages)

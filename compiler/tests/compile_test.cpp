@@ -351,10 +351,26 @@ TEST(Compile, compatModeNestsAsDeepAsTheFormat) {
     EXPECT_THROW(compile(nested(asset::maxPictures), compat), LimitError);
 }
 
-TEST(Compile, tooManyTilesAreALimitError) {
+/// Beyond a limit of one item, only that item is left out.
+TEST(Compile, tooManyTilesAreLeftOut) {
     scene::Pattern pattern{
         {0, 0}, {0.01, 0.01}, std::make_shared<Group>(group({rect({0, 0}, {8, 30}, red)}))};
-    EXPECT_THROW(compile(picture(group({rect({0, 0}, {64, 64}, pattern)}))), LimitError);
+    const Result result =
+        compile(picture(group({rect({0, 0}, {64, 64}, pattern), rect({8, 8}, {16, 16}, red)})));
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_NE(result.warnings[0].find("tiles"), std::string::npos);
+    EXPECT_EQ(result.asset.paints.size(), 2u);
+}
+
+TEST(Compile, tooManyDashesAreLeftOut) {
+    scene::StrokeStyle stroke;
+    stroke.dashes = {1e-9, 1e-9};
+    Item line = rect({1, 1}, {60, 60}, red);
+    line.geometry = stroke;
+    const Result result = compile(picture(group({line, rect({8, 8}, {16, 16}, red)})));
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_NE(result.warnings[0].find("dashes"), std::string::npos);
+    EXPECT_EQ(result.asset.paints.size(), 2u);
 }
 
 TEST(Compile, namesItsStages) {

@@ -42,9 +42,11 @@ std::string becomesOf(const std::string& file, const Bytes& bytes) {
         svg::Options options;
         options.fileName = file;
         const svg::Document document = svg::load(bytes, options);
-        draw(compiler::compile(document.scene).asset);
+        const compiler::Result result = compiler::compile(document.scene);
+        draw(result.asset);
         if (document.warnings.empty())
-            return "picture";
+            return result.warnings.empty() ? "picture"
+                                           : fmt::format("warning: {}:{}", file, result.warnings.front());
         const svg::Warning& first = document.warnings.front();
         return fmt::format("warning: {}:{}:{}: {}", first.where.file, first.where.line, first.where.column,
                            first.message);
