@@ -1,7 +1,7 @@
 #include <vtm/image/bitmap.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "image/pixel_writer.hpp"
@@ -12,7 +12,18 @@ namespace {
 /// NaN becomes 0.
 float clamped(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
 
-unsigned rounded(float value, float max) { return unsigned(std::lround(clamped(value) * max)); }
+/// In doubles, where the product and the sum are exact.
+unsigned rounded(float value, int max) { return unsigned(double(clamped(value)) * max + 0.5); }
+
+/// The bytes of a row. Pictures have long runs of one colour: what is as the pixel before is copied.
+void writeRow(const PixelWriter& writer, const float* pixels, std::size_t count, std::uint8_t* to) {
+    const std::size_t bytes = writer.pixelBytes();
+    for (std::size_t x = 0; x < count; ++x, pixels += 4, to += bytes)
+        if (x > 0 && std::memcmp(pixels, pixels - 4, 4 * sizeof(float)) == 0)
+            std::memcpy(to, to - bytes, bytes);
+        else
+            writer.write(pixels, to);
+}
 
 }  // namespace
 
@@ -38,8 +49,7 @@ void PixelWriter::write(const float* premultiplied, std::uint8_t* to) const {
 void giveRows(const Raster& picture, const PixelWriter& writer, const RowSink& sink) {
     std::vector<std::uint8_t> row(std::size_t(picture.width) * writer.pixelBytes());
     for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x)
-            writer.write(picture.pixel(x, y), &row[std::size_t(x) * writer.pixelBytes()]);
+        writeRow(writer, picture.pixel(0, y), std::size_t(picture.width), row.data());
         sink(row);
     }
 }
@@ -57,9 +67,7 @@ void giveRows(const Bitmap& picture, const PixelWriter& writer, const RowSink& s
 
 Bitmap toBitmap(const Raster& raster) {
     Bitmap bitmap{raster.width, raster.height, std::vector<std::uint8_t>(raster.rgba.size())};
-    const PixelWriter writer;
-    for (std::size_t i = 0; i < raster.rgba.size(); i += 4)
-        writer.write(&raster.rgba[i], &bitmap.rgba[i]);
+    writeRow(PixelWriter(), raster.rgba.data(), raster.rgba.size() / 4, bitmap.rgba.data());
     return bitmap;
 }
 

@@ -19,7 +19,7 @@ Float4 bilinear(const Layer& layer, float x, float y) {
     return (1 - v) * above + v * below;
 }
 
-Layer cropped(const Layer& layer, const PixelBox& box) {
+Layer cropped(Layer layer, const PixelBox& box) {
     if (box.min == layer.box.min && box.max == layer.box.max)
         return layer;
     Layer result(box, layer.linear);

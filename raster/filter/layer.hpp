@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "raster/src/float4.hpp"
 #include "raster/src/pixel_box.hpp"
+#include "raster/src/pixel_memory.hpp"
 
 namespace vtm::asset {
 
@@ -14,10 +14,10 @@ namespace vtm::asset {
 struct Layer {
     PixelBox box;
     bool linear = false;
-    std::vector<Float4> pixels;
+    PixelMemory pixels;
 
     Layer() = default;
-    Layer(const PixelBox& of, bool isLinear) : box(of), linear(isLinear), pixels(of.area()) {}
+    Layer(const PixelBox& of, bool isLinear) : box(of), linear(isLinear), pixels(of.area(), Float4{}) {}
 
     int width() const { return box.width(); }
     int height() const { return box.height(); }
@@ -34,7 +34,7 @@ struct Layer {
 Float4 bilinear(const Layer& layer, float x, float y);
 
 /// The same pixels of another box.
-Layer cropped(const Layer& layer, const PixelBox& box);
+Layer cropped(Layer layer, const PixelBox& box);
 /// In linear light or sRGB-encoded.
 Layer converted(Layer layer, bool linear);
 /// Its alpha, black.
@@ -51,7 +51,6 @@ inline Float4 straightened(Float4 c) {
     const float scale = 1 / c[3];
     return c * Float4{scale, scale, scale, 1};
 }
-inline Float4 clamped(Float4 c) { return Float4{unit(c[0]), unit(c[1]), unit(c[2]), unit(c[3])}; }
 
 /// Calls change(colour) for each pixel and stores what it returns.
 template <class Change>

@@ -66,9 +66,9 @@ Layer convolve(const FilterStep& step) {
             Float4 color = sum * scale + bias * (preservesAlpha ? 1.0f : own[3]);
             if (preservesAlpha) {
                 color[3] = own[3];
-                color = premultiplied(clamped(color));
+                color = premultiplied(unit(color));
             } else {
-                color = clamped(color);
+                color = unit(color);
                 for (int c = 0; c < 3; ++c)
                     color[c] = std::min(color[c], color[3]);
             }

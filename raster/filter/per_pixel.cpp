@@ -92,7 +92,7 @@ Layer colorMatrix(const FilterStep& step) {
         const Float4 s = straightened(c);
         const Float4 changed =
             columns[0] * s[0] + columns[1] * s[1] + columns[2] * s[2] + columns[3] * s[3] + columns[4];
-        return premultiplied(clamped(changed));
+        return premultiplied(unit(changed));
     });
     return result;
 }
@@ -103,7 +103,7 @@ Layer componentTransfer(const FilterStep& step) {
     const Transfer red(step.parameters, next), green(step.parameters, next), blue(step.parameters, next),
         alpha(step.parameters, next);
     changePixels(result, [&](Float4 c) {
-        const Float4 s = clamped(straightened(c));
+        const Float4 s = unit(straightened(c));
         return premultiplied(Float4{red(s[0]), green(s[1]), blue(s[2]), alpha(s[3])});
     });
     return result;
@@ -124,13 +124,13 @@ Layer composite(const FilterStep& step) {
             return combined(step,
                             [](Float4 a, Float4 b) { return a * (1 - alphas(b)) + (1 - alphas(a)) * b; });
         case CompositeOp::Lighter:
-            return combined(step, [](Float4 a, Float4 b) { return clamped(a + b); });
+            return combined(step, [](Float4 a, Float4 b) { return unit(a + b); });
         case CompositeOp::Arithmetic:
             break;
     }
     const float k1 = p[1], k2 = p[2], k3 = p[3], k4 = p[4];
     return combined(step, [=](Float4 a, Float4 b) {
-        Float4 c = clamped(k1 * a * b + k2 * a + k3 * b + k4);
+        Float4 c = unit(k1 * a * b + k2 * a + k3 * b + k4);
         for (int i = 0; i < 3; ++i)
             c[i] = std::min(c[i], c[3]);
         return c;

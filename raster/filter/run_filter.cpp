@@ -44,8 +44,12 @@ namespace {
 
 /// What a picture has of the box that its view shows.
 Layer layerOf(const Canvas& canvas, const PixelBox& box) {
-    Layer layer(canvas.box().moved(box.min), false);
-    std::ranges::copy(canvas.pixels(), layer.pixels.begin());
+    const PixelBox drawn = canvas.bounds();
+    Layer layer(drawn.moved(box.min), false);
+    for (int y = drawn.min.y; y < drawn.max.y; ++y)
+        if (const PixelRun run = canvas.run(y); !run.empty())
+            std::copy(canvas.at(y, run.first), canvas.at(y, run.end),
+                      layer.row(y + box.min.y) + (run.first - drawn.min.x));
     return layer;
 }
 
@@ -183,8 +187,12 @@ Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace
                              .intersection({{0, 0}, {below.width, below.height}});
     if (result.empty() || box.empty())
         return Canvas(below);
+    if (!place.isSampled && place.toBelow[0] == glm::dvec2(1, 0) && place.toBelow[1] == glm::dvec2(0, 1)) {
+        result = cropped(std::move(result), box.moved(-glm::ivec2(place.toBelow[2])));
+        return {below, box, std::move(result.pixels)};
+    }
     const glm::dmat2 back = glm::inverse(glm::dmat2(place.toBelow[0], place.toBelow[1]));
-    std::vector<Float4> pixels;
+    PixelMemory pixels;
     pixels.reserve(box.area());
     for (int y = box.min.y; y < box.max.y; ++y) {
         limits::check();

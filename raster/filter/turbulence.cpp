@@ -161,7 +161,7 @@ Layer turbulence(const FilterStep& step) {
             Float4 color{};
             for (int c = 0; c < 4; ++c)
                 color[c] = float(fractal ? (sum[std::size_t(c)] + 1) / 2 : sum[std::size_t(c)]);
-            result.row(y)[x - step.box.min.x] = premultiplied(clamped(color));
+            result.row(y)[x - step.box.min.x] = premultiplied(unit(color));
         }
     }
     return result;

@@ -1,57 +1,102 @@
 /// \file
-/// A picture under a view that keeps only the pixels round what has been drawn on it.
+/// A picture under a view that keeps and visits only the pixels round what has been drawn on it.
 #pragma once
 
-#include <span>
+#include <algorithm>
 #include <vector>
 
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/view.hpp>
 #include "raster/src/float4.hpp"
 #include "raster/src/pixel_box.hpp"
+#include "raster/src/pixel_memory.hpp"
 
 namespace vtm::asset {
 
-/// Premultiplied sRGB-encoded pixels of a box of the view's raster; all others are transparent.
+/// Pixels first to end - 1 of a row of a raster.
+struct PixelRun {
+    int first = 0, end = 0;
+
+    bool empty() const { return first >= end; }
+    PixelRun intersection(const PixelRun& other) const {
+        return {std::max(first, other.first), std::min(end, other.end)};
+    }
+};
+
+/// Premultiplied sRGB-encoded pixels: of each row one run; all others are transparent.
 class Canvas {
 public:
     explicit Canvas(const View& of) : view_(of) {}
     /// `pixels`: of the box, row by row.
-    Canvas(const View& of, const PixelBox& box, std::vector<Float4> pixels)
-        : view_(of), box_(box), pixels_(std::move(pixels)) {}
+    Canvas(const View& of, const PixelBox& box, PixelMemory pixels)
+        : view_(of),
+          box_(box),
+          runs_(std::size_t(box.height()), PixelRun{box.min.x, box.max.x}),
+          pixels_(std::move(pixels)) {}
 
     const View& view() const { return view_; }
-    const PixelBox& box() const { return box_; }
     PixelBox whole() const { return {{0, 0}, {view_.width, view_.height}}; }
+    /// Round all runs.
+    PixelBox bounds() const;
 
-    /// Keeps the pixels of a box, which must lie in the raster, too.
-    void include(const PixelBox& box);
-    /// Forgets all pixels but those of a box.
-    void restrictTo(const PixelBox& box);
-    /// Pixels of a row of the raster, which is in the box, from box().min.x.
-    Float4* row(int y) { return pixels_.data() + offset(y); }
-    const Float4* row(int y) const { return pixels_.data() + offset(y); }
-    std::span<const Float4> pixels() const { return pixels_; }
+    /// Makes room for a box, which must lie in the raster.
+    void reserve(const PixelBox& box);
+    /// Makes `run` part of the run of row y, both in what was reserved; its first pixel.
+    Float4* extend(int y, const PixelRun& run) {
+        PixelRun& drawn = runs_[std::size_t(y - box_.min.y)];
+        if (drawn.empty()) {
+            drawn = run;
+            std::fill(at(y, run.first), at(y, run.end), Float4{});
+        } else {
+            if (run.first < drawn.first)
+                std::fill(at(y, run.first), at(y, std::exchange(drawn.first, run.first)), Float4{});
+            if (run.end > drawn.end)
+                std::fill(at(y, std::exchange(drawn.end, run.end)), at(y, run.end), Float4{});
+        }
+        return at(y, run.first);
+    }
+
+    /// Of a row of the raster.
+    PixelRun run(int y) const {
+        return y >= box_.min.y && y < box_.max.y ? runs_[std::size_t(y - box_.min.y)] : PixelRun{};
+    }
+    /// A pixel of a run, and those after it.
+    Float4* at(int y, int x) { return pixels_.data() + offset(y, x); }
+    const Float4* at(int y, int x) const { return pixels_.data() + offset(y, x); }
+
+    /// Calls change(run) for each row, which keeps of its run what that returns.
+    template <class Change>
+    void restrict(Change change) {
+        for (int y = box_.min.y; y < box_.max.y; ++y)
+            runs_[std::size_t(y - box_.min.y)] = change(y, run(y));
+    }
 
     /// The whole raster, each channel in [0, 1].
     image::Raster toRaster() const;
 
 private:
-    std::size_t offset(int y) const { return std::size_t(y - box_.min.y) * std::size_t(box_.width()); }
+    std::size_t offset(int y, int x) const {
+        return std::size_t(y - box_.min.y) * std::size_t(box_.width()) + std::size_t(x - box_.min.x);
+    }
 
     View view_;
-    PixelBox box_;
-    std::vector<Float4> pixels_;
+    PixelBox box_;  ///< of the memory
+    std::vector<PixelRun> runs_;
+    PixelMemory pixels_;
 };
 
 /// Calls change(pixel of `to`, of `from`) where `from` has pixels.
 template <class Change>
 void combine(const Canvas& from, Canvas& to, Change change) {
-    to.include(from.box());
-    for (int y = from.box().min.y; y < from.box().max.y; ++y) {
-        const Float4* source = from.row(y);
-        Float4* target = to.row(y) + (from.box().min.x - to.box().min.x);
-        for (int x = 0; x < from.box().width(); ++x)
+    const PixelBox box = from.bounds();
+    to.reserve(box);
+    for (int y = box.min.y; y < box.max.y; ++y) {
+        const PixelRun run = from.run(y);
+        if (run.empty())
+            continue;
+        const Float4* source = from.at(y, run.first);
+        Float4* target = to.extend(y, run);
+        for (int x = 0; x < run.end - run.first; ++x)
             target[x] = change(target[x], source[x]);
     }
 }

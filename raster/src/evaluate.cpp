@@ -33,6 +33,17 @@ struct Mask {
 
     /// Of a pixel of the box.
     float at(int x, int y) const { return unit(coverage.pixel(x - box.min.x, y - box.min.y)[0]); }
+    /// From the first to the last pixel of a row that is covered.
+    PixelRun covered(int y) const {
+        if (y < box.min.y || y >= box.max.y)
+            return {};
+        PixelRun run{box.min.x, box.max.x};
+        while (!run.empty() && at(run.first, y) == 0)
+            ++run.first;
+        while (!run.empty() && at(run.end - 1, y) == 0)
+            --run.end;
+        return run;
+    }
 };
 
 Mask coverageOf(const Paints& paints, const Map& map, const View& view) {
@@ -64,25 +75,27 @@ void fillMask(const Paints& paints, const Command& command, const MaterialFuncti
     if (mask.box.empty())
         return;
     const PixelCentres centre(top.view());
-    top.include(mask.box);
+    top.reserve(mask.box);
     for (int y = mask.box.min.y; y < mask.box.max.y; ++y) {
-        Float4* row = top.row(y);
-        for (int x = mask.box.min.x; x < mask.box.max.x; ++x) {
-            const float coverage = mask.at(x, y);
-            if (coverage == 0)
-                continue;
-            Float4& pixel = row[x - top.box().min.x];
-            pixel = over(coverage * float4(paints.color(command.paint, centre(x, y), materials)), pixel);
-        }
+        const PixelRun run = mask.covered(y);
+        if (run.empty())
+            continue;
+        Float4* pixel = top.extend(y, run);
+        for (int x = run.first; x < run.end; ++x, ++pixel)
+            if (const float coverage = mask.at(x, y); coverage > 0)
+                *pixel =
+                    over(coverage * float4(paints.color(command.paint, centre(x, y), materials)), *pixel);
     }
 }
 
 void clipMask(const Paints& paints, const Command& command, Canvas& top) {
     const Mask mask = coverageOf(paints, paints.asset().maps[command.map], top.view());
-    top.restrictTo(mask.box);
-    for (int y = top.box().min.y; y < top.box().max.y; ++y)
-        for (int x = top.box().min.x; x < top.box().max.x; ++x)
-            top.row(y)[x - top.box().min.x] *= mask.at(x, y);
+    top.restrict([&](int y, const PixelRun& run) {
+        const PixelRun kept = run.intersection(mask.covered(y));
+        for (int x = kept.first; x < kept.end; ++x)
+            *top.at(y, x) *= mask.at(x, y);
+        return kept;
+    });
 }
 
 Op maskOp(Command::Kind kind) {
@@ -107,13 +120,14 @@ void composite(const Canvas& source, const Command& command, Canvas& top) {
 
 /// Where the mask has no pixels, nothing is left.
 void applyMask(const Canvas& mask, Op op, Canvas& top) {
-    top.restrictTo(mask.box());
-    for (int y = top.box().min.y; y < top.box().max.y; ++y) {
-        const Float4* factors = mask.row(y) + (top.box().min.x - mask.box().min.x);
-        Float4* row = top.row(y);
-        for (int x = 0; x < top.box().width(); ++x)
-            row[x] *= op == Op::PopMaskAlpha ? factors[x][3] : maskFactor(op, toVec4(factors[x]));
-    }
+    top.restrict([&](int y, const PixelRun& run) {
+        const PixelRun kept = run.intersection(mask.run(y));
+        for (int x = kept.first; x < kept.end; ++x) {
+            const Float4 factor = *mask.at(y, x);
+            *top.at(y, x) *= op == Op::PopMaskAlpha ? factor[3] : maskFactor(op, toVec4(factor));
+        }
+        return kept;
+    });
 }
 
 /// The pictures that commands draw into.
@@ -169,25 +183,31 @@ private:
         if (box.empty())
             return;
         const View view = crop(canvas.view(), box);
-        const Raster drawn = scans_ ? scanned(command, view) : summed(command, view);
-        canvas.include(box);
-        for (int y = 0; y < view.height; ++y) {
-            const float* from = drawn.pixel(0, y);
-            Float4* row = canvas.row(y + box.min.y) + (box.min.x - canvas.box().min.x);
-            for (int x = 0; x < view.width; ++x, from += 4)
-                row[x] += Float4{from[0], from[1], from[2], from[3]};
-        }
+        canvas.reserve(box);
+        const PixelsToAddTo pixels = [&](int y, int first, int end) {
+            return reinterpret_cast<float*>(
+                canvas.extend(y + box.min.y, {first + box.min.x, end + box.min.x}));
+        };
+        if (scans_)
+            scan(command, view, pixels);
+        else
+            sum(command, view, pixels);
     }
 
-    Raster summed(const Command& command, const View& view) {
+    void sum(const Command& command, const View& view, const PixelsToAddTo& pixels) {
         const Paints& paints = paintsFrom(command.paint);
         Raster drawn(view.width, view.height);
         addColors(paints, paints.asset().maps[command.map], view, materials_, levels_, drawn);
-        return drawn;
+        for (int y = 0; y < view.height; ++y) {
+            const float* from = drawn.pixel(0, y);
+            float* to = pixels(y, 0, view.width);
+            for (int i = 0; i < 4 * view.width; ++i)
+                to[i] += from[i];
+        }
     }
 
     /// Faster where a map is seen once and whole.
-    Raster scanned(const Command& command, const View& view) const {
+    void scan(const Command& command, const View& view, const PixelsToAddTo& pixels) const {
         Command alone = command;
         alone.paint = 0;
         AssetView part = paints_.asset();
@@ -199,7 +219,7 @@ private:
             part.data = {};
             part.images = {};
         }
-        return Scanner(part).draw(view, materials_);
+        Scanner(part).add(view, pixels, materials_);
     }
 
     /// Where the paints of the next map begin.

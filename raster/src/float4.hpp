@@ -27,6 +27,12 @@ inline float largest(Float4 v) {
 /// precision makes, becomes 0.
 inline float unit(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
 
+inline Float4 unit(Float4 v) {
+    const Float4 zero{}, one{1, 1, 1, 1};
+    v = v > zero ? v : zero;
+    return v < one ? v : one;
+}
+
 /// Of straight colours.
 inline Float4 premultiplied(Float4 c) { return c * Float4{c[3], c[3], c[3], 1}; }
 inline Float4 over(Float4 source, Float4 backdrop) {

@@ -365,6 +365,10 @@ void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFun
     impl_->draw(view, materials, ByteStore(target, view.width));
 }
 
+void Scanner::add(const View& view, const PixelsToAddTo& pixels, const MaterialFunction& materials) const {
+    impl_->draw(view, materials, AddStore(pixels));
+}
+
 void Scanner::scan(const View& view, const std::function<void(int, const ColorRun&)>& take,
                    const MaterialFunction& materials) const {
     impl_->draw(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {

@@ -100,6 +100,38 @@ private:
     int width_;
 };
 
+class AddStore {
+public:
+    explicit AddStore(const PixelsToAddTo& pixels) : pixels_(pixels) {}
+
+    void operator()(int row, int first, int end, Float4 color) const {
+        const Float4 added = unit(color);
+        if (largest(added) == 0)
+            return;
+        float* at = pixels_(row, first, end);
+        for (; first < end; ++first, at += 4)
+            add(added, at);
+    }
+
+    void operator()(int row, int first, std::span<const Float4> colors) const {
+        float* at = pixels_(row, first, first + int(colors.size()));
+        for (const Float4& color : colors) {
+            add(unit(color), at);
+            at += 4;
+        }
+    }
+
+private:
+    static void add(Float4 color, float* to) {
+        Float4 sum;
+        std::memcpy(&sum, to, sizeof sum);
+        sum += color;
+        std::memcpy(to, &sum, sizeof sum);
+    }
+
+    const PixelsToAddTo& pixels_;
+};
+
 /// Calls pixels(row, first, end, colour), for single pixels too.
 template <class Run>
 class RunStore {

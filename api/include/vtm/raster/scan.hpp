@@ -31,6 +31,9 @@ struct ByteTarget {
     std::size_t rowBytes = 0;  ///< from one row to the next, at least 4 · view.width
 };
 
+/// Gives the floats of pixels first to end - 1 of row y, four each.
+using PixelsToAddTo = std::function<float*(int y, int first, int end)>;
+
 /// Pixels first to end - 1 of a row.
 struct ColorRun {
     int first, end;
@@ -63,8 +66,11 @@ public:
     /// The same in floats.
     image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
 
-    /// The same as runs of pixels of one colour, which is not clamped: row by row, from left to right, every
-    /// pixel once.
+    /// Adds what it draws, each channel in [0, 1], to pixels; asks for those that are not transparent.
+    void add(const View& view, const PixelsToAddTo& pixels, const MaterialFunction& materials = {}) const;
+
+    /// What draw() draws, as runs of pixels of one colour, which is not clamped: row by row, from left to
+    /// right, every pixel once.
     void scan(const View& view, const std::function<void(int y, const ColorRun& run)>& take,
               const MaterialFunction& materials = {}) const;
 
