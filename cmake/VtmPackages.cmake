@@ -50,7 +50,7 @@ set(same "(= ${PROJECT_VERSION})")
 set(development "libvtm0 ${same}" libglm-dev)
 vtm_package(lib libvtm0 libs "Vector pictures drawn exactly, on the CPU
 SVG files become compact maps of disjoint regions, which are drawn at any
-scale without seams. This package holds the library."
+scale without seams. This package holds the library." SUGGESTS libavif15
     RECOMMENDS libvtm-gl0 EXTRA ${PROJECT_BINARY_DIR}/package/triggers)
 if(TARGET libvtm_gl)
     list(APPEND development "libvtm-gl0 ${same}")

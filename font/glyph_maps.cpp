@@ -192,7 +192,7 @@ void GlyphMaps::add(std::span<const GlyphId> wanted) {
         if (!glyphs.contains(glyph))
             missing.push_back(glyph);
     std::ranges::sort(missing);
-    missing.erase(std::ranges::unique(missing).begin(), missing.end());
+    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
     std::vector<Path> outlines;
     for (const GlyphId glyph : missing) {
         const auto outline = outlineOf(glyph);

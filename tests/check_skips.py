@@ -15,6 +15,7 @@ FEATURES = [
     ("driver", r"the driver|no OpenGL ES 1\b|notice of resets|of the largest textures|no multisampled"),
     ("svg", r"svg-suite"),
     ("corpus", r"is absent|corpus"),
+    ("avif", r"built without libavif"),
     ("potrace", r"built without potrace"),
     ("glslang", r"glslangValidator"),
     ("valgrind", r"valgrind|callgrind"),

@@ -95,9 +95,7 @@ private:
         return commands.back();
     }
     void push(Command::Kind kind = Command::Kind::Push, std::uint32_t filter = 0) {
-        if (++depth_ > asset::maxPictures)
-            throw LimitError("groups with filters are nested more than " +
-                             std::to_string(asset::maxPictures - 1) + " levels deep");
+        ++depth_;
         emit(kind).map = filter;
     }
     void pop(Command::Kind kind) {
@@ -132,6 +130,21 @@ private:
         draw({baked(node, on.seen)}, on);
     }
 
+    /// On the stack while a group is drawn, without the groups in it: its own, its filter's inputs, a factor
+    /// and a map that is laid over others.
+    static unsigned picturesOf(const Group& g) {
+        const auto isPicture = [](const scene::FilterPrimitive& primitive) {
+            return std::holds_alternative<scene::PictureFilter>(primitive.operation);
+        };
+        const auto inputs = g.filter ? 1 + std::ranges::count_if(g.filter->primitives, isPicture) : 0;
+        return unsigned(3 + inputs);
+    }
+
+    void warn(std::string text) {
+        if (std::ranges::find(result_.warnings, text) == result_.warnings.end())
+            result_.warnings.push_back(std::move(text));
+    }
+
     /// What a group shows by itself.
     void content(const Group& g, Picture& on) {
         if (isPlain(g))
@@ -141,6 +154,11 @@ private:
     }
 
     void group(const Group& g, Picture& on) {
+        if (depth_ + picturesOf(g) > asset::maxPictures) {
+            warn("groups with filters are nested too deep; what would need more than " +
+                 std::to_string(asset::maxPictures) + " pictures at once is left out");
+            return;
+        }
         push();
         Picture inner{on.seen, on.endsAtFrame};
         if (g.filter)
@@ -285,8 +303,7 @@ private:
         for (const UnprovenSquare& square : drawn.unproven)
             result_.unproven.push_back({square.x + by.x, square.y + by.y, square.side});
         for (std::string& warning : drawn.warnings)
-            if (std::ranges::find(result_.warnings, warning) == result_.warnings.end())
-                result_.warnings.push_back(std::move(warning));
+            warn(std::move(warning));
         addTimes(drawn.stages);
         appendAsset(std::move(drawn.asset), by, result_.asset);
         if (!onTop)

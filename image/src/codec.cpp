@@ -25,7 +25,9 @@ Bitmap decode(std::span<const std::uint8_t> bytes) {
         return decodeWebp(bytes);
     if (isGif(bytes))
         return decodeGif(bytes);
-    throw CodecError("neither a PNG, JPEG, WebP nor GIF picture");
+    if (isAvif(bytes))
+        return decodeAvif(bytes);
+    throw CodecError("neither a PNG, JPEG, WebP, GIF nor AVIF picture");
 }
 
 }  // namespace vtm::image

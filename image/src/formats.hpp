@@ -20,12 +20,14 @@ bool isPng(Bytes bytes);
 bool isJpeg(Bytes bytes);
 bool isWebp(Bytes bytes);
 bool isGif(Bytes bytes);
+bool isAvif(Bytes bytes);
 
 /// Each throws CodecError, and checks the size before it allocates.
 Bitmap decodePng(Bytes bytes);
 Bitmap decodeJpeg(Bytes bytes);
 Bitmap decodeWebp(Bytes bytes);
 Bitmap decodeGif(Bytes bytes);
+Bitmap decodeAvif(Bytes bytes);
 
 /// Of sizes and options that makeEncoder() has checked.
 std::unique_ptr<Encoder> makePngEncoder(int width, int height, int depth);

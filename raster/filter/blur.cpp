@@ -67,7 +67,7 @@ Layer reduced(const Layer& layer, glm::ivec2 steps) {
     if (steps.x == 1 && steps.y == 1)
         return layer;
     Layer result(coarsened(layer.box, steps), layer.linear);
-    const float share = 1 / float(steps.x * steps.y);
+    const float share = 1 / (float(steps.x) * float(steps.y));
     for (int y = layer.box.min.y; y < layer.box.max.y; ++y) {
         limits::check();
         const Float4* from = layer.row(y);

@@ -67,6 +67,10 @@ public:
     void standFor(const limits::Place& image) { standsFor_ = image; }
 
 private:
+    struct NestedDocument;  // nested_document.hpp
+    /// Documents in documents in documents …
+    static constexpr int maxNested = 8;
+
     limits::Place placeOf(const Element& element) const {
         return standsFor_ ? *standsFor_ : reporter_.placeOf(element);
     }
@@ -113,6 +117,9 @@ private:
     void fillBackground(const Scope& scope, const Rect& canvas, Nodes& out);
     void convertViewport(const Element& element, const Rect& viewport, const Scope& scope, Nodes& out);
     void convertUse(const Element& element, const Scope& scope, Nodes& out);
+    /// An element of another file.
+    void convertForeignUse(const Element& use, std::string_view href, const Scope& scope, Nodes& out);
+    std::shared_ptr<NestedDocument> foreignDocument(std::string_view file, const Element& use);
     void convertUsed(const Element& use, const Element& target, const Scope& scope, Nodes& out);
     Viewport computeRootSize();
     void appendClipped(const Rect& rect, const scene::Affine& transform, Nodes content, Nodes& out);
@@ -177,6 +184,8 @@ private:
     void addClipShape(const Element& child, const Scope& scope,
                       const std::shared_ptr<const scene::Clip>& around, scene::Clip& clip);
     std::shared_ptr<const scene::Clip> clipOf(const Element& element, const Scope& scope, const Box& box);
+    /// Of a shape that clip-path names.
+    std::shared_ptr<const scene::Clip> shapeClip(const Element& element, const Scope& scope, const Box& box);
     std::shared_ptr<const scene::Mask> mask(const Element& maskElement, const Scope& scope, const Box& box);
     std::shared_ptr<const scene::Mask> maskOf(const Element& element, const Scope& scope, const Box& box);
 
@@ -224,7 +233,6 @@ private:
                        Nodes& out);
 
     // image.cpp
-    struct NestedDocument;
     using ImageContent =
         std::variant<std::monostate, std::shared_ptr<const image::Bitmap>, std::shared_ptr<NestedDocument>>;
     void convertImage(const Element& element, const Scope& scope, Nodes& out);
@@ -289,6 +297,8 @@ private:
     std::unordered_map<const Element*, PatternContent> patterns_;
     std::unordered_map<const Element*, std::vector<scene::GradientStop>> stops_;  ///< by their gradient
     std::unordered_map<std::string_view, ImageContent> images_;
+    std::unordered_map<std::string_view, std::shared_ptr<NestedDocument>>
+        foreign_;  ///< by file; null: not read
     std::unordered_set<const Element*> active_;
     std::unique_ptr<text::FontSet> fonts_;  ///< null until there is text
     /// Of glyphs that are documents; null for those that cannot be read.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "svg/convert/converter.hpp"
+#include "svg/css/clip_shape.hpp"
 #include "svg/css/property_values.hpp"
 
 namespace vtm::svg {
@@ -25,8 +26,29 @@ std::shared_ptr<const scene::Clip> Converter::clipOf(const Element& element, con
                                                      const Box& box) {
     if (scope.style.clipPath.empty())
         return nullptr;
-    const Element* clipPath = resource(scope.style.clipPath, Tag::ClipPath, element);
+    Cursor cursor(scope.style.clipPath);
+    const auto href = readUrl(cursor);
+    if (!href)
+        return shapeClip(element, scope, box);
+    const Element* clipPath = resource(*href, Tag::ClipPath, element);
     return clipPath ? clip(*clipPath, scope, box) : nullptr;
+}
+
+std::shared_ptr<const scene::Clip> Converter::shapeClip(const Element& element, const Scope& scope,
+                                                        const Box& box) {
+    const auto shape = parseClipShape(scope.style.clipPath, unitsFor(scope.style));
+    if (!shape)
+        return nullptr;
+    auto made = std::make_shared<scene::Clip>();
+    const Box reference =
+        shape->isInViewport ? Box{{0, 0}, {scope.viewport.width, scope.viewport.height}} : box;
+    if (reference.empty())
+        return made;
+    scene::Path path = outlineOf(*shape, reference);
+    if (!path.empty() && isDrawable(path, scope.transform))
+        made->shapes.push_back({std::make_shared<const scene::Path>(std::move(path)), scope.transform,
+                                shape->fillRule, nullptr, placeOf(element)});
+    return made;
 }
 
 std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, const Scope& scope,
@@ -151,8 +173,8 @@ std::shared_ptr<const scene::Mask> Converter::mask(const Element& element, const
     Scope& own = *ownScope;
     own.style = inner.style;
     content->mask = maskOf(element, own, box);
-    return std::make_shared<const scene::Mask>(
-        scene::Mask{std::move(content), inner.style.maskKind, inner.style.linearColors});
+    return std::make_shared<const scene::Mask>(scene::Mask{
+        std::move(content), scope.style.maskMode.value_or(inner.style.maskKind), inner.style.linearColors});
 }
 
 // ---- Effects ------------------------------------------------------------------------------------

@@ -111,7 +111,7 @@ void Converter::addFontFaces(text::FontSet& fonts) {
 bool Converter::addFontFace(text::FontSet& fonts, const text::FontFace& face, std::string_view url,
                             std::string& cause) {
     try {
-        fonts.add(face, readResource(url, options_.resourceDirectory));
+        fonts.add(face, readResource(url, options_.resourceDirectory, options_.resourceRoot));
         return true;
     } catch (const limits::Exceeded&) {
         throw;

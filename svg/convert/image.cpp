@@ -5,15 +5,11 @@
 #include <glm/common.hpp>
 
 #include <vtm/image/codec.hpp>
-#include "svg/convert/converter.hpp"
-#include "svg/xml/document.hpp"
+#include "svg/convert/nested_document.hpp"
 #include "svg/xml/resource.hpp"
 
 namespace vtm::svg {
 namespace {
-
-/// Images in images in images …
-constexpr int maxImageDepth = 8;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -38,17 +34,6 @@ Box shownPart(const Box& whole, const Rect& viewport, const AspectRatio& ratio,
 }
 
 }  // namespace
-
-struct Converter::NestedDocument {
-    Options options;
-    std::unique_ptr<ParsedDocument> parsed;
-    Converter converter;
-
-    NestedDocument(const Bytes& bytes, Options own, std::vector<Warning>& warnings, Budget& budget)
-        : options(std::move(own)),
-          parsed(parseDocument(bytes, options, warnings)),
-          converter(*parsed->tree, parsed->reporter, options, budget) {}
-};
 
 void Converter::convertImage(const Element& element, const Scope& scope, Nodes& out) {
     const auto href = hrefOf(element);
@@ -114,7 +99,7 @@ std::shared_ptr<Converter::NestedDocument> Converter::svgGlyph(const TextElement
 void Converter::convertSvgGlyph(const TextElement& text, const PlacedGlyph& glyph, const text::SvgGlyph& svg,
                                 const scene::Affine& transform, Nodes& out) {
     const std::shared_ptr<NestedDocument> document =
-        budget_.imageDepth < maxImageDepth ? svgGlyph(text, glyph, svg) : nullptr;
+        budget_.imageDepth < maxNested ? svgGlyph(text, glyph, svg) : nullptr;
     const Element* element =
         document ? document->parsed->tree->byId(fmt::format("glyph{}", glyph.id)) : nullptr;
     if (!element)
@@ -151,9 +136,9 @@ Converter::ImageContent Converter::imageContent(std::string_view href, const Ele
 }
 
 Converter::ImageContent Converter::loadImage(std::string_view href) {
-    const Bytes bytes = readResource(href, options_.resourceDirectory);
+    const Bytes bytes = readResource(href, options_.resourceDirectory, options_.resourceRoot);
     if (looksLikeSvg(bytes)) {
-        if (budget_.imageDepth >= maxImageDepth)
+        if (budget_.imageDepth >= maxNested)
             throw image::CodecError("images are nested too deep");
         Options options = options_;
         options.fileName = isDataUrl(href) ? "image in " + options_.fileName : std::string(href);

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 
-#include "svg/convert/converter.hpp"
+#include <vtm/image/codec.hpp>
+#include "svg/convert/nested_document.hpp"
 #include "svg/geometry/path_geometry.hpp"
+#include "svg/xml/resource.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -129,6 +133,8 @@ void Converter::appendClipped(const Rect& rect, const scene::Affine& transform, 
 void Converter::convertUse(const Element& element, const Scope& scope, Nodes& out) {
     const std::string_view href = hrefOf(element).value_or(std::string_view{});
     const Element* target = tree_.byHref(href);
+    if (!target && href.find('#') != href.npos && !href.starts_with('#'))
+        return convertForeignUse(element, href, scope, out);
     if (!target) {
         reporter_.warn(Kind::Reference, element,
                        href.empty() ? "refers to nothing"
@@ -144,6 +150,66 @@ void Converter::convertUse(const Element& element, const Scope& scope, Nodes& ou
     Scope inner = scope;
     inner.context = &context;
     convertUsed(element, *target, inner, out);
+}
+
+void Converter::convertForeignUse(const Element& use, std::string_view href, const Scope& scope, Nodes& out) {
+    const std::size_t end = href.find('#');
+    const std::shared_ptr<NestedDocument> document = foreignDocument(href.substr(0, end), use);
+    if (!document)
+        return;
+    const Element* target = document->parsed->tree->byHref(href.substr(end));
+    if (!target) {
+        reporter_.warn(Kind::Reference, use, "refers to " + quoted(href) + ", which is not there");
+        return;
+    }
+    Converter& other = document->converter;
+    const Expansion expansion(other.active_, *target);
+    if (!expansion) {
+        reporter_.warn(Kind::Reference, use, "refers to itself, directly or indirectly; it is left out");
+        return;
+    }
+    const ContextElement context{use, scope, {}};
+    Scope inner = scope;
+    inner.context = &context;
+    ++budget_.imageDepth;
+    other.standFor(placeOf(use));
+    other.outlineListeners_ += outlineListeners_;
+    other.convertUsed(use, *target, inner, out);
+    other.outlineListeners_ -= outlineListeners_;
+    --budget_.imageDepth;
+    if (outlineListeners_ > 0)
+        std::move(other.outlines_.begin(), other.outlines_.end(), std::back_inserter(outlines_));
+    other.outlines_.clear();
+}
+
+/// Its references start in its own folder; those of an image lead nowhere (SVG 2 section 2.2).
+std::shared_ptr<Converter::NestedDocument> Converter::foreignDocument(std::string_view file,
+                                                                      const Element& use) {
+    const auto [found, isNew] = foreign_.try_emplace(file);
+    if (!isNew)
+        return found->second;
+    try {
+        if (budget_.imageDepth >= maxNested)
+            throw image::CodecError("documents are nested too deep");
+        const std::vector<std::uint8_t> bytes =
+            readResource(file, options_.resourceDirectory, options_.resourceRoot);
+        Options options = options_;
+        options.fileName = isDataUrl(file) ? "document in " + options_.fileName : std::string(file);
+        options.exportId.clear();
+        if (!isDataUrl(file))
+            options.resourceDirectory =
+                (std::filesystem::path(options_.resourceDirectory) / percentDecoded(file))
+                    .parent_path()
+                    .string();
+        found->second =
+            std::make_shared<NestedDocument>(bytes, std::move(options), reporter_.warnings(), budget_);
+    } catch (const limits::Exceeded&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        reporter_.warn(Kind::Reference, use,
+                       "the document " + quoted(file.substr(0, 200)) + " cannot be used: " + error.what());
+    }
+    return found->second;
 }
 
 void Converter::convertUsed(const Element& use, const Element& target, const Scope& scope, Nodes& out) {

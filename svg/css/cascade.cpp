@@ -149,7 +149,8 @@ private:
             return reporter_.warn(Warning::Kind::Reference, element,
                                   "style sheets import each other too deeply");
         try {
-            const std::vector<std::uint8_t> bytes = readResource(href, options_.resourceDirectory);
+            const std::vector<std::uint8_t> bytes =
+                readResource(href, options_.resourceDirectory, options_.resourceRoot);
             const std::string text(bytes.begin(), bytes.end());
             read(tree_.ownedText.emplace_back(withoutComments(text)), element, depth + 1);
         } catch (const image::CodecError& error) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "svg/css/clip_shape.hpp"
 #include "svg/css/color.hpp"
 #include "svg/css/filter_values.hpp"
 
@@ -195,6 +196,21 @@ std::optional<scene::BlendMode> parseBlend(std::string_view text, const Units&) 
 std::optional<bool> parseIsolation(std::string_view text, const Units&) {
     static constexpr Keyword<bool> table[]{{"auto", false}, {"isolate", true}};
     return findKeyword(text, table);
+}
+
+std::optional<std::string_view> parseClipPath(std::string_view text, const Units& units) {
+    const auto href = parseReference(text, units);
+    if (href && href->empty())
+        return std::string_view{};
+    return href || parseClipShape(text, units) ? std::optional(text) : std::nullopt;
+}
+
+std::optional<std::optional<scene::MaskKind>> parseMaskMode(std::string_view text, const Units& units) {
+    using Mode = std::optional<scene::MaskKind>;
+    if (equalsIgnoringCase(text, "match-source"))
+        return Mode();
+    const auto kind = parseMaskType(text, units);
+    return kind ? std::optional(Mode(*kind)) : std::nullopt;
 }
 
 std::optional<scene::MaskKind> parseMaskType(std::string_view text, const Units&) {

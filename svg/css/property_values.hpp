@@ -67,6 +67,10 @@ std::optional<std::string_view> parseFilter(std::string_view text, const Units&)
 std::optional<std::array<PaintStage, 3>> parsePaintOrder(std::string_view text, const Units&);
 std::optional<scene::BlendMode> parseBlend(std::string_view text, const Units&);
 std::optional<bool> parseIsolation(std::string_view text, const Units&);
+/// `clip-path`: empty for none, else the whole value: a reference or a shape.
+std::optional<std::string_view> parseClipPath(std::string_view text, const Units& units);
+/// `mask-mode`: what a mask's own type gives way to; inside nothing: it does not.
+std::optional<std::optional<scene::MaskKind>> parseMaskMode(std::string_view text, const Units&);
 std::optional<scene::MaskKind> parseMaskType(std::string_view text, const Units&);
 std::optional<bool> parseColorInterpolation(std::string_view text, const Units&);
 /// color-interpolation-filters, whose `auto` is linear light.

@@ -27,6 +27,30 @@ void copyMarkers(Style& to, const Style& from) {
     to.markerEnd = from.markerEnd;
 }
 
+/// `mask`: of its layers the first, and of that the reference and the mode.
+bool applyMask(Style& style, std::string_view value, const Units& units) {
+    const auto mask = parseReference(value, units);
+    if (!mask)
+        return false;
+    style.mask = *mask;
+    style.maskMode.reset();
+    Cursor cursor(value.substr(0, extentOf(value, ",")));
+    cursor.advance(extentOf(cursor.rest(), " "));
+    while (cursor.skipSpaces(), !cursor.atEnd()) {
+        const std::string_view word = cursor.word();
+        if (const auto mode = parseMaskMode(word, units))
+            style.maskMode = *mode;
+        if (word.empty())
+            cursor.advance();
+    }
+    return true;
+}
+
+void copyMask(Style& to, const Style& from) {
+    to.mask = from.mask;
+    to.maskMode = from.maskMode;
+}
+
 bool applyOverflow(Style& style, std::string_view value, const Units& units) {
     const auto overflow = parseOverflow(value, units);
     if (overflow)
@@ -211,8 +235,10 @@ std::vector<Property> makeTable() {
         property<&Own::blend, parseBlend>("mix-blend-mode", false),
         property<&Own::isolated, parseIsolation>("isolation", false),
         {"overflow", true, false, applyOverflow, copyOverflow},
-        property<&Own::clipPath, parseReference>("clip-path"),
-        property<&Own::mask, parseReference>("mask"),
+        property<&Own::clipPath, parseClipPath>("clip-path"),
+        {"mask", true, false, applyMask, copyMask},
+        property<&Own::mask, parseReference>("mask-image", false),
+        property<&Own::maskMode, parseMaskMode>("mask-mode", false),
         property<&Own::filter, parseFilter>("filter"),
         property<&Own::maskKind, parseMaskType>("mask-type"),
         property<&Own::stopColor, parseColorValue>("stop-color"),

@@ -121,8 +121,10 @@ struct Own {
     scene::BlendMode blend = scene::BlendMode::Normal;
     bool isolated = false;
     std::optional<bool> overflow;  ///< whether it is visible, if declared
-    std::string_view clipPath, mask;
-    std::string_view filter;  ///< the whole value
+    std::string_view clipPath;     ///< the whole value
+    std::string_view mask;
+    std::optional<scene::MaskKind> maskMode;  ///< else that of the mask
+    std::string_view filter;                  ///< the whole value
     scene::MaskKind maskKind = scene::MaskKind::Luminance;
     ColorValue stopColor{false, {0, 0, 0, 1}};
     double stopOpacity = 1;

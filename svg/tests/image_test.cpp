@@ -128,6 +128,55 @@ protected:
 TEST_F(ImageFiles, AreReadBelowTheResourceDirectory) {
     EXPECT_EQ(itemsOf(load("<image href='a%20b.svg'/>")).size(), 1u);
 }
+TEST_F(ImageFiles, OutsideOfTheRootAreNotRead) {
+    std::filesystem::create_directories(folder_ / "below");
+    std::filesystem::create_symlink("../a b.svg", folder_ / "below" / "link.svg");
+    Options options;
+    options.resourceDirectory = (folder_ / "below").string();
+    for (const char* href : {"../a%20b.svg", "link.svg", "../below/../a%20b.svg"}) {
+        const std::string body = std::string("<image href='") + href + "'/>";
+        options.resourceRoot.clear();
+        EXPECT_EQ(itemsOf(loadText(document(body), options)).size(), 1u) << href;
+        options.resourceRoot = folder_.string();
+        EXPECT_EQ(itemsOf(loadText(document(body), options)).size(), 1u) << href;
+        options.resourceRoot = options.resourceDirectory;
+        const Document refused = loadText(document(body), options);
+        EXPECT_TRUE(itemsOf(refused).empty()) << href;
+        ASSERT_EQ(refused.warnings.size(), 1u) << href;
+        EXPECT_NE(refused.warnings[0].message.find("outside of the folder"), std::string::npos);
+    }
+}
+TEST_F(ImageFiles, ElementsOfOtherFilesAreUsed) {
+    std::filesystem::create_directories(folder_ / "icons");
+    std::ofstream(folder_ / "icons" / "sheet.svg") << document(
+        "<style>.a{stroke:blue}</style><symbol id='s' viewBox='0 0 2 2'>"
+        "<rect class='a' width='1' height='1'/></symbol><g id='g'><use href='leaf.svg#l'/></g>"
+        "<use id='loop' href='sheet.svg#loop'/>");
+    std::ofstream(folder_ / "icons" / "leaf.svg") << document("<circle id='l' r='1'/>");
+    const std::string sheet = "href='icons/sheet.svg#";
+    const Document symbol = load("<use fill='lime' x='10' width='20' height='20' " + sheet + "s'/>");
+    ASSERT_EQ(itemsOf(symbol).size(), 2u);
+    EXPECT_EQ(rgbOf(itemsOf(symbol)[0].paint), 0x00ff00);  // from the use
+    EXPECT_EQ(rgbOf(itemsOf(symbol)[1].paint), 0x0000ff);  // from its own sheet
+    expectNear(itemsOf(symbol)[0].transform, {10, 0, 0, 10, 10, 0});
+    EXPECT_EQ(itemsOf(load("<use " + sheet + "g'/>")).size(), 1u);
+    for (const char* name : {"loop", "none"}) {
+        const Document bad = load("<use " + sheet + name + "'/>");
+        EXPECT_TRUE(itemsOf(bad).empty()) << name;
+        EXPECT_EQ(bad.warnings.size(), 1u) << name;
+    }
+    EXPECT_EQ(load("<use href='none.svg#s'/>").warnings.size(), 1u);
+    EXPECT_TRUE(itemsOf(load("<use " + sheet + "s'/>", false)).empty());
+}
+TEST_F(ImageFiles, ElementsOfOtherFilesHaveBoxes) {
+    std::ofstream(folder_ / "sheet.svg") << document("<g id='g'><rect x='10' width='30' height='20'/></g>");
+    const Document loaded = load("<use href='sheet.svg#g' style='clip-path:inset(25%)'/>");
+    const auto& group = std::get<scene::Group>(loaded.scene.root.children.at(0).value);
+    ASSERT_TRUE(group.clip);
+    const Box box = boundingBox(*group.clip->shapes.at(0).path, group.clip->shapes.at(0).transform);
+    EXPECT_NEAR(box.min.x, 17.5, 1e-9);
+    EXPECT_NEAR(box.max.y, 15, 1e-9);
+}
 TEST_F(ImageFiles, StyleSheetsAreImported) {
     std::ofstream(folder_ / "a.css") << "@import 'b.css'; rect { fill: lime }";
     std::ofstream(folder_ / "b.css") << "@import 'a.css'; rect { fill: red; stroke: blue }";

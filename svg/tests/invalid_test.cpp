@@ -90,7 +90,7 @@ TEST(Invalid, PresentationAttributesAreNamed) {
                                                                     {"stroke-linejoin", "sharp"},
                                                                     {"stroke-miterlimit", "0.5"},
                                                                     {"stroke-dasharray", "5 -1"},
-                                                                    {"clip-path", "circle()"},
+                                                                    {"clip-path", "circle(-1px)"},
                                                                     {"visibility", "gone"},
                                                                     {"paint-order", "fill fill"}})
         expectInvalid("path", attribute, value);

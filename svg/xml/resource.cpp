@@ -45,6 +45,16 @@ std::vector<std::uint8_t> decodeBase64(std::string_view text) {
     return bytes;
 }
 
+bool liesBelow(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    std::error_code fileError, folderError;
+    const auto real = std::filesystem::weakly_canonical(file, fileError),
+               top = std::filesystem::weakly_canonical(folder, folderError);
+    if (fileError || folderError)
+        return false;
+    const auto relative = real.lexically_relative(top);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
 }  // namespace
 
 bool isDataUrl(std::string_view href) { return equalsIgnoringCase(href.substr(0, 5), "data:"); }
@@ -86,13 +96,16 @@ std::vector<std::uint8_t> decodeDataUrl(std::string_view href) {
     return {decoded.begin(), decoded.end()};
 }
 
-std::vector<std::uint8_t> readResource(std::string_view href, const std::string& directory) {
+std::vector<std::uint8_t> readResource(std::string_view href, const std::string& directory,
+                                       const std::string& root) {
     if (isDataUrl(href))
         return decodeDataUrl(href);
     const std::string path = percentDecoded(href.substr(0, href.find_first_of("#?")));
     if (path.empty() || directory.empty() || path.find(':') != path.npos || path.front() == '/')
         throw image::CodecError("is not a file that may be read");
     const std::filesystem::path file = std::filesystem::path(directory) / path;
+    if (!root.empty() && !liesBelow(file, root))
+        throw image::CodecError("is outside of the folder in which files may be read");
     std::error_code none;
     // Reading a pipe or a device may never end.
     if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))

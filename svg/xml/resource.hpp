@@ -19,8 +19,10 @@ std::string percentDecoded(std::string_view text);
 /// `data:TYPE;base64,…`
 std::string dataUrl(std::string_view type, std::span<const std::uint8_t> bytes);
 
-/// The bytes of a `data:` URL, or of a relative reference below `directory`. Absolute paths and other schemes
-/// are not read. Throws image::CodecError.
-std::vector<std::uint8_t> readResource(std::string_view href, const std::string& directory);
+/// The bytes of a `data:` URL, or of a relative reference from `directory`. Absolute paths and other schemes
+/// are not read, nor, unless `root` is empty, what lies outside of that folder once `..` and symbolic links
+/// are followed. Throws image::CodecError.
+std::vector<std::uint8_t> readResource(std::string_view href, const std::string& directory,
+                                       const std::string& root = {});
 
 }  // namespace vtm::svg

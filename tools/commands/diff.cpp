@@ -89,7 +89,7 @@ int diff(const DiffOptions& options) {
 void addDiff(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<DiffOptions>();
     CLI::App* command = app.add_subcommand("diff", "Show how far two pictures differ, in 1/255 of a channel");
-    command->add_option("A", options->first, "PNG, JPEG, WebP or GIF file, or - for standard input")
+    command->add_option("A", options->first, "PNG, JPEG, WebP, GIF or AVIF file, or - for standard input")
         ->required();
     command->add_option("B", options->second, "The same, or -")->required();
     command->add_option("-o,--output", options->output, "Write the differences as a PNG picture");

@@ -65,7 +65,7 @@ int run(const TraceOptions& options) {
 void addTrace(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<TraceOptions>();
     CLI::App* command = app.add_subcommand("trace", "Turn a bitmap into an SVG or a .vtm file");
-    command->add_option("IN", options->input, "PNG, JPEG, WebP or GIF file, or - for standard input")
+    command->add_option("IN", options->input, "PNG, JPEG, WebP, GIF or AVIF file, or - for standard input")
         ->required();
     command
         ->add_option("-o,--output", options->output, "The .svg or .vtm file, or - for SVG on standard output")

@@ -165,6 +165,8 @@ void addTextOptions(CLI::App& command, svg::Options& svg) {
         ->add_option("--default-font-size", svg.defaultFontSize,
                      "Font size in px where none is given; lengths in em use it")
         ->check(CLI::PositiveNumber);
+    group->add_option("--resource-root", svg.resourceRoot,
+                      "Files that pictures refer to are read below this folder only");
     group->add_option("--language", svg.language, "Of text and for systemLanguage, such as en or de-AT");
 }
 

@@ -102,9 +102,10 @@ std::vector<dvec3> medianCut(std::vector<Sample>& samples, int count) {
         const int axis = widest->widestAxis();
         const double at = widest->mean[axis];
         const std::span<Sample> inside = widest->samples;
-        const auto upper = std::ranges::partition(inside, [&](const Sample& s) { return s.lab[axis] < at; });
-        const std::size_t below = inside.size() - upper.size();
-        if (below == 0 || upper.empty())
+        const auto upper =
+            std::partition(inside.begin(), inside.end(), [&](const Sample& s) { return s.lab[axis] < at; });
+        const auto below = std::size_t(upper - inside.begin());
+        if (below == 0 || below == inside.size())
             break;
         *widest = Box(inside.first(below));
         boxes.push_back(Box(inside.subspan(below)));

@@ -22,7 +22,7 @@ class CodecError : public Error {
 /// Limit on decoded pixels: width * height beyond it is an error before anything is allocated.
 inline constexpr std::int64_t maxDecodedPixels = 1 << 26;
 
-/// PNG, JPEG, WebP or GIF (first frame), told apart by their signatures.
+/// PNG, JPEG, WebP, GIF (first frame) or AVIF (where libavif is installed), told apart by their signatures.
 Bitmap decode(std::span<const std::uint8_t> bytes);
 
 std::vector<std::uint8_t> encodePng(const Bitmap& bitmap);

@@ -51,7 +51,8 @@ struct Warning {
 
 struct Options {
     std::string fileName;           ///< for messages
-    std::string resourceDirectory;  ///< relative hrefs of images start here; empty: none are read
+    std::string resourceDirectory;  ///< relative hrefs start here; empty: no files are read
+    std::string resourceRoot;       ///< files outside of this folder are not read; empty: all may be
     double dpi = 96;
     /// CSS that comes before the document's own style sheets, so that these win where both say the same.
     std::string styleSheet;
