@@ -28,8 +28,8 @@ class Skia {
         const text = fs.readFileSync(file, 'utf8');
         this.items = [...text.matchAll(/<(path|g|\/g)\b([^>]*)>/g)].map(([, tag, attributes]) => {
             const of = Object.fromEntries([...attributes.matchAll(/([\w-]+)="([^"]*)"/g)].map(m => [m[1], m[2]]));
-            if (tag === 'g' && of.opacity !== undefined)
-                throw new Error('a canvas has no groups with an opacity');
+            if (tag === 'g' && (of.opacity ?? of.filter) !== undefined)
+                throw new Error('a canvas has no groups with an opacity or a filter');
             return tag === 'path' ? this.itemOf(of) : null;
         }).filter(Boolean);
     }

@@ -11,7 +11,8 @@ namespace {
 
 /// Throws where a group or a paint is more than paths of one colour over each other.
 void collect(const scene::Group& group, std::vector<Shape>& shapes) {
-    if (group.opacity != 1 || group.blend != scene::BlendMode::Normal || group.clip || group.mask)
+    if (group.opacity != 1 || group.blend != scene::BlendMode::Normal || group.clip || group.mask ||
+        group.filter)
         throw std::runtime_error("it is given paths alone, and no groups that are composited");
     for (const scene::Node& node : group.children) {
         if (const auto* inner = std::get_if<scene::Group>(&node.value)) {

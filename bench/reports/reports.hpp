@@ -27,6 +27,8 @@ Report sides(const Options& options);
 Report texture(const Options& options);
 /// Pages of text from the file to pixels, beside the peers.
 Report text(const Options& options);
+/// Pictures with filters from the file to pixels, beside the peers.
+Report filters(const Options& options);
 /// Pages of text as textures, beside a bitmap of one.
 Report pages(const Options& options);
 /// Context, programs, first frame, in fresh processes with a cold and a warm cache of shaders.
