@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <vtm/limits/limits.hpp>
 #include "raster/filter/operations.hpp"
@@ -83,17 +84,35 @@ Layer reduced(const Layer& layer, glm::ivec2 steps) {
     return result;
 }
 
-/// to[i] = Σ kernel[|k|] · from[first + i + k], transparent beyond `length` pixels.
-void convolveRow(const Float4* from, int length, int first, const std::vector<float>& kernel, Float4* to,
-                 int count) {
-    const int reach = int(kernel.size()) - 1;
-    for (int i = 0; i < count; ++i) {
-        const int centre = first + i;
-        const int low = std::max(-reach, -centre), high = std::min(reach, length - 1 - centre);
-        Float4 sum{};
-        for (int k = low; k <= high; ++k)
-            sum += kernel[std::size_t(std::abs(k))] * from[centre + k];
-        to[i] = sum;
+/// So many pixels are computed at once, in registers.
+constexpr int atOnce = 4;
+
+/// A weight in each channel, from the left end to the right, between atOnce - 1 zeros.
+std::vector<Float4> spread(const std::vector<float>& kernel) {
+    const std::size_t reach = kernel.size() - 1, margin = atOnce - 1;
+    std::vector<Float4> weights(2 * (reach + margin) + 1);
+    for (std::size_t i = 0; i <= reach; ++i) {
+        const Float4 weight{kernel[i], kernel[i], kernel[i], kernel[i]};
+        weights[margin + reach + i] = weights[margin + reach - i] = weight;
+    }
+    return weights;
+}
+
+/// to[i] = Σ kernel[|k|] · from[i + k + reach], for atOnce pixels more than `count` at most; `from` has as
+/// many more.
+void convolveRow(const Float4* from, const std::vector<Float4>& weights, Float4* to, int count) {
+    const int taps = int(weights.size()) - (atOnce - 1);
+    for (int i = 0; i < count; i += atOnce, from += atOnce, to += atOnce) {
+        Float4 a{}, b{}, c{}, d{};
+        const Float4* weight = weights.data() + (atOnce - 1);
+        for (int k = 0; k < taps; ++k, ++weight) {
+            const Float4 color = from[k];
+            a += weight[0] * color;
+            b += weight[-1] * color;
+            c += weight[-2] * color;
+            d += weight[-3] * color;
+        }
+        to[0] = a, to[1] = b, to[2] = c, to[3] = d;
     }
 }
 
@@ -101,11 +120,48 @@ Layer alongRows(const Layer& layer, const std::vector<float>& kernel, int left, 
     if (kernel.empty())
         return cropped(layer, {{left, layer.box.min.y}, {right, layer.box.max.y}});
     Layer result({{left, layer.box.min.y}, {right, layer.box.max.y}}, layer.linear);
-    for (int y = layer.box.min.y; y < layer.box.max.y && !result.empty(); ++y) {
+    if (result.empty() || layer.empty())
+        return result;
+    // A row of the layer with what the result's pixels read beside it, transparent.
+    const int reach = int(kernel.size()) - 1, first = left - reach;
+    const std::vector<Float4> weights = spread(kernel);
+    std::vector<Float4> row(std::size_t(right - left + 2 * (reach + atOnce))),
+        blurred(std::size_t(right - left + atOnce));
+    const int from = std::max(first, layer.box.min.x), to = std::min(right + reach, layer.box.max.x);
+    for (int y = layer.box.min.y; y < layer.box.max.y && from < to; ++y) {
         limits::check();
-        convolveRow(layer.row(y), layer.width(), left - layer.box.min.x, kernel, result.row(y), right - left);
+        std::copy_n(layer.row(y) + (from - layer.box.min.x), to - from, row.begin() + (from - first));
+        convolveRow(row.data(), weights, blurred.data(), right - left);
+        std::copy_n(blurred.begin(), right - left, result.row(y));
     }
     return result;
+}
+
+/// to[x] = Σ weights · rows, over so many rows of `width` pixels.
+void convolveColumns(const Float4* from, std::ptrdiff_t rowPixels, std::span<const float> weights, Float4* to,
+                     int width) {
+    int x = 0;
+    for (; x + atOnce <= width; x += atOnce) {
+        Float4 a{}, b{}, c{}, d{};
+        const Float4* color = from + x;
+        for (const float weight : weights) {
+            a += weight * color[0];
+            b += weight * color[1];
+            c += weight * color[2];
+            d += weight * color[3];
+            color += rowPixels;
+        }
+        to[x] = a, to[x + 1] = b, to[x + 2] = c, to[x + 3] = d;
+    }
+    for (; x < width; ++x) {
+        const Float4* color = from + x;
+        Float4 sum{};
+        for (const float weight : weights) {
+            sum += weight * *color;
+            color += rowPixels;
+        }
+        to[x] = sum;
+    }
 }
 
 Layer alongColumns(const Layer& layer, const std::vector<float>& kernel, int top, int bottom) {
@@ -113,16 +169,16 @@ Layer alongColumns(const Layer& layer, const std::vector<float>& kernel, int top
         return cropped(layer, {{layer.box.min.x, top}, {layer.box.max.x, bottom}});
     Layer result({{layer.box.min.x, top}, {layer.box.max.x, bottom}}, layer.linear);
     const int reach = int(kernel.size()) - 1, width = result.width();
+    std::vector<float> weights(2 * kernel.size() - 1);
+    for (int k = -reach; k <= reach; ++k)
+        weights[std::size_t(k + reach)] = kernel[std::size_t(std::abs(k))];
     for (int y = top; y < bottom && width > 0; ++y) {
         limits::check();
-        Float4* to = result.row(y);
-        const int low = std::max(y - reach, layer.box.min.y), high = std::min(y + reach, layer.box.max.y - 1);
-        for (int other = low; other <= high; ++other) {
-            const float weight = kernel[std::size_t(std::abs(other - y))];
-            const Float4* from = layer.row(other);
-            for (int x = 0; x < width; ++x)
-                to[x] += weight * from[x];
-        }
+        const int low = std::max(y - reach, layer.box.min.y), end = std::min(y + reach + 1, layer.box.max.y);
+        if (low < end)
+            convolveColumns(layer.row(low), width,
+                            std::span(weights).subspan(std::size_t(low - y + reach), std::size_t(end - low)),
+                            result.row(y), width);
     }
     return result;
 }
