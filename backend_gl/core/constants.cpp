@@ -9,6 +9,7 @@
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/tiles/tile.hpp"
 #include "raster/coverage.hpp"
+#include "raster/filter_tables.hpp"
 
 namespace vtm::gl {
 
@@ -71,6 +72,28 @@ std::string blendModes() {
            constant("blendPlusLighter", Blend::PlusLighter);
 }
 
+std::string filterPrimitives() {
+    using asset::FilterOp;
+    return constant("primitiveBlend", FilterOp::Blend) +
+           constant("primitiveColorMatrix", FilterOp::ColorMatrix) +
+           constant("primitiveComponentTransfer", FilterOp::ComponentTransfer) +
+           constant("primitiveComposite", FilterOp::Composite) +
+           constant("primitiveDropShadow", FilterOp::DropShadow) +
+           constant("primitiveFlood", FilterOp::Flood) + constant("primitivePicture", FilterOp::Picture) +
+           constant("primitiveOffset", FilterOp::Offset) + constant("primitiveTile", FilterOp::Tile);
+}
+
+std::string filterParameters() {
+    using asset::CompositeOp, asset::FilterEdge, asset::LightKind, asset::TransferKind;
+    return constant("compositeOver", CompositeOp::Over) + constant("compositeIn", CompositeOp::In) +
+           constant("compositeOut", CompositeOp::Out) + constant("compositeAtop", CompositeOp::Atop) +
+           constant("compositeXor", CompositeOp::Xor) + constant("compositeLighter", CompositeOp::Lighter) +
+           constant("transferDiscrete", TransferKind::Discrete) +
+           constant("transferLinear", TransferKind::Linear) + constant("transferGamma", TransferKind::Gamma) +
+           constant("edgeWrap", FilterEdge::Wrap) + constant("edgeNone", FilterEdge::None) +
+           constant("lightDistant", LightKind::Distant) + constant("lightSpot", LightKind::Spot);
+}
+
 std::string actions() {
     return constant("actionClip", Action::Clip) + constant("actionMask", Action::Mask) +
            constant("actionOver", Action::Over);
@@ -79,5 +102,12 @@ std::string actions() {
 }  // namespace
 
 std::string glslConstants() { return layout() + tiles() + operations() + blendModes() + actions(); }
+
+std::string filterConstants() {
+    return filterPrimitives() + filterParameters() + constant("blurReduce", BlurAction::Reduce) +
+           constant("blurKernel", BlurAction::Kernel) +
+           fmt::format("const int maxBlurKernel = {};\nconst float layerSteps = 65535.0;\n",
+                       asset::maxBlurKernel);
+}
 
 }  // namespace vtm::gl

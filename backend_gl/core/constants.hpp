@@ -19,7 +19,16 @@ enum class Action : unsigned {
     Over   ///< popped picture · opacity, blended over
 };
 
+/// What blur_fragment.glsl does along an axis.
+enum class BlurAction : unsigned {
+    Reduce,  ///< to means over coarse pixels
+    Kernel,
+    Enlarge  ///< coarse pixels back to pixels
+};
+
 /// Declarations that follow prelude.glsl in every shader, made from asset.hpp's and these.
 std::string glslConstants();
+/// Those that only filters need.
+std::string filterConstants();
 
 }  // namespace vtm::gl

@@ -24,12 +24,6 @@ dvec2 viewCentre(const asset::View& view) {
 
 }  // namespace
 
-PixelBox PixelBox::joined(const PixelBox& other) const {
-    if (empty())
-        return other;
-    return other.empty() ? *this : PixelBox{glm::min(min, other.min), glm::max(max, other.max)};
-}
-
 PixelBox pixelsOf(const DrawnMask& drawn, const asset::Map& map, const asset::View& view) {
     if (drawn.min.x >= drawn.max.x)
         return {};

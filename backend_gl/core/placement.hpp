@@ -10,17 +10,11 @@
 #include <vtm/asset/asset.hpp>
 #include <vtm/raster/view.hpp>
 #include "backend_gl/layers/instances.hpp"
+#include "raster/pixel_box.hpp"
 
 namespace vtm::gl {
 
-/// Pixels [min, max).
-struct PixelBox {
-    glm::ivec2 min{0}, max{0};
-    glm::ivec2 size() const { return max - min; }
-    bool empty() const { return min.x >= max.x || min.y >= max.y; }
-    /// The smallest box that holds both.
-    PixelBox joined(const PixelBox& other) const;
-};
+using asset::PixelBox;
 
 /// The pixels of `view` that a drawn mask can touch.
 PixelBox pixelsOf(const DrawnMask& drawn, const asset::Map& map, const asset::View& view);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/shader_text.hpp"
 
 namespace vtm::gl {
@@ -44,6 +45,11 @@ void bindUnits(const Program& program) {
     glUniform1i(program.uniform("tiles"), int(Unit::Tiles));
     glUniform1i(program.uniform("layer"), int(Unit::Layer));
     glUniform1i(program.uniform("backdrop"), int(Unit::Backdrop));
+    // Of filters: their inputs, or the tables of noise.
+    glUniform1i(program.uniform("first"), int(Unit::Layer));
+    glUniform1i(program.uniform("second"), int(Unit::Backdrop));
+    glUniform1i(program.uniform("lattice"), int(Unit::Layer));
+    glUniform1i(program.uniform("places"), int(Unit::Backdrop));
     checkErrors("program");
 }
 
@@ -73,6 +79,15 @@ const Program& Programs::layer() { return get(Kind::Layer, {}); }
 const Program& Programs::blend() { return get(Kind::Blend, {}); }
 
 const Program& Programs::compose(Finish finish) { return get(Kind::Compose, {}, 0, finish); }
+
+const Program& Programs::filter(FilterProgram program) {
+    auto found = filters_.find(program);
+    if (found == filters_.end()) {
+        found = filters_.emplace(program, Program(filterSource(program), cache_)).first;
+        bindUnits(found->second);
+    }
+    return found->second;
+}
 
 const Program& Programs::get(Kind kind, Features features, unsigned materialSet, Finish finish) {
     const std::tuple key(kind, features.flags(), features.has(Features::Material) ? materialSet : 0,
@@ -127,6 +142,48 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
     }
 }
 
+ProgramSource Programs::filterSource(FilterProgram program) {
+    using namespace shaders;
+    const std::string constants = filterConstants();
+    switch (program) {
+        case FilterProgram::Source:
+            return {"filter source",
+                    {screen_vertex},
+                    {constants, shaders::blend, store, colors, source_fragment}};
+        case FilterProgram::PerPixel:
+            return {"filter per pixel",
+                    {screen_vertex},
+                    {constants, fetch, shaders::blend, shaders::layer, store, colors, numbers,
+                     per_pixel_fragment}};
+        case FilterProgram::Blur:
+            return {"blur", {screen_vertex}, {constants, shaders::layer, store, blur_fragment}};
+        case FilterProgram::Extreme:
+            return {"morphology", {screen_vertex}, {constants, shaders::layer, store, extreme_fragment}};
+        case FilterProgram::Move:
+            return {"filter move",
+                    {screen_vertex},
+                    {constants, shaders::blend, shaders::layer, store, colors, move_fragment}};
+        case FilterProgram::Convolve:
+            return {"convolution",
+                    {screen_vertex},
+                    {constants, fetch, shaders::blend, shaders::layer, store, colors, numbers,
+                     convolve_fragment}};
+        case FilterProgram::Light:
+            return {
+                "lighting",
+                {screen_vertex},
+                {constants, fetch, shaders::blend, shaders::layer, store, colors, numbers, light_fragment}};
+        case FilterProgram::Turbulence:
+            return {"turbulence",
+                    {screen_vertex},
+                    {constants, shaders::blend, store, colors, turbulence_fragment}};
+        default:
+            return {"filter result",
+                    {screen_vertex},
+                    {constants, shaders::blend, shaders::layer, colors, result_fragment}};
+    }
+}
+
 ProgramSource idsSource() {
     using namespace shaders;
     return {"ids", {screen_vertex}, {fetch, id_fragment}};
@@ -152,6 +209,8 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Tile, features, allFinishes);
     }
     sources.push_back(idsSource());
+    for (unsigned program = 0; program < filterProgramCount; ++program)
+        sources.push_back(filterSource(FilterProgram(program)));
     for (unsigned finish = 0; finish <= allFinishes; ++finish) {
         add(Kind::Flat, 0, finish);
         add(Kind::Compose, 0, finish);
@@ -165,10 +224,14 @@ std::vector<ProgramSource> Programs::everySource() {
 
 ProgramFigures Programs::figures() const {
     ProgramFigures figures;
-    for (const auto& [key, program] : programs_) {
+    const auto count = [&](const Program& program) {
         ++figures.made;
         figures.compiled += program.compiled() ? 1 : 0;
-    }
+    };
+    for (const auto& [key, program] : programs_)
+        count(program);
+    for (const auto& [key, program] : filters_)
+        count(program);
     return figures;
 }
 

@@ -35,6 +35,20 @@ enum class LeafProgram : unsigned {
 };
 inline constexpr unsigned leafProgramCount = 2;
 
+/// Programs of filters.
+enum class FilterProgram : unsigned {
+    Source,  ///< a picture as a layer
+    PerPixel,
+    Blur,
+    Extreme,
+    Move,
+    Convolve,
+    Light,
+    Turbulence,
+    Result  ///< a layer in a picture
+};
+inline constexpr unsigned filterProgramCount = 9;
+
 /// Texture units, the same in every program.
 enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Tiles };
 inline constexpr std::size_t unitCount = 6;
@@ -60,6 +74,7 @@ public:
     const Program& blend();
     /// A finished picture into a user's framebuffer.
     const Program& compose(Finish finish);
+    const Program& filter(FilterProgram program);
 
     ProgramFigures figures() const;
 
@@ -72,6 +87,8 @@ private:
     const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
     static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
 
+    static ProgramSource filterSource(FilterProgram program);
+
     struct MaterialSet {
         std::vector<asset::Material> materials;
         std::string source;
@@ -79,6 +96,7 @@ private:
     ProgramCache cache_;
     std::vector<MaterialSet> materialSets_{{{}, materialsSource({})}};
     std::map<std::tuple<Kind, unsigned, unsigned, unsigned>, Program> programs_;
+    std::map<FilterProgram, Program> filters_;
 };
 
 }  // namespace vtm::gl

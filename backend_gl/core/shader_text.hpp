@@ -14,6 +14,9 @@ extern const std::string_view flat_vertex, flat_fragment;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment;
 extern const std::string_view sample_asset, sample_prefilter, sample_tree, sample_maps, sample_page, sample;
 extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_fragment;
+extern const std::string_view layer, store, colors, numbers;
+extern const std::string_view source_fragment, per_pixel_fragment, blur_fragment, extreme_fragment,
+    move_fragment, convolve_fragment, light_fragment, turbulence_fragment, result_fragment;
 extern const std::string_view output, compose_fragment, screen_vertex, id_fragment;
 
 }  // namespace vtm::gl::shaders

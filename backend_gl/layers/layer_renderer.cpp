@@ -6,6 +6,8 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include "backend_gl/filters/run_filter.hpp"
+
 namespace vtm::gl {
 
 std::optional<glm::ivec2> Shelves::place(glm::ivec2 rectangle) {
@@ -67,28 +69,54 @@ std::vector<Range> runsOf(const InstanceList& list, const std::vector<std::uint3
 Resources::Resources(const std::string& cacheDirectory)
     : programs(cacheDirectory), vertexArray(makeVertexArray()), boxes(makeBuffer()) {}
 
-LayerRenderer::LayerRenderer(Resources& resources, UploadedAsset& asset, const asset::View& view)
+LayerRenderer::LayerRenderer(Resources& resources, UploadedAsset& asset, const asset::View& view,
+                             GLenum format, bool markOverruns)
     : resources_(resources),
       asset_(asset),
       view_(view),
+      format_(format),
+      markOverruns_(markOverruns),
       shelves_({view.width, view.height}),
       isPending_(asset.list.drawn.size()) {}
 
 Target LayerRenderer::paint() {
-    glBindVertexArray(resources_.vertexArray.get());
-    glViewport(0, 0, view_.width, view_.height);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
-    bindAsset();
-    stack_.push_back(resources_.pool.take());
+    push(view_);
     for (const Command& command : asset_.commands)
         execute(command);
     flushFills();
     if (coverage_.texture.get() != 0)
         resources_.pool.giveBack(std::move(coverage_));
-    Target picture = std::move(stack_.back());
+    Target picture = std::move(top().target);
     stack_.clear();
     return picture;
+}
+
+// ---- The stack ------------------------------------------------------------------------------------
+
+void LayerRenderer::push(asset::View view) {
+    stack_.push_back({view, {}});
+    if (!top().empty())
+        top().target = resources_.pool.take({view.width, view.height}, format_);
+    enterTop();
+}
+
+void LayerRenderer::giveBack(Picture&& picture) {
+    if (!picture.empty())
+        resources_.pool.giveBack(std::move(picture.target));
+}
+
+void LayerRenderer::enterTop() {
+    const glm::ivec2 size(top().view.width, top().view.height);
+    if (top().empty())
+        return;
+    glBindVertexArray(resources_.vertexArray.get());
+    glViewport(0, 0, size.x, size.y);
+    bindAsset();
+    if (coverage_.texture.get() != 0 && coverage_.size != size)
+        resources_.pool.giveBack(std::move(coverage_));
+    shelves_ = Shelves(size);
 }
 
 void LayerRenderer::bindAsset() {
@@ -102,13 +130,63 @@ void LayerRenderer::execute(const Command& command) {
         return fill(command);
     flushFills();
     switch (command.kind) {
+        case Command::Kind::DrawMap:
+            return drawMap(asset_.atlases[nextAtlas_++]);
         case Command::Kind::ClipMask:
             return clip(*asset_.list.drawnOfMap[command.map]);
         case Command::Kind::Push:
-            return stack_.push_back(resources_.pool.take());
+            return push(top().view);
+        case Command::Kind::PushInput:
+            return pushInput(command.map);
+        case Command::Kind::Filter:
+            return filter(asset_.filters.filters[command.map]);
         default:
             return pop(command);
     }
+}
+
+// ---- Maps and filters -----------------------------------------------------------------------------
+
+void LayerRenderer::drawMap(Atlas& atlas) {
+    if (top().empty())
+        return;
+    const PixelBox whole{{0, 0}, top().target.size};
+    top().target.bind();
+    top().target.touch(whole);
+    glBlendFunc(GL_ONE, GL_ONE);
+    gl::drawMap(resources_.programs, resources_.picture, asset_, atlas, top().view, whole, {}, markOverruns_);
+    enterTop();
+}
+
+void LayerRenderer::pushInput(std::uint32_t index) {
+    const asset::Filter& filter = asset_.filters.filters[index];
+    const Picture& last = top();
+    const bool goesOn = last.place && last.filter == index && last.number + 1 < filter.pictures;
+    const auto place = goesOn ? last.place
+                              : std::make_shared<const asset::FilterPlace>(asset::placeOf(
+                                    asset_.filters, filter, last.view, limit(GL_MAX_TEXTURE_SIZE)));
+    const std::uint32_t number = goesOn ? last.number + 1 : 0;
+    push(place->viewOf(number));
+    top().place = place;
+    top().filter = index;
+    top().number = number;
+}
+
+void LayerRenderer::filter(const asset::Filter& filter) {
+    const auto place = top().place;
+    std::vector<Target> inputs;
+    for (auto from = stack_.end() - std::ptrdiff_t(filter.pictures); from != stack_.end(); ++from)
+        inputs.push_back(std::move(from->target));
+    stack_.resize(stack_.size() - filter.pictures);
+    push(top().view);
+    if (!top().empty()) {
+        FilterLayers layers(resources_.programs, resources_.pool, asset_);
+        drawFilter(layers, asset_.filters, filter, *place, inputs, top().target);
+    }
+    for (Target& input : inputs)
+        if (input.texture.get() != 0)
+            resources_.pool.giveBack(std::move(input));
+    enterTop();
 }
 
 // ---- Masks ----------------------------------------------------------------------------------------
@@ -132,8 +210,10 @@ void LayerRenderer::drawInstances(const std::vector<std::uint32_t>& drawn) {
 }
 
 void LayerRenderer::fill(const Command& command) {
+    if (top().empty())
+        return;
     const std::uint32_t drawn = *asset_.list.drawnOfMap[command.map];
-    const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[command.map], view_);
+    const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[command.map], top().view);
     if (box.empty())
         return;
     std::optional<glm::ivec2> place;
@@ -154,7 +234,7 @@ void LayerRenderer::flushFills() {
     std::vector<Box> boxes;
     for (const PendingFill& fill : pending_) {
         boxes.push_back(boxOf(fill.box, fill.place - fill.box.min, fill.paint));
-        stack_.back().touch(fill.box);
+        top().target.touch(fill.box);
         isPending_[fill.drawn] = false;
     }
     useFill();
@@ -167,13 +247,13 @@ void LayerRenderer::flushFills() {
 /// Of all pending fills, into the coverage target.
 void LayerRenderer::drawCoverage() {
     if (coverage_.texture.get() == 0)
-        coverage_ = resources_.pool.take();
+        coverage_ = resources_.pool.take(top().target.size);
     clear(coverage_, coverage_.touched);
     std::vector<std::uint32_t> drawn;
     std::uint32_t first = ~0u, last = 0;
     for (const PendingFill& fill : pending_) {
         const std::uint32_t map = asset_.list.drawn[fill.drawn].map;
-        asset_.placements[map] = placementOf(asset_.maps[map], view_, fill.place - fill.box.min,
+        asset_.placements[map] = placementOf(asset_.maps[map], top().view, fill.place - fill.box.min,
                                              {fill.place, fill.place + fill.box.size()});
         first = std::min(first, map);
         last = std::max(last, map);
@@ -182,14 +262,17 @@ void LayerRenderer::drawCoverage() {
     bindTexture(Unit::Placements, asset_.placementTexels);
     asset_.uploadPlacements(first, last);
     coverage_.bind();
-    coverage_.touched = {{0, 0}, {view_.width, shelves_.height()}};
+    coverage_.touched = {{0, 0}, {top().view.width, shelves_.height()}};
     drawInstances(drawn);
 }
 
 void LayerRenderer::clip(std::uint32_t drawn) {
-    const PixelBox box = pixelsOf(asset_.list.drawn[drawn], asset_.maps[asset_.list.drawn[drawn].map], view_);
+    if (top().empty())
+        return;
+    const PixelBox box =
+        pixelsOf(asset_.list.drawn[drawn], asset_.maps[asset_.list.drawn[drawn].map], top().view);
     if (box.empty()) {
-        clear(stack_.back(), stack_.back().touched);
+        clear(top().target, top().target.touched);
         return;
     }
     const glm::ivec2 place = *shelves_.place(box.size());
@@ -200,28 +283,31 @@ void LayerRenderer::clip(std::uint32_t drawn) {
     const Program& program = useLayer(Action::Clip, coverage_);
     glUniform4i(program.uniform("maskBox"), box.min.x, box.min.y, box.max.x, box.max.y);
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
-    drawBoxes(resources_.boxes, {boxOf(stack_.back().touched, place - box.min)});
+    drawBoxes(resources_.boxes, {boxOf(top().target.touched, place - box.min)});
 }
 
 // ---- Groups ---------------------------------------------------------------------------------------
 
 void LayerRenderer::pop(const Command& command) {
-    Target popped = std::move(stack_.back());
+    Picture popped = std::move(stack_.back());
     stack_.pop_back();
+    enterTop();
+    if (top().empty())
+        return;
     if (command.kind != Command::Kind::Pop)
-        popMask(command, popped);
+        popMask(command, popped.target);
     else if (command.blend == asset::Blend::Normal)
-        popOver(command, popped);
+        popOver(command, popped.target);
     else
-        popBlend(command, popped);
-    resources_.pool.giveBack(std::move(popped));
+        popBlend(command, popped.target);
+    giveBack(std::move(popped));
 }
 
 void LayerRenderer::popMask(const Command& command, const Target& popped) {
     const Program& program = useLayer(Action::Mask, popped);
     glUniform1ui(program.uniform("maskOp"), maskOp(command.kind));
     glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
-    drawBoxes(resources_.boxes, {boxOf(stack_.back().touched)});
+    drawBoxes(resources_.boxes, {boxOf(top().target.touched)});
 }
 
 void LayerRenderer::popOver(const Command& command, const Target& popped) {
@@ -229,7 +315,7 @@ void LayerRenderer::popOver(const Command& command, const Target& popped) {
     glUniform1f(program.uniform("opacity"), command.opacity);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     drawBoxes(resources_.boxes, {boxOf(popped.touched)});
-    stack_.back().touch(popped.touched);
+    top().target.touch(popped.touched);
 }
 
 /// The shader reads the backdrop from a copy, since a target cannot be read while it is drawn into.
@@ -237,8 +323,8 @@ void LayerRenderer::popBlend(const Command& command, const Target& popped) {
     const PixelBox& box = popped.touched;
     if (box.empty())
         return;
-    Target backdrop = resources_.pool.take();
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, stack_.back().framebuffer.get());
+    Target backdrop = resources_.pool.take(top().target.size, format_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, top().target.framebuffer.get());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, backdrop.framebuffer.get());
     glBlitFramebuffer(box.min.x, box.min.y, box.max.x, box.max.y, box.min.x, box.min.y, box.max.x, box.max.y,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -247,13 +333,13 @@ void LayerRenderer::popBlend(const Command& command, const Target& popped) {
     use(program);
     bindTexture(Unit::Layer, popped.texture);
     bindTexture(Unit::Backdrop, backdrop.texture);
-    stack_.back().bind();
+    top().target.bind();
     glUniform1f(program.uniform("opacity"), command.opacity);
     glUniform1ui(program.uniform("blendMode"), GLuint(command.blend));
     glDisable(GL_BLEND);
     drawBoxes(resources_.boxes, {boxOf(box)});
     glEnable(GL_BLEND);
-    stack_.back().touch(box);
+    top().target.touch(box);
     resources_.pool.giveBack(std::move(backdrop));
 }
 
@@ -263,7 +349,8 @@ void LayerRenderer::popBlend(const Command& command, const Target& popped) {
 void LayerRenderer::use(const Program& program) const {
     const Sections& s = asset_.sections;
     program.use();
-    glUniform2f(program.uniform("targetSize"), float(view_.width), float(view_.height));
+    glUniform2f(program.uniform("targetSize"), float(stack_.back().view.width),
+                float(stack_.back().view.height));
     glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
     glUniform1ui(program.uniform("imageSection"), s.images);
     glUniform1ui(program.uniform("rampSums"), s.rampSums);
@@ -275,15 +362,16 @@ void LayerRenderer::useFill() {
     const Program& program =
         resources_.programs.fill(programs ? asset_.features : Features(), asset_.materialSet);
     use(program);
-    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view_.toPixels[0], view_.toPixels[1]));
-    const glm::dvec2 pixel = glm::dvec2(view_.width, view_.height) * 0.5;
-    const glm::dvec2 picture = inverse * (pixel - view_.toPixels[2]);
+    const asset::View& view = top().view;
+    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    const glm::dvec2 pixel = glm::dvec2(view.width, view.height) * 0.5;
+    const glm::dvec2 picture = inverse * (pixel - view.toPixels[2]);
     glUniform4f(program.uniform("pixelToPicture"), float(inverse[0].x), float(inverse[0].y),
                 float(inverse[1].x), float(inverse[1].y));
     glUniform4f(program.uniform("pictureAnchor"), float(picture.x), float(picture.y), float(pixel.x),
                 float(pixel.y));
     bindTexture(Unit::Layer, coverage_.texture);
-    stack_.back().bind();
+    top().target.bind();
 }
 
 const Program& LayerRenderer::useLayer(Action action, const Target& layer) {
@@ -291,7 +379,7 @@ const Program& LayerRenderer::useLayer(Action action, const Target& layer) {
     use(program);
     glUniform1ui(program.uniform("action"), GLuint(action));
     bindTexture(Unit::Layer, layer.texture);
-    stack_.back().bind();
+    top().target.bind();
     return program;
 }
 

@@ -1,7 +1,8 @@
 /// \file
-/// Running the commands of an asset in compat mode under one view that fits a target.
+/// Running the commands of an asset, in compat mode or with filters, under one view that fits a target.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,9 @@
 #include "backend_gl/core/programs.hpp"
 #include "backend_gl/output/boxes.hpp"
 #include "backend_gl/output/target.hpp"
+#include "backend_gl/tiles/picture.hpp"
 #include "backend_gl/upload/upload.hpp"
+#include "raster/filter_place.hpp"
 
 namespace vtm::gl {
 
@@ -39,12 +42,14 @@ struct Resources {
     TargetPool pool;
     VertexArrayHandle vertexArray;
     BufferHandle boxes;
+    PictureBuffers picture;
 };
 
 class LayerRenderer {
 public:
-    /// The pool's targets have the view's size; the view is invertible. GL is in the state of StateGuard.
-    LayerRenderer(Resources& resources, UploadedAsset& asset, const asset::View& view);
+    /// The view is invertible; GL is in the state of StateGuard. `format`: of the pictures, 0: floats.
+    LayerRenderer(Resources& resources, UploadedAsset& asset, const asset::View& view, GLenum format,
+                  bool markOverruns);
 
     /// The picture; the caller gives it back to the pool.
     Target paint();
@@ -58,6 +63,25 @@ private:
         glm::ivec2 place;  ///< of the box's min corner, in the coverage target
         std::uint32_t paint;
     };
+    /// One of the stack. Nothing is drawn into one that has no pixels.
+    struct Picture {
+        asset::View view;
+        Target target;
+        /// Of an input of a filter: where that works, and the input's number.
+        std::shared_ptr<const asset::FilterPlace> place = nullptr;
+        std::uint32_t filter = 0, number = 0;
+
+        bool empty() const { return view.width == 0 || view.height == 0; }
+    };
+
+    Picture& top() { return stack_.back(); }
+    void push(asset::View view);
+    void pushInput(std::uint32_t filter);
+    void filter(const asset::Filter& filter);
+    void drawMap(Atlas& atlas);
+    void giveBack(Picture&& picture);
+    /// After each change of the stack: the viewport, and room for coverage.
+    void enterTop();
     void bindAsset();
     void execute(const asset::Command& command);
     void fill(const asset::Command& command);
@@ -77,9 +101,12 @@ private:
     Resources& resources_;
     UploadedAsset& asset_;
     asset::View view_;
-    std::vector<Target> stack_;
-    Target coverage_;
+    GLenum format_;
+    bool markOverruns_;
+    std::vector<Picture> stack_;
+    Target coverage_;  ///< as large as the picture on top
     Shelves shelves_;
+    std::size_t nextAtlas_ = 0;
     std::vector<PendingFill> pending_;
     std::vector<bool> isPending_;  ///< by drawn mask
 };

@@ -53,8 +53,7 @@ std::uint8_t* ByteSender::room(glm::ivec2 size) {
 
 void ByteSender::draw(Resources& resources, const Destination& d, const PixelBox& box) {
     const glm::ivec2 size = box.size();
-    pool_.resize(size);
-    Target target = pool_.take();
+    Target target = pool_.take(size, GL_RGBA8);
     glBindTexture(GL_TEXTURE_2D, target.texture.get());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
     if (d.over || d.multisampled || d.finish.flags() != 0 || d.bits != 8) {
@@ -68,6 +67,7 @@ void ByteSender::draw(Resources& resources, const Destination& d, const PixelBox
     }
     end();
     pool_.giveBack(std::move(target));
+    pool_.dropUnused();
 }
 
 }  // namespace vtm::gl

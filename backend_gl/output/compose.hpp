@@ -27,11 +27,11 @@ public:
     std::uint8_t* room(glm::ivec2 size);
     void draw(Resources& resources, const Destination& destination, const PixelBox& box);
     /// Frees what it keeps on the GPU.
-    void clear() { pool_.resize({0, 0}); }
+    void clear() { pool_.clear(); }
 
 private:
     std::vector<std::uint8_t> pixels_;
-    TargetPool pool_{GL_RGBA8};
+    TargetPool pool_;
 };
 
 }  // namespace vtm::gl

@@ -68,13 +68,19 @@ struct Renderer::Impl {
     bool lost = false;
 
     Resources resources;
-    TargetPool bytes{GL_RGBA8};  ///< for reading back 8 bits
-    ByteSender bytePixels;       ///< for sending them
+    bool hasFloats = floatFormat().has_value();
+    TargetPool bytes;       ///< for reading back 8 bits
+    ByteSender bytePixels;  ///< for sending them
     bool scans =
         options.pixels == Pixels::Scanned || (options.pixels == Pixels::Automatic && isSoftwareDriver());
-    PictureBuffers picture;
 
     std::uint32_t maxTurns() const { return options.maxTurns == 0 ? turnsPerPixel : options.maxTurns; }
+
+    /// Of the layers of pictures for 8-bit framebuffers. Coverage of masks needs floats, exact pictures do
+    /// not.
+    GLenum layerFormat(const UploadedAsset& asset) const {
+        return !hasFloats && asset.filters.mode == asset::Mode::Exact ? GL_RGBA8 : 0;
+    }
 
     void checkLost() {
         if (!lost && reset && reset() != GL_NO_ERROR)
@@ -98,10 +104,11 @@ struct Renderer::Impl {
         dropErrors();
         try {
             const StateGuard guard(contract, options.restoreState);
+            resources.pool.dropUnused();
             return work(guard);
         } catch (const OutOfMemory&) {
-            resources.pool.resize({0, 0});
-            bytes.resize({0, 0});
+            resources.pool.clear();
+            bytes.clear();
             bytePixels.clear();
             throw;
         } catch (const ContextLost&) {
@@ -111,20 +118,20 @@ struct Renderer::Impl {
     }
 
     /// The picture in a target of the pool, which gets it back.
-    Target paint(UploadedAsset& asset, const asset::View& view, Finish finish = {}) {
-        resources.pool.resize({view.width, view.height});
-        if (asset.atlases.empty())
-            return LayerRenderer(resources, asset, view).paint();
-        Target target = resources.pool.take();
+    Target paint(UploadedAsset& asset, const asset::View& view, Finish finish = {}, GLenum format = 0) {
+        if (!asset.isSumOfMaps)
+            return LayerRenderer(resources, asset, view, format, options.markOverruns).paint();
+        Target target = resources.pool.take({view.width, view.height});
         target.bind();
         target.touched = wholeOf(view);
         glViewport(0, 0, view.width, view.height);
-        drawPicture(resources.programs, picture, asset, view, wholeOf(view), finish, options.markOverruns);
+        drawPicture(resources.programs, resources.picture, asset, view, wholeOf(view), finish,
+                    options.markOverruns);
         return target;
     }
 
     void draw(UploadedAsset& asset, const Destination& d) {
-        if (asset.atlases.empty() && d.finish.has(Finish::LinearLight))
+        if (!asset.isSumOfMaps && d.finish.has(Finish::LinearLight))
             throw std::invalid_argument(
                 "linear light is for exact mode without filters; compat mode does as other renderers do");
         if (asset.filtered) {
@@ -145,7 +152,7 @@ struct Renderer::Impl {
     void drawByShaders(UploadedAsset& asset, const Destination& d) {
         const OneDrawBuffer one;
         // Samples of one pixel may lie in several tiles; each pixel's colour is made in one.
-        if (asset.atlases.size() == 1 && !d.multisampled) {
+        if (asset.isSumOfMaps && asset.atlases.size() == 1 && !d.multisampled) {
             for (const PixelBox& box : d.boxes)
                 forEachPart(box, partSide(), [&](const PixelBox& part) { drawDirectly(asset, d, part); });
         } else {
@@ -160,7 +167,8 @@ struct Renderer::Impl {
     void drawDirectly(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
         begin(d, box);
         if (isInvertible(d.view))
-            drawPicture(resources.programs, picture, asset, d.view, box, d.finish, options.markOverruns);
+            drawPicture(resources.programs, resources.picture, asset, d.view, box, d.finish,
+                        options.markOverruns);
         end();
     }
 
@@ -195,7 +203,7 @@ struct Renderer::Impl {
         const bool shows = isInvertible(view);
         const bool linearLight = d.finish.has(Finish::LinearLight);
         const Finish within(linearLight ? Finish::LinearLight | Finish::LinearOut : 0u);
-        Target target = shows ? paint(asset, view, within) : Target();
+        Target target = shows ? paint(asset, view, within, layerFormat(asset)) : Target();
         for (const PixelBox& box : d.boxes) {
             const PixelBox part{glm::max(box.min, frame.min), glm::min(box.max, frame.max)};
             if (part.empty())
@@ -227,8 +235,7 @@ struct Renderer::Impl {
         image::Bitmap bitmap{view.width, view.height, {}};
         bitmap.rgba.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
         forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
-            bytes.resize(box.size());
-            Target target = bytes.take();
+            Target target = bytes.take(box.size(), GL_RGBA8);
             Output output;
             output.framebuffer = target.framebuffer.get();
             output.alpha = Output::Alpha::Straight;
@@ -239,6 +246,7 @@ struct Renderer::Impl {
                 (std::size_t(box.min.y) * std::size_t(view.width) + std::size_t(box.min.x)) * 4;
             readBack(target, part, GL_UNSIGNED_BYTE, view.width, &bitmap.rgba[first]);
             bytes.giveBack(std::move(target));
+            bytes.dropUnused();
             check("reading back");
         });
         return bitmap;
@@ -257,8 +265,10 @@ Renderer::~Renderer() = default;
 Texture Renderer::upload(const asset::AssetView& asset) {
     return impl_->call([&](const StateGuard&) {
         Programs& programs = impl_->resources.programs;
+        const bool usesCpu = impl_->scans || (!impl_->hasFloats && asset.mode == asset::Mode::Compat);
         auto texture =
-            std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials), impl_->maxTurns());
+            std::make_unique<Texture::Impl>(asset, programs.materialSet(asset.materials), impl_->maxTurns(),
+                                            usesCpu ? FilterEngine::Cpu : FilterEngine::Gpu);
         if (impl_->scans && asset::isSumOfMaps(asset) && asset.materials.empty())
             texture->scanner.emplace(asset);
         // Users' errors come at once, not with the first picture.
@@ -316,12 +326,12 @@ void Renderer::draw(const Texture& texture, const asset::View& view) {
     asset::validate(view);
     impl_->call([&](const StateGuard&) {
         forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
-            impl_->bytes.resize(box.size());
-            Target target = impl_->bytes.take();
+            Target target = impl_->bytes.take(box.size(), GL_RGBA8);
             Output output;
             output.framebuffer = target.framebuffer.get();
             impl_->draw(*texture.impl_, destinationOf(viewOf(view, box), output, 0));
             impl_->bytes.giveBack(std::move(target));
+            impl_->bytes.dropUnused();
         });
     });
     glFinish();

@@ -1,13 +1,20 @@
 #include "backend_gl/output/target.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace vtm::gl {
 
 namespace {
 
+bool holdsIntegers(GLenum format) { return format == GL_RGBA16UI; }
+
 Target makeTarget(GLenum format, glm::ivec2 size) {
     Target target;
+    target.format = format;
+    target.size = size;
     target.texture = makeTexture(format, size.x, size.y);
     target.framebuffer = makeFramebuffer();
     target.bind();
@@ -16,41 +23,49 @@ Target makeTarget(GLenum format, glm::ivec2 size) {
     if (status != GL_FRAMEBUFFER_COMPLETE)
         throw GlError(
             fmt::format("framebuffer of {} x {} pixels is not complete (0x{:04x})", size.x, size.y, status));
-    clear(target, {{0, 0}, size});
+    if (!holdsIntegers(format))
+        clear(target, {{0, 0}, size});
     checkErrors("target");
     return target;
 }
 
 }  // namespace
 
-GLenum targetFormat() {
-    if (!hasExtension("GL_EXT_color_buffer_float")) {
-        if (!hasExtension("GL_EXT_color_buffer_half_float"))
-            throw GlError("the driver cannot draw into float textures (no GL_EXT_color_buffer_float)");
+std::optional<GLenum> floatFormat() {
+    if (hasExtension("GL_EXT_color_buffer_float"))
+        return hasExtension("GL_EXT_float_blend") ? GL_RGBA32F : GL_RGBA16F;
+    if (hasExtension("GL_EXT_color_buffer_half_float"))
         return GL_RGBA16F;
+    return std::nullopt;
+}
+
+Target TargetPool::take(glm::ivec2 size, GLenum format) {
+    if (format == 0) {
+        if (!floatFormat_)
+            floatFormat_ = floatFormat();
+        if (!floatFormat_)
+            throw GlError("the driver cannot draw into float textures (no GL_EXT_color_buffer_float)");
+        format = *floatFormat_;
     }
-    return hasExtension("GL_EXT_float_blend") ? GL_RGBA32F : GL_RGBA16F;
-}
-
-void TargetPool::resize(glm::ivec2 size) {
-    if (size == size_)
-        return;
-    free_.clear();
-    size_ = size;
-}
-
-Target TargetPool::take() {
-    if (free_.empty())
-        return makeTarget(format_ == 0 ? targetFormat() : format_, size_);
-    Target target = std::move(free_.back());
-    free_.pop_back();
+    const auto found = std::ranges::find_if(
+        free_, [&](const Free& f) { return f.target.size == size && f.target.format == format; });
+    if (found == free_.end())
+        return makeTarget(format, size);
+    Target target = std::move(found->target);
+    free_.erase(found);
     return target;
 }
 
 void TargetPool::giveBack(Target&& target) {
-    clear(target, target.touched);
+    gl::clear(target, target.touched);
     target.touched = {};
-    free_.push_back(std::move(target));
+    free_.push_back({std::move(target)});
+}
+
+void TargetPool::dropUnused() {
+    std::erase_if(free_, [](const Free& f) { return !f.isUsed; });
+    for (Free& f : free_)
+        f.isUsed = false;
 }
 
 void clear(const Target& target, const PixelBox& box) {

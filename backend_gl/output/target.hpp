@@ -2,6 +2,7 @@
 /// Pictures that are drawn into.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "backend_gl/core/gl.hpp"
@@ -9,36 +10,41 @@
 
 namespace vtm::gl {
 
-/// A float texture with a framebuffer around it. Transparent outside `touched`.
+/// A texture with a framebuffer around it. Transparent outside `touched`, unless it holds integers.
 struct Target {
     TextureHandle texture;
     FramebufferHandle framebuffer;
+    GLenum format = 0;
+    glm::ivec2 size{0};
     PixelBox touched;
 
     void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get()); }
     void touch(const PixelBox& box) { touched = touched.joined(box); }
 };
 
-/// RGBA32F where it can be blended into, else RGBA16F (docs/coverage.md says what that costs).
-GLenum targetFormat();
+/// RGBA32F where it can be blended into, else RGBA16F (docs/coverage.md says what that costs); nothing where
+/// the driver cannot draw into float textures.
+std::optional<GLenum> floatFormat();
 
-/// Transparent targets of one size, kept for reuse.
+/// Targets, kept for reuse.
 class TargetPool {
 public:
-    /// 0: targetFormat().
-    explicit TargetPool(GLenum format = 0) : format_(format) {}
-
-    /// Drops targets of another size.
-    void resize(glm::ivec2 size);
-    glm::ivec2 size() const { return size_; }
-    Target take();
+    /// Transparent; what integers it holds is undefined. Format 0: floatFormat(), without which GlError is
+    /// thrown.
+    Target take(glm::ivec2 size, GLenum format = 0);
     /// Makes the target transparent again and keeps it.
     void giveBack(Target&& target);
+    /// Drops what nobody took since the last call.
+    void dropUnused();
+    void clear() { free_.clear(); }
 
 private:
-    GLenum format_;
-    glm::ivec2 size_{0};
-    std::vector<Target> free_;
+    struct Free {
+        Target target;
+        bool isUsed = true;
+    };
+    std::vector<Free> free_;
+    std::optional<GLenum> floatFormat_;
 };
 
 /// Makes the pixels of a box transparent.

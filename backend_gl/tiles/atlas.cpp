@@ -17,17 +17,15 @@ namespace vtm::gl {
 
 namespace {
 
-using asset::Command;
-
 template <class Item>
 void copy(std::span<const Item> from, std::vector<Item>& to) {
     to.assign(from.begin(), from.end());
 }
 
-/// That draws this map alone.
-asset::AssetView drawing(const asset::Asset& asset, const Command& command) {
+/// A map's paint 0 becomes the asset's.
+asset::AssetView withPaintsFrom(const asset::Asset& asset, std::uint32_t first) {
     asset::AssetView view = asset;
-    view.commands = {&command, 1};
+    view.paints = view.paints.subspan(first);
     return view;
 }
 
@@ -55,9 +53,11 @@ KeptAsset keptOf(const asset::AssetView& asset) {
 const asset::Scanner& ScannedPixels::scannerFor(asset::Sums sums) {
     std::optional<asset::Scanner>& scanner = scanners_[std::size_t(sums)];
     if (!scanner) {
-        Command command;
+        asset::Command command;
         command.map = map_;
-        scanner.emplace(drawing(*asset_, command), sums);
+        asset::AssetView drawing = withPaintsFrom(*asset_, firstPaint_);
+        drawing.commands = {&command, 1};
+        scanner.emplace(drawing, sums);
     }
     return *scanner;
 }
@@ -112,8 +112,14 @@ bool isStretched(const asset::View& view) {
 
 double tileMargin() { return std::ldexp(1 / cellsPerRadius, -int(tileCellsLog2)); }
 
-Atlas::Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t maxTurns)
-    : map_(asset.asset.maps[map]), asset_(&asset), maxTurns_(maxTurns), scanned_(asset.asset, map) {}
+Atlas::Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t firstPaint, std::uint32_t maxTurns)
+    : map_(asset.asset.maps[map]),
+      asset_(&asset),
+      firstPaint_(firstPaint),
+      maxTurns_(maxTurns),
+      scanned_(asset.asset, map, firstPaint) {}
+
+asset::AssetView Atlas::withPaints() const { return withPaintsFrom(asset_->asset, firstPaint_); }
 
 /// By square, row by row.
 std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i64vec2 min,
@@ -138,7 +144,8 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i
 }
 
 Atlas::Placed Atlas::place(const TilePlace& place, std::span<const PlanarPiece* const> near) {
-    const TileSource source{asset_->asset, *pieces_, asset_->programTurns, asset_->changes, maxTurns_};
+    const TileSource source{withPaints(), *pieces_, std::span(asset_->programTurns).subspan(firstPaint_),
+                            std::span(asset_->changes).subspan(firstPaint_), maxTurns_};
     return this->place(buildTile(source, place, tileMargin(), near));
 }
 
@@ -163,7 +170,7 @@ void Atlas::makeRoom() {
 const Atlas::Placed& Atlas::prepareCrowded() {
     makeRoom();
     if (!crowded_)
-        crowded_ = place(crowdedTile(asset_->asset.paints));
+        crowded_ = place(crowdedTile(withPaints().paints));
     upload();
     return *crowded_;
 }

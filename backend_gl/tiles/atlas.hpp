@@ -20,7 +20,7 @@ namespace vtm::gl {
 
 /// What stays in main memory of a sum of maps.
 struct KeptAsset {
-    asset::Asset asset;                       ///< without commands and prefilter
+    asset::Asset asset;                       ///< without commands, filters and prefilter
     std::vector<std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::vector<asset::PaintChange> changes;  ///< by paint
 };
@@ -30,7 +30,8 @@ KeptAsset keptOf(const asset::AssetView& asset);
 class ScannedPixels {
 public:
     /// `asset` must outlive it.
-    ScannedPixels(const asset::Asset& asset, std::uint32_t map) : asset_(&asset), map_(map) {}
+    ScannedPixels(const asset::Asset& asset, std::uint32_t map, std::uint32_t firstPaint)
+        : asset_(&asset), map_(map), firstPaint_(firstPaint) {}
 
     /// Puts the pixels of a box, that is not empty, into the texture. Materials have their fallback colours.
     void scan(const asset::View& view, const PixelBox& box, asset::Sums sums);
@@ -41,7 +42,7 @@ private:
     const asset::Scanner& scannerFor(asset::Sums sums);
 
     const asset::Asset* asset_;
-    std::uint32_t map_;
+    std::uint32_t map_, firstPaint_;
     std::array<std::optional<asset::Scanner>, 2> scanners_;  ///< by Sums, made when first needed
     glm::ivec2 size_{0};
     TextureHandle texture_;
@@ -64,14 +65,15 @@ bool isStretched(const asset::View& view);
 
 class Atlas {
 public:
-    /// `asset` must outlive it. A cell that would take more than `maxTurns` is crowded.
-    Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t maxTurns);
+    /// `asset` must outlive it. `firstPaint`: the map's paint 0. A cell that would take more than `maxTurns`
+    /// is crowded.
+    Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t firstPaint, std::uint32_t maxTurns);
 
     /// What is kept of a Tile.
     struct Placed {
-        bool flat = false;      ///< one paint, no texels
-        bool programs = false;  ///< of its paints one is a program
-        std::uint32_t paint = 0;
+        bool flat = false;        ///< one paint, no texels
+        bool programs = false;    ///< of its paints one is a program
+        std::uint32_t paint = 0;  ///< of the map
         std::uint32_t firstTexel = 0, firstCell = 0;
         std::vector<std::uint8_t> crowded;  ///< cells whose pixels are scanned
     };
@@ -85,12 +87,14 @@ public:
     }
 
     const asset::Map& map() const { return map_; }
+    std::uint32_t firstPaint() const { return firstPaint_; }
     const TextureHandle& texture() const { return texture_; }
     ScannedPixels& scanned() { return scanned_; }
 
 private:
     Placed place(const TilePlace& place, std::span<const PlanarPiece* const> near);
     Placed place(Tile tile);
+    asset::AssetView withPaints() const;
     void makeRoom();
     std::vector<std::vector<const PlanarPiece*>> piecesNear(int level, glm::i64vec2 min,
                                                             glm::i64vec2 max) const;
@@ -98,7 +102,7 @@ private:
 
     asset::Map map_;
     const KeptAsset* asset_;
-    std::uint32_t maxTurns_;
+    std::uint32_t firstPaint_, maxTurns_;
     ScannedPixels scanned_;                     ///< of crowded cells
     std::optional<asset::PlanarIndex> pieces_;  ///< once a view has asked
 

@@ -146,7 +146,7 @@ TileVertex tileVertex(const Squares& squares, const Placed& tile, std::int64_t x
 
 /// Each tile by itself: a longer rectangle would have corners of its neighbours on its edges, where rounding
 /// leaves gaps.
-Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
+Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const Squares& squares,
                     const std::vector<const Placed*>& placed) {
     Geometry geometry;
     auto next = placed.begin();
@@ -161,7 +161,7 @@ Geometry geometryOf(const UploadedAsset& asset, const Squares& squares,
                 addSquare(tile.programs ? geometry.programs : geometry.solid, squares, {x, y},
                           tileVertex(squares, tile, x, y));
             else if (tile.paint != 0)
-                addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[tile.paint]));
+                addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[firstPaint + tile.paint]));
         }
     return geometry;
 }
@@ -182,7 +182,7 @@ Geometry scannedGeometry(Atlas& atlas, const Squares& map) {
 }
 
 Geometry preparedGeometry(const UploadedAsset& asset, Atlas& atlas, const Squares& squares, int level) {
-    return geometryOf(asset, squares, atlas.prepare(level, squares.min, squares.max));
+    return geometryOf(asset, atlas.firstPaint(), squares, atlas.prepare(level, squares.min, squares.max));
 }
 
 template <class Vertex>
@@ -198,12 +198,13 @@ void setMatrix(GLint uniform, const glm::dmat2& m) {
     glUniform4f(uniform, float(m[0].x), float(m[0].y), float(m[1].x), float(m[1].y));
 }
 
-void use(const Program& program, const UploadedAsset& asset, const asset::View& view, double side) {
+void use(const Program& program, const UploadedAsset& asset, std::uint32_t firstPaint,
+         const asset::View& view, double side) {
     const Sections& s = asset.sections;
     const glm::dmat2 toPixels(view.toPixels[0] * side, view.toPixels[1] * side);
     program.use();
     glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
-    glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints, s.data);
+    glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints + firstPaint, s.data);
     glUniform1ui(program.uniform("imageSection"), s.images);
     glUniform1ui(program.uniform("rampSums"), s.rampSums);
     const bool mirrored = glm::determinant(toPixels) < 0;
@@ -237,6 +238,38 @@ PictureBuffers::PictureBuffers()
     glBindVertexArray(0);
 }
 
+void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& asset, Atlas& atlas,
+             const asset::View& view, const PixelBox& box, Finish finish, bool markOverruns) {
+    const bool scanned = atlas.isScanned(view);
+    const int level = scanned ? 0 : tileLevelFor(atlas.map(), view);
+    const Squares squares(atlas.map(), view, box, level);
+    const Geometry geometry =
+        scanned ? scannedGeometry(atlas, squares) : preparedGeometry(asset, atlas, squares, level);
+    if (!geometry.crowded.empty()) {
+        const bool light = finish.has(Finish::LinearLight);
+        atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);
+        bindTexture(Unit::Layer, atlas.scanned().texture());
+    }
+    bindTexture(Unit::Texels, asset.texels);
+    bindTexture(Unit::Images, asset.images);
+    bindTexture(Unit::Tiles, atlas.texture());
+    const auto drawAll = [&](const Program& program, const VertexArrayHandle& array,
+                             const BufferHandle& buffer, const auto& vertices) {
+        use(program, asset, atlas.firstPaint(), view, squares.side());
+        glUniform1i(program.uniform("markOverruns"), markOverruns);
+        glUniform2i(program.uniform("scannedCorner"), geometry.crowded.min.x, geometry.crowded.min.y);
+        draw(array, buffer, vertices);
+    };
+    const bool crowded = !geometry.crowded.empty();
+    if (!geometry.flat.empty())
+        drawAll(programs.flat(finish), buffers.flatArray, buffers.flat, geometry.flat);
+    if (!geometry.solid.empty())
+        drawAll(programs.tile({}, 0, finish, crowded), buffers.tileArray, buffers.tile, geometry.solid);
+    if (!geometry.programs.empty())
+        drawAll(programs.tile(asset.features, asset.materialSet, finish, crowded), buffers.tileArray,
+                buffers.tile, geometry.programs);
+}
+
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
                  const PixelBox& box, Finish finish, bool markOverruns) {
     // The first map stands on what is there, the others add to it.
@@ -245,34 +278,7 @@ void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& ass
             glEnable(GL_BLEND);
             glBlendFunc(GL_ONE, GL_ONE);
         }
-        const bool scanned = atlas.isScanned(view);
-        const int level = scanned ? 0 : tileLevelFor(atlas.map(), view);
-        const Squares squares(atlas.map(), view, box, level);
-        const Geometry geometry =
-            scanned ? scannedGeometry(atlas, squares) : preparedGeometry(asset, atlas, squares, level);
-        if (!geometry.crowded.empty()) {
-            const bool light = finish.has(Finish::LinearLight);
-            atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);
-            bindTexture(Unit::Layer, atlas.scanned().texture());
-        }
-        bindTexture(Unit::Texels, asset.texels);
-        bindTexture(Unit::Images, asset.images);
-        bindTexture(Unit::Tiles, atlas.texture());
-        if (!geometry.flat.empty()) {
-            use(programs.flat(finish), asset, view, squares.side());
-            draw(buffers.flatArray, buffers.flat, geometry.flat);
-        }
-        const bool crowded = !geometry.crowded.empty();
-        const auto drawTiles = [&](const Program& program, const std::vector<TileVertex>& vertices) {
-            use(program, asset, view, squares.side());
-            glUniform1i(program.uniform("markOverruns"), markOverruns);
-            glUniform2i(program.uniform("scannedCorner"), geometry.crowded.min.x, geometry.crowded.min.y);
-            draw(buffers.tileArray, buffers.tile, vertices);
-        };
-        if (!geometry.solid.empty())
-            drawTiles(programs.tile({}, 0, finish, crowded), geometry.solid);
-        if (!geometry.programs.empty())
-            drawTiles(programs.tile(asset.features, asset.materialSet, finish, crowded), geometry.programs);
+        drawMap(programs, buffers, asset, atlas, view, box, finish, markOverruns);
     }
     if (asset.atlases.size() > 1)
         glDisable(GL_BLEND);

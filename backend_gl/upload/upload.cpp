@@ -46,6 +46,7 @@ std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> s
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList);
     sections.rampSums = appendTexels<Texel>(texels, rampSums(asset));
+    sections.filterWords = appendTexels(texels, asset.filterWords);
     return texels;
 }
 
@@ -60,22 +61,29 @@ BufferHandle uploadInstances(const std::vector<Instance>& instances) {
 
 }  // namespace
 
-UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::uint32_t maxTurns)
+UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::uint32_t maxTurns,
+                             FilterEngine filterEngine)
     : maps(asset.maps.begin(), asset.maps.end()),
       commands(asset.commands.begin(), asset.commands.end()),
-      list(isSumOfMaps(asset) || !asset.filters.empty() ? InstanceList{} : makeInstances(asset)),
+      list(asset::isSumOfMaps(asset) ? InstanceList{} : makeInstances(asset)),
       features(featuresOf(asset)),
       materialSet(materials),
       paints(asset.paints.begin(), asset.paints.end()),
-      finestPixel(asset.finestPixel) {
-    if (!asset.filters.empty()) {
+      finestPixel(asset.finestPixel),
+      isSumOfMaps(asset::isSumOfMaps(asset)) {
+    if (!asset.filters.empty() && filterEngine == FilterEngine::Cpu) {
         filtered = toAsset(asset);
         return;
     }
-    if (isSumOfMaps(asset)) {
+    filters.mode = asset.mode;
+    filters.filters.assign(asset.filters.begin(), asset.filters.end());
+    filters.filterPrimitives.assign(asset.filterPrimitives.begin(), asset.filterPrimitives.end());
+    filters.filterWords.assign(asset.filterWords.begin(), asset.filterWords.end());
+    if (asset.mode == asset::Mode::Exact) {
         kept = keptOf(asset);
         for (const asset::Command& command : asset.commands)
-            atlases.emplace_back(kept, command.map, maxTurns);
+            if (command.kind == asset::Command::Kind::DrawMap)
+                atlases.emplace_back(kept, command.map, command.paint, maxTurns);
     }
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);

@@ -19,12 +19,16 @@ struct Sections {
     GLuint leaves = 0, pieces = 0, paints = 0, data = 0;
     GLuint images = 0;    ///< a texel a picture: first pixel, width, height
     GLuint rampSums = 0;  ///< beside the data (asset_texels.hpp)
+    GLuint filterWords = 0;
 };
+
+/// Who computes pictures with filters.
+enum class FilterEngine { Gpu, Cpu };
 
 struct UploadedAsset {
     /// `maxTurns`: of a pixel (turns.hpp).
-    UploadedAsset(const asset::AssetView& asset, unsigned materialSet,
-                  std::uint32_t maxTurns = turnsPerPixel);
+    UploadedAsset(const asset::AssetView& asset, unsigned materialSet, std::uint32_t maxTurns = turnsPerPixel,
+                  FilterEngine filters = FilterEngine::Gpu);
     UploadedAsset(const UploadedAsset&) = delete;  // atlases point into it
     UploadedAsset& operator=(const UploadedAsset&) = delete;
 
@@ -36,9 +40,11 @@ struct UploadedAsset {
     std::vector<asset::Paint> paints;
     std::optional<double> finestPixel;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
-    std::optional<asset::Asset> filtered;   ///< with filters: drawn on the CPU, nothing of it is uploaded
-    KeptAsset kept;                         ///< of a sum of maps
-    std::vector<Atlas> atlases;             ///< exact: of each map drawn
+    std::optional<asset::Asset> filtered;   ///< with filters that the CPU computes: nothing of it is uploaded
+    asset::Asset filters;                   ///< the mode, and filters that the GPU computes
+    bool isSumOfMaps;                       ///< else its commands are executed one by one
+    KeptAsset kept;                         ///< where it has atlases
+    std::vector<Atlas> atlases;             ///< exact: of each map drawn, in the order of the commands
     Sections sections;
     TextureHandle texels, images;
     BufferHandle instances;

@@ -29,10 +29,10 @@ asset::View wholePicture(const scene::Scene& scene, int size);
 /// Rounded to what a PNG file of `vtm render` holds: 8-bit, straight.
 image::Raster asWritten(const image::Raster& raster);
 
-/// A context with the programs in it.
+/// A context with the programs in it. Shaders draw, on every driver.
 struct Gl {
     gl::Context context;
-    gl::Renderer renderer;
+    gl::Renderer renderer{{.pixels = gl::Pixels::Shaders, .programCache = {}, .resetStatus = {}}};
 
     image::Raster render(const asset::Asset& asset, const asset::View& view) {
         return renderer.render(renderer.upload(asset), view);

@@ -132,8 +132,7 @@ struct Renderer::Impl {
     void drawPart(const Texture::Impl& texture, const asset::View& part, float* pixels, int rowLength) {
         glBindVertexArray(vertexArray.get());
         glViewport(0, 0, part.width, part.height);
-        pool.resize({part.width, part.height});
-        Target target = pool.take();
+        Target target = pool.take({part.width, part.height});
         bind(texture);
         setUniforms(program(texture), part);
         target.bind();
@@ -142,6 +141,7 @@ struct Renderer::Impl {
         glPixelStorei(GL_PACK_ROW_LENGTH, rowLength);
         glReadPixels(0, 0, part.width, part.height, GL_RGBA, GL_FLOAT, pixels);
         pool.giveBack(std::move(target));
+        pool.dropUnused();
         checkErrors("drawing in paper mode");
     }
 };

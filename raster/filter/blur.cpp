@@ -14,6 +14,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include "raster/filter/operations.hpp"
+#include "raster/filter_tables.hpp"
 
 namespace vtm::asset {
 
@@ -24,14 +25,9 @@ constexpr double leastDeviation = 0.25;
 constexpr double kernelReach = 3.5;  ///< deviations
 /// Larger ones, in pixels, spread every picture that there may be over more than it is large.
 constexpr double largestDeviation = 0x1p20;
-/// Coarse pixels beside the last that splines read.
-constexpr int splineReach = 2;
+int floorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
-/// How one axis is blurred.
-struct AxisBlur {
-    int step = 1;               ///< pixels of a coarse one
-    std::vector<float> kernel;  ///< from the centre outwards; empty: nothing is blurred
-};
+}  // namespace
 
 AxisBlur axisBlur(double deviation) {
     AxisBlur axis;
@@ -55,13 +51,19 @@ AxisBlur axisBlur(double deviation) {
     return axis;
 }
 
-int floorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+int blurReach(double deviation) {
+    const AxisBlur axis = axisBlur(deviation);
+    if (axis.kernel.empty())
+        return 0;
+    return axis.step * (int(axis.kernel.size()) + (axis.step > 1 ? splineReach : 0));
+}
 
-/// Coarse pixels that lie over those of a box.
 PixelBox coarsened(const PixelBox& box, glm::ivec2 steps) {
     return {{floorDivide(box.min.x, steps.x), floorDivide(box.min.y, steps.y)},
             {floorDivide(box.max.x - 1, steps.x) + 1, floorDivide(box.max.y - 1, steps.y) + 1}};
 }
+
+namespace {
 
 /// Means over coarse pixels of steps.x by steps.y.
 Layer reduced(const Layer& layer, glm::ivec2 steps) {
@@ -233,13 +235,6 @@ Layer enlarged(const Layer& coarse, glm::ivec2 steps, const PixelBox& box) {
 }
 
 }  // namespace
-
-int blurReach(double deviation) {
-    const AxisBlur axis = axisBlur(deviation);
-    if (axis.kernel.empty())
-        return 0;
-    return axis.step * (int(axis.kernel.size()) + (axis.step > 1 ? splineReach : 0));
-}
 
 Layer gaussianBlur(const FilterStep& step) {
     const AxisBlur x = axisBlur(step.parameters[0] * step.scale.x),

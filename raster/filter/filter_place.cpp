@@ -1,4 +1,4 @@
-#include "raster/filter/filter_place.hpp"
+#include "raster/filter_place.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,14 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "raster/filter_tables.hpp"
+
 namespace vtm::asset {
+
+PixelBox PixelRect::pixels() const {
+    constexpr double rounding = 1e-6;  // of sides that are meant to lie between pixels
+    return {glm::ivec2(glm::floor(min + rounding)), glm::ivec2(glm::ceil(max - rounding))};
+}
 
 namespace {
 
@@ -77,13 +84,17 @@ public:
     }
 
     FilterPlace take() { return std::move(place_); }
-    double largestLayer() const {
-        std::size_t largest = place_.shown.area();
-        for (const PixelBox& box : place_.needed)
-            largest = std::max(largest, box.area());
-        for (const PixelBox& box : place_.pictures)
-            largest = std::max(largest, box.area());
-        return double(largest);
+    /// How many times too large the largest layer's sides are.
+    double excess(double maxSide) const {
+        double largest = 0;
+        const auto add = [&](const PixelBox& box) {
+            largest = std::max({largest, std::sqrt(double(box.area()) / maxLayerPixels),
+                                box.width() / maxSide, box.height() / maxSide});
+        };
+        add(place_.shown);
+        std::ranges::for_each(place_.needed, add);
+        std::ranges::for_each(place_.pictures, add);
+        return largest;
     }
 
 private:
@@ -227,15 +238,15 @@ View FilterPlace::viewOf(std::size_t picture) const {
     return view;
 }
 
-FilterPlace placeOf(const AssetView& asset, const Filter& filter, const View& below) {
+FilterPlace placeOf(const AssetView& asset, const Filter& filter, const View& below, int maxSide) {
     double coarser = 1;
     for (int tries = 0;; ++tries) {
         Placement placement(asset, filter, below, coarser);
-        const double pixels = placement.largestLayer();
+        const double excess = placement.excess(maxSide);
         constexpr int maxTries = 64;
-        if (pixels <= maxLayerPixels || tries == maxTries)
+        if (excess <= 1 || tries == maxTries)
             return placement.take();
-        coarser *= 1.1 * std::sqrt(pixels / maxLayerPixels);
+        coarser *= 1.1 * excess;
     }
 }
 

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
+#include "raster/pixel_box.hpp"
 #include "raster/src/float4.hpp"
-#include "raster/src/pixel_box.hpp"
 #include "raster/src/pixel_memory.hpp"
 
 namespace vtm::asset {

@@ -11,18 +11,9 @@
 
 #include "asset/filters.hpp"
 #include "raster/filter/layer.hpp"
+#include "raster/filter_place.hpp"
 
 namespace vtm::asset {
-
-/// A subregion on the filter's raster.
-struct PixelRect {
-    glm::dvec2 min{0}, max{0};
-
-    /// The pixels that it meets.
-    PixelBox pixels() const;
-    /// Multiplies the pixels by the share of them that lies in the rectangle.
-    void cut(Layer& layer) const;
-};
 
 /// What an operation is done with.
 struct FilterStep {
@@ -35,6 +26,9 @@ struct FilterStep {
     bool inWholePixels = false;      ///< offsets are rounded
 };
 
+/// Multiplies the pixels by the share of them that lies in the rectangle.
+void cut(Layer& layer, const PixelRect& to);
+
 // per_pixel.cpp
 Layer blendLayers(const FilterStep& step);
 Layer colorMatrix(const FilterStep& step);
@@ -46,8 +40,6 @@ Layer flood(const FilterStep& step);
 // blur.cpp
 Layer gaussianBlur(const FilterStep& step);
 Layer dropShadow(const FilterStep& step);
-/// Pixels beyond which a deviation's blur reads nothing.
-int blurReach(double deviation);
 
 // neighbours.cpp
 Layer convolve(const FilterStep& step);

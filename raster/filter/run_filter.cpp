@@ -8,17 +8,13 @@
 #include <glm/matrix.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include "raster/filter/operations.hpp"
 
 namespace vtm::asset {
 
-PixelBox PixelRect::pixels() const {
-    constexpr double rounding = 1e-6;  // of sides that are meant to lie between pixels
-    return {glm::ivec2(glm::floor(min + rounding)), glm::ivec2(glm::ceil(max - rounding))};
-}
-
-void PixelRect::cut(Layer& layer) const {
-    const auto share = [](int pixel, double from, double to) {
-        return float(std::clamp(std::min(pixel + 1.0, to) - std::max(double(pixel), from), 0.0, 1.0));
+void cut(Layer& layer, const PixelRect& to) {
+    const auto share = [](int pixel, double from, double end) {
+        return float(std::clamp(std::min(pixel + 1.0, end) - std::max(double(pixel), from), 0.0, 1.0));
     };
     constexpr float whole = 1 - 1e-5f;
     const PixelBox& box = layer.box;
@@ -27,11 +23,11 @@ void PixelRect::cut(Layer& layer) const {
     std::vector<float> columns;
     bool isCut = false;
     for (int x = box.min.x; x < box.max.x; ++x) {
-        columns.push_back(share(x, min.x, max.x));
+        columns.push_back(share(x, to.min.x, to.max.x));
         isCut = isCut || columns.back() < whole;
     }
     for (int y = box.min.y; y < box.max.y; ++y) {
-        const float row = share(y, min.y, max.y);
+        const float row = share(y, to.min.y, to.max.y);
         if (!isCut && row >= whole)
             continue;
         Float4* pixels = layer.row(y);
@@ -114,7 +110,7 @@ private:
                               place_.origin,
                               place_.inWholePixels};
         Layer result = operation(primitive.op, step);
-        place_.regions[index].cut(result);
+        cut(result, place_.regions[index]);
         return result;
     }
 
@@ -126,7 +122,7 @@ private:
         if (input >= firstResult)
             return converted(results_[resultOf(input)].layer, linear);
         Layer source = picture(0);
-        place_.region.cut(source);
+        cut(source, place_.region);
         return converted(input == sourceAlpha ? alphaOf(std::move(source)) : std::move(source), linear);
     }
 

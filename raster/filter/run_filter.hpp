@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "raster/filter/filter_place.hpp"
+#include "raster/filter_place.hpp"
 #include "raster/src/canvas.hpp"
 
 namespace vtm::asset {

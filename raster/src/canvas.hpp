@@ -8,7 +8,7 @@
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/view.hpp>
 #include "raster/src/float4.hpp"
-#include "raster/src/pixel_box.hpp"
+#include "raster/pixel_box.hpp"
 #include "raster/src/pixel_memory.hpp"
 
 namespace vtm::asset {

@@ -5,7 +5,7 @@
 #include <vtm/raster/view.hpp>
 #include "asset/instances.hpp"
 #include "raster/src/paint.hpp"
-#include "raster/src/pixel_box.hpp"
+#include "raster/pixel_box.hpp"
 
 namespace vtm::asset {
 

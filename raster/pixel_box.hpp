@@ -14,6 +14,7 @@ struct PixelBox {
     glm::ivec2 min{0}, max{0};
 
     bool empty() const { return min.x >= max.x || min.y >= max.y; }
+    glm::ivec2 size() const { return max - min; }
     int width() const { return empty() ? 0 : max.x - min.x; }
     int height() const { return empty() ? 0 : max.y - min.y; }
     std::size_t area() const { return std::size_t(width()) * std::size_t(height()); }

@@ -6,15 +6,25 @@
 /// sampled for the view, as every image is.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <glm/mat3x2.hpp>
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/raster/view.hpp>
-#include "raster/filter/operations.hpp"
+#include "asset/filters.hpp"
+#include "raster/pixel_box.hpp"
 
 namespace vtm::asset {
+
+/// A rectangle of a filter's raster.
+struct PixelRect {
+    glm::dvec2 min{0}, max{0};
+
+    /// The pixels that it meets.
+    PixelBox pixels() const;
+};
 
 struct FilterPlace {
     glm::dvec2 scale{1}, origin{0};          ///< pixel = scale · point of the user space + origin
@@ -32,8 +42,10 @@ struct FilterPlace {
     View viewOf(std::size_t picture) const;
 };
 
-/// Under the view of the picture below.
-FilterPlace placeOf(const AssetView& asset, const Filter& filter, const View& below);
+/// Under the view of the picture below. The raster is coarser where a layer would have more pixels along a
+/// side than `maxSide`, or more than 2^24.
+FilterPlace placeOf(const AssetView& asset, const Filter& filter, const View& below,
+                    int maxSide = std::numeric_limits<int>::max());
 
 /// Whole pixels round the mapped box.
 PixelBox mapped(const PixelBox& box, const glm::dmat3x2& map);
