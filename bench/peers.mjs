@@ -18,6 +18,17 @@ function cpuTime(work) {
 
 const joinOf = join => join === undefined || join === 'miter-clip' ? 'miter' : join;
 
+/** The deviation of a blur that a picture as a whole has; 0 where it has no filter. */
+function blurOf(text) {
+    const filters = [...text.matchAll(/<filter\b[^>]*>(.*?)<\/filter>/gs)];
+    if (filters.length === 0)
+        return 0;
+    const blur = filters[0][1].match(/^\s*<feGaussianBlur\b[^>]*\bstdDeviation="([\d.]+)[^>]*\/>\s*$/);
+    if (filters.length !== 1 || !blur)
+        throw new Error('of filters, only one blur is drawn');
+    return Number(blur[1]);
+}
+
 /** Skia draws the paths of our scene, made once, on one canvas. */
 class Skia {
     constructor(package_) {
@@ -26,10 +37,11 @@ class Skia {
 
     load({file}) {
         const text = fs.readFileSync(file, 'utf8');
+        this.blur = blurOf(text);
         this.items = [...text.matchAll(/<(path|g|\/g)\b([^>]*)>/g)].map(([, tag, attributes]) => {
             const of = Object.fromEntries([...attributes.matchAll(/([\w-]+)="([^"]*)"/g)].map(m => [m[1], m[2]]));
-            if (tag === 'g' && (of.opacity ?? of.filter) !== undefined)
-                throw new Error('a canvas has no groups with an opacity or a filter');
+            if (tag === 'g' && of.opacity !== undefined)
+                throw new Error('a canvas has no groups with an opacity');
             return tag === 'path' ? this.itemOf(of) : null;
         }).filter(Boolean);
     }
@@ -58,28 +70,40 @@ class Skia {
         if (this.canvas?.width !== width || this.canvas?.height !== height) {
             this.canvas = this.package.createCanvas(width, height);
             this.context = this.canvas.getContext('2d');
+            this.layer = this.package.createCanvas(width, height);
         }
-        const context = this.context;
         return cpuTime(() => {
-            context.setTransform(1, 0, 0, 1, 0, 0);
-            context.clearRect(0, 0, width, height);
-            for (const item of this.items) {
-                context.setTransform(...matrix);
-                context.transform(...item.transform);
-                context.globalAlpha = item.alpha;
-                if (item.stroke) {
-                    const {dashes, ...style} = item.stroke;
-                    context.strokeStyle = item.paint;
-                    Object.assign(context, style);
-                    context.setLineDash(dashes);
-                    context.stroke(item.outline);
-                } else {
-                    context.fillStyle = item.paint;
-                    context.fill(item.outline, item.rule);
-                }
+            this.drawItems(this.blur > 0 ? this.layer.getContext('2d') : this.context, width, height, matrix);
+            if (this.blur > 0) {
+                this.context.clearRect(0, 0, width, height);
+                this.context.filter = `blur(${this.blur * Math.hypot(matrix[0], matrix[1])}px)`;
+                this.context.drawImage(this.layer, 0, 0);
+                this.context.filter = 'none';
             }
-            context.getImageData(0, 0, 1, 1);  // drawing is put off until pixels are wanted
+            this.context.getImageData(0, 0, 1, 1);  // drawing is put off until pixels are wanted
         });
+    }
+
+    drawItems(context, width, height, matrix) {
+        context.setTransform(1, 0, 0, 1, 0, 0);
+        context.clearRect(0, 0, width, height);
+        for (const item of this.items) {
+            context.setTransform(...matrix);
+            context.transform(...item.transform);
+            context.globalAlpha = item.alpha;
+            if (item.stroke) {
+                const {dashes, ...style} = item.stroke;
+                context.strokeStyle = item.paint;
+                Object.assign(context, style);
+                context.setLineDash(dashes);
+                context.stroke(item.outline);
+            } else {
+                context.fillStyle = item.paint;
+                context.fill(item.outline, item.rule);
+            }
+        }
+        context.setTransform(1, 0, 0, 1, 0, 0);
+        context.globalAlpha = 1;
     }
 
     png(view) {

@@ -3,17 +3,24 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <span>
 
 #include <fmt/core.h>
 
 #include <vtm/compiler/compile.hpp>
 #include "bench/input/filter_pictures.hpp"
-#include "bench/reports/cold_rows.hpp"
+#include "bench/reports/picture_rows.hpp"
 
 namespace vtm::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+CompiledFile compiled(const File& file) {
+    CompiledFile picture{file, load(file), {}};
+    picture.asset = compiler::compile(picture.scene).asset;
+    return picture;
+}
 
 /// Ours, and the pictures of the corpus that are made of filters.
 std::vector<File> picturesIn(const fs::path& folder, std::vector<std::string>& notes) {
@@ -37,16 +44,19 @@ Report filters(const Options& options) {
     fs::create_directories(folder);
     report.text = fmt::format(
         "CPU milliseconds (user and system, all threads) from the file to pixels, {} wide, medians, all "
-        "taking "
-        "turns in one run; in brackets how many times as long as `{}`. The first pictures are one drawing of "
-        "512 "
-        "units with one filter each. Filters are computed on the CPU in all of our engines.\n",
+        "taking turns in one run; in brackets how many times as long as `{}`. The first pictures are one "
+        "drawing of 512 units with one filter each. On software drivers `gl` computes filters on the CPU, "
+        "`shaders` by passes. The last two rows are drawn again and do not read the file.\n",
         options.side, reference(all).engine->name());
     report.text += descriptionsOf(all);
-    for (const File& file : picturesIn(folder, report.notes)) {
-        CompiledFile picture{file, load(file), {}};
-        picture.asset = compiler::compile(picture.scene).asset;
-        report.rows.push_back(coldRow(all, picture, "picture", options, report.notes));
+    const std::vector<File> files = picturesIn(folder, report.notes);
+    for (const File& file : files)
+        report.rows.push_back(pictureRow(all, compiled(file), cold, "picture", options, report.notes));
+    Options small = options;
+    small.side = 512;
+    for (File file : std::span(files).first(2)) {
+        file.name += ", drawn again, 512 wide";
+        report.rows.push_back(pictureRow(all, compiled(file), again, "picture", small, report.notes));
     }
     fs::remove_all(folder);
     removeEmptyColumns(all, report.rows);

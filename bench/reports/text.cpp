@@ -9,7 +9,7 @@
 #include <vtm/compiler/compile.hpp>
 #include "bench/input/text_pages.hpp"
 #include "bench/measure/measure.hpp"
-#include "bench/reports/cold_rows.hpp"
+#include "bench/reports/picture_rows.hpp"
 
 namespace vtm::bench {
 namespace {
@@ -45,7 +45,7 @@ Report text(const Options& options) {
     for (const File& file : writeTextPages(folder, report.notes)) {
         CompiledFile page{file, load(file), {}};
         page.asset = compiler::compile(page.scene).asset;
-        Json row = coldRow(all, page, "page", options, report.notes);
+        Json row = pictureRow(all, page, cold, "page", options, report.notes);
         row["of ours: to the scene"] = loadMilliseconds(page.file);
         report.rows.push_back(std::move(row));
     }

@@ -1,4 +1,4 @@
-#include "bench/reports/cold_rows.hpp"
+#include "bench/reports/picture_rows.hpp"
 
 #include <algorithm>
 
@@ -9,13 +9,10 @@
 namespace vtm::bench {
 namespace {
 
-constexpr Kind cold{.name = "cold", .moving = false, .cold = true};
-
 constexpr const char* absent = "-";
 
 }  // namespace
 
-/// Engines that are given paths alone read no file.
 void removeEmptyColumns(const Contenders& all, Json& rows) {
     for (const Contender& one : all) {
         const std::string& name = one.engine->name();
@@ -25,10 +22,10 @@ void removeEmptyColumns(const Contenders& all, Json& rows) {
     }
 }
 
-Json coldRow(Contenders& all, const CompiledFile& picture, const std::string& heading, const Options& options,
-             std::vector<std::string>& notes) {
-    prepare(all, picture, {&cold, 1}, options, notes);
-    takeTurns(all, picture, cold, options.side, patienceOf(options), notes);
+Json pictureRow(Contenders& all, const CompiledFile& picture, const Kind& kind, const std::string& heading,
+                const Options& options, std::vector<std::string>& notes) {
+    prepare(all, picture, {&kind, 1}, options, notes);
+    takeTurns(all, picture, kind, options.side, patienceOf(options), notes);
     Json row{{heading, picture.file.name}};
     const double ours = median(reference(all).times);
     for (const Contender& one : all) {
