@@ -17,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Scores {
-    std::map<std::string, bool> passed;  ///< by a test's path
-    std::string shares;                  ///< empty, or what the script said of them
+    std::map<std::string, std::string> verdicts;  ///< the script's, by a test's path
+    std::string shares;                           ///< empty, or what the script said of them
 };
 
 /// Runs the script once, whoever asks first.
 class Suite {
 public:
-    explicit Suite(fs::path folder) : folder_(std::move(folder)) {}
+    Suite(fs::path folder, std::string mode) : folder_(std::move(folder)), mode_(std::move(mode)) {}
     ~Suite() {
         std::error_code ignored;
         if (!pictures_.empty())
@@ -57,8 +57,9 @@ private:
         pictures_ = folder;
         const fs::path json = pictures_ / "verdicts.json";
         const std::string command = fmt::format(
-            "'{}' '{}/conformance/cases/svg_suite.py' --vtm '{}' --keep '{}' --verdicts '{}' > '{}' 2>&1",
-            VTM_PYTHON, VTM_SOURCE_DIR, VTM_COMMAND, pictures_.string(), json.string(),
+            "'{}' '{}/conformance/cases/svg_suite.py' --vtm '{}' --mode {} --keep '{}' --verdicts '{}' > "
+            "'{}' 2>&1",
+            VTM_PYTHON, VTM_SOURCE_DIR, VTM_COMMAND, mode_, pictures_.string(), json.string(),
             (pictures_ / "log.txt").string());
         const int status = std::system(command.c_str());
         const std::string log = readText(pictures_ / "log.txt");
@@ -66,12 +67,13 @@ private:
             throw SuiteError("svg_suite.py failed: " + log);
         const nlohmann::json verdicts = nlohmann::json::parse(readText(json));
         for (const auto& [test, verdict] : verdicts.items())
-            scores_.passed[test] = verdict.get<bool>();
+            scores_.verdicts[test] = verdict.get<std::string>();
         if (status != 0)
             scores_.shares = log;
     }
 
     fs::path folder_, pictures_;
+    std::string mode_;
     std::string error_;  ///< why there are no scores
     std::once_flag once_;
     Scores scores_;
@@ -86,10 +88,12 @@ std::string dotted(const std::string& test) {
 
 Outcome run(Suite& suite, const std::string& test, const Setting& setting) {
     const Scores& scores = suite.scores();
-    const auto found = scores.passed.find(test);
-    const bool passed = found != scores.passed.end() && found->second;
+    const auto found = scores.verdicts.find(test);
+    const bool passed = found != scores.verdicts.end() && found->second != "failed";
     Outcome outcome = passed ? Outcome::passed() : Outcome::failed("the suite's scorer says no");
-    if (found != scores.passed.end() && (!passed || setting.keepPictures))
+    if (passed && found->second == "edges")
+        outcome.message = "differs at edges alone, as exact mode means them";
+    if (found != scores.verdicts.end() && (!passed || setting.keepPictures))
         try {
             outcome.pictures = suite.pictures(test);
         } catch (const std::runtime_error&) {  // nothing was drawn
@@ -104,7 +108,7 @@ std::vector<Case> svgSuiteCases(const Folder& folder) {
     if (!fs::exists(root))
         return {{folder.name + ".absent", root.string(), "The SVG test suite.",
                  [=](const Setting&) { return Outcome::skipped(root.string() + " is absent"); }}};
-    const auto suite = std::make_shared<Suite>(root);
+    const auto suite = std::make_shared<Suite>(root, folder.settings.value("mode", "compat"));
     std::vector<Case> cases{{folder.name + ".shares", "conformance/cases/svg_suite.py",
                              "The shares of the suite's folders that must pass.", [=](const Setting&) {
                                  const std::string& said = suite->scores().shares;
