@@ -26,6 +26,26 @@ std::vector<std::uint32_t> allLayers(const LoweredScene& picture) {
     return layers;
 }
 
+/// Of a mask's tree: whether the mask covers a part of the square.
+bool isCovered(asset::Entry entry) {
+    return entry.kind() != asset::Entry::Kind::Solid || entry.payload() != 0;
+}
+
+/// Makes the map of a mask as small as the smallest of its squares that holds all that it covers, so that
+/// engines need not look for that in the whole picture.
+void tighten(asset::Map& map, const std::vector<asset::Node>& nodes) {
+    while (map.root.kind() == asset::Entry::Kind::Node) {
+        const std::array<asset::Entry, 16>& children = nodes[map.root.payload()].children;
+        if (std::ranges::count_if(children, isCovered) != 1)
+            return;
+        const auto at = std::ranges::find_if(children, isCovered) - children.begin();
+        map.side /= 4;
+        map.x += map.side * double(at % 4);
+        map.y += map.side * double(at / 4);
+        map.root = children[std::size_t(at)];
+    }
+}
+
 /// Maps over the lattice's root square.
 class MapBuilder {
 public:
@@ -104,10 +124,13 @@ public:
 
     void item(const LoweredItem& item) {
         MaskPainter painter(picture_, item.layer, noIndex);
+        const std::uint32_t layer[] = {item.layer};
+        const Tree mask = maps_.build(layer, painter);
+        if (!isCovered(mask.root))
+            return;  // it lies outside of the picture
         Command& fill = emit(Command::Kind::FillMask);
         fill.paint = paintOf(item);
-        const std::uint32_t layer[] = {item.layer};
-        fill.map = addMask(layer, painter);
+        fill.map = addMask(mask);
     }
 
     void emptyMask(std::uint32_t) {
@@ -149,9 +172,11 @@ private:
         emit(Command::Kind::Push);
     }
 
-    std::uint32_t addMask(std::span<const std::uint32_t> layers, const MaskPainter& painter) {
+    std::uint32_t addMask(const Tree& mask) {
         constexpr std::array<std::uint16_t, 2> paints{0, 1};
-        return maps_.add(maps_.build(layers, painter), paints);
+        const std::uint32_t map = maps_.add(mask, paints);
+        tighten(asset_.maps[map], asset_.nodes);
+        return map;
     }
 
     PaintId paintOf(const LoweredItem& item) {
@@ -168,8 +193,7 @@ private:
         std::vector<std::uint32_t> layers;
         collectLayers(clip, layers);
         std::sort(layers.begin(), layers.end());
-        MaskPainter painter(picture_, noIndex, clip);
-        return addMask(layers, painter);
+        return addMask(maps_.build(layers, MaskPainter(picture_, noIndex, clip)));
     }
 
     void collectLayers(std::uint32_t clip, std::vector<std::uint32_t>& into) const {

@@ -112,7 +112,7 @@ private:
             if (finder_.isIn(node)) {
                 draw(std::exchange(run, {}), on);
                 filtered(node, on);
-            } else if (blends(node) && !on.isBlank && mode() == asset::Mode::Exact) {
+            } else if (blends(node) && !on.isBlank) {
                 draw(std::exchange(run, {}), on);
                 group(std::get<Group>(node.value), on);
             } else {

@@ -152,6 +152,34 @@ TEST_P(BothModes, blendModesSeeWhatLiesBelow) {
     expectNear(pixel(picture(root), 20, 20, GetParam()), {0.5f, 0.5f, 0.25f, 1});
 }
 
+TEST_P(BothModes, blendModesSeeWhatWasFiltered) {
+    Group filtered = group({rect({0, 0}, {64, 64}, Color{1, 0.5f, 0.5f, 1})});
+    const scene::FilterPrimitive offset{scene::OffsetFilter{}, {{}}, {0, 0}, {64, 64}, false};
+    filtered.filter =
+        std::make_shared<scene::Filter>(scene::Filter{scene::identity, {0, 0}, {64, 64}, {offset}});
+    Group blended = group({rect({0, 0}, {64, 64}, Color{0.5f, 1, 0.5f, 1})});
+    blended.blend = scene::BlendMode::Multiply;
+    Group root;
+    root.children = {{filtered}, {blended}};
+    expectNear(pixel(picture(root), 20, 20, GetParam()), {0.5f, 0.5f, 0.25f, 1});
+}
+
+/// Engines visit all of a map.
+TEST(Compile, compatMasksAreNoLargerThanNeeded) {
+    const scene::Scene s = picture(group({rect({33, 34}, {35, 36}, red), rect({0, 0}, {64, 64}, blue),
+                                          rect({15, 15}, {17, 17}, red), rect({70, 0}, {80, 64}, green)}));
+    const asset::Asset asset = compile(s, {.mode = asset::Mode::Compat}).asset;
+    asset::validate(asset);
+    ASSERT_EQ(asset.maps.size(), 3u);  // nothing for what lies outside of the picture
+    EXPECT_EQ(asset.maps[0].side, 16);
+    EXPECT_EQ(asset.maps[0].x, 32);
+    EXPECT_EQ(asset.maps[0].y, 32);
+    EXPECT_EQ(asset.maps[1].side, 64);
+    EXPECT_EQ(asset.maps[2].side, 64);  // it lies in four of its squares
+    expectNear(pixel(s, 16, 16, asset::Mode::Compat), {1, 0, 0, 1});
+    expectNear(pixel(s, 34, 34, asset::Mode::Compat), {0, 0, 1, 1});
+}
+
 scene::Material rampMaterial(float alpha, const scene::Affine& transform = scene::identity) {
     return {"ramp", "vec4 ramp(vec2 p) { return vec4(p / 64.0, 0.0, 1.0); }", {0, 0, 1, alpha}, transform};
 }
