@@ -1,6 +1,7 @@
 #include "compiler/instances/tiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -15,13 +16,15 @@ namespace {
 using glm::dvec2;
 using glm::i64vec2;
 
-/// A grid of tiles with those that are not free: touched by an outline or beyond the picture.
+/// A grid of tiles with those that are not free: touched by an outline or beyond the picture. Outlines that
+/// run along a border of tiles touch none, but the tiles on its two sides differ.
 class TileGrid {
 public:
     TileGrid(const TilePattern& pattern, const Lattice& lattice, dvec2 size)
         : pattern_(pattern), size_(pattern.last - pattern.first + i64vec2(1)) {
         toTiles_ = *scene::inverse(pattern.toPicture);
-        isCut_.resize(std::size_t(size_.x) * std::size_t(size_.y));
+        for (std::vector<bool>* flags : {&isCut_, &isBordered_[0], &isBordered_[1]})
+            flags->resize(std::size_t(size_.x) * std::size_t(size_.y));
         // Outlines that run along a tile's border have been rounded to the lattice.
         const double step = 2 / lattice.stepsPerUnit();
         const dvec2 reach = (glm::abs(scene::applyVector(toTiles_, {step, 0})) +
@@ -34,11 +37,15 @@ public:
 
     i64vec2 size() const { return size_; }
     bool isFree(i64vec2 at) const { return !isCut_[index(at)]; }
+    /// Whether an outline runs along the tile's first side across an axis.
+    bool isBordered(i64vec2 at, std::size_t axis) const { return isBordered_[axis][index(at)]; }
 
     /// In the picture.
     void cut(dvec2 a, dvec2 b) {
         a = toGrid(a);
         b = toGrid(b);
+        border(a, b, 0);
+        border(a, b, 1);
         if (a.x > b.x)
             std::swap(a, b);
         const double from = std::max(std::floor(a.x - slack_.x), 0.0),
@@ -59,6 +66,30 @@ public:
     }
 
 private:
+    void border(dvec2 a, dvec2 b, int axis) {
+        const int other = 1 - axis;
+        if (a[axis] > b[axis])
+            std::swap(a, b);
+        const double slope = b[axis] > a[axis] ? (b[other] - a[other]) / (b[axis] - a[axis]) : 0;
+        const double from = std::max(std::ceil(a[axis] - slack_[axis]), 0.0),
+                     to = std::min(std::floor(b[axis] + slack_[axis]), double(size_[axis] - 1));
+        for (double line = from; line <= to; ++line) {
+            // What lies near the line.
+            const double near = std::max(a[axis], line - slack_[axis]),
+                         far = std::min(b[axis], line + slack_[axis]);
+            const double p0 = a[other] + (near - a[axis]) * slope,
+                         p1 = slope == 0 ? b[other] : a[other] + (far - a[axis]) * slope;
+            const double low = std::floor(std::min(p0, p1) - slack_[other]),
+                         high = std::floor(std::max(p0, p1) + slack_[other]);
+            for (double at = std::max(low, 0.0); at <= std::min(high, double(size_[other] - 1)); ++at) {
+                i64vec2 tile;
+                tile[axis] = std::int64_t(line);
+                tile[other] = std::int64_t(at);
+                isBordered_[std::size_t(axis)][index(tile)] = true;
+            }
+        }
+    }
+
     std::size_t index(i64vec2 at) const {
         return std::size_t(at.y) * std::size_t(size_.x) + std::size_t(at.x);
     }
@@ -85,16 +116,20 @@ private:
     scene::Affine toTiles_;
     dvec2 slack_;
     std::vector<bool> isCut_;
+    std::array<std::vector<bool>, 2> isBordered_;
 };
 
 /// Blocks of free tiles, as large as they are free: level by level, from the tiles up.
 class Blocks {
 public:
     Blocks(const TileGrid& grid, unsigned maxLevel) {
-        levels_.push_back({grid.size(), {}});
+        levels_.push_back({grid.size(), {}, {}});
         for (std::int64_t y = 0; y < grid.size().y; ++y)
-            for (std::int64_t x = 0; x < grid.size().x; ++x)
+            for (std::int64_t x = 0; x < grid.size().x; ++x) {
                 levels_[0].isFree.push_back(grid.isFree({x, y}));
+                for (const std::size_t axis : {0, 1})
+                    levels_[0].isBordered[axis].push_back(grid.isBordered({x, y}, axis));
+            }
         while (levels_.size() <= maxLevel &&
                std::ranges::find(levels_.back().isFree, true) != levels_.back().isFree.end())
             levels_.push_back(above(levels_.back()));
@@ -117,21 +152,34 @@ private:
     struct Level {
         i64vec2 size;
         std::vector<bool> isFree;
+        std::array<std::vector<bool>, 2> isBordered;
 
-        /// False beyond it.
-        bool at(i64vec2 p) const {
-            return p.x < size.x && p.y < size.y &&
-                   isFree[std::size_t(p.y) * std::size_t(size.x) + std::size_t(p.x)];
+        bool holds(i64vec2 p) const { return p.x < size.x && p.y < size.y; }
+        std::size_t index(i64vec2 p) const {
+            return std::size_t(p.y) * std::size_t(size.x) + std::size_t(p.x);
         }
+        /// False beyond it.
+        bool at(i64vec2 p) const { return holds(p) && isFree[index(p)]; }
     };
     static Level above(const Level& level) {
-        Level next{(level.size + blockTiles - std::int64_t(1)) / blockTiles, {}};
+        Level next{(level.size + blockTiles - std::int64_t(1)) / blockTiles, {}, {}};
         for (std::int64_t y = 0; y < next.size.y; ++y)
             for (std::int64_t x = 0; x < next.size.x; ++x) {
                 bool isFree = true;
-                for (std::int64_t i = 0; isFree && i < blockTiles * blockTiles; ++i)
-                    isFree = level.at(i64vec2(x, y) * blockTiles + i64vec2(i % blockTiles, i / blockTiles));
+                std::array<bool, 2> isBordered{};
+                for (std::int64_t i = 0; isFree && i < blockTiles * blockTiles; ++i) {
+                    const i64vec2 inside(i % blockTiles, i / blockTiles),
+                        at = i64vec2(x, y) * blockTiles + inside;
+                    isFree = level.at(at);
+                    for (const int axis : {0, 1})
+                        if (isFree && level.isBordered[std::size_t(axis)][level.index(at)]) {
+                            isBordered[std::size_t(axis)] = true;
+                            isFree = inside[axis] == 0;  // no outline runs through the block
+                        }
+                }
                 next.isFree.push_back(isFree);
+                for (const std::size_t axis : {0, 1})
+                    next.isBordered[axis].push_back(isBordered[axis]);
             }
         return next;
     }
