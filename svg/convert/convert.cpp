@@ -138,7 +138,7 @@ void Converter::convertContent(const Element& element, const Scope& scope, Nodes
 void Converter::warnUnsupported(const Element& element) {
     reporter_.warn(Kind::Element, element,
                    element.tag == Tag::Unknown ? "is not an SVG element; it is left out"
-                                               : "is not supported yet; it is left out");
+                                               : "holds what is not SVG; it is left out");
 }
 
 bool Converter::spend(std::size_t visits) {
@@ -207,15 +207,31 @@ scene::Affine Converter::transformFrom(std::string_view text, const Style& style
 
 scene::Affine Converter::transformOf(const Element& element, const Scope& scope) {
     const Style& style = scope.style;
-    if (!style.transformsInBox || style.transform.empty())
-        return transformFrom(style.transform, style, scope.viewport);
-    const Box box = ownBox(element, scope);
-    const Viewport size{std::max(box.width(), 0.0), std::max(box.height(), 0.0)};
-    const auto transform = parseTransform(style.transform, unitsFor(style), size);
-    if (!transform || box.empty())
-        return transform.value_or(scene::identity);
+    if (style.transform.empty() && style.translate.empty() && style.rotate.empty() && style.scale.empty())
+        return scene::identity;
+    if (style.transformBox == TransformBox::View)
+        return transformIn({{0, 0}, {scope.viewport.width, scope.viewport.height}}, style);
+    const Box box =
+        style.transformBox == TransformBox::Fill ? ownBox(element, scope) : ownStrokeBox(element, scope);
+    return transformIn(box.empty() ? Box{{0, 0}, {0, 0}} : box, style);
+}
+
+/// CSS Transforms 2 section 6: about the origin, translate, rotate, scale, then transform.
+scene::Affine Converter::transformIn(const Box& box, const Style& style) const {
+    const Units units = unitsFor(style);
+    const Viewport size{box.width(), box.height()};
+    scene::Affine result = scene::identity;
+    const auto add = [&](std::string_view text, const std::optional<scene::Affine>& parsed) {
+        if (!text.empty() && parsed)
+            result = scene::compose(result, *parsed);
+    };
+    add(style.translate, parseTranslate(style.translate, units, size));
+    add(style.rotate, parseRotate(style.rotate));
+    add(style.scale, parseScale(style.scale));
+    add(style.transform, parseTransform(style.transform, units, size));
     const TransformOrigin origin = style.transformOrigin.value_or(TransformOrigin{});
-    return aroundPoint(*transform, box.min + scene::Point(origin.x.of(size.width), origin.y.of(size.height)));
+    const scene::Point at = box.min + scene::Point(origin.x.of(size.width), origin.y.of(size.height));
+    return at == scene::Point(0) ? result : aroundPoint(result, at);
 }
 
 /// Of what the element fills, before its own transform.
@@ -228,6 +244,19 @@ Box Converter::ownBox(const Element& element, const Scope& scope) {
     Nodes measured;
     const Box box = boxAround(scope, [&] { convertContent(element, scope, measured); });
     outlines_.resize(first);  // who else listens hears of it where it is drawn
+    return box;
+}
+
+Box Converter::ownStrokeBox(const Element& element, const Scope& scope) {
+    Box box = ownBox(element, scope);
+    Scope own = scope;
+    own.transform = scene::identity;
+    own.style.nonScalingStroke = false;
+    const std::size_t first = outlines_.size();
+    Nodes nodes;
+    convertContent(element, own, nodes);
+    outlines_.resize(first);
+    box.add(strokedBox(nodes));
     return box;
 }
 

@@ -102,9 +102,13 @@ private:
     std::optional<Scope> enter(const Element& element, const Scope& parent);
     void convertSwitch(const Element& element, const Scope& scope, Nodes& out);
     scene::Affine transformFrom(std::string_view text, const Style& style, const Viewport& viewport) const;
+    /// What the style's properties make, with percentages and origin in a box.
+    scene::Affine transformIn(const Box& box, const Style& style) const;
     /// Of an element in a scope that has its style, and the transform and viewport of its parent.
     scene::Affine transformOf(const Element& element, const Scope& scope);
     Box ownBox(const Element& element, const Scope& scope);
+    /// With its strokes.
+    Box ownStrokeBox(const Element& element, const Scope& scope);
     const Style& styleOf(const Element& element);
     LengthReader lengths(const Element& element, const Scope& scope) const;
     Units unitsFor(const Style& style) const;
@@ -153,6 +157,8 @@ private:
     const Box& contextBox(const ContextElement& context);
     ServerResult server(std::string_view href, const Element& element, const Scope& scope, const Box& box);
     TemplateChain templateChain(const Element& server);
+    /// The first transform along the chain; empty if there is none.
+    std::string_view templateTransform(const TemplateChain& chain);
     ServerResult gradient(const Element& server, const Scope& scope, const Box& box);
     const std::vector<scene::GradientStop>& gradientStops(const std::vector<const Element*>& chain);
     std::vector<scene::GradientStop> stopsIn(const Element& gradient);
@@ -213,7 +219,7 @@ private:
     text::FontSet& fonts();
     void addFontFaces(text::FontSet& fonts);
     bool addFontFace(text::FontSet& fonts, const text::FontFace& face, std::string_view url,
-                     std::string& cause);
+                     const std::string& directory, std::string& cause);
     void warnOfMissingFamilies(const TextContent& content);
     void warnOfMissingGlyphs(const Element& element, const TextContent& content, const TextLayout& layout);
     void convertText(const Element& element, const Scope& scope, Nodes& out);

@@ -40,8 +40,10 @@ std::shared_ptr<const scene::Clip> Converter::shapeClip(const Element& element, 
     if (!shape)
         return nullptr;
     auto made = std::make_shared<scene::Clip>();
-    const Box reference =
-        shape->isInViewport ? Box{{0, 0}, {scope.viewport.width, scope.viewport.height}} : box;
+    const Box reference = shape->box == TransformBox::Stroke ? ownStrokeBox(element, scope)
+                          : shape->box == TransformBox::Fill
+                              ? box
+                              : Box{{0, 0}, {scope.viewport.width, scope.viewport.height}};
     if (reference.empty())
         return made;
     scene::Path path = outlineOf(*shape, reference);
@@ -66,8 +68,8 @@ std::shared_ptr<const scene::Clip> Converter::clip(const Element& clipPath, cons
     Scope& inner = *innerScope;
     inner.style = styleOf(clipPath);
     ++inner.depth;
-    inner.transform =
-        scene::compose(scope.transform, transformFrom(inner.style.transform, inner.style, scope.viewport));
+    inner.transform = scene::compose(
+        scope.transform, transformIn({{0, 0}, {scope.viewport.width, scope.viewport.height}}, inner.style));
     if (trim(clipPath.get("clipPathUnits")) == "objectBoundingBox")
         inner.transform = scene::compose(inner.transform, unitSquareTo(box));
     auto made = std::make_shared<scene::Clip>();
@@ -86,12 +88,16 @@ void Converter::addClipChild(const Element& child, const Scope& parent, scene::C
         return addClipText(child, parent, clip);
     if (isShape(child.tag))
         addClipShape(child, parent, nullptr, clip);
+    if (child.tag == Tag::G || child.tag == Tag::Image || child.tag == Tag::Svg || child.tag == Tag::Switch)
+        reporter_.warn(Kind::Element, child, "clips nothing in a clipPath; it is left out");
     if (child.tag != Tag::Use)
         return;
     const std::optional<Scope> scope = spend() ? enter(child, parent) : std::nullopt;
     const Element* target = tree_.byHref(hrefOf(child).value_or(std::string_view{}));
-    if (!scope || !target || !(isShape(target->tag) || target->tag == Tag::Text))
+    if (!scope)
         return;
+    if (!target || !(isShape(target->tag) || target->tag == Tag::Text))
+        return reporter_.warn(Kind::Reference, child, "refers to no shape and no text; it is left out");
     if (target->tag == Tag::Text)
         return addClipText(*target, *scope, clip);
     const Box box = boxAround(*scope, [&] {

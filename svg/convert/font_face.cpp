@@ -99,7 +99,7 @@ void Converter::addFontFaces(text::FontSet& fonts) {
             continue;
         std::string cause;
         const bool added = std::any_of(urls.begin(), urls.end(), [&](std::string_view url) {
-            return addFontFace(fonts, faceOf(rule, families.front()), url, cause);
+            return addFontFace(fonts, faceOf(rule, families.front()), url, rule.directory, cause);
         });
         if (!added)
             reporter_.warn(
@@ -109,9 +109,9 @@ void Converter::addFontFaces(text::FontSet& fonts) {
 }
 
 bool Converter::addFontFace(text::FontSet& fonts, const text::FontFace& face, std::string_view url,
-                            std::string& cause) {
+                            const std::string& directory, std::string& cause) {
     try {
-        fonts.add(face, readResource(url, options_.resourceDirectory, options_.resourceRoot));
+        fonts.add(face, readResource(url, directory, options_.resourceRoot));
         return true;
     } catch (const limits::Exceeded&) {
         throw;

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include "svg/convert/converter.hpp"
+#include "svg/css/color_spaces.hpp"
 
 namespace vtm::svg {
 
@@ -88,6 +90,13 @@ std::string_view inherited(const TemplateChain& chain, std::string_view name, Ta
         if (tag == Tag::Unknown || element->tag == tag)
             if (const auto value = element->find(name))
                 return *value;
+    return {};
+}
+
+std::string_view Converter::templateTransform(const TemplateChain& chain) {
+    for (const Element* element : chain)
+        if (const std::string_view transform = styleOf(*element).transform; !transform.empty())
+            return transform;
     return {};
 }
 
@@ -198,6 +207,40 @@ std::vector<scene::GradientStop> Converter::stopsIn(const Element& gradient) {
     return stops;
 }
 
+namespace {
+
+/// Between two stops what is linear in light is nearly linear in sRGB once it is cut small enough.
+void addInLinearLight(const scene::GradientStop& from, const scene::GradientStop& to, int depth,
+                      std::vector<scene::GradientStop>& stops) {
+    static const ColorSpace &srgb = *findColorSpace("srgb"), &linear = *findColorSpace("srgb-linear");
+    constexpr double tolerance = 0.25 / 255;
+    const Vec3 a(from.color.r, from.color.g, from.color.b), b(to.color.r, to.color.g, to.color.b);
+    const auto light = [](Vec3 color) { return linear.fromXyz(srgb.toXyz(color)); };
+    const Vec3 middle = srgb.fromXyz(linear.toXyz((light(a) + light(b)) / 2.0));
+    const Vec3 error = glm::abs(middle - (a + b) / 2.0);
+    if (depth > 0 && std::max({error.x, error.y, error.z}) > tolerance) {
+        const scene::GradientStop half{
+            (from.offset + to.offset) / 2,
+            {float(middle.x), float(middle.y), float(middle.z), (from.color.a + to.color.a) / 2}};
+        addInLinearLight(from, half, depth - 1, stops);
+        addInLinearLight(half, to, depth - 1, stops);
+        return;
+    }
+    stops.push_back(to);
+}
+
+std::vector<scene::GradientStop> inLinearLight(const std::vector<scene::GradientStop>& stops) {
+    constexpr int maxDepth = 12;  // sRGB is steep at black: most parts are far larger
+    std::vector<scene::GradientStop> result{stops.front()};
+    for (std::size_t i = 1; i < stops.size(); ++i) {
+        limits::check();
+        addInLinearLight(stops[i - 1], stops[i], maxDepth, result);
+    }
+    return result;
+}
+
+}  // namespace
+
 Converter::ServerResult Converter::gradient(const Element& server, const Scope& scope, const Box& box) {
     const TemplateChain chain = templateChain(server);
     std::vector<scene::GradientStop> stops = gradientStops(chain);
@@ -210,11 +253,13 @@ Converter::ServerResult Converter::gradient(const Element& server, const Scope& 
         return Invalid{};
     const Viewport viewport = userSpace ? scope.viewport : Viewport{1, 1};
     const Style& style = styleOf(server);
-    scene::Affine transform = transformFrom(inherited(chain, "gradientTransform"), style, viewport);
+    scene::Affine transform = transformFrom(templateTransform(chain), style, viewport);
     if (!userSpace)
         transform = scene::compose(unitSquareTo(box), transform);
     if (!scene::inverse(transform))
         return Nothing{};
+    if (style.linearColors)
+        stops = inLinearLight(stops);
     const Coordinates at{chain, server.tag, viewport, unitsFor(style)};
     const scene::Spread spread = spreadOf(chain);
     return server.tag == Tag::LinearGradient ? linear(at, std::move(stops), spread, transform)
@@ -274,7 +319,7 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
         viewBox ? scene::fittedMap(*viewBox, parseAspectRatio(inherited(chain, "preserveAspectRatio")), tile)
                 : scene::compose(scene::translation(tile.x, tile.y), scale);
     const scene::Affine transform =
-        scene::compose(transformFrom(inherited(chain, "patternTransform"), style, scope.viewport), toTile);
+        scene::compose(transformFrom(templateTransform(chain), style, scope.viewport), toTile);
     const auto toContent = scene::inverse(toTile);
     if (!scene::inverse(transform) || !toContent)
         return Nothing{};

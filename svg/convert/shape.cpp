@@ -137,7 +137,10 @@ void Converter::addDashes(const Element& element, const Scope& scope, CachedShap
     if (!scope.style.dashes)
         return;
     double scale = 1;
-    if (const auto given = lengths(element, scope).length("pathLength", Axis::X); given && *given > 0) {
+    const auto given = lengths(element, scope).length("pathLength", Axis::X);
+    if (given && *given == 0)
+        return;  // every dash is endless
+    if (given && *given > 0) {
         if (!shape.length)
             shape.length = PathMeasure(*shape.path).length();
         scale = *shape.length / *given;

@@ -11,14 +11,11 @@ namespace {
 
 // ---- Kinds of values ------------------------------------------------------------------------------
 
-bool isLength(std::string_view text) { return parseLength(text, {}).has_value(); }
+bool isLength(std::string_view text) { return isAnyLength(text, {}); }
 bool isLengthOrAuto(std::string_view text) { return isLength(text) || equalsIgnoringCase(text, "auto"); }
 
-bool isNotNegative(std::string_view text) {
-    const auto length = parseLength(text, {});
-    return length && length->value >= 0;
-}
-bool isRadius(std::string_view text) { return isNotNegative(text) || equalsIgnoringCase(text, "auto"); }
+bool isSize(std::string_view text) { return isNotNegative(text, {}); }
+bool isRadius(std::string_view text) { return isSize(text) || equalsIgnoringCase(text, "auto"); }
 
 template <std::size_t N>
 bool isOneOf(std::string_view text, const std::string_view (&words)[N]) {
@@ -41,7 +38,6 @@ bool isOrientation(std::string_view text) {
 }
 
 bool isFraction(std::string_view text) { return parseFraction(text).has_value(); }
-bool isTransform(std::string_view text) { return parseTransform(text, {}, {1, 1}).has_value(); }
 bool isViewBox(std::string_view text) { return parseViewBox(text) || isEmptyViewBox(text); }
 bool isAspectRatio(std::string_view text) { return readAspectRatio(text).has_value(); }
 
@@ -61,9 +57,8 @@ const std::unordered_map<Tag, Kinds>& kindsByTag() {
         const Kinds radii{{"rx", isRadius}, {"ry", isRadius}};
         const Kinds ends{{"x1", isLength}, {"y1", isLength}, {"x2", isLength}, {"y2", isLength}};
         const Kinds box{{"viewBox", isViewBox}, {"preserveAspectRatio", isAspectRatio}};
-        const Kinds length{{"pathLength", isNotNegative}};
-        const Kinds gradient{
-            {"gradientUnits", isUnits}, {"gradientTransform", isTransform}, {"spreadMethod", isSpread}};
+        const Kinds length{{"pathLength", isSize}};
+        const Kinds gradient{{"gradientUnits", isUnits}, {"spreadMethod", isSpread}};
         const auto all = [](std::initializer_list<Kinds> parts) {
             Kinds kinds;
             for (const Kinds& part : parts)
@@ -84,16 +79,10 @@ const std::unordered_map<Tag, Kinds>& kindsByTag() {
             {Tag::Path, length},
             {Tag::LinearGradient, all({ends, gradient})},
             {Tag::RadialGradient,
-             all({center,
-                  gradient,
-                  {{"r", isNotNegative}, {"fx", isLength}, {"fy", isLength}, {"fr", isNotNegative}}})},
+             all({center, gradient, {{"r", isSize}, {"fx", isLength}, {"fy", isLength}, {"fr", isSize}}})},
             {Tag::Stop, {{"offset", isFraction}}},
-            {Tag::Pattern, all({place,
-                                size,
-                                box,
-                                {{"patternUnits", isUnits},
-                                 {"patternContentUnits", isUnits},
-                                 {"patternTransform", isTransform}}})},
+            {Tag::Pattern,
+             all({place, size, box, {{"patternUnits", isUnits}, {"patternContentUnits", isUnits}}})},
             {Tag::ClipPath, {{"clipPathUnits", isUnits}}},
             {Tag::Mask, all({place, size, {{"maskUnits", isUnits}, {"maskContentUnits", isUnits}}})},
             {Tag::Marker, all({box,

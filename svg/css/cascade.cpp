@@ -1,7 +1,10 @@
 #include "svg/css/cascade.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <tuple>
 #include <unordered_map>
 
 #include <vtm/image/codec.hpp>
@@ -11,6 +14,7 @@
 #include "svg/css/cursor.hpp"
 #include "svg/css/style.hpp"
 #include "svg/css/variables.hpp"
+#include "svg/xml/decode.hpp"
 #include "svg/xml/resource.hpp"
 
 namespace vtm::svg {
@@ -23,15 +27,16 @@ constexpr long maxMatchingSteps = 300'000'000;
 struct Candidate {
     const Selector* selector;
     const Rule* rule;
-    std::size_t order;
+    std::size_t layer, order;  ///< the higher one wins
 };
 
 /// Selectors by what their last compound asks for, so that an element is compared with few.
 class SelectorIndex {
 public:
-    void add(const Rule& rule) {
+    /// `layer`: its rank.
+    void add(const Rule& rule, std::size_t layer) {
         for (const Selector& selector : rule.selectors)
-            keyed_[keyOf(selector.compounds.back())].push_back({&selector, &rule, order_++});
+            keyed_[keyOf(selector.compounds.back())].push_back({&selector, &rule, layer, order_++});
     }
 
     std::vector<Candidate> match(const Element& element, long& steps) const {
@@ -46,7 +51,8 @@ public:
         if (const auto id = element.find("id"))
             collect(*id);
         std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-            return std::pair(a.selector->specificity, a.order) < std::pair(b.selector->specificity, b.order);
+            return std::tuple(a.layer, a.selector->specificity, a.order) <
+                   std::tuple(b.layer, b.selector->specificity, b.order);
         });
         return found;
     }
@@ -83,7 +89,7 @@ std::string_view sheetText(const Element& style, Tree& tree) {
 /// Declarations of known properties, whose values are none of theirs.
 void check(const Element& element, const std::vector<RawDeclaration>& declarations, Reporter& reporter) {
     for (const RawDeclaration& raw : declarations)
-        if (const Property* property = findProperty(raw.name);
+        if (const Property* property = findDeclared(raw.name);
             property && !hasVariables(raw.value) && !isValid(*property, raw.value))
             reporter.warnInvalid(element, raw.name, raw.value);
 }
@@ -95,22 +101,11 @@ public:
         : tree_(tree), options_(options), reporter_(reporter) {}
 
     /// Reads the rules of a sheet that stands in `element`; its fonts go to the tree.
-    void read(std::string_view text, const Element& element, int depth = 0) {
-        StyleSheet sheet = parseStyleSheet(text);
-        for (const Import& import : sheet.imports)
-            if (mediaHolds(import.media))
-                readImport(import.href, element, depth);
-        for (Rule& rule : sheet.rules) {
-            check(element, rule.declarations, reporter_);
-            rules_.push_back(std::move(rule));
-        }
-        for (const std::vector<RawDeclaration>& descriptors : sheet.fontFaces) {
-            FontFaceRule& rule = tree_.fontFaces.emplace_back();
-            rule.sheet = &element;
-            for (const RawDeclaration& descriptor : descriptors)
-                rule.descriptors.push_back({descriptor.name, descriptor.value});
-        }
+    void read(std::string_view text, const Element& element) {
+        read(text, element, 0, options_.resourceDirectory);
     }
+    const Layers& layers() const { return layers_; }
+
     /// What stands in `<?xml-stylesheet type="text/css" href="…" media="…"?>`.
     void readLinked(std::string_view instruction) {
         const std::string_view type = attributeOf(instruction, "type"),
@@ -118,7 +113,7 @@ public:
         const bool isCss = type.empty() || equalsIgnoringCase(type, "text/css");
         if (isCss && !href.empty() && attributeOf(instruction, "alternate") != "yes" &&
             mediaHolds(attributeOf(instruction, "media")))
-            readImport(href, *tree_.root, 0);
+            readImport({href, {}}, *tree_.root, options_.resourceDirectory);
     }
     std::vector<Rule> take() { return std::move(rules_); }
 
@@ -143,37 +138,69 @@ private:
         return {};
     }
 
-    void readImport(std::string_view href, const Element& element, int depth) {
-        constexpr int maxImports = 8;  // of sheets in each other
-        if (depth == maxImports)
+    /// `directory`: where its references start.
+    void read(std::string_view text, const Element& element, std::size_t layer,
+              const std::string& directory) {
+        StyleSheet sheet = parseStyleSheet(text, layers_, layer);
+        for (const Import& import : sheet.imports)
+            if (mediaHolds(import.media))
+                readImport(import, element, directory);
+        for (const std::string_view rule : sheet.ignored)
+            reporter_.warn(Warning::Kind::Value, element, "the rule " + quoted(rule) + " is ignored");
+        for (Rule& rule : sheet.rules) {
+            check(element, rule.declarations, reporter_);
+            rules_.push_back(std::move(rule));
+        }
+        for (const std::vector<RawDeclaration>& descriptors : sheet.fontFaces) {
+            FontFaceRule& rule = tree_.fontFaces.emplace_back();
+            rule.sheet = &element;
+            rule.directory = directory;
+            for (const RawDeclaration& descriptor : descriptors)
+                rule.descriptors.push_back({descriptor.name, descriptor.value});
+        }
+    }
+
+    /// A sheet that imports itself, by others too, is read once.
+    void readImport(const Import& import, const Element& element, const std::string& directory) {
+        constexpr std::size_t maxImports = 8;  // of sheets in each other
+        const auto file = (std::filesystem::path(directory) / percentDecoded(import.href)).lexically_normal();
+        if (std::ranges::find(open_, file) != open_.end())
+            return reporter_.warn(Warning::Kind::Reference, element,
+                                  "style sheets import each other in a circle");
+        if (open_.size() == maxImports)
             return reporter_.warn(Warning::Kind::Reference, element,
                                   "style sheets import each other too deeply");
+        open_.push_back(file);
         try {
-            const std::vector<std::uint8_t> bytes =
-                readResource(href, options_.resourceDirectory, options_.resourceRoot);
-            const std::string text(bytes.begin(), bytes.end());
-            read(tree_.ownedText.emplace_back(withoutComments(text)), element, depth + 1);
-        } catch (const image::CodecError& error) {
+            const std::string text =
+                decodeText(readResource(import.href, directory, options_.resourceRoot), file.string());
+            read(tree_.ownedText.emplace_back(withoutComments(text)), element, import.layer,
+                 isDataUrl(import.href) ? directory : file.parent_path().string());
+        } catch (const limits::Exceeded&) {
+            throw;
+        } catch (const std::runtime_error& error) {
             reporter_.warn(Warning::Kind::Reference, element,
-                           "the style sheet " + quoted(href) + " cannot be read: " + error.what());
+                           "the style sheet " + quoted(import.href) + " cannot be read: " + error.what());
         }
+        open_.pop_back();
     }
 
     Tree& tree_;
     const Options& options_;
     Reporter& reporter_;
+    Layers layers_;
     std::vector<Rule> rules_;
+    std::vector<std::filesystem::path>
+        open_;  ///< sheets that are being read, each imported by the one before
 };
 
-std::vector<Rule> readSheets(Tree& tree, const Options& options, Reporter& reporter) {
-    SheetReader reader(tree, options, reporter);
+void readSheets(SheetReader& reader, Tree& tree, const Options& options) {
     reader.read(tree.ownedText.emplace_back(withoutComments(options.styleSheet)), *tree.root);
     for (const std::string_view instruction : tree.styleSheets)
         reader.readLinked(instruction);
     for (const Element& element : tree.elements)
         if (element.tag == Tag::Style && isCss(element) && mediaHolds(element.get("media")))
             reader.read(sheetText(element, tree), element);
-    return reader.take();
 }
 
 /// Values in attributes may hold CSS comments too.
@@ -188,9 +215,20 @@ bool isStyled(Tag tag) {
     return std::find(std::begin(others), std::end(others), tag) == std::end(others);
 }
 
+/// The property that an attribute stands for. Paint servers call `transform` by other names (CSS Transforms 1
+/// section 5).
+std::string_view propertyOf(Tag tag, std::string_view attribute) {
+    const bool isGradient = tag == Tag::LinearGradient || tag == Tag::RadialGradient;
+    if (!isGradient && tag != Tag::Pattern)
+        return attribute;
+    if (attribute == (isGradient ? "gradientTransform" : "patternTransform"))
+        return "transform";
+    return attribute == "transform" ? std::string_view{} : attribute;
+}
+
 void addPresentationAttributes(Element& element, Tree& tree, Reporter& reporter) {
     for (const Attribute& attribute : element.attributes) {
-        const Property* property = findProperty(attribute.name);
+        const Property* property = findProperty(propertyOf(element.tag, attribute.name));
         if (!property || !property->attribute)
             continue;
         const std::string_view value = trim(cleaned(attribute.value, tree));
@@ -205,13 +243,16 @@ class Declarer {
 public:
     Declarer(Tree& tree, Reporter& reporter) : tree_(tree), reporter_(reporter) {}
 
-    void declare(Element& element, const std::vector<Candidate>& rules) {
+    void declare(Element& element, std::vector<Candidate> rules) {
         addPresentationAttributes(element, tree_, reporter_);
         const auto style = parseDeclarations(cleaned(element.get("style"), tree_));
         if (isStyled(element.tag))
             check(element, style, reporter_);
         std::shared_ptr<Variables> own;
         for (const bool important : {false, true}) {
+            // Which turns the order of layers round (CSS Cascade 5 section 6.4).
+            if (important && !std::ranges::is_sorted(rules, std::greater(), &Candidate::layer))
+                std::ranges::stable_sort(rules, std::greater(), &Candidate::layer);
             for (const Candidate& candidate : rules)
                 add(element, candidate.rule->declarations, important, own);
             add(element, style, important, own);
@@ -233,7 +274,7 @@ private:
         for (const RawDeclaration& raw : declarations) {
             if (raw.important != important)
                 continue;
-            if (const Property* property = findProperty(raw.name)) {
+            if (const Property* property = findDeclared(raw.name)) {
                 element.declarations.push_back({property, raw.value});
             } else if (raw.name.starts_with("--")) {
                 if (!own)
@@ -265,10 +306,13 @@ private:
 
 void cascade(Tree& tree, const Options& options, Reporter& reporter) {
     const limits::Stage stage("matching styles");
-    const std::vector<Rule> rules = readSheets(tree, options, reporter);
+    SheetReader reader(tree, options, reporter);
+    readSheets(reader, tree, options);
+    const std::vector<Rule> rules = reader.take();
+    const std::vector<std::size_t> ranks = reader.layers().ranks();
     SelectorIndex index;
     for (const Rule& rule : rules)
-        index.add(rule);
+        index.add(rule, ranks[rule.layer]);
     Declarer declarer(tree, reporter);
     long steps = maxMatchingSteps;
     for (Element& element : tree.elements) {

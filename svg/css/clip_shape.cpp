@@ -105,6 +105,32 @@ std::optional<ClipEllipse::Radius> readRadius(Cursor& cursor, const Units& units
     return ClipEllipse::Radius{Kind::Given, *length};
 }
 
+/// `right 10px bottom 20%`, or one or two words as transform-origin has them.
+std::optional<TransformOrigin> parsePosition(std::string_view text, const Units& units) {
+    std::array<std::string_view, 4> words;
+    std::size_t count = 0;
+    for (Cursor cursor(text); cursor.skipSpaces(), !cursor.atEnd() && count < words.size(); ++count) {
+        words[count] = cursor.rest().substr(0, extentOf(cursor.rest(), " \t\n\r\f"));
+        cursor.advance(words[count].size());
+    }
+    if (count == 1 || count == 2)
+        return parseTransformOrigin(text, units);
+    const auto from = [&](std::string_view side, std::string_view offset) -> std::optional<Length> {
+        const auto length = parseLength(offset, units);
+        const bool isFar = equalsIgnoringCase(side, "right") || equalsIgnoringCase(side, "bottom");
+        if (!length || !isFar)
+            return length;
+        return length->percent ? Length{100 - length->value, true, -length->plus}
+                               : Length{100, true, -length->value};
+    };
+    const bool isColumnFirst = equalsIgnoringCase(words[0], "top") || equalsIgnoringCase(words[0], "bottom");
+    const std::size_t x = isColumnFirst ? 2 : 0, y = isColumnFirst ? 0 : 2;
+    const bool hasSides = (equalsIgnoringCase(words[x], "left") || equalsIgnoringCase(words[x], "right")) &&
+                          (equalsIgnoringCase(words[y], "top") || equalsIgnoringCase(words[y], "bottom"));
+    const auto left = from(words[x], words[x + 1]), top = from(words[y], words[y + 1]);
+    return count == 4 && hasSides && left && top ? std::optional(TransformOrigin{*left, *top}) : std::nullopt;
+}
+
 std::optional<Shape> readEllipse(Cursor cursor, const Units& units, bool isCircle) {
     ClipEllipse ellipse;
     ellipse.isCircle = isCircle;
@@ -125,9 +151,8 @@ std::optional<Shape> readEllipse(Cursor cursor, const Units& units, bool isCircl
         return ellipse;
     if (!equalsIgnoringCase(cursor.identifier(), "at"))
         return std::nullopt;
-    const std::string_view position = trim(cursor.rest());
-    const auto center = parseTransformOrigin(position, units);
-    if (!center || position.empty())
+    const auto center = parsePosition(trim(cursor.rest()), units);
+    if (!center)
         return std::nullopt;
     ellipse.center = *center;
     return ellipse;
@@ -187,10 +212,12 @@ std::optional<Shape> readShape(std::string_view name, std::string_view arguments
     return is("path") ? readPath(cursor) : std::nullopt;
 }
 
-/// Whether a box is the viewport's: those of CSS are the element's own here.
-constexpr Keyword<bool> boxes[]{{"fill-box", false},    {"stroke-box", false},  {"view-box", true},
-                                {"content-box", false}, {"padding-box", false}, {"border-box", false},
-                                {"margin-box", false}};
+/// Those of CSS stand for boxes of SVG (CSS Masking 1 section 5.1).
+constexpr Keyword<TransformBox> boxes[]{
+    {"fill-box", TransformBox::Fill},    {"stroke-box", TransformBox::Stroke},
+    {"view-box", TransformBox::View},    {"content-box", TransformBox::Fill},
+    {"padding-box", TransformBox::Fill}, {"border-box", TransformBox::Stroke},
+    {"margin-box", TransformBox::Stroke}};
 
 // ---- Outlines -------------------------------------------------------------------------------------
 
@@ -309,10 +336,10 @@ std::optional<ClipShape> parseClipShape(std::string_view text, const Units& unit
             hasShape = true;
             cursor.advance(length + 1);
         } else {
-            const auto isViewport = findKeyword(name, boxes);
-            if (!isViewport || hasBox)
+            const auto box = findKeyword(name, boxes);
+            if (!box || hasBox)
                 return std::nullopt;
-            result.isInViewport = *isViewport;
+            result.box = *box;
             hasBox = true;
         }
     }

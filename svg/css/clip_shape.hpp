@@ -11,6 +11,7 @@
 
 #include <vtm/scene/path.hpp>
 #include "svg/css/length.hpp"
+#include "svg/css/style.hpp"
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/geometry/transform.hpp"
 
@@ -47,13 +48,13 @@ struct ClipPathData {
 struct ClipShape {
     std::variant<ClipRectangle, ClipEllipse, ClipPolygon, ClipPathData> shape;
     scene::FillRule fillRule = scene::FillRule::NonZero;
-    bool isInViewport = false;  ///< percentages and origin are the viewport's, not those of the element's box
+    TransformBox box = TransformBox::Stroke;  ///< where the origin lies, and of what percentages are
 };
 
 /// Nothing if it is no shape and no box.
 std::optional<ClipShape> parseClipShape(std::string_view text, const Units& units);
 
-/// In the space of the box.
+/// In the space in which the box is given.
 scene::Path outlineOf(const ClipShape& shape, const Box& box);
 
 }  // namespace vtm::svg

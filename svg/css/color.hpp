@@ -11,8 +11,8 @@
 namespace vtm::svg {
 
 /// A named colour, `#` notation, transparent, or one of the functions rgb(), hsl(), hwb(), lab(), lch(),
-/// oklab(), oklch(), color() and color-mix(), cut to sRGB; `currentColor` is not one. Stays where it is, or
-/// stops at the offending place, if there is none.
+/// oklab(), oklch(), color(), color-mix() and light-dark(), cut to sRGB; `currentColor` is not one. Stays
+/// where it is, or stops at the offending place, if there is none.
 std::optional<scene::Color> readColor(Cursor& cursor);
 /// The whole text, an icc-color() behind it ignored.
 std::optional<scene::Color> parseColor(std::string_view text);

@@ -120,7 +120,7 @@ bool supportsTerm(Cursor& cursor, int depth) {
     if (inner->starts_with('(') || equalsIgnoringCase(inner->substr(0, 4), "not "))
         return supports(*inner, depth + 1);
     const Feature declaration = featureOf(*inner);
-    const Property* property = findProperty(declaration.name);
+    const Property* property = findDeclared(declaration.name);
     return declaration.name.starts_with("--") || (property && isValid(*property, declaration.value));
 }
 

@@ -48,7 +48,7 @@ std::optional<double> unitSize(std::string_view unit, const Units& units) {
 std::optional<Length> readLength(Cursor& cursor, const Units& units) {
     if (startsMath(cursor)) {
         const auto math = readMath(cursor, units);
-        if (!math)
+        if (!math || math->isAngle)
             return std::nullopt;
         return math->hasPercent ? Length{math->percent, true, math->length}
                                 : Length{math->isLength ? math->length : math->number};
@@ -68,6 +68,16 @@ std::optional<Length> parseLength(std::string_view text, const Units& units) {
     return cursor.atEnd() ? length : std::nullopt;
 }
 
+bool isAnyLength(std::string_view text, Units units) {
+    units.whole = 1;
+    return parseLength(text, units).has_value();
+}
+
+bool isNotNegative(std::string_view text, const Units& units) {
+    const auto length = parseLength(text, units);
+    return length ? length->value >= 0 || length->plus != 0 : isAnyLength(text, units);
+}
+
 double resolve(Length length, Axis axis, const Viewport& viewport) {
     switch (axis) {
         case Axis::X:
@@ -84,7 +94,8 @@ std::optional<double> parseFraction(std::string_view text) {
     Cursor cursor(trim(text));
     if (startsMath(cursor)) {
         const auto math = readMath(cursor, {});
-        if (!math || !cursor.atEnd() || math->length != 0 || (math->isLength && !math->hasPercent))
+        if (!math || math->isAngle || !cursor.atEnd() || math->length != 0 ||
+            (math->isLength && !math->hasPercent))
             return std::nullopt;
         return math->hasPercent ? math->percent / 100 : math->number;
     }
@@ -94,21 +105,26 @@ std::optional<double> parseFraction(std::string_view text) {
     return cursor.atEnd() ? value : std::nullopt;
 }
 
-std::optional<double> readAngle(Cursor& cursor) {
-    const std::optional<double> value = cursor.number();
-    if (!value)
-        return std::nullopt;
-    const std::string_view unit = cursor.unit();
+std::optional<double> degreesIn(std::string_view unit) {
     const auto is = [&](std::string_view name) { return equalsIgnoringCase(unit, name); };
-    if (unit.empty() || is("deg"))
-        return *value;
-    if (is("rad"))
-        return *value * 180 / std::numbers::pi;
-    if (is("grad"))
-        return *value * 0.9;
-    if (is("turn"))
-        return *value * 360;
-    return std::nullopt;
+    return is("deg")    ? std::optional(1.0)
+           : is("rad")  ? std::optional(180 / std::numbers::pi)
+           : is("grad") ? std::optional(0.9)
+           : is("turn") ? std::optional(360.0)
+                        : std::nullopt;
+}
+
+std::optional<double> readAngle(Cursor& cursor) {
+    if (startsMath(cursor)) {
+        const auto math = readMath(cursor, {});
+        if (!math || math->isLength)
+            return std::nullopt;
+        return math->isAngle ? math->length : math->number;
+    }
+    const std::optional<double> value = cursor.number();
+    const std::string_view unit = cursor.unit();
+    const auto degrees = unit.empty() ? std::optional(1.0) : degreesIn(unit);
+    return value && degrees ? std::optional(*value * *degrees) : std::nullopt;
 }
 
 }  // namespace vtm::svg

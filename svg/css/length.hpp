@@ -22,6 +22,7 @@ struct Units {
     double fontWeight = 400;  ///< the parent's, for `bolder` and `lighter`
     Viewport root;            ///< for vw and vh
     double mediumFontSize = 12;
+    std::optional<double> whole{};  ///< what percentages are of, where that is known
 };
 
 /// User units, or a percentage of something that is known only where it is used.
@@ -39,10 +40,16 @@ enum class Axis { X, Y, Diagonal };
 std::optional<Length> readLength(Cursor& cursor, const Units& units);
 /// The whole text, surrounding spaces aside.
 std::optional<Length> parseLength(std::string_view text, const Units& units);
+/// Whether it is one, also where percentages and lengths compare, which is known only where it is used.
+bool isAnyLength(std::string_view text, Units units);
+/// The same, and not negative as far as that can be told.
+bool isNotNegative(std::string_view text, const Units& units);
 double resolve(Length length, Axis axis, const Viewport& viewport);
 
 /// A number or a percentage as a fraction.
 std::optional<double> parseFraction(std::string_view text);
+/// Degrees in one of a unit of angles; nothing for others.
+std::optional<double> degreesIn(std::string_view unit);
 /// Degrees from a number with an optional CSS angle unit.
 std::optional<double> readAngle(Cursor& cursor);
 

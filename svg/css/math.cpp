@@ -64,13 +64,15 @@ private:
         return result;
     }
 
+    static bool isOfOneKind(const MathValue& a, const MathValue& b) {
+        return a.isLength == b.isLength && a.isAngle == b.isAngle;
+    }
     /// Comparable, where functions compare: all numbers, all lengths or all percentages.
     static bool isAlike(const MathValue& value, const std::vector<MathValue>& others) {
-        return others.empty() ||
-               (value.isLength == others[0].isLength && value.hasPercent == others[0].hasPercent);
+        return others.empty() || (isOfOneKind(value, others[0]) && value.hasPercent == others[0].hasPercent);
     }
     static double key(const MathValue& v) {
-        return v.hasPercent ? v.percent : v.isLength ? v.length : v.number;
+        return v.hasPercent ? v.percent : v.isLength || v.isAngle ? v.length : v.number;
     }
     static MathValue least(const MathValue& a, const MathValue& b) { return key(b) < key(a) ? b : a; }
     static MathValue most(const MathValue& a, const MathValue& b) { return key(b) > key(a) ? b : a; }
@@ -88,7 +90,7 @@ private:
             if (!isSpace(cursor_.peek()))
                 return std::nullopt;
             const auto term = product(depth);
-            if (!term || term->isLength != result->isLength)
+            if (!term || !isOfOneKind(*term, *result))
                 return std::nullopt;
             const double factor = sign == '+' ? 1 : -1;
             result->number += factor * term->number;
@@ -113,12 +115,14 @@ private:
             const auto factor = value(depth);
             if (!factor)
                 return std::nullopt;
-            if (isQuotient ? factor->isLength || factor->number == 0 : factor->isLength && result->isLength)
+            const auto isPlain = [](const MathValue& v) { return !v.isLength && !v.isAngle; };
+            if (isQuotient ? !isPlain(*factor) || factor->number == 0
+                           : !isPlain(*factor) && !isPlain(*result))
                 return std::nullopt;
             if (isQuotient)
                 result = scaled(*result, 1 / factor->number);
             else
-                result = factor->isLength ? scaled(*factor, result->number) : scaled(*result, factor->number);
+                result = isPlain(*factor) ? scaled(*result, factor->number) : scaled(*factor, result->number);
         }
         return result && isFinite(*result) ? result : std::nullopt;
     }
@@ -132,15 +136,23 @@ private:
             return inner && cursor_.consume(')') ? inner : std::nullopt;
         }
         Cursor ahead = cursor_;
-        if (const auto number = ahead.number(); number && ahead.peek() != '%' && ahead.unit().empty()) {
-            cursor_ = ahead;
-            return MathValue{*number};
+        if (const auto number = ahead.number(); number && ahead.peek() != '%') {
+            const std::string_view unit = ahead.unit();
+            const auto degrees = degreesIn(unit);
+            if (unit.empty() || degrees)
+                cursor_ = ahead;
+            if (unit.empty())
+                return MathValue{*number};
+            if (degrees)
+                return MathValue{.length = *number * *degrees, .isAngle = true};
         }
         if (cursor_.consume("pi"))
             return MathValue{std::numbers::pi};
-        const auto length = readLength(cursor_, units_);
+        auto length = readLength(cursor_, units_);
         if (!length)
             return std::nullopt;
+        if (length->percent && units_.whole)
+            length = Length{length->of(*units_.whole)};
         return length->percent ? MathValue{0, 0, length->value, true, true}
                                : MathValue{0, length->value, 0, true, false};
     }

@@ -8,13 +8,14 @@
 
 namespace vtm::svg {
 
-/// A number, or a length with a share of something that is known only where it is used.
+/// A number, an angle, or a length with a share of something that is known only where it is used.
 struct MathValue {
     double number = 0;  ///< of a number
-    double length = 0;  ///< user units
+    double length = 0;  ///< user units; of an angle degrees
     double percent = 0;
     bool isLength = false;  ///< or a percentage
     bool hasPercent = false;
+    bool isAngle = false;
 };
 
 /// Whether a mathematical function comes next.

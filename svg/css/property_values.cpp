@@ -34,10 +34,14 @@ std::optional<PaintValue> parsePaint(std::string_view text, const Units&) {
     if (!url)
         return parsePlainPaint(text);
     PaintValue paint{PaintKind::Server, {}, *url, {}};
-    if (const auto fallback = parsePlainPaint(trim(cursor.rest()))) {
-        paint.fallback = fallback->kind;
-        paint.color = fallback->color;
-    }
+    cursor.skipSpaces();
+    if (cursor.atEnd() || cursor.rest().starts_with("icc-color("))
+        return paint;
+    const auto fallback = parsePlainPaint(trim(cursor.rest()));
+    if (!fallback)
+        return std::nullopt;
+    paint.fallback = fallback->kind;
+    paint.color = fallback->color;
     return paint;
 }
 
@@ -91,9 +95,8 @@ std::optional<scene::Join> parseJoin(std::string_view text, const Units&) {
 }
 
 std::optional<double> parseMiterLimit(std::string_view text, const Units&) {
-    Cursor cursor(text);
-    const auto value = cursor.number();
-    return value && *value >= 1 && cursor.atEnd() ? value : std::nullopt;
+    const auto value = text.ends_with('%') ? std::nullopt : parseFraction(text);
+    return value && *value >= 1 ? value : std::nullopt;
 }
 
 std::optional<Dashes> parseDashes(std::string_view text, const Units& units) {
@@ -118,13 +121,12 @@ std::optional<bool> parseDisplay(std::string_view text, const Units&) {
     return !equalsIgnoringCase(text, "none");
 }
 
-/// Whether the box is the element's own. That of the stroke is taken for that of the fill.
-std::optional<bool> parseTransformBox(std::string_view text, const Units&) {
-    static constexpr Keyword<bool> table[]{{"view-box", false},
-                                           {"fill-box", true},
-                                           {"content-box", true},
-                                           {"stroke-box", true},
-                                           {"border-box", true}};
+std::optional<TransformBox> parseTransformBox(std::string_view text, const Units&) {
+    static constexpr Keyword<TransformBox> table[]{{"view-box", TransformBox::View},
+                                                   {"fill-box", TransformBox::Fill},
+                                                   {"content-box", TransformBox::Fill},
+                                                   {"stroke-box", TransformBox::Stroke},
+                                                   {"border-box", TransformBox::Stroke}};
     return findKeyword(text, table);
 }
 
@@ -262,6 +264,26 @@ std::optional<double> parseFontSize(std::string_view text, const Units& units) {
 
 std::optional<std::string_view> parseTransformText(std::string_view text, const Units& units) {
     return parseTransform(text, units, {1, 1}) ? std::optional(text) : std::nullopt;
+}
+
+namespace {
+
+std::optional<std::string_view> textOf(std::string_view text, bool isValid) {
+    if (!isValid)
+        return std::nullopt;
+    return equalsIgnoringCase(trim(text), "none") ? std::string_view{} : text;
+}
+
+}  // namespace
+
+std::optional<std::string_view> parseTranslateText(std::string_view text, const Units& units) {
+    return textOf(text, parseTranslate(text, units, {1, 1}).has_value());
+}
+std::optional<std::string_view> parseRotateText(std::string_view text, const Units&) {
+    return textOf(text, parseRotate(text).has_value());
+}
+std::optional<std::string_view> parseScaleText(std::string_view text, const Units&) {
+    return textOf(text, parseScale(text).has_value());
 }
 
 std::optional<std::optional<TransformOrigin>> parseOrigin(std::string_view text, const Units& units) {

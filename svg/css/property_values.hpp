@@ -59,7 +59,7 @@ std::optional<double> parseMiterLimit(std::string_view text, const Units&);
 std::optional<Dashes> parseDashes(std::string_view text, const Units&);
 std::optional<bool> parseVisibility(std::string_view text, const Units&);
 std::optional<bool> parseDisplay(std::string_view text, const Units&);
-std::optional<bool> parseTransformBox(std::string_view text, const Units& units);
+std::optional<TransformBox> parseTransformBox(std::string_view text, const Units& units);
 std::optional<std::optional<bool>> parseOverflow(std::string_view text, const Units&);
 /// url() or none; anything else that CSS allows there (shapes, image masks) is not supported.
 std::optional<std::string_view> parseReference(std::string_view text, const Units&);
@@ -81,6 +81,10 @@ std::optional<bool> parseVectorEffect(std::string_view text, const Units&);
 std::optional<double> parseFontSize(std::string_view text, const Units&);
 /// The text itself, if it is well formed.
 std::optional<std::string_view> parseTransformText(std::string_view text, const Units&);
+/// The same of the properties `translate`, `rotate`, `scale`; empty for none.
+std::optional<std::string_view> parseTranslateText(std::string_view text, const Units&);
+std::optional<std::string_view> parseRotateText(std::string_view text, const Units&);
+std::optional<std::string_view> parseScaleText(std::string_view text, const Units&);
 std::optional<std::optional<TransformOrigin>> parseOrigin(std::string_view text, const Units&);
 
 /// `url(#id)`, `url("#id")`: what is in it. Stays where it is if there is none.

@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <vtm/limits/limits.hpp>
 #include <vtm/svg/load.hpp>
 #include "svg/css/cursor.hpp"
+#include "svg/xml/decode.hpp"
 
 namespace vtm::svg {
 
 // Where Selector is complete.
-Condition::Condition(ConditionKind of, std::string_view named, std::string_view valued,
-                     std::vector<Nth> numbered)
-    : kind(of), name(named), value(valued), nths(std::move(numbered)) {}
+Condition::Condition(ConditionKind of, std::string named, std::string valued, std::vector<Nth> numbered)
+    : kind(of), name(std::move(named)), value(std::move(valued)), nths(std::move(numbered)) {}
 
 namespace {
 
@@ -32,23 +33,67 @@ std::optional<ConditionKind> attributeOperator(Cursor& cursor) {
     return std::nullopt;
 }
 
-std::string_view readValue(Cursor& cursor) {
+/// `\31 ` or `\.`, the cursor behind the backslash.
+void readEscape(Cursor& cursor, std::string& name) {
+    constexpr int maxDigits = 6;
+    char32_t code = 0;
+    int digits = 0;
+    for (; digits < maxDigits && hexDigit(cursor.peek()) >= 0; ++digits, cursor.advance())
+        code = code * 16 + static_cast<char32_t>(hexDigit(cursor.peek()));
+    if (digits == 0) {
+        name += cursor.peek();
+        cursor.advance();
+        return;
+    }
+    appendUtf8(name, code);
+    if (isSpace(cursor.peek()))
+        cursor.advance();
+}
+
+/// An identifier whose escapes stand for characters (CSS Syntax 3 section 4.3.7). Possibly empty.
+std::string readName(Cursor& cursor) {
+    std::string name(cursor.identifier());
+    while (cursor.peek() == '\\' && cursor.rest().size() > 1) {
+        cursor.advance();
+        readEscape(cursor, name);
+        name += cursor.identifier();
+    }
+    return name;
+}
+
+std::string readValue(Cursor& cursor) {
     if (cursor.consume('"'))
-        return cursor.until('"');
+        return std::string(cursor.until('"'));
     if (cursor.consume('\''))
-        return cursor.until('\'');
-    return cursor.identifier();
+        return std::string(cursor.until('\''));
+    return readName(cursor);
+}
+
+/// Steps over the `|` between a prefix and a name; `|=` is an operator.
+bool consumeBar(Cursor& cursor) { return !cursor.rest().starts_with("|=") && cursor.consume('|'); }
+
+/// The tree has attributes of two namespaces, by their usual prefixes; of all others a name is enough.
+std::string readAttributeName(Cursor& cursor) {
+    const bool isAny = cursor.consume('*');
+    std::string name = readName(cursor);
+    if (!consumeBar(cursor))
+        return isAny ? std::string() : name;
+    return name.empty() ? readName(cursor) : name + ':' + readName(cursor);
 }
 
 /// Behind `[`.
 std::optional<Condition> readAttribute(Cursor& cursor) {
     cursor.skipSpaces();
-    Condition condition{ConditionKind::HasAttribute, cursor.identifier(), {}};
+    Condition condition{ConditionKind::HasAttribute, readAttributeName(cursor)};
     cursor.skipSpaces();
     if (const auto kind = attributeOperator(cursor)) {
         cursor.skipSpaces();
         condition.kind = *kind;
         condition.value = readValue(cursor);
+        cursor.skipSpaces();
+        condition.ignoresCase = cursor.consume("i");
+        if (!condition.ignoresCase)
+            cursor.consume("s");
         cursor.skipSpaces();
     }
     return !condition.name.empty() && cursor.consume(']') ? std::optional(condition) : std::nullopt;
@@ -56,7 +101,15 @@ std::optional<Condition> readAttribute(Cursor& cursor) {
 
 // ---- Pseudo-classes -------------------------------------------------------------------------------
 
-std::optional<std::vector<Selector>> parseList(std::string_view text, int depth);
+/// Where a selector stands: in lists in each other, in a sheet that declares prefixes.
+struct Surroundings {
+    const NamespacePrefixes& prefixes;
+    int depth = 0;
+};
+
+/// `isForgiving`: what is not valid is left out (Selectors 4 section 4.1), not the list.
+std::optional<std::vector<Selector>> parseList(std::string_view text, Surroundings around,
+                                               bool isForgiving = false);
 
 /// `odd`, `even`, `3`, `2n+1`, `-n + 3`: CSS Syntax 3 section 6.
 std::optional<Nth> readNth(std::string_view text) {
@@ -116,6 +169,10 @@ std::optional<Condition> simplePseudoClass(std::string_view name) {
         return Condition{ConditionKind::Root};
     if (is("empty"))
         return Condition{ConditionKind::Empty};
+    if (is("scope"))
+        return Condition{ConditionKind::Root};
+    if (is("link") || is("any-link"))
+        return Condition{ConditionKind::Link};
     for (const std::string_view state : {"hover", "active", "focus", "focus-visible", "focus-within",
                                          "target", "visited", "checked", "disabled"})
         if (is(state))
@@ -123,24 +180,43 @@ std::optional<Condition> simplePseudoClass(std::string_view name) {
     return std::nullopt;
 }
 
-std::optional<Condition> pseudoClass(std::string_view name, std::string_view argument, int depth) {
+/// `2n+1`, or for children `2n+1 of SELECTORS`.
+std::optional<Condition> nthCondition(std::string_view argument, Nth kind, Surroundings around) {
+    Cursor cursor(argument);
+    std::string_view number = argument, selectors;
+    for (; !cursor.atEnd() && !kind.ofType; cursor.advance())
+        if (isSpace(cursor.peek()) && equalsIgnoringCase(cursor.rest().substr(1, 3), "of ")) {
+            number = argument.substr(0, argument.size() - cursor.rest().size());
+            selectors = cursor.rest().substr(4);
+            break;
+        }
+    const auto nth = readNth(number);
+    if (!nth)
+        return std::nullopt;
+    kind.step = nth->step, kind.offset = nth->offset;
+    Condition condition{ConditionKind::Nth, {}, {}, {kind}};
+    if (selectors.empty())
+        return condition;
+    auto counted = parseList(selectors, around);
+    if (!counted)
+        return std::nullopt;
+    condition.selectors = std::move(*counted);
+    return condition;
+}
+
+std::optional<Condition> pseudoClass(std::string_view name, std::string_view argument, Surroundings around) {
     const auto is = [&](std::string_view other) { return equalsIgnoringCase(name, other); };
     const bool fromEnd = is("nth-last-child") || is("nth-last-of-type");
     const bool ofType = is("nth-of-type") || is("nth-last-of-type");
-    if (fromEnd || ofType || is("nth-child")) {
-        auto nth = readNth(argument);
-        if (!nth)
-            return std::nullopt;
-        nth->fromEnd = fromEnd;
-        nth->ofType = ofType;
-        return Condition{ConditionKind::Nth, {}, {}, {*nth}};
-    }
+    ++around.depth;
+    if (fromEnd || ofType || is("nth-child"))
+        return nthCondition(argument, {0, 1, fromEnd, ofType}, around);
     if (is("lang"))
-        return Condition{ConditionKind::Lang, {}, trim(argument)};
+        return Condition{ConditionKind::Lang, {}, std::string(argument)};
     const bool isNot = is("not"), isWhere = is("where");
     if (!isNot && !isWhere && !is("is"))
         return std::nullopt;
-    auto selectors = parseList(argument, depth + 1);
+    auto selectors = parseList(argument, around, !isNot);
     if (!selectors)
         return std::nullopt;
     Condition condition{isNot ? ConditionKind::Not : ConditionKind::Is};
@@ -150,44 +226,69 @@ std::optional<Condition> pseudoClass(std::string_view name, std::string_view arg
 }
 
 /// Behind `:`.
-std::optional<Condition> readPseudoClass(Cursor& cursor, int depth) {
+std::optional<Condition> readPseudoClass(Cursor& cursor, Surroundings around) {
     const std::string_view name = cursor.identifier();
     if (!cursor.consume('('))
         return simplePseudoClass(name);
     const std::string_view argument = cursor.rest().substr(0, extentOf(cursor.rest(), ")"));
     cursor.advance(argument.size());
-    return cursor.consume(')') ? pseudoClass(name, argument, depth) : std::nullopt;
+    return cursor.consume(')') ? pseudoClass(name, argument, around) : std::nullopt;
 }
 
 // ---- Compounds ------------------------------------------------------------------------------------
 
-std::optional<Condition> readCondition(Cursor& cursor, int depth) {
+std::optional<Condition> readCondition(Cursor& cursor, Surroundings around) {
     const bool id = cursor.consume('#');
     if (id || cursor.consume('.')) {
-        const std::string_view name = cursor.identifier();
+        std::string name = readName(cursor);
         const ConditionKind kind = id ? ConditionKind::Id : ConditionKind::Class;
-        return name.empty() ? std::nullopt : std::optional(Condition{kind, {}, name});
+        return name.empty() ? std::nullopt : std::optional(Condition{kind, {}, std::move(name)});
     }
     if (cursor.consume('['))
         return readAttribute(cursor);
-    return cursor.consume(':') ? readPseudoClass(cursor, depth) : std::nullopt;
+    return cursor.consume(':') ? readPseudoClass(cursor, around) : std::nullopt;
 }
 
 bool startsCondition(char c) { return c == '#' || c == '.' || c == '[' || c == ':'; }
 
-std::optional<Compound> readCompound(Cursor& cursor, int depth) {
+constexpr std::string_view svgNamespace = "http://www.w3.org/2000/svg";
+
+/// `rect`, `*`, `svg|rect`, `*|*`; false where there is none or a prefix is not declared.
+bool readType(Cursor& cursor, const NamespacePrefixes& prefixes, Compound& compound) {
+    bool isAny = cursor.consume('*');
+    compound.type = isAny ? std::string() : readName(cursor);
+    std::string prefix;
+    const bool isPrefixed = consumeBar(cursor);
+    if (isPrefixed) {
+        prefix = isAny ? "*" : std::exchange(compound.type, {});
+        isAny = cursor.consume('*');
+        if (!isAny)
+            compound.type = readName(cursor);
+    }
+    if (!isAny && compound.type.empty())
+        return false;
+    if (prefix == "*")
+        return true;
+    const auto found = prefixes.find(prefix);
+    const bool isDeclared = found != prefixes.end(), isNone = isPrefixed && prefix.empty();
+    if (isPrefixed && !isNone && !isDeclared)
+        return false;
+    if (isNone || (isDeclared && found->second != svgNamespace))  // what is drawn is SVG
+        compound.conditions.emplace_back(ConditionKind::Never);
+    return true;
+}
+
+std::optional<Compound> readCompound(Cursor& cursor, Surroundings around) {
     Compound compound;
-    const bool universal = cursor.consume('*');
-    if (!universal)
-        compound.type = cursor.identifier();
+    if (!startsCondition(cursor.peek()) && !readType(cursor, around.prefixes, compound))
+        return std::nullopt;
     while (startsCondition(cursor.peek())) {
-        auto condition = readCondition(cursor, depth);
+        auto condition = readCondition(cursor, around);
         if (!condition)
             return std::nullopt;
         compound.conditions.push_back(std::move(*condition));
     }
-    const bool empty = !universal && compound.type.empty() && compound.conditions.empty();
-    return empty ? std::nullopt : std::optional(std::move(compound));
+    return compound;
 }
 
 Combinator readCombinator(Cursor& cursor) {
@@ -205,23 +306,22 @@ Combinator readCombinator(Cursor& cursor) {
 
 int specificityOf(const Compound& compound) {
     int specificity = compound.type.empty() ? 0 : 1;
-    for (const Condition& condition : compound.conditions)
-        if (condition.kind == ConditionKind::Is || condition.kind == ConditionKind::Not) {
-            int most = 0;
-            for (const Selector& selector : condition.selectors)
-                most = std::max(most, selector.specificity);
-            specificity += condition.isSpecific ? most : 0;
-        } else {
+    for (const Condition& condition : compound.conditions) {
+        int most = 0;
+        for (const Selector& selector : condition.selectors)
+            most = std::max(most, selector.specificity);
+        specificity += condition.isSpecific ? most : 0;
+        if (condition.kind != ConditionKind::Is && condition.kind != ConditionKind::Not)
             specificity += condition.kind == ConditionKind::Id ? 10000 : 100;
-        }
+    }
     return specificity;
 }
 
-std::optional<Selector> parseSelector(std::string_view text, int depth) {
+std::optional<Selector> parseSelector(std::string_view text, Surroundings around) {
     Selector selector;
     Combinator combinator = Combinator::None;
     for (Cursor cursor(trim(text)); !cursor.atEnd() || selector.compounds.empty();) {
-        auto compound = readCompound(cursor, depth);
+        auto compound = readCompound(cursor, around);
         if (!compound)
             return std::nullopt;
         selector.specificity += specificityOf(*compound);
@@ -234,21 +334,22 @@ std::optional<Selector> parseSelector(std::string_view text, int depth) {
     return selector;
 }
 
-std::optional<std::vector<Selector>> parseList(std::string_view text, int depth) {
+std::optional<std::vector<Selector>> parseList(std::string_view text, Surroundings around, bool isForgiving) {
     constexpr int maxDepth = 8;  // of lists in each other
-    if (depth > maxDepth)
+    if (around.depth > maxDepth)
         return std::nullopt;
     std::vector<Selector> selectors;
     for (Cursor cursor(text); !cursor.atEnd();) {
         limits::check();
         const std::string_view part = cursor.rest().substr(0, extentOf(cursor.rest(), ","));
         cursor.advance(part.size());
-        auto selector = parseSelector(part, depth);
-        if (!selector || (cursor.consume(',') && cursor.atEnd()))
+        auto selector = parseSelector(part, around);
+        if ((cursor.consume(',') && cursor.atEnd() && !isForgiving) || (!selector && !isForgiving))
             return std::nullopt;
-        selectors.push_back(std::move(*selector));
+        if (selector)
+            selectors.push_back(std::move(*selector));
     }
-    return selectors.empty() ? std::nullopt : std::optional(std::move(selectors));
+    return selectors.empty() && !isForgiving ? std::nullopt : std::optional(std::move(selectors));
 }
 
 // ---- Matching -------------------------------------------------------------------------------------
@@ -266,68 +367,89 @@ bool hasWord(std::string_view list, std::string_view word) {
     return false;
 }
 
-bool attributeMatches(const Condition& condition, const Element& element) {
-    const auto attribute = element.find(condition.name);
-    if (!attribute)
-        return false;
-    const std::string_view value = condition.value;
-    switch (condition.kind) {
+std::string lowered(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
+    return lower;
+}
+
+bool valueMatches(ConditionKind kind, std::string_view attribute, std::string_view value) {
+    switch (kind) {
         case ConditionKind::HasAttribute:
             return true;
         case ConditionKind::AttributeIs:
-            return *attribute == value;
+            return attribute == value;
         case ConditionKind::AttributeHasWord:
-            return hasWord(*attribute, value);
+            return hasWord(attribute, value);
         case ConditionKind::AttributeHasDash:
-            return attribute->starts_with(value) &&
-                   (attribute->size() == value.size() || (*attribute)[value.size()] == '-');
+            return attribute.starts_with(value) &&
+                   (attribute.size() == value.size() || attribute[value.size()] == '-');
         case ConditionKind::AttributeStarts:
-            return !value.empty() && attribute->starts_with(value);
+            return !value.empty() && attribute.starts_with(value);
         case ConditionKind::AttributeEnds:
-            return !value.empty() && attribute->ends_with(value);
+            return !value.empty() && attribute.ends_with(value);
         case ConditionKind::AttributeContains:
-            return !value.empty() && attribute->find(value) != attribute->npos;
+            return !value.empty() && attribute.find(value) != attribute.npos;
         default:
             return false;
     }
 }
 
-/// Counted from 1.
-long numberOf(const Element& element, const Nth& nth, long& steps) {
+bool attributeMatches(const Condition& condition, const Element& element) {
+    const auto attribute = element.find(condition.name);
+    if (!attribute)
+        return false;
+    return condition.ignoresCase ? valueMatches(condition.kind, lowered(*attribute), lowered(condition.value))
+                                 : valueMatches(condition.kind, *attribute, condition.value);
+}
+
+bool isAny(const std::vector<Selector>& selectors, const Element& element, long& steps) {
+    return std::ranges::any_of(selectors, [&](const Selector& s) { return matches(s, element, steps); });
+}
+
+/// Counted from 1, among the siblings that are counted.
+long numberOf(const Element& element, const Nth& nth, const std::vector<Selector>& counted, long& steps) {
     long number = 1;
     const Element* other = nth.fromEnd ? element.next : element.previous;
     for (; other && steps > 0; other = nth.fromEnd ? other->next : other->previous, --steps)
-        number += !nth.ofType || (other->name == element.name && other->tag == element.tag);
+        number += (!nth.ofType || (other->name == element.name && other->tag == element.tag)) &&
+                  (counted.empty() || isAny(counted, *other, steps));
     return number;
 }
 
-bool holds(const Nth& nth, const Element& element, long& steps) {
-    const long above = numberOf(element, nth, steps) - nth.offset;
+bool holds(const Nth& nth, const std::vector<Selector>& counted, const Element& element, long& steps) {
+    if (!counted.empty() && !isAny(counted, element, steps))
+        return false;
+    const long above = numberOf(element, nth, counted, steps) - nth.offset;
     return nth.step == 0 ? above == 0 : above % nth.step == 0 && above / nth.step >= 0;
 }
 
-bool isEmpty(const Element& element) {
-    return std::ranges::all_of(element.children, [](const Element* child) {
-        return child->tag == Tag::CharacterData && child->text.empty();
-    });
-}
+bool isEmpty(const Element& element) { return element.children.empty() && !element.hasText; }
 
-/// The nearest language, by prefix of whole subtags.
-bool hasLanguage(const Element& element, std::string_view range) {
+/// A list of ranges, one of which the nearest language has as a prefix of whole subtags.
+bool hasLanguage(const Element& element, std::string_view ranges) {
+    const auto isIn = [](std::string_view language, std::string_view range) {
+        return !range.empty() && language.size() >= range.size() &&
+               equalsIgnoringCase(language.substr(0, range.size()), range) &&
+               (language.size() == range.size() || language[range.size()] == '-');
+    };
+    const auto unquoted = [](std::string_view text) {
+        const bool isQuoted = text.size() >= 2 && (text.front() == '"' || text.front() == '\'');
+        return isQuoted && text.back() == text.front() ? text.substr(1, text.size() - 2) : text;
+    };
     for (const Element* e = &element; e; e = e->parent)
         for (const std::string_view name : {"xml:lang", "lang"})
-            if (const auto language = e->find(name))
-                return language->size() >= range.size() &&
-                       equalsIgnoringCase(language->substr(0, range.size()), range) &&
-                       (language->size() == range.size() || (*language)[range.size()] == '-');
+            if (const auto language = e->find(name)) {
+                for (Cursor cursor(ranges); !cursor.atEnd();)
+                    if (isIn(*language, unquoted(trim(cursor.until(',')))))
+                        return true;
+                return false;
+            }
     return false;
 }
 
 bool conditionMatches(const Condition& condition, const Element& element, long& steps) {
-    const auto isAny = [&] {
-        return std::ranges::any_of(condition.selectors,
-                                   [&](const Selector& s) { return matches(s, element, steps); });
-    };
     switch (condition.kind) {
         case ConditionKind::Id:
             return element.get("id") == condition.value;
@@ -335,7 +457,7 @@ bool conditionMatches(const Condition& condition, const Element& element, long& 
             return hasWord(element.get("class"), condition.value);
         case ConditionKind::Nth:
             return element.parent && std::ranges::all_of(condition.nths, [&](const Nth& nth) {
-                       return holds(nth, element, steps);
+                       return holds(nth, condition.selectors, element, steps);
                    });
         case ConditionKind::Root:
             return !element.parent;
@@ -343,10 +465,12 @@ bool conditionMatches(const Condition& condition, const Element& element, long& 
             return isEmpty(element);
         case ConditionKind::Lang:
             return hasLanguage(element, condition.value);
+        case ConditionKind::Link:
+            return element.tag == Tag::A && hrefOf(element);
         case ConditionKind::Is:
-            return isAny();
+            return isAny(condition.selectors, element, steps);
         case ConditionKind::Not:
-            return steps > 0 && !isAny();
+            return steps > 0 && !isAny(condition.selectors, element, steps);
         case ConditionKind::Never:
             return false;
         default:
@@ -397,7 +521,10 @@ bool matchesUpTo(const std::vector<Compound>& compounds, std::size_t last, const
 
 }  // namespace
 
-std::optional<std::vector<Selector>> parseSelectors(std::string_view text) { return parseList(text, 0); }
+std::optional<std::vector<Selector>> parseSelectors(std::string_view text,
+                                                    const NamespacePrefixes& prefixes) {
+    return parseList(text, {prefixes});
+}
 
 bool matches(const Selector& selector, const Element& element, long& steps) {
     return matchesUpTo(selector.compounds, selector.compounds.size() - 1, element, steps);

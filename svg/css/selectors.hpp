@@ -4,7 +4,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "svg/xml/element.hpp"
@@ -25,6 +27,7 @@ enum class ConditionKind {
     Root,
     Empty,
     Lang,
+    Link,
     Is,
     Not,
     Never
@@ -41,12 +44,13 @@ struct Nth {
 
 struct Condition {
     ConditionKind kind;
-    std::string_view name, value;
+    std::string name, value;
+    bool ignoresCase = false;         ///< of attributes
     std::vector<Nth> nths;            ///< of Nth: all of them hold
-    std::vector<Selector> selectors;  ///< of Is and Not
+    std::vector<Selector> selectors;  ///< of Is and Not; of Nth: which siblings are counted
     bool isSpecific = true;           ///< false for :where()
 
-    explicit Condition(ConditionKind of, std::string_view named = {}, std::string_view valued = {},
+    explicit Condition(ConditionKind of, std::string named = {}, std::string valued = {},
                        std::vector<Nth> numbered = {});
 };
 
@@ -54,7 +58,7 @@ enum class Combinator { None, Descendant, Child, NextSibling, LaterSibling };
 
 /// One element's part of a selector; `combinator` ties it to the compound on its left.
 struct Compound {
-    std::string_view type;  ///< empty: any
+    std::string type;  ///< empty: any
     std::vector<Condition> conditions;
     Combinator combinator = Combinator::None;
 };
@@ -64,8 +68,12 @@ struct Selector {
     int specificity = 0;  ///< ids * 10000 + classes, attributes and pseudo-classes * 100 + types
 };
 
+/// What `@namespace` declares: URIs by prefix, the default one by the empty prefix.
+using NamespacePrefixes = std::unordered_map<std::string_view, std::string_view>;
+
 /// Nothing where the selector list is invalid or unsupported.
-std::optional<std::vector<Selector>> parseSelectors(std::string_view text);
+std::optional<std::vector<Selector>> parseSelectors(std::string_view text,
+                                                    const NamespacePrefixes& prefixes = {});
 
 /// `steps` counts down with every comparison; at 0 nothing matches any more.
 bool matches(const Selector& selector, const Element& element, long& steps);

@@ -1,11 +1,14 @@
 #include "svg/css/style.hpp"
 
+#include <algorithm>
+#include <string>
 #include <type_traits>
 #include <unordered_map>
 
 #include "svg/css/font_values.hpp"
 #include "svg/css/property_values.hpp"
 #include "svg/css/text_values.hpp"
+#include "svg/geometry/path_data.hpp"
 
 namespace vtm::svg {
 
@@ -144,20 +147,32 @@ Property property(std::string_view name, bool attribute = true) {
 
 constexpr std::string_view geometryNames[]{"x", "y", "width", "height", "cx", "cy", "r", "rx", "ry", "d"};
 
-/// What is no length gives way to the attribute, as any declaration that is not valid does.
+bool isGeometry(std::string_view name, std::string_view value, const Units& units) {
+    if (name == "d")
+        return equalsIgnoringCase(value, "none") || isPathFunction(value);
+    const bool isPlace = name == "x" || name == "y" || name == "cx" || name == "cy";
+    if (!isPlace && name != "r" && equalsIgnoringCase(value, "auto"))
+        return true;
+    return isPlace ? isAnyLength(value, units) : isNotNegative(value, units);
+}
+
+/// What is not valid gives way to the attribute, as to any other declaration.
 template <std::size_t I>
 bool applyGeometry(Style& style, std::string_view value, const Units& units) {
-    if (geometryNames[I] != "d" && !equalsIgnoringCase(value, "auto") && !parseLength(value, units))
+    if (!isGeometry(geometryNames[I], value, units))
         return false;
     style.geometry.push_back({geometryNames[I], value});
     return true;
 }
 
+/// An empty text stands for the initial value: the attribute is a weaker declaration.
 template <std::size_t I>
 void copyGeometry(Style& to, const Style& from) {
+    std::string_view value;
     for (const Attribute& attribute : from.geometry)
         if (attribute.name == geometryNames[I])
-            to.geometry.push_back(attribute);
+            value = attribute.value;
+    to.geometry.push_back({geometryNames[I], value});
 }
 
 /// Geometry that CSS may give instead of an attribute (SVG 2 section 8.14).
@@ -250,7 +265,10 @@ std::vector<Property> makeTable() {
         property<&Own::nonScalingStroke, parseVectorEffect>("vector-effect"),
         property<&Own::transform, parseTransformText>("transform"),
         property<&Own::transformOrigin, parseOrigin>("transform-origin"),
-        property<&Own::transformsInBox, parseTransformBox>("transform-box", false),
+        property<&Own::transformBox, parseTransformBox>("transform-box", false),
+        property<&Own::translate, parseTranslateText>("translate", false),
+        property<&Own::rotate, parseRotateText>("rotate", false),
+        property<&Own::scale, parseScaleText>("scale", false),
     };
     addGeometry(table, std::make_index_sequence<std::size(geometryNames)>{});
     return table;
@@ -276,6 +294,16 @@ const Property* findProperty(std::string_view name) {
     return found == propertyIndex().end() ? nullptr : found->second;
 }
 
+const Property* findDeclared(std::string_view name) {
+    const auto isCapital = [](char c) { return c >= 'A' && c <= 'Z'; };
+    if (std::ranges::none_of(name, isCapital))
+        return findProperty(name);
+    std::string lower(name);
+    for (char& c : lower)
+        c = isCapital(c) ? static_cast<char>(c | 0x20) : c;
+    return findProperty(lower);
+}
+
 // ---- The cascade's keywords ---------------------------------------------------------------------
 
 namespace {
@@ -285,8 +313,8 @@ const Style& initialStyle() {
     return style;
 }
 
-/// CSS-wide keywords (CSS Cascade 4 section 7.3); no other style sheet stands behind the author's, to which
-/// `revert` could go back.
+/// CSS-wide keywords (CSS Cascade 5 section 7.3); no other style sheet stands behind the author's, to which
+/// `revert` could go back. `revert-layer` goes back as far.
 bool applyKeyword(Style& style, const Style& parent, const Property& property, std::string_view value) {
     // currentColor as the colour itself is the parent's (CSS Color 4 section 9.3).
     if (equalsIgnoringCase(value, "inherit") ||
@@ -298,7 +326,8 @@ bool applyKeyword(Style& style, const Style& parent, const Property& property, s
         property.copy(style, initialStyle());
         return true;
     }
-    if (equalsIgnoringCase(value, "unset") || equalsIgnoringCase(value, "revert")) {
+    if (equalsIgnoringCase(value, "unset") || equalsIgnoringCase(value, "revert") ||
+        equalsIgnoringCase(value, "revert-layer")) {
         property.copy(style, property.inherited ? parent : initialStyle());
         return true;
     }

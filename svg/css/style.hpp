@@ -37,6 +37,9 @@ struct ColorValue {
 
 enum class PaintStage { Fill, Stroke, Markers };
 
+/// In which box the origin of transforms lies, and of what their percentages are.
+enum class TransformBox { View, Fill, Stroke };
+
 enum class TextAnchor { Start, Middle, End };
 /// `dominant-baseline` and `alignment-baseline`: the line of a font that is aligned.
 enum class Baseline {
@@ -132,9 +135,9 @@ struct Own {
     double floodOpacity = 1;
     std::optional<scene::Color> background;
     bool nonScalingStroke = false;
-    std::string_view transform;  ///< as written, known to be well formed
+    std::string_view transform, translate, rotate, scale;  ///< as written, known to be well formed
     std::optional<TransformOrigin> transformOrigin;
-    bool transformsInBox = false;  ///< transform-box: the origin lies in the element's own box
+    TransformBox transformBox = TransformBox::View;
     Baseline alignmentBaseline = Baseline::Auto;
     BaselineShift baselineShift;
     unsigned textLines = 0;  ///< TextLines that the element adds; those of its ancestors go on
@@ -166,5 +169,7 @@ bool isValid(const Property& property, std::string_view value);
 
 /// Null for unknown names.
 const Property* findProperty(std::string_view name);
+/// The same of a name in a declaration, whose case does not matter.
+const Property* findDeclared(std::string_view name);
 
 }  // namespace vtm::svg

@@ -49,10 +49,10 @@ std::optional<std::string> Variables::substituted(std::string_view value, Work& 
 
 std::optional<std::string> Variables::valueOf(std::string_view reference, Work& work) const {
     const std::size_t comma = reference.find(',');
-    const Work before = work;
+    const int depth = work.depth;
     if (auto value = find(trim(reference.substr(0, comma)), work))
         return value;
-    work.depth = before.depth;
+    work.depth = depth;
     return comma == reference.npos ? std::nullopt : substituted(trim(reference.substr(comma + 1)), work);
 }
 
@@ -61,8 +61,25 @@ std::optional<std::string> Variables::find(std::string_view name, Work& work) co
         return std::nullopt;
     for (const Variables* level = this; level; level = level->parent_.get())
         if (const auto found = level->own_.find(name); found != level->own_.end())
-            return level->substituted(found->second, work);  // in its own element's surroundings
+            return level->replaced(*found, work);
     return std::nullopt;
+}
+
+/// In its own element's surroundings. All variables of a circle have no value, whatever their fallbacks.
+std::optional<std::string> Variables::replaced(const Declared& variable, Work& work) const {
+    const std::pair self(this, variable.first);
+    const std::size_t index = work.open.size();
+    if (const auto same = std::ranges::find(work.open, self); same != work.open.end()) {
+        work.circle = std::min(work.circle, static_cast<std::size_t>(same - work.open.begin()));
+        return std::nullopt;
+    }
+    work.open.push_back(self);
+    auto value = substituted(variable.second, work);
+    work.open.pop_back();
+    const bool isInCircle = work.circle <= index;
+    if (work.circle == index)
+        work.circle = Work::none;
+    return isInCircle ? std::nullopt : std::move(value);
 }
 
 }  // namespace vtm::svg

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace vtm::svg {
 
@@ -26,11 +28,17 @@ private:
     struct Work {
         int depth = 32;      ///< variables in each other
         int lookups = 4096;  ///< variables
+        /// Those that are being replaced, each referred to by the one before.
+        std::vector<std::pair<const Variables*, std::string_view>> open{};
+        std::size_t circle = none;  ///< which of them, and all behind it, refer to each other
+        static constexpr std::size_t none = ~std::size_t(0);
     };
     std::optional<std::string> substituted(std::string_view value, Work& work) const;
     /// `--name` or `--name, fallback`
     std::optional<std::string> valueOf(std::string_view reference, Work& work) const;
     std::optional<std::string> find(std::string_view name, Work& work) const;
+    using Declared = std::pair<const std::string_view, std::string_view>;
+    std::optional<std::string> replaced(const Declared& variable, Work& work) const;
 
     std::shared_ptr<const Variables> parent_;
     std::unordered_map<std::string_view, std::string_view> own_;

@@ -212,4 +212,21 @@ ParsedPath parsePoints(std::string_view text) {
     return parsed;
 }
 
+std::string_view pathFunctionData(std::string_view text) {
+    Cursor cursor(trim(text));
+    if (equalsIgnoringCase(cursor.rest(), "none"))
+        return {};
+    if (!cursor.consume("path("))
+        return text;
+    cursor.skipSpaces();
+    const char quote = cursor.peek();
+    cursor.advance(cursor.atEnd() ? 0 : 1);
+    return cursor.until(quote);
+}
+
+bool isPathFunction(std::string_view text) {
+    return equalsIgnoringCase(trim(text).substr(0, 5), "path(") && trim(text).ends_with(')') &&
+           parsePathData(pathFunctionData(text)).complete;
+}
+
 }  // namespace vtm::svg

@@ -19,4 +19,9 @@ ParsedPath parsePathData(std::string_view text);
 /// One open subpath; a last x without a y is left out.
 ParsedPath parsePoints(std::string_view text);
 
+/// The path data in CSS's `path("…")`; the text itself where it is none.
+std::string_view pathFunctionData(std::string_view text);
+/// Whether it is `path("…")` with complete path data.
+bool isPathFunction(std::string_view text);
+
 }  // namespace vtm::svg

@@ -1,4 +1,5 @@
 #include "svg/geometry/path_geometry.hpp"
+#include "svg/geometry/stroke_box.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -251,6 +252,20 @@ bool liesInside(const std::vector<scene::Node>& nodes, const scene::Affine& tran
 }
 
 Box boxOf(const scene::Item& item) { return itemBox(item, scene::identity); }
+
+Box strokedBox(const std::vector<scene::Node>& nodes) {
+    Box box;
+    for (const scene::Node& node : nodes) {
+        limits::check();
+        if (const auto* group = std::get_if<scene::Group>(&node.value)) {
+            box.add(strokedBox(group->children));
+        } else if (const auto* item = std::get_if<scene::Item>(&node.value)) {
+            if (const auto* stroke = std::get_if<scene::StrokeStyle>(&item->geometry))
+                box.add(geometry::mapped(strokeBox(*item->path, *stroke), item->transform));
+        }
+    }
+    return box;
+}
 
 Box boxAround(const std::vector<scene::Node>& nodes) {
     Box box;

@@ -96,6 +96,9 @@ bool liesInside(const std::vector<scene::Node>& nodes, const scene::Affine& tran
 /// Where the item can draw: its outline, or its stroke with enough room for joins and caps.
 Box boxOf(const scene::Item& item);
 
+/// Tight box of the strokes among the nodes, dashes filled in.
+Box strokedBox(const std::vector<scene::Node>& nodes);
+
 /// Where the nodes can draw: of outlines and strokes, not cut by clips and masks. Empty where they cannot.
 Box boxAround(const std::vector<scene::Node>& nodes);
 

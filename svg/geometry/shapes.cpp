@@ -88,19 +88,8 @@ Shape polyline(const LengthReader& reader, bool closed) {
     return {std::move(parsed.path), problem};
 }
 
-/// The argument of CSS's path("…"), or plain path data.
-std::string_view pathText(std::string_view text) {
-    Cursor cursor(trim(text));
-    if (!cursor.consume("path("))
-        return text;
-    cursor.skipSpaces();
-    const char quote = cursor.peek();
-    cursor.advance(cursor.atEnd() ? 0 : 1);
-    return cursor.until(quote);
-}
-
 Shape path(const LengthReader& reader) {
-    ParsedPath parsed = parsePathData(pathText(reader.text("d")));
+    ParsedPath parsed = parsePathData(pathFunctionData(reader.text("d")));
     const std::string problem = problemOf("d", parsed);
     return {std::move(parsed.path), problem};
 }
@@ -115,7 +104,9 @@ std::string_view LengthReader::text(std::string_view name) const {
 
 std::optional<double> LengthReader::length(std::string_view name, Axis axis) const {
     const std::string_view written = text(name);
-    const auto length = written.empty() ? std::nullopt : parseLength(written, units);
+    Units own = units;
+    own.whole = resolve({100, true}, axis, viewport);
+    const auto length = written.empty() ? std::nullopt : parseLength(written, own);
     return length ? std::optional(resolve(*length, axis, viewport)) : std::nullopt;
 }
 

@@ -32,6 +32,25 @@ struct Arguments {
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
+/// Functions of three dimensions, seen along z (CSS Transforms 2 section 12); those that turn the plane out
+/// of itself are not known.
+std::optional<Affine> makeSpatial(std::string_view name, const Arguments& a) {
+    const auto is = [&](std::string_view other, std::size_t count) {
+        return equalsIgnoringCase(name, other) && a.count() == count;
+    };
+    if (is("translate3d", 3))
+        return scene::translation(a.length(0, Axis::X), a.length(1, Axis::Y));
+    if (is("scale3d", 3))
+        return scene::scaling(a.factor(0), a.factor(1));
+    if (is("rotateZ", 1))
+        return rotation(a[0]);
+    if (is("rotate3d", 4) && a[0] == 0 && a[1] == 0)
+        return rotation(std::copysign(a[2] == 0 ? 0 : a[3], a[2] * a[3]));
+    if (is("matrix3d", 16))
+        return Affine{a[0], a[1], a[4], a[5], a[12], a[13]};
+    return is("translateZ", 1) || is("scaleZ", 1) ? std::optional(scene::identity) : std::nullopt;
+}
+
 std::optional<Affine> makeTransform(std::string_view name, const Arguments& a) {
     const auto is = [&](std::string_view other, std::size_t minimum, std::size_t maximum) {
         return equalsIgnoringCase(name, other) && a.count() >= minimum && a.count() <= maximum;
@@ -60,11 +79,11 @@ std::optional<Affine> makeTransform(std::string_view name, const Arguments& a) {
         return Affine{1, std::tan(radians(a[0])), 0, 1, 0, 0};
     if (is("skew", 1, 2))
         return Affine{1, std::tan(radians(a[1])), std::tan(radians(a[0])), 1, 0, 0};
-    return std::nullopt;
+    return makeSpatial(name, a);
 }
 
 bool takesAngles(std::string_view name) {
-    return equalsIgnoringCase(name, "rotate") || equalsIgnoringCase(name.substr(0, 4), "skew");
+    return equalsIgnoringCase(name.substr(0, 6), "rotate") || equalsIgnoringCase(name.substr(0, 4), "skew");
 }
 
 std::optional<Length> readArgument(Cursor& cursor, bool angle, const Units& units) {
@@ -84,7 +103,8 @@ std::optional<Affine> readFunction(Cursor& cursor, const Units& units, const Vie
     while (!cursor.consume(')')) {
         // Only rotate's first argument is an angle; the others have no unit in practice.
         const std::optional<Length> value = readArgument(cursor, takesAngles(name), units);
-        if (!value || arguments.count() >= 6)
+        constexpr std::size_t most = 16;
+        if (!value || arguments.count() >= most)
             return std::nullopt;
         arguments.values.push_back(*value);
         cursor.skipCommaSpaces();
@@ -108,15 +128,24 @@ std::optional<Length> originPart(std::string_view word, Axis axis, const Units& 
     return keyword ? keyword : parseLength(word, units);
 }
 
-/// Up to the next space.
+/// Up to the next space outside of brackets.
 std::string_view readWord(Cursor& cursor) {
     cursor.skipSpaces();
-    const std::string_view rest = cursor.rest();
-    std::size_t size = 0;
-    while (size < rest.size() && !isSpace(rest[size]))
-        ++size;
-    cursor.advance(size);
-    return rest.substr(0, size);
+    const std::string_view word = cursor.rest().substr(0, extentOf(cursor.rest(), " \t\n\r\f"));
+    cursor.advance(word.size());
+    return word;
+}
+
+/// One to `most` values with spaces between them.
+std::vector<Length> readLengths(std::string_view text, const Units& units, std::size_t most) {
+    std::vector<Length> values;
+    for (Cursor cursor(trim(text)); !cursor.atEnd(); cursor.skipSpaces()) {
+        const auto value = readLength(cursor, units);
+        if (!value || values.size() == most || (!cursor.atEnd() && !isSpace(cursor.peek())))
+            return {};
+        values.push_back(*value);
+    }
+    return values;
 }
 
 }  // namespace
@@ -157,6 +186,36 @@ std::optional<Affine> parseTransform(std::string_view text, const Units& units, 
         result = scene::compose(result, *next);
     }
     return result;
+}
+
+std::optional<Affine> parseTranslate(std::string_view text, const Units& units, const Viewport& viewport) {
+    if (equalsIgnoringCase(trim(text), "none"))
+        return scene::identity;
+    const std::vector<Length> values = readLengths(text, units, 3);
+    if (values.empty())
+        return std::nullopt;
+    const Arguments arguments{units, viewport, values};
+    return scene::translation(arguments.length(0, Axis::X), arguments.length(1, Axis::Y));
+}
+
+std::optional<Affine> parseRotate(std::string_view text) {
+    Cursor cursor(trim(text));
+    if (equalsIgnoringCase(cursor.rest(), "none"))
+        return scene::identity;
+    if (cursor.consume("z ") || cursor.consume("0 0 1 "))
+        cursor.skipSpaces();
+    const auto degrees = readAngle(cursor);
+    return degrees && cursor.atEnd() ? std::optional(rotation(*degrees)) : std::nullopt;
+}
+
+std::optional<Affine> parseScale(std::string_view text) {
+    if (equalsIgnoringCase(trim(text), "none"))
+        return scene::identity;
+    const std::vector<Length> values = readLengths(text, {}, 3);
+    if (values.empty())
+        return std::nullopt;
+    const Arguments arguments{{}, {}, values};
+    return scene::scaling(arguments.factor(0), arguments.factor(values.size() > 1 ? 1 : 0));
 }
 
 std::optional<TransformOrigin> parseTransformOrigin(std::string_view text, const Units& units) {

@@ -19,6 +19,13 @@ namespace vtm::svg {
 std::optional<scene::Affine> parseTransform(std::string_view text, const Units& units,
                                             const Viewport& viewport);
 
+/// The properties `translate`, `rotate`, `scale` (CSS Transforms 2 section 5), as far as they stay in the
+/// plane. Nothing if the value is not valid.
+std::optional<scene::Affine> parseTranslate(std::string_view text, const Units& units,
+                                            const Viewport& viewport);
+std::optional<scene::Affine> parseRotate(std::string_view text);
+std::optional<scene::Affine> parseScale(std::string_view text);
+
 scene::Affine rotation(double degrees);
 
 /// compose(outer, inner), in which terms that cancel leave exactly 0, or 1 on the diagonal: an entry is a sum

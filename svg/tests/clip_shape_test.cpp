@@ -82,7 +82,7 @@ TEST(ClipShape, Polygons) {
 TEST(ClipShape, PathsStartAtTheCornerOfTheBox) {
     expectBox("path('M1 2H5V7Z')", {{11, 22}, {15, 27}});
     expectBox("path(evenodd, \"M1 2H5V7Z\") view-box", {{11, 22}, {15, 27}});
-    EXPECT_TRUE(parseClipShape("path('M1 2H5V7Z') view-box", {})->isInViewport);
+    EXPECT_TRUE(parseClipShape("path('M1 2H5V7Z') view-box", {})->box == TransformBox::View);
 }
 
 TEST(ClipShape, WhatIsNoShapeIsNotRead) {

@@ -136,9 +136,31 @@ TEST(Invalid, DeclarationsAreNamedOnceWhereTheyStand) {
 }
 
 TEST(Invalid, WhatMeansSomethingElseIsLeftAlone) {
-    EXPECT_TRUE(warningsOf("<rect width='9' height='9'><animate fill='freeze' attributeName='x'/></rect>"
-                           "<title opacity='no'>t</title><metadata fill='no'/>")
-                    .empty());
+    EXPECT_TRUE(warningsOf("<title opacity='no'>t</title><metadata fill='no'/>").empty());
+}
+
+TEST(Invalid, RulesThatAreIgnoredAreNamed) {
+    EXPECT_EQ(warningsOf("<style>rect::after { fill: red } @page { x: y } @media print { g { fill: red } } "
+                         "rect:hover { fill: red } @media screen { a:b { fill: red } }</style>"),
+              (std::vector<std::string>{R"(<style>: the rule "rect::after" is ignored)",
+                                        R"(<style>: the rule "@page" is ignored)",
+                                        R"(<style>: the rule "a:b" is ignored)"}));
+}
+
+TEST(Invalid, WhatActsOnlyInBrowsersIsNamed) {
+    EXPECT_EQ(
+        warningsOf("<rect width='9' height='9'><animate fill='freeze' attributeName='x'/></rect>"
+                   "<script/><foreignObject/>"),
+        (std::vector<std::string>{"<animate>: animation is ignored; what it changes keeps its base value",
+                                  "<script>: scripts are ignored",
+                                  "<foreignObject>: holds what is not SVG; it is left out"}));
+}
+
+TEST(Invalid, WhatClipsNothingIsNamed) {
+    EXPECT_EQ(warningsOf("<g id='g'/><clipPath id='c'><g/><use href='#g'/></clipPath>"
+                         "<rect width='9' height='9' clip-path='url(#c)'/>"),
+              (std::vector<std::string>{"<g>: clips nothing in a clipPath; it is left out",
+                                        "<use>: refers to no shape and no text; it is left out"}));
 }
 
 TEST(Invalid, PathsAndPointsSayWhere) {

@@ -5,6 +5,7 @@
 #include "svg/geometry/path_data.hpp"
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/geometry/path_measure.hpp"
+#include "svg/geometry/stroke_box.hpp"
 #include "svg/tests/support.hpp"
 
 namespace vtm::svg {
@@ -133,6 +134,45 @@ TEST(Vertices, ArcsTakeTheirTangents) {
     EXPECT_NEAR(degrees(vertices[0].outgoing), 90, 1e-9);
     EXPECT_NEAR(std::abs(degrees(vertices[1].incoming)), 180, 1e-9);
 }
+Box strokeBoxOf(std::string_view text, Join join, Cap cap) {
+    StrokeStyle stroke;
+    stroke.width = 2;
+    stroke.join = join;
+    stroke.cap = cap;
+    return strokeBox(parse(text).path, stroke);
+}
+
+TEST(StrokeBox, HasJoinsAndCaps) {
+    const std::string_view corner = "M 0 0 H 10 V 10";
+    const Box butt = strokeBoxOf(corner, Join::Bevel, Cap::Butt);
+    expectNear(butt.min, {0, -1});
+    expectNear(butt.max, {11, 10});
+    const Box square = strokeBoxOf(corner, Join::Miter, Cap::Square);
+    expectNear(square.min, {-1, -1});
+    expectNear(square.max, {11, 11});
+    // The mitre of a right angle that points up is 1 / sin 45° half widths high.
+    expectNear(strokeBoxOf("M 0 10 L 10 0 L 20 10", Join::Miter, Cap::Butt).min,
+               {-std::sqrt(0.5), -std::numbers::sqrt2});
+    expectNear(strokeBoxOf("M 0 10 L 10 0 L 20 10", Join::Round, Cap::Butt).min, {-std::sqrt(0.5), -1});
+    expectNear(strokeBoxOf("M 0 10 L 10 0 L 20 10", Join::Bevel, Cap::Butt).min,
+               {-std::sqrt(0.5), -std::sqrt(0.5)});
+}
+TEST(StrokeBox, CurvesTurnBackBetweenTheirEnds) {
+    const Box arc = strokeBoxOf("M 0 0 A 10 10 0 0 1 20 0", Join::Miter, Cap::Butt);
+    expectNear(arc.min, {-1, -11});
+    expectNear(arc.max, {21, 0});
+    const Box cubic = strokeBoxOf("M 0 0 C 0 -8 12 -8 12 0", Join::Miter, Cap::Butt);
+    expectNear(cubic.min, {-1, -7});
+    expectNear(cubic.max, {13, 0});
+}
+TEST(StrokeBox, ClosedAndEmptySubpaths) {
+    const Box closed = strokeBoxOf("M 0 0 H 10 V 10 Z", Join::Miter, Cap::Butt);
+    expectNear(closed.max, {11, 10 + 1 + std::numbers::sqrt2});
+    EXPECT_TRUE(strokeBoxOf("M 5 5", Join::Miter, Cap::Round).empty());
+    EXPECT_TRUE(strokeBoxOf("M 5 5 Z", Join::Miter, Cap::Butt).empty());
+    expectNear(strokeBoxOf("M 5 5 Z", Join::Miter, Cap::Round).min, {4, 4});
+}
+
 TEST(Vertices, SegmentsWithoutLengthTakeTheirNeighboursDirection) {
     const auto vertices = verticesOf(parse("M 0 0 L 0 0 L 0 5 L 0 5").path);
     EXPECT_DOUBLE_EQ(degrees(vertices[0].outgoing), 90);

@@ -1,15 +1,40 @@
 #include "svg/xml/decode.hpp"
 
+#include <iconv.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <string_view>
 #include <unordered_map>
 
 #include <vtm/limits/limits.hpp>
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {
+
+void appendUtf8(std::string& out, char32_t c) {
+    constexpr char32_t lastCharacter = 0x10ffff, replacement = 0xfffd;
+    if (c == 0 || c > lastCharacter)
+        c = replacement;
+    const auto byte = [&](char32_t value) { out.push_back(static_cast<char>(value)); };
+    if (c < 0x80) {
+        byte(c);
+    } else if (c < 0x800) {
+        byte(0xc0 | c >> 6);
+        byte(0x80 | (c & 0x3f));
+    } else if (c < 0x10000) {
+        byte(0xe0 | c >> 12);
+        byte(0x80 | (c >> 6 & 0x3f));
+        byte(0x80 | (c & 0x3f));
+    } else {
+        byte(0xf0 | c >> 18);
+        byte(0x80 | (c >> 12 & 0x3f));
+        byte(0x80 | (c >> 6 & 0x3f));
+        byte(0x80 | (c & 0x3f));
+    }
+}
 
 // ---- Bytes --------------------------------------------------------------------------------------
 
@@ -51,25 +76,6 @@ std::vector<std::uint8_t> gunzip(Bytes bytes, const std::string& fileName) {
     return out;
 }
 
-void appendUtf8(std::string& out, char32_t c) {
-    const auto byte = [&](char32_t value) { out.push_back(static_cast<char>(value)); };
-    if (c < 0x80) {
-        byte(c);
-    } else if (c < 0x800) {
-        byte(0xc0 | c >> 6);
-        byte(0x80 | (c & 0x3f));
-    } else if (c < 0x10000) {
-        byte(0xe0 | c >> 12);
-        byte(0x80 | (c >> 6 & 0x3f));
-        byte(0x80 | (c & 0x3f));
-    } else {
-        byte(0xf0 | c >> 18);
-        byte(0x80 | (c >> 12 & 0x3f));
-        byte(0x80 | (c >> 6 & 0x3f));
-        byte(0x80 | (c & 0x3f));
-    }
-}
-
 std::string fromUtf16(Bytes bytes, bool bigEndian) {
     const auto unit = [&](std::size_t i) {
         const char32_t first = bytes[i], second = bytes[i + 1];
@@ -106,18 +112,56 @@ std::string_view declaredEncoding(std::string_view text) {
                                   : std::string_view{};
 }
 
-bool isWestern(std::string_view encoding) {
-    constexpr std::array<std::string_view, 5> names{"iso-8859-1", "iso-8859-15", "latin1", "windows-1252",
-                                                    "cp1252"};
-    return std::any_of(names.begin(), names.end(),
-                       [&](auto name) { return equalsIgnoringCase(name, encoding); });
+/// Frees the converter on every way out.
+class Iconv {
+public:
+    explicit Iconv(const std::string& encoding) : handle_(iconv_open("UTF-8", encoding.c_str())) {}
+    Iconv(const Iconv&) = delete;
+    Iconv& operator=(const Iconv&) = delete;
+    ~Iconv() {
+        if (isKnown())
+            iconv_close(handle_);
+    }
+    bool isKnown() const { return handle_ != reinterpret_cast<iconv_t>(-1); }
+
+    /// What is no character becomes U+FFFD.
+    std::string run(std::string_view text) {
+        std::string out;
+        std::array<char, 4096> chunk;
+        char* from = const_cast<char*>(text.data());
+        for (std::size_t left = text.size(); left > 0;) {
+            limits::check();
+            char* to = chunk.data();
+            std::size_t room = chunk.size();
+            const bool failed = iconv(handle_, &from, &left, &to, &room) == static_cast<std::size_t>(-1);
+            const bool isFull = failed && errno == E2BIG;
+            out.append(chunk.data(), chunk.size() - room);
+            if (failed && !isFull) {
+                appendUtf8(out, 0xfffd);
+                ++from, --left;
+            }
+        }
+        return out;
+    }
+
+private:
+    iconv_t handle_;
+};
+
+/// What is declared in bytes that read as ASCII cannot be one of the encodings of wider units.
+bool isWide(std::string_view encoding) {
+    constexpr std::array<std::string_view, 4> names{"utf", "ucs", "iso-10646", "unicode"};
+    return std::ranges::any_of(
+        names, [&](auto name) { return equalsIgnoringCase(encoding.substr(0, name.size()), name); });
 }
 
-std::string fromLatin1(std::string_view text) {
-    std::string out;
-    for (const char c : text)
-        appendUtf8(out, static_cast<unsigned char>(c));
-    return out;
+/// Encodings that are not known are taken for UTF-8.
+std::string fromDeclared(std::string_view text) {
+    const std::string_view encoding = declaredEncoding(text);
+    if (encoding.empty() || isWide(encoding) || !std::ranges::all_of(encoding, isIdentifier))
+        return std::string(text);
+    Iconv converter{std::string(encoding)};
+    return converter.isKnown() ? converter.run(text) : std::string(text);
 }
 
 }  // namespace
@@ -134,10 +178,13 @@ std::string decodeText(Bytes bytes, const std::string& fileName) {
         return fromUtf16(bytes.subspan(2), true);
     if (bytes.size() >= 2 && bytes[0] == 0xff && bytes[1] == 0xfe)
         return fromUtf16(bytes.subspan(2), false);
+    // Without a mark the first '<' tells (XML 1.0 appendix F).
+    if (bytes.size() >= 2 && (bytes[0] == 0) != (bytes[1] == 0))
+        return fromUtf16(bytes, bytes[0] == 0);
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\xef\xbb\xbf"))
         text.remove_prefix(3);
-    return isWestern(declaredEncoding(text)) ? fromLatin1(text) : std::string(text);
+    return fromDeclared(text);
 }
 
 // ---- Internal entities (XML 1.0 section 4) ------------------------------------------------------

@@ -138,7 +138,9 @@ private:
                     previous->next = built;
                 previous = built;
                 element.children.push_back(built);
-            } else if (text && (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)) {
+            } else if (child.type() != pugi::node_pcdata && child.type() != pugi::node_cdata) {
+                continue;
+            } else if (element.hasText = true; text) {
                 Element& data = tree_.elements.emplace_back();
                 data.tag = Tag::CharacterData;
                 data.text = child.value();
@@ -186,6 +188,16 @@ std::unique_ptr<Tree> parseXml(std::string text, const SourceMap& map) {
 
 namespace {
 
+/// Elements that act in browsers, and never here.
+void warnOfIgnored(const Tree& tree, Reporter& reporter) {
+    for (const Element& element : tree.elements)
+        if (element.tag == Tag::Animation)
+            reporter.warn(Warning::Kind::Element, element,
+                          "animation is ignored; what it changes keeps its base value");
+        else if (element.tag == Tag::Script)
+            reporter.warn(Warning::Kind::Element, element, "scripts are ignored");
+}
+
 /// Largest side of a picture, user units: what doubles resolve to a thousandth with room to spare.
 constexpr double maxSide = 1e9;
 
@@ -225,6 +237,7 @@ std::unique_ptr<ParsedDocument> parseDocument(std::span<const std::uint8_t> byte
     document->map = SourceMap(options.fileName, text);
     text = expandEntities(std::move(text), document->map);
     document->tree = parseXml(std::move(text), document->map);
+    warnOfIgnored(*document->tree, document->reporter);
     checkAttributes(*document->tree, document->reporter);
     cascade(*document->tree, options, document->reporter);
     return document;

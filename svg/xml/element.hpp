@@ -85,6 +85,7 @@ struct Element {
     std::vector<Attribute> attributes;
     std::vector<Declaration> declarations;  ///< weakest first: a later valid one replaces it
     std::size_t offset = 0;                 ///< of its name in the text that was parsed
+    bool hasText = false;                   ///< characters, also where the tree does not keep them
 
     std::optional<std::string_view> find(std::string_view attribute) const;
     /// Empty where the attribute is absent.
@@ -99,6 +100,7 @@ std::optional<std::string_view> hrefOf(const Element& element);
 /// A rule `@font-face` in a style sheet.
 struct FontFaceRule {
     const Element* sheet = nullptr;
+    std::string directory;  ///< where the references of its sheet start
     std::vector<Attribute> descriptors;
 };
 
