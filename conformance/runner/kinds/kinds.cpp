@@ -8,11 +8,17 @@ struct Kind {
     std::vector<Case> (*load)(const Folder&);
 };
 
-constexpr Kind kinds[] = {{"scene", sceneCases},           {"texture", textureCases},
-                          {"random", randomCases},         {"paper", paperCases},
-                          {"robustness", robustnessCases}, {"corpus", corpusCases},
-                          {"svg-suite", svgSuiteCases},    {"openvg", openvgCases},
-                          {"crowded", crowdedCases},       {"text", textCases}};
+constexpr Kind kinds[] = {{"scene", sceneCases},
+                          {"texture", textureCases},
+                          {"random", randomCases},
+                          {"paper", paperCases},
+                          {"robustness", robustnessCases},
+                          {"corpus", corpusCases},
+                          {"svg-suite", svgSuiteCases},
+                          {"openvg", openvgCases},
+                          {"crowded", crowdedCases},
+                          {"text", textCases},
+                          {"pair", pairCases}};
 
 }  // namespace
 

@@ -15,6 +15,8 @@ std::vector<Case> casesOf(const Folder& folder);
 std::vector<Case> sceneCases(const Folder& folder);
 /// SVG text against outlines that a script placed.
 std::vector<Case> textCases(const Folder& folder);
+/// A feature of SVG against the same picture written without it.
+std::vector<Case> pairCases(const Folder& folder);
 /// Every SVG file is a texture on a plane (docs/texture.md), compared with the exact reference.
 std::vector<Case> textureCases(const Folder& folder);
 /// Seeds of the generator (conformance/generate); what fails is shrunk.
