@@ -79,6 +79,7 @@ LIBRARIES = {
     r"gtest/.*|gmock/.*": ANYWHERE,
     r"pugixml\.hpp": {"svg"},
     r"hb(-ot)?\.h|fribidi\.h|linebreak\.h|fontconfig/.*|woff2/.*": {"text", "conformance/cases"},
+    r"iconv\.h": {"svg"},
     r"zlib\.h": {"text", "svg", "asset", "image"},
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
     r"libdeflate\.h|avif/.*": {"image"},
