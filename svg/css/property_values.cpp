@@ -291,16 +291,23 @@ std::optional<std::optional<TransformOrigin>> parseOrigin(std::string_view text,
 }
 
 std::optional<std::string_view> readUrl(Cursor& cursor) {
-    Cursor start = cursor;
+    const Cursor start = cursor;
     cursor.skipSpaces();
-    if (!cursor.consume("url(")) {
-        cursor = start;
-        return std::nullopt;
+    if (cursor.consume("url(")) {
+        cursor.skipSpaces();
+        for (const char quote : {'"', '\''})
+            if (cursor.consume(quote)) {
+                const std::string_view href = trim(cursor.until(quote));
+                cursor.until(')');
+                return href;
+            }
+        const std::string_view href = trim(cursor.until(')'));
+        // CSS Syntax 3, section 4.3.6: without quotes it is no URL with a space, quote or bracket in it.
+        if (href.find_first_of(" \t\n\r\f\"'(") == href.npos)
+            return href;
     }
-    std::string_view href = trim(cursor.until(')'));
-    if (href.size() >= 2 && (href.front() == '"' || href.front() == '\'') && href.back() == href.front())
-        href = trim(href.substr(1, href.size() - 2));
-    return href;
+    cursor = start;
+    return std::nullopt;
 }
 
 }  // namespace vtm::svg

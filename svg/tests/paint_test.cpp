@@ -45,6 +45,15 @@ TEST(Paint, UrlsMayBeQuoted) {
                 "<rect width='9' height='9' fill=\"url( '#p' )\"/>")));
 }
 
+TEST(Paint, UrlsWithSpacesMustBeQuoted) {
+    const std::string gradient = "<linearGradient id='a (1)'>" + std::string(stops) + "</linearGradient>";
+    EXPECT_TRUE(std::holds_alternative<scene::LinearGradient>(
+        paintOf(gradient, "<rect width='9' height='9' fill='url(\"#a (1)\")'/>")));
+    EXPECT_EQ(rgbOf(paintOf(gradient, "<g fill='lime'><rect width='9' height='9' fill='url(#a (1))'/></g>")),
+              0x00ff00);
+    EXPECT_EQ(fillOf("<g fill='lime'><rect width='9' height='9' fill='url(#a b)'/></g>"), 0x00ff00);
+}
+
 TEST(Gradient, BoxUnitsMapTheBox) {
     const auto gradient = linear("");
     expectNear(gradient.start, {0, 0});
