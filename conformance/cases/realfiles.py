@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """Draws the SVG files of a folder with vtm and with other renderers, and lists where they differ.
 
-realfiles.py --vtm VTM FOLDER [--out DIR] [--width 512] [--limit SECONDS]
+realfiles.py --vtm VTM FOLDER [--out DIR] [--width 512] [--limit SECONDS] [--explained FILE]
 
 The others are rsvg-convert and resvg, where they are installed. vtm draws in compat mode, as they do. A picture looks
 like another if hardly any pixel lies outside of what the other has in the 3 x 3 pixels around it, and the other way
-round. Writes DIR/table.tsv and DIR/index.html, worst first, and prints how many files look like a picture on which the
-others agree. Files are drawn one after the other, each by a process of its own.
+round. Files are drawn one after the other, each by a process of its own. A folder in FOLDER is a source.
+
+Writes DIR/table.tsv and DIR/index.html, worst first, and DIR/sources.tsv. Prints how many files look like a picture on
+which the others agree, and names those that do not, those that vtm alone cannot draw, and those for which it takes far
+more time or memory. FILE explains them: lines of a path in FOLDER, a tab and a reason.
 """
 import argparse
 import html
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -23,6 +27,9 @@ from PIL import Image
 LEAST_DIFFERENCE = 32   # of 255: what antialiasing and rounding may amount to
 MANY_PIXELS = 0.003     # of those that are not empty
 FEW_PIXELS = 8          # that may differ in any case
+FAR_MORE = 5            # times what the costliest of the others takes,
+LEAST_SECONDS = 1       # beyond these, which a process takes to start,
+LEAST_KILOBYTES = 100 * 1024
 
 
 class Drawing:
@@ -107,47 +114,84 @@ def difference(a, b):
 
 
 class Row:
-    def __init__(self, file, drawings):
-        self.file, self.drawings = file, drawings
+    def __init__(self, path, reason, drawings):
+        self.path, self.reason, self.drawings = path, reason, drawings
         own = drawings["vtm"]
-        others = {name: d for name, d in drawings.items() if name != "vtm" and not d.failed}
+        others = {name: d for name, d in drawings.items() if name != "vtm"}
         self.differences = {}
         for name, drawing in others.items():
-            share = None if own.failed else difference(own.picture, drawing.picture)
-            self.differences[name] = float("inf") if share is None else share
-        pictures = [d.picture for d in others.values()]
-        self.agreed = bool(pictures) and all(
-            (difference(pictures[0], p) or 0) <= 1 and difference(pictures[0], p) is not None for p in pictures[1:])
+            if not drawing.failed:
+                share = None if own.failed else difference(own.picture, drawing.picture)
+                self.differences[name] = float("inf") if share is None else share
+        self.agreed = len(self.differences) == len(others) and agree([d.picture for d in others.values()])
         self.worst = max(self.differences.values(), default=0)
         self.alike = min(self.differences.values(), default=float("inf")) <= 1
+        self.failed = own.failed and bool(self.differences)
+        self.slow = own.seconds > max(LEAST_SECONDS, FAR_MORE * max(d.seconds for d in others.values()))
+        self.large = own.kilobytes > max(LEAST_KILOBYTES, FAR_MORE * max(d.kilobytes for d in others.values()))
+
+    @property
+    def source(self):
+        return self.path.parts[0] if len(self.path.parts) > 1 else "."
+
+    @property
+    def faults(self):
+        """What asks for an explanation, in words."""
+        words = {"differs": self.agreed and not self.alike, "fails": self.failed, "takes long": self.slow,
+                 "takes much memory": self.large}
+        return ", ".join(word for word, holds in words.items() if holds)
 
     def cells(self, names):
-        cells = [self.file.name, "" if self.agreed else "others differ"]
+        cells = [str(self.path), "" if self.agreed else "others differ"]
         for name in names:
             drawing = self.drawings[name]
             cells += ["failed" if drawing.failed else f"{self.differences.get(name, 0):.2f}",
                       f"{drawing.seconds:.3f}", f"{drawing.kilobytes // 1024}"]
-        return cells
+        return cells + [self.reason]
+
+
+def agree(pictures):
+    shares = [difference(pictures[0], picture) for picture in pictures[1:]]
+    return all(share is not None and share <= 1 for share in shares)
 
 
 def page(rows, names, folder):
     heads = ["file", "peers"] + [f"{name} {what}" for name in names for what in ("difference", "CPU s", "MiB")]
     with open(folder / "table.tsv", "w") as table:
-        for cells in [heads] + [row.cells(names) for row in rows]:
+        for cells in [heads + ["reason"]] + [row.cells(names) for row in rows]:
             table.write("\t".join(cells) + "\n")
     with open(folder / "index.html", "w") as text:
         text.write("<!DOCTYPE html><meta charset='utf-8'><title>Real files</title>"
                    "<style>img{width:256px;background:#fff;border:1px solid #ccc}td{vertical-align:top}</style><table>")
         for row in rows:
-            pictures = "".join(f"<td><img src='{index_name(row.file, name)}' alt='{name}'><br>{name}" for name in names)
+            pictures = "".join(f"<td><img src='{picture_name(row.path, name)}' alt='{name}'><br>{name}"
+                               for name in names)
             said = html.escape(row.drawings["vtm"].message[:600])
             text.write(f"<tr><td colspan={len(names)}><b>{html.escape(' '.join(row.cells(names)))}</b><br>{said}"
                        f"<tr>{pictures}\n")
         text.write("</table>")
 
 
-def index_name(file, name):
-    return f"{file.stem}.{name}.png".replace("#", "_").replace("%", "_").replace("'", "_")
+def sources(rows, folder):
+    """A line for each source: on how many of its files the others agree, and what vtm makes of them."""
+    found = sorted({row.source for row in rows})
+    with open(folder / "sources.tsv", "w") as table:
+        table.write("source\tfiles\tothers agree\talike\tfailed\n")
+        for source in found:
+            own = [row for row in rows if row.source == source]
+            agreed = [row for row in own if row.agreed]
+            counts = len(own), len(agreed), sum(row.alike for row in agreed), sum(row.failed for row in own)
+            table.write("\t".join([source, *map(str, counts)]) + "\n")
+    return found
+
+
+def picture_name(path, name):
+    return f"{re.sub('[^A-Za-z0-9_.-]', '_', '__'.join(path.parts))}.{name}.png"
+
+
+def explanations(file):
+    lines = file.read_text().splitlines() if file else []
+    return dict(line.split("\t", 1) for line in lines if "\t" in line)
 
 
 def main():
@@ -157,6 +201,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("realfiles"))
     parser.add_argument("--width", type=int, default=512)
     parser.add_argument("--limit", type=float, default=60, help="seconds for a file")
+    parser.add_argument("--explained", type=pathlib.Path, help="reasons for files that differ")
     options = parser.parse_args()
     files = sorted(f for f in options.folder.rglob("*") if f.suffix in (".svg", ".svgz"))
     if not files:
@@ -165,26 +210,32 @@ def main():
     renderers = commands(options.vtm, options.width)
     if len(renderers) == 1:
         sys.exit("neither rsvg-convert nor resvg is installed")
+    reasons = explanations(options.explained)
     rows = []
     for file in files:
+        path = file.relative_to(options.folder)
         drawings = {}
         for name, command in renderers.items():
-            out = options.out / index_name(file, name)
+            out = options.out / picture_name(path, name)
             drawings[name] = draw(command(str(file), str(out)), out, options.limit)
-        row = Row(file, drawings)
+        row = Row(path, reasons.get(str(path), ""), drawings)
         for drawing in drawings.values():
             drawing.picture = drawing.picture if drawing.failed else True  # only that it is there counts from here on
         rows.append(row)
     rows.sort(key=lambda row: -row.worst)
     page(rows, list(renderers), options.out)
+    found = sources(rows, options.out)
     agreed = [row for row in rows if row.agreed]
     alike = sum(row.alike for row in agreed)
-    print(f"{len(rows)} files; the others agree on {len(agreed)}, vtm looks like them in {alike}"
-          + (f" ({100 * alike / len(agreed):.1f} %)" if agreed else ""))
+    print(f"{len(rows)} files of {len(found)} sources; the others agree on {len(agreed)}, "
+          f"vtm looks like them in {alike}" + (f" ({100 * alike / len(agreed):.1f} %)" if agreed else ""))
     for name in renderers:
         drawn = [row.drawings[name] for row in rows]
         print(f"{name:6} CPU {sum(d.seconds for d in drawn):8.1f} s, failed {sum(d.failed for d in drawn)}, "
               f"largest {max(d.kilobytes for d in drawn) // 1024} MiB")
+    for row in rows:
+        if row.faults:
+            print(f"{row.path} {row.faults}: {row.reason or 'not explained'}")
     print(f"{options.out / 'index.html'}")
 
 
