@@ -210,14 +210,16 @@ private:
         const glm::dvec2 first = glm::floor((box.min - pattern.min) / period);
         const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
         const double tiles = (last.x - first.x + 1) * (last.y - first.y + 1);
-        if (tiles_ && !isInTile_ && tiles > fewTiles && tiles <= double(maxPlacedTiles)) {
+        const bool canPlace = tiles_ && !isInTile_;
+        if (canPlace && tiles > fewTiles && tiles <= double(maxPlacedTiles)) {
             plannedTiles(
                 pattern,
                 {toPicture, pattern.min, pattern.max, glm::i64vec2(first), glm::i64vec2(last), shape}, index);
             return;
         }
-        if (!(tiles <= static_cast<double>(maxTiles))) {
-            leaveOut(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, maxTiles));
+        const std::size_t limit = canPlace ? maxPlacedTiles : maxTiles;
+        if (!(tiles <= static_cast<double>(limit))) {
+            leaveOut(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, limit));
             return;
         }
         const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)

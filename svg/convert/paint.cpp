@@ -216,7 +216,8 @@ void addInLinearLight(const scene::GradientStop& from, const scene::GradientStop
     constexpr double tolerance = 0.25 / 255;
     const Vec3 a(from.color.r, from.color.g, from.color.b), b(to.color.r, to.color.g, to.color.b);
     const auto light = [](Vec3 color) { return linear.fromXyz(srgb.toXyz(color)); };
-    const Vec3 middle = srgb.fromXyz(linear.toXyz((light(a) + light(b)) / 2.0));
+    // Rounding may leave [0, 1].
+    const Vec3 middle = glm::clamp(srgb.fromXyz(linear.toXyz((light(a) + light(b)) / 2.0)), 0.0, 1.0);
     const Vec3 error = glm::abs(middle - (a + b) / 2.0);
     if (depth > 0 && std::max({error.x, error.y, error.z}) > tolerance) {
         const scene::GradientStop half{

@@ -33,6 +33,17 @@ TEST(Paint, OpacitiesReachTheItem) {
     EXPECT_FLOAT_EQ(itemOf("<path d='M0 0H5' stroke='red' stroke-opacity='30%'/>").opacity, 0.3f);
     EXPECT_FLOAT_EQ(itemOf("<rect width='9' height='9' fill-opacity='7'/>").opacity, 1);
 }
+TEST(Paint, ColoursOfLinearLightStayInRange) {
+    for (const char* color : {"red", "lime", "blue", "yellow", "white"})
+        for (const scene::GradientStop& stop :
+             linear("color-interpolation='linearRGB'",
+                    std::string("<stop/><stop offset='1' stop-color='") + color + "'/>")
+                 .stops)
+            for (const float channel : {stop.color.r, stop.color.g, stop.color.b}) {
+                EXPECT_GE(channel, 0) << color;
+                EXPECT_LE(channel, 1) << color;
+            }
+}
 TEST(Paint, MissingServersFallBack) {
     EXPECT_EQ(fillOf("<rect width='9' height='9' fill='url(#no) lime'/>"), 0x00ff00);
     EXPECT_EQ(fillOf("<rect width='9' height='9' color='lime' fill='url(#no) currentColor'/>"), 0x00ff00);
