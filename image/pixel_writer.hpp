@@ -34,6 +34,9 @@ private:
     int depth_;
 };
 
+/// A run of pixels. Pictures have long runs of one colour: what is as the pixel before is copied.
+void writePixels(const PixelWriter& writer, const float* premultiplied, std::size_t count, std::uint8_t* to);
+
 /// All rows of a picture.
 void giveRows(const Raster& picture, const PixelWriter& writer, const RowSink& sink);
 void giveRows(const Bitmap& picture, const PixelWriter& writer, const RowSink& sink);

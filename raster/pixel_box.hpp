@@ -20,7 +20,8 @@ struct PixelBox {
     std::size_t area() const { return std::size_t(width()) * std::size_t(height()); }
     bool contains(int x, int y) const { return x >= min.x && x < max.x && y >= min.y && y < max.y; }
     PixelBox intersection(const PixelBox& other) const {
-        return {glm::max(min, other.min), glm::min(max, other.max)};
+        const PixelBox both{glm::max(min, other.min), glm::min(max, other.max)};
+        return both.empty() ? PixelBox{} : both;
     }
     /// The least box round both.
     PixelBox joined(const PixelBox& other) const {

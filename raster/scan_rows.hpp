@@ -1,5 +1,5 @@
 /// \file
-/// Scanned pictures as rows of bytes: a large picture need not be held as floats.
+/// Pictures as rows of bytes.
 #pragma once
 
 #include <vtm/raster/scan.hpp>
@@ -7,9 +7,12 @@
 
 namespace vtm::asset {
 
-/// Gives every row of the view to the sink as soon as it is drawn; holds one. Calls limits::progress().
-/// Throws as Scanner::scan and the sink do.
+/// Gives every row of the view to the sink as soon as it is drawn; holds one, not the picture. Calls
+/// limits::progress(). Throws as Scanner::scan and the sink do.
 void scanRows(const Scanner& scanner, const View& view, const image::PixelWriter& writer,
               const image::RowSink& sink);
+/// The same of what evaluate() draws, which holds the picture.
+void evaluateRows(const AssetView& asset, const View& view, const image::PixelWriter& writer,
+                  const image::RowSink& sink);
 
 }  // namespace vtm::asset

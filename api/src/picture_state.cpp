@@ -49,7 +49,7 @@ void CpuEngine::draw(const asset::View& view, const image::PixelWriter& writer,
     if (scanner_)
         asset::scanRows(*scanner_, view, writer, sink);
     else
-        image::giveRows(asset::evaluate(asset_, view), writer, sink);
+        asset::evaluateRows(asset_, view, writer, sink);
 }
 
 std::optional<image::Raster> drawWithGl(const asset::Asset& asset, const asset::View& view, bool required) {

@@ -15,16 +15,6 @@ float clamped(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
 /// In doubles, where the product and the sum are exact.
 unsigned rounded(float value, int max) { return unsigned(double(clamped(value)) * max + 0.5); }
 
-/// The bytes of a row. Pictures have long runs of one colour: what is as the pixel before is copied.
-void writeRow(const PixelWriter& writer, const float* pixels, std::size_t count, std::uint8_t* to) {
-    const std::size_t bytes = writer.pixelBytes();
-    for (std::size_t x = 0; x < count; ++x, pixels += 4, to += bytes)
-        if (x > 0 && std::memcmp(pixels, pixels - 4, 4 * sizeof(float)) == 0)
-            std::memcpy(to, to - bytes, bytes);
-        else
-            writer.write(pixels, to);
-}
-
 }  // namespace
 
 PixelWriter::PixelWriter(const std::array<float, 4>& ground, int depth)
@@ -46,10 +36,19 @@ void PixelWriter::write(const float* premultiplied, std::uint8_t* to) const {
     }
 }
 
+void writePixels(const PixelWriter& writer, const float* premultiplied, std::size_t count, std::uint8_t* to) {
+    const std::size_t bytes = writer.pixelBytes();
+    for (std::size_t x = 0; x < count; ++x, premultiplied += 4, to += bytes)
+        if (x > 0 && std::memcmp(premultiplied, premultiplied - 4, 4 * sizeof(float)) == 0)
+            std::memcpy(to, to - bytes, bytes);
+        else
+            writer.write(premultiplied, to);
+}
+
 void giveRows(const Raster& picture, const PixelWriter& writer, const RowSink& sink) {
     std::vector<std::uint8_t> row(std::size_t(picture.width) * writer.pixelBytes());
     for (int y = 0; y < picture.height; ++y) {
-        writeRow(writer, picture.pixel(0, y), std::size_t(picture.width), row.data());
+        writePixels(writer, picture.pixel(0, y), std::size_t(picture.width), row.data());
         sink(row);
     }
 }
@@ -67,7 +66,7 @@ void giveRows(const Bitmap& picture, const PixelWriter& writer, const RowSink& s
 
 Bitmap toBitmap(const Raster& raster) {
     Bitmap bitmap{raster.width, raster.height, std::vector<std::uint8_t>(raster.rgba.size())};
-    writeRow(PixelWriter(), raster.rgba.data(), raster.rgba.size() / 4, bitmap.rgba.data());
+    writePixels(PixelWriter(), raster.rgba.data(), raster.rgba.size() / 4, bitmap.rgba.data());
     return bitmap;
 }
 

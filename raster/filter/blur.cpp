@@ -67,8 +67,6 @@ namespace {
 
 /// Means over coarse pixels of steps.x by steps.y.
 Layer reduced(const Layer& layer, glm::ivec2 steps) {
-    if (steps.x == 1 && steps.y == 1)
-        return layer;
     Layer result(coarsened(layer.box, steps), layer.linear);
     const float share = 1 / (float(steps.x) * float(steps.y));
     for (int y = layer.box.min.y; y < layer.box.max.y; ++y) {
@@ -119,10 +117,11 @@ void convolveRow(const Float4* from, const std::vector<Float4>& weights, Float4*
 }
 
 Layer alongRows(const Layer& layer, const std::vector<float>& kernel, int left, int right) {
+    const PixelBox box{{left, layer.box.min.y}, {right, layer.box.max.y}};
     if (kernel.empty())
-        return cropped(layer, {{left, layer.box.min.y}, {right, layer.box.max.y}});
-    Layer result({{left, layer.box.min.y}, {right, layer.box.max.y}}, layer.linear);
-    if (result.empty() || layer.empty())
+        return cropped(layer, box);
+    Layer result = Layer::unwritten(box, layer.linear);
+    if (result.empty())
         return result;
     // A row of the layer with what the result's pixels read beside it, transparent.
     const int reach = int(kernel.size()) - 1, first = left - reach;
@@ -130,9 +129,10 @@ Layer alongRows(const Layer& layer, const std::vector<float>& kernel, int left, 
     std::vector<Float4> row(std::size_t(right - left + 2 * (reach + atOnce))),
         blurred(std::size_t(right - left + atOnce));
     const int from = std::max(first, layer.box.min.x), to = std::min(right + reach, layer.box.max.x);
-    for (int y = layer.box.min.y; y < layer.box.max.y && from < to; ++y) {
+    for (int y = box.min.y; y < box.max.y; ++y) {
         limits::check();
-        std::copy_n(layer.row(y) + (from - layer.box.min.x), to - from, row.begin() + (from - first));
+        if (from < to)
+            std::copy_n(layer.row(y) + (from - layer.box.min.x), to - from, row.begin() + (from - first));
         convolveRow(row.data(), weights, blurred.data(), right - left);
         std::copy_n(blurred.begin(), right - left, result.row(y));
     }
@@ -167,9 +167,10 @@ void convolveColumns(const Float4* from, std::ptrdiff_t rowPixels, std::span<con
 }
 
 Layer alongColumns(const Layer& layer, const std::vector<float>& kernel, int top, int bottom) {
+    const PixelBox box{{layer.box.min.x, top}, {layer.box.max.x, bottom}};
     if (kernel.empty())
-        return cropped(layer, {{layer.box.min.x, top}, {layer.box.max.x, bottom}});
-    Layer result({{layer.box.min.x, top}, {layer.box.max.x, bottom}}, layer.linear);
+        return cropped(layer, box);
+    Layer result = Layer::unwritten(box, layer.linear);
     const int reach = int(kernel.size()) - 1, width = result.width();
     std::vector<float> weights(2 * kernel.size() - 1);
     for (int k = -reach; k <= reach; ++k)
@@ -181,6 +182,8 @@ Layer alongColumns(const Layer& layer, const std::vector<float>& kernel, int top
             convolveColumns(layer.row(low), width,
                             std::span(weights).subspan(std::size_t(low - y + reach), std::size_t(end - low)),
                             result.row(y), width);
+        else
+            std::fill_n(result.row(y), width, Float4{});
     }
     return result;
 }
@@ -199,37 +202,32 @@ Spline splineAt(int pixel, int step) {
              t * t * t / 6}};
 }
 
-/// Back to pixels, along one axis after the other.
-Layer enlarged(const Layer& coarse, glm::ivec2 steps, const PixelBox& box) {
-    Layer rows = coarse;
-    if (steps.x > 1) {
-        rows = Layer({{box.min.x, coarse.box.min.y}, {box.max.x, coarse.box.max.y}}, coarse.linear);
-        for (int x = box.min.x; x < box.max.x; ++x) {
-            const Spline spline = splineAt(x, steps.x);
-            for (int y = coarse.box.min.y; y < coarse.box.max.y; ++y) {
-                Float4 sum{};
-                for (int k = 0; k < 4; ++k)
-                    sum += spline.weights[std::size_t(k)] * coarse.at(spline.first + k, y);
-                rows.row(y)[x - box.min.x] = sum;
-            }
+/// Back to pixels [left, right) along rows. The coarse ones reach splineReach further.
+Layer enlargedRows(const Layer& coarse, int step, int left, int right) {
+    Layer result = Layer::unwritten({{left, coarse.box.min.y}, {right, coarse.box.max.y}}, coarse.linear);
+    std::vector<Spline> splines;
+    for (int x = left; x < right; ++x)
+        splines.push_back(splineAt(x, step));
+    for (int y = result.box.min.y; y < result.box.max.y && !result.empty(); ++y) {
+        limits::check();
+        Float4* to = result.row(y);
+        for (const Spline& spline : splines) {
+            const Float4* from = coarse.row(y) + (spline.first - coarse.box.min.x);
+            const auto& w = spline.weights;
+            *to++ = w[0] * from[0] + w[1] * from[1] + w[2] * from[2] + w[3] * from[3];
         }
     }
-    if (steps.y == 1)
-        return cropped(rows, box);
-    Layer result(box, coarse.linear);
-    for (int y = box.min.y; y < box.max.y; ++y) {
+    return result;
+}
+
+/// The same along columns.
+Layer enlargedColumns(const Layer& coarse, int step, int top, int bottom) {
+    Layer result = Layer::unwritten({{coarse.box.min.x, top}, {coarse.box.max.x, bottom}}, coarse.linear);
+    for (int y = top; y < bottom && !result.empty(); ++y) {
         limits::check();
-        const Spline spline = splineAt(y, steps.y);
-        Float4* to = result.row(y);
-        for (int k = 0; k < 4; ++k) {
-            const int other = spline.first + k;
-            if (other < rows.box.min.y || other >= rows.box.max.y)
-                continue;
-            const Float4* from = rows.row(other) + (box.min.x - rows.box.min.x);
-            const float weight = spline.weights[std::size_t(k)];
-            for (int x = 0; x < result.width(); ++x)
-                to[x] += weight * from[x];
-        }
+        const Spline spline = splineAt(y, step);
+        convolveColumns(coarse.row(spline.first), coarse.width(), spline.weights, result.row(y),
+                        result.width());
     }
     return result;
 }
@@ -237,16 +235,25 @@ Layer enlarged(const Layer& coarse, glm::ivec2 steps, const PixelBox& box) {
 }  // namespace
 
 Layer gaussianBlur(const FilterStep& step) {
-    const AxisBlur x = axisBlur(step.parameters[0] * step.scale.x),
-                   y = axisBlur(step.parameters[1] * step.scale.y);
-    if (step.box.empty() || step.inputs[0]->empty())
-        return Layer(step.box, step.linear);
+    const glm::dvec2 deviation = glm::dvec2(step.parameters[0], step.parameters[1]) * step.scale;
+    const Layer& input = *step.inputs[0];
+    const PixelBox box =
+        input.box.grown({blurReach(deviation.x), blurReach(deviation.y)}).intersection(step.box);
+    if (input.empty() || box.empty())
+        return Layer({}, step.linear);
+    const AxisBlur x = axisBlur(deviation.x), y = axisBlur(deviation.y);
     const glm::ivec2 steps(x.step, y.step);
-    const Layer coarse = reduced(*step.inputs[0], steps);
-    PixelBox needed = coarsened(step.box, steps);
-    needed = needed.grown({x.step > 1 ? splineReach : 0, y.step > 1 ? splineReach : 0});
-    const Layer rows = alongRows(coarse, x.kernel, needed.min.x, needed.max.x);
-    return enlarged(alongColumns(rows, y.kernel, needed.min.y, needed.max.y), steps, step.box);
+    const PixelBox needed =
+        coarsened(box, steps).grown({x.step > 1 ? splineReach : 0, y.step > 1 ? splineReach : 0});
+    const bool coarsens = x.step > 1 || y.step > 1;
+    const Layer coarse = coarsens ? reduced(input, steps) : Layer();
+    Layer blurred = alongColumns(alongRows(coarsens ? coarse : input, x.kernel, needed.min.x, needed.max.x),
+                                 y.kernel, needed.min.y, needed.max.y);
+    if (x.step > 1)
+        blurred = enlargedRows(blurred, x.step, box.min.x, box.max.x);
+    if (y.step > 1)
+        blurred = enlargedColumns(blurred, y.step, box.min.y, box.max.y);
+    return blurred;
 }
 
 }  // namespace vtm::asset

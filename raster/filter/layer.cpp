@@ -19,34 +19,34 @@ Float4 bilinear(const Layer& layer, float x, float y) {
     return (1 - v) * above + v * below;
 }
 
-Layer cropped(Layer layer, const PixelBox& box) {
-    if (box.min == layer.box.min && box.max == layer.box.max)
-        return layer;
-    Layer result(box, layer.linear);
-    const PixelBox both = box.intersection(layer.box);
-    for (int y = both.min.y; y < both.max.y && !both.empty(); ++y)
-        std::copy_n(layer.row(y) + (both.min.x - layer.box.min.x), both.width(),
-                    result.row(y) + (both.min.x - box.min.x));
-    return result;
+Layer cropped(const Layer& layer, const PixelBox& box) {
+    return changed(layer, box, layer.linear, [](Float4 c) { return c; });
 }
 
-Layer converted(Layer layer, bool linear) {
-    if (layer.linear == linear)
-        return layer;
-    layer.linear = linear;
+Layer cropped(Layer&& layer, const PixelBox& box) {
+    if (box.min == layer.box.min && box.max == layer.box.max)
+        return std::move(layer);
+    return cropped(layer, box);
+}
+
+Layer converted(const Layer& layer, bool linear) {
     const Curve& curve = linear ? decodingCurve() : encodingCurve();
-    changePixels(layer, [&](Float4 c) {
-        if (c[0] == 0 && c[1] == 0 && c[2] == 0)
+    return changed(layer, layer.box, linear, [&](Float4 c) {
+        if (layer.linear == linear || (c[0] == 0 && c[1] == 0 && c[2] == 0))
             return c;
         const Float4 s = straightened(c);
         return premultiplied(Float4{curve(s[0]), curve(s[1]), curve(s[2]), s[3]});
     });
-    return layer;
 }
 
-Layer alphaOf(Layer layer) {
-    changePixels(layer, [](Float4 c) { return Float4{0, 0, 0, c[3]}; });
-    return layer;
+Layer converted(Layer&& layer, bool linear) {
+    if (layer.linear == linear)
+        return std::move(layer);
+    return converted(layer, linear);
+}
+
+Layer alphaOf(const Layer& layer) {
+    return changed(layer, layer.box, layer.linear, [](Float4 c) { return Float4{0, 0, 0, c[3]}; });
 }
 
 }  // namespace vtm::asset

@@ -2,7 +2,9 @@
 /// The pictures that filters work on: boxes of pixels on the raster of a filter.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "raster/pixel_box.hpp"
 #include "raster/src/float4.hpp"
@@ -18,6 +20,14 @@ struct Layer {
 
     Layer() = default;
     Layer(const PixelBox& of, bool isLinear) : box(of), linear(isLinear), pixels(of.area(), Float4{}) {}
+    Layer(const PixelBox& of, bool isLinear, PixelMemory&& memory)
+        : box(of), linear(isLinear), pixels(std::move(memory)) {}
+    /// To be written: its pixels have no value yet.
+    static Layer unwritten(const PixelBox& of, bool isLinear) {
+        PixelMemory memory;
+        memory.resize(of.area());
+        return {of, isLinear, std::move(memory)};
+    }
 
     int width() const { return box.width(); }
     int height() const { return box.height(); }
@@ -33,12 +43,56 @@ struct Layer {
 /// Interpolated between the centres of four pixels; (x, y) is a point of the raster.
 Float4 bilinear(const Layer& layer, float x, float y);
 
+/// What a layer has of the columns of a box, transparent beyond it, row by row.
+class LayerRows {
+public:
+    /// `layer` must outlive it.
+    LayerRows(const Layer& layer, const PixelBox& box)
+        : layer_(layer), box_(box), both_(box.intersection(layer.box)) {
+        const bool coversColumns = both_.width() == box.width();
+        if (!coversColumns || both_.height() < box.height())
+            blank_.resize(std::size_t(box.width()));
+        if (!coversColumns)
+            row_.resize(std::size_t(box.width()));
+    }
+
+    /// Valid until the next call.
+    const Float4* operator()(int y) {
+        if (both_.empty() || y < both_.min.y || y >= both_.max.y)
+            return blank_.data();
+        const Float4* from = layer_.row(y) + (both_.min.x - layer_.box.min.x);
+        if (row_.empty())
+            return from;
+        std::copy_n(from, both_.width(), row_.data() + (both_.min.x - box_.min.x));
+        return row_.data();
+    }
+
+private:
+    const Layer& layer_;
+    const PixelBox box_, both_;
+    std::vector<Float4> blank_, row_;
+};
+
+/// change(colour) of each pixel of a box.
+template <class Change>
+Layer changed(const Layer& input, const PixelBox& box, bool linear, Change change) {
+    Layer result = Layer::unwritten(box, linear);
+    LayerRows rows(input, box);
+    for (int y = box.min.y; y < box.max.y && !result.empty(); ++y) {
+        const Float4* from = rows(y);
+        std::transform(from, from + box.width(), result.row(y), change);
+    }
+    return result;
+}
+
 /// The same pixels of another box.
-Layer cropped(Layer layer, const PixelBox& box);
+Layer cropped(const Layer& layer, const PixelBox& box);
+Layer cropped(Layer&& layer, const PixelBox& box);
 /// In linear light or sRGB-encoded.
-Layer converted(Layer layer, bool linear);
+Layer converted(const Layer& layer, bool linear);
+Layer converted(Layer&& layer, bool linear);
 /// Its alpha, black.
-Layer alphaOf(Layer layer);
+Layer alphaOf(const Layer& layer);
 
 /// What is more transparent has no colour of its own: it would be that of rounding, and operations on
 /// straight colours may make it opaque. A quarter of what 8 bits can tell from nothing.
@@ -50,13 +104,6 @@ inline Float4 straightened(Float4 c) {
         return Float4{};
     const float scale = 1 / c[3];
     return c * Float4{scale, scale, scale, 1};
-}
-
-/// Calls change(colour) for each pixel and stores what it returns.
-template <class Change>
-void changePixels(Layer& layer, Change change) {
-    for (Float4& pixel : layer.pixels)
-        pixel = change(pixel);
 }
 
 }  // namespace vtm::asset

@@ -11,14 +11,14 @@ namespace vtm::asset {
 
 namespace {
 
-/// read(x, y) at the centre of each pixel of the step's box.
+/// read(x, y) at the centre of each pixel of a box, beyond which the result is transparent.
 template <class Read>
-Layer madeOf(const FilterStep& step, Read read) {
-    Layer result(step.box, step.linear);
-    for (int y = step.box.min.y; y < step.box.max.y && !result.empty(); ++y) {
+Layer madeOf(const FilterStep& step, const PixelBox& box, Read read) {
+    Layer result = Layer::unwritten(box.intersection(step.box), step.linear);
+    for (int y = result.box.min.y; y < result.box.max.y && !result.empty(); ++y) {
         limits::check();
         Float4* row = result.row(y);
-        for (int x = step.box.min.x; x < step.box.max.x; ++x)
+        for (int x = result.box.min.x; x < result.box.max.x; ++x)
             *row++ = read(x, y);
     }
     return result;
@@ -36,12 +36,15 @@ Layer offset(const FilterStep& step) {
     if (step.inWholePixels ||
         (std::abs(by.x - whole.x) < sameplace && std::abs(by.y - whole.y) < sameplace)) {
         const glm::ivec2 shift(whole);
-        Layer result = cropped(input, step.box.moved(-shift));
-        result.box = step.box;
+        const PixelBox moved = input.box.moved(shift).intersection(step.box);
+        Layer result = cropped(input, moved.moved(-shift));
+        result.box = moved;
         return result;
     }
-    return madeOf(
-        step, [&](int x, int y) { return bilinear(input, float(x + 0.5 - by.x), float(y + 0.5 - by.y)); });
+    const glm::ivec2 around(1);
+    return madeOf(step, input.box.moved(glm::ivec2(whole)).grown(around), [&](int x, int y) {
+        return bilinear(input, float(x + 0.5 - by.x), float(y + 0.5 - by.y));
+    });
 }
 
 Layer displace(const FilterStep& step) {
@@ -50,7 +53,7 @@ Layer displace(const FilterStep& step) {
     const int channelX = int(p[1]), channelY = int(p[2]);
     const Layer& input = *step.inputs[0];
     const Layer& map = *step.inputs[1];
-    Layer result = madeOf(step, [&](int x, int y) {
+    Layer result = madeOf(step, step.box, [&](int x, int y) {
         const Float4 moved = straightened(map.at(x, y));
         return bilinear(input, float(x) + 0.5f + byX * (moved[channelX] - 0.5f),
                         float(y) + 0.5f + byY * (moved[channelY] - 0.5f));
@@ -73,7 +76,7 @@ Layer tile(const FilterStep& step) {
         return input.at(int(std::floor(wrapped(x, region.min.x, size.x))),
                         int(std::floor(wrapped(y, region.min.y, size.y))));
     };
-    return madeOf(step, [&](int x, int y) { return read(x + 0.5, y + 0.5); });
+    return madeOf(step, step.box, [&](int x, int y) { return read(x + 0.5, y + 0.5); });
 }
 
 }  // namespace vtm::asset

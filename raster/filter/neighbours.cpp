@@ -49,9 +49,9 @@ Layer convolve(const FilterStep& step) {
     const float scale = 1 / p[4], bias = p[5];
     const bool preservesAlpha = p[7] != 0;
     const FilterParameters kernel = p.from(8);
-    Layer source = *step.inputs[0];
-    if (preservesAlpha)
-        changePixels(source, straightened);
+    const Layer straight =
+        preservesAlpha ? changed(*step.inputs[0], step.inputs[0]->box, step.linear, straightened) : Layer();
+    const Layer& source = preservesAlpha ? straight : *step.inputs[0];
     const EdgedLayer edged(source, step.regions[0].pixels(), FilterEdge(int(p[6])));
     Layer result(step.box, step.linear);
     for (int y = step.box.min.y; y < step.box.max.y; ++y) {
@@ -148,7 +148,7 @@ template <class Extreme>
 Layer extremes(const Layer& input, const PixelBox& box, double radiusX, double radiusY) {
     Lines<Extreme> across(radiusX), down(radiusY);
     const PixelBox tall = box.grown({0, down.reach()});
-    Layer rows(tall, input.linear);
+    Layer rows = Layer::unwritten(tall, input.linear);
     std::vector<Float4> line;
     for (int y = tall.min.y; y < tall.max.y; ++y) {
         limits::check();

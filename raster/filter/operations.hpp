@@ -3,6 +3,8 @@
 /// user unit, along its axes. Every input has the colour space of the result; of DisplacementMap only the
 /// second, and the result has that of the first. Source: Filter Effects Module
 /// Level 1, section 9; vtm/scene/filter.hpp says what each computes.
+///
+/// A result may have a smaller box than was asked for: layers are transparent beyond their boxes.
 #pragma once
 
 #include <span>

@@ -13,14 +13,31 @@ namespace vtm::asset {
 
 namespace {
 
-/// combine(colour of the first input, of the second) for each pixel.
+/// combine(colour of the first input, of the second) for each pixel of a box, beyond which the result is
+/// transparent.
 template <class Combine>
-Layer combined(const FilterStep& step, Combine combine) {
-    Layer result = cropped(*step.inputs[0], step.box);
-    const Layer second = cropped(*step.inputs[1], step.box);
-    for (std::size_t i = 0; i < result.pixels.size(); ++i)
-        result.pixels[i] = combine(result.pixels[i], second.pixels[i]);
+Layer combined(const FilterStep& step, const PixelBox& box, Combine combine) {
+    Layer result = Layer::unwritten(box.intersection(step.box), step.linear);
+    LayerRows first(*step.inputs[0], result.box), second(*step.inputs[1], result.box);
+    for (int y = result.box.min.y; y < result.box.max.y && !result.empty(); ++y) {
+        const Float4* a = first(y);
+        std::transform(a, a + result.width(), second(y), result.row(y), combine);
+    }
     return result;
+}
+
+/// Of all inputs.
+PixelBox joinedBox(const FilterStep& step) {
+    PixelBox box;
+    for (const Layer* input : step.inputs)
+        box = box.joined(input->box);
+    return box;
+}
+
+/// The input's pixels changed; `box`: beyond it the result is transparent.
+template <class Change>
+Layer recoloured(const FilterStep& step, const PixelBox& box, Change change) {
+    return changed(*step.inputs[0], box.intersection(step.box), step.linear, change);
 }
 
 Float4 alphas(Float4 c) { return Float4{c[3], c[3], c[3], c[3]}; }
@@ -78,73 +95,90 @@ private:
 
 Layer blendLayers(const FilterStep& step) {
     const auto mode = Blend(int(step.parameters[0]));
-    if (mode == Blend::Normal)
-        return combined(step, [](Float4 a, Float4 b) { return over(a, b); });
-    return combined(step, [mode](Float4 a, Float4 b) { return float4(blend(mode, toVec4(a), toVec4(b))); });
+    const PixelBox box = joinedBox(step);
+    const auto alone = [](Float4 a, Float4 b) { return a * (1 - alphas(b)) + b * (1 - alphas(a)); };
+    switch (mode) {  // those of SVG 1.1 with all channels at once
+        case Blend::Normal:
+            return combined(step, box, [](Float4 a, Float4 b) { return over(a, b); });
+        case Blend::Multiply:
+            return combined(step, box, [=](Float4 a, Float4 b) { return a * b + alone(a, b); });
+        case Blend::Screen:
+            return combined(step, box, [](Float4 a, Float4 b) { return a + b - a * b; });
+        case Blend::Darken:
+            return combined(step, box, [=](Float4 a, Float4 b) {
+                const Float4 s = a * alphas(b), t = b * alphas(a);
+                return (s < t ? s : t) + alone(a, b);
+            });
+        case Blend::Lighten:
+            return combined(step, box, [=](Float4 a, Float4 b) {
+                const Float4 s = a * alphas(b), t = b * alphas(a);
+                return (s > t ? s : t) + alone(a, b);
+            });
+        default:
+            return combined(step, box,
+                            [mode](Float4 a, Float4 b) { return float4(blend(mode, toVec4(a), toVec4(b))); });
+    }
 }
 
 Layer colorMatrix(const FilterStep& step) {
-    Layer result = cropped(*step.inputs[0], step.box);
     Float4 columns[5];
     for (std::size_t column = 0; column < 5; ++column)
         for (std::size_t row = 0; row < 4; ++row)
             columns[column][int(row)] = step.parameters[row * 5 + column];
-    changePixels(result, [&](Float4 c) {
+    const bool showsNothing = !(columns[4][3] > 0);  // of what is transparent
+    return recoloured(step, showsNothing ? step.inputs[0]->box : step.box, [&](Float4 c) {
         const Float4 s = straightened(c);
-        const Float4 changed =
-            columns[0] * s[0] + columns[1] * s[1] + columns[2] * s[2] + columns[3] * s[3] + columns[4];
-        return premultiplied(unit(changed));
+        return premultiplied(
+            unit(columns[0] * s[0] + columns[1] * s[1] + columns[2] * s[2] + columns[3] * s[3] + columns[4]));
     });
-    return result;
 }
 
 Layer componentTransfer(const FilterStep& step) {
-    Layer result = cropped(*step.inputs[0], step.box);
     std::size_t next = 0;
     const Transfer red(step.parameters, next), green(step.parameters, next), blue(step.parameters, next),
         alpha(step.parameters, next);
-    changePixels(result, [&](Float4 c) {
+    return recoloured(step, alpha(0) == 0 ? step.inputs[0]->box : step.box, [&](Float4 c) {
         const Float4 s = unit(straightened(c));
         return premultiplied(Float4{red(s[0]), green(s[1]), blue(s[2]), alpha(s[3])});
     });
-    return result;
 }
 
 Layer composite(const FilterStep& step) {
     const FilterParameters& p = step.parameters;
+    const PixelBox &first = step.inputs[0]->box, &second = step.inputs[1]->box, both = joinedBox(step);
     switch (CompositeOp(int(p[0]))) {
         case CompositeOp::Over:
-            return combined(step, [](Float4 a, Float4 b) { return over(a, b); });
+            return combined(step, both, [](Float4 a, Float4 b) { return over(a, b); });
         case CompositeOp::In:
-            return combined(step, [](Float4 a, Float4 b) { return a * alphas(b); });
+            return combined(step, first.intersection(second),
+                            [](Float4 a, Float4 b) { return a * alphas(b); });
         case CompositeOp::Out:
-            return combined(step, [](Float4 a, Float4 b) { return a * (1 - alphas(b)); });
+            return combined(step, first, [](Float4 a, Float4 b) { return a * (1 - alphas(b)); });
         case CompositeOp::Atop:
-            return combined(step, [](Float4 a, Float4 b) { return a * alphas(b) + (1 - alphas(a)) * b; });
+            return combined(step, second,
+                            [](Float4 a, Float4 b) { return a * alphas(b) + (1 - alphas(a)) * b; });
         case CompositeOp::Xor:
-            return combined(step,
+            return combined(step, both,
                             [](Float4 a, Float4 b) { return a * (1 - alphas(b)) + (1 - alphas(a)) * b; });
         case CompositeOp::Lighter:
-            return combined(step, [](Float4 a, Float4 b) { return unit(a + b); });
+            return combined(step, both, [](Float4 a, Float4 b) { return unit(a + b); });
         case CompositeOp::Arithmetic:
             break;
     }
     const float k1 = p[1], k2 = p[2], k3 = p[3], k4 = p[4];
-    return combined(step, [=](Float4 a, Float4 b) {
-        Float4 c = unit(k1 * a * b + k2 * a + k3 * b + k4);
-        for (int i = 0; i < 3; ++i)
-            c[i] = std::min(c[i], c[3]);
-        return c;
+    return combined(step, k4 > 0 ? step.box : both, [=](Float4 a, Float4 b) {
+        const Float4 c = unit(k1 * a * b + k2 * a + k3 * b + k4), alpha = alphas(c);
+        return c < alpha ? c : alpha;
     });
 }
 
 Layer merge(const FilterStep& step) {
-    Layer result(step.box, step.linear);
+    Layer result(joinedBox(step).intersection(step.box), step.linear);
     for (const Layer* input : step.inputs) {
-        const PixelBox both = step.box.intersection(input->box);
+        const PixelBox both = result.box.intersection(input->box);
         for (int y = both.min.y; y < both.max.y && !both.empty(); ++y) {
             const Float4* from = input->row(y) + (both.min.x - input->box.min.x);
-            Float4* to = result.row(y) + (both.min.x - step.box.min.x);
+            Float4* to = result.row(y) + (both.min.x - result.box.min.x);
             for (int x = 0; x < both.width(); ++x)
                 to[x] = over(from[x], to[x]);
         }
@@ -153,7 +187,7 @@ Layer merge(const FilterStep& step) {
 }
 
 Layer flood(const FilterStep& step) {
-    Layer result(step.box, step.linear);
+    Layer result = Layer::unwritten(step.box, step.linear);
     std::ranges::fill(result.pixels, colorFrom(step, 0));
     return result;
 }
@@ -183,9 +217,9 @@ Layer dropShadow(const FilterStep& step) {
     const PixelBox moved = step.box.grown({blurReach(p[2] * step.scale.x), blurReach(p[3] * step.scale.y)});
     const Layer alpha = alphaOf(*step.inputs[0]);
     const Layer shifted = withParameters(step, alpha, moved, offset, {p[0], p[1]});
-    Layer shadow = withParameters(step, shifted, step.box, gaussianBlur, {p[2], p[3]});
+    const Layer blurred = withParameters(step, shifted, step.box, gaussianBlur, {p[2], p[3]});
     const Float4 color = colorFrom(step, 4);
-    changePixels(shadow, [&](Float4 c) { return color * c[3]; });
+    const Layer shadow = changed(blurred, blurred.box, step.linear, [&](Float4 c) { return color * c[3]; });
     const Layer* const both[] = {&shadow, step.inputs[0]};
     FilterStep merged = step;
     merged.inputs = both;

@@ -20,48 +20,42 @@ void cut(Layer& layer, const PixelRect& to) {
     const PixelBox& box = layer.box;
     if (box.empty())
         return;
-    std::vector<float> columns;
-    bool isCut = false;
-    for (int x = box.min.x; x < box.max.x; ++x) {
-        columns.push_back(share(x, to.min.x, to.max.x));
-        isCut = isCut || columns.back() < whole;
-    }
+    std::vector<std::pair<int, float>> columns;  ///< those that are cut
+    for (int x = box.min.x; x < box.max.x; ++x)
+        if (const float column = share(x, to.min.x, to.max.x); column < whole)
+            columns.emplace_back(x - box.min.x, column);
     for (int y = box.min.y; y < box.max.y; ++y) {
-        const float row = share(y, to.min.y, to.max.y);
-        if (!isCut && row >= whole)
-            continue;
         Float4* pixels = layer.row(y);
-        for (std::size_t x = 0; x < columns.size(); ++x)
-            pixels[x] *= row * columns[x];
+        for (const auto& [x, column] : columns)
+            pixels[x] *= column;
+        if (const float row = share(y, to.min.y, to.max.y); row < whole)
+            for (int x = 0; x < box.width(); ++x)
+                pixels[x] *= row;
     }
 }
 
 namespace {
 
-/// What a picture has of the box that its view shows.
-Layer layerOf(const Canvas& canvas, const PixelBox& box) {
-    const PixelBox drawn = canvas.bounds();
-    Layer layer(drawn.moved(box.min), false);
-    for (int y = drawn.min.y; y < drawn.max.y; ++y)
-        if (const PixelRun run = canvas.run(y); !run.empty())
-            std::copy(canvas.at(y, run.first), canvas.at(y, run.end),
-                      layer.row(y + box.min.y) + (run.first - drawn.min.x));
-    return layer;
+/// A picture whose view shows a box of the filter's raster.
+Layer layerOf(Canvas&& canvas, const PixelBox& box) {
+    auto [drawn, pixels] = canvas.takeBox();
+    return {drawn.moved(box.min), false, std::move(pixels)};
 }
 
 class FilterRun {
 public:
     FilterRun(const AssetView& asset, const Filter& filter, const FilterPlace& place,
-              std::span<const Canvas> pictures)
+              std::vector<Canvas> pictures)
         : asset_(asset),
           primitives_(primitivesOf(asset, filter)),
           place_(place),
-          pictures_(pictures),
           results_(primitives_.size()) {
+        for (std::size_t i = 0; i < pictures.size(); ++i)
+            pictures_.push_back(layerOf(std::move(pictures[i]), place.pictures[i]));
+        cut(pictures_[0], place.region);
         for (std::size_t i = 0; i < primitives_.size(); ++i)
             for (const std::uint32_t input : inputsOf(asset, primitives_[i]))
-                if (input >= firstResult)
-                    results_[resultOf(input)].lastReader = i;
+                (input >= firstResult ? results_[resultOf(input)].lastReader : lastSourceReader_) = i;
     }
 
     Layer run() {
@@ -73,6 +67,8 @@ public:
             for (const std::uint32_t input : inputsOf(asset_, primitives_[i]))
                 if (input >= firstResult && results_[resultOf(input)].lastReader == i)
                     results_[resultOf(input)].layer = {};
+            if (lastSourceReader_ == i)
+                sources_.clear();
         }
         return converted(std::move(results_.back().layer), false);
     }
@@ -86,17 +82,14 @@ private:
     Layer primitive(std::size_t index) {
         const FilterPrimitive& primitive = primitives_[index];
         const bool linear = primitive.linear != 0;
-        std::map<std::pair<std::uint32_t, bool>, Layer> layers;  ///< each once, however often it is read
+        Inputs made;
         std::vector<const Layer*> pointers;
         std::vector<PixelRect> regions;
         const auto inputs = inputsOf(asset_, primitive);
         for (std::size_t k = 0; k < inputs.size(); ++k) {
             const bool isMoved = primitive.op == FilterOp::DisplacementMap && k == 0;
             const bool space = isMoved ? spaceOf(inputs[k]) : linear;
-            const auto [layer, isNew] = layers.try_emplace({inputs[k], space});
-            if (isNew)
-                layer->second = input(inputs[k], space);
-            pointers.push_back(&layer->second);
+            pointers.push_back(&input(inputs[k], space, made));
             regions.push_back(inputs[k] < firstResult ? place_.region : place_.regions[resultOf(inputs[k])]);
         }
         if (regions.empty())
@@ -118,15 +111,24 @@ private:
         return input >= firstResult && results_[resultOf(input)].layer.linear;
     }
 
-    Layer input(std::uint32_t input, bool linear) const {
-        if (input >= firstResult)
-            return converted(results_[resultOf(input)].layer, linear);
-        Layer source = picture(0);
-        cut(source, place_.region);
-        return converted(input == sourceAlpha ? alphaOf(std::move(source)) : std::move(source), linear);
+    /// By number and whether they are in linear light.
+    using Inputs = std::map<std::pair<std::uint32_t, bool>, Layer>;
+
+    /// What is made of it, once, is kept: of the source until its last reader, of results in `made`.
+    const Layer& input(std::uint32_t number, bool linear, Inputs& made) {
+        const Layer& layer = number < firstResult ? pictures_[0] : results_[resultOf(number)].layer;
+        if (number != sourceAlpha && layer.linear == linear)
+            return layer;
+        const auto [entry, isNew] = (number < firstResult ? sources_ : made).try_emplace({number, linear});
+        if (isNew)
+            entry->second = number == sourceAlpha ? alphaOf(layer) : converted(layer, linear);
+        return entry->second;
     }
 
-    Layer picture(std::size_t index) const { return layerOf(pictures_[index], place_.pictures[index]); }
+    Layer picture(std::size_t index, const FilterStep& step) const {
+        const PixelBox box = step.box.intersection(pictures_[index].box);
+        return converted(cropped(pictures_[index], box), step.linear);
+    }
 
     Layer operation(FilterOp op, const FilterStep& step) const {
         switch (op) {
@@ -151,7 +153,7 @@ private:
             case FilterOp::GaussianBlur:
                 return gaussianBlur(step);
             case FilterOp::Picture:
-                return converted(cropped(picture(std::size_t(step.parameters[0])), step.box), step.linear);
+                return picture(std::size_t(step.parameters[0]), step);
             case FilterOp::Merge:
                 return merge(step);
             case FilterOp::Morphology:
@@ -169,15 +171,17 @@ private:
     const AssetView& asset_;
     const std::span<const FilterPrimitive> primitives_;
     const FilterPlace& place_;
-    const std::span<const Canvas> pictures_;
+    std::vector<Layer> pictures_;
+    std::size_t lastSourceReader_ = 0;
+    Inputs sources_;
     std::vector<Result> results_;
 };
 
 }  // namespace
 
 Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace& place,
-                 std::span<const Canvas> pictures, const View& below) {
-    Layer result = FilterRun(asset, filter, place, pictures).run();
+                 std::vector<Canvas> pictures, const View& below) {
+    Layer result = FilterRun(asset, filter, place, std::move(pictures)).run();
     const PixelBox box = mapped(result.box, place.toBelow)
                              .grown(glm::ivec2(place.isSampled ? 1 : 0))
                              .intersection({{0, 0}, {below.width, below.height}});

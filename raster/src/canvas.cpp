@@ -1,7 +1,9 @@
 #include "raster/src/canvas.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace vtm::asset {
 
@@ -13,10 +15,29 @@ PixelBox Canvas::bounds() const {
     return all;
 }
 
+namespace {
+
+/// With half as much again on the sides where `box` grows to `larger`, so that many small steps copy little.
+PixelBox withRoom(const PixelBox& box, PixelBox larger, const PixelBox& whole) {
+    if (box.empty())
+        return larger;
+    const glm::ivec2 room = (larger.max - larger.min) / 2;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (larger.min[axis] < box.min[axis])
+            larger.min[axis] -= room[axis];
+        if (larger.max[axis] > box.max[axis])
+            larger.max[axis] += room[axis];
+    }
+    return larger.intersection(whole);
+}
+
+}  // namespace
+
 void Canvas::reserve(const PixelBox& box) {
-    const PixelBox both = box_.joined(box);
+    PixelBox both = box_.joined(box);
     if (both.empty() || (both.min == box_.min && both.max == box_.max))
         return;
+    both = withRoom(box_, both, whole());
     Canvas larger(view_);
     larger.box_ = both;
     larger.runs_.resize(std::size_t(both.height()));
@@ -27,6 +48,18 @@ void Canvas::reserve(const PixelBox& box) {
             std::copy(at(y, drawn.first), at(y, drawn.end), larger.at(y, drawn.first));
         }
     *this = std::move(larger);
+}
+
+std::pair<PixelBox, PixelMemory> Canvas::takeBox() {
+    for (int y = box_.min.y; y < box_.max.y; ++y) {
+        PixelRun drawn = run(y);
+        if (drawn.empty())
+            drawn = {box_.max.x, box_.max.x};
+        std::fill(at(y, box_.min.x), at(y, drawn.first), Float4{});
+        std::fill(at(y, drawn.end), at(y, box_.max.x), Float4{});
+    }
+    runs_.clear();
+    return {std::exchange(box_, {}), std::move(pixels_)};
 }
 
 image::Raster Canvas::toRaster() const {
@@ -42,6 +75,21 @@ image::Raster Canvas::toRaster() const {
         }
     }
     return raster;
+}
+
+void Canvas::giveRows(const image::PixelWriter& writer, const image::RowSink& sink) const {
+    const auto columns = std::size_t(view_.width);
+    std::vector<Float4> pixels(columns);
+    std::vector<std::uint8_t> bytes(columns * writer.pixelBytes());
+    for (int y = 0; y < view_.height; ++y) {
+        const PixelRun drawn = run(y);
+        std::ranges::fill(pixels, Float4{});
+        if (!drawn.empty())
+            std::transform(at(y, drawn.first), at(y, drawn.end), pixels.begin() + drawn.first,
+                           [](Float4 color) { return unit(color); });
+        image::writePixels(writer, reinterpret_cast<const float*>(pixels.data()), columns, bytes.data());
+        sink(bytes);
+    }
 }
 
 }  // namespace vtm::asset

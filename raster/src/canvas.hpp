@@ -3,12 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/view.hpp>
-#include "raster/src/float4.hpp"
+#include "image/pixel_writer.hpp"
 #include "raster/pixel_box.hpp"
+#include "raster/src/float4.hpp"
 #include "raster/src/pixel_memory.hpp"
 
 namespace vtm::asset {
@@ -39,6 +41,8 @@ public:
     /// Round all runs.
     PixelBox bounds() const;
 
+    /// Nothing was drawn.
+    bool empty() const { return box_.empty(); }
     /// Makes room for a box, which must lie in the raster.
     void reserve(const PixelBox& box);
     /// Makes `run` part of the run of row y, both in what was reserved; its first pixel.
@@ -71,8 +75,11 @@ public:
             runs_[std::size_t(y - box_.min.y)] = change(y, run(y));
     }
 
+    /// Its memory, a box row by row that holds all that was drawn; transparent elsewhere. Nothing is left.
+    std::pair<PixelBox, PixelMemory> takeBox();
     /// The whole raster, each channel in [0, 1].
     image::Raster toRaster() const;
+    void giveRows(const image::PixelWriter& writer, const image::RowSink& sink) const;
 
 private:
     std::size_t offset(int y, int x) const {

@@ -4,8 +4,8 @@
 
 #include <vtm/raster/view.hpp>
 #include "asset/instances.hpp"
-#include "raster/src/paint.hpp"
 #include "raster/pixel_box.hpp"
+#include "raster/src/paint.hpp"
 
 namespace vtm::asset {
 

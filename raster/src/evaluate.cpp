@@ -13,6 +13,7 @@
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/scan.hpp>
 #include "raster/filter/run_filter.hpp"
+#include "raster/scan_rows.hpp"
 #include "raster/src/blend.hpp"
 #include "raster/src/canvas.hpp"
 #include "raster/src/draw_map.hpp"
@@ -109,8 +110,11 @@ Op maskOp(Command::Kind kind) {
     }
 }
 
-void composite(const Canvas& source, const Command& command, Canvas& top) {
-    if (command.blend == Blend::Normal)
+void composite(Canvas&& source, const Command& command, Canvas& top) {
+    // On nothing, every blend mode shows the source.
+    if (top.empty() && command.opacity == 1)
+        top = std::move(source);
+    else if (command.blend == Blend::Normal)
         combine(source, top, [&](Float4 b, Float4 s) { return over(command.opacity * s, b); });
     else
         combine(source, top, [&](Float4 b, Float4 s) {
@@ -161,7 +165,7 @@ public:
                 return pop(command);
         }
     }
-    Raster take() { return top().canvas.toRaster(); }
+    Canvas take() { return std::move(top().canvas); }
 
 private:
     struct Picture {
@@ -243,10 +247,10 @@ private:
     // ---- Groups and filters ----
 
     void pop(const Command& command) {
-        const Canvas source = std::move(top().canvas);
+        Canvas source = std::move(top().canvas);
         pictures_.pop_back();
         if (command.kind == Command::Kind::Pop)
-            composite(source, command, top().canvas);
+            composite(std::move(source), command, top().canvas);
         else
             applyMask(source, maskOp(command.kind), top().canvas);
     }
@@ -273,7 +277,8 @@ private:
             inputs.push_back(std::move(from->canvas));
         for (std::uint32_t i = 0; i < filter.pictures; ++i)
             pictures_.pop_back();
-        pictures_.push_back({runFilter(paints_.asset(), filter, *place, inputs, top().canvas.view())});
+        pictures_.push_back(
+            {runFilter(paints_.asset(), filter, *place, std::move(inputs), top().canvas.view())});
     }
 
     const Paints& paints_;
@@ -286,13 +291,19 @@ private:
 };
 
 /// Rough pixels so many levels finer.
-Raster drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
+Canvas drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
              bool scans) {
     validate(view);
     PictureStack stack(paints, view, materials, levels, scans);
     for (const Command& command : paints.asset().commands)
         stack.execute(command);
     return stack.take();
+}
+
+/// Where there are filters, maps are scanned.
+Canvas evaluated(const Paints& paints, const View& view, const MaterialFunction& materials) {
+    const bool scans = !paints.asset().filters.empty();
+    return drawn(paints, view, materials, finerLevels(paints.asset(), view), scans);
 }
 
 }  // namespace
@@ -302,12 +313,16 @@ Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction
 }
 
 Raster evaluateAsShaders(const AssetView& asset, const View& view, const MaterialFunction& materials) {
-    return drawn(Paints(asset), view, materials, 0, false);
+    return drawn(Paints(asset), view, materials, 0, false).toRaster();
 }
 
 Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials) {
-    const bool scans = !paints.asset().filters.empty();
-    return drawn(paints, view, materials, finerLevels(paints.asset(), view), scans);
+    return evaluated(paints, view, materials).toRaster();
+}
+
+void evaluateRows(const AssetView& asset, const View& view, const image::PixelWriter& writer,
+                  const image::RowSink& sink) {
+    evaluated(Paints(asset), view, {}).giveRows(writer, sink);
 }
 
 }  // namespace vtm::asset

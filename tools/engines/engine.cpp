@@ -89,18 +89,18 @@ void CpuEngine::draw(Source& source, const asset::View& view, const image::Pixel
         throw std::runtime_error("the cpu engine only draws exact mode");
     if (!source.asset->materials.empty())
         warnOfMaterials(source);
-    if (!asset::isSumOfMaps(*source.asset)) {
-        const image::Raster drawn =
-            timed(source.stages, "render", [&] { return asset::evaluate(*source.asset, view); });
-        return image::giveRows(drawn, writer, sink);
-    }
-    const asset::Scanner scanner =
-        timed(source.stages, "upload", [&] { return asset::Scanner(*source.asset); });
+    std::optional<asset::Scanner> scanner;
+    if (asset::isSumOfMaps(*source.asset))
+        timed(source.stages, "upload", [&] { return &scanner.emplace(*source.asset); });
     double sinking = 0;  // is not drawing
+    const image::RowSink timedSink = [&](std::span<const std::uint8_t> row) {
+        sinking += millisecondsOf([&] { sink(row); });
+    };
     const double all = millisecondsOf([&] {
-        asset::scanRows(scanner, view, writer, [&](std::span<const std::uint8_t> row) {
-            sinking += millisecondsOf([&] { sink(row); });
-        });
+        if (scanner)
+            asset::scanRows(*scanner, view, writer, timedSink);
+        else
+            asset::evaluateRows(*source.asset, view, writer, timedSink);
     });
     source.stages.emplace_back("render", all - sinking);
 }
