@@ -334,7 +334,9 @@ std::optional<scene::Color> readColor(Cursor& cursor, int depth) {
         return readMix(cursor, depth);
     if (cursor.consume("light-dark("))
         return readLightDark(cursor, depth);
-    return namedColor(cursor.identifier());
+    const std::string_view name = cursor.identifier();
+    const auto named = namedColor(name);
+    return named ? named : systemColor(name);
 }
 
 }  // namespace

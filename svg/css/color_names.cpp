@@ -229,8 +229,10 @@ std::optional<scene::Color> namedColor(std::string_view name) {
     const auto found =
         std::lower_bound(names.begin(), names.end(), lower,
                          [](const Named& named, const std::string& key) { return named.name < key; });
-    if (found != names.end() && found->name == lower)
-        return fromRgb(found->rgb);
+    return found != names.end() && found->name == lower ? std::optional(fromRgb(found->rgb)) : std::nullopt;
+}
+
+std::optional<scene::Color> systemColor(std::string_view name) {
     const auto system = std::ranges::find_if(
         systemColors, [&](const Named& named) { return equalsIgnoringCase(named.name, name); });
     return system != std::end(systemColors) ? std::optional(fromRgb(system->rgb)) : std::nullopt;
