@@ -10,6 +10,7 @@
 #include "compiler/instances/place_symbols.hpp"
 #include "compiler/lower/walk_items.hpp"
 #include "compiler/paint/painters.hpp"
+#include "compiler/patterns/pattern_images.hpp"
 #include "compiler/tree/build_tree.hpp"
 #include "compiler/tree/encode.hpp"
 #include "compiler/tree/tree.hpp"
@@ -242,28 +243,26 @@ Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const L
     // Where coverage is a factor, fills end where they are told to.
     const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
     const ErrorBudget budget = errorBudget(options);
+    PatternImages images(options, std::max(excerpt.width, excerpt.height));
     if (!options.instances || options.mode != asset::Mode::Exact || excerpt.isPart)
-        return withoutInstances(lower(scene, excerpt, lattice, budget, sharing));
+        return withoutInstances(
+            lower(scene, excerpt, lattice, budget, sharing, nullptr, nullptr, nullptr, &images));
     const glm::dvec2 size(excerpt.width, excerpt.height);
     Lowered lowered;
     std::vector<LayerOrigin> origins;
     TilePlan plan;
-    lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &plan);
+    lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &plan, &images);
     std::vector<TileFill> fills;
     if (!plan.patterns.empty()) {
         const std::vector<TileChoice> choices =
             chooseTiles(lowered.picture, lattice, size, plan.patterns, options.tolerance);
         TilePlan chosen;
         chosen.chosen.emplace();
-        const auto leftOut = std::ranges::count_if(choices, &TileChoice::isLeftOut);
         for (const TileChoice& choice : choices)
-            chosen.chosen->push_back(choice.cut);
+            chosen.chosen->push_back({choice.cut, choice.isImage});
         origins.clear();
-        lowered.picture = lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &chosen);
-        if (leftOut > 0)
-            lowered.picture.warnings.push_back(
-                fmt::format("outlines cut more than {} tiles of {} pattern fills, which are left out",
-                            maxTiles, leftOut));
+        lowered.picture =
+            lower(scene, excerpt, lattice, budget, sharing, nullptr, &origins, &chosen, &images);
         for (std::size_t i = 0; i < choices.size(); ++i)
             if (!choices[i].blocks.empty())
                 fills.push_back(
@@ -271,7 +270,8 @@ Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const L
     }
     auto placed = placeSymbols(lowered.picture, origins, fills, lattice, size, options, lowered.paints);
     if (!placed)
-        return withoutInstances(lower(scene, excerpt, lattice, budget, sharing));
+        return withoutInstances(
+            lower(scene, excerpt, lattice, budget, sharing, nullptr, nullptr, nullptr, &images));
     lowered.placed = std::move(*placed);
     return lowered;
 }

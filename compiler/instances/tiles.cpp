@@ -9,6 +9,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/limits/limits.hpp>
 #include "asset/place.hpp"
+#include "geometry/box.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -23,7 +24,7 @@ public:
     TileGrid(const TilePattern& pattern, const Lattice& lattice, dvec2 size)
         : pattern_(pattern), size_(pattern.last - pattern.first + i64vec2(1)) {
         toTiles_ = *scene::inverse(pattern.toPicture);
-        for (std::vector<bool>* flags : {&isCut_, &isBordered_[0], &isBordered_[1]})
+        for (std::vector<bool>* flags : {&isCut_, &isBeyond_, &isBordered_[0], &isBordered_[1]})
             flags->resize(std::size_t(size_.x) * std::size_t(size_.y));
         // Outlines that run along a tile's border have been rounded to the lattice.
         const double step = 2 / lattice.stepsPerUnit();
@@ -37,6 +38,8 @@ public:
 
     i64vec2 size() const { return size_; }
     bool isFree(i64vec2 at) const { return !isCut_[index(at)]; }
+    /// False of some tiles that lie beyond the picture.
+    bool isSeen(i64vec2 at) const { return !isBeyond_[index(at)]; }
     /// Whether an outline runs along the tile's first side across an axis.
     bool isBordered(i64vec2 at, std::size_t axis) const { return isBordered_[axis][index(at)]; }
 
@@ -98,15 +101,17 @@ private:
     }
 
     void cutBeyond(dvec2 size, double step) {
+        const geometry::Box picture{dvec2(-step), size + step}, inside{dvec2(step), size - step};
         for (std::int64_t y = 0; y < size_.y; ++y) {
             limits::check();
             for (std::int64_t x = 0; x < size_.x; ++x) {
                 const dvec2 corner = pattern_.min + dvec2(pattern_.first + i64vec2(x, y)) * pattern_.period();
-                for (const dvec2 c : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}) {
-                    const dvec2 p = scene::apply(pattern_.toPicture, corner + c * pattern_.period());
-                    if (p.x < -step || p.y < -step || p.x > size.x + step || p.y > size.y + step)
-                        isCut_[index({x, y})] = true;
-                }
+                const geometry::Box box =
+                    geometry::mapped(geometry::Box{corner, corner + pattern_.period()}, pattern_.toPicture);
+                if (!picture.contains(box))
+                    isCut_[index({x, y})] = true;
+                if (inside.intersection(box).empty())
+                    isBeyond_[index({x, y})] = true;
             }
         }
     }
@@ -115,7 +120,7 @@ private:
     const i64vec2 size_;
     scene::Affine toTiles_;
     dvec2 slack_;
-    std::vector<bool> isCut_;
+    std::vector<bool> isCut_, isBeyond_;
     std::array<std::vector<bool>, 2> isBordered_;
 };
 
@@ -226,10 +231,10 @@ public:
         });
         for (std::int64_t y = 0; y < grid.size().y; ++y)
             for (std::int64_t x = 0; x < grid.size().x; ++x)
-                if (!grid.isFree({x, y}))
+                if (!grid.isFree({x, y}) && grid.isSeen({x, y}))
                     cut.push_back(i64vec2(x, y) + pattern.first);
-        if (cut.size() > maxTiles)
-            return {.cut = {}, .blocks = {}, .isLeftOut = true};
+        if (double(cut.size()) * (1 + pattern.tilesInTile) > double(maxTiles))
+            return {.cut = {}, .blocks = {}, .isImage = true};
         if (!choice.blocks.empty())
             choice.cut.push_back(choice.blocks.front().at);
         std::ranges::sort(cut, {}, [](i64vec2 p) { return std::pair(p.y, p.x); });

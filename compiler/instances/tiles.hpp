@@ -23,7 +23,7 @@ struct TileChoice {
     /// drawn where it stands.
     std::vector<glm::i64vec2> cut;
     std::vector<TileBlock> blocks;
-    bool isLeftOut = false;  ///< too many tiles are cut: there are no others either
+    bool isImage = false;  ///< too many tiles are cut: there are no others either
 };
 
 /// `picture` without any of the patterns' tiles; `tolerance`: Options::tolerance.

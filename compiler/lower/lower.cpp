@@ -11,6 +11,8 @@
 #include <vtm/compiler/stroke.hpp>
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/lower/paints.hpp"
+#include "compiler/patterns/pattern_images.hpp"
+#include "compiler/patterns/tile_range.hpp"
 #include "geometry/box.hpp"
 
 namespace vtm::compiler {
@@ -26,7 +28,7 @@ class Lowering {
 public:
     Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
              const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
-             std::vector<LayerOrigin>* origins, TilePlan* tiles)
+             std::vector<LayerOrigin>* origins, TilePlan* tiles, PatternImages* images)
         : lattice_(lattice),
           budget_(budget),
           sharing_(sharing),
@@ -35,6 +37,7 @@ public:
           cache_(cache),
           origins_(origins),
           tiles_(tiles),
+          images_(images),
           paints_(picture_, excerpt) {
         if (cache_)
             picture_.outlines = cache_->take();
@@ -193,68 +196,106 @@ private:
         picture_.items.push_back({layer, source, item.opacity, into});
     }
 
-    /// A group of tiles, clipped by the item's own outline.
+    /// A group of tiles, clipped by the item's own outline; or an image of them.
     void patternItem(const scene::Item& item, const scene::Pattern& pattern, const Affine& transform,
                      std::uint32_t into) {
-        const std::uint32_t index = openGroup(into);
         const std::uint32_t shape = geometryLayer(item, transform);
-        picture_.groups[index].opacity = item.opacity;
-        picture_.groups[index].clip = addClip({{{shape, noIndex, false}}, noIndex});
         const Affine toPicture = compose(transform, pattern.transform);
         const auto toPattern = scene::inverse(toPicture);
-        const Box seen = bounds(picture_.layers[shape]).intersection(frame_);
+        const Box seen = bounds(picture_.layers[shape]).intersection(tileBox_.value_or(frame_));
         if (!toPattern || seen.empty())
             return;
-        const Box box = geometry::mapped(seen, *toPattern);
-        const Point period = pattern.max - pattern.min;
-        const glm::dvec2 first = glm::floor((box.min - pattern.min) / period);
-        const glm::dvec2 last = glm::floor((box.max - pattern.min) / period);
-        const double tiles = (last.x - first.x + 1) * (last.y - first.y + 1);
-        const bool canPlace = tiles_ && !isInTile_;
-        if (canPlace && tiles > fewTiles && tiles <= double(maxPlacedTiles)) {
-            plannedTiles(
-                pattern,
-                {toPicture, pattern.min, pattern.max, glm::i64vec2(first), glm::i64vec2(last), shape}, index);
-            return;
+        const TileRange range = tilesIn(geometry::mapped(seen, *toPattern), pattern);
+        const TileContent content = tileCounter_.inOneTile(pattern);
+        const double count = range.count(), inTile = content.tiles, inAll = count * (1 + inTile);
+        const auto asImage = [&] { patternImage(item, pattern, toPicture, {shape, inAll, seen}, into); };
+        const double segments = count * std::max(content.segments, 1.0);
+        const bool canPlace = tiles_ && !isPlacedTile_ && tiles_->patterns.size() < maxPlacedFills &&
+                              segmentsPlaced_ + segments <= double(maxPlacedSegments);
+        if (canPlace && (count > fewTiles || (inAll > fewTiles && inTile <= double(maxTilesInTile)))) {
+            segmentsPlaced_ += segments;
+            tiles_->patterns.push_back({toPicture, pattern.min, pattern.max, glm::i64vec2(range.first),
+                                        glm::i64vec2(range.last), shape, inTile});
+            if (!tiles_->chosen)
+                return;
+            const TilePlan::Chosen& chosen = (*tiles_->chosen)[tiles_->patterns.size() - 1];
+            if (!chosen.isImage)
+                return placedTiles(pattern, toPicture, chosen.tiles, tileGroup(item, shape, into));
+            tiles_->firstTiles.emplace_back();
+            return asImage();
         }
-        const std::size_t limit = canPlace ? maxPlacedTiles : maxTiles;
-        if (!(tiles <= static_cast<double>(limit))) {
-            leaveOut(fmt::format("a pattern needs {:.6g} tiles; the limit is {}", tiles, limit));
-            return;
-        }
-        const auto border = cache_ ? cache_->rectangle(pattern.min, pattern.max)
-                                   : std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
-        for (double y = first.y; y <= last.y; ++y)
-            for (double x = first.x; x <= last.x; ++x)
-                tile(pattern, border, compose(toPicture, scene::translation(x * period.x, y * period.y)),
-                     index);
+        tilesLowered_ += count;
+        const TileLimits limits = images_ ? images_->limits() : TileLimits{};
+        const double limit = isPlacedTile_ ? maxTilesInTile : limits.ofFill;
+        // Where few tiles hold many, these are placed.
+        if ((!canPlace && !(inAll <= limit)) || !(tilesLowered_ <= limits.ofAll))
+            return asImage();
+        const std::uint32_t group = tileGroup(item, shape, into);
+        const auto border = borderOf(pattern);
+        for (double y = range.first.y; y <= range.last.y; ++y)
+            for (double x = range.first.x; x <= range.last.x; ++x)
+                tile(pattern, border, toPicture, {x, y}, group);
     }
 
-    void plannedTiles(const scene::Pattern& pattern, const TilePattern& tiles, std::uint32_t into) {
-        tiles_->patterns.push_back(tiles);
-        if (!tiles_->chosen)
-            return;
-        const auto& chosen = (*tiles_->chosen)[tiles_->patterns.size() - 1];
-        const auto border = std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
+    std::uint32_t tileGroup(const scene::Item& item, std::uint32_t shape, std::uint32_t into) {
+        const std::uint32_t index = openGroup(into);
+        picture_.groups[index].opacity = item.opacity;
+        picture_.groups[index].clip = addClip({{{shape, noIndex, false}}, noIndex});
+        return index;
+    }
+
+    /// Tiles of a fill of many: those that are not placed.
+    void placedTiles(const scene::Pattern& pattern, const Affine& toPicture,
+                     const std::vector<glm::i64vec2>& chosen, std::uint32_t into) {
+        const auto border = borderOf(pattern);
         const auto firstLayer = std::uint32_t(picture_.layers.size());
         tiles_->firstTiles.push_back({firstLayer, 0});
-        isInTile_ = true;
+        isPlacedTile_ = true;
         for (const glm::i64vec2 at : chosen) {
-            const Point moved = Point(at) * tiles.period();
-            tile(pattern, border, compose(tiles.toPicture, scene::translation(moved.x, moved.y)), into);
+            tile(pattern, border, toPicture, Point(at), into);
             if (at == chosen.front())
                 tiles_->firstTiles.back().count = std::uint32_t(picture_.layers.size()) - firstLayer;
         }
-        isInTile_ = false;
+        isPlacedTile_ = false;
     }
 
+    std::shared_ptr<const Path> borderOf(const scene::Pattern& pattern) {
+        return cache_ ? cache_->rectangle(pattern.min, pattern.max)
+                      : std::make_shared<const Path>(scene::rectangle(pattern.min, pattern.max));
+    }
+
+    /// A fill of so many tiles.
+    struct PatternFill {
+        std::uint32_t shape;
+        double tiles;
+        Box seen;
+    };
+
+    void patternImage(const scene::Item& item, const scene::Pattern& pattern, const Affine& toPicture,
+                      const PatternFill& fill, std::uint32_t into) {
+        const auto image =
+            images_ ? images_->paint(pattern, toPicture, fill.seen, tileBox_.value_or(frame_)) : std::nullopt;
+        const auto source = image ? paints_.add(*image, scene::identity) : std::nullopt;
+        if (!source)
+            return leaveOut(
+                fmt::format("a pattern needs {:.6g} tiles; the limit is {}", fill.tiles, maxTiles));
+        warn(fmt::format("a pattern of {:.6g} tiles is drawn as an image", fill.tiles));
+        paint(fill.shape, item, *source, into);
+    }
+
+    /// Tile `at`.
     void tile(const scene::Pattern& pattern, const std::shared_ptr<const Path>& border,
-              const Affine& toPicture, std::uint32_t into) {
+              const Affine& patternToPicture, Point at, std::uint32_t into) {
         limits::check();
+        const Point by = at * (pattern.max - pattern.min);
+        const Affine toPicture = compose(patternToPicture, scene::translation(by.x, by.y));
         const std::uint32_t index = openGroup(into);
         const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
         picture_.groups[index].clip = addClip({{{cut, noIndex, false}}, noIndex});
+        const auto outer =
+            std::exchange(tileBox_, geometry::mapped(Box{pattern.min, pattern.max}, toPicture));
         group(*pattern.content, toPicture, openGroup(index));
+        tileBox_ = outer;
     }
 
     /// Of an item or a shape.
@@ -318,9 +359,12 @@ private:
         }
     }
 
-    void leaveOut(const std::string& why) {
-        picture_.warnings.push_back(
-            fmt::format("{}:{}: {}; it is left out", place_.line, place_.column, why));
+    void leaveOut(const std::string& why) { warn(why + "; it is left out"); }
+    /// Tiles say the same again and again.
+    void warn(const std::string& what) {
+        std::string warning = fmt::format("{}:{}: {}", place_.line, place_.column, what);
+        if (std::ranges::find(picture_.warnings, warning) == picture_.warnings.end())
+            picture_.warnings.push_back(std::move(warning));
     }
 
     /// What of a path's space a stroke must be right in; everywhere if nothing is said.
@@ -361,8 +405,12 @@ private:
     OutlineCache* const cache_;
     std::vector<LayerOrigin>* const origins_;
     TilePlan* const tiles_;
-    bool isInTile_ = false;
-    limits::Place place_;  ///< of what is being lowered
+    PatternImages* const images_;
+    TileCounter tileCounter_;
+    double segmentsPlaced_ = 0, tilesLowered_ = 0;
+    bool isPlacedTile_ = false;   ///< of what is being lowered
+    std::optional<Box> tileBox_;  ///< round the tile that is being lowered
+    limits::Place place_;         ///< of what is being lowered
     LoweredScene picture_;
     PaintTable paints_;
 };
@@ -371,8 +419,9 @@ private:
 
 LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
                    const ErrorBudget& budget, Sharing sharing, OutlineCache* cache,
-                   std::vector<LayerOrigin>* origins, TilePlan* tiles) {
-    LoweredScene picture = Lowering(scene, excerpt, lattice, budget, sharing, cache, origins, tiles).take();
+                   std::vector<LayerOrigin>* origins, TilePlan* tiles, PatternImages* images) {
+    LoweredScene picture =
+        Lowering(scene, excerpt, lattice, budget, sharing, cache, origins, tiles, images).take();
     if (origins)
         for (std::size_t i = 0; i < origins->size(); ++i)
             (*origins)[i].isClip = picture.itemOfLayer[i] == noIndex;

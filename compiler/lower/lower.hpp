@@ -16,6 +16,7 @@
 namespace vtm::compiler {
 
 class OutlineCache;
+class PatternImages;
 
 /// What becomes the picture: what `fromScene` maps from the scene into [0, width] × [0, height].
 struct Excerpt {
@@ -31,8 +32,14 @@ inline Excerpt wholeOf(const scene::Scene& scene) {
 /// Limits of lowering; beyond them a LimitError.
 inline constexpr std::size_t maxChords = 50'000'000;
 inline constexpr std::size_t maxLayers = 4'000'000;
-inline constexpr std::size_t maxTiles = 20'000;  ///< of one pattern fill, that are lowered one by one
-inline constexpr std::size_t maxPlacedTiles = std::size_t(1) << 24;  ///< ... that are placed as maps
+
+/// Of patterns. What needs more tiles is drawn as an image.
+inline constexpr std::size_t maxTiles = 20'000;        ///< of one fill, that are lowered one by one
+inline constexpr std::size_t maxTilesInTile = 16'000;  ///< of a fill in a tile that is placed
+/// Of all fills whose tiles are placed as maps: a million rectangles. They are drawn one by one, which takes
+/// a GL driver a GB.
+inline constexpr std::size_t maxPlacedSegments = std::size_t(1) << 22;
+inline constexpr std::size_t maxPlacedFills = 256;
 
 /// Outlines: a fill right below an opaque stroke of its own path may take an outline of the stroke's for its
 /// own, where that hides the difference (docs/regions.md).
@@ -54,6 +61,7 @@ struct TilePattern {
     scene::Point min, max;     ///< of tile (0, 0), there
     glm::i64vec2 first, last;  ///< tiles that the shape's box meets
     std::uint32_t shape = 0;   ///< layer of what is filled
+    double tilesInTile = 0;    ///< of patterns in it
 
     scene::Point period() const { return max - min; }
 };
@@ -64,10 +72,14 @@ struct LayerRange {
 };
 
 /// How patterns of many tiles are lowered: at first none of their tiles, which gives TilePatterns; then,
-/// where `chosen` says so for each of them, some of their tiles in that order.
+/// where `chosen` says so for each of them, some of their tiles in that order, or an image of all.
 struct TilePlan {
+    struct Chosen {
+        std::vector<glm::i64vec2> tiles;
+        bool isImage = false;
+    };
     std::vector<TilePattern> patterns;
-    std::optional<std::vector<std::vector<glm::i64vec2>>> chosen;
+    std::optional<std::vector<Chosen>> chosen;
     std::vector<LayerRange> firstTiles;  ///< layers of the first chosen tile of each pattern
 };
 /// Patterns of fewer tiles are lowered as they are.
@@ -76,9 +88,10 @@ inline constexpr double fewTiles = 400;
 /// Chords lie as far from their curves as the budget allows. The lattice is that of the excerpt. With a
 /// `cache`, outlines that it holds are taken from it and others added to it; its store of outlines becomes
 /// the picture's; then nothing is shared. `origins`: gets those of the layers. Without `tiles` all are
-/// lowered.
+/// lowered. `images`: for patterns of too many tiles, which are left out without.
 LoweredScene lower(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
                    const ErrorBudget& budget, Sharing sharing, OutlineCache* cache = nullptr,
-                   std::vector<LayerOrigin>* origins = nullptr, TilePlan* tiles = nullptr);
+                   std::vector<LayerOrigin>* origins = nullptr, TilePlan* tiles = nullptr,
+                   PatternImages* images = nullptr);
 
 }  // namespace vtm::compiler

@@ -380,16 +380,6 @@ TEST(Compile, compatModeNestsAsDeepAsTheFormat) {
 }
 
 /// Beyond a limit of one item, only that item is left out.
-TEST(Compile, tooManyTilesAreLeftOut) {
-    scene::Pattern pattern{
-        {0, 0}, {0.01, 0.01}, std::make_shared<Group>(group({rect({0, 0}, {8, 30}, red)}))};
-    const Result result =
-        compile(picture(group({rect({0, 0}, {64, 64}, pattern), rect({8, 8}, {16, 16}, red)})));
-    ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_NE(result.warnings[0].find("tiles"), std::string::npos);
-    EXPECT_EQ(result.asset.paints.size(), 2u);
-}
-
 TEST(Compile, tooManyDashesAreLeftOut) {
     scene::StrokeStyle stroke;
     stroke.dashes = {1e-9, 1e-9};

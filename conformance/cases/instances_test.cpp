@@ -540,7 +540,13 @@ TEST(Instances, FourThousandShapesInGroupsOfGroupsAreAFewKilobytes) {
 
 TEST(Instances, AMillionTilesAreAFewKilobytes) {
     scene::Pattern pattern{{0, 0}, {1, 1}, nullptr, scene::identity};
-    pattern.content = std::make_shared<const Group>(Repeats(5).tile({0, 0}, {1, 1}));
+    Item tile;
+    tile.path = std::make_shared<const Path>(scene::rectangle({0.1, 0.2}, {0.6, 0.9}));
+    tile.geometry = scene::FillRule::NonZero;
+    tile.paint = Color{0, 0, 0, 1};
+    Group content;
+    content.children.push_back({tile});
+    pattern.content = std::make_shared<const Group>(std::move(content));
     Scene scene;
     scene.width = scene.height = 1000;
     Item filled;
