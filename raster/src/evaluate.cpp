@@ -1,7 +1,6 @@
 #include <vtm/raster/evaluate.hpp>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <set>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "raster/src/blend.hpp"
 #include "raster/src/canvas.hpp"
 #include "raster/src/draw_map.hpp"
+#include "raster/src/map_scanner.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/rough.hpp"
 
@@ -139,7 +139,7 @@ class PictureStack {
 public:
     PictureStack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
                  bool scans)
-        : paints_(paints), materials_(materials), levels_(levels), scans_(scans) {
+        : paints_(paints), materials_(materials), levels_(levels), scans_(scans), scanner_(paints) {
         for (const Command& command : paints.asset().commands)
             if (command.kind == Command::Kind::DrawMap)
                 firstPaints_.insert(command.paint);
@@ -192,14 +192,15 @@ private:
             return reinterpret_cast<float*>(
                 canvas.extend(y + box.min.y, {first + box.min.x, end + box.min.x}));
         };
-        if (scans_)
-            scan(command, view, pixels);
+        if (scans_)  // faster where a map is seen once and whole
+            scanner_.add(command.map, command.paint, paintEnd(command.paint) - command.paint, view, pixels,
+                         materials_);
         else
             sum(command, view, pixels);
     }
 
     void sum(const Command& command, const View& view, const PixelsToAddTo& pixels) {
-        const Paints& paints = paintsFrom(command.paint);
+        const Paints paints = paints_.from(command.paint);
         Raster drawn(view.width, view.height);
         addColors(paints, paints.asset().maps[command.map], view, materials_, levels_, drawn);
         for (int y = 0; y < view.height; ++y) {
@@ -210,38 +211,10 @@ private:
         }
     }
 
-    /// Faster where a map is seen once and whole.
-    void scan(const Command& command, const View& view, const PixelsToAddTo& pixels) const {
-        Command alone = command;
-        alone.paint = 0;
-        AssetView part = paints_.asset();
-        part.commands = {&alone, 1};
-        part.paints = part.paints.subspan(command.paint, paintEnd(command.paint) - command.paint);
-        if (part.maps[command.map].instances == 0)
-            part.instances = {};
-        if (std::ranges::none_of(part.paints, isProgram)) {
-            part.data = {};
-            part.images = {};
-        }
-        Scanner(part).add(view, pixels, materials_);
-    }
-
     /// Where the paints of the next map begin.
     std::size_t paintEnd(std::uint32_t first) const {
         const auto next = firstPaints_.upper_bound(first);
         return next == firstPaints_.end() ? paints_.asset().paints.size() : *next;
-    }
-
-    const Paints& paintsFrom(std::uint32_t first) {
-        if (first == 0)
-            return paints_;
-        auto& paints = paintsFrom_[first];
-        if (!paints) {
-            AssetView view = paints_.asset();
-            view.paints = view.paints.subspan(first);
-            paints = std::make_unique<Paints>(view);
-        }
-        return *paints;
     }
 
     // ---- Groups and filters ----
@@ -287,13 +260,14 @@ private:
     const bool scans_;                     ///< maps, instead of adding up their leaves
     std::set<std::uint32_t> firstPaints_;  ///< of the maps that are drawn
     std::vector<Picture> pictures_;
-    std::map<std::uint32_t, std::unique_ptr<Paints>> paintsFrom_;
+    MapScanner scanner_;
 };
 
 /// Rough pixels so many levels finer.
 Canvas drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
              bool scans) {
     validate(view);
+    const KeptBlocks blocks;
     PictureStack stack(paints, view, materials, levels, scans);
     for (const Command& command : paints.asset().commands)
         stack.execute(command);

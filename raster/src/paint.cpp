@@ -196,15 +196,25 @@ bool hasGradients(const AssetView& asset) {
 
 }  // namespace
 
-Paints::Paints(const AssetView& asset) : asset_(asset), images_(asset), changes_(changesOf(asset)) {
-    if (!hasGradients(asset))
-        return;
-    // All texels as if they were stops: gradients of a hostile file may overlap as they like.
-    stopColors_.reserve(asset.data.size());
-    for (std::size_t i = 0; i < asset.data.size(); ++i) {
-        const auto stop = recordAt<GradientStop>(asset.data, i);
-        stopColors_.push_back(vec4(stop.rgba[0], stop.rgba[1], stop.rgba[2], stop.rgba[3]) / 65535.0f);
+Paints::Paints(const AssetView& asset) : asset_(asset) {
+    auto made = std::make_shared<Made>(asset);
+    if (hasGradients(asset)) {
+        // All texels as if they were stops: gradients of a hostile file may overlap as they like.
+        made->stopColors.reserve(asset.data.size());
+        for (std::size_t i = 0; i < asset.data.size(); ++i) {
+            const auto stop = recordAt<GradientStop>(asset.data, i);
+            made->stopColors.push_back(vec4(stop.rgba[0], stop.rgba[1], stop.rgba[2], stop.rgba[3]) /
+                                       65535.0f);
+        }
     }
+    made_ = std::move(made);
+}
+
+Paints Paints::from(std::uint32_t first) const {
+    Paints paints = *this;
+    paints.asset_.paints = asset_.paints.subspan(first);
+    paints.first_ += first;
+    return paints;
 }
 
 vec4 Paints::color(std::uint32_t paint, const PaintPlace& place, const MaterialFunction& materials) const {

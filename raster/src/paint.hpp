@@ -2,6 +2,7 @@
 /// Paints and paint programs; twin of backend_gl/shaders/shared/paint.glsl.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct PaintPlace {
 class Paints {
 public:
     explicit Paints(const AssetView& asset);
+    /// Those of a map whose paints begin at `first`, which become numbers from 0; what was made is shared.
+    Paints from(std::uint32_t first) const;
 
     /// Premultiplied.
     glm::vec4 color(std::uint32_t paint, const PaintPlace& place,
@@ -39,21 +42,28 @@ public:
                 std::span<Float4> colors, const MaterialFunction& materials = {}) const;
 
     const AssetView& asset() const { return asset_; }
-    const Images& images() const { return images_; }
+    const Images& images() const { return made_->images; }
     /// By paint (raster/steepness.hpp).
-    std::span<const PaintChange> changes() const { return changes_; }
+    std::span<const PaintChange> changes() const { return std::span(made_->changes).subspan(first_); }
     /// Of gradients: by texel of the asset's data, straight, where a stop stands.
-    std::span<const glm::vec4> stopColors() const { return stopColors_; }
+    std::span<const glm::vec4> stopColors() const { return made_->stopColors; }
 
 private:
     template <class Places>
     void run(const Paint& program, Places places, std::span<Float4> colors,
              const MaterialFunction& materials) const;
 
-    AssetView asset_;
-    Images images_;
-    std::vector<PaintChange> changes_;
-    std::vector<glm::vec4> stopColors_;
+    struct Made {
+        explicit Made(const AssetView& asset) : images(asset), changes(changesOf(asset)) {}
+
+        Images images;
+        std::vector<PaintChange> changes;
+        std::vector<glm::vec4> stopColors;
+    };
+
+    AssetView asset_;  ///< its paints are those from the first on
+    std::size_t first_ = 0;
+    std::shared_ptr<const Made> made_;
 };
 
 /// As evaluate(asset, view, materials), for drawing several views.

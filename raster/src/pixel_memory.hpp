@@ -2,21 +2,47 @@
 /// Memory of pixels that are written before they are read: a large raster is not filled with zeros first.
 #pragma once
 
-#include <sys/mman.h>
-
-#include <cstdlib>
+#include <cstddef>
+#include <map>
 #include <memory>
 #include <new>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include <vtm/limits/limits.hpp>
 #include "raster/src/float4.hpp"
 
 namespace vtm::asset {
 
-/// Elements that are given no value stay as the memory was. Large blocks are in huge pages where Linux has
-/// them: a raster's first use of its 4 KB pages, one after the other, took longer than filling it.
+/// While it lives, large blocks of pixels that its thread frees are used again: filters make and drop a dozen
+/// rasters of one size, and a new one's pages, which the system clears one by one, cost more than filling it.
+class KeptBlocks {
+public:
+    KeptBlocks();
+    ~KeptBlocks();
+    KeptBlocks(const KeptBlocks&) = delete;
+    KeptBlocks& operator=(const KeptBlocks&) = delete;
+
+private:
+    friend void* takeBlock(std::size_t bytes);
+    friend void giveBlock(void* block, std::size_t bytes) noexcept;
+
+    void* take(std::size_t bytes);
+    bool keep(void* block, std::size_t bytes) noexcept;
+
+    KeptBlocks* const outer_;
+    std::multimap<std::size_t, void*> free_;          ///< by their size
+    std::unordered_map<void*, std::size_t> largest_;  ///< of those lent for less, their size
+    std::size_t bytes_ = 0;                           ///< of free_
+};
+
+/// At least so many bytes, aligned for any pixel. Blocks of 2 MB and more are in huge pages where Linux has
+/// them. Throws std::bad_alloc, or what limits::need throws.
+void* takeBlock(std::size_t bytes);
+/// `bytes`: as it was taken for.
+void giveBlock(void* block, std::size_t bytes) noexcept;
+
+/// Elements that are given no value stay as the memory was.
 template <class T>
 struct UninitialisedAllocator : std::allocator<T> {
     template <class U>
@@ -24,24 +50,17 @@ struct UninitialisedAllocator : std::allocator<T> {
         using other = UninitialisedAllocator<U>;
     };
 
-    static constexpr std::size_t hugePage = 2 << 20;  ///< bytes
+    static constexpr std::size_t largeBlock = 64 << 10;  ///< bytes
 
     T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
-        if (bytes < hugePage)
-            return std::allocator<T>::allocate(count);
-        limits::need(bytes);
-        void* const memory = std::aligned_alloc(hugePage, (bytes + hugePage - 1) / hugePage * hugePage);
-        if (!memory)
-            throw std::bad_alloc();
-        madvise(memory, bytes, MADV_HUGEPAGE);  // fails where there are none, which changes nothing
-        return static_cast<T*>(memory);
+        return bytes < largeBlock ? std::allocator<T>::allocate(count) : static_cast<T*>(takeBlock(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
-        if (count * sizeof(T) < hugePage)
+        if (const std::size_t bytes = count * sizeof(T); bytes < largeBlock)
             std::allocator<T>::deallocate(memory, count);
         else
-            std::free(memory);
+            giveBlock(memory, bytes);
     }
 
     template <class U>

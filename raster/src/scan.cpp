@@ -17,6 +17,7 @@
 #include <vtm/limits/limits.hpp>
 #include "asset/instances.hpp"
 #include "raster/src/blend.hpp"
+#include "raster/src/map_scanner.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/rough.hpp"
 #include "raster/src/row_sums.hpp"
@@ -38,24 +39,66 @@ struct RowScratch {
     std::unique_ptr<RowScratch> finer;  ///< for what is drawn finer
 };
 
-/// What is kept of an asset.
-struct KeptAsset {
+/// A map without what is placed in it.
+struct OwnMap {
+    explicit OwnMap(const PlanarMap& map) : place(map), boundaries(map.pieces.begin(), map.pieces.end()) {}
+
+    MapPlace place;
+    std::vector<Boundary> boundaries;
+};
+
+/// The maps of an asset that are placed in others.
+class PlacedMaps {
+public:
+    /// Must outlive it.
+    explicit PlacedMaps(const AssetView& asset) : asset_(asset), walk_(asset), maps_(asset.maps.size()) {
+        for (const Symbol& symbol : asset.symbols)
+            if (!maps_[symbol.map])
+                maps_[symbol.map].emplace(planarMap(asset, asset.maps[symbol.map]));
+    }
+
+    /// Calls visit(map, its place, its paints), which tells whether to go on to those in it, for each map
+    /// that is placed in one.
+    template <class Visit>
+    void forEach(std::uint32_t outer, Visit&& visit) const {
+        const Map& map = asset_.maps[outer];
+        walk_(map, [&](const PlacedMap& placed) {
+            if (&placed.map == &map)
+                return true;
+            return bool(visit(*maps_[std::size_t(&placed.map - asset_.maps.data())], placed.toPicture,
+                              placed.paints));
+        });
+    }
+
+private:
+    const AssetView asset_;
+    const MapWalk walk_;
+    std::vector<std::optional<OwnMap>> maps_;
+};
+
+/// What is drawn.
+struct Scanned {
     struct Drawn {
-        MapPlace place;
-        std::vector<Boundary> boundaries;
+        OwnMap own;
         std::uint32_t map = noMap;  ///< in which others are placed
     };
     static constexpr std::uint32_t noMap = 0xFFFFFFFFu;
 
-    Asset asset;                   ///< paints and what they need; trees only if maps are placed in maps
-    std::optional<Paints> paints;  ///< of `asset`
+    Scanned(const Paints& of, std::size_t paintCount, Sums sumsOf) : paints(of), sums(sumsOf) {
+        for (const Paint& paint : of.asset().paints.first(paintCount)) {
+            isProgram.push_back(asset::isProgram(paint));
+            solid.push_back(asset::isProgram(paint) ? Float4{} : float4(added(std::bit_cast<vec4>(paint))));
+        }
+    }
+
+    Paints paints;
     std::vector<Drawn> drawn;
-    std::vector<Drawn> placed;          ///< by map: those that are placed in others
-    std::optional<MapWalk> placedMaps;  ///< of `asset`
+    std::shared_ptr<const PlacedMaps> placed;  ///< null if nothing is
     Sums sums = Sums::Encoded;
     std::vector<Float4> solid;            ///< by paint, as it is added; nothing for programs
     std::vector<std::uint8_t> isProgram;  ///< by paint
 
+    const AssetView& asset() const { return paints.asset(); }
     vec4 added(vec4 color) const { return sums == Sums::Light ? light(color) : color; }
 };
 
@@ -114,7 +157,7 @@ private:
 /// The chords of a picture under a view, band by band.
 class Drawing {
 public:
-    Drawing(const KeptAsset& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
+    Drawing(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
             int finerLevels, float roughness = 1)
         : of_(of),
           view_(view),
@@ -127,10 +170,10 @@ public:
     }
 
     void addPicture() {
-        for (const KeptAsset::Drawn& drawn : of_.drawn) {
-            addChords(Chords<>(drawn.place, view_, scratch_.bands), drawn.boundaries);
-            if (drawn.map != KeptAsset::noMap)
-                addPlaced(of_.asset.maps[drawn.map]);
+        for (const Scanned::Drawn& drawn : of_.drawn) {
+            addChords(Chords<>(drawn.own.place, view_, scratch_.bands), drawn.own.boundaries);
+            if (drawn.map != Scanned::noMap)
+                addPlaced(drawn.map);
         }
     }
     void addChord(const Chord& chord) { scratch_.bands.add(chord, float(view_.width), float(view_.height)); }
@@ -151,16 +194,12 @@ private:
     }
 
     /// What lies beside the view changes no pixel.
-    void addPlaced(const Map& map) {
-        (*of_.placedMaps)(map, [&](const PlacedMap& placed) {
-            if (&placed.map == &map)
-                return true;
-            if (!isSeen(placed.toPicture))
+    void addPlaced(std::uint32_t map) {
+        of_.placed->forEach(map, [&](const OwnMap& own, const Affine2& place, const PlacedPaints& paints) {
+            if (!isSeen(place))
                 return false;
-            const KeptAsset::Drawn& drawn = of_.placed[std::size_t(&placed.map - of_.asset.maps.data())];
-            const Affine2 toPicture{placed.toPicture.linear * (1 / drawn.place.extent),
-                                    placed.toPicture.offset};
-            addChords(Chords(toPicture, view_, scratch_.bands, std::cref(placed.paints)), drawn.boundaries);
+            const Affine2 toPicture{place.linear * (1 / own.place.extent), place.offset};
+            addChords(Chords(toPicture, view_, scratch_.bands, std::cref(paints)), own.boundaries);
             return true;
         });
     }
@@ -243,36 +282,83 @@ private:
         return means;
     }
 
-    static ProgramView programView(const KeptAsset& of, const View& view, const MaterialFunction& materials,
+    static ProgramView programView(const Scanned& of, const View& view, const MaterialFunction& materials,
                                    float roughness, bool findsRough) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
         const float minSteep = minSteepness(inverse);
-        return {*of.paints, of.sums, view, inverse, minSteep, materials, roughBounds(minSteep, roughness),
+        return {of.paints, of.sums, view, inverse, minSteep, materials, roughBounds(minSteep, roughness),
                 findsRough};
     }
 
-    const KeptAsset& of_;
+    const Scanned& of_;
     const View view_;
     RowScratch& scratch_;
     ProgramView programs_;
     int finerLevels_;
 };
 
-/// Without what is placed in them.
-std::vector<PlanarMap> ownPlanarMaps(const AssetView& asset) {
-    requireSumOfMaps(asset);
-    std::vector<PlanarMap> maps;
-    for (const Command& command : asset.commands)
-        maps.push_back(planarMap(asset, asset.maps[command.map]));
-    return maps;
+template <class Store>
+void drawScanned(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
+                 const Store& store) {
+    validate(view);
+    if (view.width == 0 || view.height == 0)
+        return;
+    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    if (of.drawn.empty() || !(std::abs(determinant) > std::numeric_limits<double>::min())) {
+        for (int y = 0; y < view.height; ++y)
+            store(y, 0, view.width, Float4{});
+        return;
+    }
+    const limits::Stage stage("scanning");
+    Drawing drawing(of, view, materials, scratch,
+                    of.sums == Sums::Encoded ? finerLevels(of.asset(), view) : 0);
+    drawing.addPicture();
+    drawing.draw(store);
+}
+
+/// What the paints of an asset need.
+Asset paintsOf(const AssetView& from) {
+    Asset kept;
+    kept.paints.assign(from.paints.begin(), from.paints.end());
+    kept.data.assign(from.data.begin(), from.data.end());
+    kept.images.assign(from.images.begin(), from.images.end());
+    kept.materials.assign(from.materials.begin(), from.materials.end());
+    kept.finestPixel = from.finestPixel;
+    return kept;
+}
+
+/// With maps that are placed in maps.
+Asset paintsAndTreesOf(const AssetView& from) {
+    Asset kept = paintsOf(from);
+    kept.maps.assign(from.maps.begin(), from.maps.end());
+    kept.nodes.assign(from.nodes.begin(), from.nodes.end());
+    kept.leaves.assign(from.leaves.begin(), from.leaves.end());
+    kept.pieces.assign(from.pieces.begin(), from.pieces.end());
+    kept.instanceTrees.assign(from.instanceTrees.begin(), from.instanceTrees.end());
+    kept.instances.assign(from.instances.begin(), from.instances.end());
+    kept.symbols.assign(from.symbols.begin(), from.symbols.end());
+    kept.palettes.assign(from.palettes.begin(), from.palettes.end());
+    return kept;
 }
 
 }  // namespace
 
-struct Scanner::Impl : KeptAsset {
-    template <class Store>
-    void draw(const View& view, const MaterialFunction& materials, const Store& store);
+struct Scanner::Impl {
+    Impl(Asset&& ownedAsset, Sums sums)
+        : owned(std::move(ownedAsset)), scanned(Paints(owned), owned.paints.size(), sums) {}
 
+    const Asset owned;
+    Scanned scanned;
+
+    template <class Store>
+    void draw(const View& view, const MaterialFunction& materials, const Store& store) {
+        // An exception loses the scratch, whose sums may be half done.
+        std::unique_ptr<RowScratch> scratch = takeScratch();
+        drawScanned(scanned, view, materials, *scratch, store);
+        giveBack(std::move(scratch));
+    }
+
+private:
     std::unique_ptr<RowScratch> takeScratch() {
         const std::lock_guard lock(mutex_);
         if (free_.empty())
@@ -286,80 +372,32 @@ struct Scanner::Impl : KeptAsset {
         free_.push_back(std::move(scratch));
     }
 
-private:
     std::mutex mutex_;
     std::vector<std::unique_ptr<RowScratch>> free_;
 };
 
-template <class Store>
-void Scanner::Impl::draw(const View& view, const MaterialFunction& materials, const Store& store) {
-    validate(view);
-    if (view.width == 0 || view.height == 0)
-        return;
-    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    if (drawn.empty() || !(std::abs(determinant) > std::numeric_limits<double>::min())) {
-        for (int y = 0; y < view.height; ++y)
-            store(y, 0, view.width, Float4{});
-        return;
-    }
-    // An exception loses the scratch, whose sums may be half done.
-    std::unique_ptr<RowScratch> scratch = takeScratch();
-    const limits::Stage stage("scanning");
-    Drawing drawing(*this, view, materials, *scratch, sums == Sums::Encoded ? finerLevels(asset, view) : 0);
-    drawing.addPicture();
-    drawing.draw(store);
-    giveBack(std::move(scratch));
-}
-
-Scanner::Scanner(const AssetView& asset, Sums sums) : Scanner(ownPlanarMaps(asset), asset, sums) {
-    if (asset.instances.empty())
-        return;
-    Asset& kept = impl_->asset;
-    kept.maps.assign(asset.maps.begin(), asset.maps.end());
-    kept.nodes.assign(asset.nodes.begin(), asset.nodes.end());
-    kept.leaves.assign(asset.leaves.begin(), asset.leaves.end());
-    kept.pieces.assign(asset.pieces.begin(), asset.pieces.end());
-    kept.instanceTrees.assign(asset.instanceTrees.begin(), asset.instanceTrees.end());
-    kept.instances.assign(asset.instances.begin(), asset.instances.end());
-    kept.symbols.assign(asset.symbols.begin(), asset.symbols.end());
-    kept.palettes.assign(asset.palettes.begin(), asset.palettes.end());
-    for (std::size_t i = 0; i < asset.commands.size(); ++i)
-        impl_->drawn[i].map = asset.commands[i].map;
-    impl_->placed.resize(kept.maps.size());
-    for (const Symbol& symbol : kept.symbols) {
-        KeptAsset::Drawn& drawn = impl_->placed[symbol.map];
-        if (drawn.place.side != 0)
-            continue;  // another symbol has the same map
-        const PlanarMap map = planarMap(kept, kept.maps[symbol.map]);
-        drawn = {map, {map.pieces.begin(), map.pieces.end()}};
-    }
-    impl_->placedMaps.emplace(kept);
+Scanner::Scanner(const AssetView& asset, Sums sums)
+    : impl_(
+          std::make_unique<Impl>(asset.instances.empty() ? paintsOf(asset) : paintsAndTreesOf(asset), sums)) {
+    requireSumOfMaps(asset);
+    for (const Command& command : asset.commands)
+        impl_->scanned.drawn.push_back({OwnMap(planarMap(asset, asset.maps[command.map])),
+                                        asset.instances.empty() ? Scanned::noMap : command.map});
+    if (!asset.instances.empty())
+        impl_->scanned.placed = std::make_shared<const PlacedMaps>(impl_->owned);
 }
 
 Scanner::Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums)
-    : impl_(std::make_unique<Impl>()) {
-    impl_->sums = sums;
+    : impl_(std::make_unique<Impl>(paintsOf(asset), sums)) {
     for (const PlanarMap& map : maps)
-        impl_->drawn.push_back({map, {map.pieces.begin(), map.pieces.end()}});
-    Asset& kept = impl_->asset;
-    kept.paints.assign(asset.paints.begin(), asset.paints.end());
-    kept.data.assign(asset.data.begin(), asset.data.end());
-    kept.images.assign(asset.images.begin(), asset.images.end());
-    kept.materials.assign(asset.materials.begin(), asset.materials.end());
-    kept.finestPixel = asset.finestPixel;
-    impl_->paints.emplace(kept);
-    for (const Paint& paint : kept.paints) {
-        impl_->isProgram.push_back(asset::isProgram(paint));
-        impl_->solid.push_back(asset::isProgram(paint) ? Float4{}
-                                                       : float4(impl_->added(std::bit_cast<vec4>(paint))));
-    }
+        impl_->scanned.drawn.push_back({OwnMap(map)});
 }
 
 Scanner::~Scanner() = default;
 Scanner::Scanner(Scanner&&) noexcept = default;
 Scanner& Scanner::operator=(Scanner&&) noexcept = default;
 
-std::optional<double> Scanner::finestPixel() const { return impl_->asset.finestPixel; }
+std::optional<double> Scanner::finestPixel() const { return impl_->owned.finestPixel; }
 
 void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
     impl_->draw(view, materials, ByteStore(target, view.width));
@@ -385,6 +423,30 @@ image::Raster Scanner::draw(const View& view, const MaterialFunction& materials)
                             raster.pixel(x, row)[c] = unit(color[c]);
                 }));
     return raster;
+}
+
+struct MapScanner::Impl {
+    const Paints& paints;
+    std::shared_ptr<const PlacedMaps> placed = nullptr;
+    RowScratch scratch;
+};
+
+MapScanner::MapScanner(const Paints& paints) : impl_(new Impl{.paints = paints, .scratch = {}}) {}
+MapScanner::~MapScanner() = default;
+
+void MapScanner::add(std::uint32_t index, std::uint32_t firstPaint, std::size_t paintCount, const View& view,
+                     const PixelsToAddTo& pixels, const MaterialFunction& materials) {
+    const AssetView& asset = impl_->paints.asset();
+    const Map& map = asset.maps[index];
+    Scanned scanned(impl_->paints.from(firstPaint), paintCount, Sums::Encoded);
+    scanned.drawn.push_back({OwnMap(planarMap(asset, map))});
+    if (map.instances != 0) {
+        if (!impl_->placed)
+            impl_->placed = std::make_shared<const PlacedMaps>(asset);
+        scanned.drawn.back().map = index;
+        scanned.placed = impl_->placed;
+    }
+    drawScanned(scanned, view, materials, impl_->scratch, AddStore(pixels));
 }
 
 }  // namespace vtm::asset
