@@ -32,14 +32,14 @@ std::uint32_t gradientTurns(Spread spread, std::uint32_t count) {
     return searchTurns(count) + (isLong ? 2 : 1) * loop(copies, rampTurns(count));
 }
 
-/// imageColor(): two levels at up to 17 points, each found from the first and read at 4, or 16 for Bicubic.
+/// imageColor(): two levels at up to 17 points, each found from the first and read at up to 25 texels.
 std::uint32_t imageTurns(const asset::AssetView& asset, const Texel& fill) {
     const auto filter = ImageFilter(fill[3]);
     if (filter < ImageFilter::Trilinear)
         return loop(1, loop(0) + loop(filter == ImageFilter::Nearest ? 1 : 4));
     const image::Bitmap& bitmap = asset.images[fill[2]];
     const auto levels = std::uint32_t(std::bit_width(unsigned(std::max(bitmap.width, bitmap.height))));
-    return loop(2 * 17, loop(levels) + loop(filter == ImageFilter::Bicubic ? 16 : 4));
+    return loop(2 * 17, loop(levels) + loop(25));
 }
 
 std::uint32_t layerTurns(const asset::AssetView& asset, const asset::Instruction& in, ImageTurns images) {

@@ -32,30 +32,44 @@ struct Texels {
     }
 };
 
-/// Weight of a texel at distance d along one axis, of 1, 2 or 4 next to the point: box, tent, and
-/// Catmull-Rom's cubic (Keys 1981, a = -1/2): it passes through the pixels, and through the points of any
-/// quadratic.
-float kernel(int taps, float d) {
-    d = std::abs(d);
-    if (taps == 1)
-        return 1;
-    if (taps == 2)
-        return 1 - d;
-    return d < 1 ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
-}
+/// How texels make a colour: the mean of a square, `width` texels wide, and by a share Catmull-Rom's cubic.
+struct Kernel {
+    float width;  ///< in [1, 4]; at 1 the mean interpolates
+    float cubic = 0;
+
+    /// Of texels in a row that count at most, the one at floor(p - reach) first.
+    int taps() const { return cubic > 0 ? 4 : int(std::ceil(width)) + 1; }
+    float reach() const { return cubic > 0 ? 1.5f : 0.5f * width; }
+
+    /// Weight of a texel whose middle is at distance d along one axis. The cubic (Keys 1981, a = -1/2) passes
+    /// through the pixels, and through the points of any quadratic.
+    float operator()(float d) const {
+        if (width == 0)
+            return 1;
+        d = std::abs(d);
+        const float mean =
+            std::max(std::min(d + 0.5f, 0.5f * width) - std::max(d - 0.5f, -0.5f * width), 0.0f) / width;
+        if (cubic == 0)
+            return mean;
+        const float keys = d < 1 ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
+        return glm::mix(mean, keys, cubic);
+    }
+};
+constexpr Kernel nearest{0};
 
 /// Premultiplied neighbours are summed, so that transparent pixels lend no colour.
-vec4 filtered(const Texels& texels, vec2 place, int taps) {
+vec4 filtered(const Texels& texels, vec2 place, const Kernel& kernel) {
     // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes on
     // anyway.
     const vec2 p(std::fmax(-2.0f, std::fmin(place.x, float(texels.width) + 2)),
                  std::fmax(-2.0f, std::fmin(place.y, float(texels.height) + 2)));
-    const vec2 corner = glm::floor(p - 0.5f * float(taps - 1));
+    const vec2 corner = glm::floor(p - kernel.reach());
+    const int taps = kernel.taps();
     vec4 sum(0);
     for (int j = 0; j < taps; ++j)
         for (int i = 0; i < taps; ++i) {
             const vec2 d = corner + vec2(i, j) + 0.5f - p;
-            sum += kernel(taps, d.x) * kernel(taps, d.y) * texels.at(int(corner.x) + i, int(corner.y) + j);
+            sum += kernel(d.x) * kernel(d.y) * texels.at(int(corner.x) + i, int(corner.y) + j);
         }
     return sum;
 }
@@ -93,9 +107,12 @@ vec4 asColor(vec4 c) {
     return {glm::clamp(glm::vec3(c), 0.0f, a), a};
 }
 
-int tapsOf(ImageFilter filter) {
-    return filter == ImageFilter::Nearest ? 1 : filter == ImageFilter::Bicubic ? 4 : 2;
-}
+/// Of squares two to four texels wide; those of the picture itself may be narrower.
+constexpr float mostTexels = 4;
+/// From so many texels on a level is blended with the next, so that none comes at once.
+constexpr float blendsFrom = 3.5f;
+/// From one texel to so many the cubic becomes the mean of a square.
+constexpr float cubicTo = 1.25f;
 
 }  // namespace
 
@@ -109,28 +126,33 @@ Images::Images(const AssetView& asset) {
 vec4 Images::color(const ImageFill& fill, vec2 point, const mat2& pixel) const {
     const LeveledImage& picture = pictures_[fill.image];
     const vec2 p = applyMatrix(fill.matrix, point);
-    const auto level = [&](std::size_t l, vec2 place) {
+    const auto read = [&](std::size_t l, vec2 place, const Kernel& kernel) {
         if (l == 0)
             return filtered(
                 {picture.bitmap->width, picture.bitmap->height, picture.bitmap->rgba.data(), false}, place,
-                tapsOf(fill.filter));
+                kernel);
         const image::Level& texels = picture.levels[l - 1];
         return filtered({texels.width, texels.height, texels.rgba.data(), true},
-                        std::ldexp(1.0f, -int(l)) * place, 2);
+                        std::ldexp(1.0f, -int(l)) * place, kernel);
     };
     if (fill.filter < ImageFilter::Trilinear)
-        return level(0, p);
+        return read(0, p, fill.filter == ImageFilter::Nearest ? nearest : Kernel{1});
     const mat2 linear(fill.matrix[0], fill.matrix[1], fill.matrix[2], fill.matrix[3]);
     const Probes probes = probesOf(linear * pixel);
     const float last = float(picture.levels.size());
-    const float lod = std::fmin(std::log2(probes.width), last);
+    const float lod = std::clamp(std::floor(std::log2(probes.width)) - 1, 0.0f, last);
     const auto finer = std::size_t(lod);
-    const float share = lod - float(finer);
+    Kernel kernel{glm::clamp(std::ldexp(probes.width, -int(finer)), 1.0f, mostTexels)};
+    if (finer == 0 && fill.filter == ImageFilter::Bicubic)
+        kernel.cubic = std::max((cubicTo - kernel.width) / (cubicTo - 1), 0.0f);
+    const float share =
+        lod == last ? 0 : std::max((kernel.width - blendsFrom) / (mostTexels - blendsFrom), 0.0f);
     vec4 sum(0);
     for (int i = -probes.side; i <= probes.side; ++i) {
         const vec2 place = p + float(i) * probes.step;
-        const vec4 color =
-            share == 0 ? level(finer, place) : glm::mix(level(finer, place), level(finer + 1, place), share);
+        vec4 color = read(finer, place, kernel);
+        if (share > 0)
+            color = glm::mix(color, read(finer + 1, place, Kernel{0.5f * kernel.width}), share);
         sum += (std::abs(i) == probes.side ? probes.outer : 1) / probes.all * color;
     }
     return asColor(sum);

@@ -1,7 +1,9 @@
 #include "raster/src/paint.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
@@ -239,21 +241,53 @@ TEST(Paint, ImagesTrilinearAreReadAlongOblongFootprints) {
     EXPECT_TRUE(std::isfinite(imageAt({1, 1}, ImageFilter::Trilinear, mat2(1e30f, 0, 0, 1)).a));
 }
 
+/// Of texels along an axis, the first at 0: the share of each in the mean of what lies within width / 2 of p;
+/// beyond the ends the outermost go on.
+std::vector<float> shares(std::size_t texels, float p, float width) {
+    std::vector<float> of(texels);
+    for (int i = -8; i < 16; ++i) {
+        const float share =
+            std::max(0.0f, std::min(float(i + 1), p + width / 2) - std::max(float(i), p - width / 2)) / width;
+        of[std::size_t(std::clamp(i, 0, int(texels) - 1))] += share;
+    }
+    return of;
+}
+
 /// smallPicture() is 4 x 3 pixels: its levels have 2 x 2 and 1 x 1 texels.
 TEST(Paint, ImagesTrilinearAreMeansWhereMinified) {
-    vec4 first(0), whole(0);
+    vec4 whole(0), level[2][2] = {};
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 4; ++x) {
             whole += pixel(x, y) / 12.0f;
-            first += x < 2 && y < 2 ? pixel(x, y) / 4.0f : vec4(0);
+            level[y / 2][x / 2] += pixel(x, y) / (y < 2 ? 4.0f : 2.0f);
         }
+    const auto ofPixels = [](vec2 p, float width) {
+        const std::vector<float> across = shares(4, p.x, width), down = shares(3, p.y, width);
+        vec4 sum(0);
+        for (int i = 0; i < 12; ++i)
+            sum += across[std::size_t(i % 4)] * down[std::size_t(i / 4)] * pixel(i % 4, i / 4);
+        return sum;
+    };
+    const auto ofLevel = [&](vec2 p, float width) {
+        const std::vector<float> across = shares(2, p.x / 2, width / 2), down = shares(2, p.y / 2, width / 2);
+        vec4 sum(0);
+        for (std::size_t i = 0; i < 4; ++i)
+            sum += across[i % 2] * down[i / 2] * level[i / 2][i % 2];
+        return sum;
+    };
     constexpr float byte = 0.5f / 255 + 1e-5f;
-    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(2)), first, byte);
-    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(0, 2, -2, 0)), first, byte);  // turned
-    expectNear(imageAt({3, 2}, ImageFilter::Trilinear, mat2(4)), whole, byte);
-    expectNear(imageAt({3, 2}, ImageFilter::Trilinear, mat2(1e9f)), whole, byte);
-    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(std::exp2(1.25f))),
-               0.75f * imageAt({1, 1}, ImageFilter::Trilinear, mat2(2)) + 0.25f * whole, byte);
+    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(2)), level[0][0]);
+    expectNear(imageAt({1, 1}, ImageFilter::Trilinear, mat2(0, 2, -2, 0)), level[0][0]);  // turned
+    for (const vec2 p : {vec2(1.2f, 0.7f), vec2(2, 1.5f), vec2(3.9f, 2.5f)}) {
+        for (const float width : {1.3f, 2.0f, 2.7f, 3.4f})
+            expectNear(imageAt(p, ImageFilter::Trilinear, mat2(width)), ofPixels(p, width));
+        expectNear(imageAt(p, ImageFilter::Trilinear, mat2(3.75f)),
+                   0.5f * ofPixels(p, 3.75f) + 0.5f * ofLevel(p, 3.75f), byte);
+        expectNear(imageAt(p, ImageFilter::Trilinear, mat2(4)), ofLevel(p, 4), byte);
+        expectNear(imageAt(p, ImageFilter::Trilinear, mat2(1e9f)), whole, byte);
+        // From the cubic to the mean of a square.
+        expectNear(imageAt(p, ImageFilter::Bicubic, mat2(1.25f)), ofPixels(p, 1.25f));
+    }
     EXPECT_TRUE(std::isfinite(imageAt({NAN, 0.5f}, ImageFilter::Trilinear, mat2(NAN)).a));
 }
 

@@ -24,28 +24,43 @@ vec4 levelTexel(ASSET_IN uvec4 level, ivec2 p) {
     return vec4(level.w == 0u ? c.rgb * c.a : c.rgb, c.a);
 }
 
-// Weights of texels at these distances, of 1, 2 or 4 next to the point along one axis: box, tent, and Catmull-Rom's
-// cubic (Keys 1981, a = -1/2): it passes through the pixels, and through the points of any quadratic.
-vec2 kernel(int taps, vec2 d) {
-    d = abs(d);
-    if (taps == 1)
+// How texels make a colour: the mean of a square, `width` texels wide, and by a share Catmull-Rom's cubic. The width
+// is in [1, 4]; at 1 the mean interpolates. 0: the nearest texel.
+struct Kernel {
+    float width, cubic;
+};
+
+// Weights of texels whose middles are at these distances. The cubic (Keys 1981, a = -1/2) passes through the pixels,
+// and through the points of any quadratic.
+vec2 weightsOf(Kernel kernel, vec2 d) {
+    if (kernel.width == 0.0)
         return vec2(1.0);
-    if (taps == 2)
-        return 1.0 - d;
-    return mix((1.5 * d - 2.5) * d * d + 1.0, ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0, step(1.0, d));
+    d = abs(d);
+    float reach = 0.5 * kernel.width;
+    vec2 mean = max(min(d + 0.5, vec2(reach)) - max(d - 0.5, vec2(-reach)), 0.0) / kernel.width;
+    vec2 keys = mix((1.5 * d - 2.5) * d * d + 1.0, ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0, step(1.0, d));
+    return mix(mean, keys, kernel.cubic);
+}
+
+// Of texels in a row that count at most.
+int tapsOf(Kernel kernel) {
+    return kernel.cubic > 0.0 ? 4 : int(ceil(kernel.width)) + 1;
 }
 
 // Premultiplied neighbours are summed, so that transparent pixels lend no colour.
-vec4 filtered(ASSET_IN uvec4 level, vec2 p, int tapsLog2) {
+vec4 filtered(ASSET_IN uvec4 level, vec2 p, Kernel kernel) {
     // Keeps the conversion to int defined; the edge goes on beyond the border anyway.
     p = clamp(p * exp2(-float(level.w)), vec2(-2.0), vec2(level.yz) + 2.0);
-    int taps = 1 << tapsLog2;
-    vec2 corner = floor(p - 0.5 * float(taps - 1));
+    int taps = tapsOf(kernel);
+    vec2 corner = floor(p - (kernel.cubic > 0.0 ? 1.5 : 0.5 * kernel.width));
     vec4 sum = vec4(0.0);
+    ivec2 tap = ivec2(0);
     for (int i = 0; i < taps * taps; ++i) {
-        ivec2 tap = ivec2(i & (taps - 1), i >> tapsLog2);
-        vec2 weights = kernel(taps, corner + vec2(tap) + 0.5 - p);
+        vec2 weights = weightsOf(kernel, corner + vec2(tap) + 0.5 - p);
         sum += weights.x * weights.y * levelTexel(ASSET level, ivec2(corner) + tap);
+        ++tap.x;
+        if (tap.x == taps)
+            tap = ivec2(0, tap.y + 1);
     }
     return sum;
 }
@@ -74,6 +89,10 @@ Probes probesOf(mat2 m) {
                   along * (width / max(length(along), 1e-20)));
 }
 
+// Of squares two to four texels wide; those of the picture itself may be narrower. From so many texels on a level is
+// blended with the next, so that none comes at once. From one texel to so many the cubic becomes the mean of a square.
+const float mostTexels = 4.0, blendsFrom = 3.5, cubicTo = 1.25;
+
 // Nearest and bilinear at the point. The others filter for a pixel, so they are asked at its centre, wherever in it the
 // point lies. One loop over levels and points, because compilers inline what is in it.
 vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
@@ -85,12 +104,18 @@ vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
     Probes probes = Probes(0, 1.0, 1.0, 1.0, vec2(0.0));
     if (ofPixel)
         probes = probesOf(mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]));
-    float lod = min(log2(probes.width), 30.0), share = fract(lod);
-    int tapsLog2 = b.w == filterNearest ? 0 : b.w == filterBicubic ? 2 : 1;
+    int lod = int(clamp(log2(probes.width) - 1.0, 0.0, 30.0));
+    Kernel kernel = Kernel(clamp(probes.width * exp2(-float(lod)), 1.0, mostTexels), 0.0);
+    if (b.w == filterNearest)
+        kernel.width = 0.0;
+    float share = max((kernel.width - blendsFrom) / (mostTexels - blendsFrom), 0.0);
+    if (lod == 0 && b.w == filterBicubic)
+        kernel.cubic = max((cubicTo - kernel.width) / (cubicTo - 1.0), 0.0);
+    int taps = tapsOf(kernel);
     vec4 sum = vec4(0.0);
     int levels = share > 0.0 ? 2 : 1;
     // At each point: the loop itself, down to its level, the texels.
-    int turnsOfPoint = 1 + int(lod) + 3 + (1 << (2 * tapsLog2)) + 1;
+    int turnsOfPoint = 1 + lod + 3 + taps * taps + 1;
     if (!spend(float(levels * (2 * probes.side + 1) * turnsOfPoint)))
         return sum;
     for (int i = levels * -probes.side; i < levels * (probes.side + 1); ++i) {
@@ -99,8 +124,9 @@ vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
         int probe = levels == 2 ? i >> 1 : i;
         uvec4 level = levelOf(picture, uint(lod) + (coarser ? 1u : 0u));
         float weight = (abs(probe) == probes.side ? probes.outer : 1.0) / probes.all;
+        Kernel ofLevel = Kernel(coarser ? 0.5 * kernel.width : kernel.width, kernel.cubic);
         sum += weight * (coarser ? share : 1.0 - share) *
-               filtered(ASSET level, p + float(probe) * probes.step, level.w == 0u ? tapsLog2 : 1);
+               filtered(ASSET level, p + float(probe) * probes.step, ofLevel);
     }
     // Catmull-Rom overshoots beside edges.
     sum.a = clamp(sum.a, 0.0, 1.0);

@@ -28,16 +28,32 @@ Value catmullRom(const std::array<Value, 4>& v, double t) {
     return v[1] + (slope + (step * 3.0 - slope * 2.0 - next + (slope + next - step * 2.0) * t) * t) * t;
 }
 
-Colour bicubic(const image::Bitmap& bitmap, Point p) {
-    const double x = std::floor(p.x - 0.5), y = std::floor(p.y - 0.5);
-    std::array<Colour, 4> rows;
-    for (int j = 0; j < 4; ++j) {
-        std::array<Colour, 4> row;
-        for (int i = 0; i < 4; ++i)
-            row[std::size_t(i)] = texel(bitmap, x + i - 1, y + j - 1);
-        rows[std::size_t(j)] = catmullRom(row, p.x - 0.5 - x);
-    }
-    return catmullRom(rows, p.y - 0.5 - y);
+/// valueAt(i) holds from i to i + 1: the mean of what lies within width / 2 of p.
+template <class ValueAt>
+Colour meanRound(double p, double width, ValueAt&& valueAt) {
+    const double from = p - width / 2, to = p + width / 2;
+    Colour sum(0);
+    for (double i = std::floor(from); i < to; ++i)
+        sum += valueAt(i) * (std::min(i + 1, to) - std::max(i, from));
+    return sum / width;
+}
+
+/// texelAt(i, j) is that of [i, i + 1] × [j, j + 1].
+template <class TexelAt>
+Colour meanOfSquare(Point p, double width, TexelAt&& texelAt) {
+    return meanRound(
+        p.y, width, [&](double j) { return meanRound(p.x, width, [&](double i) { return texelAt(i, j); }); });
+}
+
+/// Catmull-Rom's cubic through texels; along each axis the rest of `share` is their mean.
+Colour bicubic(const image::Bitmap& bitmap, Point p, double share, double width) {
+    const auto along = [&](double at, const auto& valueAt) {
+        const double first = std::floor(at - 0.5);
+        const std::array<Colour, 4> values{valueAt(first - 1), valueAt(first), valueAt(first + 1),
+                                           valueAt(first + 2)};
+        return catmullRom(values, at - 0.5 - first) * share + meanRound(at, width, valueAt) * (1 - share);
+    };
+    return along(p.y, [&](double y) { return along(p.x, [&](double x) { return texel(bitmap, x, y); }); });
 }
 
 /// What is displayed is a colour; cubics overshoot.
@@ -106,17 +122,14 @@ Means::Means(const image::Bitmap& bitmap, double footprint) {
     }
 }
 
-Colour Means::at(int l, Point p) const {
+Colour Means::at(int l, Point p, double width) const {
     const Level& level = levels_[std::min(std::size_t(l), levels_.size()) - 1];
     const auto texelAt = [&](double x, double y) {
         const auto i = std::size_t(std::clamp(x, 0.0, level.width - 1.0));
         const auto j = std::size_t(std::clamp(y, 0.0, level.height - 1.0));
         return level.texels[j * std::size_t(level.width) + i];
     };
-    const double x = p.x / level.side - 0.5, y = p.y / level.side - 0.5;
-    const double i = std::floor(x), j = std::floor(y), u = x - i, v = y - j;
-    return (texelAt(i, j) * (1 - u) + texelAt(i + 1, j) * u) * (1 - v) +
-           (texelAt(i, j + 1) * (1 - u) + texelAt(i + 1, j + 1) * u) * v;
+    return meanOfSquare(p / level.side, width, texelAt);
 }
 
 ImageShader::ImageShader(const Affine& placement, const scene::ImagePaint& paint)
@@ -140,16 +153,17 @@ Colour ImageShader::at(Point p) const {
         return texel(*bitmap, q.x, q.y);
     if (!isOfAPixel())
         return clamped(bilinear(*bitmap, q));
-    const double level = std::log2(width);
-    const int finer = int(level);
-    const auto at = [&](int l, Point place) {
-        if (l > 0)
-            return means->at(l, place);
-        return filter == scene::ImageFilter::Bicubic ? bicubic(*bitmap, place) : bilinear(*bitmap, place);
-    };
+    // The level on which the pixel is two to four texels wide, or less on the first.
+    const int level = std::max(int(std::floor(std::log2(width))) - 1, 0);
+    const double texels = width / std::exp2(level), toNext = std::max(0.0, 2 * texels - 7);
     const auto square = [&](Point place) {
-        return level > 0 ? at(finer, place) * (finer + 1 - level) + at(finer + 1, place) * (level - finer)
-                         : at(0, place);
+        const double cubic = filter == scene::ImageFilter::Bicubic ? std::max(0.0, 1 - 4 * (texels - 1)) : 0;
+        if (level == 0 && cubic > 0)
+            return bicubic(*bitmap, place, cubic, texels);
+        const Colour mean =
+            level > 0 ? means->at(level, place, texels)
+                      : meanOfSquare(place, texels, [&](double i, double j) { return texel(*bitmap, i, j); });
+        return toNext > 0 ? mean * (1 - toNext) + means->at(level + 1, place, texels / 2) * toNext : mean;
     };
     // Squares side by side, of the outermost two what is left.
     Colour sum = square(q);

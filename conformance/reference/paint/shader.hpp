@@ -55,8 +55,8 @@ struct RadialShader {
 class Means {
 public:
     Means(const image::Bitmap& bitmap, double footprint);
-    /// Bilinear in level l >= 1 or the last.
-    Colour at(int l, Point p) const;
+    /// Of a square so many texels wide on level l >= 1 or the last.
+    Colour at(int l, Point p, double width) const;
 
 private:
     struct Level {

@@ -240,11 +240,15 @@ TEST_P(Paints, TrilinearImagesAreMeansWhereMinified) {
     // 8 pixels show 16: level 1, whose texels are these pixels; the checks are gone.
     const auto half = draw(sceneOf({{fillAll(greens(ImageFilter::Trilinear, 0.5, blocks))}}));
     expectPixel(half, 2, 5, {0, (2 * 20 + 5 * 10 + 20) / 255.0, 0, 1}, 1e-6);
-    // 2^1.5 as large: half way between levels 1 and 2, on whose ramps both agree.
+    // A third of the size: means of three pixels.
     const auto ramp = [](int x, int) { return x * 16; };
-    const double size = std::exp2(-1.5);
-    const auto between = draw(sceneOf({{fillAll(greens(ImageFilter::Trilinear, size, ramp))}}));
-    expectPixel(between, 2, 1, {0, (2.5 / size - 0.5) * 16 / 255, 0, 1}, 1e-6);
+    const auto third = draw(sceneOf({{fillAll(greens(ImageFilter::Trilinear, 1.0 / 3, ramp))}}));
+    expectPixel(third, 2, 1, {0, 7 * 16 / 255.0, 0, 1}, 1e-6);
+    // 4 / 15 of it: pixel 2 is [7.5, 11.25], half of it read there, half on level 1.
+    const auto between = draw(sceneOf({{fillAll(greens(ImageFilter::Trilinear, 4.0 / 15, ramp))}}));
+    const double pixels = (7 * 0.5 + 8 + 9 + 10 + 11 * 0.25) / 3.75,
+                 level = (6.5 * 0.25 + 8.5 + 10.5 * 0.625) / 1.875;
+    expectPixel(between, 2, 1, {0, (pixels + level) / 2 * 16 / 255, 0, 1}, 1e-6);
     // So small that there is one texel.
     const auto tiny = draw(sceneOf({{fillAll(greens(ImageFilter::Bicubic, 1.0 / 64, ramp))}}));
     expectPixel(tiny, 4, 4, {0, 7.5 * 16 / 255, 0, 1}, 1e-6);

@@ -250,8 +250,7 @@ struct GradientStop {
 enum class ImageFilter : std::uint32_t {
     Nearest,
     Bilinear,
-    Trilinear,  ///< bilinear in the two mip levels next to the footprint's shorter axis, at points along its
-                ///< longer axis
+    Trilinear,  ///< means of squares as wide as the footprint's shorter axis, at points along its longer axis
     Bicubic     ///< the same, with the Catmull-Rom kernel in the full-size image
 };
 

@@ -67,7 +67,8 @@ struct Pattern {
 enum class ImageFilter {
     Nearest,    ///< the pixel at the point
     Bilinear,   ///< interpolates the 2 × 2 nearest pixels; aliases when minified
-    Trilinear,  ///< Bilinear when magnified; when minified, between levels of means over 2^l × 2^l pixels
+    Trilinear,  ///< Bilinear when magnified; when minified, the mean over the pixel, of levels 2^l × 2^l
+                ///< pixels
     Bicubic     ///< as Trilinear, but the bitmap itself is read with a Catmull-Rom kernel of 4 × 4 pixels
 };
 
