@@ -61,6 +61,7 @@ Asset toAsset(const AssetView& view) {
             .filterPrimitives = copied(view.filterPrimitives),
             .filterWords = copied(view.filterWords),
             .fallbackLeaves = view.fallbackLeaves,
+            .filterPixels = view.filterPixels,
             .prefilter = {view.prefilter.size, copied(view.prefilter.texels)},
             .finestPixel = view.finestPixel,
             .font = view.font,

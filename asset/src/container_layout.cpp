@@ -34,7 +34,8 @@ constexpr std::array<const char*, 20> names{"picture",
 }  // namespace
 
 std::string nameOf(SectionKind kind) {
-    constexpr std::array<const char*, 4> ignorable{"accuracy", "font", "glyphs", "glyph parts"};
+    constexpr std::array<const char*, 5> ignorable{"accuracy", "font", "glyphs", "glyph parts",
+                                                   "drawn filters"};
     const auto index = std::size_t(kind);
     if (index >= ignorableBit && index - ignorableBit < ignorable.size())
         return ignorable[index - ignorableBit];

@@ -62,7 +62,8 @@ enum class SectionKind : std::uint32_t {
     Accuracy = 0x80000000u,  ///< a reader may do without it and those that follow
     Font,
     Glyphs,
-    GlyphParts
+    GlyphParts,
+    DrawnFilters
 };
 /// Sections up to this one stand in every file, empty or not; those after it only where they are not
 /// empty.
@@ -99,6 +100,13 @@ struct AccuracyRecord {
     std::uint64_t unused = 0;
 };
 static_assert(sizeof(AccuracyRecord) == 16);
+
+/// Of filters that were drawn when the picture was compiled.
+struct DrawnFiltersRecord {
+    std::uint32_t pixels = 0;  ///< along the picture's longer side
+    std::uint32_t unused[3] = {};
+};
+static_assert(sizeof(DrawnFiltersRecord) == 16);
 
 constexpr std::uint64_t alignedOffset(std::uint64_t offset) {
     return (offset + sectionAlignment - 1) / sectionAlignment * sectionAlignment;

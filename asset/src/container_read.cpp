@@ -138,6 +138,16 @@ void readAccuracy(const Sections& sections, AssetView& view) {
     view.finestPixel = records[0].finestPixel;
 }
 
+void readDrawnFilters(const Sections& sections, AssetView& view) {
+    const auto records = sections.take<DrawnFiltersRecord>(SectionKind::DrawnFilters);
+    if (records.empty())
+        return;
+    asset::require(records.size() == 1, "drawn filters", records.size(), "must be one record");
+    asset::require(std::ranges::count(records[0].unused, 0u) == 3, "drawn filters", 0,
+                   "unused word is not zero");
+    view.filterPixels = records[0].pixels;
+}
+
 void readFont(const Sections& sections, AssetView& view) {
     const auto records = sections.take<Font>(SectionKind::Font);
     asset::require(records.size() <= 1, "font", records.size(), "must be one record");
@@ -177,6 +187,7 @@ Contents openContents(Bytes bytes) {
     view.filterWords = sections.take<std::uint32_t>(SectionKind::FilterWords);
     readAccuracy(sections, view);
     readFont(sections, view);
+    readDrawnFilters(sections, view);
     validate(view);
     return contents;
 }

@@ -85,6 +85,9 @@ std::vector<std::uint8_t> write(const AssetView& asset) {
         sections.push_back(section(SectionKind::Font, std::span(&*asset.font, 1)));
     addUnlessEmpty(SectionKind::Glyphs, asset.glyphs);
     addUnlessEmpty(SectionKind::GlyphParts, asset.glyphParts);
+    const DrawnFiltersRecord drawnFilters{asset.filterPixels};
+    if (asset.filterPixels != 0)
+        sections.push_back(section(SectionKind::DrawnFilters, std::span(&drawnFilters, 1)));
     return assemble(sections);
 }
 

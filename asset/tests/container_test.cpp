@@ -19,6 +19,7 @@ TEST(Container, ReadsWhatItWrote) {
         EXPECT_EQ(write(copy), write(asset));
         EXPECT_EQ(copy.commands.size(), asset.commands.size());
         EXPECT_EQ(copy.fallbackLeaves, asset.fallbackLeaves);
+        EXPECT_EQ(copy.filterPixels, asset.filterPixels);
         EXPECT_EQ(copy.prefilter.size, asset.prefilter.size);
         EXPECT_EQ(copy.prefilter.texels, asset.prefilter.texels);
         EXPECT_EQ(copy.font.has_value(), asset.font.has_value());
@@ -57,7 +58,7 @@ TEST(Container, ListsItsSections) {
     }
     EXPECT_EQ(names, (std::vector<std::string>{"picture", "maps", "commands", "nodes", "leaves", "pieces",
                                                "paints", "data", "images", "image bytes", "prefilter",
-                                               "materials", "material bytes"}));
+                                               "materials", "material bytes", "drawn filters"}));
     EXPECT_EQ(sectionsOf(write(disc())).size(), 10u);
 }
 

@@ -88,6 +88,7 @@ Asset everySection() {
     Asset asset = everyPaint();
     asset.images.push_back({32, 32, Bytes(32 * 32 * 4, 77)});
     asset.fallbackLeaves = 3;
+    asset.filterPixels = 512;
     asset.prefilter.size = {4, 3};
     for (std::uint8_t i = 0; i < 4 * 3 + 2 * 1 + 1; ++i)
         asset.prefilter.texels.push_back({i, 20, 30, std::uint8_t(200 + i)});

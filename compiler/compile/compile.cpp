@@ -239,11 +239,11 @@ Lowered withoutInstances(LoweredScene picture) {
 }
 
 Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
-                      const Options& options) {
+                      const Options& options, DrawnTiles* tiles) {
     // Where coverage is a factor, fills end where they are told to.
     const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
     const ErrorBudget budget = errorBudget(options);
-    PatternImages images(options, std::max(excerpt.width, excerpt.height));
+    PatternImages images(options, std::max(excerpt.width, excerpt.height), tiles);
     if (!options.instances || options.mode != asset::Mode::Exact || excerpt.isPart)
         return withoutInstances(
             lower(scene, excerpt, lattice, budget, sharing, nullptr, nullptr, nullptr, &images));
@@ -276,10 +276,11 @@ Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const L
     return lowered;
 }
 
-Result compilePlain(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
+Result compilePlain(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                    DrawnTiles* tiles) {
     const auto start = Clock::now();
     const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
-    auto [picture, placed, placedPaints] = lowerAndPlace(scene, excerpt, lattice, options);
+    auto [picture, placed, placedPaints] = lowerAndPlace(scene, excerpt, lattice, options, tiles);
     const auto lowered = Clock::now();
 
     Result result;
@@ -310,9 +311,13 @@ Result compilePlain(const scene::Scene& scene, const Excerpt& excerpt, const Opt
 
 }  // namespace
 
-Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
-    return hasFilters(scene) ? compileFiltered(scene, excerpt, options, compilePlain)
-                             : compilePlain(scene, excerpt, options);
+Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                      DrawnTiles* tiles) {
+    const auto plain = [tiles](const scene::Scene& part, const Excerpt& of, const Options& how) {
+        return compilePlain(part, of, how, tiles);
+    };
+    return hasFilters(scene) ? compileFiltered(scene, excerpt, options, plain)
+                             : plain(scene, excerpt, options);
 }
 
 }  // namespace vtm::compiler

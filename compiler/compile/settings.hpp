@@ -23,7 +23,11 @@ double finestPixel(const Result& result);
 /// Result::warnings; `colourError`: of encodePalette.
 std::vector<std::string> warningsOf(const Result& result, const Options& options, float colourError);
 
-/// As compile, which does it for the whole of a scene; that must be valid.
-Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options);
+class DrawnTiles;
+
+/// As compile, which does it for the whole of a scene; that must be valid. `tiles`: of a pattern's tile,
+/// which becomes an image (patterns/pattern_images.hpp).
+Result compileExcerpt(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                      DrawnTiles* tiles = nullptr);
 
 }  // namespace vtm::compiler

@@ -61,6 +61,7 @@ public:
         else
             part.root.children.push_back(imageOf({root}, frame_));
         Result result = compilePlain_(part, excerpt_, options_);
+        result.asset.filterPixels = options_.filterPixels;
         result.warnings.push_back("what is filtered is an image, drawn with " +
                                   std::to_string(options_.filterPixels) +
                                   " pixels along the picture's longer side");

@@ -202,7 +202,7 @@ public:
           patterns_(patterns),
           layersAt_(picture, lattice.square()) {}
 
-    TileChoice choose(std::size_t number) const {
+    TileChoice choose(std::size_t number) {
         const TilePattern& pattern = patterns_[number];
         TileGrid grid(pattern, lattice_, size_);
         for (const Layer& layer : picture_.layers)
@@ -233,8 +233,10 @@ public:
             for (std::int64_t x = 0; x < grid.size().x; ++x)
                 if (!grid.isFree({x, y}) && grid.isSeen({x, y}))
                     cut.push_back(i64vec2(x, y) + pattern.first);
-        if (double(cut.size()) * (1 + pattern.tilesInTile) > double(maxTiles))
+        const double tiles = double(cut.size() + 1) * (1 + pattern.tilesInTile);
+        if (tiles > double(maxTiles) || cutInAll_ + tiles > double(maxCutTiles))
             return {.cut = {}, .blocks = {}, .isImage = true};
+        cutInAll_ += tiles;
         if (!choice.blocks.empty())
             choice.cut.push_back(choice.blocks.front().at);
         std::ranges::sort(cut, {}, [](i64vec2 p) { return std::pair(p.y, p.x); });
@@ -285,6 +287,7 @@ private:
     }
 
     const double tolerance_;
+    double cutInAll_ = 0;
     const LoweredScene& picture_;
     const Lattice& lattice_;
     const dvec2 size_;
@@ -296,7 +299,7 @@ private:
 
 std::vector<TileChoice> chooseTiles(const LoweredScene& picture, const Lattice& lattice, dvec2 size,
                                     std::span<const TilePattern> patterns, double tolerance) {
-    const Choosing choosing(picture, lattice, size, patterns, tolerance);
+    Choosing choosing(picture, lattice, size, patterns, tolerance);
     std::vector<TileChoice> choices;
     for (std::size_t i = 0; i < patterns.size(); ++i)
         choices.push_back(choosing.choose(i));

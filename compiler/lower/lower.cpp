@@ -38,6 +38,7 @@ public:
           origins_(origins),
           tiles_(tiles),
           images_(images),
+          shown_(frame_),
           paints_(picture_, excerpt) {
         if (cache_)
             picture_.outlines = cache_->take();
@@ -202,20 +203,22 @@ private:
         const std::uint32_t shape = geometryLayer(item, transform);
         const Affine toPicture = compose(transform, pattern.transform);
         const auto toPattern = scene::inverse(toPicture);
-        const Box seen = bounds(picture_.layers[shape]).intersection(tileBox_.value_or(frame_));
+        const Box inTile = bounds(picture_.layers[shape]).intersection(shown_);
+        // A tile that is placed shows all of it.
+        const Box seen = isPlacedTile_ ? inTile : inTile.intersection(frame_);
         if (!toPattern || seen.empty())
             return;
         const TileRange range = tilesIn(geometry::mapped(seen, *toPattern), pattern);
         const TileContent content = tileCounter_.inOneTile(pattern);
-        const double count = range.count(), inTile = content.tiles, inAll = count * (1 + inTile);
-        const auto asImage = [&] { patternImage(item, pattern, toPicture, {shape, inAll, seen}, into); };
+        const double count = range.count(), inAll = count * (1 + content.tiles);
+        const auto asImage = [&] { patternImage(item, pattern, toPicture, {shape, inAll, inTile}, into); };
         const double segments = count * std::max(content.segments, 1.0);
         const bool canPlace = tiles_ && !isPlacedTile_ && tiles_->patterns.size() < maxPlacedFills &&
                               segmentsPlaced_ + segments <= double(maxPlacedSegments);
-        if (canPlace && (count > fewTiles || (inAll > fewTiles && inTile <= double(maxTilesInTile)))) {
+        if (canPlace && (count > fewTiles || (inAll > fewTiles && content.tiles <= double(maxTilesInTile)))) {
             segmentsPlaced_ += segments;
             tiles_->patterns.push_back({toPicture, pattern.min, pattern.max, glm::i64vec2(range.first),
-                                        glm::i64vec2(range.last), shape, inTile});
+                                        glm::i64vec2(range.last), shape, content.tiles});
             if (!tiles_->chosen)
                 return;
             const TilePlan::Chosen& chosen = (*tiles_->chosen)[tiles_->patterns.size() - 1];
@@ -224,9 +227,10 @@ private:
             tiles_->firstTiles.emplace_back();
             return asImage();
         }
-        tilesLowered_ += count;
         const TileLimits limits = images_ ? images_->limits() : TileLimits{};
         const double limit = isPlacedTile_ ? maxTilesInTile : limits.ofFill;
+        // Fills are planned in the same order each time, so what placed tiles hold does not count.
+        tilesLowered_ += isPlacedTile_ ? 0 : count;
         // Where few tiles hold many, these are placed.
         if ((!canPlace && !(inAll <= limit)) || !(tilesLowered_ <= limits.ofAll))
             return asImage();
@@ -273,13 +277,12 @@ private:
 
     void patternImage(const scene::Item& item, const scene::Pattern& pattern, const Affine& toPicture,
                       const PatternFill& fill, std::uint32_t into) {
-        const auto image =
-            images_ ? images_->paint(pattern, toPicture, fill.seen, tileBox_.value_or(frame_)) : std::nullopt;
+        const auto image = images_ ? images_->paint(pattern, toPicture, fill.seen, shown_) : std::nullopt;
         const auto source = image ? paints_.add(*image, scene::identity) : std::nullopt;
         if (!source)
             return leaveOut(
                 fmt::format("a pattern needs {:.6g} tiles; the limit is {}", fill.tiles, maxTiles));
-        warn(fmt::format("a pattern of {:.6g} tiles is drawn as an image", fill.tiles));
+        warn("a pattern has too many tiles and is drawn as an image");
         paint(fill.shape, item, *source, into);
     }
 
@@ -292,10 +295,13 @@ private:
         const std::uint32_t index = openGroup(into);
         const std::uint32_t cut = layer({border, toPicture}, scene::FillRule::NonZero);
         picture_.groups[index].clip = addClip({{{cut, noIndex, false}}, noIndex});
-        const auto outer =
-            std::exchange(tileBox_, geometry::mapped(Box{pattern.min, pattern.max}, toPicture));
+        const Box box = geometry::mapped(Box{pattern.min, pattern.max}, toPicture);
+        // Tiles share what is drawn for one of them, unless they are far larger than the picture.
+        constexpr double most = 4;
+        const bool isShared = box.width() * box.height() <= most * frame_.width() * frame_.height();
+        const Box outer = std::exchange(shown_, isShared ? box : box.intersection(frame_));
         group(*pattern.content, toPicture, openGroup(index));
-        tileBox_ = outer;
+        shown_ = outer;
     }
 
     /// Of an item or a shape.
@@ -408,9 +414,9 @@ private:
     PatternImages* const images_;
     TileCounter tileCounter_;
     double segmentsPlaced_ = 0, tilesLowered_ = 0;
-    bool isPlacedTile_ = false;   ///< of what is being lowered
-    std::optional<Box> tileBox_;  ///< round the tile that is being lowered
-    limits::Place place_;         ///< of what is being lowered
+    bool isPlacedTile_ = false;  ///< of what is being lowered
+    Box shown_;                  ///< of what is being lowered: the picture or a tile
+    limits::Place place_;        ///< of what is being lowered
     LoweredScene picture_;
     PaintTable paints_;
 };

@@ -39,6 +39,7 @@ inline constexpr std::size_t maxTilesInTile = 16'000;  ///< of a fill in a tile 
 /// Of all fills whose tiles are placed as maps: a million rectangles. They are drawn one by one, which takes
 /// a GL driver a GB.
 inline constexpr std::size_t maxPlacedSegments = std::size_t(1) << 22;
+inline constexpr std::size_t maxCutTiles = 4 * maxTiles;  ///< of these, that are lowered one by one
 inline constexpr std::size_t maxPlacedFills = 256;
 
 /// Outlines: a fill right below an opaque stroke of its own path may take an outline of the stroke's for its

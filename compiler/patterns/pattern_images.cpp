@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -21,7 +22,7 @@ using scene::Point;
 
 /// Along the picture's longer side: a tile of a pattern of 20 000 has 14 pixels.
 constexpr double pixelsAlongPicture = 2048;
-constexpr double maxTileSide = 2048, maxSide = 4096, maxPixels = 0x1p26;
+constexpr double maxTileSide = 2048, maxSide = 4096, maxPixels = 0x1p25;
 /// So many samples of a tile, along each axis, make a pixel, and a sample is a pixel of the tile.
 constexpr int samples = 2;
 /// What is drawn beside what is needed, as a share of it: filters read beyond a pixel, and tiles that are the
@@ -31,7 +32,7 @@ constexpr double room = 1.0 / 64;
 constexpr double tolerance = 0x1p-17;
 
 /// One tile alone.
-image::Raster drawnTile(const scene::Pattern& pattern, glm::ivec2 size, Options options) {
+image::Raster drawnTile(const scene::Pattern& pattern, glm::ivec2 size, Options options, DrawnTiles& tiles) {
     scene::Scene scene;
     scene.width = scene.height = 1;  // the excerpt says what is drawn
     scene.root.children = pattern.content->children;
@@ -43,7 +44,7 @@ image::Raster drawnTile(const scene::Pattern& pattern, glm::ivec2 size, Options 
     options.mode = asset::Mode::Exact;
     options.tolerance = tolerance;
     options.filterPixels = 0;
-    return asset::evaluate(compileExcerpt(scene, excerpt, options).asset, {size.x, size.y});
+    return asset::evaluate(compileExcerpt(scene, excerpt, options, &tiles).asset, {size.x, size.y});
 }
 
 /// A tile that is repeated.
@@ -98,8 +99,22 @@ Box moved(const Box& box, Point by) { return {box.min + by, box.max + by}; }
 
 }  // namespace
 
-PatternImages::PatternImages(const Options& options, double longerSide)
-    : options_(options), scale_(pixelsAlongPicture / longerSide) {}
+std::shared_ptr<const image::Raster> DrawnTiles::tile(const scene::Pattern& pattern, glm::ivec2 size,
+                                                      const Options& options) {
+    for (const Tile& tile : tiles_)
+        if (tile.content == pattern.content && tile.min == pattern.min && tile.max == pattern.max &&
+            tile.size == size)
+            return tile.pixels;
+    auto pixels = std::make_shared<const image::Raster>(drawnTile(pattern, size, options, *this));
+    tiles_.push_back({pattern.content, pattern.min, pattern.max, pixels, size});
+    return pixels;
+}
+
+PatternImages::PatternImages(const Options& options, double longerSide, DrawnTiles* outer)
+    : options_(options),
+      tiles_(outer ? *outer : own_),
+      scale_(std::min(pixelsAlongPicture / longerSide,
+                      outer ? double(samples) : std::numeric_limits<double>::infinity())) {}
 
 TileLimits PatternImages::limits() const {
     // Layer by layer each tile is a group, a hundred times as slow to draw; images are what other renderers
@@ -139,8 +154,8 @@ std::optional<PatternImages::Drawn> PatternImages::drawn(const scene::Pattern& p
     pixels_ += size.x * size.y;
     const Point period = pattern.max - pattern.min;
     const Point tilePixels = scale_ * period * Point(glm::length(toPicture[0]), glm::length(toPicture[1]));
-    const image::Raster tile = drawnTile(
-        pattern, glm::ivec2(glm::clamp(glm::ceil(double(samples) * tilePixels), 1.0, maxTileSide)), options_);
+    const glm::ivec2 tileSize(glm::clamp(glm::ceil(double(samples) * tilePixels), 1.0, maxTileSide));
+    const auto tile = tiles_.tile(pattern, tileSize, options_);
     const Point pixel = (box.max - box.min) / size;
     const Affine toBox{pixel.x, 0, 0, pixel.y, box.min.x, box.min.y};
     const Affine toTiles = scene::compose(
@@ -148,7 +163,7 @@ std::optional<PatternImages::Drawn> PatternImages::drawn(const scene::Pattern& p
         scene::compose(*scene::inverse(toPicture), toBox));
     scene::ImagePaint paint;
     paint.bitmap =
-        std::make_shared<const image::Bitmap>(image::toBitmap(tiled(tile, glm::ivec2(size), toTiles)));
+        std::make_shared<const image::Bitmap>(image::toBitmap(tiled(*tile, glm::ivec2(size), toTiles)));
     paint.transform = toBox;
     return Drawn{pattern, toPicture, box, std::move(paint)};
 }

@@ -3,10 +3,12 @@
 /// or placed.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <vtm/compiler/compile.hpp>
+#include <vtm/image/bitmap.hpp>
 #include "compiler/lower/lower.hpp"
 #include "geometry/box.hpp"
 
@@ -17,10 +19,29 @@ struct TileLimits {
     double ofFill = maxTiles, ofAll = 10 * maxTiles;  ///< of one fill, of all fills
 };
 
+/// Tiles that have been drawn. Those of patterns in patterns are drawn once, however often they are asked
+/// for.
+class DrawnTiles {
+public:
+    /// So many pixels.
+    std::shared_ptr<const image::Raster> tile(const scene::Pattern& pattern, glm::ivec2 size,
+                                              const Options& options);
+
+private:
+    struct Tile {
+        scene::Link<scene::Group> content;  ///< kept, so that no other has its address
+        scene::Point min, max;
+        std::shared_ptr<const image::Raster> pixels;
+        glm::ivec2 size;
+    };
+    std::vector<Tile> tiles_;
+};
+
 class PatternImages {
 public:
-    /// For a picture whose longer side is so many units.
-    PatternImages(const Options& options, double longerSide);
+    /// For a picture whose longer side is so many units. `outer`: of a tile that is drawn, whose units are
+    /// pixels; null for others.
+    PatternImages(const Options& options, double longerSide, DrawnTiles* outer);
 
     TileLimits limits() const;
 
@@ -42,6 +63,8 @@ private:
                                geometry::Box box);
 
     const Options options_;
+    DrawnTiles own_;
+    DrawnTiles& tiles_;
     const double scale_;  ///< pixels per unit
     double pixels_ = 0;   ///< of all images
     std::vector<Drawn> drawn_;

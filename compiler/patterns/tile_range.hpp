@@ -19,10 +19,14 @@ struct TileRange {
     double count() const { return (last.x - first.x + 1) * (last.y - first.y + 1); }
 };
 
-/// Those that meet a box of the pattern's space, which must not be empty.
+/// Those that meet a box of the pattern's space, which must not be empty, in more than a millionth of the
+/// box.
 inline TileRange tilesIn(const geometry::Box& box, const scene::Pattern& pattern) {
-    const glm::dvec2 period = pattern.max - pattern.min;
-    return {glm::floor((box.min - pattern.min) / period), glm::floor((box.max - pattern.min) / period)};
+    constexpr double millionth = 0x1p-20;
+    const glm::dvec2 period = pattern.max - pattern.min, slack = millionth * (box.max - box.min);
+    const glm::dvec2 first = glm::floor((box.min + slack - pattern.min) / period),
+                     end = glm::ceil((box.max - slack - pattern.min) / period);
+    return {first, glm::max(first, end - 1.0)};
 }
 
 /// What one tile holds, of patterns in it and in these too.

@@ -49,7 +49,9 @@ Json figures(const asset::Asset& asset) {
             {"regions", summary.regions},
             {"instances", summary.instances},
             {"glyphs", summary.glyphs},
+            {"images", asset.images.size()},
             {"filters", asset.filters.size()},
+            {"filter_pixels", asset.filterPixels},
             {"max_depth", summary.maxDepth}};
 }
 

@@ -275,6 +275,17 @@ class CompileAndInfo(Drawing):
         self.assertIn("leaves: ", text)
         self.assertRegex(text, r"proven_error: [1-9]\.\d+e-0[56]")
 
+    def test_filters_that_are_drawn(self):
+        drawing = self.folder / "blurred.svg"
+        drawing.write_text('<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><filter id="f">'
+                           '<feGaussianBlur stdDeviation="1"/></filter>'
+                           '<rect x="2" y="2" width="5" height="5" filter="url(#f)"/></svg>')
+        for pixels, filters, images in (0, 1, 0), (64, 0, 1):
+            self.vtm("compile", drawing, "-o", "blurred.vtm", "--filter-pixels", str(pixels))
+            report = json.loads(self.vtm("info", "blurred.vtm", "--json").stdout)
+            self.assertEqual((report["filter_pixels"], report["filters"], report["images"]),
+                             (pixels, filters, images))
+
     def test_prefilter(self):
         """The size of a real drawing's, its bytes beside those of the tree, and the last level's mean."""
         drawing = pathlib.Path(__file__).resolve().parents[2] / "examples" / "rose_window.svg"

@@ -434,7 +434,9 @@ struct Asset {
     std::vector<FilterPrimitive> filterPrimitives;
     std::vector<std::uint32_t> filterWords;
     std::uint32_t fallbackLeaves = 0;  ///< leaves filled with a mean of samples, larger than the tolerance
-    Prefilter prefilter;               ///< for minification; optional (vtm/raster/prefilter.hpp)
+    /// Where filters were drawn when the picture was compiled: so many pixels along its longer side; else 0.
+    std::uint32_t filterPixels = 0;
+    Prefilter prefilter;  ///< for minification; optional (vtm/raster/prefilter.hpp)
     /// How far the asset may be magnified: the side, in user units, of the smallest pixel for which every
     /// drawn boundary lies within a sixteenth of a pixel of the scene's. 0: any size. Empty if unknown, as in
     /// files written before the format stored it. Images and gradients have limits of their own.
@@ -470,6 +472,7 @@ struct AssetView {
     std::span<const FilterPrimitive> filterPrimitives;
     std::span<const std::uint32_t> filterWords;
     std::uint32_t fallbackLeaves = 0;
+    std::uint32_t filterPixels = 0;
     PrefilterView prefilter;
     std::optional<double> finestPixel;
     std::optional<Font> font;
@@ -498,6 +501,7 @@ struct AssetView {
           filterPrimitives(a.filterPrimitives),
           filterWords(a.filterWords),
           fallbackLeaves(a.fallbackLeaves),
+          filterPixels(a.filterPixels),
           prefilter{a.prefilter.size, a.prefilter.texels},
           finestPixel(a.finestPixel),
           font(a.font),
