@@ -46,7 +46,8 @@ Report filters(const Options& options) {
         "CPU milliseconds (user and system, all threads) from the file to pixels, {} wide, medians, all "
         "taking turns in one run; in brackets how many times as long as `{}`. The first pictures are one "
         "drawing of 512 units with one filter each. On software drivers `gl` computes filters on the CPU, "
-        "`shaders` by passes. The last two rows are drawn again and do not read the file.\n",
+        "`shaders` by passes. The last two rows are drawn again and do not read the file. Qt draws SVG Tiny, "
+        "without filters, and librsvg 2.54 has no feDropShadow: what they draw there is another picture.\n",
         options.side, reference(all).engine->name());
     report.text += descriptionsOf(all);
     const std::vector<File> files = picturesIn(folder, report.notes);
