@@ -244,9 +244,12 @@ Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const L
     const Sharing sharing = options.mode == asset::Mode::Exact ? Sharing::Outlines : Sharing::None;
     const ErrorBudget budget = errorBudget(options);
     PatternImages images(options, std::max(excerpt.width, excerpt.height), tiles);
-    if (!options.instances || options.mode != asset::Mode::Exact || excerpt.isPart)
+    const auto flat = [&] {
         return withoutInstances(
             lower(scene, excerpt, lattice, budget, sharing, nullptr, nullptr, nullptr, &images));
+    };
+    if (!options.instances || options.mode != asset::Mode::Exact || excerpt.isPart)
+        return flat();
     const glm::dvec2 size(excerpt.width, excerpt.height);
     Lowered lowered;
     std::vector<LayerOrigin> origins;
@@ -270,8 +273,7 @@ Lowered lowerAndPlace(const scene::Scene& scene, const Excerpt& excerpt, const L
     }
     auto placed = placeSymbols(lowered.picture, origins, fills, lattice, size, options, lowered.paints);
     if (!placed)
-        return withoutInstances(
-            lower(scene, excerpt, lattice, budget, sharing, nullptr, nullptr, nullptr, &images));
+        return flat();
     lowered.placed = std::move(*placed);
     return lowered;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -369,7 +371,7 @@ private:
     /// Tiles say the same again and again.
     void warn(const std::string& what) {
         std::string warning = fmt::format("{}:{}: {}", place_.line, place_.column, what);
-        if (std::ranges::find(picture_.warnings, warning) == picture_.warnings.end())
+        if (warned_.insert(warning).second)
             picture_.warnings.push_back(std::move(warning));
     }
 
@@ -412,6 +414,7 @@ private:
     std::vector<LayerOrigin>* const origins_;
     TilePlan* const tiles_;
     PatternImages* const images_;
+    std::unordered_set<std::string> warned_;
     TileCounter tileCounter_;
     double segmentsPlaced_ = 0, tilesLowered_ = 0;
     bool isPlacedTile_ = false;  ///< of what is being lowered
