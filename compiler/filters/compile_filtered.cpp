@@ -368,12 +368,10 @@ private:
             return std::clamp(std::ceil(length * lengthOf(axis) * pixels), 1.0, maxBakedSide);
         };
         const scene::Point size(side(box.width(), toExcerpt[0]), side(box.height(), toExcerpt[1]));
-        const scene::Point scale = size / (box.max - box.min);
         scene::Scene part;
         part.width = part.height = 1;
         part.root.children.push_back({content});
-        const Excerpt excerpt{
-            {scale.x, 0, 0, scale.y, -scale.x * box.min.x, -scale.y * box.min.y}, size.x, size.y, false};
+        const Excerpt excerpt = inPixels(box.min, box.max, size);
         Options options = options_;
         options.filterPixels = 0;
         const Result drawn = compileFiltered(part, excerpt, options, compilePlain_);

@@ -25,6 +25,11 @@ struct Excerpt {
     /// A small part of the scene: strokes are cut down to what is near, and gradients to the colours in it.
     bool isPart = false;
 };
+/// The scene's box from min to max as a picture of so many pixels, whose units they are.
+inline Excerpt inPixels(scene::Point min, scene::Point max, scene::Point pixels) {
+    const scene::Point scale = pixels / (max - min);
+    return {{scale.x, 0, 0, scale.y, -scale.x * min.x, -scale.y * min.y}, pixels.x, pixels.y, false};
+}
 inline Excerpt wholeOf(const scene::Scene& scene) {
     return {scene::identity, scene.width, scene.height, false};
 }

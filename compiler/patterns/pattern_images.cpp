@@ -36,11 +36,7 @@ image::Raster drawnTile(const scene::Pattern& pattern, glm::ivec2 size, Options 
     scene::Scene scene;
     scene.width = scene.height = 1;  // the excerpt says what is drawn
     scene.root.children = pattern.content->children;
-    const Point scale = Point(size) / (pattern.max - pattern.min);
-    const Excerpt excerpt{{scale.x, 0, 0, scale.y, -scale.x * pattern.min.x, -scale.y * pattern.min.y},
-                          double(size.x),
-                          double(size.y),
-                          false};
+    const Excerpt excerpt = inPixels(pattern.min, pattern.max, Point(size));
     options.mode = asset::Mode::Exact;
     options.tolerance = tolerance;
     options.filterPixels = 0;
