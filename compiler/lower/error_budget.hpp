@@ -47,6 +47,11 @@ public:
         return outlineShare * tolerance_ + lattice(bend) +
                (slivers ? std::max(fitted, sliver(level)) : fitted);
     }
+    /// Leaves of that level whose edges are bent by more do not hold, whatever else they are.
+    double maxBend(unsigned level) const {
+        constexpr double rounding = 1e-6;  // of sums of steps, far below a step
+        return (1 - outlineShare) * tolerance_ - lattice(0) - fit() - quantisation(level) + rounding;
+    }
     /// The sum of all stages for a planar map whose edges are drawn as they are, snapped with that bend.
     double planar(double bend) const { return outlineShare * tolerance_ + lattice(bend); }
     /// Of a leaf that is filled with one colour: an outline runs through it, so all of it is within its

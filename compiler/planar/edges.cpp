@@ -82,6 +82,8 @@ void EdgeCutter::run(EdgeSet& set, std::vector<Cut>& cuts) {
         recheck({first, s});
     }
     beginParts(set);
+    std::sort(rechecked_.begin(), rechecked_.end());
+    rechecked_.erase(std::unique(rechecked_.begin(), rechecked_.end()), rechecked_.end());
 }
 
 /// Has an edge checked again that cuts another one near a neighbouring cut of the same chord: that one may
@@ -163,12 +165,41 @@ bool EdgeCutter::partsMeet(const EdgeSet& set, std::span<const EdgePair> close,
                        [&](const auto& pair) { return meet(pair.first, pair.second); });
 }
 
+namespace {
+
+/// How far rounding may move the parts of an edge past each other.
+constexpr Coord rounded = 4;
+
+/// Numbers first to end - 1 of edges that lie one after the other in y, but for what rounding moved them: the
+/// first that may reach into low to high.
+std::uint32_t firstReaching(const EdgeSet& set, std::uint32_t first, std::uint32_t end, bool rises, Coord low,
+                            Coord high) {
+    const auto isPast = [&](std::uint32_t k) {
+        const Edge& e = set.edges[k];
+        return rises ? std::max(e.a.y, e.b.y) + rounded < low : std::min(e.a.y, e.b.y) - rounded > high;
+    };
+    while (first < end) {
+        const std::uint32_t middle = first + (end - first) / 2;
+        if (isPast(middle))
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
+}
+
+}  // namespace
+
 /// Whether a new chord of a part of edge e, as it was, meets a part of edge f. The parts of both lie one
-/// after the other in x, but for what rounding moved them.
+/// after the other in x and in y, but for what rounding moved them.
 bool EdgeCutter::newMeet(const EdgeSet& set, std::uint32_t e, std::uint32_t f) const {
-    constexpr Coord rounded = 4;
     std::uint32_t first = parts_[f].edge;
     const std::uint32_t end = parts_[f + 1].edge;
+    if (first == end)
+        return false;
+    const LatticePoint from = set.edges[first].a, to = set.edges[end - 1].b;
+    if (std::abs(std::int64_t{to.y} - from.y) > std::int64_t{to.x} - from.x)
+        return newMeetUpright(set, e, f);
     for (std::uint32_t k = parts_[e].newChord; k < parts_[e + 1].newChord; ++k) {
         const NewChord& chord = newChords_[k];
         const Coord left = set.vertices[chord.first].x - rounded,
@@ -178,6 +209,27 @@ bool EdgeCutter::newMeet(const EdgeSet& set, std::uint32_t e, std::uint32_t f) c
         for (std::uint32_t j = first; j < end && set.edges[j].a.x <= right; ++j)
             if (meetsPart(set, set.edges[chord.edge], chord.first, set.edges[j]))
                 return true;
+    }
+    return false;
+}
+
+/// The same where f is upright, so that many of its parts are in one column.
+bool EdgeCutter::newMeetUpright(const EdgeSet& set, std::uint32_t e, std::uint32_t f) const {
+    const std::uint32_t begin = parts_[f].edge, end = parts_[f + 1].edge;
+    const bool rises = set.edges[end - 1].b.y > set.edges[begin].a.y;
+    for (std::uint32_t k = parts_[e].newChord; k < parts_[e + 1].newChord; ++k) {
+        const NewChord& chord = newChords_[k];
+        const auto [low, high] = std::minmax(set.vertices[chord.first].y, set.vertices[chord.first + 1].y);
+        // Of parts that are out of order by rounding, one may stand before those that are past.
+        for (std::uint32_t j = firstReaching(set, begin, end, rises, low - rounded, high + rounded); j < end;
+             ++j) {
+            const Edge& part = set.edges[j];
+            if (rises ? std::min(part.a.y, part.b.y) - rounded > high
+                      : std::max(part.a.y, part.b.y) + rounded < low)
+                break;
+            if (meetsPart(set, set.edges[chord.edge], chord.first, part))
+                return true;
+        }
     }
     return false;
 }

@@ -130,6 +130,7 @@ private:
     void beginParts(const EdgeSet& set);
     void part(EdgeSet& set, const Edge& whole, const Cut* from, const Cut* to);
     bool newMeet(const EdgeSet& set, std::uint32_t e, std::uint32_t f) const;
+    bool newMeetUpright(const EdgeSet& set, std::uint32_t e, std::uint32_t f) const;
 
     std::vector<Cut> nextCuts_;
     std::vector<std::uint32_t> firstCuts_;  ///< by edge

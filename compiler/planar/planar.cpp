@@ -29,11 +29,12 @@ struct Planariser::Axis {
 };
 
 const PlanarLeaf& Planariser::run(const Square& square, Points points,
-                                  std::span<const ClippedRun> clippedRuns, RegionPaints& regions) {
+                                  std::span<const ClippedRun> clippedRuns, RegionPaints& regions,
+                                  double maxBend) {
     square_ = square;
     regions_ = &regions;
     leaf_.certified = false;
-    leaf_.set = snapper_.run(square, points, clippedRuns);
+    leaf_.set = snapper_.run(square, points, clippedRuns, maxBend);
     if (!leaf_.set)
         return leaf_;
     leaf_.sides.assign(leaf_.set->edges.size(), {});

@@ -42,10 +42,10 @@ struct PlanarLeaf {
 /// Makes planar leaves; keeps its memory from leaf to leaf.
 class Planariser {
 public:
-    /// `clipped runs` by layer, numbered as `regions`, which stands in this leaf, numbers them. Valid until
-    /// the next call.
+    /// `clipped runs` by layer, numbered as `regions`, which stands in this leaf, numbers them. A leaf whose
+    /// edges are bent by more than `maxBend` is given up. Valid until the next call.
     const PlanarLeaf& run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns,
-                          RegionPaints& regions);
+                          RegionPaints& regions, double maxBend = anyBend);
 
 private:
     struct Axis;

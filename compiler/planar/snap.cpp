@@ -27,7 +27,8 @@ LatticePoint crossing(LatticePoint a, LatticePoint b, std::int64_t atA, std::int
 
 }  // namespace
 
-const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns) {
+const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns,
+                            double maxBend) {
     set_.vertices.clear();
     set_.edges.clear();
     set_.changes.clear();
@@ -40,6 +41,8 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
         if (cuts_.empty())
             return &set_;
         set_.bend += std::sqrt(bentSquare_);
+        if (set_.bend > maxBend)
+            return nullptr;
         cutter_.run(set_, cuts_);
         if (!cutter_.partsMeet(set_, close_, isRechecked_)) {
             merger_.merge(set_);

@@ -2,6 +2,7 @@
 /// Clipping, snapping and merging: from clipped runs to edges that meet only in vertices.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "compiler/planar/clipped_run.hpp"
@@ -12,13 +13,16 @@ namespace vtm::compiler {
 /// Beyond these a leaf is given up, and its caller splits it.
 inline constexpr std::size_t maxLeafEdges = 6000;
 inline constexpr int maxSnapRounds = 60;
+inline constexpr double anyBend = std::numeric_limits<double>::infinity();
 
 /// Turns clipped runs into edges; keeps its memory from leaf to leaf.
 class Snapper {
 public:
     /// The edges of the clipped runs, which all pass through the square's inside; their layers are places in
-    /// the leaf's own list. Nothing if the leaf is beyond its limits. Valid until the next call.
-    const EdgeSet* run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns);
+    /// the leaf's own list. Nothing if the leaf is beyond its limits, or edges are bent by more than
+    /// `maxBend`. Valid until the next call.
+    const EdgeSet* run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns,
+                       double maxBend = anyBend);
 
 private:
     /// The line a→b of an edge, and how far the chain strays from it, as orient(a, b, ·) of its vertices.

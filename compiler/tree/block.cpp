@@ -279,15 +279,16 @@ BlockBuilder::Made BlockBuilder::makeLeaf(const Cell& cell) {
             ++local;
         s.layer = local;
     }
-    const PlanarLeaf& planar = planariser_.run(cell.square, points_, runs_, regions_);
+    const ErrorBudget& budget = options_.budget;
+    const bool maySplit = cell.level < options_.maxDepth && budget.canHold();
+    const PlanarLeaf& planar = planariser_.run(cell.square, points_, runs_, regions_,
+                                               maySplit ? budget.maxBend(cell.level) : anyBend);
     lap(times_.planarise);
     if (!planar.certified)
         return {};
-    const ErrorBudget& budget = options_.budget;
     const FittedLeaf& fitted = fitter_.run(cell.square, planar, budget.fit());
     lap(times_.fit);
     const double error = budget.leaf(cell.level, planar.set->bend, fitted.slivers);
-    const bool maySplit = cell.level < options_.maxDepth && budget.canHold();
     if (fitted.pieces.size() > maxLeafPieces || (maySplit && !budget.holds(error)))
         return {};
     return {&fitted, error};
