@@ -2,10 +2,16 @@
 /// Pictures as rows of bytes.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include <vtm/raster/scan.hpp>
 #include "image/pixel_writer.hpp"
 
 namespace vtm::asset {
+
+/// Writes a run of pixels into the bytes of its row.
+void writeRun(const ColorRun& run, const image::PixelWriter& writer, std::span<std::uint8_t> row);
 
 /// Gives every row of the view to the sink as soon as it is drawn; holds one, not the picture. Calls
 /// limits::progress(). Throws as Scanner::scan and the sink do.

@@ -196,8 +196,10 @@ bool hasGradients(const AssetView& asset) {
 
 }  // namespace
 
-Paints::Paints(const AssetView& asset) : asset_(asset) {
-    auto made = std::make_shared<Made>(asset);
+Paints::Paints(const AssetView& asset) : Paints(asset, std::make_shared<const Images>(asset)) {}
+
+Paints::Paints(const AssetView& asset, std::shared_ptr<const Images> images) : asset_(asset) {
+    auto made = std::make_shared<Made>(asset, std::move(images));
     if (hasGradients(asset)) {
         // All texels as if they were stops: gradients of a hostile file may overlap as they like.
         made->stopColors.reserve(asset.data.size());

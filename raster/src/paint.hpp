@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/mat2x2.hpp>
@@ -27,6 +28,8 @@ struct PaintPlace {
 class Paints {
 public:
     explicit Paints(const AssetView& asset);
+    /// With the asset's images, which were made for another one of the same.
+    Paints(const AssetView& asset, std::shared_ptr<const Images> images);
     /// Those of a map whose paints begin at `first`, which become numbers from 0; what was made is shared.
     Paints from(std::uint32_t first) const;
 
@@ -42,7 +45,7 @@ public:
                 std::span<Float4> colors, const MaterialFunction& materials = {}) const;
 
     const AssetView& asset() const { return asset_; }
-    const Images& images() const { return made_->images; }
+    const Images& images() const { return *made_->images; }
     /// By paint (raster/steepness.hpp).
     std::span<const PaintChange> changes() const { return std::span(made_->changes).subspan(first_); }
     /// Of gradients: by texel of the asset's data, straight, where a stop stands.
@@ -54,9 +57,10 @@ private:
              const MaterialFunction& materials) const;
 
     struct Made {
-        explicit Made(const AssetView& asset) : images(asset), changes(changesOf(asset)) {}
+        Made(const AssetView& asset, std::shared_ptr<const Images> imagesOf)
+            : images(std::move(imagesOf)), changes(changesOf(asset)) {}
 
-        Images images;
+        std::shared_ptr<const Images> images;
         std::vector<PaintChange> changes;
         std::vector<glm::vec4> stopColors;
     };

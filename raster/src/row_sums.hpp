@@ -21,13 +21,11 @@
 
 #include <vtm/raster/view.hpp>
 #include "asset/instances.hpp"
+#include "raster/chord.hpp"
 #include "raster/planar_map.hpp"
 #include "raster/src/float4.hpp"
 
 namespace vtm::asset {
-
-/// Rows that are summed at a time: their changes stay in the cache.
-inline constexpr int bandRows = 16;
 
 /// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
 inline constexpr float minShare = 1e-5f;
@@ -51,12 +49,6 @@ struct Boundary {
     }
 };
 
-/// A straight part of a piece, in pixels. Left and right are the pixels'.
-struct Chord {
-    glm::vec2 a, b;
-    std::uint16_t left, right;
-};
-
 /// Chords by the band of rows that they meet; those of several bands are in each of them.
 class Bands {
 public:
@@ -75,6 +67,8 @@ public:
             chords_[band].push_back(chord);
     }
     std::span<const Chord> of(int band) const { return chords_[std::size_t(band)]; }
+    /// Takes the place of those of a band, which `chords` gets.
+    void exchange(int band, std::vector<Chord>& chords) { chords_[std::size_t(band)].swap(chords); }
 
 private:
     std::vector<std::vector<Chord>> chords_;
@@ -137,8 +131,8 @@ private:
     }
 
     void addChord(glm::vec2 a, glm::vec2 b, const PlanarPiece& piece) {
-        const auto left = std::uint16_t(paintOf_(mirrored_ ? piece.right : piece.left)),
-                   right = std::uint16_t(paintOf_(mirrored_ ? piece.left : piece.right));
+        const std::uint32_t left = paintOf_(mirrored_ ? piece.right : piece.left),
+                            right = paintOf_(mirrored_ ? piece.left : piece.right);
         bands_.add({a, b, left, right}, width_, height_);
     }
 

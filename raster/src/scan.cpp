@@ -16,6 +16,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include "asset/instances.hpp"
+#include "raster/chord_scanner.hpp"
 #include "raster/src/blend.hpp"
 #include "raster/src/map_scanner.hpp"
 #include "raster/src/paint.hpp"
@@ -98,6 +99,15 @@ struct Scanned {
     std::vector<Float4> solid;            ///< by paint, as it is added; nothing for programs
     std::vector<std::uint8_t> isProgram;  ///< by paint
 
+    /// Of chords that somebody else makes.
+    explicit Scanned(const ChordPaints& of) : paints(of.asset, of.images) {
+        isProgram.resize(of.asset.paints.size(), 1);
+        solid.resize(of.asset.paints.size());
+        isProgram.resize(isProgram.size() + of.colors.size());
+        for (const vec4& color : of.colors)
+            solid.push_back(float4(color));
+    }
+
     const AssetView& asset() const { return paints.asset(); }
     vec4 added(vec4 color) const { return sums == Sums::Light ? light(color) : color; }
 };
@@ -166,7 +176,7 @@ public:
           finerLevels_(finerLevels) {
         scratch_.bands.clear(view.height);
         scratch_.colors.resize(view.width);
-        scratch_.programs.resize(of.solid.size(), view.width);
+        scratch_.programs.resize(of.asset().paints.size(), view.width);
     }
 
     void addPicture() {
@@ -182,6 +192,13 @@ public:
     void draw(Store& store) {
         for (int band = 0; band * bandRows < view_.height; ++band)
             drawBand(band, store);
+    }
+    /// One band, of chords that were made for it.
+    template <class Store>
+    void draw(int band, std::vector<Chord>& chords, Store& store) {
+        scratch_.bands.exchange(band, chords);
+        drawBand(band, store);
+        scratch_.bands.exchange(band, chords);
     }
 
 private:
@@ -447,6 +464,41 @@ void MapScanner::add(std::uint32_t index, std::uint32_t firstPaint, std::size_t 
         scanned.placed = impl_->placed;
     }
     drawScanned(scanned, view, materials, impl_->scratch, AddStore(pixels));
+}
+
+std::shared_ptr<const Images> imagesOf(const AssetView& asset) {
+    return std::make_shared<const Images>(asset);
+}
+
+struct ChordScanner::Impl {
+    View view;
+    RowScratch scratch;
+
+    template <class Store>
+    void draw(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints, Store store) {
+        const Scanned scanned(paints);
+        const MaterialFunction noMaterials;
+        Drawing drawing(scanned, view, noMaterials, scratch, finerLevels(paints.asset, view));
+        for (std::vector<Chord>& chords : bands)
+            drawing.draw(first++, chords, store);
+    }
+};
+
+ChordScanner::ChordScanner(const View& view) : impl_(new Impl{.view = view, .scratch = {}}) {
+    validate(view);
+}
+ChordScanner::~ChordScanner() = default;
+
+void ChordScanner::draw(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+                        const ByteTarget& target) {
+    impl_->draw(first, bands, paints, ByteStore(target, impl_->view.width));
+}
+
+void ChordScanner::scan(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+                        const std::function<void(int, const ColorRun&)>& take) {
+    impl_->draw(first, bands, paints, RunStore([&](int row, int from, int end, const vec4& color) {
+                    take(row, {from, end, color});
+                }));
 }
 
 }  // namespace vtm::asset

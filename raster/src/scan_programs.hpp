@@ -68,7 +68,7 @@ public:
         rough_.clear();
     }
     /// A chord at which a program has `change` more on its left. It must stay until the band is drawn.
-    void addSide(const Chord& chord, std::uint16_t paint, float change) {
+    void addSide(const Chord& chord, std::uint32_t paint, float change) {
         std::vector<Side>& sides = sides_[paint];
         if (sides.empty())
             programs_.push_back(paint);
@@ -82,7 +82,7 @@ public:
         top_ = top;
         rows_ = rows;
         pixels_.resize(width_);
-        for (const std::uint16_t paint : programs_) {
+        for (const std::uint32_t paint : programs_) {
             if (of.paints.changes()[paint].steepness > of.minSteep)
                 drawSteep(of, paint);
             else
@@ -112,7 +112,7 @@ private:
 
     /// Each pixel by the mean colour over it, times shareOf(row, first column, end, what was summed).
     template <class Grid, class ShareOf>
-    void drawWholes(const ProgramView& of, std::uint16_t paint, Accumulator<Grid>& coverage,
+    void drawWholes(const ProgramView& of, std::uint32_t paint, Accumulator<Grid>& coverage,
                     const ShareOf& shareOf) {
         for (const Side& side : sides_[paint])
             coverage.add(*side.chord, float(top_), rows_, side.change);
@@ -131,7 +131,7 @@ private:
     }
 
     /// In the pixels of a row from `first` on.
-    void addShares(const ProgramView& of, std::uint16_t paint, int row, int first) {
+    void addShares(const ProgramView& of, std::uint32_t paint, int row, int first) {
         if (shares_.empty())
             return;
         const int end = shares_.back().end;
@@ -154,7 +154,7 @@ private:
                 color = float4(light(toVec4(color)));
     }
 
-    void drawSteep(const ProgramView& of, std::uint16_t paint) {
+    void drawSteep(const ProgramView& of, std::uint32_t paint) {
         // The first moment of the program's part, times what the colour changes by over a pixel, is about
         // what the quarters make better.
         const float change = float(minSteepChange) / of.minSteep * of.paints.changes()[paint].steepness;
@@ -173,7 +173,7 @@ private:
         addCuts(of, paint, mayBeRough);
     }
 
-    void addCuts(const ProgramView& of, std::uint16_t paint, bool mayBeRough) {
+    void addCuts(const ProgramView& of, std::uint32_t paint, bool mayBeRough) {
         const glm::mat2 quarter(0.5 * of.inverse);
         const glm::vec2 right = 0.5f * quarter[0], down = 0.5f * quarter[1];
         points_.clear();
@@ -199,7 +199,7 @@ private:
     }
 
     /// colors_ are those of the cuts' quarters.
-    void findUncutRough(const ProgramView& of, std::uint16_t paint) {
+    void findUncutRough(const ProgramView& of, std::uint32_t paint) {
         points_.clear();
         for (const Cut& cut : cuts_)
             points_.push_back(middleOf(of, cut));
@@ -214,7 +214,7 @@ private:
     }
 
     /// points_ are the cuts' middles, wholes_ their colours.
-    void findRoughCorners(const ProgramView& of, std::uint16_t paint) {
+    void findRoughCorners(const ProgramView& of, std::uint32_t paint) {
         const glm::vec2 right = 0.5f * glm::mat2(of.inverse)[0], down = 0.5f * glm::mat2(of.inverse)[1];
         colors_.resize(points_.size());
         for (const glm::vec2 way : {-right - down, right - down, down - right, right + down}) {
@@ -237,7 +237,7 @@ private:
 
     int width_ = 0, top_ = 0, rows_ = 0;
     std::vector<std::vector<Side>> sides_;  ///< by paint
-    std::vector<std::uint16_t> programs_;   ///< that have sides
+    std::vector<std::uint32_t> programs_;   ///< that have sides
     Accumulator<Wholes<float>> coverage_;
     Accumulator<Quarters> quarters_;
     std::vector<Share> shares_;

@@ -25,16 +25,20 @@ glm::vec4 clamped(const glm::vec4& color) {
 
 }  // namespace
 
+void writeRun(const ColorRun& run, const image::PixelWriter& writer, std::span<std::uint8_t> row) {
+    const std::size_t pixelBytes = writer.pixelBytes();
+    const std::span bytes =
+        row.subspan(std::size_t(run.first) * pixelBytes, std::size_t(run.end - run.first) * pixelBytes);
+    const glm::vec4 color = clamped(run.color);
+    writer.write(&color[0], bytes.data());
+    repeat(bytes, pixelBytes);
+}
+
 void scanRows(const Scanner& scanner, const View& view, const image::PixelWriter& writer,
               const image::RowSink& sink) {
-    const std::size_t pixelBytes = writer.pixelBytes();
-    std::vector<std::uint8_t> row(std::size_t(std::max(view.width, 0)) * pixelBytes);
+    std::vector<std::uint8_t> row(std::size_t(std::max(view.width, 0)) * writer.pixelBytes());
     scanner.scan(view, [&](int y, const ColorRun& run) {
-        const std::span bytes = std::span(row).subspan(std::size_t(run.first) * pixelBytes,
-                                                       std::size_t(run.end - run.first) * pixelBytes);
-        const glm::vec4 color = clamped(run.color);
-        writer.write(&color[0], bytes.data());
-        repeat(bytes, pixelBytes);
+        writeRun(run, writer, row);
         if (run.end != view.width)
             return;
         limits::progress(double(y + 1) / view.height);
