@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compiler/compile/settings.hpp"
+#include "compiler/compile/view_plan.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -67,110 +68,94 @@ Pixel pixelOf(const scene::Frame& frame) {
 /// The power of two next to it: products with it are exact.
 double roundedScale(double pixelsPerUnit) { return std::exp2(std::round(std::log2(pixelsPerUnit))); }
 
-/// Where a transparent picture of one unit will do.
-ViewResult nothing(int width, int height, const Options& options) {
-    scene::Scene empty;
-    empty.width = empty.height = 1;
-    return {compile(empty, options), {width, height}, scene::identity};
+/// The tolerance for a picture of that size. Finer ones than there are may be asked for.
+double needed(double width, double height, double pixel) {
+    return asset::finestShare * pixel / std::max(width, height);
 }
 
-class ViewCompiler {
-public:
-    ViewCompiler(const scene::Scene& scene, const scene::Frame& frame, const Options& options)
-        : scene_(scene),
-          frame_(frame),
-          part_(frame.seen()),
-          view_(rasterOf(frame)),
-          pixel_(pixelOf(frame)),
-          options_(options),
-          x_(seen(part_.x, part_.width, pixel_.width, scene.width)),
-          y_(seen(part_.y, part_.height, pixel_.height, scene.height)) {}
+Options withTolerance(const Options& options, double tolerance) {
+    constexpr double finest = 0x1p-26;  // of Options::tolerance
+    Options finer = options;
+    finer.tolerance = std::min(options.tolerance, std::max(finest, tolerance));
+    return finer;
+}
 
-    ViewResult run() {
-        const bool isAll = x_.size() == scene_.width && y_.size() == scene_.height;
-        if (needed(scene_.width, scene_.height, pixel_.shorter()) >= options_.tolerance || isAll)
-            return whole();
-        if (x_.isEmpty() || y_.isEmpty())
-            return empty();
-        return cut();
-    }
-
-private:
-    /// The tolerance for a picture of that size. Finer ones than there are may be asked for.
-    static double needed(double width, double height, double pixel) {
-        return asset::finestShare * pixel / std::max(width, height);
-    }
-    Options optionsFor(double tolerance) const {
-        constexpr double finest = 0x1p-26;  // of Options::tolerance
-        Options options = options_;
-        options.tolerance = std::min(options_.tolerance, std::max(finest, tolerance));
-        return options;
-    }
-
-    /// Where nothing of the picture is seen, or doubles cannot tell the view's sides apart.
-    ViewResult empty() const {
-        ViewResult made = nothing(view_.width, view_.height, options_);
-        const bool isOutside = part_.x + part_.width <= 0 || part_.y + part_.height <= 0 ||
-                               part_.x >= scene_.width || part_.y >= scene_.height;
-        if (!isOutside)
-            made.result.warnings.push_back(
-                "nothing is drawn: double precision cannot tell the sides of the view apart");
-        return made;
-    }
-
-    ViewResult whole() {
-        const Options options = optionsFor(needed(scene_.width, scene_.height, pixel_.shorter()));
-        return {compile(scene_, options), viewFrom({0, 0}, {1, 1}), scene::identity};
-    }
-
-    ViewResult cut() {
-        const scene::Point scale{roundedScale(1 / pixel_.width), roundedScale(1 / pixel_.height)},
-            origin{x_.from, y_.from};
-        Excerpt excerpt{{scale.x, 0, 0, scale.y, -scale.x * origin.x, -scale.y * origin.y},
-                        x_.size() * scale.x,
-                        y_.size() * scale.y,
-                        true};
-        const double pixel = std::min(pixel_.width * scale.x, pixel_.height * scale.y);
-        ViewResult made{
-            compileExcerpt(scene_, excerpt, optionsFor(needed(excerpt.width, excerpt.height, pixel))),
-            viewFrom(origin, scale), excerpt.fromScene};
-        addRoundings(made.result, scale, pixel);
-        return made;
-    }
-
-    /// From a picture whose origin shows that place of the scene.
-    asset::View viewFrom(scene::Point origin, scene::Point scale) const {
-        asset::View view = view_;
-        view.toPixels = frame_.toPixels(origin, scale);
-        return view;
-    }
-
-    /// Beside them the tolerance means nothing from some zoom on.
-    void addRoundings(Result& result, scene::Point scale, double pixel) const {
-        constexpr double rounding = 0x1p-53;
-        const double off = roundings * rounding * std::max(x_.to * scale.x, y_.to * scale.y);
-        result.asset.finestPixel = *result.asset.finestPixel + off / asset::finestShare;
-        if (off > asset::finestShare * pixel)
-            result.warnings.push_back("boundaries may be off by " + std::to_string(off / pixel) +
-                                      " pixels: at this zoom the roundings of double precision show");
-    }
-
-    const scene::Scene& scene_;
-    const scene::Frame& frame_;
-    const scene::Rect part_;  ///< that is seen
-    const asset::View view_;
-    const Pixel pixel_;
-    const Options& options_;
-    const Span x_, y_;
-};
+/// Where a transparent picture of one unit will do.
+ViewResult nothing(const asset::View& raster, const Options& options) {
+    scene::Scene empty;
+    empty.width = empty.height = 1;
+    return {compile(empty, options), raster, scene::identity};
+}
 
 }  // namespace
 
-ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options) {
+std::optional<std::string> ViewPlan::warning() const {
+    if (off <= asset::finestShare * pixel)
+        return std::nullopt;
+    return "boundaries may be off by " + std::to_string(off / pixel) +
+           " pixels: at this zoom the roundings of double precision show";
+}
+
+std::optional<std::string> warningOfNothing(const scene::Scene& scene, const scene::Frame& frame) {
+    const scene::Rect part = frame.seen();
+    const bool isOutside = part.x + part.width <= 0 || part.y + part.height <= 0 || part.x >= scene.width ||
+                           part.y >= scene.height;
+    if (isOutside)
+        return std::nullopt;
+    return "nothing is drawn: double precision cannot tell the sides of the view apart";
+}
+
+std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& frame,
+                                 const Options& options) {
     check(frame);
     checkOptions(options);
     scene::validate(scene);
-    return ViewCompiler(scene, frame, options).run();
+    ViewPlan plan{.excerpt = wholeOf(scene), .options = options, .view = rasterOf(frame)};
+    const scene::Rect part = frame.seen();
+    const Pixel pixel = pixelOf(frame);
+    const Span x = seen(part.x, part.width, pixel.width, scene.width),
+               y = seen(part.y, part.height, pixel.height, scene.height);
+    const double whole = needed(scene.width, scene.height, pixel.shorter());
+    if (whole >= options.tolerance || (x.size() == scene.width && y.size() == scene.height)) {
+        plan.options = withTolerance(options, whole);
+        plan.view.toPixels = frame.toPixels({0, 0}, {1, 1});
+        plan.pixel = pixel.shorter();
+        return plan;
+    }
+    // Where nothing of the picture is seen, or doubles cannot tell the view's sides apart.
+    if (x.isEmpty() || y.isEmpty())
+        return std::nullopt;
+    plan.isAll = false;
+    plan.scale = {roundedScale(1 / pixel.width), roundedScale(1 / pixel.height)};
+    plan.origin = {x.from, y.from};
+    plan.excerpt = {{plan.scale.x, 0, 0, plan.scale.y, -plan.scale.x * x.from, -plan.scale.y * y.from},
+                    x.size() * plan.scale.x,
+                    y.size() * plan.scale.y,
+                    true};
+    plan.pixel = std::min(pixel.width * plan.scale.x, pixel.height * plan.scale.y);
+    plan.options = withTolerance(options, needed(plan.excerpt.width, plan.excerpt.height, plan.pixel));
+    plan.view.toPixels = frame.toPixels(plan.origin, plan.scale);
+    constexpr double rounding = 0x1p-53;
+    plan.off = roundings * rounding * std::max(x.to * plan.scale.x, y.to * plan.scale.y);
+    return plan;
+}
+
+ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options) {
+    const std::optional<ViewPlan> plan = planView(scene, frame, options);
+    if (!plan) {
+        ViewResult made = nothing(rasterOf(frame), options);
+        if (auto warning = warningOfNothing(scene, frame))
+            made.result.warnings.push_back(std::move(*warning));
+        return made;
+    }
+    if (plan->isAll)
+        return {compile(scene, plan->options), plan->view, scene::identity};
+    ViewResult made{compileExcerpt(scene, plan->excerpt, plan->options), plan->view, plan->excerpt.fromScene};
+    // Beside the roundings of doubles the tolerance means nothing from some zoom on.
+    made.result.asset.finestPixel = *made.result.asset.finestPixel + plan->off / asset::finestShare;
+    if (auto warning = plan->warning())
+        made.result.warnings.push_back(std::move(*warning));
+    return made;
 }
 
 ViewResult compileView(const scene::Scene& scene, const Part& part, int width, int height,

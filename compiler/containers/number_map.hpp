@@ -30,6 +30,9 @@ public:
         return slot.number;
     }
 
+    /// As it is.
+    std::uint32_t at(std::uint64_t key) const { return slots_[place(key)].number; }
+
 private:
     struct Slot {
         std::uint64_t key = 0;
@@ -37,12 +40,13 @@ private:
     };
     static constexpr std::size_t minSlots = 64;  ///< a power of two, as all sizes
 
-    Slot& find(std::uint64_t key) {
+    std::size_t place(std::uint64_t key) const {
         std::size_t at = key & (slots_.size() - 1);
         while (slots_[at].number != unknown && slots_[at].key != key)
             at = (at + 1) & (slots_.size() - 1);
-        return slots_[at];
+        return at;
     }
+    Slot& find(std::uint64_t key) { return slots_[place(key)]; }
 
     void grow() {
         std::vector<Slot> old(2 * slots_.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <unordered_set>
 
@@ -11,6 +12,8 @@
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/stroke.hpp>
+#include "compiler/containers/hash.hpp"
+#include "compiler/containers/number_map.hpp"
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/lower/paints.hpp"
 #include "compiler/patterns/pattern_images.hpp"
@@ -64,7 +67,7 @@ private:
             if (const auto* item = std::get_if<scene::Item>(&node.value)) {
                 const auto* next =
                     i + 1 < g.children.size() ? std::get_if<scene::Item>(&g.children[i + 1].value) : nullptr;
-                if (sharing_ == Sharing::Outlines && next && mayHideOutline(*item, *next)) {
+                if (sharing_ != Sharing::None && next && mayHideOutline(*item, *next)) {
                     fillBelowStroke(*item, *next, outer, into);
                     ++i;
                 } else {
@@ -132,7 +135,7 @@ private:
         for (const scene::ClipShape& shape : c.shapes) {
             ClipExpression::Term term;
             place_ = shape.place;
-            term.layer = layer({shape.path, compose(outer, shape.transform)}, shape.rule);
+            term.layer = clipLayer({shape.path, compose(outer, shape.transform)}, shape.rule);
             if (shape.clip)
                 term.clip = clip(*shape.clip, outer);
             expression.terms.push_back(term);
@@ -140,6 +143,53 @@ private:
         if (c.clip)
             expression.outer = clip(*c.clip, outer);
         return addClip(std::move(expression));
+    }
+
+    /// A new one, or an equal one of an earlier clip.
+    std::uint32_t clipLayer(const OutlineOrigin& origin, scene::FillRule rule) {
+        const std::uint32_t made = layer(origin, rule);
+        if (sharing_ != Sharing::OutlinesAndClips)
+            return made;
+        std::uint64_t hash = std::uint64_t(rule);
+        for (const LatticePoint p : pointsOf(made))
+            hash = hashCombine(hash, sortKey(p));
+        std::uint32_t& known = clipLayers_[hash];
+        if (known == NumberMap::unknown)
+            known = made;
+        if (known == made || !isSameOutline(known, made))
+            return made;
+        const Layer& again = picture_.layers[made];
+        if (again.runCount > 0)
+            picture_.outlines.points.resize(picture_.outlines.runs[again.firstRun].first);
+        picture_.outlines.runs.resize(again.firstRun);
+        picture_.layers.pop_back();
+        picture_.itemOfLayer.pop_back();
+        if (origins_)
+            origins_->pop_back();
+        return known;
+    }
+
+    bool isSameOutline(std::uint32_t first, std::uint32_t second) const {
+        const Layer &a = picture_.layers[first], &b = picture_.layers[second];
+        if (a.rule != b.rule || a.runCount != b.runCount ||
+            !std::ranges::equal(pointsOf(first), pointsOf(second)))
+            return false;
+        const Run *p = &picture_.outlines.runs[a.firstRun], *q = &picture_.outlines.runs[b.firstRun];
+        for (std::uint32_t r = 0; r < a.runCount; ++r)
+            if (p[r].first - p[0].first != q[r].first - q[0].first ||
+                p[r].last - p[0].first != q[r].last - q[0].first)
+                return false;
+        return true;
+    }
+
+    /// Of a layer that shares none.
+    std::span<const LatticePoint> pointsOf(std::uint32_t index) const {
+        const Layer& l = picture_.layers[index];
+        if (l.runCount == 0)
+            return {};
+        const std::uint32_t first = picture_.outlines.runs[l.firstRun].first;
+        return std::span(picture_.outlines.points)
+            .subspan(first, picture_.outlines.runs[l.firstRun + l.runCount - 1].last + 1 - first);
     }
 
     std::uint32_t addClip(ClipExpression expression) {
@@ -415,6 +465,7 @@ private:
     TilePlan* const tiles_;
     PatternImages* const images_;
     std::unordered_set<std::string> warned_;
+    NumberMap clipLayers_;  ///< by a hash of their outlines
     TileCounter tileCounter_;
     double segmentsPlaced_ = 0, tilesLowered_ = 0;
     bool isPlacedTile_ = false;  ///< of what is being lowered

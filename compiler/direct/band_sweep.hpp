@@ -1,0 +1,151 @@
+/// \file
+/// The chains of a band of rows in, the chords between its regions out: planarity where a picture is looked
+/// at, and no further.
+///
+/// A line goes down the rows, and the chains that it cuts are kept in their order from left to right, each
+/// with the set of layers on its right. It goes in *slabs*. Where no chain begins, ends or crosses another
+/// between the top and the bottom of a slab, nothing changes but where the chains are. Around the places
+/// where something does, the few chains near it are swept on their own, from vertex to vertex and from
+/// crossing to crossing.
+///
+/// In each row the changes of paint add up, since every label follows from the one on its left. So no
+/// rounding of a crossing lets a region leak: it moves an edge, it changes no label.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "compiler/direct/chains.hpp"
+#include "compiler/direct/region_state.hpp"
+#include "raster/chord.hpp"
+
+namespace vtm::compiler {
+
+/// Bands that are swept on from the one above; then a new strip begins.
+inline constexpr int stripBands = 4;
+
+/// For one thread.
+class BandSweep {
+public:
+    /// `state` is outside of all layers, and is so again after each band. Both must outlive it.
+    BandSweep(const Chains& chains, RegionState& state, std::size_t layers);
+
+    /// Appends the chords of a band; their paints are the state's. Sweeps on from the band above, or begins
+    /// anew, which it must where the state has forgotten paints.
+    void run(int band, bool begins, std::vector<asset::Chord>& chords);
+
+private:
+    /// A chain that the line cuts.
+    struct Active {
+        std::uint32_t at, end;  ///< vertices: that above the line, and the chain's end
+        std::uint32_t layer;
+        std::int32_t winding;
+        std::int32_t before;  ///< winding number of its layer on its left
+        glm::vec2 a, b;       ///< ends of the edge that the line cuts; the lower one is below the line
+        float slope;
+        float x;            ///< at the line
+        float next;         ///< where the line goes to
+        float left, right;  ///< between
+        bool isBent, ends;  ///< between: whether it has a vertex, whether it ends
+        float from;         ///< since where its sides have the paints `drawn`
+        RegionPaint drawn[2];
+        Region region;      ///< on its right
+        std::uint64_t key;  ///< of the set there
+
+        float xAt(float y) const { return y >= b.y ? b.x : y <= a.y ? a.x : a.x + (y - a.y) * slope; }
+    };
+    struct Slab {
+        float top, bottom;
+    };
+    /// Where something happens in a slab: of x, and the active chains that it concerns, [first, end).
+    struct Event {
+        float left, right;
+        std::size_t first, end;
+        std::uint32_t begins;  ///< a chain, or noIndex
+        bool isCrossing;       ///< and nothing else
+    };
+    struct Crossed {
+        std::uint32_t layer;
+        std::int32_t winding;
+    };
+
+    static bool isLeft(const Active* a, const Active* b);
+    Active* activate(std::uint32_t chain);
+    bool nextEdge(Active& active) const;
+    void begin(std::span<const std::uint32_t> chains, float top);
+    void slab(Slab slab);
+    void look(Slab slab);
+    bool isOrdered(const Active& left, const Active& right, float bottom) const;
+    void findEvents(Slab slab);
+    void gather(Slab slab);
+    void pass(Active& active, float bottom);
+
+    bool mayReorder(Slab slab);
+    void reorder(Slab slab);
+    void sweep(Slab slab);
+    bool mayReorderMembers(std::size_t first, std::size_t end);
+    void reorderMembers(std::size_t first, std::size_t end, float y);
+    bool areManyCrossings(std::size_t first, std::size_t end);
+    void cross(std::size_t first, std::size_t end, float y);
+    void sortRoughly(std::size_t first, std::size_t end, float from, float y);
+    void relabel(std::size_t first, std::size_t end, float y);
+    Region regionAfter(std::size_t at, const Region& left, std::uint64_t keyLeft);
+    void enterSweep(float top);
+    void meetVertices(float y);
+    void addStarting(float y);
+    void label(float y);
+    void moveTo(float y);
+    void swap(std::size_t at, float y);
+    void openWindow(std::span<Active* const> chains);
+    template <class IsOrdered>
+    bool isQuiet(std::span<Active* const> chains, const Region& left, const IsOrdered& isOrdered) const;
+    bool staysHidden(std::span<Active* const> chains, const Region& left) const;
+    std::int32_t windingLeftOf(std::uint32_t layer) const;
+
+    void keepState(std::size_t members);
+    void moveState(std::size_t done);
+
+    void setSides(Active& active, RegionPaint left, RegionPaint right, float y);
+    void draw(const Active& active, float from, float to);
+
+    const Chains& chains_;
+    const glm::vec2* const vertices_;
+    RegionState& state_;
+    std::vector<asset::Chord>* chords_ = nullptr;
+
+    std::deque<Active> pool_;
+    std::vector<Active*> free_;              ///< of pool_
+    std::vector<Active*> active_;            ///< from left to right
+    std::vector<Active*> done_;              ///< those that have reached the bottom of the slab
+    std::span<const std::uint32_t> toCome_;  ///< chains that begin below the line, from the top
+    std::vector<std::uint32_t> beginning_;   ///< in the slab
+    std::vector<Event> events_, groups_;
+    std::size_t steps_ = 0;  ///< of sweeps in the slab
+    float height_ = 1;       ///< of slabs
+
+    // Of a sweep.
+    std::vector<Active*> members_, merged_, added_;
+    std::vector<std::uint32_t> starting_;  ///< chains, from the bottom
+    float line_ = 0;
+    std::vector<float> meets_;    ///< where members i and i + 1 cross, from the line on
+    std::vector<float> nearest_;  ///< the least of each block of meets_
+    std::vector<float> least_;    ///< at the next vertex, of the members from i on
+    Region leftRegion_;
+    std::uint64_t leftKey_ = 0;
+    struct Winding {
+        std::uint64_t sweep = 0, label = 0, window = 0;  ///< in which it is known
+        std::int32_t left = 0, now = 0;
+        std::int32_t least = 0, most = 0;  ///< in a window of chains, whatever their order
+    };
+    std::vector<Winding> windings_;  ///< by layer
+    std::uint64_t sweepNumber_ = 0, labelNumber_ = 0, windowNumber_ = 0;
+
+    std::vector<float> sorted_, merging_;
+
+    // Where the state is: right of so many chains that are done, and from there of so many members.
+    std::vector<Crossed> crossedDone_, crossedMembers_;
+};
+
+}  // namespace vtm::compiler

@@ -1,0 +1,278 @@
+#include "compiler/direct/chains.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include <vtm/limits/limits.hpp>
+#include "raster/chord.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::bandRows;
+
+struct PixelBox {
+    float left = std::numeric_limits<float>::infinity(), top = left, right = -left, bottom = -left;
+
+    void add(glm::vec2 p) {
+        left = std::min(left, p.x);
+        right = std::max(right, p.x);
+        top = std::min(top, p.y);
+        bottom = std::max(bottom, p.y);
+    }
+    void add(const PixelBox& b) {
+        left = std::min(left, b.left);
+        right = std::max(right, b.right);
+        top = std::min(top, b.top);
+        bottom = std::max(bottom, b.bottom);
+    }
+    PixelBox intersection(const PixelBox& b) const {
+        PixelBox both;
+        both.left = std::max(left, b.left);
+        both.top = std::max(top, b.top);
+        both.right = std::min(right, b.right);
+        both.bottom = std::min(bottom, b.bottom);
+        return both;
+    }
+    bool meets(const PixelBox& b) const {
+        return left < b.right && right > b.left && top < b.bottom && bottom > b.top;
+    }
+};
+
+/// Around what is seen of items in groups with clips.
+class ClipBoxes {
+public:
+    ClipBoxes(const LoweredScene& picture, const scene::Affine& toPixels, const asset::View& view)
+        : picture_(picture), toPixels_(toPixels), known_(picture.clips.size()) {
+        all_.add(glm::vec2(0, 0));
+        all_.add(glm::vec2(view.width, view.height));
+        for (const LoweredGroup& group : picture.groups) {  // parents come first
+            const PixelBox& outer = group.parent == noIndex ? all_ : groups_[group.parent];
+            groups_.push_back(group.clip == noIndex ? outer : outer.intersection(ofClip(group.clip)));
+            isClipped_.push_back(group.clip != noIndex ||
+                                 (group.parent != noIndex && isClipped_[group.parent]));
+        }
+    }
+
+    /// Of an item, or all of the view for a clip.
+    const PixelBox& ofLayer(std::uint32_t layer) const {
+        const std::uint32_t item = picture_.itemOfLayer[layer];
+        const std::uint32_t group = item == noIndex ? 0 : picture_.items[item].group;
+        return isClipped_[group] ? groups_[group] : all_;
+    }
+
+    bool isCut(std::uint32_t layer) const { return &ofLayer(layer) != &all_; }
+
+private:
+    PixelBox ofClip(std::uint32_t index) {
+        if (known_[index])
+            return *known_[index];
+        limits::check();
+        const ClipExpression& clip = picture_.clips[index];
+        PixelBox box;
+        for (const ClipExpression::Term& term : clip.terms) {
+            const PixelBox shape = term.inverted ? all_ : ofOutline(picture_.layers[term.layer]);
+            box.add(term.clip == noIndex ? shape : shape.intersection(ofClip(term.clip)));
+        }
+        if (clip.outer != noIndex)
+            box = box.intersection(ofClip(clip.outer));
+        return known_[index].emplace(box);
+    }
+    /// Pixels of its own on all sides, since what is cut is moved there.
+    PixelBox ofOutline(const Layer& layer) const {
+        constexpr float more = 1;
+        PixelBox box;
+        for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r)
+            for (std::uint32_t i = picture_.outlines.runs[r].first; i <= picture_.outlines.runs[r].last;
+                 ++i) {
+                const LatticePoint p = picture_.outlines.points[i];
+                box.add(glm::vec2(toPixels_[0] * double(p.x) + toPixels_[1] * double(p.y) + toPixels_[2]));
+            }
+        return {box.left - more, box.top - more, box.right + more, box.bottom + more};
+    }
+
+    const LoweredScene& picture_;
+    const scene::Affine& toPixels_;
+    PixelBox all_;
+    std::vector<PixelBox> groups_;
+    std::vector<std::uint8_t> isClipped_;  ///< by group
+    std::vector<std::optional<PixelBox>> known_;
+};
+
+/// Where the line from a to b crosses a line across that axis. The same for both directions.
+glm::vec2 onLine(glm::vec2 a, glm::vec2 b, int axis, float at) {
+    const int along = 1 - axis;
+    if (b[axis] < a[axis])
+        std::swap(a, b);
+    glm::vec2 p;
+    p[axis] = at;
+    const auto [low, high] = std::minmax(a[along], b[along]);
+    p[along] =
+        std::clamp(a[along] + (b[along] - a[along]) * ((at - a[axis]) / (b[axis] - a[axis])), low, high);
+    return p;
+}
+
+}  // namespace
+
+/// Makes chains of contours.
+class Chains::Builder {
+public:
+    explicit Builder(Chains& into) : into_(into) {}
+
+    /// What is seen of the contours to come, and whether that is less than the view.
+    void show(const PixelBox& box, bool isCut) {
+        shown_ = box;
+        cutsRows_ = isCut;
+    }
+
+    /// Where the next contour's points go; the last is equal to the first.
+    std::vector<glm::vec2>& points() { return points_; }
+
+    void add(std::uint32_t layer) {
+        PixelBox box;
+        std::size_t top = 0;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            box.add(points_[i]);
+            if (points_[i].y < points_[top].y)
+                top = i;
+        }
+        if (!box.meets(shown_))
+            return;
+        // Rows above and below the view are left out later.
+        if (cutsRows_ && (box.top < shown_.top || box.bottom > shown_.bottom)) {
+            clip(1, shown_.top, shown_.bottom);
+            top = highest();
+        }
+        if (box.left < shown_.left - beside || box.right > shown_.right + beside) {
+            clip(0, shown_.left - beside, shown_.right + beside);
+            top = highest();
+        }
+        divide(top, layer);
+    }
+
+private:
+    std::size_t highest() const {
+        return std::size_t(std::ranges::min_element(points_, {}, &glm::vec2::y) - points_.begin());
+    }
+
+    /// From an upper end on, so that chains are whole.
+    void divide(std::size_t top, std::uint32_t layer) {
+        if (points_.size() < 3)
+            return;
+        points_.pop_back();
+        const std::size_t count = points_.size();
+        const auto at = [&](std::size_t i) { return points_[i < count ? i : i - count]; };
+        std::vector<glm::vec2>& vertices = into_.vertices_;
+        for (std::size_t i = top; i < top + count;) {
+            const auto first = std::uint32_t(vertices.size());
+            glm::vec2 last = at(i);
+            vertices.push_back(last);
+            bool down = true, isLevel = true;
+            for (; i < top + count; ++i) {
+                const glm::vec2 next = at(i + 1);
+                if (next.y != last.y) {
+                    if (!isLevel && (next.y > last.y) != down)
+                        break;
+                    down = next.y > last.y;
+                    isLevel = false;
+                }
+                if (next != last)
+                    vertices.push_back(next);
+                last = next;
+            }
+            if (!down)
+                std::reverse(vertices.begin() + first, vertices.end());
+            if (isLevel || vertices.back().y <= shown_.top || vertices[first].y >= shown_.bottom) {
+                vertices.resize(first);
+                continue;
+            }
+            into_.chains_.push_back({first, std::uint32_t(vertices.size()), layer, down ? 1 : -1,
+                                     vertices[first].y, vertices.back().y});
+        }
+    }
+
+    /// Moves what lies outside of low to high, in x (0) or y (1), onto these lines.
+    void clip(int axis, float low, float high) {
+        clipped_.clear();
+        const auto cut = [&](glm::vec2 a, glm::vec2 b, float at) {
+            if ((a[axis] < at && b[axis] > at) || (a[axis] > at && b[axis] < at))
+                clipped_.push_back(onLine(a, b, axis, at));
+        };
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            glm::vec2 p = points_[i];
+            if (i > 0) {
+                const glm::vec2 before = points_[i - 1];
+                cut(before, p, before[axis] < p[axis] ? low : high);
+                cut(before, p, before[axis] < p[axis] ? high : low);
+            }
+            p[axis] = std::clamp(p[axis], low, high);
+            put(p, axis, low, high);
+        }
+        points_.swap(clipped_);
+    }
+    /// On the lines only the ends of a stretch matter.
+    void put(glm::vec2 p, int axis, float low, float high) {
+        const std::size_t n = clipped_.size();
+        const int along = 1 - axis;
+        if (n >= 2 && (p[axis] == low || p[axis] == high) && clipped_[n - 1][axis] == p[axis] &&
+            clipped_[n - 2][axis] == p[axis] &&
+            (clipped_[n - 2][along] <= clipped_[n - 1][along]) == (clipped_[n - 1][along] <= p[along]))
+            clipped_.back() = p;
+        else
+            clipped_.push_back(p);
+    }
+
+    Chains& into_;
+    PixelBox shown_;
+    bool cutsRows_ = false;
+    std::vector<glm::vec2> points_, clipped_;
+};
+
+Chains::Chains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view) {
+    const scene::Affine toPixels = scene::compose(view.toPixels, *scene::inverse(lattice.toSteps()));
+    const std::vector<Run>& runs = picture.outlines.runs;
+    vertices_.reserve(picture.outlines.points.size() + 2 * runs.size());
+    const ClipBoxes boxes(picture, toPixels, view);
+    Builder builder(*this);
+    for (std::uint32_t l = 0; l < picture.layers.size(); ++l) {
+        limits::check();
+        const Layer& layer = picture.layers[l];
+        builder.show(boxes.ofLayer(l), boxes.isCut(l));
+        for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount;) {
+            const std::uint32_t first = runs[r].first;
+            std::uint32_t last = runs[r++].last;
+            while (r < layer.firstRun + layer.runCount && runs[r].first == last)
+                last = runs[r++].last;
+            std::vector<glm::vec2>& points = builder.points();
+            points.resize(last - first + 1);
+            for (std::uint32_t i = first; i <= last; ++i) {
+                const LatticePoint p = picture.outlines.points[i];
+                points[i - first] = toPixels[0] * double(p.x) + toPixels[1] * double(p.y) + toPixels[2];
+            }
+            builder.add(l);
+        }
+    }
+
+    const auto bandCount = std::size_t((view.height + bandRows - 1) / bandRows);
+    const auto bandOf = [&](float y) {
+        return std::size_t(std::clamp(int(y) / bandRows, 0, int(bandCount) - 1));
+    };
+    std::vector<std::uint32_t> byTop(chains_.size());
+    for (std::uint32_t c = 0; c < byTop.size(); ++c)
+        byTop[c] = c;
+    std::ranges::stable_sort(byTop, {}, [&](std::uint32_t c) { return chains_[c].top; });
+    firsts_.resize(bandCount + 1);
+    for (const DownChain& c : chains_)
+        for (std::size_t band = bandOf(c.top); band <= bandOf(c.bottom); ++band)
+            ++firsts_[band + 1];
+    for (std::size_t band = 0; band < bandCount; ++band)
+        firsts_[band + 1] += firsts_[band];
+    numbers_.resize(firsts_.back());
+    std::vector<std::uint32_t> next(firsts_.begin(), firsts_.end() - 1);
+    for (const std::uint32_t c : byTop)
+        for (std::size_t band = bandOf(chains_[c].top); band <= bandOf(chains_[c].bottom); ++band)
+            numbers_[next[band]++] = c;
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,53 @@
+/// \file
+/// A lowered scene under a view: its outlines in pixels, cut into chains that go down the rows.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include <vtm/raster/view.hpp>
+#include "compiler/lower/lattice.hpp"
+#include "compiler/lower/lowered_scene.hpp"
+
+namespace vtm::compiler {
+
+/// A part of a layer's outline on which y nowhere falls: vertices [first, end), at least two, of which the
+/// last is below the first. Who crosses it from left to right adds `winding`.
+struct DownChain {
+    std::uint32_t first, end;
+    std::uint32_t layer;
+    std::int32_t winding;
+    float top, bottom;
+};
+
+/// Outlines are closed, so at the ends of a chain others end that cancel it. What lies beside the view is
+/// moved to `beside` pixels from it; what lies above or below all of it is left out.
+class Chains {
+public:
+    static constexpr float beside = 1;
+
+    /// The picture is lowered on `lattice`; the view maps the picture's units to pixels.
+    Chains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view);
+
+    int bands() const { return int(firsts_.size()) - 1; }
+    /// Numbers of chains that meet a band of rows: those that come from above it, then those that begin in
+    /// it, from the top.
+    std::span<const std::uint32_t> inBand(int band) const {
+        const auto at = std::size_t(band);
+        return std::span(numbers_).subspan(firsts_[at], firsts_[at + 1] - firsts_[at]);
+    }
+    const DownChain& operator[](std::uint32_t number) const { return chains_[number]; }
+    const glm::vec2* vertices() const { return vertices_.data(); }
+
+private:
+    class Builder;
+
+    std::vector<glm::vec2> vertices_;
+    std::vector<DownChain> chains_;
+    std::vector<std::uint32_t> firsts_, numbers_;
+};
+
+}  // namespace vtm::compiler

@@ -1,0 +1,40 @@
+#include "compiler/draw_rows.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <vtm/limits/limits.hpp>
+#include "raster/chord.hpp"
+#include "raster/scan_rows.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+/// Of rows that are drawn at once, by all processors.
+constexpr std::size_t bytesAtOnce = 32u << 20;
+
+}  // namespace
+
+void drawRows(const ViewDrawing& drawing, const image::PixelWriter& writer, const image::RowSink& sink) {
+    const std::size_t rowBytes = std::size_t(drawing.width()) * writer.pixelBytes();
+    const int bands = int(bytesAtOnce / std::max<std::size_t>(rowBytes * asset::bandRows, 1));
+    const int rows = std::min(std::max(bands / 16, 1) * 16 * asset::bandRows, drawing.height());
+    std::vector<std::uint8_t> bytes(std::size_t(rows) * rowBytes);
+    const auto rowAt = [&](int row) {
+        return std::span(bytes).subspan(std::size_t(row) * rowBytes, rowBytes);
+    };
+    for (int first = 0; first < drawing.height(); first += rows) {
+        const int end = std::min(first + rows, drawing.height());
+        drawing.scan(first, end, [&](int y, const asset::ColorRun& run) {
+            asset::writeRun(run, writer, rowAt(y - first));
+        });
+        for (int y = first; y < end; ++y) {
+            limits::progress(double(y + 1) / drawing.height());
+            sink(rowAt(y - first));
+        }
+    }
+}
+
+}  // namespace vtm::compiler

@@ -1,0 +1,267 @@
+#include <vtm/compiler/draw_view.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include <vtm/limits/limits.hpp>
+#include "compiler/compile/settings.hpp"
+#include "compiler/compile/view_plan.hpp"
+#include "compiler/direct/band_sweep.hpp"
+#include "compiler/direct/chains.hpp"
+#include "compiler/direct/region_state.hpp"
+#include "compiler/filters/compile_filtered.hpp"
+#include "compiler/lower/lower.hpp"
+#include "compiler/patterns/pattern_images.hpp"
+#include "raster/chord_scanner.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+using asset::bandRows;
+using BandChords = std::vector<asset::Chord>;
+
+/// So many chords are made before they are drawn: their paints are told to the scanner once.
+constexpr std::size_t chordsAtOnce = 1u << 19;
+/// And so many paints are remembered.
+constexpr std::size_t paintsAtOnce = 1u << 18;
+/// Fewer are kept.
+constexpr std::size_t keptPaints = 1u << 12;
+/// What one thread uses again.
+struct Worker {
+    Worker(const LoweredScene& picture, const Chains& chains, const asset::View& view)
+        : state(picture), sweep(chains, state, picture.layers.size()), scanner(view) {}
+
+    RegionState state;
+    BandSweep sweep;
+    asset::ChordScanner scanner;
+    std::vector<BandChords> bands;
+    bool mustBegin = true;  ///< the sweep, since the paints that it knows are forgotten
+};
+
+/// The images, with what the picture's fills read of them.
+std::shared_ptr<const asset::Images> fillsOf(const LoweredScene& picture,
+                                             std::span<const image::Bitmap> bitmaps) {
+    asset::Asset fills;
+    fills.data = picture.data;
+    for (const Source& source : picture.sources)
+        if (source.op == asset::Op::Image)
+            fills.paints.push_back(
+                encodePaint({{{source.op, asset::Blend::Normal, 1, source.data}, {}}}, fills.data));
+    asset::AssetView view(fills);
+    view.images = bitmaps;
+    return asset::imagesOf(view);
+}
+
+/// An empty picture.
+scene::Scene emptyScene() {
+    scene::Scene scene;
+    scene.width = scene.height = 1;
+    return scene;
+}
+
+}  // namespace
+
+struct ViewDrawing::Impl {
+    const asset::View view;
+    const LoweredScene picture;
+    const std::vector<image::Bitmap> bitmaps;
+    const std::shared_ptr<const asset::Images> images;
+    const Chains chains;
+    std::vector<std::string> warnings;
+
+    /// Null if there are patterns of many tiles, or materials.
+    static std::unique_ptr<Impl> lowered(const scene::Scene& scene, const Excerpt& excerpt,
+                                         const asset::View& view, const Options& options) {
+        const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
+        PatternImages images(options, std::max(excerpt.width, excerpt.height), nullptr);
+        TilePlan tiles;
+        LoweredScene picture = lower(scene, excerpt, lattice, errorBudget(options), Sharing::OutlinesAndClips,
+                                     nullptr, nullptr, &tiles, &images);
+        if (!tiles.patterns.empty() || !picture.materials.empty())
+            return nullptr;
+        Chains chains(picture, lattice, view);
+        std::vector<image::Bitmap> bitmaps = bitmapsOf(picture);
+        auto fills = fillsOf(picture, bitmaps);
+        std::vector<std::string> warnings = std::move(picture.warnings);
+        return std::unique_ptr<Impl>(new Impl{view, std::move(picture), std::move(bitmaps), std::move(fills),
+                                              std::move(chains), std::move(warnings)});
+    }
+
+    /// Calls drawBands(scanner, first band, chords of the bands from there on, paints) for bands first to end
+    /// - 1, from several threads.
+    template <class Draw>
+    void draw(int first, int end, const Draw& drawBands) const {
+        const limits::Stage stage("drawing");
+        tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(picture, chains, view); });
+        const int threads = tbb::this_task_arena::max_concurrency();
+        const int strips = (end - first + stripBands - 1) / stripBands;
+        const int grain = stripBands * (threads == 1 ? strips : std::max(1, strips / (4 * threads)));
+        tbb::parallel_for(0, (end - first + grain - 1) / std::max(grain, 1),
+                          [&, holding = limits::current()](int task) {
+                              const limits::Scope scope(holding);
+                              const int from = first + task * grain;
+                              drawSome(workers.local(), from, std::min(from + grain, end), drawBands);
+                          });
+    }
+
+    template <class Draw>
+    void drawSome(Worker& worker, int first, int end, const Draw& drawBands) const {
+        // Where a sweep begins anew must not depend on what the thread has drawn before: only on the strip.
+        std::size_t chords = 0, inStrip = 0;
+        worker.bands.clear();
+        for (int band = first; band < end; ++band) {
+            const bool beginsStrip = band % stripBands == 0, endsStrip = (band + 1) % stripBands == 0;
+            if (beginsStrip)
+                inStrip = 0;
+            worker.bands.emplace_back();
+            worker.sweep.run(band, beginsStrip || worker.mustBegin, worker.bands.back());
+            worker.mustBegin = false;
+            inStrip += worker.bands.back().size();
+            chords += worker.bands.back().size();
+            const bool isMuch = chords >= chordsAtOnce || worker.state.colors().size() >= paintsAtOnce;
+            const bool forgets = inStrip >= chordsAtOnce;
+            if (band + 1 < end && !forgets && !(endsStrip && isMuch))
+                continue;
+            drawPainted(worker, first, drawBands);
+            first = band + 1;
+            chords = 0;
+            worker.bands.clear();
+            if (forgets ||
+                (endsStrip && worker.state.colors().size() + worker.state.programs().size() >= keptPaints)) {
+                worker.state.forgetPaints();
+                worker.mustBegin = true;
+                inStrip = 0;
+            }
+        }
+    }
+
+    template <class Draw>
+    void drawPainted(Worker& worker, int first, const Draw& drawBands) const {
+        asset::Asset programs;
+        programs.data = picture.data;
+        for (const PaintProgram& program : worker.state.programs())
+            programs.paints.push_back(encodePaint(program, programs.data));
+        asset::AssetView paints(programs);
+        paints.images = bitmaps;
+        const auto programCount = std::uint32_t(programs.paints.size());
+        const auto number = [&](RegionPaint paint) {
+            return (paint & programBit) != 0 ? paint ^ programBit : programCount + paint;
+        };
+        for (BandChords& chords : worker.bands)
+            for (asset::Chord& chord : chords) {
+                chord.left = number(chord.left);
+                chord.right = number(chord.right);
+            }
+        drawBands(worker.scanner, first, worker.bands,
+                  asset::ChordPaints{paints, images, worker.state.colors()});
+    }
+
+    int bands() const { return chains.bands(); }
+};
+
+namespace {
+
+bool canDraw(const scene::Scene& scene, const Options& options) {
+    return options.mode == asset::Mode::Exact && !hasFilters(scene);
+}
+
+/// A raster shows no finer tolerance than this share of a pixel: chords are within a quarter of it.
+constexpr double finestShown = 1.0 / 64;
+
+Options forPixels(Options options, const Excerpt& excerpt, const asset::View& view) {
+    const double pixels = largestStretch(view.toPixels) * std::max(excerpt.width, excerpt.height);
+    constexpr double coarsest = 0x1p-6;  // of Options::tolerance
+    if (pixels > 0)
+        options.tolerance = std::max(options.tolerance, std::min(coarsest, finestShown / pixels));
+    return options;
+}
+
+bool isFlat(const asset::View& view) {
+    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    return !(std::abs(determinant) > std::numeric_limits<double>::min());
+}
+
+}  // namespace
+
+ViewDrawing::ViewDrawing(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+ViewDrawing::~ViewDrawing() = default;
+
+std::unique_ptr<const ViewDrawing> ViewDrawing::make(const scene::Scene& scene, const scene::Frame& frame,
+                                                     const Options& options) {
+    const limits::Stage stage("compiling");
+    const std::optional<ViewPlan> plan = planView(scene, frame, options);
+    if (!canDraw(scene, options))
+        return nullptr;
+    const scene::Scene nothing = emptyScene();
+    std::unique_ptr<Impl> impl;
+    if (plan)
+        impl = Impl::lowered(scene, plan->excerpt, plan->view,
+                             forPixels(plan->options, plan->excerpt, plan->view));
+    else
+        impl = Impl::lowered(nothing, wholeOf(nothing), {int(frame.width), int(frame.height)}, options);
+    if (!impl)
+        return nullptr;
+    if (auto warning = plan ? plan->warning() : warningOfNothing(scene, frame))
+        impl->warnings.push_back(std::move(*warning));
+    return std::unique_ptr<const ViewDrawing>(new ViewDrawing(std::move(impl)));
+}
+
+std::unique_ptr<const ViewDrawing> ViewDrawing::make(const scene::Scene& scene, const asset::View& view,
+                                                     const Options& options) {
+    const limits::Stage stage("compiling");
+    checkOptions(options);
+    scene::validate(scene);
+    asset::validate(view);
+    if (!canDraw(scene, options))
+        return nullptr;
+    const scene::Scene nothing = emptyScene();
+    const Excerpt whole = wholeOf(scene);
+    auto impl = isFlat(view) ? Impl::lowered(nothing, wholeOf(nothing), {view.width, view.height}, options)
+                             : Impl::lowered(scene, whole, view, forPixels(options, whole, view));
+    return impl ? std::unique_ptr<const ViewDrawing>(new ViewDrawing(std::move(impl))) : nullptr;
+}
+
+int ViewDrawing::width() const { return impl_->view.width; }
+int ViewDrawing::height() const { return impl_->view.height; }
+const std::vector<std::string>& ViewDrawing::warnings() const { return impl_->warnings; }
+
+void ViewDrawing::draw(const asset::ByteTarget& target) const {
+    impl_->draw(0, impl_->bands(),
+                [&](asset::ChordScanner& scanner, int first, std::span<BandChords> bands,
+                    const asset::ChordPaints& paints) { scanner.draw(first, bands, paints, target); });
+}
+
+image::Raster ViewDrawing::draw() const {
+    image::Raster raster(width(), height());
+    scan(0, height(), [&](int y, const asset::ColorRun& run) {
+        for (int x = run.first; x < run.end; ++x)
+            for (int c = 0; c < 4; ++c)
+                raster.pixel(x, y)[c] = run.color[c] > 0 ? std::min(run.color[c], 1.0f) : 0.0f;
+    });
+    return raster;
+}
+
+void ViewDrawing::scan(int first, int end,
+                       const std::function<void(int, const asset::ColorRun&)>& take) const {
+    const auto takeIfWanted = [&](int y, const asset::ColorRun& run) {
+        if (y >= first && y < end)
+            take(y, run);
+    };
+    impl_->draw(
+        first / bandRows, (end + bandRows - 1) / bandRows,
+        [&](asset::ChordScanner& scanner, int firstBand, std::span<BandChords> bands,
+            const asset::ChordPaints& paints) { scanner.scan(firstBand, bands, paints, takeIfWanted); });
+}
+
+}  // namespace vtm::compiler

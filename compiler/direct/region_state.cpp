@@ -1,0 +1,189 @@
+#include "compiler/direct/region_state.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "compiler/paint/composite.hpp"
+#include "compiler/paint/region_paints.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+/// What is laid under colours that let no more than this through is left out: less than a sixteenth of a step
+/// of 8 bits.
+constexpr float unseen = 0x1p-12f;
+
+std::uint64_t hashOf(const glm::vec4& color) {
+    std::uint64_t halves[2];
+    static_assert(sizeof halves == sizeof color);
+    std::memcpy(halves, &color[0], sizeof halves);
+    return hashValue(hashValue(halves[0]) ^ halves[1]);
+}
+
+}  // namespace
+
+RegionState::RegionState(const LoweredScene& picture)
+    : picture_(picture),
+      painter_(picture),
+      layers_(picture.layers.size()),
+      shades_(picture.layers.size()),
+      translucent_(picture.groups.size(), noIndex),
+      inside_(picture.layers.size() / 64 + 1),
+      filled_(inside_.size() / 64 + 1),
+      flags_(picture.layers.size()) {
+    for (std::uint32_t l = 0; l < layers_.size(); ++l) {
+        layers_[l].mask = picture.layers[l].rule == scene::FillRule::EvenOdd ? 1 : -1;
+        layers_[l].name = hashValue(l);
+    }
+    std::vector<std::uint8_t> isLaidOver(picture.groups.size()), isClipped(picture.groups.size());
+    for (std::uint32_t g = 0; g < picture.groups.size(); ++g) {  // parents come first
+        const LoweredGroup& group = picture.groups[g];
+        const bool isRoot = group.parent == noIndex;
+        isLaidOver[g] = (isRoot || isLaidOver[group.parent]) && group.role == GroupRole::Plain &&
+                        group.blend == scene::BlendMode::Normal && group.mask == noIndex;
+        isClipped[g] = group.clip != noIndex || (!isRoot && isClipped[group.parent]);
+        translucent_[g] = group.opacity < 1 ? g : isRoot ? noIndex : translucent_[group.parent];
+    }
+    for (const LoweredItem& item : picture.items) {
+        const Source& source = picture.sources[item.source];
+        Shade& shade = shades_[item.layer];
+        shade.kind = isLaidOver[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
+        shade.isClipped = isClipped[item.group] != 0;
+        shade.group = translucent_[item.group];
+        for (int c = 0; c < 4; ++c)
+            shade.color[c] = source.color[std::size_t(c)] * item.opacity;
+    }
+    forgetPaints();
+}
+
+void RegionState::forgetPaints() {
+    known_.clear();
+    regions_.clear();
+    colorNumbers_.clear();
+    colors_.clear();
+    programs_.clear();
+    palette_ = Palette();
+    ofPalette_.clear();
+    colorNumber({0, 0, 0, 0});
+}
+
+/// Calls visit(layer), which tells whether to go on, for the layers that are inside.
+template <class Visit>
+void RegionState::forEachFromTop(Visit&& visit) const {
+    for (std::size_t f = filled_.size(); f-- > 0;)
+        for (std::uint64_t words = filled_[f]; words != 0;) {
+            const auto w = std::size_t(std::bit_width(words) - 1);
+            words ^= std::uint64_t{1} << w;
+            for (std::uint64_t bits = inside_[64 * f + w]; bits != 0;) {
+                const auto b = std::size_t(std::bit_width(bits) - 1);
+                bits ^= std::uint64_t{1} << b;
+                if (!visit(std::uint32_t(4096 * f + 64 * w + b)))
+                    return;
+            }
+        }
+}
+
+Region RegionState::compute() {
+    Region region;
+    glm::vec4 color;
+    region.paint = stackSolids(color, region) ? colorNumber(color) : computeAny();
+    return region;
+}
+
+/// The usual case: all that shows is solid colours in groups that are laid over each other.
+bool RegionState::stackSolids(glm::vec4& color, Region& region) {
+    open_.assign(1, {noIndex});
+    bool isSolid = true;
+    forEachFromTop([&](std::uint32_t layer) {
+        const Shade& shade = shades_[layer];
+        if (shade.kind == Shade::None)
+            return true;
+        if (shade.isClipped && !insideClips(picture_, picture_.items[picture_.itemOfLayer[layer]].group,
+                                            [&](std::uint32_t clip) { return isInside(clip); }))
+            return true;
+        isSolid = shade.kind == Shade::Solid;
+        if (!isSolid)
+            return false;
+        if (shade.group != open_.back().group) {
+            closeDownTo(shade.group);
+            openUpTo(shade.group);
+        }
+        Open& top = open_.back();
+        if (top.light > unseen) {
+            top.color += top.light * shade.color;
+            top.light *= 1 - shade.color.w;
+        }
+        if (open_.front().light > unseen)
+            return true;
+        region.hidden = layer;
+        region.isOpaque = open_.size() == 1 && shade.color.w >= 1;
+        return false;
+    });
+    closeDownTo(noIndex);
+    color = open_.front().color;
+    return isSolid;
+}
+
+void RegionState::closeDownTo(std::uint32_t group) {
+    const auto isAround = [&](std::uint32_t outer) {
+        std::uint32_t g = group;
+        while (g != noIndex && g != outer)
+            g = picture_.groups[g].parent;
+        return g == outer;
+    };
+    while (open_.size() > 1 && !isAround(open_.back().group)) {
+        const Open child = open_.back();
+        open_.pop_back();
+        Open& parent = open_.back();
+        const float opacity = picture_.groups[child.group].opacity;
+        parent.color += parent.light * opacity * child.color;
+        parent.light *= 1 - opacity * child.color.w;
+    }
+}
+
+void RegionState::openUpTo(std::uint32_t group) {
+    const std::size_t already = open_.size();
+    while (group != open_[already - 1].group) {
+        open_.push_back({group});
+        const std::uint32_t parent = picture_.groups[group].parent;
+        group = parent == noIndex ? noIndex : translucent_[parent];
+    }
+    std::reverse(open_.begin() + std::ptrdiff_t(already), open_.end());
+}
+
+RegionPaint RegionState::colorNumber(const glm::vec4& color) {
+    RegionPaint& number = colorNumbers_[hashOf(color + 0.0f)];  // -0 is 0
+    if (number == NumberMap::unknown) {
+        number = RegionPaint(colors_.size());
+        colors_.push_back(color);
+    }
+    return number;
+}
+
+RegionPaint RegionState::computeAny() {
+    list_.clear();
+    forEachFromTop([&](std::uint32_t layer) {
+        list_.push_back(layer);
+        flags_[layer] = 1;
+        return true;
+    });
+    std::reverse(list_.begin(), list_.end());
+    const PaintId id = painter_.paint(list_, flags_, palette_);
+    for (const std::uint32_t layer : list_)
+        flags_[layer] = 0;
+    if (ofPalette_.size() <= id)
+        ofPalette_.resize(id + 1, NumberMap::unknown);
+    RegionPaint& paint = ofPalette_[id];
+    if (paint != NumberMap::unknown)
+        return paint;
+    const PaintProgram& program = palette_[id];
+    if (Palette::isConstant(program)) {
+        const Color c = Palette::colorOf(program);
+        return paint = colorNumber({c[0], c[1], c[2], c[3]});
+    }
+    programs_.push_back(program);
+    return paint = RegionPaint(programs_.size() - 1) | programBit;
+}
+
+}  // namespace vtm::compiler
