@@ -9,8 +9,8 @@
 namespace vtm {
 
 struct GlRequest {
-    const asset::Asset& asset;
-    const asset::View& view;
+    const asset::Asset* asset = nullptr;  ///< null: whether exact pictures without materials would be drawn
+    asset::View view;
     bool required = false;  ///< throw gl::GlError rather than leave it to the CPU
     image::Raster drawn;
 };

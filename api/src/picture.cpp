@@ -12,6 +12,7 @@
 #include <vtm/vtm.hpp>
 #include <vtm/vtmtree.hpp>
 #include "api/src/picture_state.hpp"
+#include "compiler/draw_rows.hpp"
 
 namespace vtm {
 
@@ -172,20 +173,27 @@ void Picture::State::drawOnCpu(const Seen& seen, const image::PixelWriter& write
     seen.compiled->cpu.draw(seen.view, writer, sink);
 }
 
+void Picture::compileInBackground() const { state_->compileInBackground(); }
+
 Image Picture::render(const RenderOptions& options) const {
     const Shot shot = shotOf(options, state_->width, state_->height);
-    const Seen seen = state_->compileFor(shot);
-    const auto raster = shaded(seen, options.engine);
     Image image;
-    image.engine = raster ? Engine::Gl : Engine::Cpu;
-    image.width = seen.view.width;
-    image.height = seen.view.height;
+    image.width = shot.view.width;
+    image.height = shot.view.height;
     image.rgba.reserve(std::size_t(image.width) * std::size_t(image.height) * 4);
     const Rgba& ground = options.background;
     const image::PixelWriter writer({ground.r, ground.g, ground.b, ground.a});
     const auto append = [&](std::span<const std::uint8_t> row) {
         image.rgba.insert(image.rgba.end(), row.begin(), row.end());
     };
+    const bool isOnCpu = options.engine == Engine::Cpu || (options.engine == Engine::Auto && !glDrawsExact());
+    if (const Drawing drawing = isOnCpu ? state_->drawingFor(shot) : nullptr) {
+        compiler::drawRows(*drawing, writer, append);
+        return image;
+    }
+    const Seen seen = state_->compileFor(shot);
+    const auto raster = shaded(seen, options.engine);
+    image.engine = raster ? Engine::Gl : Engine::Cpu;
     if (raster)
         image::giveRows(*raster, writer, append);
     else

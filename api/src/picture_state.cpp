@@ -56,10 +56,16 @@ std::optional<image::Raster> drawWithGl(const asset::Asset& asset, const asset::
     const GlDraw draw = findGlDraw();
     if (!draw && required)
         throw Error("libvtm_gl, which draws with OpenGL ES, is not installed");
-    GlRequest request{asset, view, required, {}};
+    GlRequest request{&asset, view, required, {}};
     if (!draw || !draw(request))
         return std::nullopt;
     return std::move(request.drawn);
+}
+
+bool glDrawsExact() {
+    const GlDraw draw = findGlDraw();
+    GlRequest request;
+    return draw && draw(request);
 }
 
 namespace {
@@ -97,12 +103,50 @@ std::shared_ptr<const Compiled> Picture::State::whole() {
     const std::lock_guard lock(compiling_);
     if (!whole_)
         whole_ = take(compiler::compile(*scene));
+    isCompiled_ = true;
     return whole_;
 }
 
-Seen Picture::State::compileFor(const Shot& shot) {
+bool Picture::State::isWholeFineFor(const Shot& shot) const {
     const double needed = asset::finestShare * pixelOf(shot.view.toPixels) / std::max(width, height);
-    if (!scene || needed >= compiler::Options().tolerance || !scene::inverse(shot.view.toPixels))
+    return needed >= compiler::Options().tolerance || !scene::inverse(shot.view.toPixels);
+}
+
+Drawing Picture::State::drawingFor(const Shot& shot) {
+    if (!scene)
+        return nullptr;
+    const bool isFine = isWholeFineFor(shot);
+    if (isFine) {
+        const bool isFirst = !isDrawn_.exchange(true);
+        if (isCompiled_ || !(isFirst || isCompiling_))
+            return nullptr;
+    } else if (!shot.frame) {
+        return nullptr;
+    }
+    Drawing drawing = shot.frame ? compiler::ViewDrawing::make(*scene, *shot.frame)
+                                 : compiler::ViewDrawing::make(*scene, shot.view);
+    if (drawing)
+        for (const std::string& warning : drawing->warnings())
+            warn(warning);
+    return drawing;
+}
+
+void Picture::State::compileInBackground() {
+    const std::lock_guard lock(background_.mutex);
+    if (isCompiled_ || background_.compiling.valid())
+        return;
+    isCompiling_ = true;
+    background_.compiling = std::async(std::launch::async, [this] {
+        try {
+            whole();
+        } catch (const std::exception&) {  // who needs it meets the error himself
+        }
+        isCompiling_ = false;
+    });
+}
+
+Seen Picture::State::compileFor(const Shot& shot) {
+    if (!scene || isWholeFineFor(shot))
         return {whole(), shot.view};
     compiler::ViewResult made =
         shot.frame ? compiler::compileView(*scene, *shot.frame) : compileSeen(*scene, shot.view);

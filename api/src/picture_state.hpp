@@ -2,12 +2,15 @@
 /// What a Picture holds, and how it compiles for a view.
 #pragma once
 
+#include <atomic>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/draw_view.hpp>
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/scan.hpp>
 #include <vtm/raster/view.hpp>
@@ -32,6 +35,8 @@ private:
 /// Shaders, in a context of the library's own; the caller's stays current. Nothing where the CPU is faster,
 /// or where there is no GL and it is not `required`. Throws gl::GlError.
 std::optional<image::Raster> drawWithGl(const asset::Asset& asset, const asset::View& view, bool required);
+/// Whether shaders would draw exact pictures, unless they are required to.
+bool glDrawsExact();
 
 /// A raster, and the map from user units to its pixels.
 struct Shot {
@@ -55,11 +60,17 @@ struct Seen {
     asset::View view;
 };
 
+using Drawing = std::unique_ptr<const compiler::ViewDrawing>;
+
 struct Picture::State {
     double width = 0, height = 0;
     std::optional<scene::Scene> scene;  ///< not where the picture was loaded compiled
 
     std::shared_ptr<const Compiled> whole();
+    /// Of a shot that is drawn without an asset: the first, each while the asset is compiled in the
+    /// background, and each that is finer than the asset. Null: it is drawn from the asset.
+    Drawing drawingFor(const Shot& shot);
+    void compileInBackground();
     /// Fine enough, if the scene is there.
     Seen compileFor(const Shot& shot);
     void drawOnCpu(const Seen& seen, const image::PixelWriter& writer, const image::RowSink& sink);
@@ -68,10 +79,18 @@ struct Picture::State {
 
 private:
     friend class Picture;
+    bool isWholeFineFor(const Shot& shot) const;
     std::shared_ptr<const Compiled> take(compiler::Result result);
     std::mutex compiling_, warning_;
     std::shared_ptr<const Compiled> whole_;
+    std::atomic<bool> isCompiled_ = false, isDrawn_ = false;
+    std::atomic<bool> isCompiling_ = false;  ///< in the background
     std::vector<std::string> warnings_;
+    /// The last member, since it uses the others.
+    struct {
+        std::mutex mutex;
+        std::future<void> compiling;
+    } background_;
 };
 
 /// Throws std::invalid_argument, std::length_error.

@@ -162,11 +162,20 @@ void drawDebugView(const DebugView debug, Source& source, const asset::View& vie
     image::giveRows(bitmap, image::PixelWriter(), file.sink());
 }
 
+/// --json reports figures of assets, and debug views show them.
+Preparation preparationFor(Source& source, const RenderOptions& options, Engine& engine, DebugView debug) {
+    if (!engine.needsAsset())
+        return Preparation::None;
+    const bool isExact = !options.source.paper && options.source.compiler.mode == asset::Mode::Exact;
+    const bool once = isExact && source.scene && !options.json && debug == DebugView::None;
+    return once && engine.drawsOnce(source) ? Preparation::Drawing : Preparation::Asset;
+}
+
 void renderOne(const Job& job, const RenderOptions& options, const scene::Color& ground, Engine& engine) {
     Source source = loadSource(readInput(job.input), options.source, false);
-    const asset::View view =
-        prepareView(source, options.source, framingOf(options, source), engine.needsAsset());
     const DebugView debug = parseDebugView(options.debugView);
+    const asset::View view = prepareView(source, options.source, framingOf(options, source),
+                                         preparationFor(source, options, engine, debug));
     prepare(source, debug);
     const image::PixelWriter writer = writerFor(job, options, ground);
     PictureFile file(job.output, options.file, view.width, view.height);

@@ -7,6 +7,7 @@
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/scan.hpp>
+#include "compiler/draw_rows.hpp"
 #include "conformance/reference/reference.hpp"
 #include "paper/evaluate.hpp"
 #include "paper/gl/renderer.hpp"
@@ -79,25 +80,28 @@ image::Raster GlEngine::render(Source& source, const asset::View& view) {
 class CpuEngine : public Engine {
 public:
     std::string name() const override { return "cpu"; }
+    bool drawsOnce(Source&) override { return true; }
     void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
               const image::RowSink& sink) override;
 };
 
 void CpuEngine::draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
                      const image::RowSink& sink) {
-    if (source.paper || source.asset->mode != asset::Mode::Exact)
+    if (source.paper || (source.asset && source.asset->mode != asset::Mode::Exact))
         throw std::runtime_error("the cpu engine only draws exact mode");
-    if (!source.asset->materials.empty())
+    if (source.asset && !source.asset->materials.empty())
         warnOfMaterials(source);
     std::optional<asset::Scanner> scanner;
-    if (asset::isSumOfMaps(*source.asset))
+    if (source.asset && asset::isSumOfMaps(*source.asset))
         timed(source.stages, "upload", [&] { return &scanner.emplace(*source.asset); });
     double sinking = 0;  // is not drawing
     const image::RowSink timedSink = [&](std::span<const std::uint8_t> row) {
         sinking += millisecondsOf([&] { sink(row); });
     };
     const double all = millisecondsOf([&] {
-        if (scanner)
+        if (source.drawing)
+            compiler::drawRows(*source.drawing, writer, timedSink);
+        else if (scanner)
             asset::scanRows(*scanner, view, writer, timedSink);
         else
             asset::evaluateRows(*source.asset, view, writer, timedSink);
@@ -114,6 +118,9 @@ class AutomaticEngine : public Engine {
 public:
     AutomaticEngine(asset::Mode mode, const std::string& programCache);
     std::string name() const override { return drawing_->name(); }
+    bool drawsOnce(Source& source) override {
+        return driver(source) == gl::Driver::None || driver(source) == gl::Driver::Software;
+    }
     void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,
               const image::RowSink& sink) override;
 
@@ -133,7 +140,8 @@ private:
 
 /// Exact pictures without materials.
 bool scannerDraws(const Source& source) {
-    return source.asset && source.asset->mode == asset::Mode::Exact && source.asset->materials.empty();
+    return source.drawing ||
+           (source.asset && source.asset->mode == asset::Mode::Exact && source.asset->materials.empty());
 }
 
 AutomaticEngine::AutomaticEngine(asset::Mode mode, const std::string& programCache)

@@ -19,6 +19,9 @@ public:
     virtual std::string name() const = 0;
     /// Whether it draws the compiled asset rather than the scene.
     virtual bool needsAsset() const { return true; }
+    /// Whether it draws a source's drawing (Source::drawing) too, and faster than an asset that must be
+    /// compiled for it.
+    virtual bool drawsOnce(Source&) { return false; }
     /// Gives every row of the view to the sink. Adds its stages to the source's, without the sink's time.
     /// Throws its module's exceptions.
     virtual void draw(Source& source, const asset::View& view, const image::PixelWriter& writer,

@@ -2,12 +2,14 @@
 /// Input files: SVG or a text of VTMs, parsed and compiled here, or an asset that was compiled before.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/draw_view.hpp>
 #include <vtm/scene/scene.hpp>
 #include <vtm/svg/load.hpp>
 #include "paper/compile.hpp"
@@ -36,11 +38,12 @@ struct Proof {
 };
 
 struct Source {
-    std::string name;                     ///< for messages
-    std::size_t leftOut = 0;              ///< warnings of warnOf()
-    double width = 0, height = 0;         ///< user units
-    std::optional<scene::Rect> exported;  ///< what --export-id draws
-    std::optional<scene::Scene> scene;    ///< not where the file is an asset
+    std::string name;                                      ///< for messages
+    std::size_t leftOut = 0;                               ///< warnings of warnOf()
+    double width = 0, height = 0;                          ///< user units
+    std::optional<scene::Rect> exported;                   ///< what --export-id draws
+    std::optional<scene::Scene> scene;                     ///< not where the file is an asset
+    std::unique_ptr<const compiler::ViewDrawing> drawing;  ///< in place of `asset` for one view
     std::optional<asset::Asset> asset;
     std::optional<paper::CompileResult> paper;  ///< in place of `asset` in paper mode
     std::optional<Proof> proof;                 ///< not where the file is an asset

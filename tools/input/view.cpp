@@ -55,6 +55,16 @@ asset::View compileSeen(Source& source, const SourceOptions& options, const scen
     return made.view;
 }
 
+bool lowersFor(Source& source, const SourceOptions& options, const scene::Frame& frame) {
+    source.drawing = timed(source.stages, "lower", [&] {
+        return compiler::ViewDrawing::make(*source.scene, frame, options.compiler);
+    });
+    if (source.drawing)
+        for (const std::string& warning : source.drawing->warnings())
+            warn(fmt::format("{}: warning: {}", source.name, warning));
+    return source.drawing != nullptr;
+}
+
 /// The shorter side of a pixel, in the picture's units.
 double pixelOf(const asset::View& view) {
     return 1 / std::max(glm::length(view.toPixels[0]), glm::length(view.toPixels[1]));
@@ -94,11 +104,13 @@ scene::Frame frameOf(const scene::Framing& framing, double pictureWidth, double 
 }  // namespace
 
 asset::View prepareView(Source& source, const SourceOptions& options, const scene::Framing& framing,
-                        bool compile) {
+                        Preparation preparation) {
     const scene::Frame frame = frameOf(framing, source.width, source.height);
-    if (!compile)
+    if (preparation == Preparation::None)
         return compiler::viewOf(frame);
     const bool followsView = source.scene && !options.paper && !options.hasTolerance;
+    if (followsView && preparation == Preparation::Drawing && lowersFor(source, options, frame))
+        return {source.drawing->width(), source.drawing->height()};
     if (followsView)  // warns itself
         return compileSeen(source, options, frame);
     if (source.scene)

@@ -8,10 +8,17 @@
 
 namespace vtm::tools {
 
-/// The view of a source that is parsed. If `compile`, an SVG is compiled so that boundaries are within a
+/// What a source becomes before it is drawn.
+enum class Preparation {
+    None,
+    Drawing,  ///< of this view alone (compiler/draw_view.hpp), where there can be one; else an asset
+    Asset
+};
+
+/// The view of a source that is parsed. An asset of an SVG is compiled so that boundaries are within a
 /// sixteenth of a pixel: the part that is seen if need be, and then the view is one of that part. A tolerance
 /// that the user gave is taken as it is. Warns where the asset, from a file or made, is not as fine as that.
 asset::View prepareView(Source& source, const SourceOptions& options, const scene::Framing& framing,
-                        bool compile);
+                        Preparation preparation);
 
 }  // namespace vtm::tools

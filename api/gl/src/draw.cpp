@@ -50,12 +50,12 @@ SharedWorker& sharedWorker() {
 }
 
 /// Also pictures with filters, which are computed on the CPU everywhere.
-bool scannerDraws(const asset::Asset& asset) {
-    return asset.mode == asset::Mode::Exact && asset.materials.empty();
+bool scannerDraws(const asset::Asset* asset) {
+    return !asset || (asset->mode == asset::Mode::Exact && asset->materials.empty());
 }
 
 /// From EGL's devices alone, without a context.
-bool mayBeFaster(const asset::Asset& asset) {
+bool mayBeFaster(const asset::Asset* asset) {
     static const Driver driver = likelyDriver();
     return driver == Driver::PerhapsGpu || (driver == Driver::Software && !scannerDraws(asset));
 }
@@ -70,7 +70,9 @@ bool draw(GlRequest& request) {
         worker = std::make_unique<Worker>();
     if (!request.required && worker->context.isSoftware() && scannerDraws(request.asset))
         return false;
-    const Texture texture = worker->renderer.upload(request.asset);
+    if (!request.asset)
+        return true;
+    const Texture texture = worker->renderer.upload(*request.asset);
     request.drawn = worker->renderer.render(texture, request.view);
     return true;
 }

@@ -91,9 +91,10 @@ public:
     void save(const std::string& path) const;
 };
 
-/// A picture: an SVG file, a text of VTMs (.vtmtree), a compiled .vtm file or a scene. It is compiled on
-/// first use, and again for views that need finer outlines. Copies share its data. All functions may be
-/// called in several threads at once.
+/// A picture: an SVG file, a text of VTMs (.vtmtree), a compiled .vtm file or a scene. On the CPU the first
+/// view is drawn from the scene itself; the second one compiles the picture, from which all others are drawn
+/// fast. Views that need finer outlines are drawn from the scene again. With shaders it is compiled on first
+/// use. Copies share its data. All functions may be called in several threads at once.
 class Picture {
 public:
     /// Loads an SVG file, gzip-compressed or not, a .vtmtree file (vtm/vtmtree.hpp) or a .vtm file; the bytes
@@ -117,6 +118,10 @@ public:
     /// std::length_error for more pixels than asset::maxViewSide and maxViewPixels, compiler::LimitError, and
     /// gl::GlError with Engine::Gl.
     Image render(const RenderOptions& options = {}) const;
+
+    /// Compiles the picture in a thread of its own, unless that was done before, so that views to come need
+    /// not wait for it, or wait less. The last copy of the picture waits for it when it is destroyed.
+    void compileInBackground() const;
 
     /// Returns the compiled asset, made with the default compiler::Options (tolerance 1/65536 of the longer
     /// side), for use with the library's other headers. Valid while a copy of the picture exists. Throws
