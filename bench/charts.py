@@ -129,6 +129,20 @@ def draw_scaling(scaling):
     yield lines.svg()
 
 
+def draw_traps(traps):
+    families = list(dict.fromkeys(row["family"] for row in traps["rows"]))
+    series = {name: [(row["n"], row["cpu ms"]) for row in traps["rows"] if row["family"] == name] for name in families}
+    sizes = [row["n"] for row in traps["rows"]]
+    bound = [(min(sizes), 4000), (max(sizes), 4000)]
+    lines = plot.Plot("Drawn once, 500 pixels wide", "shapes", "CPU ms", bound + [p for points in series.values() for p in points])
+    lines.line(bound, plot.COLOURS[7], "4 4")
+    for row, (name, points) in enumerate(series.items()):
+        lines.line(points, plot.COLOURS[row])
+        lines.dots(points, plot.COLOURS[row])
+        lines.note(row, plot.COLOURS[row], name)
+    yield lines.svg()
+
+
 def draw_paper(paper):
     timed = [row for row in paper["rows"] if row["what"] == "time"]
     for tile in dict.fromkeys(row["tile"] for row in timed):
@@ -199,5 +213,5 @@ CHARTS = {
     "drawing": draw_times, "error": draw_errors, "memory": draw_memory, "sides": draw_sides,
     "pipeline": lambda report: draw_steps("From the file to the first frame", report, "file", PIPELINE),
     "startup": lambda report: draw_steps("Until the first frame in a fresh process", report, "start", STARTUP),
-    "micro": draw_micro, "texture": draw_texture, "paper": draw_paper, "pages": draw_none, "compression": draw_none, "recursion": draw_recursion, "scaling": draw_scaling,
+    "micro": draw_micro, "texture": draw_texture, "paper": draw_paper, "pages": draw_none, "compression": draw_none, "recursion": draw_recursion, "scaling": draw_scaling, "traps": draw_traps,
     "peers": draw_none, "editing": draw_none, "openvg": draw_none, "sweep": draw_sweep, "zoom": draw_zoom}

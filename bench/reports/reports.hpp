@@ -46,6 +46,8 @@ Report paper(const Options& options);
 Report openvg(const Options& options);
 /// Time, memory and bytes over the number of curves, up to the largest.
 Report scaling(const Options& options);
+/// Time and memory of drawing once what is quadratic, from 10^2 to 10^5 shapes.
+Report traps(const Options& options);
 /// Bytes against fragment cost for settings of leaf size and depth.
 Report sweep(const Options& options);
 
