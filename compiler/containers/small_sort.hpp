@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -40,14 +41,9 @@ void sortByKey(std::vector<T>& items, std::vector<T>& spare, const KeyOf& keyOf)
     items.swap(spare);
 }
 
-/// Sorts a few things by `isBefore`, in place.
+/// Puts one thing after the other into its place; what is equal keeps its order.
 template <class Iterator, class IsBefore>
-void sortFew(Iterator first, Iterator last, const IsBefore& isBefore) {
-    constexpr auto few = 16;
-    if (last - first > few) {
-        std::sort(first, last, isBefore);
-        return;
-    }
+void insertEach(Iterator first, Iterator last, const IsBefore& isBefore) {
     for (Iterator next = first; next != last; ++next) {
         const auto item = *next;
         Iterator at = next;
@@ -55,6 +51,26 @@ void sortFew(Iterator first, Iterator last, const IsBefore& isBefore) {
             *at = at[-1];
         *at = item;
     }
+}
+
+inline constexpr std::ptrdiff_t fewToInsert = 16;
+
+/// Sorts a few things by `isBefore`, in place.
+template <class Iterator, class IsBefore>
+void sortFew(Iterator first, Iterator last, const IsBefore& isBefore) {
+    if (last - first > fewToInsert)
+        std::sort(first, last, isBefore);
+    else
+        insertEach(first, last, isBefore);
+}
+
+/// As std::stable_sort, which asks for memory.
+template <class Iterator, class IsBefore>
+void sortStably(Iterator first, Iterator last, const IsBefore& isBefore) {
+    if (last - first > fewToInsert)
+        std::stable_sort(first, last, isBefore);
+    else
+        insertEach(first, last, isBefore);
 }
 
 }  // namespace vtm::compiler

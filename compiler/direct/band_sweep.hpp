@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,10 @@ public:
     void run(int band, bool begins, std::vector<asset::Chord>& chords);
 
 private:
+    static constexpr float never = std::numeric_limits<float>::infinity();
+    /// Slabs are halved where sweeping takes more than looking at all chains, down to this share of a row.
+    static constexpr float leastHeight = 1.0f / 64;
+
     /// A chain that the line cuts.
     struct Active {
         std::uint32_t at, end;  ///< vertices: that above the line, and the chain's end
@@ -135,14 +140,14 @@ private:
     Region leftRegion_;
     std::uint64_t leftKey_ = 0;
     struct Winding {
-        std::uint64_t sweep = 0, label = 0, window = 0;  ///< in which it is known
-        std::int32_t left = 0, now = 0;
-        std::int32_t least = 0, most = 0;  ///< in a window of chains, whatever their order
+        std::uint64_t sweep = 0, window = 0;  ///< in which it is known
+        std::int32_t left = 0;                ///< of the members of the sweep
+        std::int32_t now = 0;                 ///< of the chains of the window, and on the way through them
+        std::int32_t least = 0, most = 0;     ///< between these, whatever their order
     };
     std::vector<Winding> windings_;  ///< by layer
-    std::uint64_t sweepNumber_ = 0, labelNumber_ = 0, windowNumber_ = 0;
-
-    std::vector<float> sorted_, merging_;
+    std::uint64_t sweepNumber_ = 0, windowNumber_ = 0;
+    std::vector<float> sorted_, merging_;  ///< of areManyCrossings()
 
     // Where the state is: right of so many chains that are done, and from there of so many members.
     std::vector<Crossed> crossedDone_, crossedMembers_;

@@ -37,6 +37,7 @@ constexpr std::size_t chordsAtOnce = 1u << 19;
 constexpr std::size_t paintsAtOnce = 1u << 18;
 /// Fewer are kept.
 constexpr std::size_t keptPaints = 1u << 12;
+
 /// What one thread uses again.
 struct Worker {
     Worker(const LoweredScene& picture, const Chains& chains, const asset::View& view)
@@ -106,13 +107,12 @@ struct ViewDrawing::Impl {
         tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(picture, chains, view); });
         const int threads = tbb::this_task_arena::max_concurrency();
         const int strips = (end - first + stripBands - 1) / stripBands;
-        const int grain = stripBands * (threads == 1 ? strips : std::max(1, strips / (4 * threads)));
-        tbb::parallel_for(0, (end - first + grain - 1) / std::max(grain, 1),
-                          [&, holding = limits::current()](int task) {
-                              const limits::Scope scope(holding);
-                              const int from = first + task * grain;
-                              drawSome(workers.local(), from, std::min(from + grain, end), drawBands);
-                          });
+        const int grain = stripBands * std::max(1, threads == 1 ? strips : strips / (4 * threads));
+        tbb::parallel_for(0, (end - first + grain - 1) / grain, [&, holding = limits::current()](int task) {
+            const limits::Scope scope(holding);
+            const int from = first + task * grain;
+            drawSome(workers.local(), from, std::min(from + grain, end), drawBands);
+        });
     }
 
     template <class Draw>

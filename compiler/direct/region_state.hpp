@@ -41,7 +41,6 @@ public:
         if (before != s.isInside(s.winding))
             toggle(layer, s.name);
     }
-    std::int32_t winding(std::uint32_t layer) const { return layers_[layer].winding; }
 
     /// Stands for the set of layers that are inside.
     std::uint64_t key() const { return key_; }

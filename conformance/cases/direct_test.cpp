@@ -2,12 +2,16 @@
 // random scenes, hard ones and real files; whole, turned, small and magnified.
 
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <filesystem>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <fmt/core.h>
+#include <tbb/global_control.h>
 
 #include <vtm/compiler/draw_view.hpp>
 #include <vtm/raster/scan.hpp>
@@ -42,10 +46,11 @@ asset::View viewOf(const scene::Scene& scene, const Looked& looked) {
     return {width, height, {c, s, -s, c, 0.5 * width - at.x, 0.5 * height - at.y}};
 }
 
-/// How far apart, in 1/255, or nothing where the scene is not drawn so.
+/// Scenes that are compiled in any case, and those whose compiled picture is not proven, say nothing.
 void compareDrawings(const scene::Scene& scene, const std::string& name) {
     const compiler::Result compiled = compiler::compile(scene);
-    if (!compiled.unproven.empty() || compiled.asset.fallbackLeaves > 0)
+    if (!compiled.unproven.empty() || compiled.asset.fallbackLeaves > 0 ||
+        !asset::isSumOfMaps(compiled.asset))
         return;
     const asset::Scanner scanner(compiled.asset);
     for (const Looked& looked : views) {
@@ -68,6 +73,43 @@ TEST(DrawnOnce, HardScenesLookAsCompiledOnes) {
     for (const generate::Family& family : generate::hardFamilies())
         for (std::uint64_t seed = 0; seed < 6; ++seed)
             compareDrawings(family.make(seed), fmt::format("{} {}", family.name, seed));
+}
+
+TEST(DrawnOnce, FilesLookAsCompiledOnes) {
+    int files = 0;
+    for (const std::filesystem::path& folder : {sharedDirectory() / "corpus", examplesDirectory()}) {
+        std::error_code none;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+            if (entry.path().extension() == ".svg" && ++files > 0)
+                compareDrawings(loadScene(entry.path()), entry.path().filename());
+    }
+    EXPECT_GT(files, 0);
+}
+
+std::vector<std::uint8_t> bytesOf(const compiler::ViewDrawing& drawing) {
+    std::vector<std::uint8_t> bytes(std::size_t(drawing.width()) * std::size_t(drawing.height()) * 4);
+    drawing.draw({bytes.data(), std::size_t(drawing.width()) * 4});
+    return bytes;
+}
+
+TEST(DrawnOnce, TheBytesDoNotDependOnTheNumberOfThreads) {
+    const scene::Scene scene = loadScene(examplesDirectory() / "planet.svg");
+    const asset::View view = wholePicture(scene, 900);
+    const auto drawing = compiler::ViewDrawing::make(scene, view);
+    ASSERT_TRUE(drawing);
+    const std::vector<std::uint8_t> all = bytesOf(*drawing);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(all, bytesOf(*drawing));
+}
+
+TEST(DrawnOnce, ViewsThatShowNothingAreTransparent) {
+    const scene::Scene scene = generate::randomScene(1);
+    for (const asset::View& view :
+         {asset::View{7, 5, {0, 0, 0, 0, 0, 0}}, asset::View{7, 5, {1, 0, 0, 1, 1e6, 0}}}) {
+        const auto drawing = compiler::ViewDrawing::make(scene, view);
+        ASSERT_TRUE(drawing);
+        EXPECT_EQ(bytesOf(*drawing), std::vector<std::uint8_t>(7 * 5 * 4));
+    }
 }
 
 }  // namespace

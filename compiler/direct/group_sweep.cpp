@@ -1,0 +1,373 @@
+#include "compiler/direct/band_sweep.hpp"
+
+#include <algorithm>
+
+#include <vtm/limits/limits.hpp>
+#include "compiler/containers/small_sort.hpp"
+
+// The members of a group, on their own: from vertex to vertex and from crossing to crossing.
+
+namespace vtm::compiler {
+namespace {
+
+/// Crossings between two vertices, times the number of chains, that are found one by one.
+constexpr std::size_t maxCrossings = 16;
+constexpr std::size_t fewMembers = 64;
+constexpr std::size_t meetBlock = 32;
+
+}  // namespace
+
+bool BandSweep::isLeft(const Active* a, const Active* b) {
+    return a->x != b->x ? a->x < b->x : a->slope < b->slope;
+}
+
+/// Of members that stand right of all that are done.
+void BandSweep::enterSweep(float top) {
+    leftRegion_ = done_.empty() ? Region{} : done_.back()->region;
+    leftKey_ = done_.empty() ? 0 : done_.back()->key;
+    line_ = top;
+    ++sweepNumber_;
+}
+
+/// The winding numbers that layers may have between some chains.
+void BandSweep::openWindow(std::span<Active* const> chains) {
+    ++windowNumber_;
+    for (const Active* each : chains) {
+        const Active& a = *each;
+        Winding& w = windings_[a.layer];
+        if (w.window != windowNumber_) {
+            w.window = windowNumber_;
+            w.now = w.least = w.most = a.before;
+        }
+        (a.winding < 0 ? w.least : w.most) += a.winding;
+    }
+}
+
+/// Whether chains of an open window may be put into another order without asking where they cross. The
+/// winding number of a layer that does not vanish whatever the order is that of its inside everywhere; its
+/// chains show nothing, and change nothing that others show. So it is with what is hidden. All others must
+/// not cross each other. `left`: the region on the left.
+template <class IsOrdered>
+bool BandSweep::isQuiet(std::span<Active* const> chains, const Region& left,
+                        const IsOrdered& areOrdered) const {
+    const Region hiding = staysHidden(chains, left) ? left : Region{};
+    const Active* last = nullptr;
+    for (const Active* each : chains) {
+        const Active& a = *each;
+        const Winding& w = windings_[a.layer];
+        if (state_.isHidden(a.layer, hiding) || (!state_.isEvenOdd(a.layer) && (w.least > 0 || w.most < 0)))
+            continue;
+        if (last && !areOrdered(*last, a))
+            return false;
+        last = &a;
+    }
+    return true;
+}
+
+/// Whether what the region on the left hides is hidden between all of the chains.
+bool BandSweep::staysHidden(std::span<Active* const> chains, const Region& left) const {
+    return std::ranges::none_of(chains, [&](const Active* a) {
+        if (left.isOpaque && a->layer != left.hidden && !state_.isOfClip(a->layer))
+            return false;
+        return state_.isOfClip(a->layer) ||
+               (a->layer >= left.hidden && state_.isInside(a->layer, windings_[a->layer].now));
+    });
+}
+
+bool BandSweep::mayReorder(Slab slab) {
+    openWindow(members_);
+    return isQuiet(
+        members_, done_.empty() ? Region{} : done_.back()->region,
+        [&](const Active& a, const Active& b) { return a.right <= b.left || isOrdered(a, b, slab.bottom); });
+}
+
+void BandSweep::reorder(Slab slab) {
+    for (Active* a : members_)
+        pass(*a, slab.bottom);
+    sortStably(members_.begin(), members_.end(),
+               [](const Active* a, const Active* b) { return a->x < b->x; });
+    enterSweep(slab.bottom);
+    relabel(0, members_.size(), slab.bottom);
+    keepState(0);
+    steps_ += members_.size();
+}
+
+void BandSweep::sweep(Slab slab) {
+    sortStably(starting_.begin(), starting_.end(),
+               [&](std::uint32_t a, std::uint32_t b) { return chains_[a].top > chains_[b].top; });
+    enterSweep(slab.top);
+    for (const Active* a : members_)
+        if (Winding& w = windings_[a->layer]; w.sweep != sweepNumber_) {
+            w.sweep = sweepNumber_;
+            w.left = a->before;
+        }
+    for (;;) {
+        limits::check();
+        meetVertices(line_);
+        if (line_ >= slab.bottom)
+            break;
+        float next = slab.bottom;
+        if (!starting_.empty())
+            next = std::min(next, chains_[starting_.back()].top);
+        for (const Active* a : members_)
+            next = std::min(next, a->b.y);
+        moveTo(next);
+        steps_ += members_.size() + 4;
+    }
+    keepState(0);
+}
+
+/// At the line: chains end, begin, and go on with their next edges.
+void BandSweep::meetVertices(float y) {
+    bool changes = false;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        Active& a = *members_[i];
+        if (a.b.y <= y) {
+            draw(a, a.from, y);
+            a.from = y;
+            if (!nextEdge(a)) {
+                changes = true;
+                keepState(kept);
+                free_.push_back(&a);
+                continue;
+            }
+            a.x = a.a.x;
+        }
+        members_[kept++] = &a;
+    }
+    members_.resize(kept);
+    if (!starting_.empty() && chains_[starting_.back()].top <= y) {
+        addStarting(y);
+        changes = true;
+    }
+    if (changes)
+        label(y);
+}
+
+/// Those that begin at the line, in their places.
+void BandSweep::addStarting(float y) {
+    added_.clear();
+    for (; !starting_.empty() && chains_[starting_.back()].top <= y; starting_.pop_back()) {
+        added_.push_back(activate(starting_.back()));
+        added_.back()->x = added_.back()->a.x;
+        added_.back()->from = y;
+    }
+    sortStably(added_.begin(), added_.end(), isLeft);
+    merged_.resize(members_.size() + added_.size());
+    std::merge(members_.begin(), members_.end(), added_.begin(), added_.end(), merged_.begin(), isLeft);
+    keepState(0);
+    members_.swap(merged_);
+}
+
+std::int32_t BandSweep::windingLeftOf(std::uint32_t layer) const {
+    for (std::size_t i = done_.size(); i-- > 0;)
+        if (done_[i]->layer == layer)
+            return done_[i]->before + done_[i]->winding;
+    return 0;
+}
+
+/// All sets and paints anew, from the left.
+void BandSweep::label(float y) {
+    ++windowNumber_;
+    for (const Active* a : members_) {
+        Winding& w = windings_[a->layer];
+        if (w.window == windowNumber_)
+            continue;
+        w.window = windowNumber_;
+        if (w.sweep != sweepNumber_) {
+            w.sweep = sweepNumber_;
+            w.left = windingLeftOf(a->layer);
+        }
+        w.now = w.left;
+    }
+    relabel(0, members_.size(), y);
+}
+
+/// Those of some members, whose layers' winding numbers are set.
+void BandSweep::relabel(std::size_t first, std::size_t end, float y) {
+    Region left = first == 0 ? leftRegion_ : members_[first - 1]->region;
+    std::uint64_t key = first == 0 ? leftKey_ : members_[first - 1]->key;
+    for (std::size_t i = first; i < end; ++i) {
+        Active& a = *members_[i];
+        Winding& w = windings_[a.layer];
+        a.before = w.now;
+        w.now += a.winding;
+        a.key = state_.keyAfter(key, a.layer, a.before, a.winding);
+        a.region = regionAfter(i, left, key);
+        setSides(a, left.paint, a.region.paint, y);
+        left = a.region;
+        key = a.key;
+    }
+}
+
+/// Down to the next vertex.
+void BandSweep::moveTo(float y) {
+    // A level edge takes a chain past others.
+    for (std::size_t i = 1; i < members_.size(); ++i)
+        for (std::size_t k = i; k > 0 && members_[k - 1]->x > members_[k]->x; --k)
+            swap(k - 1, line_);
+    bool isSorted = true;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        members_[i]->next = members_[i]->xAt(y);
+        isSorted = isSorted && (i == 0 || members_[i - 1]->next <= members_[i]->next);
+    }
+    if (!isSorted) {
+        // Of members that are in another order at y, windows, each of which keeps its place.
+        least_.resize(members_.size());
+        float least = never;
+        for (std::size_t i = members_.size(); i-- > 0;)
+            least_[i] = least = std::min(least, members_[i]->next);
+        float most = -never;
+        for (std::size_t first = 0, i = 0; i < members_.size(); ++i) {
+            most = std::max(most, members_[i]->next);
+            if (i + 1 < members_.size() && most > least_[i + 1])
+                continue;
+            if (i > first) {
+                if (mayReorderMembers(first, i + 1))
+                    reorderMembers(first, i + 1, y);
+                else if (i - first > fewMembers && areManyCrossings(first, i + 1))
+                    sortRoughly(first, i + 1, line_, y);
+                else
+                    cross(first, i + 1, y);
+            }
+            first = i + 1;
+        }
+    }
+    for (Active* a : members_)
+        a->x = a->next;
+    line_ = y;
+}
+
+bool BandSweep::mayReorderMembers(std::size_t first, std::size_t end) {
+    const std::span chains = std::span(members_).subspan(first, end - first);
+    openWindow(chains);
+    return isQuiet(chains, first == 0 ? leftRegion_ : members_[first - 1]->region,
+                   [](const Active& a, const Active& b) { return a.next <= b.next; });
+}
+
+void BandSweep::reorderMembers(std::size_t first, std::size_t end, float y) {
+    keepState(first);
+    sortStably(members_.begin() + std::ptrdiff_t(first), members_.begin() + std::ptrdiff_t(end),
+               [](const Active* a, const Active* b) { return a->next < b->next; });
+    relabel(first, end, y);
+    steps_ += 2 * (end - first);
+}
+
+/// Whether more than `maxCrossings` a member.
+bool BandSweep::areManyCrossings(std::size_t first, std::size_t end) {
+    // Merge sort, which counts what it puts past others.
+    const std::size_t count = end - first;
+    sorted_.resize(count);
+    merging_.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+        sorted_[i] = members_[first + i]->next;
+    std::size_t crossings = 0;
+    for (std::size_t width = 1; width < count; width *= 2) {
+        for (std::size_t from = 0; from < count; from += 2 * width) {
+            const std::size_t middle = std::min(from + width, count),
+                              stop = std::min(from + 2 * width, count);
+            std::size_t i = from, k = middle, to = from;
+            while (i < middle && k < stop)
+                if (sorted_[k] < sorted_[i]) {
+                    crossings += middle - i;
+                    merging_[to++] = sorted_[k++];
+                } else {
+                    merging_[to++] = sorted_[i++];
+                }
+            std::copy(sorted_.begin() + std::ptrdiff_t(i), sorted_.begin() + std::ptrdiff_t(middle),
+                      merging_.begin() + std::ptrdiff_t(to));
+            to += middle - i;
+            std::copy(sorted_.begin() + std::ptrdiff_t(k), sorted_.begin() + std::ptrdiff_t(stop),
+                      merging_.begin() + std::ptrdiff_t(to));
+        }
+        sorted_.swap(merging_);
+        if (crossings > maxCrossings * count)
+            return true;
+    }
+    return false;
+}
+
+/// Through all crossings of some members. Each puts one pair into the order at y, so that their number is
+/// bounded whatever the roundings.
+void BandSweep::cross(std::size_t first, std::size_t end, float y) {
+    const float height = y - line_;
+    const std::size_t pairs = end - first - 1;
+    const auto meet = [&](std::size_t i) {
+        const Active &a = *members_[first + i], &b = *members_[first + i + 1];
+        if (a.next <= b.next)
+            return never;
+        const float above = std::max(b.x - a.x, 0.0f), below = a.next - b.next;
+        return above / (above + below) * height;
+    };
+    meets_.resize(pairs);
+    for (std::size_t i = 0; i < pairs; ++i)
+        meets_[i] = meet(i);
+    nearest_.resize((pairs + meetBlock - 1) / meetBlock);
+    const auto findNearest = [&](std::size_t block) {
+        nearest_[block] = never;
+        for (std::size_t i = block * meetBlock; i < std::min((block + 1) * meetBlock, pairs); ++i)
+            nearest_[block] = std::min(nearest_[block], meets_[i]);
+    };
+    for (std::size_t block = 0; block < nearest_.size(); ++block)
+        findNearest(block);
+    float reached = 0;
+    for (;;) {
+        limits::check();
+        const auto block = std::size_t(std::ranges::min_element(nearest_) - nearest_.begin());
+        if (nearest_[block] == never)
+            return;
+        const auto from = meets_.begin() + std::ptrdiff_t(block * meetBlock);
+        const auto at = std::size_t(std::find(from, meets_.end(), nearest_[block]) - meets_.begin());
+        reached = std::max(reached, meets_[at]);
+        swap(first + at, std::min(line_ + reached, y));
+        const std::size_t before = at == 0 ? 0 : at - 1, after = std::min(at + 1, pairs - 1);
+        for (std::size_t i = before; i <= after; ++i)
+            meets_[i] = meet(i);
+        for (std::size_t k = before / meetBlock; k <= after / meetBlock; ++k)
+            findNearest(k);
+        steps_ += 4 + nearest_.size();
+    }
+}
+
+/// Down to y where too much crosses: in steps, in each of which members are in their order at its middle.
+void BandSweep::sortRoughly(std::size_t first, std::size_t end, float from, float y) {
+    const auto begin = members_.begin() + std::ptrdiff_t(first),
+               stop = members_.begin() + std::ptrdiff_t(end);
+    const float height = std::max(leastHeight, (y - from) / 256);
+    const auto sortAt = [&](float at, float since) {
+        limits::check();
+        for (auto a = begin; a != stop; ++a)
+            (*a)->x = (*a)->xAt(at);
+        keepState(first);
+        openWindow(std::span(members_).subspan(first, end - first));
+        sortStably(begin, stop, [](const Active* a, const Active* b) { return a->x < b->x; });
+        relabel(first, end, since);
+        steps_ += 8 * (end - first);
+    };
+    for (float top = from; top < y; top += height)
+        sortAt(0.5f * (top + std::min(top + height, y)), top);
+    sortAt(y, y);
+}
+
+/// Members `at` and at + 1 cross. Only the region between them changes.
+void BandSweep::swap(std::size_t at, float y) {
+    keepState(at);
+    Active &a = *members_[at], &b = *members_[at + 1];
+    if (a.layer == b.layer) {
+        b.before = a.before;
+        a.before = b.before + b.winding;
+    }
+    const std::uint64_t keyRight = b.key, keyLeft = at == 0 ? leftKey_ : members_[at - 1]->key;
+    const Region right = b.region, left = at == 0 ? leftRegion_ : members_[at - 1]->region;
+    b.key = state_.keyAfter(keyLeft, b.layer, b.before, b.winding);
+    a.key = keyRight;
+    a.region = right;
+    std::swap(members_[at], members_[at + 1]);
+    Active &first = b, &second = a;
+    first.region = first.key == keyRight ? right : regionAfter(at, left, keyLeft);
+    setSides(first, left.paint, first.region.paint, y);
+    setSides(second, first.region.paint, right.paint, y);
+}
+
+}  // namespace vtm::compiler
