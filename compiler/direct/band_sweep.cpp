@@ -32,9 +32,10 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     for (float y = top; y < bottom;) {
         limits::check();
         steps_ = 0;
+        thinnest_ = std::max(leastHeight, float(active_.size()) / looksInRow);
         slab({y, y + height_});
         y += height_;
-        if (steps_ > 2 * active_.size() && height_ > leastHeight)
+        if (steps_ > 2 * active_.size() && height_ >= 2 * thinnest_)
             height_ *= 0.5f;
         else if (steps_ < active_.size() / 2 && height_ < mostHeight && std::fmod(y - top, 2 * height_) == 0)
             height_ *= 2;

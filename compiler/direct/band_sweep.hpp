@@ -18,7 +18,9 @@
 #include <span>
 #include <vector>
 
+#include "compiler/containers/min_tree.hpp"
 #include "compiler/direct/chains.hpp"
+#include "compiler/direct/quiet_chains.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "raster/chord.hpp"
 
@@ -39,8 +41,10 @@ public:
 
 private:
     static constexpr float never = std::numeric_limits<float>::infinity();
-    /// Slabs are halved where sweeping takes more than looking at all chains, down to this share of a row.
+    /// Slabs are halved where sweeping takes more than looking at all chains, down to this share of a row, or
+    /// until so many chains are looked at in a row.
     static constexpr float leastHeight = 1.0f / 64;
+    static constexpr float looksInRow = 1 << 20;
 
     /// A chain that the line cuts.
     struct Active {
@@ -93,6 +97,7 @@ private:
     bool mayReorderMembers(std::size_t first, std::size_t end);
     void reorderMembers(std::size_t first, std::size_t end, float y);
     bool areManyCrossings(std::size_t first, std::size_t end);
+    bool crossLoud(std::size_t first, std::size_t end, float y);
     void cross(std::size_t first, std::size_t end, float y);
     void sortRoughly(std::size_t first, std::size_t end, float from, float y);
     void relabel(std::size_t first, std::size_t end, float y);
@@ -102,6 +107,7 @@ private:
     void addStarting(float y);
     void label(float y);
     void moveTo(float y);
+    std::uint64_t keyRightOf(const Active& member, std::uint64_t keyLeft, float y) const;
     void swap(std::size_t at, float y);
     void openWindow(std::span<Active* const> chains);
     template <class IsOrdered>
@@ -127,16 +133,16 @@ private:
     std::span<const std::uint32_t> toCome_;  ///< chains that begin below the line, from the top
     std::vector<std::uint32_t> beginning_;   ///< in the slab
     std::vector<Event> events_, groups_;
-    std::size_t steps_ = 0;  ///< of sweeps in the slab
-    float height_ = 1;       ///< of slabs
+    std::size_t steps_ = 0;         ///< of sweeps in the slab
+    float height_ = 1;              ///< of slabs
+    float thinnest_ = leastHeight;  ///< of slabs with as many chains as now
 
     // Of a sweep.
     std::vector<Active*> members_, merged_, added_;
     std::vector<std::uint32_t> starting_;  ///< chains, from the bottom
     float line_ = 0;
-    std::vector<float> meets_;    ///< where members i and i + 1 cross, from the line on
-    std::vector<float> nearest_;  ///< the least of each block of meets_
-    std::vector<float> least_;    ///< at the next vertex, of the members from i on
+    MinTree meets_;             ///< where members i and i + 1 cross, from the line on
+    std::vector<float> least_;  ///< at the next vertex, of the members from i on
     Region leftRegion_;
     std::uint64_t leftKey_ = 0;
     struct Winding {
@@ -148,6 +154,13 @@ private:
     std::vector<Winding> windings_;  ///< by layer
     std::uint64_t sweepNumber_ = 0, windowNumber_ = 0;
     std::vector<float> sorted_, merging_;  ///< of areManyCrossings()
+
+    // While the quiet chains of a window are set aside.
+    QuietChains quiet_;
+    bool isQuietAside_ = false;
+    std::vector<Active*> aside_;  ///< all members meanwhile
+    std::vector<ReachingChain> reaching_;
+    std::vector<std::int32_t> quietLefts_;  ///< of members: what quiet chains on their left added
 
     // Where the state is: right of so many chains that are done, and from there of so many members.
     std::vector<Crossed> crossedDone_, crossedMembers_;

@@ -1,6 +1,8 @@
 #include "compiler/direct/band_sweep.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/containers/small_sort.hpp"
@@ -13,7 +15,6 @@ namespace {
 /// Crossings between two vertices, times the number of chains, that are found one by one.
 constexpr std::size_t maxCrossings = 16;
 constexpr std::size_t fewMembers = 64;
-constexpr std::size_t meetBlock = 32;
 
 }  // namespace
 
@@ -226,6 +227,8 @@ void BandSweep::moveTo(float y) {
             if (i > first) {
                 if (mayReorderMembers(first, i + 1))
                     reorderMembers(first, i + 1, y);
+                else if (i - first > fewMembers && crossLoud(first, i + 1, y))
+                    steps_ += 1;
                 else if (i - first > fewMembers && areManyCrossings(first, i + 1))
                     sortRoughly(first, i + 1, line_, y);
                 else
@@ -252,6 +255,69 @@ void BandSweep::reorderMembers(std::size_t first, std::size_t end, float y) {
                [](const Active* a, const Active* b) { return a->next < b->next; });
     relabel(first, end, y);
     steps_ += 2 * (end - first);
+}
+
+/// Through the crossings of a window of many chains of one layer, without those that are quiet
+/// (quiet_chains.hpp): they show nothing, and neither do others where they cross them. False where that saves
+/// nothing, or too much crosses.
+bool BandSweep::crossLoud(std::size_t first, std::size_t end, float y) {
+    const std::uint32_t layer = members_[first]->layer;
+    const std::int32_t base = members_[first]->before;
+    const std::span window = std::span(members_).subspan(first, end - first);
+    if (state_.isEvenOdd(layer) ||
+        std::ranges::any_of(window, [&](const Active* a) { return a->layer != layer; }))
+        return false;
+    const Region left = first == 0 ? leftRegion_ : members_[first - 1]->region;
+    const std::uint64_t keyLeft = first == 0 ? leftKey_ : members_[first - 1]->key;
+    // Inside and outside are known, so that the state need not go where chains are set aside.
+    if (!state_.known(state_.keyAfter(keyLeft, layer, base, base == 0 ? 1 : -base)))
+        return false;
+    reaching_.clear();
+    for (const Active* a : window)
+        reaching_.push_back({std::min(a->x, a->next), std::max(a->x, a->next), a->winding});
+    quiet_.find(reaching_, base);
+    if (2 * quiet_.count() < window.size())
+        return false;
+
+    keepState(first);
+    aside_.assign(members_.begin(), members_.end());
+    members_.clear();
+    std::int32_t quietWinding = 0;
+    for (std::size_t i = 0; i < reaching_.size(); ++i) {
+        Active* const a = aside_[first + i];
+        if (quiet_.isQuiet(i)) {
+            quietWinding += a->winding;
+            continue;
+        }
+        quietLefts_.push_back(quietWinding);
+        a->before -= quietWinding;
+        members_.push_back(a);
+    }
+    const bool isTooMuch = members_.size() > fewMembers && areManyCrossings(0, members_.size());
+    if (isTooMuch) {
+        for (std::size_t i = 0; i < members_.size(); ++i)
+            members_[i]->before += quietLefts_[i];
+    } else if (members_.size() > 1) {
+        const Region outerLeft = std::exchange(leftRegion_, left);
+        const std::uint64_t outerKey = std::exchange(leftKey_, keyLeft);
+        isQuietAside_ = true;
+        cross(0, members_.size(), y);
+        isQuietAside_ = false;
+        leftRegion_ = outerLeft;
+        leftKey_ = outerKey;
+    }
+    quietLefts_.clear();
+    members_.swap(aside_);
+    if (isTooMuch)
+        return false;
+    sortStably(members_.begin() + std::ptrdiff_t(first), members_.begin() + std::ptrdiff_t(end),
+               [](const Active* a, const Active* b) { return a->next < b->next; });
+    ++windowNumber_;
+    windings_[layer].window = windowNumber_;
+    windings_[layer].now = base;
+    relabel(first, end, y);
+    steps_ += 4 * (end - first);
+    return true;
 }
 
 /// Whether more than `maxCrossings` a member.
@@ -300,33 +366,16 @@ void BandSweep::cross(std::size_t first, std::size_t end, float y) {
         const float above = std::max(b.x - a.x, 0.0f), below = a.next - b.next;
         return above / (above + below) * height;
     };
-    meets_.resize(pairs);
-    for (std::size_t i = 0; i < pairs; ++i)
-        meets_[i] = meet(i);
-    nearest_.resize((pairs + meetBlock - 1) / meetBlock);
-    const auto findNearest = [&](std::size_t block) {
-        nearest_[block] = never;
-        for (std::size_t i = block * meetBlock; i < std::min((block + 1) * meetBlock, pairs); ++i)
-            nearest_[block] = std::min(nearest_[block], meets_[i]);
-    };
-    for (std::size_t block = 0; block < nearest_.size(); ++block)
-        findNearest(block);
+    meets_.assign(pairs, meet);
     float reached = 0;
-    for (;;) {
+    while (meets_.least() != never) {
         limits::check();
-        const auto block = std::size_t(std::ranges::min_element(nearest_) - nearest_.begin());
-        if (nearest_[block] == never)
-            return;
-        const auto from = meets_.begin() + std::ptrdiff_t(block * meetBlock);
-        const auto at = std::size_t(std::find(from, meets_.end(), nearest_[block]) - meets_.begin());
-        reached = std::max(reached, meets_[at]);
+        const std::size_t at = meets_.indexOfLeast();
+        reached = std::max(reached, meets_.least());
         swap(first + at, std::min(line_ + reached, y));
-        const std::size_t before = at == 0 ? 0 : at - 1, after = std::min(at + 1, pairs - 1);
-        for (std::size_t i = before; i <= after; ++i)
-            meets_[i] = meet(i);
-        for (std::size_t k = before / meetBlock; k <= after / meetBlock; ++k)
-            findNearest(k);
-        steps_ += 4 + nearest_.size();
+        for (std::size_t i = at == 0 ? 0 : at - 1; i <= std::min(at + 1, pairs - 1); ++i)
+            meets_.set(i, meet(i));
+        steps_ += 4;
     }
 }
 
@@ -334,7 +383,7 @@ void BandSweep::cross(std::size_t first, std::size_t end, float y) {
 void BandSweep::sortRoughly(std::size_t first, std::size_t end, float from, float y) {
     const auto begin = members_.begin() + std::ptrdiff_t(first),
                stop = members_.begin() + std::ptrdiff_t(end);
-    const float height = std::max(leastHeight, (y - from) / 256);
+    const float height = std::max(thinnest_, (y - from) / 256);
     const auto sortAt = [&](float at, float since) {
         limits::check();
         for (auto a = begin; a != stop; ++a)
@@ -350,6 +399,14 @@ void BandSweep::sortRoughly(std::size_t first, std::size_t end, float from, floa
     sortAt(y, y);
 }
 
+/// What the key on its left becomes on a member's right.
+std::uint64_t BandSweep::keyRightOf(const Active& member, std::uint64_t keyLeft, float y) const {
+    if (!isQuietAside_)
+        return state_.keyAfter(keyLeft, member.layer, member.before, member.winding);
+    const std::optional<std::int32_t> quiet = quiet_.windingLeftOf(member.xAt(y));
+    return quiet ? state_.keyAfter(keyLeft, member.layer, member.before + *quiet, member.winding) : keyLeft;
+}
+
 /// Members `at` and at + 1 cross. Only the region between them changes.
 void BandSweep::swap(std::size_t at, float y) {
     keepState(at);
@@ -360,7 +417,7 @@ void BandSweep::swap(std::size_t at, float y) {
     }
     const std::uint64_t keyRight = b.key, keyLeft = at == 0 ? leftKey_ : members_[at - 1]->key;
     const Region right = b.region, left = at == 0 ? leftRegion_ : members_[at - 1]->region;
-    b.key = state_.keyAfter(keyLeft, b.layer, b.before, b.winding);
+    b.key = keyRightOf(b, keyLeft, y);
     a.key = keyRight;
     a.region = right;
     std::swap(members_[at], members_[at + 1]);
