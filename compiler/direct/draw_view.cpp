@@ -258,10 +258,10 @@ void ViewDrawing::scan(int first, int end,
         if (y >= first && y < end)
             take(y, run);
     };
-    impl_->draw(
-        first / bandRows, (end + bandRows - 1) / bandRows,
-        [&](asset::ChordScanner& scanner, int firstBand, std::span<BandChords> bands,
-            const asset::ChordPaints& paints) { scanner.scan(firstBand, bands, paints, takeIfWanted); });
+    const int firstBand = first / (bandRows * stripBands) * stripBands;
+    impl_->draw(firstBand, (end + bandRows - 1) / bandRows,
+                [&](asset::ChordScanner& scanner, int at, std::span<BandChords> bands,
+                    const asset::ChordPaints& paints) { scanner.scan(at, bands, paints, takeIfWanted); });
 }
 
 }  // namespace vtm::compiler

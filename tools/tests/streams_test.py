@@ -48,6 +48,7 @@ class StandardOutput(Command):
 
     def test_files_are_not_taken_for_it(self):
         """A file that is opened gets the least number that is free."""
+        self.vtm("render", "square.svg", "-o", "a.png", "--json")
         for closed in (">&-", "2>&-", "<&- >&- 2>&-"):
             self.shell(f'"$0" render square.svg -o c.png --json {closed}; [ $? -le 1 ]')
             self.assert_square("c.png")
