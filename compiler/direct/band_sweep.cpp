@@ -16,7 +16,7 @@ constexpr float mostHeight = 4;
 
 }  // namespace
 
-BandSweep::BandSweep(const Chains& chains, RegionState& state, std::size_t layers)
+BandSweep::BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers)
     : chains_(chains), vertices_(chains.vertices()), state_(state), windings_(layers) {}
 
 void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
@@ -47,7 +47,7 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     moveState(0);
 }
 
-// ---- Chains ---------------------------------------------------------------------------------------
+// ---- ViewChains ---------------------------------------------------------------------------------------
 
 BandSweep::Active* BandSweep::activate(std::uint32_t number) {
     const DownChain& chain = chains_[number];

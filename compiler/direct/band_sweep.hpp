@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "compiler/containers/min_tree.hpp"
-#include "compiler/direct/chains.hpp"
 #include "compiler/direct/quiet_chains.hpp"
 #include "compiler/direct/region_state.hpp"
+#include "compiler/direct/view_chains.hpp"
 #include "raster/chord.hpp"
 
 namespace vtm::compiler {
@@ -33,7 +33,7 @@ inline constexpr int stripBands = 4;
 class BandSweep {
 public:
     /// `state` is outside of all layers, and is so again after each band. Both must outlive it.
-    BandSweep(const Chains& chains, RegionState& state, std::size_t layers);
+    BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers);
 
     /// Appends the chords of a band; their paints are the state's. Sweeps on from the band above, or begins
     /// anew, which it must where the state has forgotten paints.
@@ -121,7 +121,7 @@ private:
     void setSides(Active& active, RegionPaint left, RegionPaint right, float y);
     void draw(const Active& active, float from, float to);
 
-    const Chains& chains_;
+    const ViewChains& chains_;
     const glm::vec2* const vertices_;
     RegionState& state_;
     std::vector<asset::Chord>* chords_ = nullptr;

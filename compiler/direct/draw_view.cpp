@@ -18,8 +18,8 @@
 #include "compiler/compile/settings.hpp"
 #include "compiler/compile/view_plan.hpp"
 #include "compiler/direct/band_sweep.hpp"
-#include "compiler/direct/chains.hpp"
 #include "compiler/direct/region_state.hpp"
+#include "compiler/direct/view_chains.hpp"
 #include "compiler/filters/compile_filtered.hpp"
 #include "compiler/lower/lower.hpp"
 #include "compiler/patterns/pattern_images.hpp"
@@ -39,8 +39,8 @@ constexpr std::size_t paintsAtOnce = 1u << 18;
 constexpr std::size_t keptPaints = 1u << 12;
 
 /// What one thread uses again.
-struct Worker {
-    Worker(const LoweredScene& picture, const Chains& chains, const asset::View& view)
+struct ThreadState {
+    ThreadState(const LoweredScene& picture, const ViewChains& chains, const asset::View& view)
         : state(picture), sweep(chains, state, picture.layers.size()), scanner(view) {}
 
     RegionState state;
@@ -78,7 +78,7 @@ struct ViewDrawing::Impl {
     const LoweredScene picture;
     const std::vector<image::Bitmap> bitmaps;
     const std::shared_ptr<const asset::Images> images;
-    const Chains chains;
+    const ViewChains chains;
     std::vector<std::string> warnings;
 
     /// Null if there are patterns of many tiles, or materials.
@@ -91,7 +91,7 @@ struct ViewDrawing::Impl {
                                      nullptr, nullptr, &tiles, &images);
         if (!tiles.patterns.empty() || !picture.materials.empty())
             return nullptr;
-        Chains chains(picture, lattice, view);
+        ViewChains chains(picture, lattice, view);
         std::vector<image::Bitmap> bitmaps = bitmapsOf(picture);
         auto fills = fillsOf(picture, bitmaps);
         std::vector<std::string> warnings = std::move(picture.warnings);
@@ -104,7 +104,8 @@ struct ViewDrawing::Impl {
     template <class Draw>
     void draw(int first, int end, const Draw& drawBands) const {
         const limits::Stage stage("drawing");
-        tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(picture, chains, view); });
+        tbb::enumerable_thread_specific<ThreadState> workers(
+            [&] { return ThreadState(picture, chains, view); });
         const int threads = tbb::this_task_arena::max_concurrency();
         const int strips = (end - first + stripBands - 1) / stripBands;
         const int grain = stripBands * std::max(1, threads == 1 ? strips : strips / (4 * threads));
@@ -116,7 +117,7 @@ struct ViewDrawing::Impl {
     }
 
     template <class Draw>
-    void drawSome(Worker& worker, int first, int end, const Draw& drawBands) const {
+    void drawSome(ThreadState& worker, int first, int end, const Draw& drawBands) const {
         // Where a sweep begins anew must not depend on what the thread has drawn before: only on the strip.
         std::size_t chords = 0, inStrip = 0;
         worker.bands.clear();
@@ -147,7 +148,7 @@ struct ViewDrawing::Impl {
     }
 
     template <class Draw>
-    void drawPainted(Worker& worker, int first, const Draw& drawBands) const {
+    void drawPainted(ThreadState& worker, int first, const Draw& drawBands) const {
         asset::Asset programs;
         programs.data = picture.data;
         for (const PaintProgram& program : worker.state.programs())

@@ -25,12 +25,12 @@ struct DownChain {
 
 /// Outlines are closed, so at the ends of a chain others end that cancel it. What lies beside the view is
 /// moved to `beside` pixels from it; what lies above or below all of it is left out.
-class Chains {
+class ViewChains {
 public:
     static constexpr float beside = 1;
 
     /// The picture is lowered on `lattice`; the view maps the picture's units to pixels.
-    Chains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view);
+    ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view);
 
     int bands() const { return int(firsts_.size()) - 1; }
     /// Numbers of chains that meet a band of rows: those that come from above it, then those that begin in

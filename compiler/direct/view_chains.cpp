@@ -1,4 +1,4 @@
-#include "compiler/direct/chains.hpp"
+#include "compiler/direct/view_chains.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -116,9 +116,9 @@ glm::vec2 onLine(glm::vec2 a, glm::vec2 b, int axis, float at) {
 }  // namespace
 
 /// Makes chains of contours.
-class Chains::Builder {
+class ViewChains::Builder {
 public:
-    explicit Builder(Chains& into) : into_(into) {}
+    explicit Builder(ViewChains& into) : into_(into) {}
 
     /// What is seen of the contours to come, and whether that is less than the view.
     void show(const PixelBox& box, bool isCut) {
@@ -223,13 +223,13 @@ private:
             clipped_.push_back(p);
     }
 
-    Chains& into_;
+    ViewChains& into_;
     PixelBox shown_;
     bool cutsRows_ = false;
     std::vector<glm::vec2> points_, clipped_;
 };
 
-Chains::Chains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view) {
+ViewChains::ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view) {
     const scene::Affine toPixels = scene::compose(view.toPixels, *scene::inverse(lattice.toSteps()));
     const std::vector<Run>& runs = picture.outlines.runs;
     vertices_.reserve(picture.outlines.points.size() + 2 * runs.size());
