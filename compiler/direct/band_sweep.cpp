@@ -289,14 +289,19 @@ Region BandSweep::regionAfter(std::size_t at, const Region& left, std::uint64_t 
         return left;
     if (const Region* region = state_.known(member.key))
         return *region;
+    crossMembers(at + 1);
+    return state_.region();
+}
+
+/// Takes the state to the right of so many members.
+void BandSweep::crossMembers(std::size_t count) {
     moveState(done_.size());
-    keepState(at + 1);
-    while (crossedMembers_.size() < at + 1) {
+    keepState(count);
+    while (crossedMembers_.size() < count) {
         const Active& a = *members_[crossedMembers_.size()];
         state_.cross(a.layer, a.winding);
         crossedMembers_.push_back({a.layer, a.winding});
     }
-    return state_.region();
 }
 
 /// Takes the state back to the left of the member with that number.

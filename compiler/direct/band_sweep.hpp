@@ -115,6 +115,7 @@ private:
     bool staysHidden(std::span<Active* const> chains, const Region& left) const;
     std::int32_t windingLeftOf(std::uint32_t layer) const;
 
+    void crossMembers(std::size_t count);
     void keepState(std::size_t members);
     void moveState(std::size_t done);
 

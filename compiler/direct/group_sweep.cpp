@@ -269,9 +269,14 @@ bool BandSweep::crossLoud(std::size_t first, std::size_t end, float y) {
         return false;
     const Region left = first == 0 ? leftRegion_ : members_[first - 1]->region;
     const std::uint64_t keyLeft = first == 0 ? leftKey_ : members_[first - 1]->key;
-    // Inside and outside are known, so that the state need not go where chains are set aside.
-    if (!state_.known(state_.keyAfter(keyLeft, layer, base, base == 0 ? 1 : -base)))
-        return false;
+    // Inside and outside must be known, since the state cannot go where chains are set aside.
+    const std::int32_t across = base == 0 ? 1 : -base;
+    if (!state_.known(state_.keyAfter(keyLeft, layer, base, across))) {
+        crossMembers(first);
+        state_.cross(layer, across);
+        state_.region();
+        state_.cross(layer, -across);
+    }
     reaching_.clear();
     for (const Active* a : window)
         reaching_.push_back({std::min(a->x, a->next), std::max(a->x, a->next), a->winding});
