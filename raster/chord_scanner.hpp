@@ -21,8 +21,8 @@ class Images;
 /// Those of an asset, for all assets of the same images whose paints read the same of them.
 std::shared_ptr<const Images> imagesOf(const AssetView& asset);
 
-/// The paints of chords. Numbers below `programs` are those of the asset's paints, all of which are programs;
-/// those from there on are colours, premultiplied.
+/// The paints of chords. The first numbers are those of the asset's paints, all of which are programs; the
+/// next ones are colours, premultiplied.
 struct ChordPaints {
     const AssetView& asset;
     const std::shared_ptr<const Images>& images;  ///< of the asset
@@ -36,8 +36,9 @@ public:
     explicit ChordScanner(const View& view);
     ~ChordScanner();
 
-    /// Bands of bandRows rows, from `first` on: for each the chords that change a pixel of it. In every row
-    /// their changes of paint must add up to nothing on the right of them all. The chords are left changed.
+    /// Bands of bandRows rows, from `first` on: for each the chords that change a pixel of it. On the way
+    /// along a row, from paint 0 on the left, each chord that is met has on its left the paint that one is
+    /// in.
     void draw(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
               const ByteTarget& target);
     /// The same, as Scanner::scan gives it.

@@ -126,17 +126,16 @@ std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& 
     if (x.isEmpty() || y.isEmpty())
         return std::nullopt;
     plan.isAll = false;
-    plan.scale = {roundedScale(1 / pixel.width), roundedScale(1 / pixel.height)};
-    plan.origin = {x.from, y.from};
-    plan.excerpt = {{plan.scale.x, 0, 0, plan.scale.y, -plan.scale.x * x.from, -plan.scale.y * y.from},
-                    x.size() * plan.scale.x,
-                    y.size() * plan.scale.y,
+    const scene::Point scale{roundedScale(1 / pixel.width), roundedScale(1 / pixel.height)};
+    plan.excerpt = {{scale.x, 0, 0, scale.y, -scale.x * x.from, -scale.y * y.from},
+                    x.size() * scale.x,
+                    y.size() * scale.y,
                     true};
-    plan.pixel = std::min(pixel.width * plan.scale.x, pixel.height * plan.scale.y);
+    plan.pixel = std::min(pixel.width * scale.x, pixel.height * scale.y);
     plan.options = withTolerance(options, needed(plan.excerpt.width, plan.excerpt.height, plan.pixel));
-    plan.view.toPixels = frame.toPixels(plan.origin, plan.scale);
+    plan.view.toPixels = frame.toPixels({x.from, y.from}, scale);
     constexpr double rounding = 0x1p-53;
-    plan.off = roundings * rounding * std::max(x.to * plan.scale.x, y.to * plan.scale.y);
+    plan.off = roundings * rounding * std::max(x.to * scale.x, y.to * scale.y);
     return plan;
 }
 

@@ -17,9 +17,7 @@ namespace vtm::compiler {
 struct ViewPlan {
     Excerpt excerpt;
     Options options;
-    asset::View view;           ///< of the excerpt
-    scene::Point origin{0, 0};  ///< of the scene, which the excerpt's origin shows
-    scene::Point scale{1, 1};
+    asset::View view;   ///< of the excerpt
     double pixel = 1;   ///< the shorter side of a pixel, in the excerpt's units
     double off = 0;     ///< by what the roundings of doubles may move boundaries, in those
     bool isAll = true;  ///< the excerpt is the whole scene

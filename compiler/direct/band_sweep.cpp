@@ -14,6 +14,11 @@ using asset::bandRows;
 /// Slabs grow to so many rows where nothing happens.
 constexpr float mostHeight = 4;
 
+/// Where the line from a down to b is at y.
+float xBetween(glm::vec2 a, glm::vec2 b, float y) {
+    return y >= b.y ? b.x : y <= a.y ? a.x : a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
+}
+
 }  // namespace
 
 BandSweep::BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers)
@@ -47,7 +52,7 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     moveState(0);
 }
 
-// ---- ViewChains ---------------------------------------------------------------------------------------
+// ---- Chains ---------------------------------------------------------------------------------------
 
 BandSweep::Active* BandSweep::activate(std::uint32_t number) {
     const DownChain& chain = chains_[number];
@@ -96,7 +101,7 @@ void BandSweep::begin(std::span<const std::uint32_t> chains, float top) {
     }
     sortStably(members_.begin(), members_.end(), isLeft);
     done_.clear();
-    enterSweep(top);
+    enterSweep();
     label(top);
     keepState(0);
     active_.swap(members_);
@@ -127,25 +132,23 @@ void BandSweep::look(Slab slab) {
             a.right = std::max(a.x, a.next);
             continue;
         }
-        a.left = a.right = a.x;
-        std::uint32_t at = a.at + 1;
-        const auto add = [&](float x) {
-            a.left = std::min(a.left, x);
-            a.right = std::max(a.right, x);
-        };
-        for (; at < a.end && vertices_[at].y <= slab.bottom; ++at)
-            add(vertices_[at].x);
-        a.ends = at == a.end;
-        if (a.ends) {
-            a.next = vertices_[at - 1].x;
-            continue;
-        }
-        const glm::vec2 from = vertices_[at - 1], to = vertices_[at];
-        a.next = slab.bottom <= from.y
-                     ? from.x
-                     : from.x + (slab.bottom - from.y) * ((to.x - from.x) / (to.y - from.y));
-        add(a.next);
+        Reach reach;
+        reach.add(a.x);
+        addReach(reach, a.at + 1, a.end, slab.bottom);
+        a.left = reach.left;
+        a.right = reach.right;
+        a.next = reach.last;
+        a.ends = reach.ends;
     }
+}
+
+/// From vertex `at` of a chain on, down to the bottom.
+void BandSweep::addReach(Reach& reach, std::uint32_t at, std::uint32_t end, float bottom) const {
+    for (; at < end && vertices_[at].y <= bottom; ++at)
+        reach.add(vertices_[at].x);
+    reach.ends = at == end;
+    if (!reach.ends)
+        reach.add(xBetween(vertices_[at - 1], vertices_[at], bottom));
 }
 
 /// Whether no point of the left one, from the line to the bottom, is on the right of the other; it may say no
@@ -156,10 +159,7 @@ bool BandSweep::isOrdered(const Active& left, const Active& right, float bottom)
     if (!left.isBent && !right.isBent)
         return true;
     std::uint32_t i = left.at + 1, k = right.at + 1;
-    const auto xAt = [&](std::uint32_t at, float y) {
-        const glm::vec2 a = vertices_[at - 1], b = vertices_[at];
-        return y >= b.y ? b.x : y <= a.y ? a.x : a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
-    };
+    const auto xAt = [&](std::uint32_t at, float y) { return xBetween(vertices_[at - 1], vertices_[at], y); };
     while (i < left.end && k < right.end) {
         const glm::vec2 p = vertices_[i], q = vertices_[k];
         if (p.y > bottom && q.y > bottom)
@@ -194,20 +194,9 @@ void BandSweep::findEvents(Slab slab) {
                 {std::min(a.left, b.left), std::max(a.right, b.right), i, i + 2, noIndex, true});
     }
     for (const std::uint32_t number : beginning_) {
-        const DownChain& chain = chains_[number];
-        Event event{never, -never, active_.size(), 0, number, false};
-        const auto add = [&](float x) {
-            event.left = std::min(event.left, x);
-            event.right = std::max(event.right, x);
-        };
-        std::uint32_t at = chain.first;
-        for (; at < chain.end && vertices_[at].y <= slab.bottom; ++at)
-            add(vertices_[at].x);
-        if (at < chain.end) {
-            const glm::vec2 from = vertices_[at - 1], to = vertices_[at];
-            add(from.x + (slab.bottom - from.y) * ((to.x - from.x) / (to.y - from.y)));
-        }
-        events_.push_back(event);
+        Reach reach;
+        addReach(reach, chains_[number].first, chains_[number].end, slab.bottom);
+        events_.push_back({reach.left, reach.right, active_.size(), 0, number, false});
     }
 }
 
@@ -259,6 +248,7 @@ void BandSweep::gather(Slab slab) {
                 starting_.push_back(events_[nextEvent].begins);
         members_.assign(active_.begin() + std::ptrdiff_t(group.first),
                         active_.begin() + std::ptrdiff_t(group.end));
+        enterSweep();
         if (group.isCrossing && mayReorder(slab))
             reorder(slab);
         else

@@ -12,6 +12,7 @@
 /// rounding of a crossing lets a region leak: it moves an edge, it changes no label.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -65,6 +66,18 @@ private:
 
         float xAt(float y) const { return y >= b.y ? b.x : y <= a.y ? a.x : a.x + (y - a.y) * slope; }
     };
+    /// The columns that a chain reaches in a slab.
+    struct Reach {
+        float left = never, right = -never;
+        float last = 0;  ///< at the bottom, or where it ends
+        bool ends = false;
+
+        void add(float x) {
+            left = std::min(left, x);
+            right = std::max(right, x);
+            last = x;
+        }
+    };
     struct Slab {
         float top, bottom;
     };
@@ -81,6 +94,9 @@ private:
     };
 
     static bool isLeft(const Active* a, const Active* b);
+    static bool isLeftThere(const Active* a, const Active* b) { return a->x < b->x; }
+    static bool isLeftNext(const Active* a, const Active* b) { return a->next < b->next; }
+    void addReach(Reach& reach, std::uint32_t at, std::uint32_t end, float bottom) const;
     Active* activate(std::uint32_t chain);
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
@@ -97,12 +113,15 @@ private:
     bool mayReorderMembers(std::size_t first, std::size_t end);
     void reorderMembers(std::size_t first, std::size_t end, float y);
     bool areManyCrossings(std::size_t first, std::size_t end);
-    bool crossLoud(std::size_t first, std::size_t end, float y);
+    bool crossWithoutQuiet(std::size_t first, std::size_t end, float y);
     void cross(std::size_t first, std::size_t end, float y);
-    void sortRoughly(std::size_t first, std::size_t end, float from, float y);
+    void sortRoughly(std::size_t first, std::size_t end, float y);
     void relabel(std::size_t first, std::size_t end, float y);
     Region regionAfter(std::size_t at, const Region& left, std::uint64_t keyLeft);
-    void enterSweep(float top);
+    void crossWindow(std::size_t first, std::size_t end, float y);
+    void enterSweep();
+    const Region& regionLeftOf(std::size_t member) const;
+    std::uint64_t keyLeftOf(std::size_t member) const;
     void meetVertices(float y);
     void addStarting(float y);
     void label(float y);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <vtm/limits/limits.hpp>
+#include "compiler/direct/band_sweep.hpp"
 #include "raster/chord.hpp"
 #include "raster/scan_rows.hpp"
 
@@ -19,8 +20,9 @@ constexpr std::size_t bytesAtOnce = 32u << 20;
 
 void drawRows(const ViewDrawing& drawing, const image::PixelWriter& writer, const image::RowSink& sink) {
     const std::size_t rowBytes = std::size_t(drawing.width()) * writer.pixelBytes();
-    const int bands = int(bytesAtOnce / std::max<std::size_t>(rowBytes * asset::bandRows, 1));
-    const int rows = std::min(std::max(bands / 16, 1) * 16 * asset::bandRows, drawing.height());
+    constexpr int stripRows = stripBands * asset::bandRows;
+    const auto strips = int(bytesAtOnce / std::max<std::size_t>(rowBytes * stripRows, 1));
+    const int rows = std::min(std::max(strips, 1) * stripRows, drawing.height());
     std::vector<std::uint8_t> bytes(std::size_t(rows) * rowBytes);
     const auto rowAt = [&](int row) {
         return std::span(bytes).subspan(std::size_t(row) * rowBytes, rowBytes);

@@ -1,3 +1,5 @@
+// The members of a group, swept on their own: from vertex to vertex and from crossing to crossing.
+
 #include "compiler/direct/band_sweep.hpp"
 
 #include <algorithm>
@@ -6,8 +8,6 @@
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/containers/small_sort.hpp"
-
-// The members of a group, on their own: from vertex to vertex and from crossing to crossing.
 
 namespace vtm::compiler {
 namespace {
@@ -23,11 +23,17 @@ bool BandSweep::isLeft(const Active* a, const Active* b) {
 }
 
 /// Of members that stand right of all that are done.
-void BandSweep::enterSweep(float top) {
+void BandSweep::enterSweep() {
     leftRegion_ = done_.empty() ? Region{} : done_.back()->region;
     leftKey_ = done_.empty() ? 0 : done_.back()->key;
-    line_ = top;
     ++sweepNumber_;
+}
+
+const Region& BandSweep::regionLeftOf(std::size_t member) const {
+    return member == 0 ? leftRegion_ : members_[member - 1]->region;
+}
+std::uint64_t BandSweep::keyLeftOf(std::size_t member) const {
+    return member == 0 ? leftKey_ : members_[member - 1]->key;
 }
 
 /// The winding numbers that layers may have between some chains.
@@ -77,17 +83,15 @@ bool BandSweep::staysHidden(std::span<Active* const> chains, const Region& left)
 
 bool BandSweep::mayReorder(Slab slab) {
     openWindow(members_);
-    return isQuiet(
-        members_, done_.empty() ? Region{} : done_.back()->region,
-        [&](const Active& a, const Active& b) { return a.right <= b.left || isOrdered(a, b, slab.bottom); });
+    return isQuiet(members_, leftRegion_, [&](const Active& a, const Active& b) {
+        return a.right <= b.left || isOrdered(a, b, slab.bottom);
+    });
 }
 
 void BandSweep::reorder(Slab slab) {
     for (Active* a : members_)
         pass(*a, slab.bottom);
-    sortStably(members_.begin(), members_.end(),
-               [](const Active* a, const Active* b) { return a->x < b->x; });
-    enterSweep(slab.bottom);
+    sortStably(members_.begin(), members_.end(), isLeftThere);
     relabel(0, members_.size(), slab.bottom);
     keepState(0);
     steps_ += members_.size();
@@ -96,7 +100,7 @@ void BandSweep::reorder(Slab slab) {
 void BandSweep::sweep(Slab slab) {
     sortStably(starting_.begin(), starting_.end(),
                [&](std::uint32_t a, std::uint32_t b) { return chains_[a].top > chains_[b].top; });
-    enterSweep(slab.top);
+    line_ = slab.top;
     for (const Active* a : members_)
         if (Winding& w = windings_[a->layer]; w.sweep != sweepNumber_) {
             w.sweep = sweepNumber_;
@@ -187,8 +191,8 @@ void BandSweep::label(float y) {
 
 /// Those of some members, whose layers' winding numbers are set.
 void BandSweep::relabel(std::size_t first, std::size_t end, float y) {
-    Region left = first == 0 ? leftRegion_ : members_[first - 1]->region;
-    std::uint64_t key = first == 0 ? leftKey_ : members_[first - 1]->key;
+    Region left = regionLeftOf(first);
+    std::uint64_t key = keyLeftOf(first);
     for (std::size_t i = first; i < end; ++i) {
         Active& a = *members_[i];
         Winding& w = windings_[a.layer];
@@ -224,16 +228,8 @@ void BandSweep::moveTo(float y) {
             most = std::max(most, members_[i]->next);
             if (i + 1 < members_.size() && most > least_[i + 1])
                 continue;
-            if (i > first) {
-                if (mayReorderMembers(first, i + 1))
-                    reorderMembers(first, i + 1, y);
-                else if (i - first > fewMembers && crossLoud(first, i + 1, y))
-                    steps_ += 1;
-                else if (i - first > fewMembers && areManyCrossings(first, i + 1))
-                    sortRoughly(first, i + 1, line_, y);
-                else
-                    cross(first, i + 1, y);
-            }
+            if (i > first)
+                crossWindow(first, i + 1, y);
             first = i + 1;
         }
     }
@@ -242,17 +238,30 @@ void BandSweep::moveTo(float y) {
     line_ = y;
 }
 
+/// Through the crossings of members that end in another order.
+void BandSweep::crossWindow(std::size_t first, std::size_t end, float y) {
+    if (mayReorderMembers(first, end))
+        return reorderMembers(first, end, y);
+    if (end - first > fewMembers) {
+        if (crossWithoutQuiet(first, end, y))
+            return;
+        if (areManyCrossings(first, end))
+            return sortRoughly(first, end, y);
+    }
+    cross(first, end, y);
+}
+
 bool BandSweep::mayReorderMembers(std::size_t first, std::size_t end) {
     const std::span chains = std::span(members_).subspan(first, end - first);
     openWindow(chains);
-    return isQuiet(chains, first == 0 ? leftRegion_ : members_[first - 1]->region,
+    return isQuiet(chains, regionLeftOf(first),
                    [](const Active& a, const Active& b) { return a.next <= b.next; });
 }
 
+/// Of an open window.
 void BandSweep::reorderMembers(std::size_t first, std::size_t end, float y) {
     keepState(first);
-    sortStably(members_.begin() + std::ptrdiff_t(first), members_.begin() + std::ptrdiff_t(end),
-               [](const Active* a, const Active* b) { return a->next < b->next; });
+    sortStably(members_.begin() + std::ptrdiff_t(first), members_.begin() + std::ptrdiff_t(end), isLeftNext);
     relabel(first, end, y);
     steps_ += 2 * (end - first);
 }
@@ -260,15 +269,15 @@ void BandSweep::reorderMembers(std::size_t first, std::size_t end, float y) {
 /// Through the crossings of a window of many chains of one layer, without those that are quiet
 /// (quiet_chains.hpp): they show nothing, and neither do others where they cross them. False where that saves
 /// nothing, or too much crosses.
-bool BandSweep::crossLoud(std::size_t first, std::size_t end, float y) {
+bool BandSweep::crossWithoutQuiet(std::size_t first, std::size_t end, float y) {
     const std::uint32_t layer = members_[first]->layer;
     const std::int32_t base = members_[first]->before;
     const std::span window = std::span(members_).subspan(first, end - first);
     if (state_.isEvenOdd(layer) ||
         std::ranges::any_of(window, [&](const Active* a) { return a->layer != layer; }))
         return false;
-    const Region left = first == 0 ? leftRegion_ : members_[first - 1]->region;
-    const std::uint64_t keyLeft = first == 0 ? leftKey_ : members_[first - 1]->key;
+    const Region left = regionLeftOf(first);
+    const std::uint64_t keyLeft = keyLeftOf(first);
     // Inside and outside must be known, since the state cannot go where chains are set aside.
     const std::int32_t across = base == 0 ? 1 : -base;
     if (!state_.known(state_.keyAfter(keyLeft, layer, base, across))) {
@@ -315,13 +324,7 @@ bool BandSweep::crossLoud(std::size_t first, std::size_t end, float y) {
     members_.swap(aside_);
     if (isTooMuch)
         return false;
-    sortStably(members_.begin() + std::ptrdiff_t(first), members_.begin() + std::ptrdiff_t(end),
-               [](const Active* a, const Active* b) { return a->next < b->next; });
-    ++windowNumber_;
-    windings_[layer].window = windowNumber_;
-    windings_[layer].now = base;
-    relabel(first, end, y);
-    steps_ += 4 * (end - first);
+    reorderMembers(first, end, y);
     return true;
 }
 
@@ -385,21 +388,21 @@ void BandSweep::cross(std::size_t first, std::size_t end, float y) {
 }
 
 /// Down to y where too much crosses: in steps, in each of which members are in their order at its middle.
-void BandSweep::sortRoughly(std::size_t first, std::size_t end, float from, float y) {
+void BandSweep::sortRoughly(std::size_t first, std::size_t end, float y) {
     const auto begin = members_.begin() + std::ptrdiff_t(first),
                stop = members_.begin() + std::ptrdiff_t(end);
-    const float height = std::max(thinnest_, (y - from) / 256);
+    const float height = std::max(thinnest_, (y - line_) / 256);
     const auto sortAt = [&](float at, float since) {
         limits::check();
         for (auto a = begin; a != stop; ++a)
             (*a)->x = (*a)->xAt(at);
         keepState(first);
         openWindow(std::span(members_).subspan(first, end - first));
-        sortStably(begin, stop, [](const Active* a, const Active* b) { return a->x < b->x; });
+        sortStably(begin, stop, isLeftThere);
         relabel(first, end, since);
         steps_ += 8 * (end - first);
     };
-    for (float top = from; top < y; top += height)
+    for (float top = line_; top < y; top += height)
         sortAt(0.5f * (top + std::min(top + height, y)), top);
     sortAt(y, y);
 }
@@ -420,8 +423,8 @@ void BandSweep::swap(std::size_t at, float y) {
         b.before = a.before;
         a.before = b.before + b.winding;
     }
-    const std::uint64_t keyRight = b.key, keyLeft = at == 0 ? leftKey_ : members_[at - 1]->key;
-    const Region right = b.region, left = at == 0 ? leftRegion_ : members_[at - 1]->region;
+    const std::uint64_t keyRight = b.key, keyLeft = keyLeftOf(at);
+    const Region right = b.region, left = regionLeftOf(at);
     b.key = keyRightOf(b, keyLeft, y);
     a.key = keyRight;
     a.region = right;

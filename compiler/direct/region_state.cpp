@@ -36,13 +36,13 @@ RegionState::RegionState(const LoweredScene& picture)
         layers_[l].mask = picture.layers[l].rule == scene::FillRule::EvenOdd ? 1 : -1;
         layers_[l].name = hashValue(l);
     }
-    std::vector<std::uint8_t> isLaidOver(picture.groups.size()), isClipped(picture.groups.size());
+    const std::vector<std::uint8_t> isClipped = clippedGroups(picture);
+    std::vector<std::uint8_t> isLaidOver(picture.groups.size());
     for (std::uint32_t g = 0; g < picture.groups.size(); ++g) {  // parents come first
         const LoweredGroup& group = picture.groups[g];
         const bool isRoot = group.parent == noIndex;
         isLaidOver[g] = (isRoot || isLaidOver[group.parent]) && group.role == GroupRole::Plain &&
                         group.blend == scene::BlendMode::Normal && group.mask == noIndex;
-        isClipped[g] = group.clip != noIndex || (!isRoot && isClipped[group.parent]);
         translucent_[g] = group.opacity < 1 ? g : isRoot ? noIndex : translucent_[group.parent];
     }
     for (const LoweredItem& item : picture.items) {

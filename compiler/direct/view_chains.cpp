@@ -1,78 +1,56 @@
 #include "compiler/direct/view_chains.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include <vtm/limits/limits.hpp>
+#include "compiler/paint/composite.hpp"
+#include "geometry/box.hpp"
 #include "raster/chord.hpp"
 
 namespace vtm::compiler {
 namespace {
 
 using asset::bandRows;
+using geometry::Box;
 
-struct PixelBox {
-    float left = std::numeric_limits<float>::infinity(), top = left, right = -left, bottom = -left;
-
-    void add(glm::vec2 p) {
-        left = std::min(left, p.x);
-        right = std::max(right, p.x);
-        top = std::min(top, p.y);
-        bottom = std::max(bottom, p.y);
-    }
-    void add(const PixelBox& b) {
-        left = std::min(left, b.left);
-        right = std::max(right, b.right);
-        top = std::min(top, b.top);
-        bottom = std::max(bottom, b.bottom);
-    }
-    PixelBox intersection(const PixelBox& b) const {
-        PixelBox both;
-        both.left = std::max(left, b.left);
-        both.top = std::max(top, b.top);
-        both.right = std::min(right, b.right);
-        both.bottom = std::min(bottom, b.bottom);
-        return both;
-    }
-    bool meets(const PixelBox& b) const {
-        return left < b.right && right > b.left && top < b.bottom && bottom > b.top;
-    }
-};
+/// Whether they have a point within both.
+bool overlap(const Box& a, const Box& b) {
+    return a.min.x < b.max.x && a.max.x > b.min.x && a.min.y < b.max.y && a.max.y > b.min.y;
+}
 
 /// Around what is seen of items in groups with clips.
 class ClipBoxes {
 public:
     ClipBoxes(const LoweredScene& picture, const scene::Affine& toPixels, const asset::View& view)
-        : picture_(picture), toPixels_(toPixels), known_(picture.clips.size()) {
-        all_.add(glm::vec2(0, 0));
-        all_.add(glm::vec2(view.width, view.height));
+        : picture_(picture),
+          toPixels_(toPixels),
+          all_{{0, 0}, {view.width, view.height}},
+          isClipped_(clippedGroups(picture)),
+          known_(picture.clips.size()) {
         for (const LoweredGroup& group : picture.groups) {  // parents come first
-            const PixelBox& outer = group.parent == noIndex ? all_ : groups_[group.parent];
+            const Box outer = group.parent == noIndex ? all_ : groups_[group.parent];
             groups_.push_back(group.clip == noIndex ? outer : outer.intersection(ofClip(group.clip)));
-            isClipped_.push_back(group.clip != noIndex ||
-                                 (group.parent != noIndex && isClipped_[group.parent]));
         }
     }
 
-    /// Of an item, or all of the view for a clip.
-    const PixelBox& ofLayer(std::uint32_t layer) const {
+    /// Of an item in such a group; null for others, of which all of the view is seen, and for clips.
+    const Box* ofLayer(std::uint32_t layer) const {
         const std::uint32_t item = picture_.itemOfLayer[layer];
         const std::uint32_t group = item == noIndex ? 0 : picture_.items[item].group;
-        return isClipped_[group] ? groups_[group] : all_;
+        return isClipped_[group] ? &groups_[group] : nullptr;
     }
-
-    bool isCut(std::uint32_t layer) const { return &ofLayer(layer) != &all_; }
+    const Box& view() const { return all_; }
 
 private:
-    PixelBox ofClip(std::uint32_t index) {
+    Box ofClip(std::uint32_t index) {
         if (known_[index])
             return *known_[index];
         limits::check();
         const ClipExpression& clip = picture_.clips[index];
-        PixelBox box;
+        Box box;
         for (const ClipExpression::Term& term : clip.terms) {
-            const PixelBox shape = term.inverted ? all_ : ofOutline(picture_.layers[term.layer]);
+            const Box shape = term.inverted ? all_ : ofOutline(picture_.layers[term.layer]);
             box.add(term.clip == noIndex ? shape : shape.intersection(ofClip(term.clip)));
         }
         if (clip.outer != noIndex)
@@ -80,24 +58,24 @@ private:
         return known_[index].emplace(box);
     }
     /// Pixels of its own on all sides, since what is cut is moved there.
-    PixelBox ofOutline(const Layer& layer) const {
-        constexpr float more = 1;
-        PixelBox box;
+    Box ofOutline(const Layer& layer) const {
+        constexpr double more = 1;
+        Box box;
         for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r)
             for (std::uint32_t i = picture_.outlines.runs[r].first; i <= picture_.outlines.runs[r].last;
                  ++i) {
                 const LatticePoint p = picture_.outlines.points[i];
                 box.add(glm::vec2(toPixels_[0] * double(p.x) + toPixels_[1] * double(p.y) + toPixels_[2]));
             }
-        return {box.left - more, box.top - more, box.right + more, box.bottom + more};
+        return {box.min - more, box.max + more};
     }
 
     const LoweredScene& picture_;
     const scene::Affine& toPixels_;
-    PixelBox all_;
-    std::vector<PixelBox> groups_;
-    std::vector<std::uint8_t> isClipped_;  ///< by group
-    std::vector<std::optional<PixelBox>> known_;
+    const Box all_;
+    const std::vector<std::uint8_t> isClipped_;  ///< by group
+    std::vector<Box> groups_;
+    std::vector<std::optional<Box>> known_;  ///< by clip
 };
 
 /// Where the line from a to b crosses a line across that axis. The same for both directions.
@@ -121,7 +99,7 @@ public:
     explicit Builder(ViewChains& into) : into_(into) {}
 
     /// What is seen of the contours to come, and whether that is less than the view.
-    void show(const PixelBox& box, bool isCut) {
+    void show(const Box& box, bool isCut) {
         shown_ = box;
         cutsRows_ = isCut;
     }
@@ -130,22 +108,23 @@ public:
     std::vector<glm::vec2>& points() { return points_; }
 
     void add(std::uint32_t layer) {
-        PixelBox box;
+        Box box;
         std::size_t top = 0;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             box.add(points_[i]);
             if (points_[i].y < points_[top].y)
                 top = i;
         }
-        if (!box.meets(shown_))
+        if (!overlap(box, shown_))
             return;
         // Rows above and below the view are left out later.
-        if (cutsRows_ && (box.top < shown_.top || box.bottom > shown_.bottom)) {
-            clip(1, shown_.top, shown_.bottom);
+        if (cutsRows_ && (box.min.y < shown_.min.y || box.max.y > shown_.max.y)) {
+            clip(1, float(shown_.min.y), float(shown_.max.y));
             top = highest();
         }
-        if (box.left < shown_.left - beside || box.right > shown_.right + beside) {
-            clip(0, shown_.left - beside, shown_.right + beside);
+        const float left = float(shown_.min.x) - beside, right = float(shown_.max.x) + beside;
+        if (box.min.x < left || box.max.x > right) {
+            clip(0, left, right);
             top = highest();
         }
         divide(top, layer);
@@ -183,7 +162,7 @@ private:
             }
             if (!down)
                 std::reverse(vertices.begin() + first, vertices.end());
-            if (isLevel || vertices.back().y <= shown_.top || vertices[first].y >= shown_.bottom) {
+            if (isLevel || vertices.back().y <= shown_.min.y || vertices[first].y >= shown_.max.y) {
                 vertices.resize(first);
                 continue;
             }
@@ -224,7 +203,7 @@ private:
     }
 
     ViewChains& into_;
-    PixelBox shown_;
+    Box shown_;
     bool cutsRows_ = false;
     std::vector<glm::vec2> points_, clipped_;
 };
@@ -238,7 +217,8 @@ ViewChains::ViewChains(const LoweredScene& picture, const Lattice& lattice, cons
     for (std::uint32_t l = 0; l < picture.layers.size(); ++l) {
         limits::check();
         const Layer& layer = picture.layers[l];
-        builder.show(boxes.ofLayer(l), boxes.isCut(l));
+        const Box* const cut = boxes.ofLayer(l);
+        builder.show(cut ? *cut : boxes.view(), cut != nullptr);
         for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount;) {
             const std::uint32_t first = runs[r].first;
             std::uint32_t last = runs[r++].last;

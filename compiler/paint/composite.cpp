@@ -189,6 +189,15 @@ private:
 
 }  // namespace
 
+std::vector<std::uint8_t> clippedGroups(const LoweredScene& picture) {
+    std::vector<std::uint8_t> clipped(picture.groups.size());
+    for (std::size_t g = 0; g < clipped.size(); ++g) {  // parents come first
+        const LoweredGroup& group = picture.groups[g];
+        clipped[g] = group.clip != noIndex || (group.parent != noIndex && clipped[group.parent]);
+    }
+    return clipped;
+}
+
 PaintId composite(const LoweredScene& picture, std::span<const std::uint32_t> items,
                   const std::vector<std::uint8_t>& inside, Palette& palette) {
     const auto in = [&](std::uint32_t layer) { return inside[layer] != 0; };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,9 @@ PaintId composite(const LoweredScene& picture, std::span<const std::uint32_t> it
 
 /// The paint of exactly the given items (ascending), clips aside.
 PaintProgram compositeItems(const LoweredScene& picture, std::span<const std::uint32_t> items);
+
+/// By group: whether it or one round it has a clip.
+std::vector<std::uint8_t> clippedGroups(const LoweredScene& picture);
 
 /// Whether a clip lets a point through, given what `inside(layer)` says of it.
 template <class Inside>

@@ -177,12 +177,7 @@ EditablePainter::EditablePainter(const LoweredScene& picture, const std::vector<
       picture_(picture),
       names_(names),
       groupHides_(groupsThatHide(picture)),
-      clipped_(picture.groups.size()) {
-    for (std::uint32_t g = 0; g < clipped_.size(); ++g) {  // parents come first
-        const LoweredGroup& group = picture.groups[g];
-        clipped_[g] = group.clip != noIndex || (group.parent != noIndex && clipped_[group.parent]);
-    }
-}
+      clipped_(clippedGroups(picture)) {}
 
 PaintId EditablePainter::paint(std::span<const std::uint32_t> layers, const std::vector<std::uint8_t>& inside,
                                Palette& palette) {
