@@ -5,8 +5,8 @@ import statistics
 import plot
 
 OTHER_PICTURE = 2.5  # rms from ours, as in bench/reports/drawing.cpp: who draws something else is in no median
-NAMES = {"scan": "VTM, CPU", "gl": "VTM, as it is", "shaders": "VTM, shaders"}
-ORDER = ("scan", "gl", "shaders", "cairo", "librsvg", "resvg", "skia", "qt-raster", "qt-gl", "qt-gl-4")
+NAMES = {"scan": "VTM, CPU", "gl": "VTM, as it is", "shaders": "VTM, shaders", "blend2d": "Blend2D", "thorvg": "ThorVG"}
+ORDER = ("scan", "gl", "shaders", "cairo", "librsvg", "resvg", "skia", "qt-raster", "qt-gl", "qt-gl-4", "blend2d", "thorvg")
 VIEWS = ("cold", "unchanged", "turning", "turning at 8x", "zoom path", "minified")
 
 
@@ -17,7 +17,7 @@ def engines_of(report):
 
 
 def colour_of(engine):
-    return plot.COLOURS[ORDER.index(engine) if engine in ORDER else len(ORDER)]
+    return plot.COLOURS[ORDER.index(engine)] if engine in ORDER else plot.INK
 
 
 def name_of(engine):

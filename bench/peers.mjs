@@ -29,21 +29,25 @@ function blurOf(text) {
     return Number(blur[1]);
 }
 
-/** Skia draws the paths of our scene, made once, on one canvas. */
+/** Skia draws the paths of our scene on one canvas. */
 class Skia {
     constructor(package_) {
         this.package = package_;
     }
 
     load({file}) {
+        this.loaded = this.read(file);
+    }
+
+    read(file) {
         const text = fs.readFileSync(file, 'utf8');
-        this.blur = blurOf(text);
-        this.items = [...text.matchAll(/<(path|g|\/g)\b([^>]*)>/g)].map(([, tag, attributes]) => {
+        const items = [...text.matchAll(/<(path|g|\/g)\b([^>]*)>/g)].map(([, tag, attributes]) => {
             const of = Object.fromEntries([...attributes.matchAll(/([\w-]+)="([^"]*)"/g)].map(m => [m[1], m[2]]));
             if (tag === 'g' && of.opacity !== undefined)
                 throw new Error('a canvas has no groups with an opacity');
             return tag === 'path' ? this.itemOf(of) : null;
         }).filter(Boolean);
+        return {items, blur: blurOf(text)};
     }
 
     itemOf(of) {
@@ -66,28 +70,39 @@ class Skia {
         };
     }
 
-    draw({width, height, matrix}) {
+    draw(view) {
+        this.prepareCanvas(view);
+        return cpuTime(() => this.drawOn(this.loaded, view));
+    }
+
+    cold({file}, view) {
+        this.prepareCanvas(view);
+        return cpuTime(() => this.drawOn(this.read(file), view));
+    }
+
+    prepareCanvas({width, height}) {
         if (this.canvas?.width !== width || this.canvas?.height !== height) {
             this.canvas = this.package.createCanvas(width, height);
             this.context = this.canvas.getContext('2d');
             this.layer = this.package.createCanvas(width, height);
         }
-        return cpuTime(() => {
-            this.drawItems(this.blur > 0 ? this.layer.getContext('2d') : this.context, width, height, matrix);
-            if (this.blur > 0) {
-                this.context.clearRect(0, 0, width, height);
-                this.context.filter = `blur(${this.blur * Math.hypot(matrix[0], matrix[1])}px)`;
-                this.context.drawImage(this.layer, 0, 0);
-                this.context.filter = 'none';
-            }
-            this.context.getImageData(0, 0, 1, 1);  // drawing is put off until pixels are wanted
-        });
     }
 
-    drawItems(context, width, height, matrix) {
+    drawOn({items, blur}, {width, height, matrix}) {
+        this.drawItems(items, blur > 0 ? this.layer.getContext('2d') : this.context, width, height, matrix);
+        if (blur > 0) {
+            this.context.clearRect(0, 0, width, height);
+            this.context.filter = `blur(${blur * Math.hypot(matrix[0], matrix[1])}px)`;
+            this.context.drawImage(this.layer, 0, 0);
+            this.context.filter = 'none';
+        }
+        this.context.getImageData(0, 0, 1, 1);  // drawing is put off until pixels are wanted
+    }
+
+    drawItems(items, context, width, height, matrix) {
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.clearRect(0, 0, width, height);
-        for (const item of this.items) {
+        for (const item of items) {
             context.setTransform(...matrix);
             context.transform(...item.transform);
             context.globalAlpha = item.alpha;

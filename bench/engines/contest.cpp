@@ -45,27 +45,38 @@ bool did(Contender& one, const std::string& where, std::vector<std::string>& not
 }
 
 void writePicture(Engine& engine, const CompiledFile& picture, const Kind& kind, const Options& options) {
-    const std::string name = fmt::format("{}_{}x_{}.png", picture.file.name, kind.zoom, engine.name());
+    const std::string name =
+        fmt::format("{}_{}x_{}.png", picture.file.name, kind.zoom * kind.size, engine.name());
     const image::Bitmap drawn = engine.pixels(viewOf(picture.scene, options.side, kind, 0));
     image::writeFile((std::filesystem::path(options.pictures) / name).string(), encodePng(drawn));
 }
 
-/// Nothing where we were built without it, which is noted.
-std::vector<std::string> qtCommands(std::vector<std::string>& notes) {
+/// What was built with us; nothing of the others, which are noted.
+std::vector<std::string> builtCommands([[maybe_unused]] std::vector<std::string>& notes) {
+    std::vector<std::string> commands;
 #ifdef VTM_BENCH_QT
-    static_cast<void>(notes);
-    return {"if [ -n \"$DISPLAY\" ]; then exec '" VTM_BENCH_QT
-            "'; elif command -v xvfb-run >/dev/null; then exec xvfb-run -a '" VTM_BENCH_QT
-            "'; else QT_QPA_PLATFORM=offscreen exec '" VTM_BENCH_QT "'; fi"};
+    commands.emplace_back("if [ -n \"$DISPLAY\" ]; then exec '" VTM_BENCH_QT
+                          "'; elif command -v xvfb-run >/dev/null; then exec xvfb-run -a '" VTM_BENCH_QT
+                          "'; else QT_QPA_PLATFORM=offscreen exec '" VTM_BENCH_QT "'; fi");
 #else
     notes.push_back("qt-raster, qt-gl, qt-gl-4: missing, built without Qt (qtbase5-dev, libqt5svg5-dev).");
-    return {};
 #endif
+#ifdef VTM_BENCH_BLEND2D
+    commands.emplace_back("exec '" VTM_BENCH_BLEND2D "'");
+#else
+    notes.push_back("blend2d: missing, no folder VTM_BENCH_PEERS with it was named at configuring.");
+#endif
+#ifdef VTM_BENCH_THORVG
+    commands.emplace_back("exec '" VTM_BENCH_THORVG "'");
+#else
+    notes.push_back("thorvg: missing, no folder VTM_BENCH_PEERS with it was named at configuring.");
+#endif
+    return commands;
 }
 
 /// Peers that are processes of their own.
 std::vector<std::string> peerCommands(const Options& options, std::vector<std::string>& notes) {
-    std::vector<std::string> commands = qtCommands(notes);
+    std::vector<std::string> commands = builtCommands(notes);
     if (options.nodeModules.empty())
         notes.push_back("skia, resvg: missing, no folder with node_modules is named.");
     else

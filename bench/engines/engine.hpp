@@ -39,7 +39,8 @@ public:
     /// CPU milliseconds (user and system, all threads) of drawing it on transparent black, until the pixels
     /// stand.
     virtual double draw(const asset::View& view) = 0;
-    /// The same from the file; nothing for an engine that reads none. What was loaded stays loaded.
+    /// The same from the file, or from a file of our scene's paths for an engine that reads no others;
+    /// nothing for one that reads none. What was loaded stays loaded.
     virtual std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) = 0;
     /// What draw() draws.
     virtual image::Bitmap pixels(const asset::View& view) = 0;

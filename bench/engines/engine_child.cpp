@@ -114,28 +114,33 @@ std::string textOf(const asset::View& view) {
                        m[2][0], m[2][1]);
 }
 
-/// Paths of one colour each, in groups that have an opacity at most.
-bool arePlainPaths(const scene::Group& group) {
-    const auto isPlain = [](const scene::Node& node) {
+/// Paths of one colour each, or of gradients too, in groups that have an opacity at most.
+bool arePaths(const scene::Group& group, bool withGradients) {
+    const auto isPath = [&](const scene::Node& node) {
         if (const auto* inner = std::get_if<scene::Group>(&node.value))
-            return arePlainPaths(*inner);
+            return arePaths(*inner, withGradients);
         const auto* item = std::get_if<scene::Item>(&node.value);
-        return item && std::holds_alternative<scene::Color>(item->paint);
+        return item && (std::holds_alternative<scene::Color>(item->paint) ||
+                        (withGradients && (std::holds_alternative<scene::LinearGradient>(item->paint) ||
+                                           std::holds_alternative<scene::RadialGradient>(item->paint))));
     };
     return group.blend == scene::BlendMode::Normal && !group.clip && !group.mask &&
-           std::ranges::all_of(group.children, isPlain);
+           std::ranges::all_of(group.children, isPath);
 }
 
 class ChildEngine : public Engine {
 public:
-    /// `takes`: "file", "paths" (ours, plain), or "either" (paths where our scene has no more than that).
+    /// `takes`: "file"; "paths" (ours, plain) or "gradients" (the same, painted with them too); or "either"
+    /// (paths where our scene has no more than that).
     ChildEngine(std::shared_ptr<Child> child, std::string name, std::string description, std::string takes)
         : Engine(std::move(name), std::move(description)),
           child_(std::move(child)),
           takes_(std::move(takes)) {}
 
     void load(const CompiledFile& picture) override {
-        child_->ask("load " + subject(picture, pathOf(picture)));
+        written_.reset();
+        const bool ours = readsPaths() || (takes_ == "either" && arePaths(picture.scene.root, false));
+        child_->ask("load " + subject(picture, ours ? writePaths(picture) : picture.file.path.string()));
     }
 
     double draw(const asset::View& view) override {
@@ -143,10 +148,8 @@ public:
     }
 
     std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
-        if (takes_ == "paths")
-            return std::nullopt;
-        return std::stod(
-            child_->ask("cold " + subject(picture, textOf(view) + " " + picture.file.path.string())));
+        const std::string path = readsPaths() ? writePaths(picture) : picture.file.path.string();
+        return std::stod(child_->ask("cold " + subject(picture, textOf(view) + " " + path)));
     }
 
     image::Bitmap pixels(const asset::View& view) override {
@@ -162,22 +165,28 @@ private:
         return fmt::format("{} {} {} {}", name(), picture.scene.width, picture.scene.height, rest);
     }
 
-    std::string pathOf(const CompiledFile& picture) const {
-        if (takes_ == "file")
-            return picture.file.path.string();
-        if (!arePlainPaths(picture.scene.root)) {
-            if (takes_ == "paths")
-                throw std::runtime_error("it is given paths alone, painted with colours");
-            return picture.file.path.string();
+    /// And no files of others.
+    bool readsPaths() const { return takes_ == "paths" || takes_ == "gradients"; }
+
+    /// The path of a file with the paths of our scene, which is written once for all cold drawings.
+    std::string writePaths(const CompiledFile& picture) {
+        const bool withGradients = takes_ == "gradients";
+        if (!arePaths(picture.scene.root, withGradients))
+            throw std::runtime_error(withGradients
+                                         ? "it is given paths alone, painted with colours and gradients"
+                                         : "it is given paths alone, painted with colours");
+        const std::string path = (child_->scratch() / (name() + ".svg")).string();
+        if (written_ != picture.file.path) {
+            const std::string text = svg::write(picture.scene, {.shared = false});
+            image::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+            written_ = picture.file.path;
         }
-        const std::string text = svg::write(picture.scene, {.shared = false});
-        const std::string path = (child_->scratch() / "paths.svg").string();
-        image::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
         return path;
     }
 
     std::shared_ptr<Child> child_;
     std::string takes_;
+    std::optional<fs::path> written_;  ///< the file whose paths writePaths has written
 };
 
 /// "engine NAME TAKES DESCRIPTION"

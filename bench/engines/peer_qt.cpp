@@ -1,13 +1,6 @@
 // Qt's painters as a peer process (docs/benchmarks.md): its raster engine, and its OpenGL engine without and
 // with multisampling. Needs a display for OpenGL: xvfb-run.
 
-#include <cstdio>
-#include <iostream>
-#include <map>
-#include <memory>
-#include <sstream>
-#include <stdexcept>
-
 #include <QGuiApplication>
 #include <QImage>
 #include <QLoggingCategory>
@@ -19,54 +12,77 @@
 #include <QPainter>
 #include <QSvgRenderer>
 
-#include "bench/measure/measure.hpp"
+#include "bench/engines/peer_process.hpp"
 
 namespace vtm::bench {
 namespace {
 
-struct View {
-    int width = 0, height = 0;
-    QTransform toPixels;
+QTransform matrixOf(const asset::View& view) {
+    const glm::dmat3x2& m = view.toPixels;
+    return {m[0][0], m[0][1], m[1][0], m[1][1], m[2][0], m[2][1]};
+}
+
+/// Where a painter draws.
+class Target : public Peer {
+public:
+    using Paint = std::function<void(QPaintDevice&)>;
+
+    std::unique_ptr<Document> read(const std::string& path, double width, double height) override;
+    image::Bitmap pixels() const override {
+        const QImage straight = drawn().convertToFormat(QImage::Format_RGBA8888);
+        image::Bitmap bitmap{straight.width(), straight.height(), {}};
+        for (int y = 0; y < straight.height(); ++y)
+            bitmap.rgba.insert(bitmap.rgba.end(), straight.constScanLine(y),
+                               straight.constScanLine(y) + 4 * straight.width());
+        return bitmap;
+    }
+
+    /// `paint` is given a device of this size, transparent.
+    virtual void draw(int width, int height, const Paint& paint) = 0;
+
+protected:
+    virtual QImage drawn() const = 0;
 };
 
-class Document {
+class QtDocument : public Document {
 public:
-    Document(const std::string& path, double width, double height) : picture_(0, 0, width, height) {
+    QtDocument(Target& target, const std::string& path, double width, double height)
+        : target_(target), picture_(0, 0, width, height) {
         if (!renderer_.load(QString::fromStdString(path)))
             throw std::runtime_error("QSvgRenderer cannot read it");
     }
 
-    void draw(QPaintDevice& device, const QTransform& toPixels) {
-        QPainter painter(&device);
-        painter.setRenderHint(QPainter::Antialiasing);
-        painter.setTransform(toPixels);
-        renderer_.render(&painter, picture_);
+    void draw(const asset::View& view) override {
+        target_.draw(view.width, view.height, [&](QPaintDevice& device) {
+            QPainter painter(&device);
+            painter.setRenderHint(QPainter::Antialiasing);
+            painter.setTransform(matrixOf(view));
+            renderer_.render(&painter, picture_);
+        });
     }
 
 private:
+    Target& target_;
     QSvgRenderer renderer_;
     QRectF picture_;
 };
 
-/// Where a painter draws.
-class Target {
-public:
-    virtual ~Target() = default;
-    virtual void draw(Document& document, const View& view) = 0;
-    virtual QImage image() = 0;
-};
+std::unique_ptr<Document> Target::read(const std::string& path, double width, double height) {
+    return std::make_unique<QtDocument>(*this, path, width, height);
+}
 
 class RasterTarget : public Target {
 public:
-    void draw(Document& document, const View& view) override {
-        if (image_.width() != view.width || image_.height() != view.height)
-            image_ = QImage(view.width, view.height, QImage::Format_ARGB32_Premultiplied);
+    void draw(int width, int height, const Paint& paint) override {
+        if (image_.width() != width || image_.height() != height)
+            image_ = QImage(width, height, QImage::Format_ARGB32_Premultiplied);
         image_.fill(Qt::transparent);
-        document.draw(image_, view.toPixels);
+        paint(image_);
     }
-    QImage image() override { return image_; }
 
 private:
+    QImage drawn() const override { return image_; }
+
     QImage image_;
 };
 
@@ -74,8 +90,8 @@ class GlTarget : public Target {
 public:
     explicit GlTarget(int samples) : samples_(samples) {}
 
-    void draw(Document& document, const View& view) override {
-        const QSize size(view.width, view.height);
+    void draw(int width, int height, const Paint& paint) override {
+        const QSize size(width, height);
         if (!buffer_ || buffer_->size() != size)
             make(size);
         QOpenGLFunctions& gl = *QOpenGLContext::currentContext()->functions();
@@ -83,14 +99,15 @@ public:
         gl.glClearColor(0, 0, 0, 0);
         gl.glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         QOpenGLPaintDevice device(size);
-        document.draw(device, view.toPixels);
+        paint(device);
         if (resolved_)
             QOpenGLFramebufferObject::blitFramebuffer(resolved_.get(), buffer_.get());
         gl.glFinish();
     }
-    QImage image() override { return buffer_->toImage(); }
 
 private:
+    QImage drawn() const override { return buffer_->toImage(); }
+
     void make(QSize size) {
         QOpenGLFramebufferObjectFormat format;
         format.setAttachment(QOpenGLFramebufferObject::CombinedDepthStencil);
@@ -105,14 +122,10 @@ private:
     std::unique_ptr<QOpenGLFramebufferObject> buffer_, resolved_;
 };
 
-struct Engine {
-    std::unique_ptr<Target> target;
-    std::unique_ptr<Document> document = nullptr;
-};
-
-class Peer {
+/// Qt's engines that are here.
+class QtProcess {
 public:
-    Peer() {
+    QtProcess() {
         const std::string version = std::string("Qt ") + qVersion();
         add("qt-raster", version + " QSvgRenderer, raster engine", std::make_unique<RasterTarget>());
         surface_.create();
@@ -128,75 +141,16 @@ public:
         add("qt-gl-4", gl + ", 4 samples", std::make_unique<GlTarget>(4));
     }
 
-    void run() {
-        std::cout << "ready" << std::endl;
-        for (std::string line; std::getline(std::cin, line);) {
-            try {
-                const std::string reply = answer(line);  // may throw, before "ok" is said
-                std::cout << "ok " << reply << std::endl;
-            } catch (const std::exception& error) {
-                std::cout << "error " << error.what() << std::endl;
-            }
-        }
-    }
+    void run() { process_.run(); }
 
 private:
     void add(const std::string& name, const std::string& description, std::unique_ptr<Target> target) {
-        std::cout << "engine " << name << " either " << description << "\n";
-        engines_[name].target = std::move(target);
-    }
-
-    std::string answer(const std::string& line) {
-        std::istringstream in(line);
-        std::string verb, name;
-        in >> verb >> name;
-        Engine& engine = engines_.at(name);
-        double width = 0, height = 0;
-        if (verb == "peak")
-            return std::to_string(peakBytes());
-        if (verb == "load" || verb == "cold")
-            in >> width >> height;
-        const View view = verb == "load" ? View() : readView(in);
-        const std::string path = rest(in);
-        if (verb == "load") {
-            engine.document = std::make_unique<Document>(path, width, height);
-        } else if (verb == "draw") {
-            return std::to_string(cpuTime([&] { engine.target->draw(*engine.document, view); }));
-        } else if (verb == "cold") {
-            std::unique_ptr<Document> document;  // outlives the clock
-            return std::to_string(cpuTime([&] {
-                document = std::make_unique<Document>(path, width, height);
-                engine.target->draw(*document, view);
-            }));
-        } else if (verb == "picture") {
-            engine.target->draw(*engine.document, view);
-            if (!engine.target->image().save(QString::fromStdString(path), "PNG"))
-                throw std::runtime_error("the picture cannot be written");
-        } else {
-            throw std::runtime_error(verb + " is no request");
-        }
-        return "";
-    }
-
-    static std::string rest(std::istream& in) {
-        std::string text;
-        std::getline(in >> std::ws, text);
-        return text;
-    }
-
-    static View readView(std::istream& in) {
-        View view;
-        double m[6];
-        in >> view.width >> view.height;
-        for (double& number : m)
-            in >> number;
-        view.toPixels = QTransform(m[0], m[1], m[2], m[3], m[4], m[5]);
-        return view;
+        process_.add(name, "either", description, std::move(target));
     }
 
     QOffscreenSurface surface_;
     QOpenGLContext context_;
-    std::map<std::string, Engine> engines_;
+    PeerProcess process_;
 };
 
 }  // namespace
@@ -205,5 +159,5 @@ private:
 int main(int argc, char** argv) {
     QLoggingCategory::setFilterRules("qt.svg*=false");  // which would cost time
     const QGuiApplication application(argc, argv);
-    vtm::bench::Peer().run();
+    vtm::bench::QtProcess().run();
 }

@@ -9,7 +9,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/image/codec.hpp>
 #include "bench/engines/engine.hpp"
-#include "bench/measure/measure.hpp"
+#include "bench/engines/peer_process.hpp"
 
 namespace vtm::bench {
 namespace {
@@ -30,8 +30,7 @@ public:
             in >> width >> height;
         }
         const asset::View view = verb == "load" ? asset::View() : readView(in);
-        std::string path;
-        std::getline(in >> std::ws, path);
+        const std::string path = readPath(in);
         const File file{"", path};
         if (verb == "draw")
             return std::to_string(engine.draw(view));
@@ -60,14 +59,6 @@ private:
         engine.load(picture);
     }
 
-    static asset::View readView(std::istream& in) {
-        asset::View view;
-        in >> view.width >> view.height;
-        for (int column = 0; column < 3; ++column)
-            in >> view.toPixels[column].x >> view.toPixels[column].y;
-        return view;
-    }
-
     Engines engines_;
 };
 
@@ -76,16 +67,8 @@ private:
 void serve(Engines engines) {
     for (const auto& engine : engines)
         std::cout << "engine " << engine->name() << " file " << engine->description() << "\n";
-    std::cout << "ready" << std::endl;
     Server server(std::move(engines));
-    for (std::string line; std::getline(std::cin, line);) {
-        try {
-            const std::string reply = server.answer(line);  // may throw, before "ok" is said
-            std::cout << "ok " << reply << std::endl;
-        } catch (const std::exception& error) {
-            std::cout << "error " << error.what() << std::endl;
-        }
-    }
+    answerRequests([&](const std::string& line) { return server.answer(line); });
 }
 
 }  // namespace vtm::bench

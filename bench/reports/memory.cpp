@@ -50,7 +50,7 @@ Report memory(const Options& options) {
         "From the file to pixels once, every engine in a fresh process: megabytes of its largest resident "
         "set "
         "beyond what it had before it was given the file (which is in brackets: runtime, libraries, driver). "
-        "`skia` is given paths that were read before. What a display server holds is in nobody's.";
+        "`skia` and `blend2d` are given a file of our paths. What a display server holds is in nobody's.";
     const std::vector<Target> targets = targetsOf(options, report.notes);
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
