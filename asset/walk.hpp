@@ -11,6 +11,11 @@
 
 namespace vtm::asset {
 
+/// The i-th of 16 squares that make one up.
+inline Cell childOf(Cell cell, std::uint32_t i) {
+    return {cell.x * 4 + i % 4, cell.y * 4 + i / 4, cell.level + 1};
+}
+
 /// Calls visit(Cell, Entry) for each Solid and Leaf entry below `entry`, depth first.
 template <class Visit>
 void walk(const AssetView& asset, Entry entry, Visit&& visit, Cell cell = {}) {
@@ -21,7 +26,7 @@ void walk(const AssetView& asset, Entry entry, Visit&& visit, Cell cell = {}) {
     }
     const Node& node = asset.nodes[entry.payload()];
     for (std::uint32_t i = 0; i < 16; ++i)
-        walk(asset, node.children[i], visit, {cell.x * 4 + i % 4, cell.y * 4 + i / 4, cell.level + 1});
+        walk(asset, node.children[i], visit, childOf(cell, i));
 }
 
 /// The square of a tree that holds a point, and where in it, both from 0 to 1 along each side. A point on a

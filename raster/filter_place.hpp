@@ -12,9 +12,9 @@
 #include <glm/mat3x2.hpp>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/raster/pixel_box.hpp>
 #include <vtm/raster/view.hpp>
 #include "asset/filters.hpp"
-#include "raster/pixel_box.hpp"
 
 namespace vtm::asset {
 

@@ -8,9 +8,9 @@
 #include <glm/vec2.hpp>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/raster/pixel_box.hpp>
 #include <vtm/raster/view.hpp>
 #include "backend_gl/layers/instances.hpp"
-#include "raster/pixel_box.hpp"
 
 namespace vtm::gl {
 

@@ -44,6 +44,8 @@ public:
     std::shared_ptr<const scene::Path> rectangle(scene::Point min, scene::Point max);
     /// How many were added in this lowering.
     std::size_t added() const { return added_; }
+    /// How many it used, those included.
+    std::size_t used() const { return order_.size(); }
     /// Runs of those that it used.
     std::size_t usedRuns() const { return usedRuns_; }
     /// Whether most of the outlines in the store are no longer used.

@@ -121,6 +121,15 @@ std::size_t StackPaints::update(const LoweredScene& picture, const LayerNames& n
     return count;
 }
 
+std::vector<std::uint8_t> StackPaints::changed() const {
+    if (std::ranges::none_of(entries_, &Entry::isChanged))
+        return {};
+    std::vector<std::uint8_t> changed;
+    for (const Entry& entry : entries_)
+        changed.push_back(entry.isChanged || entries_.size() > maxPaints);  // colours are merged anew then
+    return changed;
+}
+
 bool StackPaints::encode(const LoweredScene& picture, bool dataChanged, const asset::Asset& before,
                          asset::Asset& after, float& error) {
     error = 0;

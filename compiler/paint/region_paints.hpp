@@ -97,6 +97,8 @@ public:
     /// did. Returns true if paints have other indices than before.
     bool encode(const LoweredScene& picture, bool dataChanged, const asset::Asset& before,
                 asset::Asset& after, float& error);
+    /// By paint: whether it is another one than the one last encoded; empty if none is.
+    std::vector<std::uint8_t> changed() const;
     /// The asset's index of each paint, as last encoded.
     const std::vector<std::uint16_t>& indices() const { return indices_; }
 

@@ -1,6 +1,8 @@
 #include "compiler/session/editor.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -38,12 +40,48 @@ private:
     BlockBuilder builder_;
 };
 
+/// A part of the picture, as a set of squares that blocks may have.
+class BlockArea {
+public:
+    void add(asset::Cell square) {
+        const unsigned shift = 2 * (maxBlockLevel - square.level), side = 1u << shift;
+        const std::uint64_t columns =
+            side == perSide ? ~std::uint64_t{0} : ((std::uint64_t{1} << side) - 1) << (square.x << shift);
+        for (unsigned y = square.y << shift; y < (square.y << shift) + side; ++y)
+            rows_[y] |= columns;
+    }
+
+    /// Boxes that cover it exactly, for a picture whose longer side is `length`.
+    std::vector<asset::Area> boxes(double length) {
+        std::vector<asset::Area> boxes;
+        const double unit = length / perSide;
+        for (unsigned y = 0; y < perSide; ++y)
+            while (rows_[y] != 0) {
+                const auto first = unsigned(std::countr_zero(rows_[y])),
+                           count = unsigned(std::countr_one(rows_[y] >> first));
+                const std::uint64_t columns =
+                    (count == perSide ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1) << first;
+                unsigned end = y;
+                for (; end < perSide && (rows_[end] & columns) == columns; ++end)
+                    rows_[end] &= ~columns;
+                boxes.push_back({unit * first, unit * y, unit * (first + count), unit * end});
+            }
+        return boxes;
+    }
+
+private:
+    static constexpr unsigned perSide = 1u << (2 * maxBlockLevel);
+    static_assert(perSide == 64);
+
+    std::array<std::uint64_t, perSide> rows_{};  ///< a bit for each square of the last level
+};
+
 class Editor {
 public:
     Editor(Kept& kept, Result& result, const Options& options)
         : kept_(kept), result_(result), options_(options), treeOptions_(treeOptions(options)) {}
 
-    Update run(const scene::Scene& scene) {
+    std::optional<Edited> run(const scene::Scene& scene) {
         const auto start = Clock::now();
         kept_.cache.put(std::move(kept_.picture.outlines));
         picture_ =
@@ -52,6 +90,8 @@ public:
         Update update;
         update.anew = !kept_.partition;
         update.outlines = kept_.cache.added();
+        if (!update.anew && 2 * update.outlines > kept_.cache.used())
+            return std::nullopt;
         compare();
         if (update.anew)
             kept_.partition.emplace(kept_.lattice.square(), runsPerBlock(kept_.cache.usedRuns()),
@@ -60,9 +100,14 @@ public:
             update.blocks = build();
         update.blocksInAll = kept_.partition->blocks().size();
         update.paints = kept_.paints.update(picture_, kept_.names, repainted_);
+        difference_.everything = update.anew;
+        if (update.anew)
+            difference_.areas = {wholeArea(scene)};
+        else
+            findAreas();
         encode(update, start, lowered);
         kept_.picture = std::move(picture_);
-        return update;
+        return Edited{update, std::move(difference_)};
     }
 
 private:
@@ -111,9 +156,29 @@ private:
         for (const Worker& worker : workers)
             sum += worker.times();
         times_ += sum.sharing(wall);
-        for (std::size_t i = 0; i < dirty.size(); ++i)
+        for (std::size_t i = 0; i < dirty.size(); ++i) {
             replace(*dirty[i], std::move(trees[i]));
+            difference_.squares.push_back(squareOf(*dirty[i]));
+        }
         return dirty.size();
+    }
+
+    asset::Cell squareOf(const Partition::Block& block) const {
+        const Square &root = kept_.lattice.square(), &square = block.cell.square;
+        return {std::uint32_t((square.x0 - root.x0) / square.side),
+                std::uint32_t((square.y0 - root.y0) / square.side), block.cell.level};
+    }
+
+    /// Blocks that were built, or show a stack whose paint changed.
+    void findAreas() {
+        BlockArea area;
+        for (const asset::Cell& square : difference_.squares)
+            area.add(square);
+        if (const std::vector<std::uint8_t> changed = kept_.paints.changed(); !changed.empty())
+            for (const Partition::Block& block : kept_.partition->blocks())
+                if (std::ranges::any_of(block.paints, [&](PaintId id) { return changed[id] != 0; }))
+                    area.add(squareOf(block));
+        difference_.areas = area.boxes(std::max(kept_.width, kept_.height));
     }
 
     /// Gives the block a tree whose paints are places in its own table of stacks.
@@ -160,6 +225,8 @@ private:
         const bool moved = kept_.paints.encode(picture_, update.anew || picture_.data != kept_.picture.data,
                                                last, next, colourError_);
         const bool isJoined = update.blocks > 0 || moved;
+        difference_.everything |= moved;  // all paints may have other numbers
+        difference_.paints = update.paints > 0 || update.blocks > 0;
         const asset::Entry root =
             isJoined ? joinBlocks(*kept_.partition, kept_.paints.indices(), moved ? nullptr : &last, next)
                      : last.maps[0].root;
@@ -169,6 +236,7 @@ private:
         next.commands = {asset::Command{}};
         next.materials = picture_.materials;
         const bool newImages = update.anew || picture_.images != kept_.picture.images;
+        difference_.images = newImages || picture_.materials != kept_.picture.materials;
         if (newImages)
             next.images = bitmapsOf(picture_);
         if (!isJoined)
@@ -204,6 +272,7 @@ private:
     std::vector<std::uint32_t> touched_;   ///< layers that stayed, but whose items show elsewhere
     std::vector<std::uint8_t> repainted_;  ///< by name
     bool geometryChanged_ = false;
+    asset::Difference difference_;
     TreeTimes times_;
     float colourError_ = 0;
 };
@@ -219,7 +288,7 @@ bool Kept::isWorn() const {
     return wanted > factor * maximum || maximum > factor * wanted || cache.isWorn(picture.outlines);
 }
 
-Update edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options) {
+std::optional<Edited> edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options) {
     return Editor(kept, result, options).run(scene);
 }
 

@@ -31,8 +31,18 @@ struct Kept {
     bool isWorn() const;
 };
 
-/// Brings `kept` and `result` from the last scene to `scene`. If it throws, `kept` is of no use any more, and
-/// `result` is what it was.
-Update edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options);
+/// What an edit did, and what it changed.
+struct Edited {
+    Update update;
+    asset::Difference difference;
+};
+
+/// The whole picture, which may look different.
+inline asset::Area wholeArea(const scene::Scene& scene) { return {0, 0, scene.width, scene.height}; }
+
+/// Brings `kept` and `result` from the last scene to `scene`. Gives up and returns nothing if most outlines
+/// are new: compiling takes less. If it does, or throws, `kept` is of no use any more, and `result` is what
+/// it was.
+std::optional<Edited> edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options);
 
 }  // namespace vtm::compiler

@@ -1,10 +1,38 @@
 #include <vtm/compiler/session.hpp>
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
 #include "compiler/compile/settings.hpp"
+#include "compiler/containers/hash.hpp"
 #include "compiler/filters/compile_filtered.hpp"
 #include "compiler/session/editor.hpp"
 
 namespace vtm::compiler {
+
+namespace {
+
+/// What each item's outline is made from, hashed, in the scene's order.
+void addOutlineKeys(const scene::Group& group, std::vector<std::uint64_t>& keys) {
+    for (const scene::Node& node : group.children) {
+        if (const auto* inner = std::get_if<scene::Group>(&node.value))
+            addOutlineKeys(*inner, keys);
+        const auto* item = std::get_if<scene::Item>(&node.value);
+        if (!item)
+            continue;
+        std::uint64_t key = hashCombine(std::uint64_t(item->geometry.index()),
+                                        reinterpret_cast<std::uintptr_t>(item->path.get()));
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 2; ++row)
+                key = hashCombine(key, bits(item->transform[column][row]));
+        keys.push_back(key);
+    }
+}
+
+}  // namespace
 
 class Session::State {
 public:
@@ -12,41 +40,77 @@ public:
 
     void update(const scene::Scene& scene) {
         scene::validate(scene, [&](const scene::Path& path) { return kept_ && kept_->cache.knows(path); });
-        if (options_.mode != asset::Mode::Exact || hasFilters(scene)) {
-            result_ = compile(scene, options_);
-            update_ = {.anew = true};
-            kept_.reset();
-            return;
-        }
+        if (options_.mode != asset::Mode::Exact || hasFilters(scene) || (!kept_ && isMostlyNew(scene)))
+            return compileAnew(scene);
         std::unique_ptr<Kept> kept = std::move(kept_);  // lost if anything throws
         if (kept && (kept->width != scene.width || kept->height != scene.height))
             kept.reset();
-        if (!kept || !tryEdit(*kept, scene)) {
-            kept = std::make_unique<Kept>(scene.width, scene.height, options_);
-            update_ = edit(*kept, result_, scene, options_);
+        switch (kept ? tryEdit(*kept, scene) : Outcome::TooLarge) {
+            case Outcome::Done:
+                break;
+            case Outcome::MostlyNew:
+                return compileAnew(scene);
+            case Outcome::TooLarge:
+                kept = std::make_unique<Kept>(scene.width, scene.height, options_);
+                report_ = *edit(*kept, result_, scene, options_);
         }
         if (!kept->isWorn())
             kept_ = std::move(kept);
+        compiled_.clear();
     }
 
     const Result& result() const { return result_; }
-    const Update& lastUpdate() const { return update_; }
+    const Edited& report() const { return report_; }
 
 private:
-    /// What is kept counts towards limits too, used or not.
-    bool tryEdit(Kept& kept, const scene::Scene& scene) {
-        try {
-            update_ = edit(kept, result_, scene, options_);
-            return true;
-        } catch (const LimitError&) {
+    /// Without blocks and stacks, which are of use only if the next scene is much the same.
+    void compileAnew(const scene::Scene& scene) {
+        kept_.reset();
+        result_ = compile(scene, options_);
+        report_ = {{.anew = true}, {}};
+        report_.difference.areas = {wholeArea(scene)};
+        compiled_ = keysOf(scene);
+    }
+
+    /// By what was compiled last. An animation that moves everything is compiled picture by picture.
+    bool isMostlyNew(const scene::Scene& scene) const {
+        if (compiled_.empty())
             return false;
+        const std::vector<std::uint64_t> keys = keysOf(scene);
+        std::size_t known = 0;
+        for (const std::uint64_t key : keys)
+            known += std::ranges::binary_search(compiled_, key);
+        return 2 * known < keys.size();
+    }
+
+    static std::vector<std::uint64_t> keysOf(const scene::Scene& scene) {
+        std::vector<std::uint64_t> keys;
+        addOutlineKeys(scene.root, keys);
+        std::ranges::sort(keys);
+        return keys;
+    }
+
+    enum class Outcome { Done, MostlyNew, TooLarge };
+
+    /// What is kept counts towards limits too, used or not.
+    Outcome tryEdit(Kept& kept, const scene::Scene& scene) {
+        try {
+            const std::optional<Edited> edited = edit(kept, result_, scene, options_);
+            if (!edited)
+                return Outcome::MostlyNew;
+            report_ = *edited;
+            return Outcome::Done;
+        } catch (const LimitError&) {
+            return Outcome::TooLarge;
         }
     }
 
     const Options options_;
     std::unique_ptr<Kept> kept_;
     Result result_;
-    Update update_;
+    Edited report_;
+    std::vector<std::uint64_t>
+        compiled_;  ///< sorted keys of the scene, if it was compiled without what is kept
 };
 
 Session::Session(const scene::Scene& scene, const Options& options)
@@ -64,6 +128,7 @@ const Result& Session::update(const scene::Scene& scene) {
 }
 
 const Result& Session::result() const { return state_->result(); }
-const Update& Session::lastUpdate() const { return state_->lastUpdate(); }
+const Update& Session::lastUpdate() const { return state_->report().update; }
+const asset::Difference& Session::difference() const { return state_->report().difference; }
 
 }  // namespace vtm::compiler

@@ -8,9 +8,6 @@
 namespace vtm::compiler {
 namespace {
 
-/// Blocks of this level are not split.
-constexpr unsigned lastLevel = 3;
-
 struct LayerBox {
     std::uint32_t layer;
     LatticePoint min, max;
@@ -68,7 +65,7 @@ void merge(Entries& into, const Entries& added) {
 }  // namespace
 
 Partition::Partition(const Square& root, std::size_t maximum, unsigned maxDepth)
-    : root_(root), maximum_(maximum), deepest_(std::min(lastLevel, maxDepth)), top_{0, {}}, blocks_(1) {
+    : root_(root), maximum_(maximum), deepest_(std::min(maxBlockLevel, maxDepth)), top_{0, {}}, blocks_(1) {
     blocks_[0].cell.square = root;
 }
 

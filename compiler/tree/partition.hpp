@@ -11,6 +11,9 @@
 
 namespace vtm::compiler {
 
+/// Blocks of this level are not split.
+inline constexpr unsigned maxBlockLevel = 3;
+
 /// A 16-tree of blocks. Each keeps all that passes through its square, hidden or not, so that edits need to
 /// touch only the blocks that they concern; and the subtree that was built of it.
 class Partition {

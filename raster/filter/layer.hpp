@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "raster/pixel_box.hpp"
+#include <vtm/raster/pixel_box.hpp>
 #include "raster/src/float4.hpp"
 #include "raster/src/pixel_memory.hpp"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/pixel_box.hpp>
 #include <vtm/raster/view.hpp>
 #include "image/pixel_writer.hpp"
-#include "raster/pixel_box.hpp"
 #include "raster/src/float4.hpp"
 #include "raster/src/pixel_memory.hpp"
 

@@ -2,9 +2,9 @@
 /// Adding one map to a raster: the sum of all its leaves over every pixel.
 #pragma once
 
+#include <vtm/raster/pixel_box.hpp>
 #include <vtm/raster/view.hpp>
 #include "asset/instances.hpp"
-#include "raster/pixel_box.hpp"
 #include "raster/src/paint.hpp"
 
 namespace vtm::asset {

@@ -46,6 +46,7 @@ public:
 
     const AssetView& asset() const { return asset_; }
     const Images& images() const { return *made_->images; }
+    const std::shared_ptr<const Images>& sharedImages() const { return made_->images; }
     /// By paint (raster/steepness.hpp).
     std::span<const PaintChange> changes() const { return std::span(made_->changes).subspan(first_); }
     /// Of gradients: by texel of the asset's data, straight, where a stop stands.

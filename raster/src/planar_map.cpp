@@ -1,9 +1,8 @@
 #include "raster/planar_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -13,148 +12,13 @@
 #include <glm/geometric.hpp>
 
 #include "asset/instances.hpp"
-#include "asset/walk.hpp"
+#include "raster/map_part.hpp"
 
 namespace vtm::asset {
 
 namespace {
 
 using glm::dvec2;
-
-/// The side of a cell in cells of the deepest level, and so a step of its leaf in lattice steps.
-std::uint64_t stepOf(Cell cell) { return std::uint64_t(1) << (2 * (maxLevel - cell.level)); }
-
-/// Of a leaf's point, or with the numbers 0 and leafExtent of a square's corner.
-dvec2 onLattice(Cell cell, std::uint32_t x, std::uint32_t y) {
-    const std::uint64_t step = stepOf(cell);
-    return {double(step * (std::uint64_t(cell.x) * leafExtent + x)),
-            double(step * (std::uint64_t(cell.y) * leafExtent + y))};
-}
-
-PlanarPiece planar(Cell cell, const Piece& piece) {
-    PlanarPiece planar = planarPiece(piece);
-    planar.a = onLattice(cell, piece.a[0], piece.a[1]);
-    planar.b = onLattice(cell, piece.b[0], piece.b[1]);
-    return planar;
-}
-
-// ---- Borders --------------------------------------------------------------------------------------
-
-std::uint32_t along(int side, const std::array<std::uint16_t, 2>& p) {
-    const std::uint32_t x = p[0], y = p[1];
-    switch (side) {
-        case 0:
-            return x;
-        case 1:
-            return y;
-        case 2:
-            return leafExtent - x;
-        default:
-            return leafExtent - y;
-    }
-}
-
-using ChangesBySide = std::array<std::vector<Change>, 4>;
-
-/// B on a side: the region on the piece's right lies before it, the one on its left behind. A: the reverse.
-void changesOf(std::span<const Piece> pieces, ChangesBySide& sides) {
-    for (std::vector<Change>& side : sides)
-        side.clear();
-    for (const Piece& p : pieces) {
-        if (const int side = sideOf(p.a); side >= 0)
-            sides[unsigned(side)].push_back({along(side, p.a), p.left, p.right});
-        if (const int side = sideOf(p.b); side >= 0)
-            sides[unsigned(side)].push_back({along(side, p.b), p.right, p.left});
-    }
-    for (std::vector<Change>& side : sides)
-        std::ranges::sort(side, {}, &Change::at);
-}
-
-/// What a square shows along a part of one of its borders.
-struct Stretch {
-    /// The border's line, counted in cells of the deepest level, above fromBits; then where the part begins,
-    /// lattice steps. Lines seen from below are counted from 1, so that 24 bits hold all of either kind.
-    std::uint64_t key;
-    std::uint64_t to;
-    std::uint32_t paint;
-
-    static constexpr unsigned fromBits = 40;
-    std::uint64_t line() const { return key >> fromBits; }
-    std::uint64_t from() const { return key & ((std::uint64_t(1) << fromBits) - 1); }
-};
-static_assert(latticeExtent < std::int64_t(1) << Stretch::fromBits && 2 * maxLevel + Stretch::fromBits <= 64);
-
-/// All borders of one direction, each seen from both of its sides.
-struct Borders {
-    std::vector<Stretch> below, above;  ///< from the squares with lower, with higher coordinates
-};
-
-void addStretches(Cell cell, std::uint32_t corner, std::span<const Change> changes, unsigned side,
-                  std::array<Borders, 2>& borders) {
-    const bool horizontal = side % 2 == 0, forward = side < 2;
-    const std::uint64_t step = stepOf(cell);
-    const std::uint64_t first = step * leafExtent * (horizontal ? cell.x : cell.y),
-                        last = first + step * leafExtent;
-    const std::uint64_t low = step * (horizontal ? cell.y : cell.x);
-    // The square lies above its own lower border; of the other, the line before is the number.
-    const bool above = side == 0 || side == 3;
-    Borders& borderLines = borders[horizontal ? 0 : 1];
-    std::vector<Stretch>& stretches = above ? borderLines.above : borderLines.below;
-    const std::uint64_t line = (above ? low : low + step - 1) << Stretch::fromBits;
-    forEachStretch(corner, changes, leafExtent,
-                   [&](std::uint32_t from, std::uint32_t to, std::uint32_t paint) {
-                       if (forward)
-                           stretches.push_back({line | (first + from * step), first + to * step, paint});
-                       else
-                           stretches.push_back({line | (last - to * step), last - from * step, paint});
-                   });
-}
-
-/// A piece wherever the two sides of a border show different paints.
-void addSeams(Borders& borders, bool horizontal, std::vector<PlanarPiece>& pieces) {
-    std::ranges::sort(borders.below, {}, &Stretch::key);
-    std::ranges::sort(borders.above, {}, &Stretch::key);
-    const auto add = [&](std::uint64_t cells, std::uint64_t start, std::uint64_t end, std::uint32_t below,
-                         std::uint32_t above) {
-        if (below == above || start >= end)
-            return;
-        const auto line = double(cells * leafExtent), from = double(start), to = double(end);
-        if (horizontal)  // towards +x, higher y is on the left
-            pieces.push_back({{from, line}, {to, line}, 0, 0, above, below});
-        else
-            pieces.push_back({{line, from}, {line, to}, 0, 0, below, above});
-    };
-    constexpr std::uint64_t noLine = std::numeric_limits<std::uint64_t>::max();
-    std::size_t i = 0, j = 0;
-    const auto &low = borders.below, &high = borders.above;
-    // Both lists tile their lines; where one has nothing, paint 0 is.
-    std::uint64_t line = noLine, done = 0;
-    while (i < low.size() || j < high.size()) {
-        const std::uint64_t lowLine = i < low.size() ? low[i].line() + 1 : noLine,
-                            highLine = j < high.size() ? high[j].line() : noLine;
-        const std::uint64_t next = std::min(lowLine, highLine);
-        if (next != line) {
-            line = next;
-            done = 0;
-        }
-        const Stretch* a = lowLine == line ? &low[i] : nullptr;
-        const Stretch* b = highLine == line ? &high[j] : nullptr;
-        const std::uint64_t startA = a ? std::max(a->from(), done) : noLine,
-                            startB = b ? std::max(b->from(), done) : noLine;
-        const std::uint64_t from = std::min(startA, startB);
-        std::uint64_t to = noLine;
-        if (a)
-            to = std::min(to, startA > from ? startA : a->to);
-        if (b)
-            to = std::min(to, startB > from ? startB : b->to);
-        add(line, from, to, a && startA <= from ? a->paint : 0, b && startB <= from ? b->paint : 0);
-        done = to;
-        if (a && a->to <= done)
-            ++i;
-        if (b && b->to <= done)
-            ++j;
-    }
-}
 
 }  // namespace
 
@@ -203,38 +67,9 @@ double PlanarPiece::bulge() const {
 }
 
 PlanarMap planarMap(const AssetView& asset, const Map& map) {
-    // What the maps have on average, so that mostly nothing is moved.
-    const std::size_t maps = std::max<std::size_t>(asset.maps.size(), 1);
-    const std::size_t squares = 16 * asset.nodes.size() / maps, count = asset.pieces.size() / maps;
-    PlanarMap result{{{map.x, map.y}, map.side}, {}};
-    std::vector<PlanarPiece>& pieces = result.pieces;
-    pieces.reserve(count + count / 4);
-    std::array<Borders, 2> borders;
-    for (Borders& lines : borders) {
-        lines.below.reserve(squares + count / 2);
-        lines.above.reserve(squares + count / 2);
-    }
-    ChangesBySide sides;
-    walk(asset, map.root, [&](Cell cell, Entry entry) {
-        std::array<std::uint32_t, 4> corners;
-        std::span<const Piece> own;
-        corners.fill(entry.payload());
-        for (std::vector<Change>& side : sides)
-            side.clear();
-        if (entry.kind() == Entry::Kind::Leaf) {
-            const Leaf& leaf = asset.leaves[entry.payload()];
-            std::ranges::copy(leaf.corners, corners.begin());
-            own = asset.pieces.subspan(leaf.firstPiece, leaf.pieceCount);
-            changesOf(own, sides);
-        }
-        for (unsigned side = 0; side < 4; ++side)
-            addStretches(cell, corners[side], sides[side], side, borders);
-        for (const Piece& piece : own)
-            if (piece.a != piece.b && piece.left != piece.right)
-                pieces.push_back(planar(cell, piece));
-    });
-    addSeams(borders[0], true, pieces);
-    addSeams(borders[1], false, pieces);
+    MapPart whole = mapPart(asset, {}, map.root);
+    PlanarMap result{{{map.x, map.y}, map.side}, std::move(whole.pieces)};
+    std::ranges::copy(seams({&whole, 1}), std::back_inserter(result.pieces));
     return result;
 }
 

@@ -40,7 +40,10 @@ struct Boundary {
     double bulge;
     double steps;  ///< as many chords are needed where a lattice step is a pixel
 
-    explicit Boundary(const PlanarPiece& p) : piece(p), bulge(p.bulge()) {
+    explicit Boundary(const PlanarPiece& p) : piece(p), bulge(0), steps(0) {
+        if (p.slopeA == 0 && p.slopeB == 0)
+            return;
+        bulge = p.bulge();
         // Over a step h of s a chord between points of the curve is off by h² |t''| / 8, by 2/3 of that in
         // the mean. Moved outwards by the mean, its points are off by h² |t''| / 12, and it is nowhere by
         // more. t'' is linear: |t''| is largest at an end.
@@ -96,6 +99,18 @@ public:
         stretchRoot_ = std::sqrt(stretch_);
     }
 
+    /// The side of the smallest square whose image can be as long as a pixel, lattice steps.
+    double pixel() const { return 1 / stretch_; }
+    /// False if nothing in that box changes a pixel.
+    bool mayMatter(glm::dvec2 min, glm::dvec2 max) const {
+        const PixelReach reach = reachOf(min, max);
+        return reach.max.y > 0 && reach.min.y < height_ && reach.min.x < width_;
+    }
+    /// Whether something in that box is in a pixel.
+    bool mayShow(glm::dvec2 min, glm::dvec2 max) const {
+        return mayMatter(min, max) && reachOf(min, max).max.x > 0;
+    }
+
     void add(const Boundary& boundary) {
         const PlanarPiece& piece = boundary.piece;
         const glm::dvec2 a = linear_ * piece.a + origin_, b = linear_ * piece.b + origin_;
@@ -112,6 +127,17 @@ public:
 private:
     /// Of one piece: a quarter turn as long as the largest view has fewer.
     static constexpr double maxChords = 4096;
+
+    /// The box around the image of a box.
+    struct PixelReach {
+        glm::dvec2 min, max;
+    };
+    PixelReach reachOf(glm::dvec2 min, glm::dvec2 max) const {
+        const glm::dvec2 centre = linear_ * (0.5 * (min + max)) + origin_;
+        const glm::dvec2 half = 0.5 * (max - min);
+        const glm::dvec2 reach = glm::abs(linear_[0]) * half.x + glm::abs(linear_[1]) * half.y;
+        return {centre - reach, centre + reach};
+    }
 
     void addChords(int count, glm::dvec2 a, glm::dvec2 b, const PlanarPiece& piece) {
         // t - outwards t'' as a polynomial of s.

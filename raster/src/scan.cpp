@@ -18,12 +18,14 @@
 #include "asset/instances.hpp"
 #include "raster/chord_scanner.hpp"
 #include "raster/src/blend.hpp"
+#include "raster/src/draw_map.hpp"
 #include "raster/src/map_scanner.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/rough.hpp"
 #include "raster/src/row_sums.hpp"
 #include "raster/src/scan_programs.hpp"
 #include "raster/src/scan_stores.hpp"
+#include "raster/src/scanned_map.hpp"
 #include "raster/steepness.hpp"
 
 namespace vtm::asset {
@@ -40,14 +42,6 @@ struct RowScratch {
     std::unique_ptr<RowScratch> finer;  ///< for what is drawn finer
 };
 
-/// A map without what is placed in it.
-struct OwnMap {
-    explicit OwnMap(const PlanarMap& map) : place(map), boundaries(map.pieces.begin(), map.pieces.end()) {}
-
-    MapPlace place;
-    std::vector<Boundary> boundaries;
-};
-
 /// The maps of an asset that are placed in others.
 class PlacedMaps {
 public:
@@ -55,7 +49,7 @@ public:
     explicit PlacedMaps(const AssetView& asset) : asset_(asset), walk_(asset), maps_(asset.maps.size()) {
         for (const Symbol& symbol : asset.symbols)
             if (!maps_[symbol.map])
-                maps_[symbol.map].emplace(planarMap(asset, asset.maps[symbol.map]));
+                maps_[symbol.map].emplace(asset, asset.maps[symbol.map]);
     }
 
     /// Calls visit(map, its place, its paints), which tells whether to go on to those in it, for each map
@@ -74,19 +68,25 @@ public:
 private:
     const AssetView asset_;
     const MapWalk walk_;
-    std::vector<std::optional<OwnMap>> maps_;
+    std::vector<std::optional<ScannedMap>> maps_;
 };
 
 /// What is drawn.
 struct Scanned {
     struct Drawn {
-        OwnMap own;
+        ScannedMap own;
         std::uint32_t map = noMap;  ///< in which others are placed
     };
     static constexpr std::uint32_t noMap = 0xFFFFFFFFu;
 
     Scanned(const Paints& of, std::size_t paintCount, Sums sumsOf) : paints(of), sums(sumsOf) {
-        for (const Paint& paint : of.asset().paints.first(paintCount)) {
+        setPaints(of, paintCount);
+    }
+    void setPaints(const Paints& of, std::size_t count) {
+        paints = of;
+        isProgram.clear();
+        solid.clear();
+        for (const Paint& paint : of.asset().paints.first(count)) {
             isProgram.push_back(asset::isProgram(paint));
             solid.push_back(asset::isProgram(paint) ? Float4{} : float4(added(std::bit_cast<vec4>(paint))));
         }
@@ -179,9 +179,18 @@ public:
         scratch_.programs.resize(of.asset().paints.size(), view.width);
     }
 
-    void addPicture() {
+    /// What is seen of the picture is the same of a part of it.
+    enum class Of { Picture, SeenSquares };
+
+    void add(Of what) {
         for (const Scanned::Drawn& drawn : of_.drawn) {
-            addChords(Chords<>(drawn.own.place, view_, scratch_.bands), drawn.own.boundaries);
+            Chords<> chords(drawn.own.place(), view_, scratch_.bands);
+            if (what == Of::Picture)
+                drawn.own.forEach([&](auto boxes) { addChords(chords, boxes); });
+            else
+                drawn.own.forEachOfSeen(
+                    chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
+                    [&](const Boundary& boundary) { chords.add(boundary); });
             if (drawn.map != Scanned::noMap)
                 addPlaced(drawn.map);
         }
@@ -203,22 +212,26 @@ public:
 
 private:
     template <class PaintOf>
-    static void addChords(Chords<PaintOf> chords, const std::vector<Boundary>& boundaries) {
-        for (const Boundary& boundary : boundaries) {
+    static void addChords(Chords<PaintOf>& chords, std::span<const BoundaryBox> boxes) {
+        for (const BoundaryBox& box : boxes) {
             limits::check();
-            chords.add(boundary);
+            if (chords.mayMatter(box.min(), box.max()))
+                for (const Boundary& boundary : box.at(chords.pixel()))
+                    chords.add(boundary);
         }
     }
 
     /// What lies beside the view changes no pixel.
     void addPlaced(std::uint32_t map) {
-        of_.placed->forEach(map, [&](const OwnMap& own, const Affine2& place, const PlacedPaints& paints) {
-            if (!isSeen(place))
-                return false;
-            const Affine2 toPicture{place.linear * (1 / own.place.extent), place.offset};
-            addChords(Chords(toPicture, view_, scratch_.bands, std::cref(paints)), own.boundaries);
-            return true;
-        });
+        of_.placed->forEach(
+            map, [&](const ScannedMap& own, const Affine2& place, const PlacedPaints& paints) {
+                if (!isSeen(place))
+                    return false;
+                const Affine2 toPicture{place.linear * (1 / own.place().extent), place.offset};
+                Chords chords(toPicture, view_, scratch_.bands, std::cref(paints));
+                own.forEach([&](auto boxes) { addChords(chords, boxes); });
+                return true;
+            });
     }
 
     bool isSeen(const Affine2& toPicture) const {
@@ -316,7 +329,7 @@ private:
 
 template <class Store>
 void drawScanned(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
-                 const Store& store) {
+                 const Store& store, Drawing::Of what = Drawing::Of::Picture) {
     validate(view);
     if (view.width == 0 || view.height == 0)
         return;
@@ -329,18 +342,24 @@ void drawScanned(const Scanned& of, const View& view, const MaterialFunction& ma
     const limits::Stage stage("scanning");
     Drawing drawing(of, view, materials, scratch,
                     of.sums == Sums::Encoded ? finerLevels(of.asset(), view) : 0);
-    drawing.addPicture();
+    drawing.add(what);
     drawing.draw(store);
+}
+
+/// What the paints of an asset need, but images and materials.
+Asset recordsOf(const AssetView& from) {
+    Asset kept;
+    kept.paints.assign(from.paints.begin(), from.paints.end());
+    kept.data.assign(from.data.begin(), from.data.end());
+    kept.finestPixel = from.finestPixel;
+    return kept;
 }
 
 /// What the paints of an asset need.
 Asset paintsOf(const AssetView& from) {
-    Asset kept;
-    kept.paints.assign(from.paints.begin(), from.paints.end());
-    kept.data.assign(from.data.begin(), from.data.end());
+    Asset kept = recordsOf(from);
     kept.images.assign(from.images.begin(), from.images.end());
     kept.materials.assign(from.materials.begin(), from.materials.end());
-    kept.finestPixel = from.finestPixel;
     return kept;
 }
 
@@ -358,21 +377,54 @@ Asset paintsAndTreesOf(const AssetView& from) {
     return kept;
 }
 
+/// What a box costs to draw beside its pixels, in pixels.
+constexpr std::size_t pixelsOfABox = 1024;
+
+/// Joins it with those with which it costs less.
+void addBox(PixelBox box, std::vector<PixelBox>& boxes) {
+    if (box.empty())
+        return;
+    for (std::size_t i = 0; i < boxes.size();) {
+        const PixelBox both = box.joined(boxes[i]);
+        if (both.area() <= box.area() + boxes[i].area() + pixelsOfABox) {
+            box = both;
+            boxes[i] = boxes.back();
+            boxes.pop_back();
+            i = 0;
+        } else {
+            ++i;
+        }
+    }
+    boxes.push_back(box);
+}
+
 }  // namespace
 
 struct Scanner::Impl {
     Impl(Asset&& ownedAsset, Sums sums)
         : owned(std::move(ownedAsset)), scanned(Paints(owned), owned.paints.size(), sums) {}
 
-    const Asset owned;
+    Asset owned;
     Scanned scanned;
 
     template <class Store>
-    void draw(const View& view, const MaterialFunction& materials, const Store& store) {
+    void draw(const View& view, const MaterialFunction& materials, const Store& store,
+              Drawing::Of what = Drawing::Of::Picture) {
         // An exception loses the scratch, whose sums may be half done.
         std::unique_ptr<RowScratch> scratch = takeScratch();
-        drawScanned(scanned, view, materials, *scratch, store);
+        drawScanned(scanned, view, materials, *scratch, store, what);
         giveBack(std::move(scratch));
+    }
+
+    void updatePaints(const AssetView& asset, bool imagesToo) {
+        std::shared_ptr<const Images> images = scanned.paints.sharedImages();
+        Asset next = imagesToo ? paintsOf(asset) : recordsOf(asset);
+        if (!imagesToo) {
+            next.images = std::move(owned.images);
+            next.materials = std::move(owned.materials);
+        }
+        owned = std::move(next);
+        scanned.setPaints(imagesToo ? Paints(owned) : Paints(owned, std::move(images)), owned.paints.size());
     }
 
 private:
@@ -398,7 +450,7 @@ Scanner::Scanner(const AssetView& asset, Sums sums)
           std::make_unique<Impl>(asset.instances.empty() ? paintsOf(asset) : paintsAndTreesOf(asset), sums)) {
     requireSumOfMaps(asset);
     for (const Command& command : asset.commands)
-        impl_->scanned.drawn.push_back({OwnMap(planarMap(asset, asset.maps[command.map])),
+        impl_->scanned.drawn.push_back({ScannedMap(asset, asset.maps[command.map]),
                                         asset.instances.empty() ? Scanned::noMap : command.map});
     if (!asset.instances.empty())
         impl_->scanned.placed = std::make_shared<const PlacedMaps>(impl_->owned);
@@ -407,17 +459,53 @@ Scanner::Scanner(const AssetView& asset, Sums sums)
 Scanner::Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums)
     : impl_(std::make_unique<Impl>(paintsOf(asset), sums)) {
     for (const PlanarMap& map : maps)
-        impl_->scanned.drawn.push_back({OwnMap(map)});
+        impl_->scanned.drawn.push_back({ScannedMap(map)});
 }
 
 Scanner::~Scanner() = default;
 Scanner::Scanner(Scanner&&) noexcept = default;
 Scanner& Scanner::operator=(Scanner&&) noexcept = default;
 
+void Scanner::update(const AssetView& asset, const Difference& difference) {
+    const Sums sums = impl_->scanned.sums;
+    if (difference.everything) {
+        *this = Scanner(asset, sums);
+        return;
+    }
+    if (asset.maps.size() != 1 || !asset.instances.empty() || impl_->scanned.drawn.size() != 1)
+        throw std::invalid_argument("a scanner is brought to an asset of one map without instances alone");
+    if (difference.paints || difference.images)
+        impl_->updatePaints(asset, difference.images);
+    impl_->owned.finestPixel = asset.finestPixel;
+    if (!difference.squares.empty())
+        impl_->scanned.drawn[0].own.update(asset, asset.maps[0], difference.squares);
+}
+
 std::optional<double> Scanner::finestPixel() const { return impl_->owned.finestPixel; }
 
 void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
     impl_->draw(view, materials, ByteStore(target, view.width));
+}
+
+void Scanner::drawBox(const View& view, const PixelBox& box, const ByteTarget& target,
+                      const MaterialFunction& materials) const {
+    validate(view);
+    const PixelBox seen = box.intersection({{0, 0}, {view.width, view.height}});
+    if (seen.empty())
+        return;
+    const ByteTarget there{
+        target.pixels + std::size_t(seen.min.y) * target.rowBytes + std::size_t(seen.min.x) * 4,
+        target.rowBytes};
+    impl_->draw(crop(view, seen), materials, ByteStore(there, seen.width()), Drawing::Of::SeenSquares);
+}
+
+std::vector<PixelBox> changedPixels(const View& view, const Difference& difference) {
+    std::vector<PixelBox> boxes;
+    for (const Area& area : difference.areas) {
+        const glm::dvec2 corner(area.left, area.top), size(area.right - area.left, area.bottom - area.top);
+        addBox(pixelsOf(view, {glm::dmat2(size.x, 0, 0, size.y), corner}), boxes);
+    }
+    return boxes;
 }
 
 void Scanner::add(const View& view, const PixelsToAddTo& pixels, const MaterialFunction& materials) const {
@@ -456,7 +544,7 @@ void MapScanner::add(std::uint32_t index, std::uint32_t firstPaint, std::size_t 
     const AssetView& asset = impl_->paints.asset();
     const Map& map = asset.maps[index];
     Scanned scanned(impl_->paints.from(firstPaint), paintCount, Sums::Encoded);
-    scanned.drawn.push_back({OwnMap(planarMap(asset, map))});
+    scanned.drawn.push_back({ScannedMap(asset, map)});
     if (map.instances != 0) {
         if (!impl_->placed)
             impl_->placed = std::make_shared<const PlacedMaps>(asset);

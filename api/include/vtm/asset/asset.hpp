@@ -279,6 +279,8 @@ struct MaterialFill {
 struct Material {
     std::string name;  ///< a letter, then letters, digits and single underscores; unique in the asset
     std::string glsl;  ///< without zero bytes
+
+    bool operator==(const Material&) const = default;
 };
 inline constexpr std::size_t maxMaterials = 256, maxMaterialName = 64, maxMaterialText = 65536;
 

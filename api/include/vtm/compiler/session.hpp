@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 
+#include <vtm/asset/difference.hpp>
 #include <vtm/compiler/compile.hpp>
 
 #pragma GCC visibility push(default)
@@ -42,6 +43,10 @@ public:
     const Result& result() const;
     /// The work done by the last `update` that did not throw, or by the constructor.
     const Update& lastUpdate() const;
+
+    /// What the last such update changed of the asset: what was made of the one before need not be made anew
+    /// (asset::Scanner::update), and what is outside its areas need not be drawn again.
+    const asset::Difference& difference() const;
 
     /// Compiles `scene`, which replaces the previous one. Throws as `compile` does; the result then stays as
     /// it was, and the next update may compile from scratch.

@@ -12,11 +12,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <glm/vec4.hpp>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/asset/difference.hpp>
 #include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/pixel_box.hpp>
 #include <vtm/raster/view.hpp>
 
 #pragma GCC visibility push(default)
@@ -47,7 +50,7 @@ enum class Sums {
 };
 
 /// Draws one asset. Copies the data that it needs, so the asset may go. Safe to use from several threads at
-/// once.
+/// once, except for update().
 class Scanner {
 public:
     /// `asset` must be valid (asset::validate). Throws std::invalid_argument unless it is a sum of maps.
@@ -58,12 +61,21 @@ public:
     Scanner(Scanner&&) noexcept;
     Scanner& operator=(Scanner&&) noexcept;
 
+    /// Goes on to the next asset, `difference` being what changed from the last one that was given. The work
+    /// is that of the squares that changed. If it throws, nothing may be drawn before an update succeeds with
+    /// `difference.everything`.
+    void update(const AssetView& asset, const Difference& difference);
+
     /// How far the asset may be magnified: Asset::finestPixel.
     std::optional<double> finestPixel() const;
 
     /// Replaces every pixel, rounded to nearest. Throws std::length_error if the view is beyond its limits.
     void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
-    /// The same in floats.
+    /// Replaces the pixels of a box of the view alone, at their places in the target; the work is that of the
+    /// box. Rounding may make a difference of 1 to what draw() makes of them.
+    void drawBox(const View& view, const PixelBox& box, const ByteTarget& target,
+                 const MaterialFunction& materials = {}) const;
+    /// The same as the first in floats.
     image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
 
     /// Adds what it draws, each channel in [0, 1], to pixels; asks for those that are not transparent.
@@ -78,6 +90,9 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Boxes around the pixels that `difference` may change, few where that is cheaper to draw.
+std::vector<PixelBox> changedPixels(const View& view, const Difference& difference);
 
 }  // namespace vtm::asset
 

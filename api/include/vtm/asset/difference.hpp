@@ -1,0 +1,30 @@
+/// \file
+/// What changes from one asset to the next: what was made of the first is brought up to date at the cost of
+/// what changed, and only what looks different is drawn again.
+#pragma once
+
+#include <vector>
+
+#include <vtm/asset/asset.hpp>
+
+namespace vtm::asset {
+
+/// A box of the picture, user units.
+struct Area {
+    double left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Between two assets of one size that follow each other (compiler::Session::difference()).
+struct Difference {
+    bool everything = true;  ///< nothing can be taken over; else what follows holds
+    /// Squares of the first map whose subtrees changed. The rest of the tree has the same leaves and pieces,
+    /// with the same numbers of paints; records may stand elsewhere. Assets have one map then, and no
+    /// instances.
+    std::vector<Cell> squares;
+    bool paints = true;  ///< paints or their data changed
+    bool images = true;  ///< images or materials changed
+    /// What may look different. Nothing does outside; boxes may overlap.
+    std::vector<Area> areas;
+};
+
+}  // namespace vtm::asset

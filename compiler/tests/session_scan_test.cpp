@@ -1,0 +1,163 @@
+// What a session says has changed, as the scanner takes it: a picture that is kept up to date.
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include <vtm/compiler/session.hpp>
+#include <vtm/raster/scan.hpp>
+#include "compiler/tests/random_edits.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+struct Bytes {
+    explicit Bytes(const asset::View& view)
+        : rowBytes(std::size_t(view.width) * 4), pixels(rowBytes * std::size_t(view.height)) {}
+    asset::ByteTarget target() { return {pixels.data(), rowBytes}; }
+
+    std::size_t rowBytes;
+    std::vector<std::uint8_t> pixels;
+};
+
+int largestDifference(const Bytes& a, const Bytes& b) {
+    int largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        largest = std::max(largest, std::abs(int(a.pixels[i]) - int(b.pixels[i])));
+    return largest;
+}
+
+/// Keeps a scanner and a picture, as a program does that shows what is edited.
+class Shown {
+public:
+    Shown(const Session& session, const asset::View& view)
+        : view_(view), scanner_(session.result().asset), bytes_(view) {
+        scanner_.draw(view_, bytes_.target());
+    }
+
+    /// Returns how many pixels were drawn.
+    std::size_t update(const Session& session) {
+        scanner_.update(session.result().asset, session.difference());
+        std::size_t pixels = 0;
+        for (const asset::PixelBox& box : asset::changedPixels(view_, session.difference())) {
+            scanner_.drawBox(view_, box, bytes_.target());
+            pixels += box.area();
+        }
+        return pixels;
+    }
+
+    /// The picture, and what its scanner draws as a whole, are those of a new scanner.
+    void expectFresh(const Session& session) const {
+        Bytes fresh(view_), whole(view_);
+        asset::Scanner(session.result().asset).draw(view_, fresh.target());
+        scanner_.draw(view_, whole.target());
+        EXPECT_LE(largestDifference(whole, fresh), 1);
+        EXPECT_LE(largestDifference(bytes_, fresh), 1);
+    }
+
+private:
+    asset::View view_;
+    asset::Scanner scanner_;
+    Bytes bytes_;
+};
+
+/// Of a picture of 64 × 64 units.
+asset::View view(int size, double scale, double shear) {
+    return {size, size, {scale, shear * scale, -shear * scale, scale, 3.3, 1.7}};
+}
+
+class ShownEdits : public testing::TestWithParam<std::tuple<unsigned, int>> {};
+INSTANTIATE_TEST_SUITE_P(SeedAndItems, ShownEdits,
+                         testing::Combine(testing::Range(0u, 4u), testing::Values(6, 60)));
+
+TEST_P(ShownEdits, AreDrawnWhereTheyAre) {
+    const auto [seed, items] = GetParam();
+    test::RandomEditor editor(seed, items);
+    Session session(editor.scene());
+    Shown upright(session, view(100, 1.3, 0)), turned(session, view(60, 0.7, 0.4)),
+        small(session, view(12, 0.15, -0.1));
+    std::string history;
+    for (int i = 0; i < 25 && !HasFailure(); ++i) {
+        history += editor.edit() + ", ";
+        session.update(editor.scene());
+        for (Shown* shown : {&upright, &turned, &small}) {
+            shown->update(session);
+            shown->expectFresh(session);
+        }
+    }
+    EXPECT_FALSE(HasFailure()) << history;
+}
+
+scene::Item square(scene::Point at, float red) {
+    scene::Item item;
+    item.path = std::make_shared<scene::Path>(scene::rectangle(at, at + scene::Point{0.6, 0.6}));
+    item.transform = {1, 0.1, -0.1, 1, 0, 0};
+    item.paint = scene::Color{red, 0, 0, 1};
+    return item;
+}
+
+scene::Scene squares(int perSide) {
+    scene::Scene scene{double(perSide), double(perSide), {}};
+    for (int i = 0; i < perSide * perSide; ++i)
+        scene.root.children.push_back({square({double(i % perSide), double(i / perSide)}, 1)});
+    return scene;
+}
+
+TEST(ShownSession, RedrawsLittleForASmallItem) {
+    scene::Scene scene = squares(40);
+    Session session(scene);
+    Shown shown(session, {400, 400, {10, 0, 0, 10, 0, 0}});
+    scene::Item& item = std::get<scene::Item>(scene.root.children[777].value);
+    item.paint = scene::Color{0, 1, 0, 1};
+    session.update(scene);
+    EXPECT_FALSE(session.difference().everything);
+    EXPECT_TRUE(session.difference().squares.empty());
+    const std::size_t recoloured = shown.update(session);
+    EXPECT_GT(recoloured, 50u);
+    EXPECT_LT(recoloured, 4000u);
+    shown.expectFresh(session);
+    item.transform = scene::translation(0.2, 0.3);
+    session.update(scene);
+    EXPECT_FALSE(session.difference().squares.empty());
+    EXPECT_LT(shown.update(session), 8000u);
+    shown.expectFresh(session);
+    session.update(scene);
+    EXPECT_EQ(shown.update(session), 0u);
+}
+
+TEST(ShownSession, MovingEverythingIsCompiledWithoutBlocks) {
+    scene::Scene scene = squares(20);
+    Session session(scene);
+    Shown shown(session, {200, 200, {10, 0, 0, 10, 0, 0}});
+    for (int frame = 1; frame < 4; ++frame) {
+        for (scene::Node& node : scene.root.children)
+            std::get<scene::Item>(node.value).transform = scene::translation(0.01 * frame, 0);
+        session.update(scene);
+        EXPECT_TRUE(session.lastUpdate().anew);
+        EXPECT_EQ(session.lastUpdate().blocksInAll, 0u);
+        EXPECT_EQ(shown.update(session), 200u * 200u);
+        shown.expectFresh(session);
+    }
+    for (int i = 0; i < 3; ++i) {  // little changes again: blocks are made once, and of use then
+        std::get<scene::Item>(scene.root.children[5].value).transform = scene::translation(0.01 * i, 0.2);
+        session.update(scene);
+        EXPECT_EQ(session.lastUpdate().anew, i == 0);
+        shown.update(session);
+        shown.expectFresh(session);
+    }
+}
+
+TEST(ShownSession, AScannerOfAnotherAssetIsRefused) {
+    const asset::Asset asset = compile(squares(2)).asset;
+    asset::Scanner scanner(asset);
+    asset::Asset other = asset;
+    other.maps.push_back(other.maps[0]);
+    asset::Difference little;
+    little.everything = false;
+    EXPECT_THROW(scanner.update(other, little), std::invalid_argument);
+    EXPECT_NO_THROW(scanner.update(other, {}));
+}
+
+}  // namespace
+}  // namespace vtm::compiler

@@ -1,0 +1,113 @@
+/// \file
+/// A map's boundaries as the scanner keeps them: by squares, so that it can pass over those that a view does
+/// not show, draw some alone, and make those anew that changed.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include <vtm/asset/asset.hpp>
+#include <vtm/limits/limits.hpp>
+#include "raster/map_part.hpp"
+#include "raster/planar_map.hpp"
+#include "raster/src/detail.hpp"
+#include "raster/src/row_sums.hpp"
+
+namespace vtm::asset {
+
+/// Boundaries, and the box around them, lattice coordinates.
+class BoundaryBox {
+public:
+    /// Without a square nothing is merged.
+    explicit BoundaryBox(std::span<const PlanarPiece> pieces, std::optional<DetailSquare> square = {});
+
+    bool empty() const { return boundaries_.empty(); }
+    glm::dvec2 min() const { return min_; }
+    glm::dvec2 max() const { return max_; }
+    /// What to draw where a pixel is so many lattice steps: the boundaries, or fewer that look the same
+    /// there. Made when first asked for.
+    std::span<const Boundary> at(double pixel) const;
+
+private:
+    std::vector<Boundary> boundaries_;
+    glm::dvec2 min_{0}, max_{0};
+    double meanLength_ = 0;
+    std::optional<DetailSquare> square_;
+    DetailLevels levels_;
+};
+
+/// A map without what is placed in it.
+class ScannedMap {
+public:
+    ScannedMap(const AssetView& asset, const Map& map);
+    /// Of boundaries that somebody else made; they are one square.
+    explicit ScannedMap(const PlanarMap& map);
+
+    const MapPlace& place() const { return place_; }
+    /// Calls visit(boxes) for all boundaries, in spans of boxes.
+    template <class Visit>
+    void forEach(Visit&& visit) const {
+        visit(std::span(boxes_));
+        for (const Line& line : lines_)
+            visit(std::span(&line.seams, 1));
+    }
+
+    /// Those of the picture that is the map's in the squares for which `isSeen(min, max)` says so of their
+    /// boundaries' box, and transparent elsewhere: calls visit(boundary) for each, where a pixel is so many
+    /// steps.
+    template <class IsSeen, class Visit>
+    void forEachOfSeen(double pixel, IsSeen&& isSeen, Visit&& visit) const {
+        std::array<Borders, 2> borders;
+        for (std::size_t i = 0; i < squares_.size(); ++i) {
+            limits::check();
+            if (isSeen(squares_[i].min, squares_[i].max)) {
+                for (const Boundary& boundary : boxes_[i].at(pixel))
+                    visit(boundary);
+                addBorders(squares_[i], borders);
+            }
+        }
+        for (const PlanarPiece& seam : seams(std::move(borders)))
+            visit(Boundary(seam));
+    }
+
+    /// Brings it to the map of another asset, whose tree is another one in these squares alone.
+    void update(const AssetView& asset, const Map& map, std::span<const Cell> changed);
+
+private:
+    struct Square {
+        Cell cell;
+        std::array<Borders, 2> borders;
+        glm::dvec2 min, max;  ///< of it and all boundaries in it
+    };
+
+    /// A line between squares: Stretch::line() as seen from above, and what stands along all of it.
+    struct LineNumber {
+        std::size_t direction;
+        std::uint64_t number;
+
+        auto operator<=>(const LineNumber&) const = default;
+    };
+    struct Line {
+        LineNumber line;
+        BoundaryBox seams;
+    };
+
+    void add(MapPart part);
+    static void addLines(const Square& square, std::vector<LineNumber>& lines);
+    void makeSeams(std::vector<LineNumber> lines);
+    static void addBorders(const Square& square, std::array<Borders, 2>& borders);
+
+    MapPlace place_;
+    std::vector<Square> squares_;     ///< none where somebody else made the boundaries
+    std::vector<BoundaryBox> boxes_;  ///< by square
+    std::vector<Line> lines_;         ///< ascending
+};
+
+}  // namespace vtm::asset
