@@ -193,7 +193,8 @@ private:
             isShort = isShort && length <= pixel_;
             if (isShort)
                 wide.pass(d, length, bulge);
-            if ((isShort && wide.holds(d)) || near.holds(d))
+            const double mostArea = movedArea * pixel_ * std::max(pixel_, length);
+            if (std::abs(area) <= mostArea && ((isShort && wide.holds(d)) || near.holds(d)))
                 best = {i + 1, i > first || bulge > 0, area, area};
             else if (!near.isOpen() && !(isShort && wide.isOpen()))
                 break;

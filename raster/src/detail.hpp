@@ -20,6 +20,8 @@ namespace vtm::asset {
 /// Nothing of a boundary that is shorter than a pixel moves further, pixels; longer ones move by
 /// chordTolerance at most.
 inline constexpr double detailTolerance = 0.02;
+/// No piece that is put in place of others has more area on its other side than that by pixel of its length.
+inline constexpr double movedArea = 1.0 / 512;
 
 /// The square that boundaries are in: what else there is of a map may meet them on its border.
 struct DetailSquare {

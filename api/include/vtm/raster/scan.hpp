@@ -72,7 +72,8 @@ public:
     /// Replaces every pixel, rounded to nearest. Throws std::length_error if the view is beyond its limits.
     void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
     /// Replaces the pixels of a box of the view alone, at their places in the target; the work is that of the
-    /// box. Rounding may make a difference of 1 to what draw() makes of them.
+    /// box. Rounding may make a difference of 1/255 to what draw() makes of them, of 3/255 where paints
+    /// change much within a pixel.
     void drawBox(const View& view, const PixelBox& box, const ByteTarget& target,
                  const MaterialFunction& materials = {}) const;
     /// The same as the first in floats.
