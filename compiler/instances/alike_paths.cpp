@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <variant>
 
 #include "compiler/containers/hash.hpp"
@@ -64,10 +63,15 @@ std::complex<double> usual(std::complex<double> factor, double slack) {
     return std::abs(factor - unit) <= slack ? unit : factor;
 }
 
+/// Steps of a distance in a radius; what is farther is not compared.
+constexpr double distanceSteps = 4096, farDistance = 0xFFFF;
+
 }  // namespace
 
-AlikePaths::Points AlikePaths::pointsOf(const Path& path) {
-    Points points;
+void AlikePaths::findPoints(const Path& path, Points& points) {
+    points.commands = 0;
+    points.mean = 0;
+    points.fromMean.clear();
     PointWalk walk([&](Point p) { points.fromMean.emplace_back(p.x, p.y); });
     for (const scene::Command& command : path) {
         points.commands = hashCombine(points.commands, command.index());
@@ -87,9 +91,35 @@ AlikePaths::Points AlikePaths::pointsOf(const Path& path) {
     points.radius = std::sqrt(squares / count);
     // The weight keeps shapes apart in which one part grows as the other shrinks.
     constexpr double weight = 1.618;
+    points.form = 0;
     if (squares > 0)
         points.form = std::abs(points.fromMean.front()) / points.radius + weight * std::abs(moment) / squares;
-    return points;
+}
+
+AlikePaths::Distances AlikePaths::distancesOf(const Points& points) {
+    Distances distances{};
+    if (!(points.radius > 0))
+        return distances;
+    const std::size_t count = points.fromMean.size(), of = distances.size();
+    for (std::size_t i = 0; i < of; ++i) {
+        const Complex between =
+            points.fromMean[count * i / of] - points.fromMean[count * ((i + 1) % of) / of];
+        const double steps = std::abs(between) / points.radius * distanceSteps;
+        distances[i] = std::uint16_t(steps < farDistance ? std::round(steps) : farDistance);
+    }
+    return distances;
+}
+
+/// Necessary for turnOf() to find a turn. If it moves no point farther than the slack from where it should
+/// be, a distance is off by twice that, and the radius by no more than the slack.
+bool AlikePaths::mayBeAlike(const Distances& from, const Distances& to, double slackInRadii) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const double a = from[i], b = to[i];
+        if (a < farDistance && b < farDistance &&
+            std::abs(a - b) > slackInRadii * (2 * distanceSteps + a + 1) + 2)
+            return false;
+    }
+    return true;
 }
 
 /// By least squares: the factor is the mean of conj(q) p over that of |q|².
@@ -130,30 +160,62 @@ AlikePaths::Image AlikePaths::image(std::uint32_t kind, const Kind& of, const Po
             of.size};
 }
 
-AlikePaths::Image AlikePaths::add(const Path& path, double slack) {
-    Points points = pointsOf(path);
-    auto& known = byCommands_[points.commands];
-    // Points, their mean and the radius may all be off by the slack.
-    const double near = points.radius > 0 ? 8 * (1 + points.form) * slack / points.radius : 0;
-    constexpr int maxTried = 32;  // the nearest
-    auto above = known.lower_bound(points.form), below = above;
-    for (int tried = 0; tried < maxTried; ++tried) {
-        const double up = above == known.end() ? HUGE_VAL : above->first - points.form;
-        const double down = below == known.begin() ? HUGE_VAL : points.form - std::prev(below)->first;
-        if (!(std::min(up, down) <= near))
-            break;
-        const std::uint32_t kind = up <= down ? (above++)->second : (--below)->second;
-        if (const auto turn = turnOf(kinds_[kind].points, points, slack))
-            return image(kind, kinds_[kind], points, *turn);
-    }
-    const auto number = std::uint32_t(kinds_.size());
-    known.emplace(points.form, number);
+AlikePaths::Kind AlikePaths::kindOf(Points points) {
     Kind kind{std::move(points), {}, 0};
     kind.origin = kind.points.mean + kind.points.fromMean.front();
     for (const Complex p : kind.points.fromMean)
         kind.size = std::max(kind.size, std::abs(p - kind.points.fromMean.front()));
+    return kind;
+}
+
+/// Of the path being added, if it is of that kind.
+std::optional<AlikePaths::Image> AlikePaths::imageOf(std::uint32_t number, double slack) {
+    First& first = firsts_[number];
+    std::unique_ptr<const Kind> found;
+    if (!first.kind) {
+        Points points;
+        findPoints(*first.path, points);
+        found = std::make_unique<const Kind>(kindOf(std::move(points)));
+    }
+    const Kind& kind = found ? *found : *first.kind;
+    const std::optional<Turn> turn = turnOf(kind.points, points_, slack);
+    if (!turn)
+        return std::nullopt;
+    const Image made = image(number, kind, points_, *turn);
+    if (found)
+        first.kind = std::move(found);
+    return made;
+}
+
+AlikePaths::Image AlikePaths::add(const Path& path, double slack) {
+    findPoints(path, points_);
+    const double form = points_.form, radius = points_.radius;
+    const Distances distances = distancesOf(points_);
+    auto& known = byCommands_[points_.commands];
+    // Points, their mean and the radius may all be off by the slack.
+    const double near = radius > 0 ? 8 * (1 + form) * slack / radius : 0;
+    const double slackInRadii = radius > 0 ? slack / radius : 0;
+    constexpr int maxTried = 32;  // the nearest
+    auto above = known.lowerBound(form), below = above;
+    for (int tried = 0; tried < maxTried; ++tried) {
+        const double up = above == known.end() ? HUGE_VAL : known[above].key - form;
+        const double down = below == known.begin() ? HUGE_VAL : form - known[known.before(below)].key;
+        if (!(std::min(up, down) <= near))
+            break;
+        const bool isAbove = up <= down;
+        below = isAbove ? below : known.before(below);
+        const Known& nearest = known[isAbove ? above : below].value;
+        above = isAbove ? known.next(above) : above;
+        if (mayBeAlike(nearest.distances, distances, slackInRadii))
+            if (const auto found = imageOf(nearest.kind, slack))
+                return *found;
+    }
+    const auto number = std::uint32_t(firsts_.size());
+    known.insert(form, {number, distances});
+    firsts_.push_back({&path, nullptr});
+    Kind kind = kindOf(std::move(points_));
     const Image first = image(number, kind, kind.points, {1, false});
-    kinds_.push_back(std::move(kind));
+    points_ = std::move(kind.points);  // keeps their memory
     return first;
 }
 

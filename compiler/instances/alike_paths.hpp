@@ -2,15 +2,17 @@
 /// Paths in; out comes which of them are images of each other, moved, turned, mirrored or scaled.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include <vtm/scene/affine.hpp>
 #include <vtm/scene/path.hpp>
+#include "compiler/containers/sorted_blocks.hpp"
 
 namespace vtm::compiler {
 
@@ -24,7 +26,8 @@ public:
     };
 
     /// The path as an image of one that was added before, within `slack` in its own space, or as the first of
-    /// a kind. It begins with MoveTo.
+    /// a kind. It begins with MoveTo. It must outlive this: most paths are like no other, so their points are
+    /// not kept, but found again where another path may be like them.
     Image add(const scene::Path& path, double slack);
 
 private:
@@ -48,13 +51,32 @@ private:
         bool isMirrored = false;
     };
 
-    static Points pointsOf(const scene::Path& path);
-    static std::optional<Turn> turnOf(const Points& from, const Points& to, double slack);
-    static Image image(std::uint32_t kind, const Kind& of, const Points& points, const Turn& turn);
+    /// How far four of the points are apart, each from the next, in radii: rounded to steps. Images have
+    /// nearly the same distances.
+    using Distances = std::array<std::uint16_t, 4>;
+    /// A kind among those of the same commands.
+    struct Known {
+        std::uint32_t kind = 0;
+        Distances distances{};
+    };
+    /// The first path of a kind, and its points once another one was like it.
+    struct First {
+        const scene::Path* path = nullptr;
+        std::unique_ptr<const Kind> kind;
+    };
 
-    std::vector<Kind> kinds_;
+    static void findPoints(const scene::Path& path, Points& points);
+    static Distances distancesOf(const Points& points);
+    static bool mayBeAlike(const Distances& from, const Distances& to, double slackInRadii);
+    static std::optional<Turn> turnOf(const Points& from, const Points& to, double slack);
+    static Kind kindOf(Points points);
+    static Image image(std::uint32_t kind, const Kind& of, const Points& points, const Turn& turn);
+    std::optional<Image> imageOf(std::uint32_t kind, double slack);
+
+    std::vector<First> firsts_;  ///< by kind
     /// Kinds by their form, by their commands.
-    std::unordered_map<std::uint64_t, std::multimap<double, std::uint32_t>> byCommands_;
+    std::unordered_map<std::uint64_t, SortedBlocks<Known>> byCommands_;
+    Points points_;  ///< of the path being added
 };
 
 }  // namespace vtm::compiler

@@ -84,7 +84,7 @@ public:
     Placer(const LoweredScene& picture, std::span<const LayerOrigin> origins, std::span<const TileFill> fills,
            const Lattice& lattice, dvec2 size, const Options& options, Palette& palette)
         : picture_(picture),
-          origins_(origins.begin(), origins.end()),
+          origins_(origins),
           lattice_(lattice),
           size_(size),
           options_(options),
@@ -103,11 +103,7 @@ public:
         for (const TileFill& fill : fills)
             if (!fill.blocks.empty() && !addTiles(fill))
                 return std::nullopt;
-        std::vector<LayerOrigin> own = origins_;
-        for (std::size_t i = 0; i < own.size(); ++i)
-            if (isTile_[i])
-                own[i].path = nullptr;
-        const std::vector<Repeat> repeats = findRepeats(own, weights(), imageSlack());
+        const std::vector<Repeat> repeats = findRepeats(origins_, isTile_, weights(), imageSlack());
         if (mayPay(repeats)) {
             for (const Repeat& repeat : repeats)
                 addRepeat(repeat);
@@ -141,9 +137,8 @@ private:
         double stretch = 0;
         for (const Candidate& candidate : candidates)
             stretch = std::max(stretch, largestStretch(candidate.toPicture));
-        const SymbolMaker maker(
-            std::span<const LayerOrigin>(origins_).subspan(repeat.occurrences[of].first, repeat.count),
-            cornerOf(box, side), side, stretch / std::max(size_.x, size_.y), options_);
+        const SymbolMaker maker(origins_.subspan(repeat.occurrences[of].first, repeat.count),
+                                cornerOf(box, side), side, stretch / std::max(size_.x, size_.y), options_);
         makeSymbol(repeat, maker, std::move(candidates));
     }
 
@@ -163,6 +158,7 @@ private:
     /// By layer: what takes more than an instance.
     std::vector<double> weights() const {
         std::vector<double> weights;
+        weights.reserve(picture_.layers.size());
         for (std::uint32_t i = 0; i < picture_.layers.size(); ++i) {
             const std::size_t chords = chordsOf(i, 1);
             weights.push_back(chords < minChords ? 0 : double(chords));
@@ -697,7 +693,7 @@ private:
     }
 
     const LoweredScene& picture_;
-    const std::vector<LayerOrigin> origins_;
+    const std::span<const LayerOrigin> origins_;
     const Lattice& lattice_;
     const dvec2 size_;
     const Options& options_;

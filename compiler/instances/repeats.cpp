@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -44,17 +46,14 @@ std::uint64_t hashOf(const LayerOrigin& origin, double scale) {
 
 class Shapes {
 public:
-    Shapes(std::span<const LayerOrigin> origins, std::span<const double> weights, double slack)
-        : slack_(slack) {
-        for (const LayerOrigin& origin : origins)
-            if (mayRepeat(origin)) {
-                double& stretch = stretches_[origin.path.get()];
-                stretch = std::max(stretch, largestStretch(origin.transform));
-            }
+    Shapes(std::span<const LayerOrigin> origins, const std::vector<bool>& isLeftOut,
+           std::span<const double> weights, double slack)
+        : origins_(origins), slack_(slack) {
+        findUses(isLeftOut);
         shapes_.reserve(origins.size());
-        for (std::size_t i = 0; i < origins.size(); ++i) {
+        for (std::uint32_t i = 0; i < origins.size(); ++i) {
             limits::check();
-            shapes_.push_back(mayRepeat(origins[i]) ? shapeOf(origins[i], weights[i]) : Shape{});
+            shapes_.push_back(firstUse_[i] != noIndex ? shapeOf(i, weights[i]) : Shape{});
         }
     }
     std::vector<Shape> take() { return std::move(shapes_); }
@@ -64,19 +63,55 @@ private:
         return origin.path && !origin.path->empty() && scene::inverse(origin.transform);
     }
 
-    Shape shapeOf(const LayerOrigin& origin, double weight) {
-        const auto [known, isNew] = images_.try_emplace(origin.path.get());
-        if (isNew)
-            known->second = paths_.add(*origin.path, slack_ / stretches_[origin.path.get()]);
-        const AlikePaths::Image& path = known->second;
+    /// Which layers have one path, and how far it is stretched at most.
+    void findUses(const std::vector<bool>& isLeftOut) {
+        std::vector<std::uint32_t> order;
+        order.reserve(origins_.size());
+        for (std::uint32_t i = 0; i < origins_.size(); ++i)
+            if (!isLeftOut[i] && mayRepeat(origins_[i]))
+                order.push_back(i);
+        const auto pathOf = [&](std::uint32_t i) { return origins_[i].path.get(); };
+        std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+            const Path *const p = pathOf(a), *const q = pathOf(b);
+            return p == q ? a < b : std::less<>()(p, q);
+        });
+        firstUse_.assign(origins_.size(), noIndex);
+        stretches_.resize(origins_.size());
+        isUsedAgain_.resize(origins_.size());
+        std::uint32_t first = noIndex;
+        for (const std::uint32_t i : order) {
+            if (first == noIndex || pathOf(i) != pathOf(first))
+                first = i;
+            else
+                isUsedAgain_[first] = true;
+            firstUse_[i] = first;
+            stretches_[first] = std::max(stretches_[first], largestStretch(origins_[i].transform));
+        }
+    }
+
+    Shape shapeOf(std::uint32_t i, double weight) {
+        const LayerOrigin& origin = origins_[i];
+        const AlikePaths::Image path = imageOf(firstUse_[i], i);
         const std::uint64_t key = hashCombine(hashOf(origin, path.scale), path.kind);
         return {key | 1, scene::compose(origin.transform, path.fromKind), path.size, weight};
     }
 
+    AlikePaths::Image imageOf(std::uint32_t first, std::uint32_t use) {
+        if (use != first)
+            return images_.at(first);
+        const AlikePaths::Image image = paths_.add(*origins_[first].path, slack_ / stretches_[first]);
+        if (isUsedAgain_[first])
+            images_.emplace(first, image);
+        return image;
+    }
+
+    const std::span<const LayerOrigin> origins_;
     const double slack_;
     AlikePaths paths_;
-    std::unordered_map<const Path*, double> stretches_;  ///< largest, into the picture
-    std::unordered_map<const Path*, AlikePaths::Image> images_;
+    std::vector<std::uint32_t> firstUse_;  ///< by layer: the first one of its path; noIndex: may not repeat
+    std::vector<double> stretches_;        ///< of first uses: largest of the path, into the picture
+    std::vector<bool> isUsedAgain_;        ///< of first uses
+    std::unordered_map<std::uint32_t, AlikePaths::Image> images_;  ///< by first use, of paths used again
     std::vector<Shape> shapes_;
 };
 
@@ -116,16 +151,15 @@ public:
                 starts_[i] = shapes_[i].key;
             else if (i + 1 < shapes_.size())
                 starts_[i] = pairKey(shapes_[i], shapes_[i + 1]);
-            if (starts_[i] != 0)
-                places_[starts_[i]].push_back(i);
         }
+        findPlaces();
     }
 
     std::vector<Repeat> run() {
         std::vector<Repeat> repeats;
         for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
             limits::check();
-            if (starts_[i] == 0 || isTaken_[i] || places_[starts_[i]].size() < 2)
+            if (!isRepeated_[i] || isTaken_[i])
                 continue;
             Repeat repeat = repeatFrom(i);
             if (repeat.occurrences.size() < 2)
@@ -140,6 +174,29 @@ public:
 private:
     /// Longer runs are not compared.
     static constexpr std::size_t maxLayers = 4096, maxRecords = 256;
+
+    void findPlaces() {
+        isRepeated_.resize(shapes_.size());
+        for (std::uint32_t i = 0; i < shapes_.size(); ++i)
+            if (starts_[i] != 0)
+                places_.push_back(i);
+        std::ranges::sort(places_, [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(starts_[a], a) < std::pair(starts_[b], b);
+        });
+        const auto isAlone = [&](std::size_t p) {
+            return (p == 0 || starts_[places_[p - 1]] != starts_[places_[p]]) &&
+                   (p + 1 == places_.size() || starts_[places_[p + 1]] != starts_[places_[p]]);
+        };
+        for (std::size_t p = 0; p < places_.size(); ++p)
+            isRepeated_[places_[p]] = !isAlone(p);
+        std::erase_if(places_, [&](std::uint32_t i) { return !isRepeated_[i]; });
+    }
+
+    /// Where runs may begin that are like one from shape i on, ascending.
+    std::span<const std::uint32_t> placesOf(std::uint32_t i) const {
+        return std::ranges::equal_range(places_, starts_[i], {},
+                                        [&](std::uint32_t place) { return starts_[place]; });
+    }
 
     /// How many shapes from `to` on are images of those from `from` on, under one map.
     std::size_t matching(std::uint32_t from, std::uint32_t to, std::size_t maximum) const {
@@ -166,7 +223,7 @@ private:
 
     /// The run from shape i on that saves most.
     Repeat repeatFrom(std::uint32_t i) const {
-        const std::vector<std::uint32_t>& places = places_.at(starts_[i]);
+        const std::span<const std::uint32_t> places = placesOf(i);
         const auto next = std::find_if(std::ranges::upper_bound(places, i), places.end(),
                                        [&](std::uint32_t place) { return !isTaken_[place]; });
         if (next == places.end())
@@ -253,7 +310,8 @@ private:
 
     std::vector<Shape> shapes_;
     std::vector<std::uint64_t> starts_;  ///< what a run that begins with each of them may be like; 0: nothing
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places_;  ///< by start
+    std::vector<std::uint32_t> places_;  ///< of starts that stand at several, by start, then ascending
+    std::vector<bool> isRepeated_;       ///< by shape: whether its start is one of these
     std::vector<bool> isTaken_;
     const double slack_;
     const Saving saving_;
@@ -261,9 +319,9 @@ private:
 
 }  // namespace
 
-std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, std::span<const double> weights,
-                                double slack) {
-    return Search(Shapes(origins, weights, slack).take(), slack, Saving::Layers).run();
+std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, const std::vector<bool>& isLeftOut,
+                                std::span<const double> weights, double slack) {
+    return Search(Shapes(origins, isLeftOut, weights, slack).take(), slack, Saving::Layers).run();
 }
 
 std::vector<Repeat> findRuns(std::vector<Shape> shapes, double slack) {

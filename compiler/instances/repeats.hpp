@@ -20,11 +20,11 @@ struct Repeat {
     std::vector<Occurrence> occurrences;  ///< ascending; at least two
 };
 
-/// Repeats that share no layer, each as long as saves most by the weights of its layers. Origins without a
-/// path are like no other. No point of an outline, and none of a run, is farther than `slack`, in user units,
+/// Repeats that share no layer, each as long as saves most by the weights of its layers. Those that are left
+/// out are like no other. No point of an outline, and none of a run, is farther than `slack`, in user units,
 /// from where it would be as an image of the first.
-std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, std::span<const double> weights,
-                                double slack);
+std::vector<Repeat> findRepeats(std::span<const LayerOrigin> origins, const std::vector<bool>& isLeftOut,
+                                std::span<const double> weights, double slack);
 
 /// What a layer or a placement shows, wherever it stands.
 struct Shape {

@@ -98,17 +98,18 @@ std::optional<SymbolMap> SymbolMaker::make(LayerSets& sets, std::span<const std:
     TreeTimes times;
     TreeOptions options = treeOptions(options_);
     options.cost.area = CostModel::areasFor(CostModel::nominalPixels * share_);
-    const Tree tree =
+    JoinedTree joined =
         buildTree(lowered_, lattice_->square(), layers, SetPainter(sets, classes), options, times);
+    const Tree& tree = joined.tree;
     constexpr std::size_t maxNumbers = 0x10000;
     if (!tree.unproven.empty() || !options.budget.holds(tree.error) || sets.size() > maxNumbers)
         return std::nullopt;
     std::vector<std::uint16_t> numbers(sets.size());
     std::iota(numbers.begin(), numbers.end(), std::uint16_t(0));
     SymbolMap made;
-    const asset::Entry root = encodeTree(tree, numbers, made.asset);
-    made.asset.maps.push_back({0, 0, side_, root});
     made.error = options.budget.share(tree.error);
+    const asset::Entry root = encodeTree(std::move(joined), numbers, made.asset);
+    made.asset.maps.push_back({0, 0, side_, root});
     return made;
 }
 

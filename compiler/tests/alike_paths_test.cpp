@@ -3,6 +3,7 @@
 #include "compiler/instances/alike_paths.hpp"
 
 #include <cmath>
+#include <deque>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -52,10 +53,22 @@ Affine similarity(double scale, double angle, bool isMirrored, Point offset) {
     return {x, isMirrored ? -y : y, offset};
 }
 
+/// Keeps the paths that it is given.
+class Paths {
+public:
+    AlikePaths::Image add(Path path, double within) {
+        return alike_.add(paths_.emplace_back(std::move(path)), within);
+    }
+
+private:
+    std::deque<Path> paths_;
+    AlikePaths alike_;
+};
+
 TEST(AlikePaths, AreImagesOfEachOther) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
-    AlikePaths paths;
+    Paths paths;
     for (std::uint32_t kind = 0; kind < 50; ++kind) {
         const Path path = randomPath(random);
         const AlikePaths::Image first = paths.add(path, slack);
@@ -76,7 +89,7 @@ TEST(AlikePaths, AreImagesOfEachOther) {
 
 TEST(AlikePaths, AreMovedByTheirExactTurns) {
     std::mt19937 random(2);
-    AlikePaths paths;
+    Paths paths;
     const Path path = randomPath(random);
     const Affine first = paths.add(path, slack).fromKind;
     for (int quarter = 0; quarter < 4; ++quarter) {
@@ -91,7 +104,7 @@ TEST(AlikePaths, AreMovedByTheirExactTurns) {
 
 TEST(AlikePaths, DifferByMoreThanTheSlack) {
     std::mt19937 random(3);
-    AlikePaths paths;
+    Paths paths;
     Path path = randomPath(random);
     paths.add(path, slack);
     std::get<scene::MoveTo>(path.front()).to.x += 0.1;
@@ -118,7 +131,7 @@ TEST(AlikePaths, AreFoundAmongManyOfTheirCommands) {
         }
         return path;
     };
-    AlikePaths paths;
+    Paths paths;
     constexpr std::uint32_t count = 1000;
     const auto innerOf = [](std::uint32_t i) { return 1 + 8.0 * i / count; };
     for (std::uint32_t i = 0; i < count; ++i)
@@ -130,7 +143,7 @@ TEST(AlikePaths, AreFoundAmongManyOfTheirCommands) {
 }
 
 TEST(AlikePaths, ArcsTurn) {
-    AlikePaths paths;
+    Paths paths;
     paths.add({scene::MoveTo{{0, 0}}, scene::ArcTo{{5, 4}, 0.3, false, true, {6, 0}}}, slack);
     const double quarter = std::acos(-1) / 2;
     EXPECT_EQ(
@@ -143,7 +156,7 @@ TEST(AlikePaths, ArcsTurn) {
 }
 
 TEST(AlikePaths, OfOnePoint) {
-    AlikePaths paths;
+    Paths paths;
     EXPECT_EQ(paths.add({scene::MoveTo{{3, 4}}, scene::LineTo{{3, 4}}}, slack).kind, 0u);
     EXPECT_EQ(paths.add({scene::MoveTo{{8, 4}}, scene::LineTo{{8, 4}}}, slack).kind, 0u);
     EXPECT_EQ(paths.add({scene::MoveTo{{8, 4}}, scene::LineTo{{9, 4}}}, slack).kind, 1u);
