@@ -53,15 +53,15 @@ public:
     MapBuilder(const LoweredScene& picture, const Lattice& lattice, const Options& options, Result& result)
         : picture_(picture), lattice_(lattice), options_(treeOptions(options)), result_(result) {}
 
-    Tree build(std::span<const std::uint32_t> layers, const Painter& painter) {
+    JoinedTree build(std::span<const std::uint32_t> layers, const Painter& painter) {
         return buildTree(picture_, lattice_.square(), layers, painter, options_, times_);
     }
-    std::uint32_t add(const Tree& tree, std::span<const std::uint16_t> paints) {
+    std::uint32_t add(JoinedTree joined, std::span<const std::uint16_t> paints) {
         asset::Asset& asset = result_.asset;
-        const asset::Entry root = encodeTree(tree, paints, asset);
+        certify(joined.tree, options_.budget, result_);
+        const asset::Entry root = encodeTree(std::move(joined), paints, asset);
         asset.maps.push_back({0, 0, std::max(asset.width, asset.height), root});
         checkDrawn(asset.maps.size(), asset.nodes.size(), asset.pieces.size());
-        certify(tree, options_.budget, result_);
         return static_cast<std::uint32_t>(asset.maps.size() - 1);
     }
     const TreeTimes& times() const { return times_; }
@@ -74,10 +74,13 @@ private:
     TreeTimes times_;
 };
 
-/// Returns by how much merging colours that the format cannot all name may have changed one.
-float compileExact(const LoweredScene& picture, MapBuilder& maps, const PlacedSymbols& placed,
+/// Returns by how much merging colours that the format cannot all name may have changed one. Takes the
+/// picture's outlines.
+float compileExact(LoweredScene& picture, MapBuilder& maps, const PlacedSymbols& placed,
                    const Palette& placedPaints, asset::Asset& asset) {
-    Tree tree = maps.build(placed.layers, PicturePainter(picture));
+    JoinedTree joined = maps.build(placed.layers, PicturePainter(picture));
+    picture.outlines = {};  // much of the memory, before the asset takes some
+    Tree& tree = joined.tree;
     std::vector<PaintId> inTree(placedPaints.size());
     for (const PlacedSymbol& symbol : placed.placed)
         for (const PaintId id : symbol.paints)
@@ -86,10 +89,9 @@ float compileExact(const LoweredScene& picture, MapBuilder& maps, const PlacedSy
     const std::vector<std::uint16_t> paints = encodePalette(tree.palette, asset, error);
     asset.nodes.reserve(tree.nodes.size());
     asset.leaves.reserve(tree.leaves.size());
-    asset.pieces.reserve(tree.pieces.size());
     Command draw;
     draw.kind = Command::Kind::DrawMap;
-    draw.map = maps.add(tree, paints);
+    draw.map = maps.add(std::move(joined), paints);
     asset.commands.push_back(draw);
     std::vector<std::uint16_t> ofPlaced;
     for (const PaintId id : inTree)
@@ -126,12 +128,12 @@ public:
     void item(const LoweredItem& item) {
         MaskPainter painter(picture_, item.layer, noIndex);
         const std::uint32_t layer[] = {item.layer};
-        const Tree mask = maps_.build(layer, painter);
-        if (!isCovered(mask.root))
+        JoinedTree mask = maps_.build(layer, painter);
+        if (!isCovered(mask.tree.root))
             return;  // it lies outside of the picture
         Command& fill = emit(Command::Kind::FillMask);
         fill.paint = paintOf(item);
-        fill.map = addMask(mask);
+        fill.map = addMask(std::move(mask));
     }
 
     void emptyMask(std::uint32_t) {
@@ -173,9 +175,9 @@ private:
         emit(Command::Kind::Push);
     }
 
-    std::uint32_t addMask(const Tree& mask) {
+    std::uint32_t addMask(JoinedTree mask) {
         constexpr std::array<std::uint16_t, 2> paints{0, 1};
-        const std::uint32_t map = maps_.add(mask, paints);
+        const std::uint32_t map = maps_.add(std::move(mask), paints);
         tighten(asset_.maps[map], asset_.nodes);
         return map;
     }

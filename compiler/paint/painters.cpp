@@ -7,19 +7,18 @@
 namespace vtm::compiler {
 
 PicturePainter::PicturePainter(const LoweredScene& picture)
-    : picture_(picture),
-      plain_(picture.groups.size()),
-      shades_(picture.layers.size()),
-      wanted_(picture.layers.size()) {
+    : picture_(picture), plain_(picture.groups.size()), wanted_(picture.layers.size()) {
     for (std::uint32_t g = 0; g < plain_.size(); ++g)  // parents come first
         plain_[g] = isPlain(g);
+    std::vector<Shade> shades(picture.layers.size());
     for (const LoweredItem& item : picture.items) {
         const Source& source = picture.sources[item.source];
-        Shade& shade = shades_[item.layer];
+        Shade& shade = shades[item.layer];
         shade.kind = plain_[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
         for (std::size_t c = 0; c < 4; ++c)
             shade.color[c] = source.color[c] * item.opacity;
     }
+    shades_ = std::make_shared<const std::vector<Shade>>(std::move(shades));
 }
 
 std::unique_ptr<Painter> PicturePainter::clone() const { return std::make_unique<PicturePainter>(*this); }
@@ -44,10 +43,11 @@ PaintId PicturePainter::paint(std::span<const std::uint32_t> layers, const std::
 /// The usual case: what shows is solid colours in groups that change nothing.
 bool PicturePainter::stackSolids(std::span<const std::uint32_t> layers,
                                  const std::vector<std::uint8_t>& inside, Color& color) const {
+    const std::vector<Shade>& shades = *shades_;
     std::size_t bottom = layers.size();  // down to the first that hides the rest
     for (bool hidden = false; bottom > 0 && !hidden;) {
         const std::uint32_t layer = layers[--bottom];
-        const Shade& shade = shades_[layer];
+        const Shade& shade = shades[layer];
         if (!inside[layer] || shade.kind == Shade::None)
             continue;
         if (shade.kind == Shade::Other)
@@ -56,8 +56,8 @@ bool PicturePainter::stackSolids(std::span<const std::uint32_t> layers,
     }
     color = {};
     for (std::size_t i = bottom; i < layers.size(); ++i)
-        if (inside[layers[i]] && shades_[layers[i]].kind == Shade::Solid)
-            color = over(shades_[layers[i]].color, color);
+        if (inside[layers[i]] && shades[layers[i]].kind == Shade::Solid)
+            color = over(shades[layers[i]].color, color);
     return true;
 }
 

@@ -3,6 +3,9 @@
 /// (or clip's) coverage.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "compiler/paint/composite.hpp"
 #include "compiler/tree/tree.hpp"
 
@@ -37,10 +40,10 @@ private:
     };
 
     const LoweredScene& picture_;
-    std::vector<std::uint8_t> plain_;    ///< by group: it and all round it change nothing
-    std::vector<Shade> shades_;          ///< by layer
-    std::vector<std::uint8_t> wanted_;   ///< by layer
-    std::vector<std::uint32_t> marked_;  ///< the wanted ones, perhaps more than once
+    std::vector<std::uint8_t> plain_;                   ///< by group: it and all round it change nothing
+    std::shared_ptr<const std::vector<Shade>> shades_;  ///< by layer; clones share them
+    std::vector<std::uint8_t> wanted_;                  ///< by layer
+    std::vector<std::uint32_t> marked_;                 ///< the wanted ones, perhaps more than once
     std::vector<std::uint32_t> items_;
 };
 

@@ -72,6 +72,8 @@ public:
 
     std::size_t size() const { return paints_.size(); }
     const PaintProgram& operator[](PaintId id) const { return paints_[id]; }
+    /// By id.
+    std::vector<PaintProgram> take() && { return std::move(paints_); }
     static bool isConstant(const PaintProgram& p) {
         return p.empty() || (p.size() == 1 && p[0].instruction.op == asset::Op::Solid);
     }

@@ -93,12 +93,13 @@ Tree BlockBuilder::run(Cell cell, bool timed) {
     timed_ = timed;
     const Clock::time_point start = lastLap_ = Clock::now();
     tree_ = {};
-    constexpr std::size_t usualLeaves = 32, usualPieces = 256;
+    pieces_.clear();
+    constexpr std::size_t usualLeaves = 32;
     tree_.leaves.reserve(cell.clippedRuns.empty() ? 0 : usualLeaves);
-    tree_.pieces.reserve(cell.clippedRuns.empty() ? 0 : usualPieces);
     firstLevel_ = cell.level;
     regions_.forget();
     tree_.root = build(cell).entry;
+    tree_.pieces = pieces_;  // takes no more memory than there are
     if (timed)
         times_.all += milliseconds(start, Clock::now());
     return std::move(tree_);
@@ -299,9 +300,9 @@ BlockBuilder::Built BlockBuilder::emit(const Made& made, unsigned level) {
     const FittedLeaf& fitted = *made.leaf;
     if (fitted.pieces.empty())
         return solid(fitted.corners[0], level);
-    tree_.leaves.push_back({static_cast<std::uint32_t>(tree_.pieces.size()),
+    tree_.leaves.push_back({static_cast<std::uint32_t>(pieces_.size()),
                             static_cast<std::uint32_t>(fitted.pieces.size()), fitted.corners});
-    tree_.pieces.insert(tree_.pieces.end(), fitted.pieces.begin(), fitted.pieces.end());
+    pieces_.insert(pieces_.end(), fitted.pieces.begin(), fitted.pieces.end());
     return {Entry::make(Entry::Kind::Leaf, static_cast<std::uint32_t>(tree_.leaves.size() - 1)),
             options_.cost.leaf(static_cast<double>(fitted.pieces.size()), level)};
 }

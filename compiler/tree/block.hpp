@@ -132,7 +132,8 @@ private:
     std::vector<ClippedRun> runs_;
     std::deque<Children> children_;  ///< by level; a deque, so that growing moves none
     unsigned firstLevel_ = 0;
-    Tree tree_;
+    Tree tree_;  ///< without its pieces
+    std::vector<Tree::Piece> pieces_;
     TreeTimes times_;
     bool timed_ = false;
     Clock::time_point lastLap_;

@@ -88,6 +88,11 @@ private:
     const unsigned deepest_;
 };
 
+Top divide(const LoweredScene& picture, Cell cell, const Painter& painter, unsigned maxDepth) {
+    TopBuilder builder(picture, painter, maxDepth, cell.clippedRuns.size());
+    return builder.run(std::move(cell));
+}
+
 void numberBlocks(Top& top, std::vector<Cell>& cells) {
     if (top.cell) {
         top.block = cells.size();
@@ -97,42 +102,114 @@ void numberBlocks(Top& top, std::vector<Cell>& cells) {
         numberBlocks(child, cells);
 }
 
+/// A block's tree whose paints are numbered in the order in which a walk meets them.
+struct BlockTree {
+    Tree tree;                         ///< without a palette
+    std::vector<PaintProgram> paints;  ///< that it uses; empty: numbers are no paints of a palette, or all 0
+};
+
+class PaintNumbering {
+public:
+    explicit PaintNumbering(Tree tree) : tree_(std::move(tree)) {}
+
+    BlockTree run() {
+        std::vector<PaintProgram> palette = std::move(tree_.palette).take();
+        if (palette.size() > 1) {
+            numbers_.assign(palette.size(), unknown);
+            tree_.root = renumbered(tree_.root);
+        }
+        BlockTree block{std::move(tree_), {}};
+        block.paints.reserve(used_.size());
+        for (const PaintId id : used_)
+            block.paints.push_back(std::move(palette[id]));
+        return block;
+    }
+
+private:
+    Entry renumbered(Entry entry) {
+        switch (entry.kind()) {
+            case Entry::Kind::Solid:
+                return Entry::make(Entry::Kind::Solid, number(entry.payload()));
+            case Entry::Kind::Leaf:
+                renumber(tree_.leaves[entry.payload()]);
+                return entry;
+            case Entry::Kind::Node:
+            case Entry::Kind::Instances:  // a built tree has none
+                break;
+        }
+        for (Entry& child : tree_.nodes[entry.payload()].children)
+            child = renumbered(child);
+        return entry;
+    }
+
+    void renumber(Tree::Leaf& leaf) {
+        limits::check();
+        for (PaintId& corner : leaf.corners)
+            corner = number(corner);
+        for (Tree::Piece& piece : std::span(tree_.pieces).subspan(leaf.firstPiece, leaf.pieceCount)) {
+            piece.left = number(piece.left);
+            piece.right = number(piece.right);
+        }
+    }
+
+    PaintId number(PaintId id) {
+        if (numbers_[id] == unknown) {
+            numbers_[id] = static_cast<PaintId>(used_.size());
+            used_.push_back(id);
+        }
+        return numbers_[id];
+    }
+
+    static constexpr PaintId unknown = 0xFFFFFFFFu;
+    Tree tree_;
+    std::vector<PaintId> numbers_;  ///< by paint of the palette
+    std::vector<PaintId> used_;     ///< by number
+};
+
 /// Joins blocks in walking order, so that the result does not depend on where blocks begin.
 class Assembler {
 public:
-    explicit Assembler(const std::vector<Tree>& blocks) : blocks_(blocks) {}
+    explicit Assembler(std::vector<BlockTree> blocks) : blocks_(std::move(blocks)) {}
 
-    Tree run(const Top& top) {
-        std::size_t nodes = 0, leaves = 0, pieces = 0;
-        for (const Tree& block : blocks_)
-            nodes += block.nodes.size(), leaves += block.leaves.size(), pieces += block.pieces.size();
-        limits::need(nodes * sizeof(asset::Node) + leaves * sizeof(Tree::Leaf) +
-                     pieces * sizeof(Tree::Piece));
+    JoinedTree run(const Top& top) {
+        std::size_t nodes = 0, leaves = 0;
+        for (const BlockTree& block : blocks_)
+            nodes += block.tree.nodes.size(), leaves += block.tree.leaves.size();
+        limits::need(nodes * sizeof(asset::Node) + leaves * sizeof(Tree::Leaf));
         tree_.nodes.reserve(nodes + blocks_.size());  // above blocks: fewer nodes
         tree_.leaves.reserve(leaves);
-        tree_.pieces.reserve(pieces);
+        joined_.blocks.reserve(blocks_.size());
         tree_.root = join(top);
-        return std::move(tree_);
+        return std::move(joined_);
     }
 
 private:
     Entry join(const Top& top) {
-        if (top.cell) {
-            const Tree& block = blocks_[top.block];
-            paints_.assign(block.palette.size(), unknown);
-            tree_.error = std::max(tree_.error, block.error);
-            tree_.unproven.insert(tree_.unproven.end(), block.unproven.begin(), block.unproven.end());
-            return copy(block, block.root);
-        }
+        if (top.cell)
+            return join(blocks_[top.block]);
         return appendNode(tree_.nodes, [&](std::size_t i) { return join(top.children[i]); });
+    }
+
+    Entry join(BlockTree& block) {
+        paints_.clear();
+        for (const PaintProgram& program : block.paints)
+            paints_.push_back(tree_.palette.add(program));
+        const Tree& tree = block.tree;
+        tree_.error = std::max(tree_.error, tree.error);
+        tree_.unproven.insert(tree_.unproven.end(), tree.unproven.begin(), tree.unproven.end());
+        const Entry root = copy(tree, tree.root);
+        pieces_ += static_cast<std::uint32_t>(tree.pieces.size());
+        joined_.blocks.push_back({std::move(block.tree.pieces), paints_});
+        block = {};
+        return root;
     }
 
     Entry copy(const Tree& block, Entry entry) {
         switch (entry.kind()) {
             case Entry::Kind::Solid:
-                return Entry::make(Entry::Kind::Solid, paint(block, entry.payload()));
+                return Entry::make(Entry::Kind::Solid, paint(entry.payload()));
             case Entry::Kind::Leaf:
-                return copy(block, block.leaves[entry.payload()]);
+                return copy(block.leaves[entry.payload()]);
             case Entry::Kind::Node:
             case Entry::Kind::Instances:  // a built tree has none
                 break;
@@ -141,50 +218,36 @@ private:
         return appendNode(tree_.nodes, [&](std::size_t i) { return copy(block, node.children[i]); });
     }
 
-    Entry copy(const Tree& block, Tree::Leaf leaf) {
+    Entry copy(Tree::Leaf leaf) {
         limits::check();
-        const std::uint32_t first = leaf.firstPiece;
-        leaf.firstPiece = static_cast<std::uint32_t>(tree_.pieces.size());
+        leaf.firstPiece += pieces_;
         for (PaintId& corner : leaf.corners)
-            corner = paint(block, corner);
-        for (std::uint32_t i = 0; i < leaf.pieceCount; ++i) {
-            Tree::Piece piece = block.pieces[first + i];
-            piece.left = paint(block, piece.left);
-            piece.right = paint(block, piece.right);
-            tree_.pieces.push_back(piece);
-        }
+            corner = paint(corner);
         tree_.leaves.push_back(leaf);
         return Entry::make(Entry::Kind::Leaf, static_cast<std::uint32_t>(tree_.leaves.size() - 1));
     }
 
-    PaintId paint(const Tree& block, PaintId local) {
-        if (local >= paints_.size())
-            return local;  // a mask's, which is no paint of the palette
-        if (paints_[local] == unknown)
-            paints_[local] = tree_.palette.add(block.palette[local]);
-        return paints_[local];
-    }
+    PaintId paint(PaintId number) const { return paints_.empty() ? number : paints_[number]; }
 
-    static constexpr PaintId unknown = 0xFFFFFFFFu;
-    const std::vector<Tree>& blocks_;
-    std::vector<PaintId> paints_;  ///< of the block at hand, in the whole tree's palette
-    Tree tree_;
+    std::vector<BlockTree> blocks_;
+    std::vector<PaintId> paints_;  ///< of the block at hand, in the joined palette
+    std::uint32_t pieces_ = 0;     ///< of the blocks before
+    JoinedTree joined_;
+    Tree& tree_ = joined_.tree;
 };
 
 }  // namespace
 
-Tree buildTree(const LoweredScene& picture, const Square& root, std::span<const std::uint32_t> layers,
-               const Painter& painter, const TreeOptions& options, TreeTimes& times) {
+JoinedTree buildTree(const LoweredScene& picture, const Square& root, std::span<const std::uint32_t> layers,
+                     const Painter& painter, const TreeOptions& options, TreeTimes& times) {
     const limits::Stage stage("dividing the picture");
     const auto start = Clock::now();
     WorkLimit work(options.maxWork);
-    Cell cell = rootCell(picture, root, layers);
-    TopBuilder topBuilder(picture, painter, options.maxDepth, cell.clippedRuns.size());
-    Top top = topBuilder.run(std::move(cell));
+    Top top = divide(picture, rootCell(picture, root, layers), painter, options.maxDepth);
     std::vector<Cell> cells;
     numberBlocks(top, cells);
 
-    std::vector<Tree> blocks(cells.size());
+    std::vector<BlockTree> blocks(cells.size());
     tbb::enumerable_thread_specific<BlockBuilder> builders(
         [&] { return BlockBuilder(picture, painter, options, work); });
     const auto divided = Clock::now();
@@ -192,7 +255,8 @@ Tree buildTree(const LoweredScene& picture, const Square& root, std::span<const 
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&, holding = limits::current()](std::size_t i) {
         const limits::Scope scope(holding);
         limits::progress(static_cast<double>(done++) / static_cast<double>(blocks.size()));
-        blocks[i] = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
+        Tree block = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
+        blocks[i] = PaintNumbering(std::move(block)).run();
     });
     const double wall = milliseconds(divided, Clock::now());
     TreeTimes sum;
@@ -201,7 +265,7 @@ Tree buildTree(const LoweredScene& picture, const Square& root, std::span<const 
     times.divide += milliseconds(start, divided);
     times += sum.sharing(wall);
     const limits::Stage assembling("assembling");
-    return Assembler(blocks).run(top);
+    return Assembler(std::move(blocks)).run(top);
 }
 
 }  // namespace vtm::compiler

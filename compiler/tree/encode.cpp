@@ -1,6 +1,7 @@
 #include "compiler/tree/encode.hpp"
 #include <vtm/limits/limits.hpp>
 
+#include <algorithm>
 #include <string>
 
 #include <vtm/compiler/compile.hpp>
@@ -9,7 +10,10 @@ namespace vtm::compiler {
 
 using asset::Entry;
 
-asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints, asset::Asset& asset) {
+namespace {
+
+/// All but the pieces.
+asset::Entry encodeSquares(const Tree& tree, std::span<const std::uint16_t> paints, asset::Asset& asset) {
     const auto nodes = static_cast<std::uint32_t>(asset.nodes.size()),
                leaves = static_cast<std::uint32_t>(asset.leaves.size()),
                pieces = static_cast<std::uint32_t>(asset.pieces.size());
@@ -25,8 +29,7 @@ asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints,
         }
         return Entry::make(e.kind(), e.payload() + nodes);
     };
-    limits::need(tree.nodes.size() * sizeof(asset::Node) + tree.leaves.size() * sizeof(asset::Leaf) +
-                 tree.pieces.size() * sizeof(asset::Piece));
+    limits::need(tree.nodes.size() * sizeof(asset::Node) + tree.leaves.size() * sizeof(asset::Leaf));
     for (asset::Node node : tree.nodes) {
         limits::check();
         for (Entry& e : node.children)
@@ -42,10 +45,44 @@ asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints,
             leaf.corners[k] = paints[l.corners[k]];
         asset.leaves.push_back(leaf);
     }
-    for (const Tree::Piece& p : tree.pieces)
-        asset.pieces.push_back({p.a, p.b, p.slopeA, p.slopeB, paints[p.left], paints[p.right]});
     asset.fallbackLeaves += static_cast<std::uint32_t>(tree.unproven.size());
     return entry(tree.root);
+}
+
+/// `indices`: the asset's index of each of the pieces' paints.
+void encodePieces(std::span<const Tree::Piece> pieces, std::span<const std::uint16_t> indices,
+                  std::vector<asset::Piece>& to) {
+    limits::check();
+    for (const Tree::Piece& p : pieces)
+        to.push_back({p.a, p.b, p.slopeA, p.slopeB, indices[p.left], indices[p.right]});
+}
+
+}  // namespace
+
+asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints, asset::Asset& asset) {
+    const asset::Entry root = encodeSquares(tree, paints, asset);
+    limits::need(tree.pieces.size() * sizeof(asset::Piece));
+    encodePieces(tree.pieces, paints, asset.pieces);
+    return root;
+}
+
+asset::Entry encodeTree(JoinedTree joined, std::span<const std::uint16_t> paints, asset::Asset& asset) {
+    const asset::Entry root = encodeSquares(joined.tree, paints, asset);
+    std::size_t count = asset.pieces.size();
+    for (const JoinedTree::Block& block : joined.blocks)
+        count += block.pieces.size();
+    limits::need((count - asset.pieces.size()) * sizeof(asset::Piece));
+    if (count > asset.pieces.capacity())
+        asset.pieces.reserve(std::max(count, 2 * asset.pieces.capacity()));
+    std::vector<std::uint16_t> indices;
+    for (JoinedTree::Block& block : joined.blocks) {
+        const JoinedTree::Block taken = std::move(block);
+        indices.clear();
+        for (const PaintId id : taken.paints)
+            indices.push_back(paints[id]);
+        encodePieces(taken.pieces, taken.paints.empty() ? paints : indices, asset.pieces);
+    }
+    return root;
 }
 
 void checkDrawn(std::size_t maps, std::size_t nodes, std::size_t pieces) {

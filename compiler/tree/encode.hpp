@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
+#include "compiler/tree/build_tree.hpp"
 #include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {
@@ -14,6 +15,8 @@ namespace vtm::compiler {
 /// Appends the tree's records to the asset; `paints`: the asset's index of each of its paints. Returns the
 /// root.
 asset::Entry encodeTree(const Tree& tree, std::span<const std::uint16_t> paints, asset::Asset& asset);
+/// The memory of pieces is freed as they are appended.
+asset::Entry encodeTree(JoinedTree joined, std::span<const std::uint16_t> paints, asset::Asset& asset);
 
 /// Throws LimitError if so many records are more squares and pieces than asset::maxDrawn: each map is drawn
 /// once, and trees share nothing.
