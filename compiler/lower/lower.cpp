@@ -15,6 +15,7 @@
 #include "compiler/containers/hash.hpp"
 #include "compiler/containers/number_map.hpp"
 #include "compiler/lower/outline_cache.hpp"
+#include "compiler/lower/outlines_ahead.hpp"
 #include "compiler/lower/paints.hpp"
 #include "compiler/patterns/pattern_images.hpp"
 #include "compiler/patterns/tile_range.hpp"
@@ -54,6 +55,10 @@ public:
         picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
         const limits::Stage stage("compiling", place_);  // between outlines too, an element is named
+        if (!cache_)
+            ahead_.emplace(scene.root, excerpt.fromScene, [this](Outlines& to, const OutlineOrigin& origin) {
+                return appendOutline(to, origin);
+            });
         group(scene.root, excerpt.fromScene, openGroup(0));
     }
 
@@ -385,36 +390,43 @@ private:
         return static_cast<std::uint32_t>(picture_.layers.size() - 1);
     }
 
-    /// `sides`: of a stroke, what addStroke returns.
+    /// `sides`: of a stroke, what addStroke returns. A stroke beyond the limits is left out, with a warning.
     RunRange outline(const OutlineOrigin& origin, std::optional<std::uint32_t>* sides = nullptr) {
         const limits::Stage stage(origin.stroke ? "stroking" : "flattening", place_);
-        const auto firstRun = static_cast<std::uint32_t>(picture_.outlines.runs.size());
-        if (!origin.stroke) {
-            addOutline(picture_.outlines, *origin.path, toSteps(origin), budget_.fillChords(),
-                       lattice_.clampMin(), lattice_.clampMax());
-        } else {
-            const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
-            if (stretch > 0 && std::isfinite(stretch))
-                strokeOutline(origin, stretch, sides);
+        if (const auto made = ahead_ ? ahead_->take(origin) : std::nullopt) {
+            if (sides)
+                *sides = made->sides;
+            return append(*made, picture_.outlines);
         }
-        return {firstRun, static_cast<std::uint32_t>(picture_.outlines.runs.size()) - firstRun};
-    }
-
-    /// A stroke beyond the limits is left out, with a warning.
-    void strokeOutline(const OutlineOrigin& origin, double stretch, std::optional<std::uint32_t>* sides) {
         const std::size_t points = picture_.outlines.points.size(), runs = picture_.outlines.runs.size();
         try {
-            const auto first =
-                addStroke(picture_.outlines, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
-                          budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
-                          lattice_.clampMin(), lattice_.clampMax(), nearFrame(origin.transform));
+            const auto first = appendOutline(picture_.outlines, origin);
             if (sides)
                 *sides = first;
         } catch (const LimitError& error) {
+            if (!origin.stroke)
+                throw;
             picture_.outlines.points.resize(points);
             picture_.outlines.runs.resize(runs);
             leaveOut(error.what());
         }
+        return {static_cast<std::uint32_t>(runs),
+                static_cast<std::uint32_t>(picture_.outlines.runs.size() - runs)};
+    }
+
+    /// A stroke beyond the limits is a LimitError. Changes nothing else: threads call it at once.
+    std::optional<std::uint32_t> appendOutline(Outlines& to, const OutlineOrigin& origin) const {
+        if (!origin.stroke) {
+            addOutline(to, *origin.path, toSteps(origin), budget_.fillChords(), lattice_.clampMin(),
+                       lattice_.clampMax());
+            return std::nullopt;
+        }
+        const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
+        if (!(stretch > 0 && std::isfinite(stretch)))
+            return std::nullopt;
+        return addStroke(to, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
+                         budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
+                         lattice_.clampMin(), lattice_.clampMax(), nearFrame(origin.transform));
     }
 
     void leaveOut(const std::string& why) { warn(why + "; it is left out"); }
@@ -473,6 +485,7 @@ private:
     limits::Place place_;        ///< of what is being lowered
     LoweredScene picture_;
     PaintTable paints_;
+    std::optional<OutlinesAhead> ahead_;
 };
 
 }  // namespace
