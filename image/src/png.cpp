@@ -10,10 +10,15 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <string_view>
+
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <vtm/image/codec.hpp>
 #include <vtm/limits/limits.hpp>
+#include "image/src/deflate_join.hpp"
 #include "image/src/formats.hpp"
 
 namespace vtm::image {
@@ -61,11 +66,11 @@ namespace {
 
 /// Of both deflaters: the size of their slower levels to some per cent, in half the time. Filtered rows gain
 /// some 15 % by libdeflate's next level.
-constexpr int level = 6, filteredLevel = 7;
+constexpr int usualLevel = 6, filteredLevel = 7;
 
-/// Up to so many bytes are held and deflated at once, by libdeflate, which takes half the time; beyond that
-/// zlib streams. 4096 × 4096 pixels.
-constexpr std::size_t maxWhole = std::size_t(65) << 20;
+/// Rows are deflated in parts of at least so many bytes, on all processors. Parts of one picture are as many
+/// on any machine, and so are its bytes.
+constexpr std::size_t partBytes = std::size_t(1) << 20;
 
 // ---- The file -------------------------------------------------------------------------------------
 
@@ -105,15 +110,6 @@ void addHeader(PngFile& file, int width, int height, int depth) {
 
 // ---- Deflate --------------------------------------------------------------------------------------
 
-/// Makes IDAT chunks of filtered rows.
-class Deflater {
-public:
-    virtual ~Deflater() = default;
-    virtual void add(std::span<const std::uint8_t> bytes) = 0;
-    /// `areFiltered`: much of what was added is differences.
-    virtual void finish(bool areFiltered) = 0;
-};
-
 struct FreeCompressor {
     void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
 };
@@ -126,70 +122,14 @@ Compressor makeCompressor(int atLevel) {
     return compressor;
 }
 
-class WholeDeflater : public Deflater {
-public:
-    WholeDeflater(PngFile& file, std::size_t size)
-        : file_(file), bytes_(std::make_unique_for_overwrite<std::uint8_t[]>(size)) {}
-
-    void add(std::span<const std::uint8_t> bytes) override {
-        std::memcpy(&bytes_[size_], bytes.data(), bytes.size());
-        size_ += bytes.size();
-    }
-    void finish(bool areFiltered) override {
-        const Compressor compressor = makeCompressor(areFiltered ? filteredLevel : level);
-        const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), size_);
-        const auto result = std::make_unique_for_overwrite<std::uint8_t[]>(bound);
-        const std::size_t size =
-            libdeflate_zlib_compress(compressor.get(), bytes_.get(), size_, result.get(), bound);
-        file_.chunk("IDAT", {result.get(), size});
-    }
-
-private:
-    PngFile& file_;
-    std::unique_ptr<std::uint8_t[]> bytes_;
-    std::size_t size_ = 0;
-};
-
-class StreamDeflater : public Deflater {
-public:
-    explicit StreamDeflater(PngFile& file) : file_(file), result_(std::size_t(1) << 18) {
-        if (deflateInit(&stream_, level) != Z_OK)
-            throw std::bad_alloc();
-        rewind();
-    }
-    StreamDeflater(const StreamDeflater&) = delete;
-    StreamDeflater& operator=(const StreamDeflater&) = delete;
-    ~StreamDeflater() override { deflateEnd(&stream_); }
-
-    void add(std::span<const std::uint8_t> bytes) override {
-        stream_.next_in = const_cast<Bytef*>(bytes.data());  // zlib reads it only
-        stream_.avail_in = uInt(bytes.size());
-        while (stream_.avail_in > 0) {
-            deflate(&stream_, Z_NO_FLUSH);
-            if (stream_.avail_out == 0)
-                write();
-        }
-    }
-    void finish(bool) override {
-        while (deflate(&stream_, Z_FINISH) != Z_STREAM_END)
-            write();
-        write();
-    }
-
-private:
-    void rewind() {
-        stream_.next_out = result_.data();
-        stream_.avail_out = uInt(result_.size());
-    }
-    void write() {
-        file_.chunk("IDAT", std::span(result_).first(result_.size() - stream_.avail_out));
-        rewind();
-    }
-
-    PngFile& file_;
-    std::vector<std::uint8_t> result_;
-    z_stream stream_{};
-};
+std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes, int atLevel) {
+    const Compressor compressor = makeCompressor(atLevel);
+    const std::size_t bound = libdeflate_deflate_compress_bound(compressor.get(), bytes.size());
+    const auto result = std::make_unique_for_overwrite<std::uint8_t[]>(bound);
+    const std::size_t size =
+        libdeflate_deflate_compress(compressor.get(), bytes.data(), bytes.size(), result.get(), bound);
+    return {result.get(), result.get() + size};
+}
 
 // ---- Filters (PNG, chapter 9) ---------------------------------------------------------------------
 
@@ -220,6 +160,97 @@ void applyFilter(Filter filter, const std::uint8_t* row, const std::uint8_t* abo
             to[i] = std::uint8_t(row[i] - paeth(row[i - pixel], above[i], above[i - pixel]));
 }
 
+// ---- Parts ----------------------------------------------------------------------------------------
+
+/// Rows that are deflated together, in bands of one filter.
+class Part {
+public:
+    /// `above`: the row before the first one. `pixel`: bytes of one.
+    Part(std::vector<std::uint8_t> above, std::size_t pixel, std::size_t maxRows)
+        : pixel_(pixel), rowBytes_(above.size()), rows_(std::move(above)) {
+        rows_.reserve(rowBytes_ * (maxRows + 1));
+    }
+
+    void add(std::span<const std::uint8_t> row) {
+        rows_.insert(rows_.end(), row.begin(), row.begin() + std::ptrdiff_t(rowBytes_));
+    }
+    std::size_t count() const { return rows_.size() / rowBytes_ - 1; }
+    std::vector<std::uint8_t> lastRow() const {
+        return {rows_.end() - std::ptrdiff_t(rowBytes_), rows_.end()};
+    }
+
+    /// Forgets the rows. `isLast`: of the picture.
+    void deflate(bool isLast) {
+        std::vector<std::uint8_t> bytes((rowBytes_ + 1) * count());
+        filterAll(bytes);
+        rows_ = std::vector<std::uint8_t>();  // frees them
+        adler_ = libdeflate_adler32(1, bytes.data(), bytes.size());
+        size_ = bytes.size();
+        stream_ = deflated(bytes, level());
+        if (!isLast)
+            openEnd(stream_);
+    }
+
+    int level() const {
+        constexpr std::size_t muchOf = 4;  // a quarter of the rows
+        return filteredRows_ * muchOf >= size_ / (rowBytes_ + 1) ? filteredLevel : usualLevel;
+    }
+    const std::vector<std::uint8_t>& stream() const { return stream_; }
+    /// Of all bytes up to the end of this part, given that of those before it.
+    std::uint32_t adlerAfter(std::uint32_t before) const {
+        return std::uint32_t(adler32_combine(before, adler_, z_off_t(size_)));
+    }
+
+    static constexpr std::size_t bandRows = 128;
+
+private:
+    static constexpr std::size_t sampleRows = 8;
+    /// More than deflate needs where nothing can be made smaller: 5 bytes a block of 64 KiB or less, and a
+    /// header.
+    static constexpr std::size_t sampleSlack = 4096;
+
+    void filterAll(std::vector<std::uint8_t>& bytes) {
+        const Compressor sampler = makeCompressor(1);
+        std::uint8_t* to = bytes.data();
+        for (std::size_t first = 1; first <= count(); first += bandRows) {
+            limits::check();
+            const std::size_t rows = std::min(bandRows, count() + 1 - first);
+            const Filter filter = filterFor(first, rows, *sampler);
+            filteredRows_ += filter == Filter::None ? 0 : rows;
+            for (std::size_t row = first; row < first + rows; ++row, to += rowBytes_ + 1)
+                filterRow(filter, row, to);
+        }
+    }
+
+    void filterRow(Filter filter, std::size_t row, std::uint8_t* to) const {
+        const std::uint8_t* const at = &rows_[row * rowBytes_];
+        applyFilter(filter, at, at - rowBytes_, rowBytes_, pixel_, to);
+    }
+
+    Filter filterFor(std::size_t first, std::size_t rows, libdeflate_compressor& sampler) const {
+        return *std::ranges::min_element(
+            filters, {}, [&](Filter filter) { return sampledSize(filter, first, rows, sampler); });
+    }
+    /// Of rows in the middle of a band.
+    std::size_t sampledSize(Filter filter, std::size_t first, std::size_t rows,
+                            libdeflate_compressor& sampler) const {
+        const std::size_t count = std::min(sampleRows, rows), from = first + (rows - count) / 2;
+        std::vector<std::uint8_t> sample((rowBytes_ + 1) * count), result(sample.size() + sampleSlack);
+        for (std::size_t i = 0; i < count; ++i)
+            filterRow(filter, from + i, &sample[i * (rowBytes_ + 1)]);
+        const std::size_t size =
+            libdeflate_deflate_compress(&sampler, sample.data(), sample.size(), result.data(), result.size());
+        return size > 0 ? size : result.size();  // 0: it did not fit
+    }
+
+    std::size_t pixel_, rowBytes_;
+    std::vector<std::uint8_t> rows_;  ///< the one above, and those of the part
+    std::size_t filteredRows_ = 0;
+    std::size_t size_ = 0;     ///< of the filtered rows
+    std::uint32_t adler_ = 1;  ///< of the filtered rows
+    std::vector<std::uint8_t> stream_;
+};
+
 // ---- The encoder ----------------------------------------------------------------------------------
 
 class PngEncoder : public Encoder {
@@ -227,98 +258,89 @@ public:
     PngEncoder(int width, int height, int depth)
         : pixel_(std::size_t(depth) / 2),
           rowBytes_(std::size_t(width) * pixel_),
-          rows_(std::min(bandRows, std::size_t(height)) + 1, rowBytes_),
-          filtered_(rowBytes_ + 1),
-          sample_((rowBytes_ + 1) * sampleRows),
-          sampleResult_(sample_.size() + sampleSlack),
-          sampler_(makeCompressor(1)) {
+          partRows_(std::min(rowsOfPart(), std::size_t(height))),
+          left_(std::size_t(height)) {
         addHeader(file_, width, height, depth);
         if (depth == 16)
             file_.chunk("tEXt", straightNote());
-        const std::size_t all = (rowBytes_ + 1) * std::size_t(height);
-        if (all <= maxWhole)
-            deflater_ = std::make_unique<WholeDeflater>(file_, all);
-        else
-            deflater_ = std::make_unique<StreamDeflater>(file_);
+        begin(std::vector<std::uint8_t>(rowBytes_));  // black is above the first row
+    }
+    ~PngEncoder() noexcept override {
+        group_.cancel();
+        try {
+            group_.wait();
+        } catch (...) {  // an exception is on its way already, or nobody wants the picture
+        }
     }
 
     void add(std::span<const std::uint8_t> row) override {
-        std::memcpy(rows_.at(1 + held_), row.data(), rowBytes_);
-        if (++held_ + 1 == rows_.count())
-            writeBand();
+        parts_.back().add(row);
+        --left_;
+        if (parts_.back().count() == partRows_ && left_ > 0) {
+            std::vector<std::uint8_t> last = parts_.back().lastRow();
+            deflateLast(false);
+            begin(std::move(last));
+        }
     }
 
     std::vector<std::uint8_t> finish() override {
-        if (held_ > 0)
-            writeBand();
-        constexpr std::size_t muchOf = 4;  // a quarter
-        deflater_->finish(filteredRows_ * muchOf >= allRows_);
+        deflateLast(true);
+        write();
         file_.chunk("IEND", {});
         return file_.take();
     }
 
 private:
-    static constexpr std::size_t bandRows = 128, sampleRows = 8;
-    /// More than deflate needs where nothing can be made smaller: 5 bytes a block of 64 KiB or less, and a
-    /// header.
-    static constexpr std::size_t sampleSlack = 4096;
-
-    /// The last row of the band before, black for the first, and the band.
-    class Rows {
-    public:
-        Rows(std::size_t count, std::size_t rowBytes) : rowBytes_(rowBytes), bytes_(count * rowBytes) {}
-        std::uint8_t* at(std::size_t row) { return &bytes_[row * rowBytes_]; }
-        std::size_t count() const { return bytes_.size() / rowBytes_; }
-
-    private:
-        std::size_t rowBytes_;
-        std::vector<std::uint8_t> bytes_;
-    };
-
     static std::span<const std::uint8_t> straightNote() {
         static constexpr char note[] = "Alpha\0straight";
         return {reinterpret_cast<const std::uint8_t*>(note), sizeof note - 1};
     }
 
-    void filterRow(Filter filter, std::size_t row, std::uint8_t* to) {
-        applyFilter(filter, rows_.at(row), rows_.at(row - 1), rowBytes_, pixel_, to);
+    std::size_t rowsOfPart() const {
+        const std::size_t bandBytes = (rowBytes_ + 1) * Part::bandRows;
+        return (partBytes + bandBytes - 1) / bandBytes * Part::bandRows;
     }
 
-    void writeBand() {
-        limits::check();
-        const Filter filter = chosenFilter();
-        allRows_ += held_;
-        filteredRows_ += filter == Filter::None ? 0 : held_;
-        for (std::size_t row = 1; row <= held_; ++row) {
-            filterRow(filter, row, filtered_.data());
-            deflater_->add(filtered_);
+    void begin(std::vector<std::uint8_t> above) {
+        parts_.emplace_back(std::move(above), pixel_, std::min(partRows_, left_));
+    }
+
+    /// On another thread, if there is one; holds no more parts than processors can work on.
+    void deflateLast(bool isLast) {
+        Part& part = parts_.back();
+        group_.run([&part, isLast, holding = limits::current()] {
+            const limits::Scope scope(holding);
+            part.deflate(isLast);
+        });
+        if (++running_ >= 2 * tbb::this_task_arena::max_concurrency() || isLast) {
+            group_.wait();
+            running_ = 0;
         }
-        std::memcpy(rows_.at(0), rows_.at(held_), rowBytes_);
-        held_ = 0;
     }
 
-    Filter chosenFilter() {
-        return *std::ranges::min_element(filters, {}, [this](Filter filter) { return sampledSize(filter); });
-    }
-    /// Of rows in the middle of the band.
-    std::size_t sampledSize(Filter filter) {
-        const std::size_t count = std::min(sampleRows, held_), first = 1 + (held_ - count) / 2;
-        for (std::size_t i = 0; i < count; ++i)
-            filterRow(filter, first + i, &sample_[i * (rowBytes_ + 1)]);
-        const std::size_t size =
-            libdeflate_deflate_compress(sampler_.get(), sample_.data(), count * (rowBytes_ + 1),
-                                        sampleResult_.data(), sampleResult_.size());
-        return size > 0 ? size : sampleResult_.size();  // 0: it did not fit
+    /// A zlib stream (RFC 1950), a part a chunk.
+    void write() {
+        std::uint32_t adler = 1;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            const Part& part = parts_[i];
+            std::vector<std::uint8_t> bytes;
+            if (i == 0)  // a window of 32 KiB; the second byte hints at the level
+                bytes = {0x78, std::uint8_t(part.level() > usualLevel ? 0xda : 0x9c)};
+            bytes.insert(bytes.end(), part.stream().begin(), part.stream().end());
+            adler = part.adlerAfter(adler);
+            if (i + 1 == parts_.size())
+                for (int shift = 24; shift >= 0; shift -= 8)
+                    bytes.push_back(std::uint8_t(adler >> shift));
+            file_.chunk("IDAT", bytes);
+        }
     }
 
-    std::size_t pixel_, rowBytes_;
-    Rows rows_;
-    std::size_t held_ = 0;  ///< rows of the band
-    std::size_t allRows_ = 0, filteredRows_ = 0;
-    std::vector<std::uint8_t> filtered_, sample_, sampleResult_;
-    Compressor sampler_;
+    const std::size_t pixel_, rowBytes_, partRows_;
+    std::size_t left_;  ///< rows that are to come
+    std::deque<Part> parts_;
     PngFile file_;
-    std::unique_ptr<Deflater> deflater_;
+    tbb::task_group group_;
+    int running_ = 0;
 };
 
 }  // namespace
