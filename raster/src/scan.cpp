@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
@@ -109,6 +111,19 @@ struct Scanned {
     }
 
     const AssetView& asset() const { return paints.asset(); }
+    /// The boxes of boundaries, and for each map, after its own, all that is placed in it.
+    std::size_t partCount() const {
+        std::size_t count = 0;
+        for (const Drawn& map : drawn)
+            count += map.own.boxCount() + 1;
+        return count;
+    }
+    std::size_t boundaryCount() const {
+        std::size_t count = 0;
+        for (const Drawn& map : drawn)
+            count += map.own.boundaryCount();
+        return count;
+    }
     vec4 added(vec4 color) const { return sums == Sums::Light ? light(color) : color; }
 };
 
@@ -183,15 +198,27 @@ public:
     enum class Of { Picture, SeenSquares };
 
     void add(Of what) {
+        if (what == Of::Picture)
+            return addParts(0, of_.partCount());
         for (const Scanned::Drawn& drawn : of_.drawn) {
             Chords<> chords(drawn.own.place(), view_, scratch_.bands);
-            if (what == Of::Picture)
-                drawn.own.forEach([&](auto boxes) { addChords(chords, boxes); });
-            else
-                drawn.own.forEachOfSeen(
-                    chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
-                    [&](const Boundary& boundary) { chords.add(boundary); });
+            drawn.own.forEachOfSeen(
+                chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
+                [&](const Boundary& boundary) { chords.add(boundary); });
             if (drawn.map != Scanned::noMap)
+                addPlaced(drawn.map);
+        }
+    }
+    /// Some of the parts that make up the picture.
+    void addParts(std::size_t first, std::size_t end) {
+        std::size_t begin = 0;  // of the map's parts
+        for (const Scanned::Drawn& drawn : of_.drawn) {
+            const std::size_t count = drawn.own.boxCount();
+            Chords<> chords(drawn.own.place(), view_, scratch_.bands);
+            for (std::size_t i = std::max(first, begin); i < std::min(end, begin + count); ++i)
+                addChords(chords, drawn.own.box(i - begin));
+            begin += count + 1;
+            if (drawn.map != Scanned::noMap && first < begin && begin <= end)
                 addPlaced(drawn.map);
         }
     }
@@ -212,13 +239,11 @@ public:
 
 private:
     template <class PaintOf>
-    static void addChords(Chords<PaintOf>& chords, std::span<const BoundaryBox> boxes) {
-        for (const BoundaryBox& box : boxes) {
-            limits::check();
-            if (chords.mayMatter(box.min(), box.max()))
-                for (const Boundary& boundary : box.at(chords.pixel()))
-                    chords.add(boundary);
-        }
+    static void addChords(Chords<PaintOf>& chords, const BoundaryBox& box) {
+        limits::check();
+        if (chords.mayMatter(box.min(), box.max()))
+            for (const Boundary& boundary : box.at(chords.pixel()))
+                chords.add(boundary);
     }
 
     /// What lies beside the view changes no pixel.
@@ -229,7 +254,8 @@ private:
                     return false;
                 const Affine2 toPicture{place.linear * (1 / own.place().extent), place.offset};
                 Chords chords(toPicture, view_, scratch_.bands, std::cref(paints));
-                own.forEach([&](auto boxes) { addChords(chords, boxes); });
+                for (std::size_t i = 0; i < own.boxCount(); ++i)
+                addChords(chords, own.box(i));
                 return true;
             });
     }
@@ -327,24 +353,123 @@ private:
     int finerLevels_;
 };
 
+/// Draws what needs no boundaries. Returns whether that is all.
+template <class Store>
+bool drawIfEmpty(const Scanned& of, const View& view, const Store& store) {
+    validate(view);
+    if (view.width == 0 || view.height == 0)
+        return true;
+    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    if (!of.drawn.empty() && std::abs(determinant) > std::numeric_limits<double>::min())
+        return false;
+    for (int y = 0; y < view.height; ++y)
+        store(y, 0, view.width, Float4{});
+    return true;
+}
+
+int finerLevelsOf(const Scanned& of, const View& view) {
+    return of.sums == Sums::Encoded ? finerLevels(of.asset(), view) : 0;
+}
+
 template <class Store>
 void drawScanned(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
                  const Store& store, Drawing::Of what = Drawing::Of::Picture) {
-    validate(view);
-    if (view.width == 0 || view.height == 0)
+    if (drawIfEmpty(of, view, store))
         return;
-    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    if (of.drawn.empty() || !(std::abs(determinant) > std::numeric_limits<double>::min())) {
-        for (int y = 0; y < view.height; ++y)
-            store(y, 0, view.width, Float4{});
-        return;
-    }
     const limits::Stage stage("scanning");
-    Drawing drawing(of, view, materials, scratch,
-                    of.sums == Sums::Encoded ? finerLevels(of.asset(), view) : 0);
+    Drawing drawing(of, view, materials, scratch, finerLevelsOf(of, view));
     drawing.add(what);
     drawing.draw(store);
 }
+
+/// RowScratches that nobody uses.
+class ScratchPool {
+public:
+    std::unique_ptr<RowScratch> take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty())
+            return std::make_unique<RowScratch>();
+        std::unique_ptr<RowScratch> scratch = std::move(free_.back());
+        free_.pop_back();
+        return scratch;
+    }
+    void giveBack(std::unique_ptr<RowScratch> scratch) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(std::move(scratch));
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<RowScratch>> free_;
+};
+
+/// Draws one view on all processors. Each makes the chords of some of the picture's parts; then each draws
+/// some bands, of chords in the order of the parts, so that the sums do not depend on who made which.
+class ParallelDrawing {
+public:
+    ParallelDrawing(const Scanned& of, const View& view, ScratchPool& pool)
+        : of_(of), view_(view), pool_(pool), finerLevels_(finerLevelsOf(of, view)) {}
+
+    /// Whether it is worth it.
+    static bool pays(const Scanned& of, const View& view) {
+        constexpr std::size_t manyBoundaries = 1u << 12, manyPixels = 1u << 17;
+        return tbb::this_task_arena::max_concurrency() > 1 &&
+               (of.boundaryCount() >= manyBoundaries ||
+                std::size_t(view.width) * std::size_t(view.height) >= manyPixels);
+    }
+
+    /// `store`: called by several threads at once.
+    template <class Store>
+    void draw(const Store& store) {
+        const limits::Stage stage("scanning");
+        const auto threads = std::size_t(tbb::this_task_arena::max_concurrency());
+        makeChords(threads);
+        const int bands = (view_.height + bandRows - 1) / bandRows;
+        const int tasks = std::min(bands, int(4 * threads));
+        tbb::parallel_for(0, tasks, [&, holding = limits::current()](int task) {
+            const limits::Scope scope(holding);
+            drawBands(bands * task / tasks, bands * (task + 1) / tasks, store);
+        });
+        // An exception loses the scratches, whose sums may be half done.
+        for (std::unique_ptr<RowScratch>& scratch : made_)
+            pool_.giveBack(std::move(scratch));
+    }
+
+private:
+    void makeChords(std::size_t count) {
+        const std::size_t parts = of_.partCount();
+        made_.resize(std::min(count, parts));
+        tbb::parallel_for(std::size_t{0}, made_.size(), [&, holding = limits::current()](std::size_t i) {
+            const limits::Scope scope(holding);
+            made_[i] = pool_.take();
+            Drawing drawing(of_, view_, noMaterials_, *made_[i], finerLevels_);
+            drawing.addParts(parts * i / made_.size(), parts * (i + 1) / made_.size());
+        });
+    }
+
+    template <class Store>
+    void drawBands(int first, int end, const Store& store) {
+        std::unique_ptr<RowScratch> scratch = pool_.take();
+        Drawing drawing(of_, view_, noMaterials_, *scratch, finerLevels_);
+        std::vector<Chord> chords;
+        for (int band = first; band < end; ++band) {
+            chords.clear();
+            for (const std::unique_ptr<RowScratch>& made : made_) {
+                const std::span<const Chord> some = made->bands.of(band);
+                chords.insert(chords.end(), some.begin(), some.end());
+            }
+            drawing.draw(band, chords, store);
+        }
+        pool_.giveBack(std::move(scratch));
+    }
+
+    const Scanned& of_;
+    const View& view_;
+    ScratchPool& pool_;
+    const MaterialFunction noMaterials_;
+    const int finerLevels_;
+    std::vector<std::unique_ptr<RowScratch>> made_;  ///< chords of the parts, in their order
+};
 
 /// What the paints of an asset need, but images and materials.
 Asset recordsOf(const AssetView& from) {
@@ -407,13 +532,22 @@ struct Scanner::Impl {
     Asset owned;
     Scanned scanned;
 
+    /// From the top, in every row from the left.
     template <class Store>
     void draw(const View& view, const MaterialFunction& materials, const Store& store,
               Drawing::Of what = Drawing::Of::Picture) {
         // An exception loses the scratch, whose sums may be half done.
-        std::unique_ptr<RowScratch> scratch = takeScratch();
+        std::unique_ptr<RowScratch> scratch = pool_.take();
         drawScanned(scanned, view, materials, *scratch, store, what);
-        giveBack(std::move(scratch));
+        pool_.giveBack(std::move(scratch));
+    }
+    /// Several rows at once. Materials are the caller's functions, which may be made for one thread.
+    template <class Store>
+    void drawOnAll(const View& view, const MaterialFunction& materials, const Store& store) {
+        if (materials || !ParallelDrawing::pays(scanned, view))
+            draw(view, materials, store);
+        else if (!drawIfEmpty(scanned, view, store))
+            ParallelDrawing(scanned, view, pool_).draw(store);
     }
 
     void updatePaints(const AssetView& asset, bool imagesToo) {
@@ -428,21 +562,7 @@ struct Scanner::Impl {
     }
 
 private:
-    std::unique_ptr<RowScratch> takeScratch() {
-        const std::lock_guard lock(mutex_);
-        if (free_.empty())
-            return std::make_unique<RowScratch>();
-        std::unique_ptr<RowScratch> scratch = std::move(free_.back());
-        free_.pop_back();
-        return scratch;
-    }
-    void giveBack(std::unique_ptr<RowScratch> scratch) {
-        const std::lock_guard lock(mutex_);
-        free_.push_back(std::move(scratch));
-    }
-
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<RowScratch>> free_;
+    ScratchPool pool_;
 };
 
 Scanner::Scanner(const AssetView& asset, Sums sums)
@@ -484,7 +604,7 @@ void Scanner::update(const AssetView& asset, const Difference& difference) {
 std::optional<double> Scanner::finestPixel() const { return impl_->owned.finestPixel; }
 
 void Scanner::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
-    impl_->draw(view, materials, ByteStore(target, view.width));
+    impl_->drawOnAll(view, materials, ByteStore(target, view.width));
 }
 
 void Scanner::drawBox(const View& view, const PixelBox& box, const ByteTarget& target,
@@ -522,7 +642,7 @@ void Scanner::scan(const View& view, const std::function<void(int, const ColorRu
 image::Raster Scanner::draw(const View& view, const MaterialFunction& materials) const {
     validate(view);
     image::Raster raster(view.width, view.height);
-    impl_->draw(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {
+    impl_->drawOnAll(view, materials, RunStore([&](int row, int first, int end, const vec4& color) {
                     for (int x = first; x < end; ++x)
                         for (int c = 0; c < 4; ++c)
                             raster.pixel(x, row)[c] = unit(color[c]);

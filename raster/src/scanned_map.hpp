@@ -29,6 +29,7 @@ public:
     explicit BoundaryBox(std::span<const PlanarPiece> pieces, std::optional<DetailSquare> square = {});
 
     bool empty() const { return boundaries_.empty(); }
+    std::size_t size() const { return boundaries_.size(); }
     glm::dvec2 min() const { return min_; }
     glm::dvec2 max() const { return max_; }
     /// What to draw where a pixel is so many lattice steps: the boundaries, or fewer that look the same
@@ -51,12 +52,16 @@ public:
     explicit ScannedMap(const PlanarMap& map);
 
     const MapPlace& place() const { return place_; }
-    /// Calls visit(boxes) for all boundaries, in spans of boxes.
-    template <class Visit>
-    void forEach(Visit&& visit) const {
-        visit(std::span(boxes_));
-        for (const Line& line : lines_)
-            visit(std::span(&line.seams, 1));
+    /// All boundaries, in boxes.
+    std::size_t boxCount() const { return boxes_.size() + lines_.size(); }
+    const BoundaryBox& box(std::size_t i) const {
+        return i < boxes_.size() ? boxes_[i] : lines_[i - boxes_.size()].seams;
+    }
+    std::size_t boundaryCount() const {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < boxCount(); ++i)
+            count += box(i).size();
+        return count;
     }
 
     /// Those of the picture that is the map's in the squares for which `isSeen(min, max)` says so of their

@@ -69,7 +69,9 @@ public:
     /// How far the asset may be magnified: Asset::finestPixel.
     std::optional<double> finestPixel() const;
 
-    /// Replaces every pixel, rounded to nearest. Throws std::length_error if the view is beyond its limits.
+    /// Replaces every pixel, rounded to nearest. Large pictures are drawn on all processors unless
+    /// `materials` is given; the bytes do not depend on their number. Throws std::length_error if the view is
+    /// beyond its limits.
     void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
     /// Replaces the pixels of a box of the view alone, at their places in the target; the work is that of the
     /// box. Rounding may make a difference of 1/255 to what draw() makes of them, of 3/255 where paints
