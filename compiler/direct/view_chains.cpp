@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/paint/composite.hpp"
@@ -208,40 +212,101 @@ private:
     std::vector<glm::vec2> points_, clipped_;
 };
 
+namespace {
+
+/// Layers whose chains are made by one thread at a time: so many points of outlines, unless one has more.
+constexpr std::size_t pointsAtOnce = 1u << 14;
+
+struct LayersAtOnce {
+    std::uint32_t first, end;
+};
+
+std::vector<LayersAtOnce> divided(const LoweredScene& picture) {
+    const std::vector<Run>& runs = picture.outlines.runs;
+    std::vector<LayersAtOnce> parts;
+    std::size_t points = pointsAtOnce;
+    for (std::uint32_t l = 0; l < picture.layers.size(); ++l) {
+        if (points >= pointsAtOnce) {
+            parts.push_back({l, l});
+            points = 0;
+        }
+        const Layer& layer = picture.layers[l];
+        if (layer.runCount > 0)
+            points += runs[layer.firstRun + layer.runCount - 1].last - runs[layer.firstRun].first;
+        parts.back().end = l + 1;
+    }
+    return parts;
+}
+
+}  // namespace
+
+/// Adds the chains of a layer.
+void ViewChains::addLayer(const LoweredScene& picture, std::uint32_t index, const scene::Affine& toPixels,
+                          Builder& builder) {
+    const std::vector<Run>& runs = picture.outlines.runs;
+    const Layer& layer = picture.layers[index];
+    for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount;) {
+        const std::uint32_t first = runs[r].first;
+        std::uint32_t last = runs[r++].last;
+        while (r < layer.firstRun + layer.runCount && runs[r].first == last)
+            last = runs[r++].last;
+        std::vector<glm::vec2>& points = builder.points();
+        points.resize(last - first + 1);
+        for (std::uint32_t i = first; i <= last; ++i) {
+            const LatticePoint p = picture.outlines.points[i];
+            points[i - first] = toPixels[0] * double(p.x) + toPixels[1] * double(p.y) + toPixels[2];
+        }
+        builder.add(index);
+    }
+}
+
 ViewChains::ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view) {
     const scene::Affine toPixels = scene::compose(view.toPixels, *scene::inverse(lattice.toSteps()));
-    const std::vector<Run>& runs = picture.outlines.runs;
-    vertices_.reserve(picture.outlines.points.size() + 2 * runs.size());
     const ClipBoxes boxes(picture, toPixels, view);
-    Builder builder(*this);
-    for (std::uint32_t l = 0; l < picture.layers.size(); ++l) {
-        limits::check();
-        const Layer& layer = picture.layers[l];
-        const Box* const cut = boxes.ofLayer(l);
-        builder.show(cut ? *cut : boxes.view(), cut != nullptr);
-        for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount;) {
-            const std::uint32_t first = runs[r].first;
-            std::uint32_t last = runs[r++].last;
-            while (r < layer.firstRun + layer.runCount && runs[r].first == last)
-                last = runs[r++].last;
-            std::vector<glm::vec2>& points = builder.points();
-            points.resize(last - first + 1);
-            for (std::uint32_t i = first; i <= last; ++i) {
-                const LatticePoint p = picture.outlines.points[i];
-                points[i - first] = toPixels[0] * double(p.x) + toPixels[1] * double(p.y) + toPixels[2];
-            }
-            builder.add(l);
+    const std::vector<LayersAtOnce> parts = divided(picture);
+    std::vector<ViewChains> made(parts.size());
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&, holding = limits::current()](std::size_t i) {
+        const limits::Scope scope(holding);
+        Builder builder(made[i]);
+        for (std::uint32_t l = parts[i].first; l < parts[i].end; ++l) {
+            limits::check();
+            const Box* const cut = boxes.ofLayer(l);
+            builder.show(cut ? *cut : boxes.view(), cut != nullptr);
+            addLayer(picture, l, toPixels, builder);
+        }
+    });
+    if (made.size() == 1)
+        *this = std::move(made.front());
+    else
+        append(made);
+    made.clear();
+    findBands(view.height);
+}
+
+void ViewChains::append(const std::vector<ViewChains>& parts) {
+    std::size_t vertices = 0, chains = 0;
+    for (const ViewChains& part : parts)
+        vertices += part.vertices_.size(), chains += part.chains_.size();
+    limits::need(vertices * sizeof(glm::vec2) + chains * sizeof(DownChain));
+    vertices_.reserve(vertices);
+    chains_.reserve(chains);
+    for (const ViewChains& part : parts) {
+        const auto before = std::uint32_t(vertices_.size());
+        vertices_.insert(vertices_.end(), part.vertices_.begin(), part.vertices_.end());
+        for (DownChain chain : part.chains_) {
+            chain.first += before;
+            chain.end += before;
+            chains_.push_back(chain);
         }
     }
+}
 
-    const auto bandCount = std::size_t((view.height + bandRows - 1) / bandRows);
+void ViewChains::findBands(int height) {
+    const auto bandCount = std::size_t((height + bandRows - 1) / bandRows);
     const auto bandOf = [&](float y) {
         return std::size_t(std::clamp(int(y) / bandRows, 0, int(bandCount) - 1));
     };
-    std::vector<std::uint32_t> byTop(chains_.size());
-    for (std::uint32_t c = 0; c < byTop.size(); ++c)
-        byTop[c] = c;
-    std::ranges::stable_sort(byTop, {}, [&](std::uint32_t c) { return chains_[c].top; });
+    const std::vector<std::uint32_t> byTop = sortedByTop(bandCount, bandOf);
     firsts_.resize(bandCount + 1);
     for (const DownChain& c : chains_)
         for (std::size_t band = bandOf(c.top); band <= bandOf(c.bottom); ++band)
@@ -253,6 +318,26 @@ ViewChains::ViewChains(const LoweredScene& picture, const Lattice& lattice, cons
     for (const std::uint32_t c : byTop)
         for (std::size_t band = bandOf(chains_[c].top); band <= bandOf(chains_[c].bottom); ++band)
             numbers_[next[band]++] = c;
+}
+
+/// The numbers of the chains; of those of equal tops the lower ones first.
+template <class BandOf>
+std::vector<std::uint32_t> ViewChains::sortedByTop(std::size_t bandCount, const BandOf& bandOf) const {
+    std::vector<std::uint32_t> firsts(bandCount + 1), byTop(chains_.size());
+    for (const DownChain& c : chains_)
+        ++firsts[bandOf(c.top) + 1];
+    for (std::size_t band = 0; band < bandCount; ++band)
+        firsts[band + 1] += firsts[band];
+    std::vector<std::uint32_t> next(firsts.begin(), firsts.end() - 1);
+    for (std::uint32_t c = 0; c < chains_.size(); ++c)
+        byTop[next[bandOf(chains_[c].top)]++] = c;
+    constexpr std::size_t bandsAtOnce = 8;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bandCount, bandsAtOnce), [&](const auto& bands) {
+        for (std::size_t band = bands.begin(); band < bands.end(); ++band)
+            std::ranges::sort(byTop.begin() + firsts[band], byTop.begin() + firsts[band + 1], {},
+                              [&](std::uint32_t c) { return std::pair(chains_[c].top, c); });
+    });
+    return byTop;
 }
 
 }  // namespace vtm::compiler

@@ -29,6 +29,7 @@ class ViewChains {
 public:
     static constexpr float beside = 1;
 
+    ViewChains() = default;
     /// The picture is lowered on `lattice`; the view maps the picture's units to pixels.
     ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view);
 
@@ -44,6 +45,13 @@ public:
 
 private:
     class Builder;
+
+    static void addLayer(const LoweredScene& picture, std::uint32_t index, const scene::Affine& toPixels,
+                         Builder& builder);
+    void append(const std::vector<ViewChains>& parts);
+    void findBands(int height);
+    template <class BandOf>
+    std::vector<std::uint32_t> sortedByTop(std::size_t bandCount, const BandOf& bandOf) const;
 
     std::vector<glm::vec2> vertices_;
     std::vector<DownChain> chains_;
