@@ -69,7 +69,7 @@ public:
         for (unsigned band = unsigned(std::max(top, 0.0f)) / bandRows; band <= last; ++band)
             chords_[band].push_back(chord);
     }
-    std::span<const Chord> of(int band) const { return chords_[std::size_t(band)]; }
+    std::vector<Chord>& of(int band) { return chords_[std::size_t(band)]; }
     /// Takes the place of those of a band, which `chords` gets.
     void exchange(int band, std::vector<Chord>& chords) { chords_[std::size_t(band)].swap(chords); }
 

@@ -451,16 +451,22 @@ private:
     void drawBands(int first, int end, const Store& store) {
         std::unique_ptr<RowScratch> scratch = pool_.take();
         Drawing drawing(of_, view_, noMaterials_, *scratch, finerLevels_);
-        std::vector<Chord> chords;
-        for (int band = first; band < end; ++band) {
-            chords.clear();
-            for (const std::unique_ptr<RowScratch>& made : made_) {
-                const std::span<const Chord> some = made->bands.of(band);
-                chords.insert(chords.end(), some.begin(), some.end());
-            }
-            drawing.draw(band, chords, store);
-        }
+        for (int band = first; band < end; ++band)
+            drawing.draw(band, joined(band), store);
         pool_.giveBack(std::move(scratch));
+    }
+
+    /// All chords of a band, in the first scratch that has some.
+    std::vector<Chord>& joined(int band) const {
+        std::vector<Chord>* all = nullptr;
+        for (const std::unique_ptr<RowScratch>& made : made_) {
+            std::vector<Chord>& some = made->bands.of(band);
+            if (!all || all->empty())
+                all = &some;
+            else
+                all->insert(all->end(), some.begin(), some.end());
+        }
+        return *all;
     }
 
     const Scanned& of_;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 #include <glm/common.hpp>
 
 #include <vtm/asset/container.hpp>
@@ -192,6 +193,23 @@ TEST(Scan, SeveralThreadsAtOnce) {
         thread.join();
     for (const image::Raster& raster : drawn)
         EXPECT_EQ(raster.rgba, expected.rgba);
+}
+
+TEST(Scan, OneThreadAndManyGiveTheSameBytes) {
+    for (const Asset& asset : {everyPaint(), twoLevels(), disc()}) {
+        const Scanner scanner(asset);
+        const View view = turnedView(700, 500, {32, 32}, 9, 0.4);
+        const auto drawn = [&](int threads) {
+            std::vector<std::uint8_t> bytes(std::size_t(view.width) * std::size_t(view.height) * 4);
+            tbb::task_arena(threads).execute([&] {
+                scanner.draw(view, {bytes.data(), std::size_t(view.width) * 4});
+            });
+            return bytes;
+        };
+        const std::vector<std::uint8_t> expected = drawn(1);
+        for (const int threads : {2, 3, 8})
+            EXPECT_EQ(drawn(threads), expected) << threads;
+    }
 }
 
 TEST(Scan, NothingToDraw) {
