@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
+#include <tbb/task_arena.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <random>
+#include <span>
 #include <string>
+
+#include "image/src/deflate_join.hpp"
 
 namespace vtm::image {
 namespace {
@@ -74,9 +78,68 @@ TEST(PngEncoder, KeepsEveryPixel) {
             EXPECT_EQ(decode(encode(bitmap, FileFormat::Png)).rgba, bitmap.rgba) << width << " x " << height;
 }
 
-TEST(PngEncoder, KeepsEveryPixelWhereItStreams) {
-    const Bitmap large = gradient(4200, 4096);
-    EXPECT_EQ(decode(encode(large, FileFormat::Png)).rgba, large.rgba);
+TEST(PngEncoder, KeepsEveryPixelInManyParts) {
+    for (const Bitmap& large : {gradient(4200, 1100), noise(1100, 1024), flat(1024, 1025), shape(1500, 900)})
+        EXPECT_EQ(decode(encode(large, FileFormat::Png)).rgba, large.rgba);
+}
+
+TEST(PngEncoder, OneThreadAndManyGiveTheSameBytes) {
+    const Bitmap bitmap = shape(1500, 2000);
+    const auto encoded = [&](int threads) {
+        std::vector<std::uint8_t> bytes;
+        tbb::task_arena(threads).execute([&] { bytes = encode(bitmap, FileFormat::Png); });
+        return bytes;
+    };
+    EXPECT_EQ(encoded(1), encoded(4));
+}
+
+std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes, int level, int strategy) {
+    z_stream stream{};
+    deflateInit2(&stream, level, Z_DEFLATED, -MAX_WBITS, 9, strategy);
+    std::vector<std::uint8_t> result(2 * bytes.size() + 64);
+    stream.next_in = const_cast<Bytef*>(bytes.data());
+    stream.avail_in = uInt(bytes.size());
+    stream.next_out = result.data();
+    stream.avail_out = uInt(result.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    result.resize(stream.total_out);
+    deflateEnd(&stream);
+    return result;
+}
+
+std::vector<std::uint8_t> inflated(std::span<const std::uint8_t> bytes, std::size_t size) {
+    z_stream stream{};
+    inflateInit2(&stream, -MAX_WBITS);
+    std::vector<std::uint8_t> result(size);
+    stream.next_in = const_cast<Bytef*>(bytes.data());
+    stream.avail_in = uInt(bytes.size());
+    stream.next_out = result.data();
+    stream.avail_out = uInt(result.size());
+    EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+    inflateEnd(&stream);
+    return result;
+}
+
+/// Blocks of all three kinds, streams that end at every place of a byte.
+TEST(DeflateJoin, StreamsAreJoined) {
+    for (const int side : {1, 2, 3, 5, 8, 13, 40, 301})
+        for (const auto& [level, strategy] :
+             {std::pair{0, Z_DEFAULT_STRATEGY}, {6, Z_FIXED}, {6, Z_DEFAULT_STRATEGY}, {9, Z_HUFFMAN_ONLY}})
+            for (const Bitmap& bitmap : {shape(side, side), noise(side, side)}) {
+                std::vector<std::uint8_t> joined = deflated(bitmap.rgba, level, strategy);
+                openEnd(joined);
+                const std::vector<std::uint8_t> last = deflated(bitmap.rgba, level, strategy);
+                joined.insert(joined.end(), last.begin(), last.end());
+                std::vector<std::uint8_t> twice = bitmap.rgba;
+                twice.insert(twice.end(), bitmap.rgba.begin(), bitmap.rgba.end());
+                EXPECT_EQ(inflated(joined, twice.size()), twice) << side << ", level " << level;
+            }
+}
+
+TEST(DeflateJoin, RefusesWhatIsNoStream) {
+    for (const std::vector<std::uint8_t>& bytes :
+         {std::vector<std::uint8_t>{}, {7}, {5, 0, 0}, {1, 9, 0, 0xf6, 0xff}})
+        EXPECT_THROW(findLastBlock(bytes), CodecError);
 }
 
 /// Bytes of libpng's file with its own choices, which cairo and others write.
