@@ -143,7 +143,6 @@ private:
     }
 
     void renumber(Tree::Leaf& leaf) {
-        limits::check();
         for (PaintId& corner : leaf.corners)
             corner = number(corner);
         for (Tree::Piece& piece : std::span(tree_.pieces).subspan(leaf.firstPiece, leaf.pieceCount)) {
