@@ -65,6 +65,7 @@ std::optional<ChildUse> inChild(const std::function<void()>& prepare, const std:
         ChildUse use;
         try {
             prepare();
+            use.preparedBytes = peakBytes() - before;
             const double cpu = cpuMilliseconds(), wall = wallMilliseconds();
             use.result = work();
             use.cpu = cpuMilliseconds() - cpu;

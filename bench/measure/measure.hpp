@@ -45,6 +45,7 @@ Paired pairwise(const std::function<void()>& first, const std::function<void()>&
 struct ChildUse {
     double cpu = 0, wall = 0;  ///< milliseconds
     double peakBytes = 0;      ///< largest resident set, that of the bare process taken off
+    double preparedBytes = 0;  ///< the same before `work`
     double result = 0;         ///< what `work` returned
 };
 

@@ -18,7 +18,8 @@ Report scaling(const Options& options) {
         "default "
         "options, each in a process of its own. `cpu / (n log2 n)` is relative to the first row: where it "
         "does not rise, cost "
-        "grows no faster than n log n. The peak is that of scene, compiler and asset together.";
+        "grows no faster than n log n. The peak is that of scene, compiler and asset together; `above scene` is "
+        "what of it compiler and asset add to the scene, in bytes a curve.";
     double first = 0;
     for (double exponent = 2; exponent < 6.25; exponent += 0.5) {
         const auto curves = std::size_t(std::lround(std::pow(10, exponent)));
@@ -43,6 +44,7 @@ Report scaling(const Options& options) {
                                {"wall ms", use->wall},
                                {"cpu / (n log2 n)", relative / first},
                                {"peak MB", use->peakBytes / 1e6},
+                               {"above scene", (use->peakBytes - use->preparedBytes) / double(curves)},
                                {"asset bytes", std::size_t(use->result)},
                                {"bytes / curve", use->result / double(curves)}});
     }
