@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/direct/band_sweep.hpp"
@@ -23,10 +23,8 @@ void drawRows(const ViewDrawing& drawing, const image::PixelWriter& writer, cons
     constexpr int stripRows = stripBands * asset::bandRows;
     const auto strips = int(bytesAtOnce / std::max<std::size_t>(rowBytes * stripRows, 1));
     const int rows = std::min(std::max(strips, 1) * stripRows, drawing.height());
-    std::vector<std::uint8_t> bytes(std::size_t(rows) * rowBytes);
-    const auto rowAt = [&](int row) {
-        return std::span(bytes).subspan(std::size_t(row) * rowBytes, rowBytes);
-    };
+    const auto bytes = std::make_unique_for_overwrite<std::uint8_t[]>(std::size_t(rows) * rowBytes);
+    const auto rowAt = [&](int row) { return std::span(&bytes[std::size_t(row) * rowBytes], rowBytes); };
     for (int first = 0; first < drawing.height(); first += rows) {
         const int end = std::min(first + rows, drawing.height());
         drawing.scan(first, end, [&](int y, const asset::ColorRun& run) {
