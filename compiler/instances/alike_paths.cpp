@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 #include <variant>
 
 #include "compiler/containers/hash.hpp"
@@ -61,6 +63,20 @@ std::complex<double> usual(std::complex<double> factor, double slack) {
         else if (std::abs(factor - length * turn) <= slack)
             return length * turn;
     return std::abs(factor - unit) <= slack ? unit : factor;
+}
+
+/// The largest distance from the first point. By squares first, which are off by a few roundings.
+double sizeOf(std::span<const std::complex<double>> points) {
+    double largest = 0;
+    for (const std::complex<double> p : points)
+        largest = std::max(largest, std::norm(p - points.front()));
+    constexpr double safe = 0x1p900, rounding = 0x1p-40;
+    const double close = largest > 1 / safe && largest < safe ? largest * (1 - rounding) : 0;
+    double size = 0;
+    for (const std::complex<double> p : points)
+        if (std::norm(p - points.front()) >= close)
+            size = std::max(size, std::abs(p - points.front()));
+    return size;
 }
 
 /// Steps of a distance in a radius; what is farther is not compared.
@@ -163,9 +179,17 @@ AlikePaths::Image AlikePaths::image(std::uint32_t kind, const Kind& of, const Po
 AlikePaths::Kind AlikePaths::kindOf(Points points) {
     Kind kind{std::move(points), {}, 0};
     kind.origin = kind.points.mean + kind.points.fromMean.front();
-    for (const Complex p : kind.points.fromMean)
-        kind.size = std::max(kind.size, std::abs(p - kind.points.fromMean.front()));
+    kind.size = sizeOf(kind.points.fromMean);
     return kind;
+}
+
+AlikePaths::Summary AlikePaths::summaryOf(const Path& path) {
+    Points points;
+    points.fromMean.reserve(3 * path.size());  // of cubics
+    findPoints(path, points);
+    return {points.commands,    points.mean, points.mean + points.fromMean.front(),
+            points.radius,      points.form, sizeOf(points.fromMean),
+            distancesOf(points)};
 }
 
 /// Of the path being added, if it is of that kind.
@@ -187,14 +211,13 @@ std::optional<AlikePaths::Image> AlikePaths::imageOf(std::uint32_t number, doubl
     return made;
 }
 
-AlikePaths::Image AlikePaths::add(const Path& path, double slack) {
-    findPoints(path, points_);
-    const double form = points_.form, radius = points_.radius;
-    const Distances distances = distancesOf(points_);
-    auto& known = byCommands_[points_.commands];
+AlikePaths::Image AlikePaths::add(const Path& path, const Summary& summary, double slack) {
+    const double form = summary.form, radius = summary.radius;
+    auto& known = byCommands_[summary.commands];
     // Points, their mean and the radius may all be off by the slack.
     const double near = radius > 0 ? 8 * (1 + form) * slack / radius : 0;
     const double slackInRadii = radius > 0 ? slack / radius : 0;
+    bool hasPoints = false;
     constexpr int maxTried = 32;  // the nearest
     auto above = known.lowerBound(form), below = above;
     for (int tried = 0; tried < maxTried; ++tried) {
@@ -206,17 +229,21 @@ AlikePaths::Image AlikePaths::add(const Path& path, double slack) {
         below = isAbove ? below : known.before(below);
         const Known& nearest = known[isAbove ? above : below].value;
         above = isAbove ? known.next(above) : above;
-        if (mayBeAlike(nearest.distances, distances, slackInRadii))
-            if (const auto found = imageOf(nearest.kind, slack))
-                return *found;
+        if (!mayBeAlike(nearest.distances, summary.distances, slackInRadii))
+            continue;
+        if (!std::exchange(hasPoints, true))
+            findPoints(path, points_);
+        if (const auto found = imageOf(nearest.kind, slack))
+            return *found;
     }
     const auto number = std::uint32_t(firsts_.size());
-    known.insert(form, {number, distances});
+    known.insert(form, {number, summary.distances});
     firsts_.push_back({&path, nullptr});
-    Kind kind = kindOf(std::move(points_));
-    const Image first = image(number, kind, kind.points, {1, false});
-    points_ = std::move(kind.points);  // keeps their memory
-    return first;
+    Kind kind;
+    kind.points.mean = summary.mean;
+    kind.origin = summary.first;
+    kind.size = summary.size;
+    return image(number, kind, kind.points, {1, false});
 }
 
 }  // namespace vtm::compiler

@@ -25,13 +25,28 @@ public:
         double size = 0;         ///< of the kind's path, in the kind's space
     };
 
+    /// How far four of a path's points are apart, each from the next, in radii: rounded to steps. Images have
+    /// nearly the same distances.
+    using Distances = std::array<std::uint16_t, 4>;
+    using Complex = std::complex<double>;
+    /// What of a path is compared first. Any thread can find it.
+    struct Summary {
+        std::uint64_t commands = 0;  ///< hash
+        Complex mean, first;         ///< of its points; the first of them
+        double radius = 0;           ///< root of the mean square of distances from the mean
+        double form = 0;             ///< a number that all images have in common
+        double size = 0;             ///< largest distance from the first point
+        Distances distances{};
+    };
+    static Summary summaryOf(const scene::Path& path);
+
     /// The path as an image of one that was added before, within `slack` in its own space, or as the first of
     /// a kind. It begins with MoveTo. It must outlive this: most paths are like no other, so their points are
     /// not kept, but found again where another path may be like them.
-    Image add(const scene::Path& path, double slack);
+    Image add(const scene::Path& path, const Summary& summary, double slack);
+    Image add(const scene::Path& path, double slack) { return add(path, summaryOf(path), slack); }
 
 private:
-    using Complex = std::complex<double>;
     /// Points of a path about their mean, as x + iy.
     struct Points {
         std::uint64_t commands = 0;  ///< hash
@@ -51,9 +66,6 @@ private:
         bool isMirrored = false;
     };
 
-    /// How far four of the points are apart, each from the next, in radii: rounded to steps. Images have
-    /// nearly the same distances.
-    using Distances = std::array<std::uint16_t, 4>;
     /// A kind among those of the same commands.
     struct Known {
         std::uint32_t kind = 0;

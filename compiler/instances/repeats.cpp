@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 
 #include <vtm/limits/limits.hpp>
@@ -53,6 +55,8 @@ public:
         shapes_.reserve(origins.size());
         for (std::uint32_t i = 0; i < origins.size(); ++i) {
             limits::check();
+            if (i % summariesAtOnce == 0)
+                findSummaries(i);
             shapes_.push_back(firstUse_[i] != noIndex ? shapeOf(i, weights[i]) : Shape{});
         }
     }
@@ -89,6 +93,20 @@ private:
         }
     }
 
+    /// Of the layers from `first` on that are first uses, on all processors.
+    void findSummaries(std::uint32_t first) {
+        const std::size_t count = std::min<std::size_t>(summariesAtOnce, origins_.size() - first);
+        summaries_.resize(count);
+        constexpr std::size_t grain = 64;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                          [&, holding = limits::current()](const auto& range) {
+                              const limits::Scope scope(holding);
+                              for (std::size_t i = range.begin(); i < range.end(); ++i)
+                                  if (firstUse_[first + i] == first + i)
+                                      summaries_[i] = AlikePaths::summaryOf(*origins_[first + i].path);
+                          });
+    }
+
     Shape shapeOf(std::uint32_t i, double weight) {
         const LayerOrigin& origin = origins_[i];
         const AlikePaths::Image path = imageOf(firstUse_[i], i);
@@ -99,15 +117,19 @@ private:
     AlikePaths::Image imageOf(std::uint32_t first, std::uint32_t use) {
         if (use != first)
             return images_.at(first);
-        const AlikePaths::Image image = paths_.add(*origins_[first].path, slack_ / stretches_[first]);
+        const AlikePaths::Image image = paths_.add(*origins_[first].path, summaries_[first % summariesAtOnce],
+                                                   slack_ / stretches_[first]);
         if (isUsedAgain_[first])
             images_.emplace(first, image);
         return image;
     }
 
+    static constexpr std::uint32_t summariesAtOnce = 1u << 13;
+
     const std::span<const LayerOrigin> origins_;
     const double slack_;
     AlikePaths paths_;
+    std::vector<AlikePaths::Summary> summaries_;
     std::vector<std::uint32_t> firstUse_;  ///< by layer: the first one of its path; noIndex: may not repeat
     std::vector<double> stretches_;        ///< of first uses: largest of the path, into the picture
     std::vector<bool> isUsedAgain_;        ///< of first uses
