@@ -102,67 +102,76 @@ void numberBlocks(Top& top, std::vector<Cell>& cells) {
         numberBlocks(child, cells);
 }
 
-/// A block's tree whose paints are numbered in the order in which a walk meets them.
+/// A block's tree, and the paints that it uses in place of its palette.
 struct BlockTree {
-    Tree tree;                         ///< without a palette
-    std::vector<PaintProgram> paints;  ///< that it uses; empty: numbers are no paints of a palette, or all 0
+    struct Used {
+        PaintId id;  ///< in the tree
+        PaintProgram program;
+    };
+    Tree tree;
+    std::size_t paletteSize = 0;  ///< 0 where ids are no paints of a palette, or all are its first
+    std::vector<Used> paints;     ///< in the order in which a walk meets them
 };
 
-class PaintNumbering {
+/// Finds the paints that a block's tree uses.
+class UsedPaints {
 public:
-    explicit PaintNumbering(Tree tree) : tree_(std::move(tree)) {}
+    explicit UsedPaints(Tree tree) : tree_(std::move(tree)) {}
 
     BlockTree run() {
-        std::vector<PaintProgram> palette = std::move(tree_.palette).take();
-        if (palette.size() > 1) {
-            numbers_.assign(palette.size(), unknown);
-            tree_.root = renumbered(tree_.root);
+        palette_ = std::move(tree_.palette).take();
+        BlockTree block;
+        if (palette_.size() > 1) {
+            block.paletteSize = palette_.size();
+            isUsed_.resize(palette_.size());
+            visit(tree_.root);
         }
-        BlockTree block{std::move(tree_), {}};
-        block.paints.reserve(used_.size());
-        for (const PaintId id : used_)
-            block.paints.push_back(std::move(palette[id]));
+        block.paints = std::move(used_);
+        block.paints.shrink_to_fit();
+        block.tree = std::move(tree_);
         return block;
     }
 
 private:
-    Entry renumbered(Entry entry) {
+    void visit(Entry entry) {
         switch (entry.kind()) {
             case Entry::Kind::Solid:
-                return Entry::make(Entry::Kind::Solid, number(entry.payload()));
+                return use(entry.payload());
             case Entry::Kind::Leaf:
-                renumber(tree_.leaves[entry.payload()]);
-                return entry;
+                return visit(tree_.leaves[entry.payload()]);
             case Entry::Kind::Node:
             case Entry::Kind::Instances:  // a built tree has none
                 break;
         }
-        for (Entry& child : tree_.nodes[entry.payload()].children)
-            child = renumbered(child);
-        return entry;
+        for (const Entry child : tree_.nodes[entry.payload()].children)
+            visit(child);
     }
 
-    void renumber(Tree::Leaf& leaf) {
-        for (PaintId& corner : leaf.corners)
-            corner = number(corner);
-        for (Tree::Piece& piece : std::span(tree_.pieces).subspan(leaf.firstPiece, leaf.pieceCount)) {
-            piece.left = number(piece.left);
-            piece.right = number(piece.right);
+    void visit(const Tree::Leaf& leaf) {
+        for (const PaintId corner : leaf.corners)
+            use(corner);
+        PaintId left = leaf.corners[0], right = left;  // of the piece before: mostly the same
+        for (const Tree::Piece& piece : std::span(tree_.pieces).subspan(leaf.firstPiece, leaf.pieceCount)) {
+            if (piece.left == left && piece.right == right)
+                continue;
+            use(left = piece.left);
+            use(right = piece.right);
         }
     }
 
-    PaintId number(PaintId id) {
-        if (numbers_[id] == unknown) {
-            numbers_[id] = static_cast<PaintId>(used_.size());
-            used_.push_back(id);
-        }
-        return numbers_[id];
+    void use(PaintId id) {
+        if (!isUsed_[id])
+            add(id);
+    }
+    [[gnu::noinline]] void add(PaintId id) {  // so that use() is inlined
+        isUsed_[id] = true;
+        used_.push_back({id, std::move(palette_[id])});
     }
 
-    static constexpr PaintId unknown = 0xFFFFFFFFu;
     Tree tree_;
-    std::vector<PaintId> numbers_;  ///< by paint of the palette
-    std::vector<PaintId> used_;     ///< by number
+    std::vector<PaintProgram> palette_;
+    std::vector<std::uint8_t> isUsed_;  ///< by id
+    std::vector<BlockTree::Used> used_;
 };
 
 /// Joins blocks in walking order, so that the result does not depend on where blocks begin.
@@ -190,9 +199,9 @@ private:
     }
 
     Entry join(BlockTree& block) {
-        paints_.clear();
-        for (const PaintProgram& program : block.paints)
-            paints_.push_back(tree_.palette.add(program));
+        paints_.assign(block.paletteSize, 0);
+        for (const auto& [id, program] : block.paints)
+            paints_[id] = tree_.palette.add(program);
         const Tree& tree = block.tree;
         tree_.error = std::max(tree_.error, tree.error);
         tree_.unproven.insert(tree_.unproven.end(), tree.unproven.begin(), tree.unproven.end());
@@ -226,10 +235,10 @@ private:
         return Entry::make(Entry::Kind::Leaf, static_cast<std::uint32_t>(tree_.leaves.size() - 1));
     }
 
-    PaintId paint(PaintId number) const { return paints_.empty() ? number : paints_[number]; }
+    PaintId paint(PaintId id) const { return paints_.empty() ? id : paints_[id]; }
 
     std::vector<BlockTree> blocks_;
-    std::vector<PaintId> paints_;  ///< of the block at hand, in the joined palette
+    std::vector<PaintId> paints_;  ///< of the joined palette, by those of the block at hand
     std::uint32_t pieces_ = 0;     ///< of the blocks before
     JoinedTree joined_;
     Tree& tree_ = joined_.tree;
@@ -255,7 +264,7 @@ JoinedTree buildTree(const LoweredScene& picture, const Square& root, std::span<
         const limits::Scope scope(holding);
         limits::progress(static_cast<double>(done++) / static_cast<double>(blocks.size()));
         Tree block = builders.local().run(std::move(cells[i]), i % timedBlocks == 0);
-        blocks[i] = PaintNumbering(std::move(block)).run();
+        blocks[i] = UsedPaints(std::move(block)).run();
     });
     const double wall = milliseconds(divided, Clock::now());
     TreeTimes sum;

@@ -10,7 +10,7 @@ namespace vtm::compiler {
 struct JoinedTree {
     struct Block {
         std::vector<Tree::Piece> pieces;
-        std::vector<PaintId> paints;  ///< of the joined palette, by the numbers in `pieces`; empty: the same
+        std::vector<PaintId> paints;  ///< of the joined palette, by those in `pieces`; empty: the same
     };
     Tree tree;                  ///< without pieces
     std::vector<Block> blocks;  ///< in walking order; leaves count pieces through all of them
