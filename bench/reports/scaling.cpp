@@ -18,7 +18,8 @@ Report scaling(const Options& options) {
         "default "
         "options, each in a process of its own. `cpu / (n log2 n)` is relative to the first row: where it "
         "does not rise, cost "
-        "grows no faster than n log n. The peak is that of scene, compiler and asset together; `above scene` is "
+        "grows no faster than n log n. The peak is that of scene, compiler and asset together; `above scene` "
+        "is "
         "what of it compiler and asset add to the scene, in bytes a curve.";
     double first = 0;
     for (double exponent = 2; exponent < 6.25; exponent += 0.5) {
