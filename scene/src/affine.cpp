@@ -4,10 +4,6 @@
 
 namespace vtm::scene {
 
-glm::dvec2 apply(const Affine& m, glm::dvec2 p) { return m[0] * p.x + m[1] * p.y + m[2]; }
-
-glm::dvec2 applyVector(const Affine& m, glm::dvec2 v) { return m[0] * v.x + m[1] * v.y; }
-
 Affine compose(const Affine& outer, const Affine& inner) {
     return {applyVector(outer, inner[0]), applyVector(outer, inner[1]), apply(outer, inner[2])};
 }

@@ -17,9 +17,13 @@ using Affine = glm::dmat3x2;
 inline constexpr Affine identity{1, 0, 0, 1, 0, 0};
 
 /// Maps a point.
-glm::dvec2 apply(const Affine& m, glm::dvec2 p);
+inline glm::dvec2 apply(const Affine& m, glm::dvec2 p) {
+    return {m[0].x * p.x + m[1].x * p.y + m[2].x, m[0].y * p.x + m[1].y * p.y + m[2].y};
+}
 /// Maps a direction: applies the linear part only.
-glm::dvec2 applyVector(const Affine& m, glm::dvec2 v);
+inline glm::dvec2 applyVector(const Affine& m, glm::dvec2 v) {
+    return {m[0].x * v.x + m[1].x * v.y, m[0].y * v.x + m[1].y * v.y};
+}
 /// Returns the map that applies `inner` first, then `outer`.
 Affine compose(const Affine& outer, const Affine& inner);
 /// Returns the determinant of the linear part: the signed factor by which areas grow.

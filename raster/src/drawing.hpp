@@ -1,0 +1,290 @@
+/// \file
+/// Drawing one view of what is scanned: the chords of its boundaries by bands of rows, then one band after
+/// the other. Pixels in which paints are rough are drawn finer.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include <vtm/limits/limits.hpp>
+#include "raster/src/rough.hpp"
+#include "raster/src/row_sums.hpp"
+#include "raster/src/scan_programs.hpp"
+#include "raster/src/scanned.hpp"
+#include "raster/steepness.hpp"
+
+namespace vtm::asset {
+
+/// What one picture needs and the next uses again.
+struct RowScratch {
+    Bands bands;
+    Accumulator<Wholes<Float4>> colors;
+    BandPrograms programs;
+    std::unique_ptr<RowScratch> finer;  ///< for what is drawn finer
+};
+
+/// Rough pixels in a row are drawn together across gaps of fewer columns.
+inline constexpr int maxFinerGap = 4;
+
+/// Pixels first to end - 1 of rows top to bottom - 1 of a band.
+struct BandBox {
+    int first, end, top, bottom;
+
+    int width() const { return end - first; }
+    int height() const { return bottom - top; }
+};
+
+/// Boxes around all of the pixels, which are sorted by column, disjoint and from left to right.
+inline std::vector<BandBox> boxesAround(std::span<const BandPixel> pixels) {
+    std::vector<BandBox> boxes;
+    for (const BandPixel& p : pixels) {
+        if (boxes.empty() || p.x >= boxes.back().end + maxFinerGap)
+            boxes.push_back({p.x, p.x + 1, p.row, p.row + 1});
+        BandBox& box = boxes.back();
+        box = {box.first, p.x + 1, std::min(box.top, p.row), std::max(box.bottom, p.row + 1)};
+    }
+    return boxes;
+}
+
+/// Adds up colours that are finer: the mean over each pixel of a box.
+class MeanStore {
+public:
+    explicit MeanStore(const BandBox& box)
+        : box_(box), means_(std::size_t(box.width()) * std::size_t(box.height())) {}
+
+    void operator()(int row, int first, int end, Float4 color) {
+        while (first < end) {
+            const int next = std::min(end, (first / finerSide + 1) * finerSide);
+            mean(first / finerSide, row / finerSide) += float(next - first) * share * color;
+            first = next;
+        }
+    }
+    void operator()(int row, int first, std::span<const Float4> colors) {
+        for (const Float4& color : colors)
+            mean(first++ / finerSide, row / finerSide) += share * color;
+    }
+    /// In the band.
+    Float4 at(const BandPixel& p) { return mean(p.x - box_.first, p.row - box_.top); }
+
+private:
+    static constexpr float share = 1.0f / (finerSide * finerSide);
+
+    Float4& mean(int x, int y) { return means_[std::size_t(y) * std::size_t(box_.width()) + std::size_t(x)]; }
+
+    BandBox box_;
+    std::vector<Float4> means_;
+};
+
+/// The chords of a picture under a view, band by band.
+class Drawing {
+public:
+    Drawing(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
+            int finerLevels, float roughness = 1)
+        : of_(of),
+          view_(view),
+          scratch_(scratch),
+          programs_(programView(of, view_, materials, roughness, finerLevels > 0)),
+          finerLevels_(finerLevels) {
+        scratch_.bands.clear(view.height);
+        scratch_.colors.resize(view.width);
+        scratch_.programs.resize(of.asset().paints.size(), view.width);
+    }
+
+    /// What is seen of the picture is the same of a part of it.
+    enum class Of { Picture, SeenSquares };
+
+    void add(Of what) {
+        if (what == Of::Picture)
+            return addParts(0, of_.partCount());
+        for (const Scanned::Drawn& drawn : of_.drawn) {
+            Chords<> chords(drawn.own.place(), view_, scratch_.bands);
+            drawn.own.forEachOfSeen(
+                chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
+                [&](const Boundary& boundary) { chords.add(boundary); });
+            if (drawn.map != Scanned::noMap)
+                addPlaced(drawn.map);
+        }
+    }
+    /// Some of the parts that make up the picture.
+    void addParts(std::size_t first, std::size_t end) {
+        std::size_t begin = 0;  // of the map's parts
+        for (const Scanned::Drawn& drawn : of_.drawn) {
+            const std::size_t count = drawn.own.boxCount();
+            Chords<> chords(drawn.own.place(), view_, scratch_.bands);
+            for (std::size_t i = std::max(first, begin); i < std::min(end, begin + count); ++i)
+                addChords(chords, drawn.own.box(i - begin));
+            begin += count + 1;
+            if (drawn.map != Scanned::noMap && first < begin && begin <= end)
+                addPlaced(drawn.map);
+        }
+    }
+    void addChord(const Chord& chord) { scratch_.bands.add(chord, float(view_.width), float(view_.height)); }
+
+    template <class Store>
+    void draw(Store& store) {
+        for (int band = 0; band * bandRows < view_.height; ++band)
+            drawBand(band, store);
+    }
+    /// One band, of chords that were made for it.
+    template <class Store>
+    void draw(int band, std::vector<Chord>& chords, Store& store) {
+        scratch_.bands.exchange(band, chords);
+        drawBand(band, store);
+        scratch_.bands.exchange(band, chords);
+    }
+
+private:
+    template <class PaintOf>
+    static void addChords(Chords<PaintOf>& chords, const BoundaryBox& box) {
+        limits::check();
+        if (chords.mayMatter(box.min(), box.max()))
+            for (const Boundary& boundary : box.at(chords.pixel()))
+                chords.add(boundary);
+    }
+
+    /// What lies beside the view changes no pixel.
+    void addPlaced(std::uint32_t map) {
+        of_.placed->forEach(
+            map, [&](const ScannedMap& own, const Affine2& place, const PlacedPaints& paints) {
+                if (!isSeen(place))
+                    return false;
+                const Affine2 toPicture{place.linear * (1 / own.place().extent), place.offset};
+                Chords chords(toPicture, view_, scratch_.bands, std::cref(paints));
+                for (std::size_t i = 0; i < own.boxCount(); ++i)
+                    addChords(chords, own.box(i));
+                return true;
+            });
+    }
+
+    bool isSeen(const Affine2& toPicture) const {
+        const Affine2 toPixels =
+            compose({glm::dmat2(view_.toPixels[0], view_.toPixels[1]), view_.toPixels[2]}, toPicture);
+        const glm::dvec2 centre = toPixels(glm::dvec2(0.5));
+        const glm::dvec2 reach = 0.5 * (glm::abs(toPixels.linear[0]) + glm::abs(toPixels.linear[1])) + 1.0;
+        return centre.x + reach.x > 0 && centre.y + reach.y > 0 && centre.x - reach.x < view_.width &&
+               centre.y - reach.y < view_.height;
+    }
+
+    template <class Store>
+    void drawBand(int band, Store& store) {
+        limits::check();
+        const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
+        BandPrograms& programs = scratch_.programs;
+        programs.clear();
+        const std::uint8_t* isProgram = of_.isProgram.data();
+        const Float4* solid = of_.solid.data();
+        for (const Chord& c : scratch_.bands.of(band)) {
+            if (isProgram[c.left] + isProgram[c.right] != 0) {
+                if (isProgram[c.left])
+                    programs.addSide(c, c.left, 1);
+                if (isProgram[c.right])
+                    programs.addSide(c, c.right, -1);
+                if (isProgram[c.left] && isProgram[c.right])
+                    continue;
+            }
+            scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
+        }
+        programs.draw(programs_, top, rows);
+        if (!programs.rough().empty())
+            drawFiner(band);
+        for (int row = 0; row < rows; ++row)
+            scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
+                if (programs.empty())
+                    store(top + row, first, end, color);
+                else
+                    programs.pixels().finish(top, row, first, end, color, store);
+            });
+    }
+
+    // ---- Rough pixels ----
+
+    void drawFiner(int band) {
+        std::vector<BandPixel>& rough = scratch_.programs.rough();
+        std::ranges::sort(rough, {}, &BandPixel::x);
+        std::vector<std::pair<BandPixel, Float4>> colors;
+        auto next = rough.begin();
+        for (const BandBox& box : boxesAround(rough)) {
+            MeanStore means = drawBox(band, box);
+            for (; next != rough.end() && next->x < box.end; ++next)
+                colors.emplace_back(*next, means.at(*next));
+        }
+        std::ranges::sort(colors, {}, [](const auto& c) { return c.first; });
+        const auto isSamePixel = [](const auto& a, const auto& b) { return a.first == b.first; };
+        colors.erase(std::unique(colors.begin(), colors.end(), isSamePixel), colors.end());
+        for (const auto& [pixel, color] : colors)
+            scratch_.programs.pixels().replace(pixel.row, pixel.x, color);
+    }
+
+    /// Chords are within chordTolerance of a pixel of their curves here, and finer pixels need no finer ones.
+    MeanStore drawBox(int band, const BandBox& box) {
+        const glm::dvec2 corner(box.first, band * bandRows + box.top);
+        View finer{box.width() * finerSide, box.height() * finerSide, view_.toPixels};
+        finer.toPixels[2] -= corner;
+        for (int i = 0; i < 3; ++i)
+            finer.toPixels[i] *= double(finerSide);
+        if (!scratch_.finer)
+            scratch_.finer = std::make_unique<RowScratch>();
+        Drawing drawing(of_, finer, programs_.materials, *scratch_.finer, finerLevels_ - 1,
+                        finerTolerance * programs_.rough.times);
+        for (const Chord& c : scratch_.bands.of(band))
+            drawing.addChord({float(finerSide) * (c.a - glm::vec2(corner)),
+                              float(finerSide) * (c.b - glm::vec2(corner)), c.left, c.right});
+        MeanStore means(box);
+        drawing.draw(means);
+        return means;
+    }
+
+    static ProgramView programView(const Scanned& of, const View& view, const MaterialFunction& materials,
+                                   float roughness, bool findsRough) {
+        const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+        const float minSteep = minSteepness(inverse);
+        return {of.paints, of.sums, view, inverse, minSteep, materials, roughBounds(minSteep, roughness),
+                findsRough};
+    }
+
+    const Scanned& of_;
+    const View view_;
+    RowScratch& scratch_;
+    ProgramView programs_;
+    int finerLevels_;
+};
+
+/// Draws what needs no boundaries. Returns whether that is all.
+template <class Store>
+bool drawIfEmpty(const Scanned& of, const View& view, const Store& store) {
+    validate(view);
+    if (view.width == 0 || view.height == 0)
+        return true;
+    const double determinant = glm::determinant(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    if (!of.drawn.empty() && std::abs(determinant) > std::numeric_limits<double>::min())
+        return false;
+    for (int y = 0; y < view.height; ++y)
+        store(y, 0, view.width, Float4{});
+    return true;
+}
+
+inline int finerLevelsOf(const Scanned& of, const View& view) {
+    return of.sums == Sums::Encoded ? finerLevels(of.asset(), view) : 0;
+}
+
+template <class Store>
+void drawScanned(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
+                 const Store& store, Drawing::Of what = Drawing::Of::Picture) {
+    if (drawIfEmpty(of, view, store))
+        return;
+    const limits::Stage stage("scanning");
+    Drawing drawing(of, view, materials, scratch, finerLevelsOf(of, view));
+    drawing.add(what);
+    drawing.draw(store);
+}
+
+}  // namespace vtm::asset

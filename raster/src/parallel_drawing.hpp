@@ -1,0 +1,115 @@
+/// \file
+/// Drawing one view on all processors.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <vtm/limits/limits.hpp>
+#include "raster/src/drawing.hpp"
+
+namespace vtm::asset {
+
+/// RowScratches that nobody uses.
+class ScratchPool {
+public:
+    std::unique_ptr<RowScratch> take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty())
+            return std::make_unique<RowScratch>();
+        std::unique_ptr<RowScratch> scratch = std::move(free_.back());
+        free_.pop_back();
+        return scratch;
+    }
+    void giveBack(std::unique_ptr<RowScratch> scratch) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(std::move(scratch));
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<RowScratch>> free_;
+};
+
+/// Draws one view on all processors. Each makes the chords of some of the picture's parts; then each draws
+/// some bands, of chords in the order of the parts, so that the sums do not depend on who made which.
+class ParallelDrawing {
+public:
+    ParallelDrawing(const Scanned& of, const View& view, ScratchPool& pool)
+        : of_(of), view_(view), pool_(pool), finerLevels_(finerLevelsOf(of, view)) {}
+
+    /// Whether it is worth it.
+    static bool pays(const Scanned& of, const View& view) {
+        constexpr std::size_t manyBoundaries = 1u << 12, manyPixels = 1u << 17;
+        return tbb::this_task_arena::max_concurrency() > 1 &&
+               (of.boundaryCount() >= manyBoundaries ||
+                std::size_t(view.width) * std::size_t(view.height) >= manyPixels);
+    }
+
+    /// `store`: called by several threads at once.
+    template <class Store>
+    void draw(const Store& store) {
+        const limits::Stage stage("scanning");
+        const auto threads = std::size_t(tbb::this_task_arena::max_concurrency());
+        makeChords(threads);
+        const int bands = (view_.height + bandRows - 1) / bandRows;
+        const int tasks = std::min(bands, int(4 * threads));
+        tbb::parallel_for(0, tasks, [&, holding = limits::current()](int task) {
+            const limits::Scope scope(holding);
+            drawBands(bands * task / tasks, bands * (task + 1) / tasks, store);
+        });
+        // An exception loses the scratches, whose sums may be half done.
+        for (std::unique_ptr<RowScratch>& scratch : made_)
+            pool_.giveBack(std::move(scratch));
+    }
+
+private:
+    void makeChords(std::size_t count) {
+        const std::size_t parts = of_.partCount();
+        made_.resize(std::min(count, parts));
+        tbb::parallel_for(std::size_t{0}, made_.size(), [&, holding = limits::current()](std::size_t i) {
+            const limits::Scope scope(holding);
+            made_[i] = pool_.take();
+            Drawing drawing(of_, view_, noMaterials_, *made_[i], finerLevels_);
+            drawing.addParts(parts * i / made_.size(), parts * (i + 1) / made_.size());
+        });
+    }
+
+    template <class Store>
+    void drawBands(int first, int end, const Store& store) {
+        std::unique_ptr<RowScratch> scratch = pool_.take();
+        Drawing drawing(of_, view_, noMaterials_, *scratch, finerLevels_);
+        for (int band = first; band < end; ++band)
+            drawing.draw(band, joined(band), store);
+        pool_.giveBack(std::move(scratch));
+    }
+
+    /// All chords of a band, in the first scratch that has some.
+    std::vector<Chord>& joined(int band) const {
+        std::vector<Chord>* all = nullptr;
+        for (const std::unique_ptr<RowScratch>& made : made_) {
+            std::vector<Chord>& some = made->bands.of(band);
+            if (!all || all->empty())
+                all = &some;
+            else
+                all->insert(all->end(), some.begin(), some.end());
+        }
+        return *all;
+    }
+
+    const Scanned& of_;
+    const View& view_;
+    ScratchPool& pool_;
+    const MaterialFunction noMaterials_;
+    const int finerLevels_;
+    std::vector<std::unique_ptr<RowScratch>> made_;  ///< chords of the parts, in their order
+};
+
+}  // namespace vtm::asset

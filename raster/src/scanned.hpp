@@ -1,0 +1,109 @@
+/// \file
+/// What a scanner draws: maps with their boundaries, those that are placed in them, and paints.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include <vtm/asset/asset.hpp>
+#include <vtm/raster/scan.hpp>
+#include "asset/instances.hpp"
+#include "raster/chord_scanner.hpp"
+#include "raster/src/blend.hpp"
+#include "raster/src/float4.hpp"
+#include "raster/src/paint.hpp"
+#include "raster/src/scanned_map.hpp"
+
+namespace vtm::asset {
+
+/// The maps of an asset that are placed in others.
+class PlacedMaps {
+public:
+    /// Must outlive it.
+    explicit PlacedMaps(const AssetView& asset) : asset_(asset), walk_(asset), maps_(asset.maps.size()) {
+        for (const Symbol& symbol : asset.symbols)
+            if (!maps_[symbol.map])
+                maps_[symbol.map].emplace(asset, asset.maps[symbol.map]);
+    }
+
+    /// Calls visit(map, its place, its paints), which tells whether to go on to those in it, for each map
+    /// that is placed in one.
+    template <class Visit>
+    void forEach(std::uint32_t outer, Visit&& visit) const {
+        const Map& map = asset_.maps[outer];
+        walk_(map, [&](const PlacedMap& placed) {
+            if (&placed.map == &map)
+                return true;
+            return bool(visit(*maps_[std::size_t(&placed.map - asset_.maps.data())], placed.toPicture,
+                              placed.paints));
+        });
+    }
+
+private:
+    const AssetView asset_;
+    const MapWalk walk_;
+    std::vector<std::optional<ScannedMap>> maps_;
+};
+
+/// What is drawn.
+struct Scanned {
+    struct Drawn {
+        ScannedMap own;
+        std::uint32_t map = noMap;  ///< in which others are placed
+    };
+    static constexpr std::uint32_t noMap = 0xFFFFFFFFu;
+
+    Scanned(const Paints& of, std::size_t paintCount, Sums sumsOf) : paints(of), sums(sumsOf) {
+        setPaints(of, paintCount);
+    }
+    void setPaints(const Paints& of, std::size_t count) {
+        paints = of;
+        isProgram.clear();
+        solid.clear();
+        for (const Paint& paint : of.asset().paints.first(count)) {
+            isProgram.push_back(asset::isProgram(paint));
+            solid.push_back(asset::isProgram(paint) ? Float4{}
+                                                    : float4(added(std::bit_cast<glm::vec4>(paint))));
+        }
+    }
+
+    Paints paints;
+    std::vector<Drawn> drawn;
+    std::shared_ptr<const PlacedMaps> placed;  ///< null if nothing is
+    Sums sums = Sums::Encoded;
+    std::vector<Float4> solid;            ///< by paint, as it is added; nothing for programs
+    std::vector<std::uint8_t> isProgram;  ///< by paint
+
+    /// Of chords that somebody else makes.
+    explicit Scanned(const ChordPaints& of) : paints(of.asset, of.images) {
+        isProgram.resize(of.asset.paints.size(), 1);
+        solid.resize(of.asset.paints.size());
+        isProgram.resize(isProgram.size() + of.colors.size());
+        for (const glm::vec4& color : of.colors)
+            solid.push_back(float4(color));
+    }
+
+    const AssetView& asset() const { return paints.asset(); }
+    /// The boxes of boundaries, and for each map, after its own, all that is placed in it.
+    std::size_t partCount() const {
+        std::size_t count = 0;
+        for (const Drawn& map : drawn)
+            count += map.own.boxCount() + 1;
+        return count;
+    }
+    std::size_t boundaryCount() const {
+        std::size_t count = 0;
+        for (const Drawn& map : drawn)
+            count += map.own.boundaryCount();
+        return count;
+    }
+    glm::vec4 added(glm::vec4 color) const { return sums == Sums::Light ? light(color) : color; }
+};
+
+}  // namespace vtm::asset
