@@ -18,6 +18,7 @@
 #include "compiler/compile/settings.hpp"
 #include "compiler/compile/view_plan.hpp"
 #include "compiler/direct/band_sweep.hpp"
+#include "compiler/direct/hidden_layers.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/view_chains.hpp"
 #include "compiler/filters/compile_filtered.hpp"
@@ -64,6 +65,23 @@ std::shared_ptr<const asset::Images> fillsOf(const LoweredScene& picture,
     return asset::imagesOf(view);
 }
 
+/// Where many chains meet strips and a large part of them is hidden, these are not swept. Strips begin anew.
+void leaveOutHidden(const LoweredScene& picture, ViewChains& chains, const asset::View& view) {
+    constexpr std::size_t many = 1u << 15, share = 4;
+    if (chains.inBands() < many)
+        return;
+    const HiddenLayers hidden(picture, chains, view.width, view.height, stripBands * bandRows);
+    const auto isHidden = [&](const DownChain& chain, int band) {
+        return hidden.isHidden(chain.layer, band / stripBands);
+    };
+    std::size_t count = 0;
+    for (int band = 0; band < chains.bands(); ++band)
+        count += std::size_t(
+            std::ranges::count_if(chains.inBand(band), [&](auto c) { return isHidden(chains[c], band); }));
+    if (count >= chains.inBands() / share)
+        chains.leaveOut(isHidden);
+}
+
 /// An empty picture.
 scene::Scene emptyScene() {
     scene::Scene scene;
@@ -92,6 +110,7 @@ struct ViewDrawing::Impl {
         if (!tiles.patterns.empty() || !picture.materials.empty())
             return nullptr;
         ViewChains chains(picture, lattice, view);
+        leaveOutHidden(picture, chains, view);
         std::vector<image::Bitmap> bitmaps = bitmapsOf(picture);
         auto fills = fillsOf(picture, bitmaps);
         std::vector<std::string> warnings = std::move(picture.warnings);

@@ -4,15 +4,12 @@
 #include <bit>
 #include <cstring>
 
+#include "compiler/direct/layer_cover.hpp"
 #include "compiler/paint/composite.hpp"
 #include "compiler/paint/region_paints.hpp"
 
 namespace vtm::compiler {
 namespace {
-
-/// What is laid under colours that let no more than this through is left out: less than a sixteenth of a step
-/// of 8 bits.
-constexpr float unseen = 0x1p-12f;
 
 std::uint64_t hashOf(const glm::vec4& color) {
     std::uint64_t halves[2];

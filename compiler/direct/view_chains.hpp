@@ -34,6 +34,8 @@ public:
     ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view);
 
     int bands() const { return int(firsts_.size()) - 1; }
+    /// How many there are, summed over the bands.
+    std::size_t inBands() const { return numbers_.size(); }
     /// Numbers of chains that meet a band of rows: those that come from above it, then those that begin in
     /// it, from the top.
     std::span<const std::uint32_t> inBand(int band) const {
@@ -41,7 +43,25 @@ public:
         return std::span(numbers_).subspan(firsts_[at], firsts_[at + 1] - firsts_[at]);
     }
     const DownChain& operator[](std::uint32_t number) const { return chains_[number]; }
+    /// Layers ascend.
+    std::span<const DownChain> all() const { return chains_; }
     const glm::vec2* vertices() const { return vertices_.data(); }
+
+    /// Leaves chains out of bands where isLeftOut(chain, band) says so: all of a layer's, in strips of bands
+    /// that are swept on their own.
+    template <class IsLeftOut>
+    void leaveOut(const IsLeftOut& isLeftOut) {
+        std::size_t kept = 0, first = 0;
+        for (int band = 0; band < bands(); ++band) {
+            const std::size_t end = firsts_[std::size_t(band) + 1];
+            for (std::size_t i = first; i < end; ++i)
+                if (!isLeftOut(chains_[numbers_[i]], band))
+                    numbers_[kept++] = numbers_[i];
+            first = end;
+            firsts_[std::size_t(band) + 1] = std::uint32_t(kept);
+        }
+        numbers_.resize(kept);
+    }
 
 private:
     class Builder;
