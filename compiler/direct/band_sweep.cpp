@@ -14,6 +14,9 @@ using asset::bandRows;
 /// Slabs grow to so many rows where nothing happens.
 constexpr float mostHeight = 4;
 
+/// A row in which sweeping takes more is drawn on lines from there on, and so is a slab that would take more.
+constexpr std::size_t mostInRow = 1u << 20, mostInSlab = 1u << 22;
+
 /// Where the line from a down to b is at y.
 float xBetween(glm::vec2 a, glm::vec2 b, float y) {
     return y >= b.y ? b.x : y <= a.y ? a.x : a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
@@ -21,8 +24,8 @@ float xBetween(glm::vec2 a, glm::vec2 b, float y) {
 
 }  // namespace
 
-BandSweep::BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers)
-    : chains_(chains), vertices_(chains.vertices()), state_(state), windings_(layers) {}
+BandSweep::BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers, int width)
+    : chains_(chains), vertices_(chains.vertices()), state_(state), lines_(chains, state, width), windings_(layers) {}
 
 void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     chords_ = &chords;
@@ -32,13 +35,27 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         std::ranges::find_if(chains, [&](std::uint32_t c) { return chains_[c].top >= top; });
     const auto above = std::size_t(firstBelow - chains.begin());
     if (begins)
+        onLines_ = 0;
+    if (2 * chains.size() > onLines_ && onLines_ > 0)
+        return onLines(chains, top, bottom);
+    if (begins || onLines_ > 0)
         begin(chains.first(above), top);
+    onLines_ = 0;
     toCome_ = chains.subspan(above);
     for (float y = top; y < bottom;) {
         limits::check();
         steps_ = 0;
+        if (y == std::floor(y))
+            rowSteps_ = 0;
         thinnest_ = std::max(leastHeight, float(active_.size()) / looksInRow);
-        slab({y, y + height_});
+        if (rowSteps_ > mostInRow || !slab({y, y + height_})) {
+            onLines_ = chains.size();
+            for (const Active* a : active_)
+                draw(*a, a->from, y);
+            moveState(0);
+            return onLines(chains, y, bottom);
+        }
+        rowSteps_ += steps_ + active_.size();
         y += height_;
         if (steps_ > 2 * active_.size() && height_ >= 2 * thinnest_)
             height_ *= 0.5f;
@@ -50,6 +67,11 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         a->from = bottom;
     }
     moveState(0);
+}
+
+/// The rest of the band.
+void BandSweep::onLines(std::span<const std::uint32_t> chains, float top, float bottom) {
+    lines_.run(chains, top, bottom, *chords_);
 }
 
 // ---- Chains ---------------------------------------------------------------------------------------
@@ -109,15 +131,20 @@ void BandSweep::begin(std::span<const std::uint32_t> chains, float top) {
 
 // ---- Slabs ----------------------------------------------------------------------------------------
 
-void BandSweep::slab(Slab slab) {
+/// False if that is too much; then nothing is done.
+bool BandSweep::slab(Slab slab) {
     std::size_t count = 0;
     while (count < toCome_.size() && chains_[toCome_[count]].top < slab.bottom)
         ++count;
     beginning_.assign(toCome_.begin(), toCome_.begin() + std::ptrdiff_t(count));
-    toCome_ = toCome_.subspan(count);
     look(slab);
     findEvents(slab);
-    gather(slab);
+    gather();
+    if (isTooMuch())
+        return false;
+    toCome_ = toCome_.subspan(count);
+    sweepGroups(slab);
+    return true;
 }
 
 /// Where the chains go.
@@ -126,6 +153,7 @@ void BandSweep::look(Slab slab) {
         Active& a = *each;
         a.ends = false;
         a.isBent = a.b.y <= slab.bottom;
+        a.bends = 0;
         if (!a.isBent) {
             a.next = a.xAt(slab.bottom);
             a.left = std::min(a.x, a.next);
@@ -139,12 +167,13 @@ void BandSweep::look(Slab slab) {
         a.right = reach.right;
         a.next = reach.last;
         a.ends = reach.ends;
+        a.bends = reach.bends;
     }
 }
 
 /// From vertex `at` of a chain on, down to the bottom.
 void BandSweep::addReach(Reach& reach, std::uint32_t at, std::uint32_t end, float bottom) const {
-    for (; at < end && vertices_[at].y <= bottom; ++at)
+    for (; at < end && vertices_[at].y <= bottom; ++at, ++reach.bends)
         reach.add(vertices_[at].x);
     reach.ends = at == end;
     if (!reach.ends)
@@ -196,12 +225,12 @@ void BandSweep::findEvents(Slab slab) {
     for (const std::uint32_t number : beginning_) {
         Reach reach;
         addReach(reach, chains_[number].first, chains_[number].end, slab.bottom);
-        events_.push_back({reach.left, reach.right, active_.size(), 0, number, false});
+        events_.push_back({reach.left, reach.right, active_.size(), 0, number, false, reach.bends});
     }
 }
 
-/// Sweeps the chains near events, and lets all others pass.
-void BandSweep::gather(Slab slab) {
+/// The chains near events.
+void BandSweep::gather() {
     sortStably(events_.begin(), events_.end(),
                [](const Event& a, const Event& b) { return a.left < b.left; });
     groups_.clear();
@@ -223,7 +252,24 @@ void BandSweep::gather(Slab slab) {
         group.end = std::max(group.end, event.end);
         group.right = std::max(group.right, event.right);
         group.isCrossing = group.isCrossing && event.isCrossing;
+        group.bends += event.bends;
     }
+}
+
+/// Whether sweeping the groups from vertex to vertex is.
+bool BandSweep::isTooMuch() const {
+    std::size_t steps = 0;
+    for (const Event& group : groups_) {
+        std::size_t bends = group.bends;
+        for (std::size_t i = group.first; i < group.end; ++i)
+            bends += active_[i]->bends;
+        steps += bends * (group.end - group.first + group.bends);
+    }
+    return steps > mostInSlab;
+}
+
+/// And lets all others pass.
+void BandSweep::sweepGroups(Slab slab) {
     if (groups_.empty()) {
         for (Active* a : active_)
             pass(*a, slab.bottom);

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "compiler/containers/min_tree.hpp"
+#include "compiler/direct/line_sweep.hpp"
 #include "compiler/direct/quiet_chains.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/view_chains.hpp"
@@ -34,7 +35,7 @@ inline constexpr int stripBands = 4;
 class BandSweep {
 public:
     /// `state` is outside of all layers, and is so again after each band. Both must outlive it.
-    BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers);
+    BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers, int width);
 
     /// Appends the chords of a band; their paints are the state's. Sweeps on from the band above, or begins
     /// anew, which it must where the state has forgotten paints.
@@ -58,7 +59,8 @@ private:
         float x;            ///< at the line
         float next;         ///< where the line goes to
         float left, right;  ///< between
-        bool isBent, ends;  ///< between: whether it has a vertex, whether it ends
+        std::uint32_t bends;  ///< between: its vertices
+        bool isBent, ends;    ///< between: whether it has a vertex, whether it ends
         float from;         ///< since where its sides have the paints `drawn`
         RegionPaint drawn[2];
         Region region;      ///< on its right
@@ -71,6 +73,7 @@ private:
         float left = never, right = -never;
         float last = 0;  ///< at the bottom, or where it ends
         bool ends = false;
+        std::uint32_t bends = 0;
 
         void add(float x) {
             left = std::min(left, x);
@@ -87,6 +90,7 @@ private:
         std::size_t first, end;
         std::uint32_t begins;  ///< a chain, or noIndex
         bool isCrossing;       ///< and nothing else
+        std::size_t bends = 0;  ///< vertices of what begins
     };
     struct Crossed {
         std::uint32_t layer;
@@ -100,11 +104,14 @@ private:
     Active* activate(std::uint32_t chain);
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
-    void slab(Slab slab);
+    bool slab(Slab slab);
+    void onLines(std::span<const std::uint32_t> chains, float top, float bottom);
     void look(Slab slab);
     bool isOrdered(const Active& left, const Active& right, float bottom) const;
     void findEvents(Slab slab);
-    void gather(Slab slab);
+    void gather();
+    bool isTooMuch() const;
+    void sweepGroups(Slab slab);
     void pass(Active& active, float bottom);
 
     bool mayReorder(Slab slab);
@@ -154,6 +161,9 @@ private:
     std::vector<std::uint32_t> beginning_;   ///< in the slab
     std::vector<Event> events_, groups_;
     std::size_t steps_ = 0;         ///< of sweeps in the slab
+    std::size_t rowSteps_ = 0;      ///< of looks and sweeps in the row
+    LineSweep lines_;
+    std::size_t onLines_ = 0;       ///< so many chains were in the band where the strip went on on lines
     float height_ = 1;              ///< of slabs
     float thinnest_ = leastHeight;  ///< of slabs with as many chains as now
 

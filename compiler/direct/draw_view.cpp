@@ -42,7 +42,7 @@ constexpr std::size_t keptPaints = 1u << 12;
 /// What one thread uses again.
 struct ThreadState {
     ThreadState(const LoweredScene& picture, const ViewChains& chains, const asset::View& view)
-        : state(picture), sweep(chains, state, picture.layers.size()), scanner(view) {}
+        : state(picture), sweep(chains, state, picture.layers.size(), view.width), scanner(view) {}
 
     RegionState state;
     BandSweep sweep;
@@ -67,8 +67,8 @@ std::shared_ptr<const asset::Images> fillsOf(const LoweredScene& picture,
 
 /// Where many chains meet strips and a large part of them is hidden, these are not swept. Strips begin anew.
 void leaveOutHidden(const LoweredScene& picture, ViewChains& chains, const asset::View& view) {
-    constexpr std::size_t many = 1u << 15, share = 4;
-    if (chains.inBands() < many)
+    constexpr std::size_t many = 1u << 15, share = 4, fewLayers = 64;
+    if (chains.inBands() < many || picture.layers.size() < fewLayers)
         return;
     const HiddenLayers hidden(picture, chains, view.width, view.height, stripBands * bandRows);
     const auto isHidden = [&](const DownChain& chain, int band) {

@@ -78,6 +78,8 @@ public:
     /// Premultiplied; the first is transparent.
     std::span<const glm::vec4> colors() const { return colors_; }
     std::span<const PaintProgram> programs() const { return programs_; }
+    /// A paint of its own.
+    RegionPaint paintOf(const glm::vec4& color) { return colorNumber(color); }
     /// All paints, whose numbers are given anew.
     void forgetPaints();
 
