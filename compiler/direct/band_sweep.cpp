@@ -14,8 +14,12 @@ using asset::bandRows;
 /// Slabs grow to so many rows where nothing happens.
 constexpr float mostHeight = 4;
 
-/// A row in which sweeping takes more is drawn on lines from there on, and so is a slab that would take more.
-constexpr std::size_t mostInRow = 1u << 20, mostInSlab = 1u << 22;
+/// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
+/// would take more.
+constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 22;
+/// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
+/// next strip.
+constexpr std::size_t fewToBegin = 1u << 15;
 
 /// Where the line from a down to b is at y.
 float xBetween(glm::vec2 a, glm::vec2 b, float y) {
@@ -34,10 +38,13 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     const auto firstBelow =
         std::ranges::find_if(chains, [&](std::uint32_t c) { return chains_[c].top >= top; });
     const auto above = std::size_t(firstBelow - chains.begin());
-    if (begins)
+    if (begins) {
         onLines_ = 0;
-    if (2 * chains.size() > onLines_ && onLines_ > 0)
-        return onLines(chains, top, bottom);
+        stripSteps_ = 0;
+        stripTop_ = top;
+    }
+    if (onLines_ > fewToBegin && 2 * chains.size() > onLines_)
+        return goOnLines(chains, top, bottom);
     if (begins || onLines_ > 0)
         begin(chains.first(above), top);
     onLines_ = 0;
@@ -45,17 +52,10 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     for (float y = top; y < bottom;) {
         limits::check();
         steps_ = 0;
-        if (y == std::floor(y))
-            rowSteps_ = 0;
         thinnest_ = std::max(leastHeight, float(active_.size()) / looksInRow);
-        if (rowSteps_ > mostInRow || !slab({y, y + height_})) {
-            onLines_ = chains.size();
-            for (const Active* a : active_)
-                draw(*a, a->from, y);
-            moveState(0);
-            return onLines(chains, y, bottom);
-        }
-        rowSteps_ += steps_ + active_.size();
+        if (stripSteps_ > mostInStrip + std::size_t(y - stripTop_) * mostInRow || !slab({y, y + height_}))
+            return goOnLines(chains, y, bottom);
+        stripSteps_ += steps_ + active_.size();
         y += height_;
         if (steps_ > 2 * active_.size() && height_ >= 2 * thinnest_)
             height_ *= 0.5f;
@@ -69,8 +69,14 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     moveState(0);
 }
 
-/// The rest of the band.
-void BandSweep::onLines(std::span<const std::uint32_t> chains, float top, float bottom) {
+/// Draws the rest of the band in level steps.
+void BandSweep::goOnLines(std::span<const std::uint32_t> chains, float top, float bottom) {
+    if (onLines_ == 0) {
+        for (const Active* a : active_)
+            draw(*a, a->from, top);
+        moveState(0);
+        onLines_ = chains.size();
+    }
     lines_.run(chains, top, bottom, *chords_);
 }
 
@@ -139,8 +145,7 @@ bool BandSweep::slab(Slab slab) {
     beginning_.assign(toCome_.begin(), toCome_.begin() + std::ptrdiff_t(count));
     look(slab);
     findEvents(slab);
-    gather();
-    if (isTooMuch())
+    if (!gather() || isTooMuch(slab.bottom))
         return false;
     toCome_ = toCome_.subspan(count);
     sweepGroups(slab);
@@ -229,12 +234,12 @@ void BandSweep::findEvents(Slab slab) {
     }
 }
 
-/// The chains near events.
-void BandSweep::gather() {
+/// The chains near events. False if looking for them is too much.
+bool BandSweep::gather() {
     sortStably(events_.begin(), events_.end(),
                [](const Event& a, const Event& b) { return a.left < b.left; });
     groups_.clear();
-    std::size_t from = 0;
+    std::size_t from = 0, looks = 0;
     for (Event event : events_) {
         // The ends of shadows ascend, but for those of chains that cross, which are events themselves.
         while (from < active_.size() && active_[from]->right < event.left)
@@ -243,6 +248,9 @@ void BandSweep::gather() {
         event.end = std::max(event.first, event.end);
         while (event.end < active_.size() && active_[event.end]->left <= event.right)
             ++event.end;
+        looks += event.end - event.first;
+        if (looks > mostInSlab)
+            return false;
         if (groups_.empty() || (event.first >= groups_.back().end && event.left > groups_.back().right)) {
             groups_.push_back(event);
             continue;
@@ -254,18 +262,38 @@ void BandSweep::gather() {
         group.isCrossing = group.isCrossing && event.isCrossing;
         group.bends += event.bends;
     }
+    return true;
 }
 
 /// Whether sweeping the groups from vertex to vertex is.
-bool BandSweep::isTooMuch() const {
+bool BandSweep::isTooMuch(float bottom) {
     std::size_t steps = 0;
     for (const Event& group : groups_) {
+        const std::size_t members = group.end - group.first + group.bends;
         std::size_t bends = group.bends;
         for (std::size_t i = group.first; i < group.end; ++i)
             bends += active_[i]->bends;
-        steps += bends * (group.end - group.first + group.bends);
+        if (bends * members > mostInSlab)
+            bends = heights(group, bottom);
+        steps += bends * members;
     }
     return steps > mostInSlab;
+}
+
+/// At how many heights a group has vertices.
+std::size_t BandSweep::heights(const Event& group, float bottom) {
+    sorted_.clear();
+    const auto add = [&](std::uint32_t at, std::uint32_t end) {
+        for (; at < end && vertices_[at].y <= bottom; ++at)
+            sorted_.push_back(vertices_[at].y);
+    };
+    for (std::size_t i = group.first; i < group.end; ++i)
+        add(active_[i]->at + 1, active_[i]->end);
+    for (const Event& event : events_)
+        if (event.begins != noIndex && event.left >= group.left && event.left <= group.right)
+            add(chains_[event.begins].first, chains_[event.begins].end);
+    std::ranges::sort(sorted_);
+    return std::size_t(std::ranges::unique(sorted_).begin() - sorted_.begin());
 }
 
 /// And lets all others pass.

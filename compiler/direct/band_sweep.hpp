@@ -105,12 +105,13 @@ private:
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
     bool slab(Slab slab);
-    void onLines(std::span<const std::uint32_t> chains, float top, float bottom);
+    void goOnLines(std::span<const std::uint32_t> chains, float top, float bottom);
     void look(Slab slab);
     bool isOrdered(const Active& left, const Active& right, float bottom) const;
     void findEvents(Slab slab);
-    void gather();
-    bool isTooMuch() const;
+    bool gather();
+    bool isTooMuch(float bottom);
+    std::size_t heights(const Event& group, float bottom);
     void sweepGroups(Slab slab);
     void pass(Active& active, float bottom);
 
@@ -161,9 +162,10 @@ private:
     std::vector<std::uint32_t> beginning_;   ///< in the slab
     std::vector<Event> events_, groups_;
     std::size_t steps_ = 0;         ///< of sweeps in the slab
-    std::size_t rowSteps_ = 0;      ///< of looks and sweeps in the row
+    std::size_t stripSteps_ = 0;    ///< of looks and sweeps since it began anew
+    float stripTop_ = 0;
     LineSweep lines_;
-    std::size_t onLines_ = 0;       ///< so many chains were in the band where the strip went on on lines
+    std::size_t onLines_ = 0;       ///< chains of the band that went on in level steps, if the last one did
     float height_ = 1;              ///< of slabs
     float thinnest_ = leastHeight;  ///< of slabs with as many chains as now
 
@@ -183,7 +185,7 @@ private:
     };
     std::vector<Winding> windings_;  ///< by layer
     std::uint64_t sweepNumber_ = 0, windowNumber_ = 0;
-    std::vector<float> sorted_, merging_;  ///< of areManyCrossings()
+    std::vector<float> sorted_, merging_;  ///< of areManyCrossings() and heights()
 
     // While the quiet chains of a window are set aside.
     QuietChains quiet_;

@@ -39,6 +39,12 @@ constexpr std::size_t paintsAtOnce = 1u << 18;
 /// Fewer are kept.
 constexpr std::size_t keptPaints = 1u << 12;
 
+/// A picture of more chords than that is drawn with a coarser tolerance: edges that lie so close hide most of
+/// each other, and what chords miss on both sides of curves cancels.
+constexpr std::size_t manyChords = 1u << 24;
+constexpr double coarserChords = 8;
+constexpr double coarsestTolerance = 0x1p-6;  // of Options::tolerance
+
 /// What one thread uses again.
 struct ThreadState {
     ThreadState(const LoweredScene& picture, const ViewChains& chains, const asset::View& view)
@@ -99,13 +105,28 @@ struct ViewDrawing::Impl {
     const ViewChains chains;
     std::vector<std::string> warnings;
 
+    /// With coarser chords where there are too many.
+    static std::unique_ptr<Impl> lowered(const scene::Scene& scene, const Excerpt& excerpt,
+                                         const asset::View& view, Options options) {
+        if (options.tolerance * coarserChords <= coarsestTolerance) {
+            try {
+                return lowered(scene, excerpt, view, options, manyChords);
+            } catch (const LimitError&) {
+                options.tolerance *= coarserChords;
+            }
+        }
+        return lowered(scene, excerpt, view, options, maxChords);
+    }
+
     /// Null if there are patterns of many tiles, or materials.
     static std::unique_ptr<Impl> lowered(const scene::Scene& scene, const Excerpt& excerpt,
-                                         const asset::View& view, const Options& options) {
+                                         const asset::View& view, const Options& options,
+                                         std::size_t mostChords) {
         const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
         PatternImages images(options, std::max(excerpt.width, excerpt.height), nullptr);
         TilePlan tiles;
-        LoweredScene picture = lower(scene, excerpt, lattice, errorBudget(options), Sharing::OutlinesAndClips,
+        const ErrorBudget budget(options.tolerance, latticeBits(options), mostChords);
+        LoweredScene picture = lower(scene, excerpt, lattice, budget, Sharing::OutlinesAndClips,
                                      nullptr, nullptr, &tiles, &images);
         if (!tiles.patterns.empty() || !picture.materials.empty())
             return nullptr;
@@ -201,9 +222,8 @@ constexpr double finestShown = 1.0 / 64;
 
 Options forPixels(Options options, const Excerpt& excerpt, const asset::View& view) {
     const double pixels = largestStretch(view.toPixels) * std::max(excerpt.width, excerpt.height);
-    constexpr double coarsest = 0x1p-6;  // of Options::tolerance
     if (pixels > 0)
-        options.tolerance = std::max(options.tolerance, std::min(coarsest, finestShown / pixels));
+        options.tolerance = std::max(options.tolerance, std::min(coarsestTolerance, finestShown / pixels));
     return options;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/paint/region_paints.hpp"
@@ -10,7 +11,9 @@ namespace vtm::compiler {
 namespace {
 
 /// Chains in steps, a row in the mean: what a row may cost.
-constexpr double cutsInRow = 250'000;
+constexpr double cutsInRow = 200'000;
+/// And in smaller steps, a band.
+constexpr std::size_t smallCutsInBand = 16 * 100'000;
 constexpr std::size_t mostSteps = 64, leastSteps = 2;
 /// So many times more steps are taken in a row in which all chains begin or end.
 constexpr double moreForEnds = 16;
@@ -19,12 +22,12 @@ constexpr float sameColumn = 1.0f / 1024;
 /// An edge that reaches over more columns in a step is nearly level: what it misplaces is seen.
 constexpr float mostReach = 0.25f;
 /// Chains near those take so many steps instead of one, at most.
-constexpr int mostSmallSteps = 64;
+constexpr int mostSmallSteps = 1024;
 
 }  // namespace
 
 LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
-    : chains_(chains), state_(state), width_(width), sums_(std::size_t(width) + 2) {
+    : chains_(chains), vertices_(chains.vertices()), state_(state), width_(width), sums_(std::size_t(width) + 2) {
     const double rows = double(chains.bands()) * asset::bandRows;
     double cut = 0;
     for (const DownChain& chain : chains.all())
@@ -37,6 +40,7 @@ void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bot
     chords_ = &chords;
     cuts_.clear();
     toCome_ = numbers;
+    smallInBand_ = smallCutsInBand;
     while (top < bottom) {
         const float end = std::min(std::floor(top) + 1, bottom);
         row(top, end);
@@ -45,18 +49,22 @@ void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bot
 }
 
 void LineSweep::row(float top, float bottom) {
-    const auto passed = [&](const Cut& cut) { return cut.last->y <= top; };
-    std::erase_if(cuts_, passed);
-    take(bottom);
-    std::erase_if(cuts_, passed);
+    std::erase_if(cuts_, [&](const Cut& cut) { return cut.bottom <= top; });
+    take(top, bottom);
     findPieces(top, bottom);
     const double ends = double(changes_.size()) / double(cuts_.size() + 1);
     const auto count = std::size_t(cutsInRow / (meanCut_ + 1) * (1 + moreForEnds * ends));
     const bool isByContent = findSteps(top, bottom, std::clamp(count, leastSteps, mostSteps));
-    smallSteps_ = isByContent ? 0 : std::size_t(4 * cutsInRow);
+    // A step may take several times its share of what the band may.
+    const auto stepsLeft = std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
+    const std::size_t share = 8 * smallInBand_ / std::max<std::size_t>(stepsLeft, 1);
     drawn_ = top;
-    for (const Step& step : steps_)
+    for (const Step& step : steps_) {
+        const std::size_t may = isByContent ? 0 : std::min(share, smallInBand_);
+        smallSteps_ = may;
         draw(step);
+        smallInBand_ -= may - smallSteps_;
+    }
     finishRow(top, bottom);
 }
 
@@ -79,17 +87,17 @@ void LineSweep::findPieces(float top, float bottom) {
     pieces_.clear();
     std::uint64_t content = 0;
     for (const Cut& cut : cuts_) {
-        if (cut.top <= top && cut.last->y >= bottom)
+        if (cut.top <= top && cut.bottom >= bottom)
             continue;
-        const auto column = std::int64_t(cut.at->x / sameColumn);
+        const auto column = std::int64_t(vertices_[cut.at].x / sameColumn);
         const std::uint64_t own = hashValue(hashValue(cut.layer) + std::uint64_t(std::int64_t(cut.winding)) +
                                             hashValue(std::uint64_t(column)));
         if (cut.top <= top)
             content += own;
         else
             changes_.push_back({cut.top, own});
-        if (cut.last->y < bottom)
-            changes_.push_back({cut.last->y, 0 - own});
+        if (cut.bottom < bottom)
+            changes_.push_back({cut.bottom, 0 - own});
     }
     std::ranges::sort(changes_, {}, &Change::y);
     for (std::size_t i = 0; i <= changes_.size(); ++i) {
@@ -138,47 +146,63 @@ bool LineSweep::placeByContent(float top, float bottom, std::size_t most) {
 
 // ---- Chains ---------------------------------------------------------------------------------------
 
-/// Those that begin above the bottom.
-void LineSweep::take(float bottom) {
+/// Those that begin above the bottom and do not end above the top.
+void LineSweep::take(float top, float bottom) {
     std::size_t begun = 0;
+    const auto before = std::ptrdiff_t(cuts_.size());
     for (; begun < toCome_.size() && chains_[toCome_[begun]].top < bottom; ++begun) {
         const DownChain& chain = chains_[toCome_[begun]];
-        const glm::vec2* const first = chains_.vertices() + chain.first;
-        cuts_.push_back({first, chains_.vertices() + chain.end - 1, chain.top, first->x, 0, 0, 0, 0,
-                         chain.layer, chain.winding});
+        if (chain.bottom <= top)
+            continue;
+        cuts_.push_back({chain.first, chain.end - 1, chain.top, chain.bottom, vertices_[chain.first].x, 0, 0,
+                         0, 0, chain.layer, chain.winding});
     }
     toCome_ = toCome_.subspan(begun);
+    const auto isLeft = [](const Cut& a, const Cut& b) { return a.x < b.x; };
+    std::stable_sort(cuts_.begin() + before, cuts_.end(), isLeft);
+    std::inplace_merge(cuts_.begin(), cuts_.begin() + before, cuts_.end(), isLeft);
+}
+
+bool LineSweep::Cut::isSpecial(const Step& step) const {
+    return top < step.bottom && bottom > step.top &&
+           (right - left > mostReach || top > step.top || bottom < step.bottom);
 }
 
 /// Where the chain goes in the step.
-void LineSweep::look(Cut& cut, const Step& step) {
+void LineSweep::look(Cut& cut, const Step& step) const {
+    while (vertices_[cut.at + 1].y <= step.top && cut.at + 1 < cut.last)
+        ++cut.at;
+    const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
+    if (a.y > step.top || b.y < step.bottom || a.y == b.y)
+        return lookAround(cut, step);
+    const float slope = (b.x - a.x) / (b.y - a.y);
+    cut.from = a.x + (step.top - a.y) * slope;
+    cut.to = a.x + (step.bottom - a.y) * slope;
+    cut.x = 0.5f * (cut.from + cut.to);
+    cut.left = std::min(cut.from, cut.to);
+    cut.right = std::max(cut.from, cut.to);
+}
+
+/// Where it has a vertex.
+void LineSweep::lookAround(Cut& cut, const Step& step) const {
     const auto xAt = [&](const glm::vec2* edge, float y) {
         return edge[0].x + (y - edge[0].y) * ((edge[1].x - edge[0].x) / (edge[1].y - edge[0].y));
     };
-    while (cut.at + 1 < cut.last && cut.at[1].y <= step.top)
-        ++cut.at;
-    const glm::vec2* edge = cut.at;
-    if (edge->y <= step.top && edge[1].y >= step.bottom && edge[1].y > edge->y) {
-        cut.from = xAt(edge, step.top);
-        cut.to = xAt(edge, step.bottom);
-        cut.x = 0.5f * (cut.from + cut.to);
-        cut.left = std::min(cut.from, cut.to);
-        cut.right = std::max(cut.from, cut.to);
-        return;
-    }
+    const glm::vec2* edge = vertices_ + cut.at;
+    const glm::vec2 *const first = edge, *const last = vertices_ + cut.last;
     // Above its upper end and below its lower one it is taken to be there.
     const float middle = step.middle();
     cut.from = edge->y < step.top && edge[1].y > step.top ? xAt(edge, step.top) : edge->x;
     if (edge[1].y <= step.top)
         cut.from = edge[1].x;
     cut.x = cut.to = cut.left = cut.right = cut.from;
-    for (; edge < cut.last && edge->y < step.bottom; ++edge) {
+    for (; edge < last && edge->y < step.bottom; ++edge) {
         if (edge->y <= middle && edge[1].y > middle)
             cut.x = xAt(edge, middle);
         else if (edge[1].y <= middle)
             cut.x = edge[1].x;
         cut.to = edge[1].y > step.bottom ? xAt(edge, step.bottom) : edge[1].x;
-        if (edge->y >= step.top || edge == cut.at) {
+        if (edge->y >= step.top || edge == first) {
             cut.left = std::min(cut.left, cut.to);
             cut.right = std::max(cut.right, cut.to);
         }
@@ -211,25 +235,31 @@ void LineSweep::sort(std::vector<Cut>& cuts) {
 
 void LineSweep::draw(const Step& step) {
     limits::check();
-    std::erase_if(cuts_, [&](const Cut& cut) { return cut.last->y <= step.top; });
-    for (Cut& cut : cuts_)
+    bool hasSpecial = false;
+    for (Cut& cut : cuts_) {
         look(cut, step);
+        hasSpecial = hasSpecial || cut.isSpecial(step);
+    }
     sort(cuts_);
+    if (hasSpecial && smallSteps_ > 0)
+        drawByParts(step);
+    else
+        cross(cuts_, step, {});
+    drawn_ += step.height;
+}
+
+/// Chains that reach into the same columns, together.
+void LineSweep::drawByParts(const Step& step) {
     leftmost_.resize(cuts_.size());
     float leftmost = INFINITY;
     for (std::size_t i = cuts_.size(); i-- > 0;)
         leftmost_[i] = leftmost = std::min(leftmost, cuts_[i].left);
-    const auto isSpecial = [&](const Cut& cut) {
-        return cut.top < step.bottom &&
-               (cut.right - cut.left > mostReach || cut.top > step.top || cut.last->y < step.bottom);
-    };
-    // Chains that reach into the same columns, together.
     Region left;
     float right = -INFINITY;
     bool hasSpecial = false;
     for (std::size_t first = 0, i = 0; i < cuts_.size(); ++i) {
         right = std::max(right, cuts_[i].right);
-        hasSpecial = hasSpecial || isSpecial(cuts_[i]);
+        hasSpecial = hasSpecial || cuts_[i].isSpecial(step);
         if (i + 1 < cuts_.size() && right >= leftmost_[i + 1])
             continue;
         const std::span part = std::span(cuts_).subspan(first, i + 1 - first);
@@ -241,7 +271,6 @@ void LineSweep::draw(const Step& step) {
         right = -INFINITY;
         hasSpecial = false;
     }
-    drawn_ += step.height;
 }
 
 /// Some of the chains in smaller steps, as many as their reach asks for and the row may take.
@@ -250,7 +279,7 @@ void LineSweep::drawInSteps(std::span<const Cut> cuts, const Step& step, Region&
     bool hasEnds = false;
     for (const Cut& cut : cuts) {
         reach = std::max(reach, cut.right - cut.left);
-        hasEnds = hasEnds || cut.top > step.top || cut.last->y < step.bottom;
+        hasEnds = hasEnds || cut.top > step.top || cut.bottom < step.bottom;
     }
     auto count = std::clamp(int(reach / mostReach) + 1, hasEnds ? 4 : 1, mostSmallSteps);
     count = int(std::min(std::size_t(count), smallSteps_ / cuts.size()));
@@ -280,17 +309,27 @@ void LineSweep::drawInSteps(std::span<const Cut> cuts, const Step& step, Region&
 /// From left to right through the chains at the middle of a step. Returns the region on their right.
 Region LineSweep::cross(std::span<const Cut> cuts, const Step& step, Region left) {
     const float middle = step.middle();
+    // Of two chains next to each other the second often leads back.
+    Region before;
+    std::uint64_t keyBefore = 0, key = state_.key();
+    bool isKnown = false;
     for (const Cut& cut : cuts) {
         if (!cut.isAt(middle))
             continue;
-        const std::uint64_t key = state_.key();
         state_.cross(cut.layer, cut.winding);
-        if (state_.key() == key || state_.isHidden(cut.layer, left))
+        const std::uint64_t keyLeft = std::exchange(key, state_.key());
+        if (key == keyLeft)
             continue;
-        const Region& right = state_.region();
+        if (state_.isHidden(cut.layer, left)) {
+            isKnown = false;
+            continue;
+        }
+        const Region right = isKnown && key == keyBefore ? before : state_.region();
         if (right.paint != left.paint)
             change(cut, step, left.paint, right.paint);
-        left = right;
+        before = std::exchange(left, right);
+        keyBefore = keyLeft;
+        isKnown = true;
     }
     return left;
 }

@@ -32,24 +32,26 @@ public:
              std::vector<asset::Chord>& chords);
 
 private:
+    struct Step {
+        float top, bottom;  ///< where the chains are looked at
+        float height;       ///< what it stands for
+
+        float middle() const { return 0.5f * (top + bottom); }
+    };
     /// A chain in a step.
     struct Cut {
-        const glm::vec2* at;    ///< the upper end of the edge that the step's top cuts, or the chain's
-        const glm::vec2* last;  ///< of the chain
-        float top;              ///< of the chain
+        std::uint32_t at;    ///< the upper end of the edge that the step's top cuts, or the chain's
+        std::uint32_t last;  ///< of the chain
+        float top, bottom;      ///< of the chain
         float x;                ///< in the middle of the step
         float from, to;         ///< where it enters and leaves the step
         float left, right;      ///< between
         std::uint32_t layer;
         std::int32_t winding;
 
-        bool isAt(float y) const { return top <= y && y < last->y; }
-    };
-    struct Step {
-        float top, bottom;  ///< where the chains are looked at
-        float height;       ///< what it stands for
-
-        float middle() const { return 0.5f * (top + bottom); }
+        bool isAt(float y) const { return top <= y && y < bottom; }
+        /// Whether it begins or ends in the step, or is nearly level there.
+        bool isSpecial(const Step& step) const;
     };
     /// A part of a row with the same chains.
     struct Piece {
@@ -66,10 +68,12 @@ private:
     bool findSteps(float top, float bottom, std::size_t count);
     void findPieces(float top, float bottom);
     bool placeByContent(float top, float bottom, std::size_t most);
-    void take(float bottom);
-    static void look(Cut& cut, const Step& step);
+    void take(float top, float bottom);
+    void look(Cut& cut, const Step& step) const;
+    void lookAround(Cut& cut, const Step& step) const;
     static void sort(std::vector<Cut>& cuts);
     void draw(const Step& step);
+    void drawByParts(const Step& step);
     void drawInSteps(std::span<const Cut> cuts, const Step& step, Region& left);
     Region cross(std::span<const Cut> cuts, const Step& step, Region left);
     void change(const Cut& cut, const Step& step, RegionPaint left, RegionPaint right);
@@ -77,6 +81,7 @@ private:
     void finishRow(float top, float bottom);
 
     const ViewChains& chains_;
+    const glm::vec2* const vertices_;
     RegionState& state_;
     const int width_;
     double meanCut_ = 0;  ///< chains that meet a row, in the mean
@@ -90,7 +95,8 @@ private:
     std::vector<float> leftmost_;     ///< of the cuts from i on
     std::vector<glm::vec4> sums_;     ///< by column: what changes there, times height
     float drawn_ = 0;                 ///< of the row
-    std::size_t smallSteps_ = 0;      ///< chains in smaller steps that the row may still take
+    std::size_t smallSteps_ = 0;      ///< chains in smaller steps that may still be taken: by the step
+    std::size_t smallInBand_ = 0;     ///< and by the rest of the band
 };
 
 }  // namespace vtm::compiler

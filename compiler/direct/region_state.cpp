@@ -25,6 +25,7 @@ RegionState::RegionState(const LoweredScene& picture)
       painter_(picture),
       layers_(picture.layers.size()),
       shades_(picture.layers.size()),
+      covers_(layerCovers(picture)),
       translucent_(picture.groups.size(), noIndex),
       inside_(picture.layers.size() / 64 + 1),
       filled_(inside_.size() / 64 + 1),
@@ -84,7 +85,7 @@ void RegionState::forEachFromTop(Visit&& visit) const {
 Region RegionState::compute() {
     Region region;
     glm::vec4 color;
-    region.paint = stackSolids(color, region) ? colorNumber(color) : computeAny();
+    region.paint = stackSolids(color, region) ? colorNumber(color) : computeAny(region);
     return region;
 }
 
@@ -158,11 +159,25 @@ RegionPaint RegionState::colorNumber(const glm::vec4& color) {
     return number;
 }
 
-RegionPaint RegionState::computeAny() {
+/// Of a deep stack, what no light comes through is left out.
+RegionPaint RegionState::computeAny(Region& region) {
+    constexpr std::size_t deep = 16;
     list_.clear();
+    float light = 1;
+    std::uint32_t group = noIndex;
     forEachFromTop([&](std::uint32_t layer) {
+        const bool isUnseen = light <= unseen && list_.size() >= deep;
+        if (isUnseen && !isOfClip(layer))
+            return true;
         list_.push_back(layer);
         flags_[layer] = 1;
+        // Of a group's layers only the topmost counts.
+        const LayerCover& cover = covers_[layer];
+        if (cover.group == noIndex || cover.group != group)
+            light *= 1 - cover.alpha;
+        group = cover.alpha > 0 ? cover.group : group;
+        if (!isUnseen && light <= unseen && list_.size() >= deep)
+            region.hidden = layer;
         return true;
     });
     std::reverse(list_.begin(), list_.end());

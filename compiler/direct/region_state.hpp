@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include "compiler/containers/number_map.hpp"
+#include "compiler/direct/layer_cover.hpp"
 #include "compiler/lower/lowered_scene.hpp"
 #include "compiler/paint/painters.hpp"
 #include "compiler/paint/palette.hpp"
@@ -123,12 +124,13 @@ private:
     void closeDownTo(std::uint32_t group);
     void openUpTo(std::uint32_t group);
     RegionPaint colorNumber(const glm::vec4& color);
-    RegionPaint computeAny();
+    RegionPaint computeAny(Region& region);
 
     const LoweredScene& picture_;
     PicturePainter painter_;
     std::vector<LayerState> layers_;
     std::vector<Shade> shades_;               ///< by layer
+    std::vector<LayerCover> covers_;          ///< by layer
     std::vector<std::uint32_t> translucent_;  ///< by group: the innermost round it and with it
     std::vector<Open> open_;
     std::uint64_t key_ = 0;

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <cstddef>
 #include <numbers>
 
 #include <vtm/asset/asset.hpp>
@@ -18,9 +20,12 @@ namespace vtm::compiler {
 class ErrorBudget {
 public:
     /// `tolerance`: share of the picture's longer side, which spans 2^latticeBits steps. Lengths are in
-    /// steps.
-    ErrorBudget(double tolerance, int latticeBits)
-        : bits_(latticeBits), tolerance_(std::ldexp(tolerance, latticeBits)) {}
+    /// steps. `mostChords`: beyond them lowering gives up, as it does beyond maxChords (lower.hpp).
+    ErrorBudget(double tolerance, int latticeBits,
+                std::size_t mostChords = std::numeric_limits<std::size_t>::max())
+        : bits_(latticeBits), tolerance_(std::ldexp(tolerance, latticeBits)), mostChords_(mostChords) {}
+
+    std::size_t mostChords() const { return mostChords_; }
 
     /// Curves to chords, chords of stroke outlines included.
     double fillChords() const { return outlineShare * tolerance_; }
@@ -85,6 +90,7 @@ private:
 
     const int bits_;
     const double tolerance_;
+    const std::size_t mostChords_;
 
 public:
     /// Elliptical arcs to cubics.

@@ -451,9 +451,9 @@ private:
     }
 
     void checkLimits() const {
-        if (picture_.outlines.points.size() > maxChords)
-            throw LimitError("the picture's outlines have more than " + std::to_string(maxChords) +
-                             " chords");
+        const std::size_t most = std::min(maxChords, budget_.mostChords());
+        if (picture_.outlines.points.size() > most)
+            throw LimitError("the picture's outlines have more than " + std::to_string(most) + " chords");
         if (picture_.layers.size() >= maxLayers)
             throw LimitError("the picture has more than " + std::to_string(maxLayers) + " layers");
     }
