@@ -29,7 +29,11 @@ float xBetween(glm::vec2 a, glm::vec2 b, float y) {
 }  // namespace
 
 BandSweep::BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers, int width)
-    : chains_(chains), vertices_(chains.vertices()), state_(state), lines_(chains, state, width), windings_(layers) {}
+    : chains_(chains),
+      vertices_(chains.vertices()),
+      state_(state),
+      lines_(chains, state, width),
+      windings_(layers) {}
 
 void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     chords_ = &chords;

@@ -56,12 +56,12 @@ private:
         std::int32_t before;  ///< winding number of its layer on its left
         glm::vec2 a, b;       ///< ends of the edge that the line cuts; the lower one is below the line
         float slope;
-        float x;            ///< at the line
-        float next;         ///< where the line goes to
-        float left, right;  ///< between
+        float x;              ///< at the line
+        float next;           ///< where the line goes to
+        float left, right;    ///< between
         std::uint32_t bends;  ///< between: its vertices
         bool isBent, ends;    ///< between: whether it has a vertex, whether it ends
-        float from;         ///< since where its sides have the paints `drawn`
+        float from;           ///< since where its sides have the paints `drawn`
         RegionPaint drawn[2];
         Region region;      ///< on its right
         std::uint64_t key;  ///< of the set there
@@ -88,8 +88,8 @@ private:
     struct Event {
         float left, right;
         std::size_t first, end;
-        std::uint32_t begins;  ///< a chain, or noIndex
-        bool isCrossing;       ///< and nothing else
+        std::uint32_t begins;   ///< a chain, or noIndex
+        bool isCrossing;        ///< and nothing else
         std::size_t bends = 0;  ///< vertices of what begins
     };
     struct Crossed {
@@ -161,8 +161,8 @@ private:
     std::span<const std::uint32_t> toCome_;  ///< chains that begin below the line, from the top
     std::vector<std::uint32_t> beginning_;   ///< in the slab
     std::vector<Event> events_, groups_;
-    std::size_t steps_ = 0;         ///< of sweeps in the slab
-    std::size_t stripSteps_ = 0;    ///< of looks and sweeps since it began anew
+    std::size_t steps_ = 0;       ///< of sweeps in the slab
+    std::size_t stripSteps_ = 0;  ///< of looks and sweeps since it began anew
     float stripTop_ = 0;
     LineSweep lines_;
     std::size_t onLines_ = 0;       ///< chains of the band that went on in level steps, if the last one did

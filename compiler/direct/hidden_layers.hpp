@@ -28,12 +28,14 @@ private:
     /// The squares of a row that a chain touches, [first, last].
     struct Touch {
         std::int32_t row, first, last;
-        std::int32_t winding;  ///< that is added to what lies right of it; 0 for a chain not met in the middle
+        std::int32_t
+            winding;  ///< that is added to what lies right of it; 0 for a chain not met in the middle
     };
 
     void touch(const ViewChains& chains, const DownChain& chain);
     void add(std::uint32_t layer, const LayerCover& cover, bool isEvenOdd);
-    void addRow(std::span<const Touch> touches, const LayerCover& cover, bool isEvenOdd, std::uint8_t& isShown);
+    void addRow(std::span<const Touch> touches, const LayerCover& cover, bool isEvenOdd,
+                std::uint8_t& isShown);
     void coverSquares(std::int32_t row, std::int32_t first, std::int32_t end, const LayerCover& cover);
     /// The first square of a row, from `column` on, that is not hidden.
     std::int32_t nextOpen(std::int32_t row, std::int32_t column);

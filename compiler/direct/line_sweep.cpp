@@ -27,7 +27,11 @@ constexpr int mostSmallSteps = 1024;
 }  // namespace
 
 LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
-    : chains_(chains), vertices_(chains.vertices()), state_(state), width_(width), sums_(std::size_t(width) + 2) {
+    : chains_(chains),
+      vertices_(chains.vertices()),
+      state_(state),
+      width_(width),
+      sums_(std::size_t(width) + 2) {
     const double rows = double(chains.bands()) * asset::bandRows;
     double cut = 0;
     for (const DownChain& chain : chains.all())
@@ -56,7 +60,8 @@ void LineSweep::row(float top, float bottom) {
     const auto count = std::size_t(cutsInRow / (meanCut_ + 1) * (1 + moreForEnds * ends));
     const bool isByContent = findSteps(top, bottom, std::clamp(count, leastSteps, mostSteps));
     // A step may take several times its share of what the band may.
-    const auto stepsLeft = std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
+    const auto stepsLeft =
+        std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
     const std::size_t share = 8 * smallInBand_ / std::max<std::size_t>(stepsLeft, 1);
     drawn_ = top;
     for (const Step& step : steps_) {

@@ -42,10 +42,10 @@ private:
     struct Cut {
         std::uint32_t at;    ///< the upper end of the edge that the step's top cuts, or the chain's
         std::uint32_t last;  ///< of the chain
-        float top, bottom;      ///< of the chain
-        float x;                ///< in the middle of the step
-        float from, to;         ///< where it enters and leaves the step
-        float left, right;      ///< between
+        float top, bottom;   ///< of the chain
+        float x;             ///< in the middle of the step
+        float from, to;      ///< where it enters and leaves the step
+        float left, right;   ///< between
         std::uint32_t layer;
         std::int32_t winding;
 
@@ -91,12 +91,12 @@ private:
     std::vector<Step> steps_;
     std::vector<Change> changes_;
     std::vector<Piece> pieces_;
-    std::vector<Cut> part_;           ///< of cuts_, in smaller steps
-    std::vector<float> leftmost_;     ///< of the cuts from i on
-    std::vector<glm::vec4> sums_;     ///< by column: what changes there, times height
-    float drawn_ = 0;                 ///< of the row
-    std::size_t smallSteps_ = 0;      ///< chains in smaller steps that may still be taken: by the step
-    std::size_t smallInBand_ = 0;     ///< and by the rest of the band
+    std::vector<Cut> part_;        ///< of cuts_, in smaller steps
+    std::vector<float> leftmost_;  ///< of the cuts from i on
+    std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
+    float drawn_ = 0;              ///< of the row
+    std::size_t smallSteps_ = 0;   ///< chains in smaller steps that may still be taken: by the step
+    std::size_t smallInBand_ = 0;  ///< and by the rest of the band
 };
 
 }  // namespace vtm::compiler

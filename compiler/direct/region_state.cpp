@@ -161,7 +161,7 @@ RegionPaint RegionState::colorNumber(const glm::vec4& color) {
 
 /// Of a deep stack, what no light comes through is left out.
 RegionPaint RegionState::computeAny(Region& region) {
-    constexpr std::size_t deep = 16;
+    constexpr std::size_t deep = 8;
     list_.clear();
     float light = 1;
     std::uint32_t group = noIndex;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -15,6 +16,7 @@
 
 #include <vtm/compiler/draw_view.hpp>
 #include <vtm/raster/scan.hpp>
+#include <vtm/svg/load.hpp>
 #include "conformance/cases/support.hpp"
 #include "conformance/compare/compare.hpp"
 #include "conformance/generate/generate.hpp"
@@ -105,6 +107,102 @@ TEST(DrawnOnce, StripsDoNotDependOnEachOther) {
                               for (int c = 0; c < 4; ++c)
                                   ASSERT_EQ(all.pixel(x, y)[c], std::clamp(run.color[c], 0.0f, 1.0f));
                       });
+}
+
+// ---- More than can be followed -----------------------------------------------------------------------
+
+scene::Scene sceneOf(const std::string& content) {
+    const std::string svg =
+        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"64\" height=\"64\">{}</svg>", content);
+    return svg::load({reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()}, {}).scene;
+}
+
+/// `between`: in [0, 64), the same everywhere.
+class Numbers {
+public:
+    double between() { return 64 * std::ldexp(double(random_() >> 11), -53); }
+    unsigned color() { return unsigned(random_() & 0xFFFFFFu); }
+
+private:
+    std::mt19937_64 random_{1};
+};
+
+std::string crossingLines(int count, const char* rule) {
+    Numbers numbers;
+    std::string path = fmt::format("<path fill=\"#728\" fill-rule=\"{}\" d=\"M32,32", rule);
+    for (int i = 0; i < count; ++i) {
+        const double x = numbers.between(), y = numbers.between();
+        path += fmt::format("L{:.3f},{:.3f}", x, y);
+    }
+    return path + "Z\"/>";
+}
+
+std::string stackedCircles(int count) {
+    Numbers numbers;
+    std::string circles;
+    for (int i = 0; i < count; ++i) {
+        const double x = numbers.between(), y = numbers.between();
+        circles +=
+            fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"4\" fill=\"#{:06x}\" fill-opacity=\".5\"/>",
+                        x, y, numbers.color());
+    }
+    return circles;
+}
+
+std::string grid(int lines) {
+    std::string path =
+        fmt::format("<path fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" d=\"", 0.3 * 64 / lines);
+    for (int i = 0; i < lines; ++i)
+        path += fmt::format("M{0:.5f},0V64M0,{0:.5f}H64", 64 * (i + 0.5) / lines);
+    return path + "\"/>";
+}
+
+/// Largest difference of a picture from the means of squares of a larger one.
+double differenceFromLarger(const scene::Scene& scene, int times) {
+    const image::Raster small = compiler::ViewDrawing::make(scene, wholePicture(scene, 64))->draw(),
+                        large = compiler::ViewDrawing::make(scene, wholePicture(scene, 64 * times))->draw();
+    double most = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (int c = 0; c < 4; ++c) {
+                double sum = 0;
+                for (int i = 0; i < times * times; ++i)
+                    sum += large.pixel(x * times + i % times, y * times + i / times)[c];
+                most = std::max(most, std::abs(sum / (times * times) - double(small.pixel(x, y)[c])));
+            }
+    return 255 * most;
+}
+
+TEST(DrawnOnce, DensePicturesAreTheMeansOfLargerOnes) {
+    EXPECT_LE(differenceFromLarger(sceneOf(crossingLines(2000, "evenodd")), 4), 1.0);
+    EXPECT_LE(differenceFromLarger(sceneOf(stackedCircles(10000)), 4), 1.0);
+}
+
+/// A hundred edges and a thousand crossings in a pixel: level steps misplace triangles in both pictures.
+TEST(DrawnOnce, LevelStepsAreNearTheMeansOfLargerPictures) {
+    constexpr double mostMisplaced = 3;
+    EXPECT_LE(differenceFromLarger(sceneOf(crossingLines(16000, "nonzero")), 4), mostMisplaced);
+}
+
+TEST(DrawnOnce, GridsFinerThanPixelsAreGrey) {
+    const scene::Scene scene = sceneOf(grid(6400));
+    const image::Raster drawn = compiler::ViewDrawing::make(scene, wholePicture(scene, 64))->draw();
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            ASSERT_NEAR(drawn.pixel(x, y)[3], 1 - 0.7 * 0.7, 1.0 / 255) << x << ", " << y;
+}
+
+TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
+    const scene::Scene scene = sceneOf(crossingLines(16000, "nonzero") + stackedCircles(500));
+    const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 100));
+    ASSERT_TRUE(drawing);
+    const image::Raster all = drawing->draw();
+    for (int first = 0; first < drawing->height(); first += 70)
+        drawing->scan(first, std::min(first + 70, drawing->height()), [&](int y, const asset::ColorRun& run) {
+            for (int x = run.first; x < run.end; ++x)
+                for (int c = 0; c < 4; ++c)
+                    ASSERT_EQ(all.pixel(x, y)[c], std::clamp(run.color[c], 0.0f, 1.0f));
+        });
 }
 
 TEST(DrawnOnce, ViewsThatShowNothingAreTransparent) {
