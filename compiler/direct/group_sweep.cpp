@@ -174,7 +174,7 @@ std::int32_t BandSweep::windingLeftOf(std::uint32_t layer) const {
 
 /// All sets and paints anew, from the left.
 void BandSweep::label(float y) {
-    stripSteps_ += 3 * members_.size();
+    stripSteps_ += 4 * members_.size();
     ++windowNumber_;
     for (const Active* a : members_) {
         Winding& w = windings_[a->layer];

@@ -124,7 +124,7 @@ bool LineSweep::placeByContent(float top, float bottom, std::size_t most) {
     std::size_t contents = 1;
     for (std::size_t i = 1; i < pieces_.size(); ++i)
         contents += pieces_[i].content != pieces_[i - 1].content;
-    if (contents > most || 4 * contents > pieces_.size())
+    if (contents > most || 2 * contents > pieces_.size())
         return false;
     const float part = (bottom - top) / float(most / contents);
     for (std::size_t i = 0, end = 0; i < pieces_.size(); i = end) {
