@@ -16,7 +16,7 @@ constexpr float mostHeight = 4;
 
 /// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
 /// would take more.
-constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 22;
+constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 23;
 /// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
 /// next strip.
 constexpr std::size_t fewToBegin = 1u << 15;
