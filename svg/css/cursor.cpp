@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 
 namespace vtm::svg {
 namespace {
@@ -13,6 +14,35 @@ bool startsNumber(std::string_view text) {
     if (text.starts_with('.'))
         text.remove_prefix(1);
     return !text.empty() && isDigit(text.front());
+}
+
+/// A number without an exponent, and its length.
+struct Decimal {
+    double value;
+    std::size_t size;
+};
+
+/// Most numbers of files: of few enough digits that all of them and the power of ten are doubles, so that
+/// dividing rounds once and to nearest, as std::from_chars does. Nothing for others.
+std::optional<Decimal> shortDecimal(std::string_view text) {
+    constexpr std::size_t mostDigits = 15;  // 10^15 < 2^53
+    static constexpr double powers[mostDigits + 1]{1,   1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                   1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+    std::uint64_t digits = 0;
+    std::size_t i = 0, count = 0, fraction = 0;
+    for (; i < text.size() && isDigit(text[i]) && count <= mostDigits; ++i, ++count)
+        digits = 10 * digits + std::uint64_t(text[i] - '0');
+    if (i + 1 < text.size() && text[i] == '.' && isDigit(text[i + 1])) {
+        const std::size_t first = ++i;
+        for (; i < text.size() && isDigit(text[i]) && count <= mostDigits; ++i, ++count)
+            digits = 10 * digits + std::uint64_t(text[i] - '0');
+        fraction = i - first;
+    }
+    const bool goesOn = i < text.size() && (isDigit(text[i]) || lower(text[i]) == 'e' ||
+                                            (text[i] == '.' && fraction == 0));
+    if (count > mostDigits || goesOn)
+        return std::nullopt;
+    return Decimal{double(digits) / powers[fraction], i};
 }
 
 }  // namespace
@@ -73,6 +103,10 @@ std::optional<double> Cursor::number() {
         text.remove_prefix(1);
     if (!startsNumber(text))
         return std::nullopt;
+    if (const std::optional<Decimal> decimal = shortDecimal(text)) {
+        rest_ = text.substr(decimal->size);
+        return negative ? -decimal->value : decimal->value;
+    }
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     // Out of range leaves the value alone: a huge exponent is huge, a tiny one nothing.

@@ -1,4 +1,8 @@
+#include <charconv>
 #include <numbers>
+#include <random>
+#include <string>
+#include <string_view>
 
 #include "svg/css/color.hpp"
 #include "svg/css/length.hpp"
@@ -32,6 +36,25 @@ TEST(Number, ClampsGiants) {
     EXPECT_EQ(Cursor("1e999").number(), maxNumber);
     EXPECT_EQ(Cursor("-1e99").number(), -maxNumber);
     EXPECT_EQ(Cursor("1e-999").number(), 0);
+}
+
+/// Short ones are read without std::from_chars, to the same bits and the same place.
+TEST(Number, IsRoundedToNearest) {
+    std::mt19937 random(5);
+    constexpr std::string_view parts = "0123456789012345678901234567890123456789...eE+-";
+    for (int i = 0; i < 200000; ++i) {
+        std::string text(1, char('0' + random() % 10));
+        for (std::size_t length = random() % 24; length > 0; --length)
+            text += parts[random() % parts.size()];
+        text += i % 2 ? " " : "";
+        double value = 0;
+        const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || value > maxNumber)
+            continue;
+        Cursor cursor(text);
+        ASSERT_EQ(cursor.number(), value) << text;
+        ASSERT_EQ(cursor.rest(), std::string_view(last, text.data() + text.size())) << text;
+    }
 }
 
 TEST(Color, Names) {
