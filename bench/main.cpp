@@ -38,6 +38,7 @@ constexpr const char* usage =
     "  --quick           fewer files and rounds: all in ten minutes on two cores; without `sweep`\n"
     "  --examples        our own drawings only, not the corpus\n"
     "  --only NAME       this file only\n"
+    "  --file FILE       this SVG file instead; may be repeated\n"
     "  --filter REGEX    cases of Google Benchmark in `micro` and `pipeline`\n"
     "  --font FILE       the font whose glyphs are compressed (a DejaVu Sans, if there is one)\n"
     "  --largest N       curves of the largest scene of `scaling` (1000000)\n"
@@ -82,6 +83,8 @@ Arguments parse(int argc, char** argv) {
         const std::string value = a.rest.emplace_back(argv[i]);
         if (option == "--only")
             o.only = value;
+        else if (option == "--file")
+            o.files.push_back(std::filesystem::absolute(value).string());
         else if (option == "--filter")
             o.filter = value;
         else if (option == "--font")

@@ -42,7 +42,12 @@ bool isQuick(const File& file) {
 }
 
 std::vector<File> allFiles(const Options& options) {
-    std::vector<File> files = exampleFiles();
+    std::vector<File> files;
+    for (const fs::path path : options.files)
+        files.push_back({path.stem().string(), path});
+    if (!files.empty())
+        return files;
+    files = exampleFiles();
     if (!options.examples)
         std::ranges::copy(corpusFiles(), std::back_inserter(files));
     return files;
@@ -59,7 +64,7 @@ std::vector<File> filesOf(const Options& options) {
     std::vector<File> files = allFiles(options);
     if (!options.only.empty())
         std::erase_if(files, [&](const File& file) { return file.name != options.only; });
-    else if (options.quick)
+    else if (options.quick && options.files.empty())
         std::erase_if(files, [](const File& file) { return !isQuick(file); });
     return files;
 }

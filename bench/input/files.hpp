@@ -16,7 +16,7 @@ struct File {
     std::filesystem::path path;
 };
 
-/// Our own drawings, and the real pictures in $VTM_SHARED/corpus, or shared/corpus beside the checkout; where
+/// Those that are named; else our own drawings, and the real pictures in $VTM_SHARED/corpus, or shared/corpus beside the checkout; where
 /// that is absent is said on stderr. A few of both in a quick run.
 std::vector<File> filesOf(const Options& options);
 

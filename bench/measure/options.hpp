@@ -9,9 +9,10 @@
 namespace vtm::bench {
 
 struct Options {
-    bool quick = false;        ///< fewer files and rounds: all reports together in ten minutes on two cores
-    bool examples = false;     ///< our own drawings only, not the corpus
-    std::string only;          ///< this file only; empty: all
+    bool quick = false;     ///< fewer files and rounds: all reports together in ten minutes on two cores
+    bool examples = false;  ///< our own drawings only, not the corpus
+    std::string only;       ///< this file only; empty: all
+    std::vector<std::string> files;  ///< SVG files that are measured instead; empty: ours and the corpus
     std::string filter = ".";  ///< regular expression: Google Benchmark's cases in `micro` and `pipeline`
     std::string font;          ///< whose glyphs are compressed; empty: a DejaVu Sans, if there is one
     std::size_t largest = 1'000'000;  ///< curves of the largest scene of `scaling`

@@ -13,7 +13,8 @@
 
 namespace vtm::compiler {
 
-/// The work that an update did.
+/// The work that an update did. Where most of a scene was new, it was compiled as compile() does; then
+/// nothing is counted.
 struct Update {
     bool anew = false;            ///< everything was compiled from scratch
     std::size_t outlines = 0;     ///< outlines flattened or stroked
