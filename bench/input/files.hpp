@@ -16,8 +16,8 @@ struct File {
     std::filesystem::path path;
 };
 
-/// Those that are named; else our own drawings, and the real pictures in $VTM_SHARED/corpus, or shared/corpus beside the checkout; where
-/// that is absent is said on stderr. A few of both in a quick run.
+/// Those that are named; else our own drawings, and the real pictures in $VTM_SHARED/corpus, or shared/corpus
+/// beside the checkout; where that is absent is said on stderr. A few of both in a quick run.
 std::vector<File> filesOf(const Options& options);
 
 /// The one of these that is asked for; else the Tiger, or the lighthouse where the corpus is absent. Nothing

@@ -71,7 +71,7 @@ Spot conePixel(const Root& root, vec2 d, const glm::mat2& sides) {
 /// focus itself there is no slope.
 constexpr float besideFocus = 1e-3f;
 
-struct Range {
+struct PixelRange {
     std::size_t first, end;
 };
 
@@ -121,7 +121,7 @@ struct RadialRow : RadialPixels {
     vec2 fromFocus(std::size_t i) const { return first + float(i) * change; }
 
     /// Which of `count` pixels are not far from the tip.
-    Range nearTip(std::size_t count) const {
+    PixelRange nearTip(std::size_t count) const {
         const float steps = glm::dot(change, change),
                     middle = steps > 0 ? -glm::dot(first, change) / steps : 0;
         const vec2 d = first + middle * change;
@@ -216,7 +216,7 @@ void radialColors(const GradientView& view, vec2 point, vec2 step, const glm::ma
     Ramp ramp(view);
     const std::size_t count = colors.size();
     const float gap = 1 - gradient.fr - glm::length(row.focus);
-    const Range near = gap < minGap ? Range{0, count} : row.nearTip(count);
+    const PixelRange near = gap < minGap ? PixelRange{0, count} : row.nearTip(count);
     for (std::size_t i = near.first; i < near.end; ++i)
         colors[i] = row.color(row.fromFocus(i), gradient.spread, ramp);
     if (near.first == 0 && near.end == count)

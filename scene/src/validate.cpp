@@ -30,7 +30,16 @@ private:
     /// Levels of groups and clips below a part, itself included.
     using Height = int;
 
-    void enter(std::string name) { position_.push_back(std::move(name)); }
+    /// A part by its name, or by its number among others.
+    struct Step {
+        const char* name;
+        std::size_t number = 0;
+
+        std::string text() const { return name ? name : std::to_string(number); }
+    };
+
+    void enter(const char* name) { position_.push_back({name}); }
+    void enter(std::size_t number) { position_.push_back({nullptr, number}); }
     void leave() { position_.pop_back(); }
 
     void report(const std::string& what) const {
@@ -42,11 +51,11 @@ private:
     std::string where() const {
         constexpr std::size_t shown = 12;
         const std::size_t n = position_.size();
-        std::string text = n == 0 ? "scene" : position_.front();
+        std::string text = n == 0 ? "scene" : position_.front().text();
         if (n > 2 * shown)
             text += "/...";
         for (std::size_t i = n > 2 * shown ? n - shown : 1; i < n; ++i)
-            text += "/" + position_[i];
+            text += "/" + position_[i].text();
         return text;
     }
 
@@ -80,7 +89,7 @@ private:
         if (g.filter)
             height = std::max(height, filter(*g.filter));
         for (std::size_t i = 0; i < g.children.size(); ++i) {
-            enter(std::to_string(i));
+            enter(i);
             height = std::max(height, node(g.children[i]));
             leave();
         }
@@ -154,7 +163,7 @@ private:
         Height height = c.clip ? clip(c.clip) : 0;
         for (std::size_t i = 0; i < c.shapes.size(); ++i) {
             limits::check();
-            enter(std::to_string(i));
+            enter(i);
             path(c.shapes[i].path);
             report(fault(c.shapes[i]));
             if (c.shapes[i].clip)
@@ -184,7 +193,7 @@ private:
     }
 
     const std::function<bool(const Path&)>& isKnown_;
-    std::vector<std::string> position_;
+    std::vector<Step> position_;
     int level_ = 0;
     std::unordered_map<const void*, Height> heights_;
     std::unordered_map<std::string, const std::string*> texts_;  ///< of materials, by name

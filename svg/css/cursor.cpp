@@ -38,8 +38,8 @@ std::optional<Decimal> shortDecimal(std::string_view text) {
             digits = 10 * digits + std::uint64_t(text[i] - '0');
         fraction = i - first;
     }
-    const bool goesOn = i < text.size() && (isDigit(text[i]) || lower(text[i]) == 'e' ||
-                                            (text[i] == '.' && fraction == 0));
+    const bool goesOn =
+        i < text.size() && (isDigit(text[i]) || lower(text[i]) == 'e' || (text[i] == '.' && fraction == 0));
     if (count > mostDigits || goesOn)
         return std::nullopt;
     return Decimal{double(digits) / powers[fraction], i};
