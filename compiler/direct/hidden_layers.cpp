@@ -11,13 +11,13 @@ namespace {
 constexpr std::int32_t leastSide = 2;
 constexpr std::size_t mostSquares = 1u << 18;
 /// Then layers cover no more, and only ask whether they are hidden.
-constexpr std::size_t mostSteps = 1u << 26;
+constexpr std::size_t mostSquareVisits = 1u << 26;
 
 }  // namespace
 
 HiddenLayers::HiddenLayers(const LoweredScene& picture, const ViewChains& chains, int width, int height,
                            int rowsOfStrip)
-    : strips_((height + rowsOfStrip - 1) / rowsOfStrip), stepsLeft_(mostSteps) {
+    : strips_((height + rowsOfStrip - 1) / rowsOfStrip), stepsLeft_(mostSquareVisits) {
     // Strips consist of whole rows of squares.
     for (side_ = leastSide; std::size_t(width / side_ + 2) * std::size_t(height / side_ + 1) > mostSquares &&
                             side_ < rowsOfStrip;)
