@@ -47,10 +47,11 @@ public:
 
     /// Whether it is worth it.
     static bool pays(const Scanned& of, const View& view) {
-        constexpr std::size_t manyBoundaries = 1u << 12, manyPixels = 1u << 17;
+        // In a small picture levels of detail leave little of many boundaries.
+        constexpr std::size_t manyBoundaries = 1u << 12, somePixels = 1u << 14, manyPixels = 1u << 17;
+        const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
         return tbb::this_task_arena::max_concurrency() > 1 &&
-               (of.boundaryCount() >= manyBoundaries ||
-                std::size_t(view.width) * std::size_t(view.height) >= manyPixels);
+               (pixels >= manyPixels || (pixels >= somePixels && of.boundaryCount() >= manyBoundaries));
     }
 
     /// `store`: called by several threads at once.
