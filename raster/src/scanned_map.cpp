@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t piecesPerSquare = 512;
 
 /// Pixels: where pieces are longer in the mean, merging them gains less than making the level costs.
-constexpr double longPiece = 0.5;
+constexpr double longPiece = 0.25;
 
 bool contains(Cell outer, Cell inner) {
     if (inner.level < outer.level)
