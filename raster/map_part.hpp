@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
@@ -36,8 +35,7 @@ struct Borders {
 struct MapPart {
     Cell cell;
     std::vector<PlanarPiece> pieces;  ///< the boundaries in it
-    std::array<Borders, 2>
-        borders;  ///< what it shows along its sides: the horizontal ones, the vertical ones
+    std::array<Borders, 2> borders;   ///< what its sides show: the horizontal ones, the vertical ones
 };
 
 /// `entry`: of the square.
@@ -46,10 +44,9 @@ MapPart mapPart(const AssetView& asset, Cell cell, Entry entry);
 /// leaf.
 std::vector<MapPart> mapParts(const AssetView& asset, Cell cell, Entry entry, std::size_t pieces);
 
-/// A piece wherever the two sides of a border show different paints. Beside a part without a neighbour lies
-/// paint 0. With their pieces these are all boundaries of the picture that has nothing but these parts.
-std::vector<PlanarPiece> seams(std::span<const MapPart> parts);
-/// The same of parts' borders alone.
+/// A piece wherever the two sides of some parts' borders show different paints. Beside a part without a
+/// neighbour lies paint 0. With the parts' pieces these are all boundaries of the picture that has nothing
+/// but these parts.
 std::vector<PlanarPiece> seams(std::array<Borders, 2> borders);
 
 }  // namespace vtm::asset

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "asset/instances.hpp"
+#include "asset/walk.hpp"
 
 namespace vtm::asset {
 
@@ -172,8 +173,7 @@ private:
         require(!nodeSeen_[index], "nodes", index, "is shared by trees of instances");
         nodeSeen_[index] = true;
         for (std::uint32_t i = 0; i < 16; ++i)
-            addEntry(tree, asset_.nodes[index].children[i],
-                     {cell.x * 4 + i % 4, cell.y * 4 + i / 4, cell.level + 1}, map, extent);
+            addEntry(tree, asset_.nodes[index].children[i], childOf(cell, i), map, extent);
     }
 
     void addInstances(const InstanceTree& tree, InstanceRange range, Cell cell, std::uint32_t map,

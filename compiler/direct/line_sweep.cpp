@@ -24,6 +24,15 @@ constexpr float mostReach = 0.25f;
 /// Chains near those take so many steps instead of one, at most.
 constexpr int mostSmallSteps = 1024;
 
+/// Chains that meet a row, in the mean.
+double meanCutOf(const ViewChains& chains) {
+    const double rows = double(chains.bands()) * asset::bandRows;
+    double cut = 0;
+    for (const DownChain& chain : chains.all())
+        cut += std::min(double(chain.bottom), rows) - std::max(double(chain.top), 0.0) + 1;
+    return cut / rows;
+}
+
 }  // namespace
 
 LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
@@ -31,16 +40,12 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
       vertices_(chains.vertices()),
       state_(state),
       width_(width),
-      sums_(std::size_t(width) + 2) {
-    const double rows = double(chains.bands()) * asset::bandRows;
-    double cut = 0;
-    for (const DownChain& chain : chains.all())
-        cut += std::min(double(chain.bottom), rows) - std::max(double(chain.top), 0.0) + 1;
-    meanCut_ = cut / rows;
-}
+      sums_(std::size_t(width) + 2) {}
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
                     std::vector<asset::Chord>& chords) {
+    if (meanCut_ == 0)
+        meanCut_ = meanCutOf(chains_);
     chords_ = &chords;
     cuts_.clear();
     toCome_ = numbers;

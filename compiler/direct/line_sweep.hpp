@@ -84,7 +84,7 @@ private:
     const glm::vec2* const vertices_;
     RegionState& state_;
     const int width_;
-    double meanCut_ = 0;  ///< chains that meet a row, in the mean
+    double meanCut_ = 0;  ///< chains that meet a row, in the mean; 0 until it is asked for
     std::vector<asset::Chord>* chords_ = nullptr;
     std::vector<Cut> cuts_;                  ///< from left to right
     std::span<const std::uint32_t> toCome_;  ///< from the top

@@ -40,6 +40,9 @@ public:
     /// `points`: how many of the store's the outline takes.
     void add(const OutlineOrigin& origin, RunRange runs, std::uint32_t points);
 
+    /// Equal for equal origins; strokes are told from fills, not from each other.
+    static std::size_t hash(const OutlineOrigin& origin);
+
     /// One path for each rectangle.
     std::shared_ptr<const scene::Path> rectangle(scene::Point min, scene::Point max);
     /// How many were added in this lowering.
@@ -63,7 +66,6 @@ private:
         std::uint32_t place;  ///< in the order of the last lowering that used it
     };
     static bool matches(const Entry& entry, const OutlineOrigin& origin);
-    static std::size_t hash(const OutlineOrigin& origin);
     RunRange use(std::uint32_t entry);
 
     Outlines outlines_;

@@ -45,8 +45,7 @@ class BlockArea {
 public:
     void add(asset::Cell square) {
         const unsigned shift = 2 * (maxBlockLevel - square.level), side = 1u << shift;
-        const std::uint64_t columns =
-            side == perSide ? ~std::uint64_t{0} : ((std::uint64_t{1} << side) - 1) << (square.x << shift);
+        const std::uint64_t columns = columnsOf(square.x << shift, side);
         for (unsigned y = square.y << shift; y < (square.y << shift) + side; ++y)
             rows_[y] |= columns;
     }
@@ -59,8 +58,7 @@ public:
             while (rows_[y] != 0) {
                 const auto first = unsigned(std::countr_zero(rows_[y])),
                            count = unsigned(std::countr_one(rows_[y] >> first));
-                const std::uint64_t columns =
-                    (count == perSide ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1) << first;
+                const std::uint64_t columns = columnsOf(first, count);
                 unsigned end = y;
                 for (; end < perSide && (rows_[end] & columns) == columns; ++end)
                     rows_[end] &= ~columns;
@@ -72,6 +70,10 @@ public:
 private:
     static constexpr unsigned perSide = 1u << (2 * maxBlockLevel);
     static_assert(perSide == 64);
+
+    static std::uint64_t columnsOf(unsigned first, unsigned count) {
+        return (count == perSide ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1) << first;
+    }
 
     std::array<std::uint64_t, perSide> rows_{};  ///< a bit for each square of the last level
 };

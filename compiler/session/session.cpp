@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "compiler/compile/settings.hpp"
-#include "compiler/containers/hash.hpp"
 #include "compiler/filters/compile_filtered.hpp"
 #include "compiler/session/editor.hpp"
 
@@ -20,15 +19,9 @@ void addOutlineKeys(const scene::Group& group, std::vector<std::uint64_t>& keys)
     for (const scene::Node& node : group.children) {
         if (const auto* inner = std::get_if<scene::Group>(&node.value))
             addOutlineKeys(*inner, keys);
-        const auto* item = std::get_if<scene::Item>(&node.value);
-        if (!item)
-            continue;
-        std::uint64_t key = hashCombine(std::uint64_t(item->geometry.index()),
-                                        reinterpret_cast<std::uintptr_t>(item->path.get()));
-        for (int column = 0; column < 3; ++column)
-            for (int row = 0; row < 2; ++row)
-                key = hashCombine(key, bits(item->transform[column][row]));
-        keys.push_back(key);
+        else if (const auto* item = std::get_if<scene::Item>(&node.value))
+            keys.push_back(OutlineCache::hash(
+                {item->path, item->transform, std::get_if<scene::StrokeStyle>(&item->geometry)}));
     }
 }
 

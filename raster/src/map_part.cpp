@@ -217,14 +217,4 @@ std::vector<PlanarPiece> seams(std::array<Borders, 2> borders) {
     return pieces;
 }
 
-std::vector<PlanarPiece> seams(std::span<const MapPart> parts) {
-    std::array<Borders, 2> borders;
-    for (const MapPart& part : parts)
-        for (std::size_t i = 0; i < 2; ++i) {
-            std::ranges::copy(part.borders[i].below, std::back_inserter(borders[i].below));
-            std::ranges::copy(part.borders[i].above, std::back_inserter(borders[i].above));
-        }
-    return seams(std::move(borders));
-}
-
 }  // namespace vtm::asset

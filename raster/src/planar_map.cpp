@@ -69,7 +69,7 @@ double PlanarPiece::bulge() const {
 PlanarMap planarMap(const AssetView& asset, const Map& map) {
     MapPart whole = mapPart(asset, {}, map.root);
     PlanarMap result{{{map.x, map.y}, map.side}, std::move(whole.pieces)};
-    std::ranges::copy(seams({&whole, 1}), std::back_inserter(result.pieces));
+    std::ranges::copy(seams(std::move(whole.borders)), std::back_inserter(result.pieces));
     return result;
 }
 
