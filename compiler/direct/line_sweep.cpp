@@ -33,6 +33,9 @@ double meanCutOf(const ViewChains& chains) {
     return cut / rows;
 }
 
+/// Edges that are misplaced in a step may cover more than there is of a pixel: then their shares of it.
+glm::vec4 withinAPixel(const glm::vec4& color) { return color.a > 1 ? color / color.a : color; }
+
 }  // namespace
 
 LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
@@ -386,7 +389,7 @@ void LineSweep::finishRow(float top, float bottom) {
         sum += sums_[std::size_t(x)];
         if (sums_[std::size_t(x)] == glm::vec4(0))
             continue;
-        const RegionPaint right = state_.paintOf(perHeight * sum);
+        const RegionPaint right = state_.paintOf(withinAPixel(perHeight * sum));
         chords_->push_back({{float(x), top}, {float(x), bottom}, left, right});
         left = right;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <random>
 #include <string>
 #include <system_error>
@@ -182,6 +183,27 @@ TEST(DrawnOnce, DensePicturesAreTheMeansOfLargerOnes) {
 TEST(DrawnOnce, LevelStepsAreNearTheMeansOfLargerPictures) {
     constexpr double mostMisplaced = 3;
     EXPECT_LE(differenceFromLarger(sceneOf(crossingLines(16000, "nonzero")), 4), mostMisplaced);
+}
+
+std::string starOf(int points) {
+    std::string path = "<path fill=\"#408020\" d=\"M32,1";
+    for (int i = 1; i < points; ++i) {
+        const double angle = std::numbers::pi * (i + double(i) / points);
+        path += fmt::format("L{:.5f},{:.5f}", 32 + 31 * std::sin(angle), 32 - 31 * std::cos(angle));
+    }
+    return path + "Z\"/>";
+}
+
+/// Nearly level edges by the thousand, which must not cover more than there is of a pixel.
+TEST(DrawnOnce, DensePicturesOfOneColourHaveNoOther) {
+    const scene::Scene scene = sceneOf(starOf(100000));
+    const image::Raster drawn = compiler::ViewDrawing::make(scene, wholePicture(scene, 500))->draw();
+    constexpr float color[4]{0x40 / 255.0f, 0x80 / 255.0f, 0x20 / 255.0f, 1};
+    for (int y = 0; y < drawn.height; ++y)
+        for (int x = 0; x < drawn.width; ++x)
+            for (int c = 0; c < 4; ++c)
+                ASSERT_NEAR(drawn.pixel(x, y)[c], drawn.pixel(x, y)[3] * color[c], 1.0 / 255)
+                    << x << ", " << y;
 }
 
 TEST(DrawnOnce, GridsFinerThanPixelsAreGrey) {
