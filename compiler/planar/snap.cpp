@@ -29,22 +29,22 @@ LatticePoint crossing(LatticePoint a, LatticePoint b, std::int64_t atA, std::int
 
 const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const ClippedRun> clippedRuns,
                             double maxBend) {
-    set_.vertices.clear();
-    set_.edges.clear();
-    set_.changes.clear();
-    set_.bend = 0;
     clip(square, points, clippedRuns);
-    merger_.sortAndMerge(set_);
+    bool byPixels = false;
     for (int round = 0; round < maxSnapRounds; ++round) {
         if (set_.edges.size() > maxLeafEdges || !meetAll())
             return nullptr;
         if (cuts_.empty())
             return &set_;
+        const bool beginsAgain = round > 0 && bentSquare_ > 0 && !byPixels;
+        byPixels = byPixels || beginsAgain;
+        if (beginsAgain && !beginAgainByPixels(square, points, clippedRuns))
+            return nullptr;
         set_.bend += std::sqrt(bentSquare_);
         if (set_.bend > maxBend)
             return nullptr;
         cutter_.run(set_, cuts_);
-        if (!cutter_.partsMeet(set_, close_, isRechecked_)) {
+        if (!beginsAgain && !cutter_.partsMeet(set_, close_, isRechecked_)) {
             merger_.merge(set_);
             return &set_;
         }
@@ -56,6 +56,10 @@ const EdgeSet* Snapper::run(const Square& square, Points points, std::span<const
 // ---- clip -------------------------------------------------------------------------------------
 
 void Snapper::clip(const Square& square, Points points, std::span<const ClippedRun> clippedRuns) {
+    set_.vertices.clear();
+    set_.edges.clear();
+    set_.changes.clear();
+    set_.bend = 0;
     std::size_t maximum = 0;
     for (const ClippedRun& s : clippedRuns)
         maximum += s.last + 1 - s.first;
@@ -86,6 +90,7 @@ void Snapper::clip(const Square& square, Points points, std::span<const ClippedR
         first = last + 1;
     }
     set_.vertices.resize(first);
+    merger_.sortAndMerge(set_);
 }
 
 // ---- meet -------------------------------------------------------------------------------------
@@ -204,6 +209,49 @@ bool Snapper::meetAll() {
             return false;
     }
     return true;
+}
+
+/// Rounded crossings have made new ones. So all begins again, and chords are cut not only where they cross
+/// but at the middle of each hot pixel that they pass through: the pixels, two steps wide, of crossings and
+/// of vertices inside chains. Then chords that are bent meet nowhere else (Hobby, Practical segment
+/// intersection with finite precision output, 1999). Points on the leaf's border are not hot: there all
+/// chords end. False if the cuts are too many.
+bool Snapper::beginAgainByPixels(const Square& square, Points points,
+                                 std::span<const ClippedRun> clippedRuns) {
+    clip(square, points, clippedRuns);
+    if (!meetAll())
+        return false;
+    hot_.clear();
+    for (const Cut& cut : cuts_)
+        hot_.push_back(cut.at);
+    for (const Edge& e : set_.edges)
+        for (const LatticePoint v : set_.chain(e).subspan(1, e.chordCount() - 1))
+            hot_.push_back(v);
+    std::ranges::sort(hot_);
+    hot_.erase(std::ranges::unique(hot_).begin(), hot_.end());
+    for (std::uint32_t edge = 0; edge < set_.edges.size(); ++edge) {
+        limits::check();
+        for (std::uint32_t chord = 0; chord < set_.edges[edge].chordCount(); ++chord)
+            meetPixels(edge, chord);
+        if (cuts_.size() > 4 * maxLeafEdges)
+            return false;
+    }
+    return true;
+}
+
+/// Cuts the chord in hot pixels.
+void Snapper::meetPixels(std::uint32_t edge, std::uint32_t chord) {
+    const LatticePoint a = set_.vertex(set_.edges[edge], chord), b = set_.vertex(set_.edges[edge], chord + 1);
+    const auto [low, high] = std::minmax(a.y, b.y);
+    // A line passes through a square of side 2 about p if |orient(a, b, p)| is no more.
+    const std::int64_t reach = std::int64_t{b.x} - a.x + high - low;
+    for (auto p = std::ranges::lower_bound(hot_, a.x - 1, {}, &LatticePoint::x);
+         p != hot_.end() && p->x <= b.x + 1; ++p) {
+        if (p->y < low - 1 || p->y > high + 1 || *p == a || *p == b || std::abs(orient(a, b, *p)) > reach)
+            continue;
+        bend(a, b, *p);
+        cut(edge, chord, *p, {*p, *p}, edge);
+    }
 }
 
 /// How the chords a→b and c→d lie to each other: on which side of one the ends of the other are.

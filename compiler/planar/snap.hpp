@@ -31,6 +31,8 @@ private:
     };
 
     void clip(const Square& square, Points points, std::span<const ClippedRun> clippedRuns);
+    bool beginAgainByPixels(const Square& square, Points points, std::span<const ClippedRun> clippedRuns);
+    void meetPixels(std::uint32_t edge, std::uint32_t chord);
     void findBoxes();
     Band bandOf(const Edge& e) const;
     bool areApart(std::uint32_t e, std::uint32_t f) const;
@@ -56,6 +58,7 @@ private:
     /// By edge: its parts may meet others though its chords were not near theirs.
     std::vector<std::uint8_t> isRechecked_;
     std::vector<Cut> cuts_;
+    std::vector<LatticePoint> hot_;  ///< the middles of hot pixels
     EdgeCutter cutter_;
     EdgeMerger merger_;
 };

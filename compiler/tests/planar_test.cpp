@@ -187,6 +187,22 @@ TEST_P(RandomPolygons, afterSnappingEdgesMeetOnlyInVertices) {
         }
 }
 
+TEST_P(RandomPolygons, nearlyCoincidentChainsAreBentOnceOrTwice) {
+    // Rounded crossings would make new ones for many rounds, each of which bends more.
+    Random random(GetParam());
+    std::vector<Polygon> polygons(10);
+    for (Polygon& polygon : polygons) {
+        for (int x = 100; x <= 3900; x += 100)
+            polygon.push_back({x + random.even(-8, 8), 2000 + x / 40 * 2 + random.even(-2, 2)});
+        polygon.insert(polygon.end(), {{3950, 3900}, {50, 3900}});
+    }
+    const TestLeaf leaf = leafOf(square, polygons);
+    Snapper snapper;
+    const EdgeSet* set = snapper.run(square, leaf.points(), leaf.cell.clippedRuns);
+    ASSERT_TRUE(set);
+    EXPECT_LE(set->bend, 2 * std::numbers::sqrt2);
+}
+
 TEST(Planar, uprightChordsInOneColumnMeet) {
     const TestLeaf leaf =
         leafOf(square, {{{1000, 900}, {1500, 1400}, {1500, 2600}, {2200, 3500}, {200, 3600}, {200, 900}},
