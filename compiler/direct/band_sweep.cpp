@@ -127,7 +127,7 @@ void BandSweep::begin(std::span<const std::uint32_t> chains, float top) {
         Active& a = *activate(chain);
         while (a.b.y <= top)
             nextEdge(a);
-        a.x = a.xAt(top);
+        a.x = a.next = a.xAt(top);
         a.from = top;
         members_.push_back(&a);
     }
@@ -148,7 +148,7 @@ bool BandSweep::slab(Slab slab) {
         ++count;
     beginning_.assign(toCome_.begin(), toCome_.begin() + std::ptrdiff_t(count));
     look(slab);
-    findEvents(slab);
+    lookAtBeginning(slab);
     if (!gather() || isTooMuch(slab.bottom))
         return false;
     toCome_ = toCome_.subspan(count);
@@ -156,28 +156,42 @@ bool BandSweep::slab(Slab slab) {
     return true;
 }
 
-/// Where the chains go.
+/// Where the chains go. Events are ends, and neighbours that are not ordered.
 void BandSweep::look(Slab slab) {
-    for (Active* const each : active_) {
-        Active& a = *each;
-        a.ends = false;
+    events_.clear();
+    bent_.clear();
+    columns_.resize(active_.size());
+    float rightBefore = -never;
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+        Active& a = *active_[i];
+        a.x = a.next;
         a.isBent = a.b.y <= slab.bottom;
-        a.bends = 0;
-        if (!a.isBent) {
+        Columns columns;
+        if (a.isBent) {
+            columns = lookAt(a, i, slab.bottom);
+        } else {
             a.next = a.xAt(slab.bottom);
-            a.left = std::min(a.x, a.next);
-            a.right = std::max(a.x, a.next);
-            continue;
+            columns = {std::min(a.x, a.next), std::max(a.x, a.next)};
         }
-        Reach reach;
-        reach.add(a.x);
-        addReach(reach, a.at + 1, a.end, slab.bottom);
-        a.left = reach.left;
-        a.right = reach.right;
-        a.next = reach.last;
-        a.ends = reach.ends;
-        a.bends = reach.bends;
+        columns_[i] = columns;
+        if (rightBefore > columns.left && !isOrdered(*active_[i - 1], a, slab.bottom))
+            events_.push_back({std::min(columns_[i - 1].left, columns.left),
+                               std::max(rightBefore, columns.right), i - 1, i + 1, noIndex, true});
+        rightBefore = columns.right;
     }
+}
+
+/// One that has a vertex above the bottom.
+BandSweep::Columns BandSweep::lookAt(Active& active, std::size_t number, float bottom) {
+    bent_.push_back(number);
+    Reach reach;
+    reach.add(active.x);
+    addReach(reach, active.at + 1, active.end, bottom);
+    active.next = reach.last;
+    active.bends = reach.bends;
+    if (reach.ends)
+        events_.push_back({reach.left, reach.right, number, number + 1, noIndex, false});
+    return reach;
 }
 
 /// From vertex `at` of a chain on, down to the bottom.
@@ -218,19 +232,7 @@ bool BandSweep::isOrdered(const Active& left, const Active& right, float bottom)
     return true;
 }
 
-void BandSweep::findEvents(Slab slab) {
-    events_.clear();
-    for (std::size_t i = 0; i < active_.size(); ++i) {
-        const Active& a = *active_[i];
-        if (a.ends)
-            events_.push_back({a.left, a.right, i, i + 1, noIndex, false});
-        if (i + 1 == active_.size())
-            break;
-        const Active& b = *active_[i + 1];
-        if (a.right > b.left && !isOrdered(a, b, slab.bottom))
-            events_.push_back(
-                {std::min(a.left, b.left), std::max(a.right, b.right), i, i + 2, noIndex, true});
-    }
+void BandSweep::lookAtBeginning(Slab slab) {
     for (const std::uint32_t number : beginning_) {
         Reach reach;
         addReach(reach, chains_[number].first, chains_[number].end, slab.bottom);
@@ -246,11 +248,11 @@ bool BandSweep::gather() {
     std::size_t from = 0, looks = 0;
     for (Event event : events_) {
         // The ends of shadows ascend, but for those of chains that cross, which are events themselves.
-        while (from < active_.size() && active_[from]->right < event.left)
+        while (from < columns_.size() && columns_[from].right < event.left)
             ++from;
         event.first = std::min(from, event.first);
         event.end = std::max(event.first, event.end);
-        while (event.end < active_.size() && active_[event.end]->left <= event.right)
+        while (event.end < columns_.size() && columns_[event.end].left <= event.right)
             ++event.end;
         looks += event.end - event.first;
         if (looks > mostInSlab)
@@ -276,7 +278,7 @@ bool BandSweep::isTooMuch(float bottom) {
         const std::size_t members = group.end - group.first + group.bends;
         std::size_t bends = group.bends;
         for (std::size_t i = group.first; i < group.end; ++i)
-            bends += active_[i]->bends;
+            bends += active_[i]->isBent ? active_[i]->bends : 0;
         if (bends * members > mostInSlab)
             bends = heights(group, bottom);
         steps += bends * members;
@@ -302,21 +304,19 @@ std::size_t BandSweep::heights(const Event& group, float bottom) {
 
 /// And lets all others pass.
 void BandSweep::sweepGroups(Slab slab) {
-    if (groups_.empty()) {
-        for (Active* a : active_)
-            pass(*a, slab.bottom);
-        return;
-    }
+    std::size_t bent = 0;
+    if (groups_.empty())
+        return pass(active_.size(), bent, slab.bottom);
     // Up to the first group the chains stay what they are.
     if (crossedDone_.size() > groups_[0].first)
         moveState(groups_[0].first);
     done_.clear();
     std::size_t passed = 0, nextEvent = 0;
     const auto passTo = [&](std::size_t end) {
-        for (; passed < end; ++passed) {
-            done_.push_back(active_[passed]);
-            pass(*done_.back(), slab.bottom);
-        }
+        done_.insert(done_.end(), active_.begin() + std::ptrdiff_t(passed),
+                     active_.begin() + std::ptrdiff_t(end));
+        pass(end, bent, slab.bottom);
+        passed = end;
     };
     for (const Event& group : groups_) {
         passTo(group.first);
@@ -333,19 +333,25 @@ void BandSweep::sweepGroups(Slab slab) {
             sweep(slab);
         done_.insert(done_.end(), members_.begin(), members_.end());
         passed = group.end;
+        while (bent < bent_.size() && bent_[bent] < passed)
+            ++bent;
     }
     passTo(active_.size());
     active_.swap(done_);
 }
 
-/// Nothing happens to the chain.
-void BandSweep::pass(Active& active, float bottom) {
+/// Nothing happens to chains up to `end`. `bent`: of bent_, the next one.
+void BandSweep::pass(std::size_t end, std::size_t& bent, float bottom) {
+    for (; bent < bent_.size() && bent_[bent] < end; ++bent)
+        passBends(*active_[bent_[bent]], bottom);
+}
+
+void BandSweep::passBends(Active& active, float bottom) {
     while (active.b.y <= bottom) {
         draw(active, active.from, active.b.y);
         active.from = active.b.y;
         nextEdge(active);
     }
-    active.x = active.next;
 }
 
 // ---- Paints ---------------------------------------------------------------------------------------

@@ -48,19 +48,18 @@ private:
     static constexpr float leastHeight = 1.0f / 64;
     static constexpr float looksInRow = 1 << 20;
 
-    /// A chain that the line cuts.
-    struct Active {
+    /// A chain that the line cuts. What a look needs comes first.
+    struct alignas(64) Active {
+        glm::vec2 a, b;  ///< ends of the edge that the line cuts; the lower one is below the line
+        float slope;
+        float x;                ///< at the line
+        float next;             ///< where the line goes to; at the line when it is there
         std::uint32_t at, end;  ///< vertices: that above the line, and the chain's end
+        std::uint32_t bends;    ///< between: its vertices
+        bool isBent;            ///< between: whether it has a vertex
         std::uint32_t layer;
         std::int32_t winding;
         std::int32_t before;  ///< winding number of its layer on its left
-        glm::vec2 a, b;       ///< ends of the edge that the line cuts; the lower one is below the line
-        float slope;
-        float x;              ///< at the line
-        float next;           ///< where the line goes to
-        float left, right;    ///< between
-        std::uint32_t bends;  ///< between: its vertices
-        bool isBent, ends;    ///< between: whether it has a vertex, whether it ends
         float from;           ///< since where its sides have the paints `drawn`
         RegionPaint drawn[2];
         Region region;      ///< on its right
@@ -68,9 +67,11 @@ private:
 
         float xAt(float y) const { return y >= b.y ? b.x : y <= a.y ? a.x : a.x + (y - a.y) * slope; }
     };
-    /// The columns that a chain reaches in a slab.
-    struct Reach {
+    /// The columns between which a chain stays in a slab.
+    struct Columns {
         float left = never, right = -never;
+    };
+    struct Reach : Columns {
         float last = 0;  ///< at the bottom, or where it ends
         bool ends = false;
         std::uint32_t bends = 0;
@@ -107,13 +108,15 @@ private:
     bool slab(Slab slab);
     void goOnLines(std::span<const std::uint32_t> chains, float top, float bottom);
     void look(Slab slab);
+    Columns lookAt(Active& active, std::size_t number, float bottom);
     bool isOrdered(const Active& left, const Active& right, float bottom) const;
-    void findEvents(Slab slab);
+    void lookAtBeginning(Slab slab);
     bool gather();
     bool isTooMuch(float bottom);
     std::size_t heights(const Event& group, float bottom);
     void sweepGroups(Slab slab);
-    void pass(Active& active, float bottom);
+    void pass(std::size_t end, std::size_t& bent, float bottom);
+    void passBends(Active& active, float bottom);
 
     bool mayReorder(Slab slab);
     void reorder(Slab slab);
@@ -157,6 +160,8 @@ private:
     std::deque<Active> pool_;
     std::vector<Active*> free_;              ///< of pool_
     std::vector<Active*> active_;            ///< from left to right
+    std::vector<Columns> columns_;           ///< theirs in the slab
+    std::vector<std::size_t> bent_;          ///< the numbers of those that have a vertex in the slab
     std::vector<Active*> done_;              ///< those that have reached the bottom of the slab
     std::span<const std::uint32_t> toCome_;  ///< chains that begin below the line, from the top
     std::vector<std::uint32_t> beginning_;   ///< in the slab

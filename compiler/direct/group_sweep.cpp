@@ -83,15 +83,14 @@ bool BandSweep::staysHidden(std::span<Active* const> chains, const Region& left)
 
 bool BandSweep::mayReorder(Slab slab) {
     openWindow(members_);
-    return isQuiet(members_, leftRegion_, [&](const Active& a, const Active& b) {
-        return a.right <= b.left || isOrdered(a, b, slab.bottom);
-    });
+    return isQuiet(members_, leftRegion_,
+                   [&](const Active& a, const Active& b) { return isOrdered(a, b, slab.bottom); });
 }
 
 void BandSweep::reorder(Slab slab) {
     for (Active* a : members_)
-        pass(*a, slab.bottom);
-    sortStably(members_.begin(), members_.end(), isLeftThere);
+        passBends(*a, slab.bottom);
+    sortStably(members_.begin(), members_.end(), isLeftNext);
     relabel(0, members_.size(), slab.bottom);
     keepState(0);
     steps_ += members_.size();
@@ -137,7 +136,7 @@ void BandSweep::meetVertices(float y) {
                 free_.push_back(&a);
                 continue;
             }
-            a.x = a.a.x;
+            a.x = a.next = a.a.x;
         }
         members_[kept++] = &a;
     }
@@ -155,7 +154,7 @@ void BandSweep::addStarting(float y) {
     added_.clear();
     for (; !starting_.empty() && chains_[starting_.back()].top <= y; starting_.pop_back()) {
         added_.push_back(activate(starting_.back()));
-        added_.back()->x = added_.back()->a.x;
+        added_.back()->x = added_.back()->next = added_.back()->a.x;
         added_.back()->from = y;
     }
     sortStably(added_.begin(), added_.end(), isLeft);
