@@ -13,6 +13,8 @@ using asset::bandRows;
 
 /// Slabs grow to so many rows where nothing happens.
 constexpr float mostHeight = 4;
+/// And a slab costs as much as so many steps besides.
+constexpr std::size_t slabSteps = 500;
 
 /// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
 /// would take more.
@@ -61,9 +63,10 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
             return goOnLines(chains, y, bottom);
         stripSteps_ += steps_ + active_.size();
         y += height_;
-        if (steps_ > 2 * active_.size() && height_ >= 2 * thinnest_)
+        const std::size_t looks = active_.size() + slabSteps;
+        if (steps_ > 2 * looks && height_ >= 2 * thinnest_)
             height_ *= 0.5f;
-        else if (steps_ < active_.size() / 2 && height_ < mostHeight && std::fmod(y - top, 2 * height_) == 0)
+        else if (steps_ < looks / 2 && height_ < mostHeight && std::fmod(y - top, 2 * height_) == 0)
             height_ *= 2;
     }
     for (Active* a : active_) {

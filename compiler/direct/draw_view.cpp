@@ -32,8 +32,11 @@ namespace {
 using asset::bandRows;
 using BandChords = std::vector<asset::Chord>;
 
-/// So many chords are made before they are drawn: their paints are told to the scanner once.
-constexpr std::size_t chordsAtOnce = 1u << 19;
+/// So many chords are made before they are drawn: their paints are told to the scanner once, and they are
+/// still in the cache.
+constexpr std::size_t chordsAtOnce = 1u << 15;
+/// After so many of a strip its paints are forgotten.
+constexpr std::size_t mostInStrip = 1u << 19;
 /// And so many paints are remembered.
 constexpr std::size_t paintsAtOnce = 1u << 18;
 /// Fewer are kept.
@@ -53,8 +56,9 @@ struct ThreadState {
     RegionState state;
     BandSweep sweep;
     asset::ChordScanner scanner;
-    std::vector<BandChords> bands;
-    bool mustBegin = true;  ///< the sweep, since the paints that it knows are forgotten
+    std::vector<BandChords> bands;  ///< keep their memory
+    std::size_t swept = 0;          ///< of them: those with chords that are to be drawn
+    bool mustBegin = true;          ///< the sweep, since the paints that it knows are forgotten
 };
 
 /// The images, with what the picture's fills read of them.
@@ -160,24 +164,27 @@ struct ViewDrawing::Impl {
     void drawSome(ThreadState& worker, int first, int end, const Draw& drawBands) const {
         // Where a sweep begins anew must not depend on what the thread has drawn before: only on the strip.
         std::size_t chords = 0, inStrip = 0;
-        worker.bands.clear();
+        worker.swept = 0;
         for (int band = first; band < end; ++band) {
             const bool beginsStrip = band % stripBands == 0, endsStrip = (band + 1) % stripBands == 0;
             if (beginsStrip)
                 inStrip = 0;
-            worker.bands.emplace_back();
-            worker.sweep.run(band, beginsStrip || worker.mustBegin, worker.bands.back());
+            if (worker.swept == worker.bands.size())
+                worker.bands.emplace_back();
+            BandChords& made = worker.bands[worker.swept++];
+            made.clear();
+            worker.sweep.run(band, beginsStrip || worker.mustBegin, made);
             worker.mustBegin = false;
-            inStrip += worker.bands.back().size();
-            chords += worker.bands.back().size();
+            inStrip += made.size();
+            chords += made.size();
             const bool isMuch = chords >= chordsAtOnce || worker.state.colors().size() >= paintsAtOnce;
-            const bool forgets = inStrip >= chordsAtOnce;
+            const bool forgets = inStrip >= mostInStrip;
             if (band + 1 < end && !forgets && !(endsStrip && isMuch))
                 continue;
             drawPainted(worker, first, drawBands);
             first = band + 1;
             chords = 0;
-            worker.bands.clear();
+            worker.swept = 0;
             if (forgets ||
                 (endsStrip && worker.state.colors().size() + worker.state.programs().size() >= keptPaints)) {
                 worker.state.forgetPaints();
@@ -199,13 +206,13 @@ struct ViewDrawing::Impl {
         const auto number = [&](RegionPaint paint) {
             return (paint & programBit) != 0 ? paint ^ programBit : programCount + paint;
         };
-        for (BandChords& chords : worker.bands)
+        const std::span bands = std::span(worker.bands).first(worker.swept);
+        for (BandChords& chords : bands)
             for (asset::Chord& chord : chords) {
                 chord.left = number(chord.left);
                 chord.right = number(chord.right);
             }
-        drawBands(worker.scanner, first, worker.bands,
-                  asset::ChordPaints{paints, images, worker.state.colors()});
+        drawBands(worker.scanner, first, bands, asset::ChordPaints{paints, images, worker.state.colors()});
     }
 
     int bands() const { return chains.bands(); }
