@@ -92,6 +92,16 @@ void leaveOutHidden(const LoweredScene& picture, ViewChains& chains, const asset
         chains.leaveOut(isHidden);
 }
 
+/// A raster shows no finer tolerance than this share of a pixel: single chords are within a quarter of it.
+constexpr double finestShown = 1.0 / 64;
+/// Others misplace this much of a pixel, half a 255th.
+constexpr double misplacedArea = 1.0 / 512;
+
+/// Along the longer side of an excerpt.
+double pixelsAlong(const Excerpt& excerpt, const asset::View& view) {
+    return largestStretch(view.toPixels) * std::max(excerpt.width, excerpt.height);
+}
+
 /// An empty picture.
 scene::Scene emptyScene() {
     scene::Scene scene;
@@ -112,24 +122,26 @@ struct ViewDrawing::Impl {
     /// With coarser chords where there are too many.
     static std::unique_ptr<Impl> lowered(const scene::Scene& scene, const Excerpt& excerpt,
                                          const asset::View& view, Options options) {
+        const double pixels = pixelsAlong(excerpt, view) * options.tolerance;
+        const double area = pixels > 0 ? misplacedArea / (pixels * pixels) : 0;
         if (options.tolerance * coarserChords <= coarsestTolerance) {
             try {
-                return lowered(scene, excerpt, view, options, manyChords);
+                return lowered(scene, excerpt, view, options, area, manyChords);
             } catch (const LimitError&) {
                 options.tolerance *= coarserChords;
             }
         }
-        return lowered(scene, excerpt, view, options, maxChords);
+        return lowered(scene, excerpt, view, options, area, maxChords);
     }
 
-    /// Null if there are patterns of many tiles, or materials.
+    /// Null if there are patterns of many tiles, or materials. `area`: that of ErrorBudget's chords.
     static std::unique_ptr<Impl> lowered(const scene::Scene& scene, const Excerpt& excerpt,
-                                         const asset::View& view, const Options& options,
+                                         const asset::View& view, const Options& options, double area,
                                          std::size_t mostChords) {
         const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
         PatternImages images(options, std::max(excerpt.width, excerpt.height), nullptr);
         TilePlan tiles;
-        const ErrorBudget budget(options.tolerance, latticeBits(options), mostChords);
+        const ErrorBudget budget(options.tolerance, latticeBits(options), mostChords, area);
         LoweredScene picture = lower(scene, excerpt, lattice, budget, Sharing::OutlinesAndClips, nullptr,
                                      nullptr, &tiles, &images);
         if (!tiles.patterns.empty() || !picture.materials.empty())
@@ -224,12 +236,8 @@ bool canDraw(const scene::Scene& scene, const Options& options) {
     return options.mode == asset::Mode::Exact && !hasFilters(scene);
 }
 
-/// A raster shows no finer tolerance than this share of a pixel: chords are within a quarter of it.
-constexpr double finestShown = 1.0 / 64;
-
 Options forPixels(Options options, const Excerpt& excerpt, const asset::View& view) {
-    const double pixels = largestStretch(view.toPixels) * std::max(excerpt.width, excerpt.height);
-    if (pixels > 0)
+    if (const double pixels = pixelsAlong(excerpt, view); pixels > 0)
         options.tolerance = std::max(options.tolerance, std::min(coarsestTolerance, finestShown / pixels));
     return options;
 }

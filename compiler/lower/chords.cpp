@@ -146,16 +146,77 @@ struct ChordCutter::Proof {
     }
 };
 
+/// Whether h³ κ is no more than it may be: h² |d × P''|, for the mean of the accelerations at both ends.
+struct ChordCutter::AreaProof {
+    double ax, ay, bx, by, maximum;
+
+    AreaProof(const Curve& curve, double area)
+        : ax(3 * curve.a.x),
+          ay(3 * curve.a.y),
+          bx(curve.b.x),
+          by(curve.b.y),
+          maximum(area * area_chords::perArea) {}
+
+    template <class Number>
+    auto operator()(const Vertex<Number>& from, const Vertex<Number>& to) const {
+        const Number h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
+        const Number a = dx * ay - dy * ax, b = dx * by - dy * bx;  // d × P'' / 2 = a t + b
+        return h * h * (magnitude(a * from.t + b) + magnitude(a * to.t + b)) <= maximum;
+    }
+};
+
 std::span<const scene::Point> ChordCutter::cut(const Cubic& p) {
     curve_ = {p.p3 - p.p0 + 3.0 * (p.p1 - p.p2), 3.0 * (p.p0 - 2.0 * p.p1 + p.p2), 3.0 * (p.p1 - p.p0), p.p0};
+    if (area_ > 0)
+        return cutByArea(p.p3);
     const double needed = guess();
     if (!(needed <= maxChords) || !isResolved())
         return {};
     const int whole = static_cast<int>(needed), count = std::max(1, whole + (whole < needed));
-    findVertices(count, p.p3);
+    findVertices(count, p.p3, 1);
     runForward_ = runForward(0, count);
     appendChords(count);
     return ends_;
+}
+
+std::span<const scene::Point> ChordCutter::cutByArea(Point end) {
+    const double whole = guessByArea();
+    if (!(whole <= maxChords - 2) || !isResolved())
+        return {};
+    const int count = area_chords::count(whole);
+    findVertices(count, end, area_chords::endShare);
+    if (!runForward(0, count) || !areNear(count, AreaProof(curve_, area_)))
+        return {};
+    ends_.assign({curve_.start});
+    appendVertices(1, count);
+    area_chords::moveOutwards(ends_.size(), [&](std::size_t i) -> Point& { return ends_[i]; });
+    return std::span(ends_).subspan(1);
+}
+
+/// The number of whole chords.
+double ChordCutter::guessByArea() {
+    constexpr double sure = 0.9;         // of the area: steps are not small
+    constexpr double perInflection = 2;  // where κ changes its sign, chords next to each other differ more
+    const auto [a, b, c, start] = curve_;
+    const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
+    const double turns = c0 * (c0 + c1 + c2) < 0 ? perInflection : 1;
+    const double per = turns / (sure * area_chords::perArea * area_);
+    constexpr double minSquare = std::numeric_limits<double>::min();  // no division by zero
+    return shares_.integrate(0, 1, [=](Pair t) {
+        const Pair x = (3 * a.x * t + 2 * b.x) * t + c.x, y = (3 * a.y * t + 2 * b.y) * t + c.y;
+        const Pair square = x * x + y * y + minSquare;
+        return area_chords::density(per, ((c2 * t + c1) * t + c0) / square, squareRoot(square));
+    });
+}
+
+/// Whether all chords are.
+template <class IsNear>
+bool ChordCutter::areNear(int count, const IsNear& isNear) const {
+    PairMask near{-1, -1};
+    for (std::size_t k = 0; k < std::size_t(count); k += 2)
+        near &= isNear(Vertex<Pair>{load(&t_[k]), load(&x_[k]), load(&y_[k])},
+                       Vertex<Pair>{load(&t_[k + 1]), load(&x_[k + 1]), load(&y_[k + 1])});
+    return (near[0] & near[1]) != 0;
 }
 
 /// Whether points of the curve are rounded by less than the tolerance. Beyond, chords between them are noise,
@@ -183,10 +244,10 @@ double ChordCutter::guess() {
     });
 }
 
-void ChordCutter::findVertices(int count, Point end) {
+void ChordCutter::findVertices(int count, Point end, double endShare) {
     const auto [a, b, c, start] = curve_;
     t_[0] = 0;
-    shares_.cut(count, &t_[1]);
+    shares_.cut(count, &t_[1], endShare);
     t_[std::size_t(count)] = t_[std::size_t(count) + 1] = 1;
     for (std::size_t k = 0; k < std::size_t(count); k += 2) {
         const Pair t = load(&t_[k]);

@@ -10,6 +10,7 @@
 
 #include <vtm/scene/affine.hpp>
 #include <vtm/scene/path.hpp>
+#include "compiler/lower/area_chords.hpp"
 #include "compiler/lower/even_shares.hpp"
 #include "geometry/cubic.hpp"
 
@@ -49,11 +50,11 @@ public:
     /// Guessed for one cubic.
     static constexpr int maxChords = 256;
 
-    explicit ChordCutter(double tolerance) : tolerance_(tolerance) {}
+    explicit ChordCutter(ChordTolerance tolerance) : tolerance_(tolerance.distance), area_(tolerance.area) {}
 
     /// The ends of chords within the tolerance, the last one that of the cubic. Empty if they would be too
-    /// many, or the cubic is infinite, or so large that doubles do not resolve the tolerance. Valid until the
-    /// next call.
+    /// many, or the cubic is infinite, or so large that doubles do not resolve the tolerance, or chords of
+    /// that area are not proven. Valid until the next call.
     std::span<const scene::Point> cut(const Cubic& cubic);
 
 private:
@@ -72,10 +73,15 @@ private:
     };
     /// The proof of a chord.
     struct Proof;
+    struct AreaProof;
 
+    std::span<const Point> cutByArea(Point end);
     double guess();
+    double guessByArea();
     bool isResolved() const;
-    void findVertices(int count, Point end);
+    void findVertices(int count, Point end, double endShare);
+    template <class IsNear>
+    bool areNear(int count, const IsNear& isNear) const;
     bool runsForward(double t0, double t1) const;
     bool runForward(int first, int last) const;
     void appendChords(int count);
@@ -83,7 +89,7 @@ private:
     void chord(const Vertex<double>& from, const Vertex<double>& to, int halvings);
     void halves(const Vertex<double>& from, const Vertex<double>& to, int halvings);
 
-    const double tolerance_;
+    const double tolerance_, area_;
     Curve curve_;
     EvenShares shares_;
     /// Vertices, and one more for loops over two at once.

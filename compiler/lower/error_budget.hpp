@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include <vtm/asset/asset.hpp>
+#include "compiler/lower/area_chords.hpp"
 #include "compiler/lower/lattice.hpp"
 
 namespace vtm::compiler {
@@ -21,17 +22,21 @@ class ErrorBudget {
 public:
     /// `tolerance`: share of the picture's longer side, which spans 2^latticeBits steps. Lengths are in
     /// steps. `mostChords`: beyond them lowering gives up, as it does beyond maxChords (lower.hpp).
+    /// `chordArea`: that of ChordTolerance, in squares of the tolerance.
     ErrorBudget(double tolerance, int latticeBits,
-                std::size_t mostChords = std::numeric_limits<std::size_t>::max())
-        : bits_(latticeBits), tolerance_(std::ldexp(tolerance, latticeBits)), mostChords_(mostChords) {}
+                std::size_t mostChords = std::numeric_limits<std::size_t>::max(), double chordArea = 0)
+        : bits_(latticeBits),
+          tolerance_(std::ldexp(tolerance, latticeBits)),
+          chordArea_(chordArea * tolerance_ * tolerance_),
+          mostChords_(mostChords) {}
 
     std::size_t mostChords() const { return mostChords_; }
 
     /// Curves to chords, chords of stroke outlines included.
-    double fillChords() const { return outlineShare * tolerance_; }
+    ChordTolerance fillChords() const { return {outlineShare * tolerance_, chordArea_}; }
     /// True offsets to a stroke's outline, and that to chords.
     double strokeOutline() const { return strokeShare * tolerance_; }
-    double strokeChords() const { return (outlineShare - strokeShare) * tolerance_; }
+    ChordTolerance strokeChords() const { return {(outlineShare - strokeShare) * tolerance_, chordArea_}; }
     /// Chords to pieces: what the other stages leave where edges are bent as usual, but half of the
     /// tolerance at most. Where the lattice is as coarse as the tolerance, nothing is left, and nothing is
     /// proven.
@@ -89,7 +94,7 @@ private:
     }
 
     const int bits_;
-    const double tolerance_;
+    const double tolerance_, chordArea_;
     const std::size_t mostChords_;
 
 public:

@@ -30,18 +30,18 @@ public:
         return sums_[std::size_t(steps_)] * step_;
     }
 
-    /// Where the first `count` - 1 of `count` equal parts end. The density is taken to be linear in each
-    /// step.
-    void cut(int count, double* ends) const {
-        const double share = sums_[std::size_t(steps_)] / count;
-        double goal = share;
+    /// Where the first `count` - 1 of `count` equal parts end; the first and the last may be other shares of
+    /// one. The density is taken to be linear in each step.
+    void cut(int count, double* ends, double endShare = 1) const {
+        const double share = sums_[std::size_t(steps_)] / (count - 2 + 2 * endShare);
+        double goal = share * endShare;
         int k = 1;
         for (std::size_t in = 0; in < std::size_t(steps_); ++in) {
             const double start = double(in), sum = sums_[in], low = density_[in], square = low * low,
                          rise = 2 * (density_[in + 1] - low);
             const bool isLast = in + 1 == std::size_t(steps_);
             const double until = isLast ? std::numeric_limits<double>::infinity() : sums_[in + 1];
-            for (; k < count && goal <= until; goal = share * ++k) {
+            for (; k < count && goal <= until; goal = share * (endShare + k++)) {
                 const double area = goal - sum, root = std::sqrt(std::max(0.0, square + rise * area));
                 *ends++ = from_ + (start + std::min(1.0, 2 * area / (low + root))) * step_;
             }

@@ -425,7 +425,7 @@ private:
         if (!(stretch > 0 && std::isfinite(stretch)))
             return std::nullopt;
         return addStroke(to, *origin.path, *origin.stroke, budget_.strokeOutline() / stretch,
-                         budget_.strokeChords() / stretch, toSteps(origin), budget_.strokeChords(),
+                         budget_.strokeChords().scaled(1 / stretch), toSteps(origin), budget_.strokeChords(),
                          lattice_.clampMin(), lattice_.clampMax(), nearFrame(origin.transform));
     }
 

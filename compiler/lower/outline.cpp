@@ -222,7 +222,8 @@ constexpr int maxHalvings = 400;
 
 class Flattener : public CurveSink {
 public:
-    Flattener(RunSink& sink, double tolerance) : sink_(sink), tolerance_(tolerance), cutter_(tolerance) {}
+    Flattener(RunSink& sink, ChordTolerance tolerance)
+        : sink_(sink), tolerance_(tolerance.distance), cutter_(tolerance) {}
     void start(Point p) override { sink_.start(p); }
     void line(Point to) override { sink_.line(to); }
     void cubic(const Cubic& c) override { flatten(c, maxHalvings); }
@@ -251,7 +252,7 @@ private:
 /// Contours of strokes on their way to the lattice.
 class MappedContours : public ContourSink {
 public:
-    MappedContours(RunSink& sink, const Affine& map, double tolerance)
+    MappedContours(RunSink& sink, const Affine& map, ChordTolerance tolerance)
         : sink_(sink), flattener_(sink, tolerance), map_(map) {}
 
     void start(Point p) override { sink_.start(start_ = map(p)); }
@@ -287,8 +288,8 @@ private:
 
 std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
                                        const scene::StrokeStyle& style, double strokeTolerance,
-                                       double chordTolerance, const Affine& toSteps, double tolerance,
-                                       glm::dvec2 clampMin, glm::dvec2 clampMax,
+                                       ChordTolerance chordTolerance, const Affine& toSteps,
+                                       ChordTolerance tolerance, glm::dvec2 clampMin, glm::dvec2 clampMax,
                                        const std::optional<PathBox>& near) {
     RunSink sink(outlines, clampMin, clampMax);
     // Near the box numbers are small, and so are their roundings.
@@ -307,7 +308,7 @@ std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& pa
     return static_cast<std::uint32_t>(contours.sideRuns() - before);
 }
 
-void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSteps, double tolerance,
+void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSteps, ChordTolerance tolerance,
                 glm::dvec2 clampMin, glm::dvec2 clampMax) {
     RunSink sink(outlines, clampMin, clampMax);
     Flattener flattener(sink, tolerance);

@@ -9,6 +9,7 @@
 #include <vtm/scene/affine.hpp>
 #include <vtm/scene/path.hpp>
 #include <vtm/scene/stroke.hpp>
+#include "compiler/lower/area_chords.hpp"
 #include "compiler/lower/lattice.hpp"
 
 namespace vtm::compiler {
@@ -38,8 +39,8 @@ struct Outlines {
 /// is closed, every curve's chords lie within `tolerance` steps of it, every vertex is even, and what
 /// lies outside [clampMin, clampMax] is moved onto that box's border, which changes no winding number
 /// inside it.
-void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine& toSteps, double tolerance,
-                glm::dvec2 clampMin, glm::dvec2 clampMax);
+void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine& toSteps,
+                ChordTolerance tolerance, glm::dvec2 clampMin, glm::dvec2 clampMax);
 
 /// A box in a path's space.
 struct PathBox {
@@ -52,8 +53,8 @@ struct PathBox {
 /// beside the stroke they have the same winding numbers. With `near` the outline is right in that box only.
 std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
                                        const scene::StrokeStyle& style, double strokeTolerance,
-                                       double chordTolerance, const scene::Affine& toSteps, double tolerance,
-                                       glm::dvec2 clampMin, glm::dvec2 clampMax,
+                                       ChordTolerance chordTolerance, const scene::Affine& toSteps,
+                                       ChordTolerance tolerance, glm::dvec2 clampMin, glm::dvec2 clampMax,
                                        const std::optional<PathBox>& near = std::nullopt);
 
 /// Tolerance, as a share of the given one, in path space: how much `m` stretches at most.

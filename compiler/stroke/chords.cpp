@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -36,13 +38,14 @@ struct Coordinate {
 
 class ChordOffset {
 public:
-    ChordOffset(const Cubic& curve, double distance, double tolerance, Side& side)
+    ChordOffset(const Cubic& curve, double distance, ChordTolerance tolerance, Side& side)
         : curve_(curve),
           powers_(curve),
           xs_(powers_.cubed.x, powers_.squared.x, powers_.linear.x, powers_.start.x),
           ys_(powers_.cubed.y, powers_.squared.y, powers_.linear.y, powers_.start.y),
           distance_(distance),
-          tolerance_(tolerance),
+          tolerance_(tolerance.distance),
+          area_(tolerance.area),
           side_(side) {}
 
     void run(double t0, double t1) {
@@ -102,22 +105,78 @@ private:
 
     /// Between which the curve has no inflection.
     void convex(double from, double to) {
+        area_ > 0 ? byArea(from, to, maxChordHalvings) : byDistance(from, to);
+    }
+
+    /// The number of whole chords (compiler/lower/area_chords.hpp): κ is the turn by the speed.
+    double guessByArea(double from, double to) {
+        constexpr double sure = 0.8;  // of the area: κ may fall to 0 at one end
+        const auto& [a, b, c, start] = powers_;
+        const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
+        const double per = 1 / (sure * area_chords::perArea * area_);
+        return shares_.integrate(from, to, [=, this](Pair t) {
+            const Pair x = xs_.slope(t), y = ys_.slope(t), square = x * x + y * y;
+            const Pair turn = ((c2 * t + c1) * t + c0) / square,
+                       speed = squareRoot(square) - distance_ * turn;
+            const Pair chords = area_chords::density(per, turn, speed);
+            return chords < maxDensity ? chords : 0.0;
+        });
+    }
+
+    void byArea(double from, double to, int halvings) {
+        const double whole = guessByArea(from, to);
+        const bool isShort = whole <= 2 * area_chords::endShare;
+        if (isShort && isNear(vertex(from), vertex((from + to) / 2), vertex(to)))
+            return side_.addLine(vertex(to).at);
+        const int count = area_chords::count(std::min(whole, double(maxChords)));
+        if (count <= maxChords)
+            findVertices(from, to, count, area_chords::endShare);
+        if (halvings > 0 && (count > maxChords || !areNearByArea(count))) {
+            const double middle = (from + to) / 2;
+            byArea(from, middle, halvings - 1);
+            byArea(middle, to, halvings - 1);
+            return;
+        }
+        points_.resize(std::size_t(count) + 1);
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            points_[i] = {x_[i], y_[i]};
+        area_chords::moveOutwards(points_.size(), [&](std::size_t i) -> Point& { return points_[i]; });
+        for (const Point p : std::span(points_).subspan(1))
+            side_.addLine(p);
+    }
+
+    /// Whether the tangents in the middle of chords stray no farther than curves of that h³ κ do, by h² κ
+    /// / 8.
+    bool areNearByArea(int count) const {
+        constexpr double slack = 1.25;  // the tangent strays a little farther
+        const double maximum = slack * area_ * area_chords::perArea / 8;
+        for (std::size_t k = 0; k < std::size_t(count); k += 2) {
+            const double *const t = &t_[k], *const x = &x_[k], *const y = &y_[k];
+            const Pair far = strayTimesLength(load(x), load(y), vertices(0.5 * (load(t) + load(t + 1))),
+                                              load(x + 1), load(y + 1));
+            if (!(far[0] <= maximum) || (k + 1 < std::size_t(count) && !(far[1] <= maximum)))
+                return false;
+        }
+        return true;
+    }
+
+    void byDistance(double from, double to) {
         const double needed = guess(from, to);
         if (needed > maxChords) {
             const double middle = (from + to) / 2;
-            convex(from, middle);
-            convex(middle, to);
+            byDistance(from, middle);
+            byDistance(middle, to);
             return;
         }
         const int count = std::max(1, static_cast<int>(std::ceil(needed)));
-        findVertices(from, to, count);
+        findVertices(from, to, count, 1);
         appendChords(count);
     }
 
-    void findVertices(double from, double to, int count) {
+    void findVertices(double from, double to, int count, double endShare) {
         const std::size_t last = std::size_t(count);
         t_[0] = from;
-        shares_.cut(count, &t_[1]);
+        shares_.cut(count, &t_[1], endShare);
         t_[last] = t_[last + 1] = to;
         for (std::size_t k = 0; k <= last; k += 2) {
             const Vertices two = vertices(load(&t_[k]));
@@ -164,29 +223,35 @@ private:
         return near[0] != 0 || 2 * (glm::distance(a.at, m.at) + glm::distance(m.at, b.at)) <= tolerance_;
     }
 
-    /// Whether the tangents in m stray less than the tolerance from the chords over their ends; all lengths
-    /// times the chords'. False for infinite vertices.
+    /// Whether the tangents in m stray less than the tolerance from the chords over their ends. False for
+    /// infinite vertices.
     PairMask areNear(Pair ax, Pair ay, const Vertices& m, Pair bx, Pair by) const {
+        const Pair x = bx - ax, y = by - ay;
+        return strayTimesLength(ax, ay, m, bx, by) < tolerance_ * squareRoot(x * x + y * y);
+    }
+    /// How far they stray, times the chords' lengths.
+    static Pair strayTimesLength(Pair ax, Pair ay, const Vertices& m, Pair bx, Pair by) {
         const Pair x = bx - ax, y = by - ay, mx = m.x - ax, my = m.y - ay;
         const Pair square = x * x + y * y, along = mx * x + my * y, rest = square - along;
         const Pair slope = magnitude((m.alongX * y - m.alongY * x) / (m.alongX * x + m.alongY * y));
-        const Pair maximum = magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
-        return maximum < tolerance_ * squareRoot(square);
+        return magnitude(mx * y - my * x) + slope * (along > rest ? along : rest);
     }
 
     const Cubic& curve_;
     const PowerForm powers_;
     const Coordinate xs_, ys_;
-    const double distance_, tolerance_;
+    const double distance_, tolerance_, area_;
     Side& side_;
     EvenShares shares_;
     /// Vertices, and one more for loops over two at once.
     std::array<double, maxChords + 3> t_, x_, y_;
+    std::vector<Point> points_;
 };
 
 }  // namespace
 
-void appendChords(const Cubic& curve, double t0, double t1, double distance, double tolerance, Side& side) {
+void appendChords(const Cubic& curve, double t0, double t1, double distance, ChordTolerance tolerance,
+                  Side& side) {
     ChordOffset(curve, distance, tolerance, side).run(t0, t1);
 }
 

@@ -52,14 +52,14 @@ private:
 /// the way from a subpath to its right side one crosses nothing but the stroke, so beside the stroke both
 /// have the same winding numbers.
 bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
-                    double chordTolerance, ContourSink& contours);
+                    ChordTolerance chordTolerance, ContourSink& contours);
 /// The same, right within a box: parts of the path that cannot reach it are left out, so that what is left is
 /// small beside the tolerance. The path lies about the origin, as the box does.
 bool strokeContoursNear(const PathBox& box, const scene::Path& path, const scene::StrokeStyle& style,
-                        double tolerance, double chordTolerance, ContourSink& contours);
+                        double tolerance, ChordTolerance chordTolerance, ContourSink& contours);
 /// As a path.
 scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
-                                  double chordTolerance);
+                                  ChordTolerance chordTolerance);
 
 namespace stroke {
 
@@ -68,7 +68,8 @@ namespace stroke {
 ///
 /// Between inflections the offset is convex: it lies between its chord and its tangent in any point between.
 /// So it strays from the chord by no more than the tangent does over the chord's ends.
-void appendChords(const Cubic& curve, double t0, double t1, double distance, double tolerance, Side& side);
+void appendChords(const Cubic& curve, double t0, double t1, double distance, ChordTolerance tolerance,
+                  Side& side);
 
 }  // namespace stroke
 }  // namespace vtm::compiler

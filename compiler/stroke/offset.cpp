@@ -153,7 +153,7 @@ private:
     }
 
     void gentle(const Stretch& stretch, const Span& span) {
-        if (o_.chords > 0) {
+        if (o_.chords.distance > 0) {
             chords(stretch, span, o_.radius, ribbon_.left);
             chords(stretch, span, -o_.radius, ribbon_.right);
         } else {
@@ -166,8 +166,8 @@ private:
     /// turns back by these shares of the tolerance.
     void chords(const Stretch& stretch, const Span& span, double distance, Side& side) const {
         side.lineTo(stretch.offset(0, distance).at, gapShare * o_.tolerance);
-        appendChords(curve_, span.t0, span.t1, distance,
-                     o_.chords + (1 - tightShare - gapShare) * o_.tolerance, side);
+        const double more = (1 - tightShare - gapShare) * o_.tolerance;
+        appendChords(curve_, span.t0, span.t1, distance, {o_.chords.distance + more, o_.chords.area}, side);
     }
 
     void tight(const Stretch& stretch, const Span& span) {

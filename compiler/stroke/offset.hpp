@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "compiler/lower/area_chords.hpp"
 #include "compiler/stroke/curve.hpp"
 
 namespace vtm::compiler::stroke {
@@ -47,11 +48,11 @@ inline constexpr double gapShare = 0.1;
 struct OffsetOptions {
     double radius;
     double tolerance;
-    bool beyond;    ///< wanted only if caps or joins are not round
-    double chords;  ///< if above 0, gentle offsets become chords within this and the tolerance together
+    bool beyond;            ///< wanted only if caps or joins are not round
+    ChordTolerance chords;  ///< if above 0, gentle offsets become chords within this and the tolerance
 
     /// How far a straight edge may stray.
-    double straight() const { return tolerance + chords; }
+    double straight() const { return tolerance + chords.distance; }
 };
 
 /// Goes on with both sides along a curve without cusps. Both sides must have come to the offsets of

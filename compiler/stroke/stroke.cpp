@@ -62,12 +62,12 @@ Point endPoint(const Segment& s) { return s.curve.p3; }
 
 class Outliner {
 public:
-    Outliner(const StrokeStyle& style, double tolerance, double chords, ContourSink& out)
+    Outliner(const StrokeStyle& style, double tolerance, ChordTolerance chords, ContourSink& out)
         : style_(style),
           tolerance_(tolerance),
-          chords_(chords),
           radius_(style.width / 2),
           miterLimit_(std::min(style.miterLimit, longestMitre)),
+          chords_(chords),
           out_(out) {}
 
     void add(const Subpath& subpath) {
@@ -308,21 +308,22 @@ private:
     }
 
     const StrokeStyle& style_;
-    double tolerance_, chords_, radius_, miterLimit_;
+    double tolerance_, radius_, miterLimit_;
+    ChordTolerance chords_;
     ContourSink& out_;
     Ribbon ribbon_;
     std::vector<Side> later_;
 };
 
 /// `chords`: of OffsetOptions. Whether all is rings.
-bool outline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance, double chords,
-             ContourSink& contours) {
+bool outline(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
+             ChordTolerance chords, ContourSink& contours) {
     const double size = largestCoordinate(path) + style.width;
     if (!(size <= largestSize))
         throw LimitError("stroke: coordinates or width beyond 1e48");
     tolerance = std::max(std::min(tolerance, hairlineShare * style.width), finestShare * size);
-    if (chords > 0)
-        chords = std::max(chords, finestShare * size);
+    if (chords.distance > 0)
+        chords.distance = std::max(chords.distance, finestShare * size);
     Outliner outliner(style, tolerance, chords, contours);
     std::size_t dashes = 0;
     bool isRings = style.dashes.empty();
@@ -362,7 +363,7 @@ std::vector<Subpath> subpathsNear(const PathBox& box, const scene::Path& path, c
 }
 
 bool outlineNear(const PathBox& box, const scene::Path& path, const StrokeStyle& style, double tolerance,
-                 double chords, ContourSink& contours) {
+                 ChordTolerance chords, ContourSink& contours) {
     if (!(largestCoordinate(path) + style.width <= largestSize))
         throw LimitError("stroke: coordinates or width beyond 1e48");
     bool isRings = true;
@@ -372,8 +373,9 @@ bool outlineNear(const PathBox& box, const scene::Path& path, const StrokeStyle&
     for (const Subpath& subpath : near)
         size = std::max(size, style.width + largestCoordinate(subpath));
     const double finest = finestShareNear * size;
-    Outliner outliner(style, std::max(tolerance, finest), chords > 0 ? std::max(chords, finest) : chords,
-                      contours);
+    if (chords.distance > 0)
+        chords.distance = std::max(chords.distance, finest);
+    Outliner outliner(style, std::max(tolerance, finest), chords, contours);
     for (const Subpath& subpath : near)
         outliner.add(subpath);
     outliner.finish();
@@ -381,7 +383,7 @@ bool outlineNear(const PathBox& box, const scene::Path& path, const StrokeStyle&
 }
 
 scene::Path outlineAsPath(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
-                          double chords) {
+                          ChordTolerance chords) {
     ContourPath contours;
     outline(path, style, tolerance, chords, contours);
     return std::move(contours.path);
@@ -395,17 +397,17 @@ scene::Path strokeOutline(const scene::Path& path, const scene::StrokeStyle& sty
 }
 
 scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
-                                  double chordTolerance) {
+                                  ChordTolerance chordTolerance) {
     return stroke::outlineAsPath(path, style, tolerance, chordTolerance);
 }
 
 bool strokeContours(const scene::Path& path, const scene::StrokeStyle& style, double tolerance,
-                    double chordTolerance, ContourSink& contours) {
+                    ChordTolerance chordTolerance, ContourSink& contours) {
     return stroke::outline(path, style, tolerance, chordTolerance, contours);
 }
 
 bool strokeContoursNear(const PathBox& box, const scene::Path& path, const scene::StrokeStyle& style,
-                        double tolerance, double chordTolerance, ContourSink& contours) {
+                        double tolerance, ChordTolerance chordTolerance, ContourSink& contours) {
     return stroke::outlineNear(box, path, style, tolerance, chordTolerance, contours);
 }
 

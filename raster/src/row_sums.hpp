@@ -36,12 +36,12 @@ inline constexpr double chordTolerance = 1.0 / 512;
 
 /// A piece with what does not depend on the view: how far it is from its chord, and how much it bends.
 ///
-/// **Chords.** Over a step h of s, a chord between points of the curve y = t(s) is off by h² |t''| / 12 in the
-/// mean. If its ends are moved outwards by that, it covers exactly what the curve does, t'' being linear. The
-/// piece's own ends stay where they are, so the first and the last chord, of which one end stays, are shorter
-/// by √½. Then only the chords in which an edge enters and leaves a pixel misplace something: a part of one
-/// up to 0.0080 h³ |t''| pixels if h is in pixels, of a first or last one 0.0087, and 0.0147 h³ of what t''
-/// changes by over half of the piece where its two ends bend by different amounts.
+/// **Chords.** Over a step h of s, a chord between points of the curve y = t(s) is off by h² |t''| / 12 in
+/// the mean. If its ends are moved outwards by that, it covers exactly what the curve does, t'' being linear.
+/// The piece's own ends stay where they are, so the first and the last chord, of which one end stays, are
+/// shorter by √½. Then only the chords in which an edge enters and leaves a pixel misplace something: a part
+/// of one up to 0.0080 h³ |t''| pixels if h is in pixels, of a first or last one 0.0087, and 0.0147 h³ of
+/// what t'' changes by over half of the piece where its two ends bend by different amounts.
 struct Boundary {
     PlanarPiece piece;
     double bulge;

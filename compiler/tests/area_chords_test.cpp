@@ -1,0 +1,141 @@
+// Chords that misplace little of a pixel's area (compiler/lower/area_chords.hpp), measured in pixels.
+
+#include "compiler/lower/area_chords.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compiler/lower/outline.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+constexpr int side = 24;              // pixels
+constexpr double steps = 1 << 14;     // of a pixel
+constexpr double area = 1.0 / 512;    // of a pixel, that an edge may misplace
+constexpr double slack = 1.0 / 2048;  // tolerances of what is compared, and rounding
+
+/// How much of each pixel lies on the right of directed edges that close.
+class PixelAreas {
+public:
+    explicit PixelAreas(const Outlines& outlines) : own_(side * (side + 1)), right_(own_.size()) {
+        for (const Run& run : outlines.runs)
+            for (std::uint32_t i = run.first; i < run.last; ++i)
+                edge(pointOf(outlines.points[i]), pointOf(outlines.points[i + 1]));
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                right_[at(x + 1, y)] += right_[at(x, y)];
+                own_[at(x, y)] += right_[at(x, y)];
+            }
+    }
+    double operator()(int x, int y) const { return own_[at(x, y)]; }
+
+private:
+    static scene::Point pointOf(LatticePoint p) { return {p.x / steps, p.y / steps}; }
+    static std::size_t at(int x, int y) { return std::size_t(y * (side + 1) + x); }
+
+    /// Cut at the borders of pixels.
+    void edge(scene::Point a, scene::Point b) {
+        std::vector<double> cuts{0, 1};
+        for (int axis = 0; axis < 2; ++axis)
+            for (int k = int(std::ceil(std::min(a[axis], b[axis]))); k < std::max(a[axis], b[axis]); ++k)
+                cuts.push_back(std::clamp((k - a[axis]) / (b[axis] - a[axis]), 0.0, 1.0));
+        std::ranges::sort(cuts);
+        for (std::size_t i = 1; i < cuts.size(); ++i)
+            if (cuts[i] > cuts[i - 1])
+                inPixel(a + (b - a) * cuts[i - 1], a + (b - a) * cuts[i]);
+    }
+    void inPixel(scene::Point a, scene::Point b) {
+        const scene::Point middle = 0.5 * (a + b);
+        const int x = std::clamp(int(middle.x), 0, side - 1), y = std::clamp(int(middle.y), 0, side - 1);
+        own_[at(x, y)] += (b.y - a.y) * (x + 1 - middle.x);
+        right_[at(x + 1, y)] += b.y - a.y;
+    }
+
+    std::vector<double> own_, right_;
+};
+
+double largestDifference(const Outlines& a, const Outlines& b) {
+    const PixelAreas p(a), q(b);
+    double largest = 0;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            largest = std::max(largest, std::abs(p(x, y) - q(x, y)));
+    return largest;
+}
+
+Outlines outlineOf(const scene::Path& path, ChordTolerance pixels) {
+    Outlines outlines;
+    addOutline(outlines, path, {steps, 0, 0, steps, 0, 0}, pixels.scaled(steps), {0, 0},
+               glm::dvec2(side * steps));
+    return outlines;
+}
+Outlines strokeOf(const scene::Path& path, double width, ChordTolerance pixels) {
+    scene::StrokeStyle style;
+    style.width = width;
+    style.join = scene::Join::Round;
+    style.cap = scene::Cap::Round;
+    Outlines outlines;
+    addStroke(outlines, path, style, 1.0 / 4096, pixels, {steps, 0, 0, steps, 0, 0}, pixels.scaled(steps),
+              {0, 0}, glm::dvec2(side * steps));
+    return outlines;
+}
+
+const ChordTolerance byArea{1.0 / 256, area}, byDistance{1.0 / 256}, exact{1.0 / 8192};
+
+struct AreaChords : testing::TestWithParam<unsigned> {
+    /// Some curves that go on from each other, in a square of that size.
+    scene::Path curves(double size) {
+        std::uniform_real_distribution<double> coordinate(0.5 * (side - size), 0.5 * (side + size));
+        const auto point = [&] { return scene::Point{coordinate(random), coordinate(random)}; };
+        scene::Path path{scene::MoveTo{point()}};
+        for (int i = 0; i < 3; ++i)
+            path.push_back(scene::CubicTo{point(), point(), point()});
+        return path;
+    }
+    std::mt19937 random{GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(Seeds, AreaChords, testing::Range(0u, 40u));
+
+TEST_P(AreaChords, misplaceNoMoreOfAPixelThanTheyMay) {
+    for (const double size : {1.0, 2.0, 5.0, 20.0}) {
+        const scene::Path path = curves(size);
+        const Outlines chords = outlineOf(path, byArea);
+        // Of curves that turn and cross themselves at random, so many parts may pass through one pixel.
+        const int edges = size < 3 ? 6 : 5;
+        EXPECT_LT(largestDifference(chords, outlineOf(path, exact)), edges * area + slack) << size;
+        EXPECT_LE(chords.points.size(), outlineOf(path, byDistance).points.size()) << size;
+    }
+}
+
+TEST_P(AreaChords, ofStrokesToo) {
+    for (const double width : {0.2, 1.0, 4.0}) {
+        const scene::Path path = curves(16);
+        const Outlines chords = strokeOf(path, width, byArea);
+        // Both sides, as often.
+        EXPECT_LT(largestDifference(chords, strokeOf(path, width, exact)), 6 * area + 4 * slack) << width;
+    }
+}
+
+TEST(AreaChords, ofACircleCoverIt) {
+    // Many small errors of one sign would add up.
+    const scene::Path circle{scene::MoveTo{{4, 12}}, scene::ArcTo{{8, 8}, 0, false, true, {20, 12}},
+                             scene::ArcTo{{8, 8}, 0, false, true, {4, 12}}, scene::Close{}};
+    const auto sum = [](const PixelAreas& areas) {
+        double all = 0;
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x)
+                all += areas(x, y);
+        return std::abs(all);
+    };
+    const double truth = 64 * 3.14159265358979;
+    EXPECT_NEAR(sum(PixelAreas(outlineOf(circle, byArea))), truth, 0.01);
+    EXPECT_GT(truth - sum(PixelAreas(outlineOf(circle, byDistance))), 0.05);
+}
+
+}  // namespace
+}  // namespace vtm::compiler
