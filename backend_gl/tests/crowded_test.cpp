@@ -157,7 +157,7 @@ TEST_F(Gl, OverrunsAreMarkedAndNeverTransparent) {
     if (std::string(reinterpret_cast<const char*>(glGetString(GL_RENDERER))).find("llvmpipe") ==
         std::string::npos)
         GTEST_SKIP() << "the driver does not stop loops";
-    const Asset asset = fan(3000);
+    const Asset asset = fan(9000);
     const View view = turnedView(64, 64, {32, 32}, 1, 0);
     const auto draw = [&](unsigned turns, bool mark) {
         Renderer drawing(withTurns(turns, mark));

@@ -12,6 +12,7 @@
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/debug.hpp"
+#include "raster/detail_map.hpp"
 
 namespace vtm::gl {
 
@@ -86,6 +87,12 @@ using asset::Texel;
 using glm::dvec2;
 
 constexpr double cellsPerRadius = 2.83;
+/// A tile has fewer pixels a side.
+constexpr double mostPixels = 64;
+/// Pixels: where pieces are longer in the mean, merging them gains little.
+constexpr double longPiece = 1;
+/// Of the pieces, that are left.
+constexpr double fewer = 0.9;
 /// What is kept before everything is thrown away: 64 MiB.
 constexpr std::size_t maxTexels = std::size_t(1) << 22;
 
@@ -121,13 +128,34 @@ Atlas::Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t firstPaint
 
 asset::AssetView Atlas::withPaints() const { return withPaintsFrom(asset_->asset, firstPaint_); }
 
+/// What tiles of a level are cut from.
+const asset::PlanarIndex& Atlas::piecesFor(int level) {
+    if (!pieces_) {
+        pieces_.emplace(flatPlanarMap(asset_->asset, map_));
+        double length = 0;
+        for (const PlanarPiece& piece : pieces_->map().pieces)
+            length += glm::distance(piece.a, piece.b);
+        meanLength_ = length / double(std::max<std::size_t>(pieces_->map().pieces.size(), 1));
+    }
+    const double pixel = std::ldexp(pieces_->map().extent, -level) / mostPixels;
+    if (meanLength_ > longPiece * pixel)
+        return *pieces_;
+    const auto [found, isNew] = levels_.try_emplace(level);
+    if (isNew) {
+        asset::PlanarMap map = mapForPixels(pieces_->map(), pixel);
+        if (double(map.pieces.size()) < fewer * double(pieces_->map().pieces.size()))
+            found->second.emplace(std::move(map));
+    }
+    return found->second ? *found->second : *pieces_;
+}
+
 /// By square, row by row.
-std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i64vec2 min,
-                                                               glm::i64vec2 max) const {
+std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::PlanarMap& map, int level,
+                                                               glm::i64vec2 min, glm::i64vec2 max) {
     const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
     std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
-    const double side = std::ldexp(pieces_->map().extent, -level);
-    for (const PlanarPiece& piece : pieces_->map().pieces) {
+    const double side = std::ldexp(map.extent, -level);
+    for (const PlanarPiece& piece : map.pieces) {
         limits::check();
         const double reach = tileMargin() + piece.bulge() / side;
         const dvec2 minimum = glm::floor(glm::min(piece.a, piece.b) / side - reach),
@@ -143,8 +171,9 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(int level, glm::i
     return near;
 }
 
-Atlas::Placed Atlas::place(const TilePlace& place, std::span<const PlanarPiece* const> near) {
-    const TileSource source{withPaints(), *pieces_, std::span(asset_->programTurns).subspan(firstPaint_),
+Atlas::Placed Atlas::place(const asset::PlanarIndex& pieces, const TilePlace& place,
+                           std::span<const PlanarPiece* const> near) {
+    const TileSource source{withPaints(), pieces, std::span(asset_->programTurns).subspan(firstPaint_),
                             std::span(asset_->changes).subspan(firstPaint_), maxTurns_};
     return this->place(buildTile(source, place, tileMargin(), near));
 }
@@ -162,6 +191,7 @@ void Atlas::makeRoom() {
     if (texels_.size() <= maxTexels)
         return;
     placed_.clear();
+    levels_.clear();
     crowded_.reset();
     texels_.clear();
     uploaded_ = 0;
@@ -177,8 +207,7 @@ const Atlas::Placed& Atlas::prepareCrowded() {
 
 std::vector<const Atlas::Placed*> Atlas::prepare(int level, glm::i64vec2 min, glm::i64vec2 max) {
     makeRoom();
-    if (!pieces_)
-        pieces_.emplace(flatPlanarMap(asset_->asset, map_));
+    const asset::PlanarIndex& pieces = piecesFor(level);
     std::vector<std::vector<const PlanarPiece*>> near;
     std::vector<const Placed*> tiles;
     for (std::int64_t y = min.y; y < max.y; ++y)
@@ -187,8 +216,8 @@ std::vector<const Atlas::Placed*> Atlas::prepare(int level, glm::i64vec2 min, gl
             auto found = placed_.find(at);
             if (found == placed_.end()) {
                 if (near.empty())
-                    near = piecesNear(level, min, max);
-                found = placed_.emplace(at, place(at, near[tiles.size()])).first;
+                    near = piecesNear(pieces.map(), level, min, max);
+                found = placed_.emplace(at, place(pieces, at, near[tiles.size()])).first;
             }
             tiles.push_back(&found->second);
         }

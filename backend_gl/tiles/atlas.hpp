@@ -92,12 +92,14 @@ public:
     ScannedPixels& scanned() { return scanned_; }
 
 private:
-    Placed place(const TilePlace& place, std::span<const PlanarPiece* const> near);
+    const asset::PlanarIndex& piecesFor(int level);
+    Placed place(const asset::PlanarIndex& pieces, const TilePlace& place,
+                 std::span<const PlanarPiece* const> near);
     Placed place(Tile tile);
     asset::AssetView withPaints() const;
     void makeRoom();
-    std::vector<std::vector<const PlanarPiece*>> piecesNear(int level, glm::i64vec2 min,
-                                                            glm::i64vec2 max) const;
+    static std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& map, int level,
+                                                                   glm::i64vec2 min, glm::i64vec2 max);
     void upload();
 
     asset::Map map_;
@@ -105,6 +107,9 @@ private:
     std::uint32_t firstPaint_, maxTurns_;
     ScannedPixels scanned_;                     ///< of crowded cells
     std::optional<asset::PlanarIndex> pieces_;  ///< once a view has asked
+    double meanLength_ = 0;                     ///< of these, lattice steps
+    /// By level, with less detail; nothing where that has hardly fewer pieces.
+    std::map<int, std::optional<asset::PlanarIndex>> levels_;
 
     std::map<TilePlace, Placed> placed_;
     std::optional<Placed> crowded_;

@@ -44,7 +44,10 @@ void forEachCell(const PlanarPiece& p, double margin, Visit&& visit) {
     const dvec2 d = p.b - p.a;
     const double inverse = 1 / glm::dot(d, d);
     const double reach = margin + p.bulge();
+    // From the cell's centre: to the chord, as far as its corners are, and to the chord's line, as far as the
+    // cell extends across it.
     const double fromCentre = reach + cellSize * std::sqrt(0.5);
+    const double fromLine = reach * glm::length(d) + 0.5 * cellSize * (std::abs(d.x) + std::abs(d.y));
     const auto index = [&](double v) {
         return int(std::clamp(std::floor(v * cellCount), 0.0, cellCount - 1.0));
     };
@@ -67,9 +70,12 @@ void forEachCell(const PlanarPiece& p, double margin, Visit&& visit) {
         const double minimum = std::min(x0, x1) - reach, maximum = std::max(x0, x1) + reach;
         if (maximum < 0 || minimum > 1)
             continue;
-        for (int column = index(minimum), last = index(maximum); column <= last; ++column)
-            if (distance2(p.a, d, inverse, (dvec2(column, row) + 0.5) * cellSize) <= fromCentre * fromCentre)
+        for (int column = index(minimum), last = index(maximum); column <= last; ++column) {
+            const dvec2 centre = (dvec2(column, row) + 0.5) * cellSize;
+            if (std::abs(cross(d, centre - p.a)) <= fromLine &&
+                distance2(p.a, d, inverse, centre) <= fromCentre * fromCentre)
                 visit(std::uint32_t(row * cellCount + column));
+        }
     }
 }
 

@@ -214,11 +214,10 @@ std::optional<dvec2> clearPoint(const LocalPieces& local, double side,
 
 namespace {
 
-/// tile_fragment.glsl: a loop over the references of one texel, two at least, takes one turn more than there
-/// are references; and the loop over texels takes one.
-constexpr std::uint64_t turnsPerPiece = 2;
-/// The cell itself, and the last texel.
-constexpr std::uint64_t turnsOfEnds = 4;
+/// tile_fragment.glsl: one loop, of a turn a reference.
+constexpr std::uint64_t turnsPerPiece = 1;
+/// One at least, and one to find the end.
+constexpr std::uint64_t turnsOfEnds = 2;
 
 /// tile_programs_fragment.glsl: the pixel and its quarters.
 constexpr std::uint64_t partCount = 5;

@@ -32,6 +32,9 @@ struct DetailSquare {
     }
 };
 
+/// A square on whose border no point lies.
+inline constexpr DetailSquare noBorder{glm::dvec2(-1), glm::dvec2(-1)};
+
 /// Boundaries for pixels of that many lattice steps and larger ones. Chains of pieces between the same two
 /// regions are followed as long as a straight piece stays near, and the points between two of these are moved
 /// so that the areas beside the chain stay what they are. Points in which chains meet or end, and those on

@@ -72,10 +72,7 @@ ScannedMap::ScannedMap(const AssetView& asset, const Map& map) : place_{{map.x, 
     makeSeams(std::move(lines));
 }
 
-ScannedMap::ScannedMap(const PlanarMap& map) : place_(map) {
-    boxes_.emplace_back(map.pieces,
-                        DetailSquare{glm::dvec2(-1), glm::dvec2(-1)});  // no point is on its border
-}
+ScannedMap::ScannedMap(const PlanarMap& map) : place_(map) { boxes_.emplace_back(map.pieces, noBorder); }
 
 void ScannedMap::add(MapPart part) {
     const double side = std::ldexp(place_.extent, -2 * int(part.cell.level));

@@ -2,8 +2,8 @@
 // every other, fetches and all.
 // Requires: fetch.glsl, shadow.glsl; tile_vertex.glsl's outputs; constants of backend_gl/tiles/tile.hpp; CROWDED defined as 1 where the
 // tile has crowded cells, else 0.
-// Exports: tileOrigin, tileTexels, tilePicture, Cell, tilePoint, isFlatTile, cellAt, firstReferences,
-// referenceCount, referencesFrom, referenceAt, tileTexel, unpackColor, finishedSum.
+// Exports: tileOrigin, tileTexels, tilePicture, Cell, tilePoint, isFlatTile, cellAt, List, listOf,
+// nextReference, tileTexel, unpackColor, finishedSum.
 
 uniform usampler2D tiles;
 uniform vec4 pixelToTile;  // distances, by columns
@@ -56,6 +56,30 @@ uint referenceAt(uvec4 references, uint i) {
     uint halves = wide ? i * 2u : i;
     uint word = halves < 2u ? references.y : halves < 4u ? references.z : references.w;
     return wide ? word : word >> (halves << 4 & 16u) & 0xFFFFu;
+}
+
+// A cell's references, one after the other.
+struct List {
+    uvec4 references;
+    uint i, left;
+};
+
+List listOf(Cell cell) {
+    uvec4 references = firstReferences(cell);
+    // Such a cell has no references of its own.
+    if ((references.x & moreBit) != 0u)
+        references = tileTexel(references.w);
+    return List(references, 0u, referencesFrom(references));
+}
+
+// Requires that some are left.
+uint nextReference(inout List list) {
+    if (list.i == referenceCount(list.references)) {
+        list.references = tileTexel(list.references.w);
+        list.i = 0u;
+    }
+    --list.left;
+    return referenceAt(list.references, list.i++);
 }
 
 // ---- Pixels that were too much ----------------------------------------------------------------------

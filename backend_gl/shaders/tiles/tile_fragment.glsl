@@ -2,26 +2,22 @@
 
 out vec4 color;
 
+// Some drivers run a loop's body once more to find that it has ended, unless the condition stands at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
-    uvec4 references = firstReferences(cell);
+    List list = listOf(cell);
     vec4 sum = regionValueIn(65535.0, unpackColor(cell.texel.yz));
-    uint met = 0u, all = referencesFrom(references);
-    for (;;) {
-        uint count = referenceCount(references), i = 0u;
-        for (; i < count; ++i) {
-            uint reference = referenceAt(references, i), first = reference >> 2 << 1;
+    uint met = 0u, all = list.left;
+    do {
+        if (list.left != 0u) {
+            uint reference = nextReference(list), first = reference >> 2 << 1;
             TilePiece piece = tilePiece(tileTexel(first).xyz, cell.o);
             float weight = pieceWeight(piece, cell.way, reference, tileToBox);
             uvec4 colors = tileTexel(first + 1u);
             sum += weight * (regionValueIn(65535.0, unpackColor(colors.xy)) -
                              regionValueIn(65535.0, unpackColor(colors.zw)));
+            ++met;
         }
-        met += i;
-        if ((references.x & moreBit) == 0u)
-            break;
-        references = tileTexel(references.w);
-        all = max(all, referencesFrom(references));
-    }
+    } while (list.left != 0u);
     color = outputColor(finishedSum(cell, sum / 65535.0, met == all));
 }

@@ -34,31 +34,6 @@ float weightIn(uint part, TilePiece piece, uvec3 bits, uint reference, Cell cell
     return 0.25 * (pieceWeight(tilePiece(bits, centre), centre - cell.o, sides, 2.0 * tileToBox) - weight);
 }
 
-// ---- A cell's references, one after the other -----------------------------------------------------
-
-struct List {
-    uvec4 references;
-    uint i, left;
-};
-
-List listOf(Cell cell) {
-    uvec4 references = firstReferences(cell);
-    // Such a cell has no references of its own.
-    if ((references.x & moreBit) != 0u)
-        references = tileTexel(references.w);
-    return List(references, 0u, referencesFrom(references));
-}
-
-// Requires that some are left.
-uint nextReference(inout List list) {
-    if (list.i == referenceCount(list.references)) {
-        list.references = tileTexel(list.references.w);
-        list.i = 0u;
-    }
-    --list.left;
-    return referenceAt(list.references, list.i++);
-}
-
 // ---- Weights by paint -----------------------------------------------------------------------------
 
 // A paint, and the sum of the weights of pieces that have it on their left, less those that have it on their right.
