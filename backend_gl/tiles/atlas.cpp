@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
 
+#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -150,8 +154,9 @@ const asset::PlanarIndex& Atlas::piecesFor(int level) {
 }
 
 /// By square, row by row.
-std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::PlanarMap& map, int level,
-                                                               glm::i64vec2 min, glm::i64vec2 max) {
+std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::PlanarMap& map,
+                                                               const Region& region) {
+    const auto& [level, min, max] = region;
     const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
     std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
     const double side = std::ldexp(map.extent, -level);
@@ -171,29 +176,46 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::Plan
     return near;
 }
 
-Atlas::Placed Atlas::place(const asset::PlanarIndex& pieces, const TilePlace& place,
-                           std::span<const PlanarPiece* const> near) {
-    const TileSource source{withPaints(), pieces, std::span(asset_->programTurns).subspan(firstPaint_),
-                            std::span(asset_->changes).subspan(firstPaint_), maxTurns_};
-    return this->place(buildTile(source, place, tileMargin(), near));
-}
-
 Atlas::Placed Atlas::place(Tile tile) {
     if (tile.texels.empty())
-        return {true, tile.programs, tile.paint, 0, 0, {}};
-    Placed placed{false,          tile.programs,          0, std::uint32_t(texels_.size()),
-                  tile.firstCell, std::move(tile.crowded)};
+        return {
+            .flat = true, .programs = tile.programs, .paint = tile.paint, .crowded = {}, .used = picture_};
+    Placed placed{.programs = tile.programs,
+                  .firstTexel = std::uint32_t(texels_.size()),
+                  .firstCell = tile.firstCell,
+                  .texelCount = std::uint32_t(tile.texels.size()),
+                  .crowded = std::move(tile.crowded),
+                  .used = picture_};
     texels_.insert(texels_.end(), tile.texels.begin(), tile.texels.end());
     return placed;
 }
 
+/// Forgets the tiles that were not used for longest, until half of what may be kept is left.
 void Atlas::makeRoom() {
     if (texels_.size() <= maxTexels)
         return;
-    placed_.clear();
-    levels_.clear();
+    std::vector<std::pair<std::uint64_t, std::size_t>> sizes;  // by picture
+    for (const auto& [at, tile] : placed_)
+        sizes.emplace_back(tile.used, tile.texelCount);
+    std::ranges::sort(sizes, std::greater());
+    std::size_t kept = 0;
+    std::uint64_t oldest = picture_;
+    for (const auto& [used, count] : sizes)
+        if ((kept += count) <= maxTexels / 2)
+            oldest = used;
+    std::erase_if(placed_, [&](const auto& tile) { return tile.second.used < oldest; });
+    std::erase_if(levels_, [&](const auto& level) {
+        return std::ranges::none_of(placed_,
+                                    [&](const auto& tile) { return tile.first.level == level.first; });
+    });
     crowded_.reset();
-    texels_.clear();
+    std::vector<Texel> texels;
+    for (auto& [at, tile] : placed_) {
+        const auto first = texels_.begin() + std::ptrdiff_t(tile.firstTexel);
+        tile.firstTexel = std::uint32_t(texels.size());
+        texels.insert(texels.end(), first, first + std::ptrdiff_t(tile.texelCount));
+    }
+    texels_ = std::move(texels);
     uploaded_ = 0;
 }
 
@@ -205,24 +227,62 @@ const Atlas::Placed& Atlas::prepareCrowded() {
     return *crowded_;
 }
 
-std::vector<const Atlas::Placed*> Atlas::prepare(int level, glm::i64vec2 min, glm::i64vec2 max) {
+std::vector<const Atlas::Placed*> Atlas::prepare(const Region& region) {
     makeRoom();
-    const asset::PlanarIndex& pieces = piecesFor(level);
-    std::vector<std::vector<const PlanarPiece*>> near;
+    ++picture_;
+    make(region, std::numeric_limits<std::size_t>::max());
     std::vector<const Placed*> tiles;
-    for (std::int64_t y = min.y; y < max.y; ++y)
-        for (std::int64_t x = min.x; x < max.x; ++x) {
-            const TilePlace at{level, x, y};
-            auto found = placed_.find(at);
-            if (found == placed_.end()) {
-                if (near.empty())
-                    near = piecesNear(pieces.map(), level, min, max);
-                found = placed_.emplace(at, place(pieces, at, near[tiles.size()])).first;
-            }
-            tiles.push_back(&found->second);
+    for (std::int64_t y = region.min.y; y < region.max.y; ++y)
+        for (std::int64_t x = region.min.x; x < region.max.x; ++x) {
+            Placed& tile = placed_.at({region.level, x, y});
+            tile.used = picture_;
+            tiles.push_back(&tile);
         }
     upload();
     return tiles;
+}
+
+Atlas::Zoom Atlas::zoomTo(const asset::View& view) {
+    // Less is no zoom, more a jump.
+    constexpr double least = 1 + 1e-3, most = 2;
+    const double radius = footprintRadius(map_, view), last = std::exchange(lastRadius_, radius);
+    const double larger = radius / last, smaller = last / radius;
+    return smaller > least && smaller < most ? Zoom::In
+           : larger > least && larger < most ? Zoom::Out
+                                             : Zoom::None;
+}
+
+void Atlas::prepareAhead(const Region& region) {
+    const glm::i64vec2 size = region.max - region.min;
+    if (size.x > 0 && size.y > 0 && region.level <= maxTileLevel && texels_.size() <= maxTexels)
+        make(region, std::size_t(size.x * size.y) / 8 + 1);
+}
+
+/// Tiles that are missing, so many at most.
+void Atlas::make(const Region& region, std::size_t most) {
+    struct Missing {
+        TilePlace at;
+        std::size_t number;
+        Tile tile = {};
+    };
+    std::vector<Missing> missing;
+    std::size_t number = 0;
+    for (std::int64_t y = region.min.y; y < region.max.y; ++y)
+        for (std::int64_t x = region.min.x; x < region.max.x; ++x, ++number)
+            if (missing.size() < most && !placed_.contains({region.level, x, y}))
+                missing.push_back({{region.level, x, y}, number});
+    if (missing.empty())
+        return;
+    const asset::PlanarIndex& pieces = piecesFor(region.level);
+    const std::vector<std::vector<const PlanarPiece*>> near = piecesNear(pieces.map(), region);
+    const TileSource source{withPaints(), pieces, std::span(asset_->programTurns).subspan(firstPaint_),
+                            std::span(asset_->changes).subspan(firstPaint_), maxTurns_};
+    tbb::parallel_for(std::size_t{0}, missing.size(), [&, holding = limits::current()](std::size_t i) {
+        const limits::Scope scope(holding);
+        missing[i].tile = buildTile(source, missing[i].at, tileMargin(), near[missing[i].number]);
+    });
+    for (Missing& made : missing)
+        placed_.emplace(made.at, place(std::move(made.tile)));
 }
 
 /// Whole rows from the first that has new texels.

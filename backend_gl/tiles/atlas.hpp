@@ -74,11 +74,22 @@ public:
         bool flat = false;        ///< one paint, no texels
         bool programs = false;    ///< of its paints one is a program
         std::uint32_t paint = 0;  ///< of the map
-        std::uint32_t firstTexel = 0, firstCell = 0;
+        std::uint32_t firstTexel = 0, firstCell = 0, texelCount = 0;
         std::vector<std::uint8_t> crowded;  ///< cells whose pixels are scanned
+        std::uint64_t used = 0;             ///< by which picture, the last time
     };
-    /// All squares of a level that meet [min, max], in tiles, row by row. May move the texture.
-    std::vector<const Placed*> prepare(int level, glm::i64vec2 min, glm::i64vec2 max);
+    /// Squares of a level: [min, max), row by row.
+    struct Region {
+        int level;
+        glm::i64vec2 min, max;
+    };
+    /// For one picture. Makes what is missing, on all processors. May move the texture.
+    std::vector<const Placed*> prepare(const Region& region);
+    /// How a view's scale goes on from the one that was told last.
+    enum class Zoom { None, In, Out };
+    Zoom zoomTo(const asset::View& view);
+    /// A part of what is missing, for pictures to come: an eighth of the region at most. After prepare().
+    void prepareAhead(const Region& region);
     /// One that is crowded all over. May move the texture.
     const Placed& prepareCrowded();
     /// Whether tiles do not suffice for a view. They do where the scanner lacks the colours of materials.
@@ -93,13 +104,12 @@ public:
 
 private:
     const asset::PlanarIndex& piecesFor(int level);
-    Placed place(const asset::PlanarIndex& pieces, const TilePlace& place,
-                 std::span<const PlanarPiece* const> near);
+    void make(const Region& region, std::size_t most);
     Placed place(Tile tile);
     asset::AssetView withPaints() const;
     void makeRoom();
-    static std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& map, int level,
-                                                                   glm::i64vec2 min, glm::i64vec2 max);
+    static std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& map,
+                                                                   const Region& region);
     void upload();
 
     asset::Map map_;
@@ -112,6 +122,8 @@ private:
     std::map<int, std::optional<asset::PlanarIndex>> levels_;
 
     std::map<TilePlace, Placed> placed_;
+    std::uint64_t picture_ = 0;  ///< how many were prepared
+    double lastRadius_ = 0;      ///< of a pixel, by zoomTo()
     std::optional<Placed> crowded_;
     std::vector<asset::Texel> texels_;
     std::size_t uploaded_ = 0, capacity_ = 0;

@@ -181,8 +181,24 @@ Geometry scannedGeometry(Atlas& atlas, const Squares& map) {
     return geometry;
 }
 
-Geometry preparedGeometry(const UploadedAsset& asset, Atlas& atlas, const Squares& squares, int level) {
-    return geometryOf(asset, atlas.firstPaint(), squares, atlas.prepare(level, squares.min, squares.max));
+/// What a zoom that goes on as from the last view to this one will show when it comes to the next level: half
+/// or twice as much, about the same middle.
+PixelBox boxAhead(const PixelBox& box, Atlas::Zoom zoom) {
+    const glm::ivec2 size = box.size(), quarter = size / 4, half = size / 2;
+    return zoom == Atlas::Zoom::In ? PixelBox{box.min + quarter, box.max - quarter}
+                                   : PixelBox{box.min - half, box.max + half};
+}
+
+Geometry preparedGeometry(const UploadedAsset& asset, Atlas& atlas, const Squares& squares, int level,
+                          const asset::View& view, const PixelBox& box) {
+    const Geometry geometry =
+        geometryOf(asset, atlas.firstPaint(), squares, atlas.prepare({level, squares.min, squares.max}));
+    if (const Atlas::Zoom zoom = atlas.zoomTo(view); zoom != Atlas::Zoom::None) {
+        const int next = level + (zoom == Atlas::Zoom::In ? 1 : -1);
+        const Squares ahead(atlas.map(), view, boxAhead(box, zoom), next);
+        atlas.prepareAhead({next, ahead.min, ahead.max});
+    }
+    return geometry;
 }
 
 template <class Vertex>
@@ -244,7 +260,7 @@ void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& a
     const int level = scanned ? 0 : tileLevelFor(atlas.map(), view);
     const Squares squares(atlas.map(), view, box, level);
     const Geometry geometry =
-        scanned ? scannedGeometry(atlas, squares) : preparedGeometry(asset, atlas, squares, level);
+        scanned ? scannedGeometry(atlas, squares) : preparedGeometry(asset, atlas, squares, level, view, box);
     if (!geometry.crowded.empty()) {
         const bool light = finish.has(Finish::LinearLight);
         atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);
