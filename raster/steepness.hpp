@@ -30,6 +30,8 @@ struct PaintChange {
     /// gradient alone the variation. Others: 0.
     float roughness = 0;
     bool mayJump = false;  ///< anywhere, since it has blend modes of what changes
+
+    bool operator==(const PaintChange&) const = default;
 };
 /// By paint.
 std::vector<PaintChange> changesOf(const AssetView& asset);

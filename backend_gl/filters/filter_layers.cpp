@@ -38,7 +38,7 @@ FilterLayers::Pass& FilterLayers::Pass::input(const FilterLayer& layer, Unit uni
 
 FilterLayers::Pass& FilterLayers::Pass::numbers(const asset::FilterPrimitive& primitive) {
     glActiveTexture(GL_TEXTURE0 + GLenum(Unit::Texels));
-    glBindTexture(GL_TEXTURE_2D, asset_->texels.get());
+    glBindTexture(GL_TEXTURE_2D, asset_->records.texture().get());
     constexpr GLuint wordsPerTexel = sizeof(asset::Texel) / sizeof(std::uint32_t);
     glUniform1ui(uniform("firstNumber"),
                  asset_->sections.filterWords * wordsPerTexel + primitive.firstWord + primitive.inputs);

@@ -120,7 +120,7 @@ void LayerRenderer::enterTop() {
 }
 
 void LayerRenderer::bindAsset() {
-    bindTexture(Unit::Texels, asset_.texels);
+    bindTexture(Unit::Texels, asset_.records.texture());
     bindTexture(Unit::Images, asset_.images);
     bindTexture(Unit::Placements, asset_.placementTexels);
 }

@@ -279,6 +279,15 @@ Texture Renderer::upload(const asset::AssetView& asset) {
     });
 }
 
+std::size_t Renderer::update(Texture& texture, const asset::AssetView& asset,
+                             const asset::Difference& difference) {
+    if (!texture.impl_->canUpdate(asset, difference)) {
+        texture.impl_ = std::move(upload(asset).impl_);
+        return texture.impl_->records.bytes();
+    }
+    return impl_->call([&](const StateGuard&) { return texture.impl_->update(asset, difference); });
+}
+
 image::Raster Renderer::render(const Texture& texture, const asset::View& view) {
     asset::validate(view);
     if (const auto& filtered = texture.impl_->filtered)

@@ -21,29 +21,6 @@ namespace {
 using asset::AssetView;
 using asset::Texel;
 
-/// Whole rows.
-std::size_t roomOf(std::size_t texels) {
-    constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
-    return std::max<std::size_t>(1, (texels + columns - 1) / columns) * columns;
-}
-
-/// Where `next` differs from `before`, [first, end); what lies closely together is one range, as each is a
-/// call.
-std::vector<std::pair<std::size_t, std::size_t>> changedRanges(const std::vector<Texel>& before,
-                                                               const std::vector<Texel>& next) {
-    constexpr std::size_t gap = 32;
-    std::vector<std::pair<std::size_t, std::size_t>> ranges;
-    for (std::size_t i = 0; i < next.size(); ++i) {
-        if (i < before.size() && before[i] == next[i])
-            continue;
-        if (!ranges.empty() && i - ranges.back().second < gap)
-            ranges.back().second = i + 1;
-        else
-            ranges.emplace_back(i, i + 1);
-    }
-    return ranges;
-}
-
 const asset::Map& onlyMap(const AssetView& asset) {
     if (asset.mode != asset::Mode::Exact)
         throw GlError("an asset of compat mode cannot be sampled: it has layers, not regions");
@@ -67,9 +44,7 @@ struct SampledTexture::Impl {
         uniform.map = onlyMap(asset);
         uniform.flags = samplingFlags(features, {innerMapsOf(asset), false});
         uniform.prefilterSize = pyramid.size;
-        std::vector<Texel> all = recordTexels(asset, pictures.list, uniform.parts);
-        room = roomOf(all.size());
-        texels = texelTexture(std::move(all));
+        records = RecordTexture(recordTexels(asset, pictures.list, uniform.parts));
         if (features.has(Features::Image))
             images = imageTexture(std::move(pictures.rgba));
     }
@@ -84,32 +59,13 @@ struct SampledTexture::Impl {
         uniform.height = asset.height;
         uniform.map = onlyMap(asset);
         finestPixel = asset.finestPixel;
-        const std::size_t sent = next.size() > room ? sendAll(next) : sendChanges(next);
-        records = std::move(next);
-        return sent * sizeof(Texel);
-    }
-
-    std::size_t sendAll(const std::vector<Texel>& next) {
-        room = roomOf(next.size());
-        texels = texelTexture(next);
-        return next.size();
-    }
-
-    std::size_t sendChanges(const std::vector<Texel>& next) const {
-        std::size_t sent = 0;
-        for (const auto& [first, end] : changedRanges(records, next)) {
-            updateTexels(texels.get(), first, std::span(next).subspan(first, end - first));
-            sent += end - first;
-        }
-        checkErrors("update of a texture");
-        return sent;
+        return records.update(std::move(next));
     }
 
     std::optional<double> finestPixel;
     VtmUniform uniform;
-    std::size_t room = 0;        ///< texels that the texture holds
-    std::vector<Texel> records;  ///< those of the last update
-    TextureHandle texels, prefilter, images;
+    RecordTexture records;
+    TextureHandle prefilter, images;
     Samplers samplers;
 };
 
@@ -158,7 +114,7 @@ unsigned SampledTexture::units() const { return impl_->images.get() != 0 ? 3 : 2
 void SampledTexture::bind(unsigned program, const std::string& name, unsigned firstUnit, Wrapping wrapping) {
     const Binding binding(program, name, firstUnit, units());
     impl_->uniform.set(program, name, wrapping);
-    binding.texture("texels", 0, impl_->texels.get(), 0);
+    binding.texture("texels", 0, impl_->records.texture().get(), 0);
     binding.texture("prefilter", 1, impl_->prefilter.get(), impl_->samplers.of(wrapping));
     if (impl_->images.get() != 0)
         binding.texture("images", 2, impl_->images.get(), 0);

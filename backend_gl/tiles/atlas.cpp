@@ -16,6 +16,7 @@
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/debug.hpp"
+#include "backend_gl/upload/asset_texels.hpp"
 #include "raster/detail_map.hpp"
 
 namespace vtm::gl {
@@ -36,34 +37,72 @@ asset::AssetView withPaintsFrom(const asset::Asset& asset, std::uint32_t first) 
 
 }  // namespace
 
+namespace {
+
+void copyTrees(const asset::AssetView& from, asset::Asset& to) {
+    copy(from.maps, to.maps);
+    copy(from.nodes, to.nodes);
+    copy(from.leaves, to.leaves);
+    copy(from.pieces, to.pieces);
+}
+
+void copyPaints(const asset::AssetView& from, KeptAsset& to) {
+    copy(from.paints, to.asset.paints);
+    copy(from.data, to.asset.data);
+    to.programTurns = programTurns(from);
+    to.changes = asset::changesOf(from);
+}
+
+}  // namespace
+
 KeptAsset keptOf(const asset::AssetView& asset) {
     KeptAsset kept;
-    copy(asset.maps, kept.asset.maps);
-    copy(asset.nodes, kept.asset.nodes);
-    copy(asset.leaves, kept.asset.leaves);
-    copy(asset.pieces, kept.asset.pieces);
-    copy(asset.paints, kept.asset.paints);
-    copy(asset.data, kept.asset.data);
+    copyTrees(asset, kept.asset);
+    copyPaints(asset, kept);
     copy(asset.images, kept.asset.images);
     copy(asset.materials, kept.asset.materials);
     copy(asset.instanceTrees, kept.asset.instanceTrees);
     copy(asset.instances, kept.asset.instances);
     copy(asset.symbols, kept.asset.symbols);
     copy(asset.palettes, kept.asset.palettes);
-    kept.programTurns = programTurns(asset);
-    kept.changes = asset::changesOf(asset);
     return kept;
+}
+
+PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::Difference& difference) {
+    if (!difference.squares.empty())
+        copyTrees(asset, kept.asset);
+    if (!difference.paints)
+        return {};
+    const std::vector<asset::Paint> before = kept.asset.paints;
+    const std::vector<std::uint32_t> turns = kept.programTurns;
+    const std::vector<asset::PaintChange> changes = kept.changes;
+    copyPaints(asset, kept);
+    PaintUpdate update;
+    update.isChanged.resize(asset.paints.size(), 1);
+    for (std::size_t i = 0; i < std::min(before.size(), asset.paints.size()); ++i) {
+        update.isChanged[i] = before[i] != asset.paints[i];
+        update.kinds |= asset::isProgram(before[i]) != asset::isProgram(asset.paints[i]);
+        update.programs |= turns[i] != kept.programTurns[i] || changes[i] != kept.changes[i];
+    }
+    return update;
+}
+
+asset::AssetView ScannedPixels::drawing() const {
+    asset::AssetView drawing = withPaintsFrom(*asset_, firstPaint_);
+    drawing.commands = {&command_, 1};
+    return drawing;
+}
+
+void ScannedPixels::update(const asset::Difference& difference) {
+    for (std::optional<asset::Scanner>& scanner : scanners_)
+        if (scanner)
+            scanner->update(drawing(), difference);
 }
 
 const asset::Scanner& ScannedPixels::scannerFor(asset::Sums sums) {
     std::optional<asset::Scanner>& scanner = scanners_[std::size_t(sums)];
-    if (!scanner) {
-        asset::Command command;
-        command.map = map_;
-        asset::AssetView drawing = withPaintsFrom(*asset_, firstPaint_);
-        drawing.commands = {&command, 1};
-        scanner.emplace(drawing, sums);
-    }
+    if (!scanner)
+        scanner.emplace(drawing(), sums);
     return *scanner;
 }
 
@@ -124,7 +163,8 @@ bool isStretched(const asset::View& view) {
 double tileMargin() { return std::ldexp(1 / cellsPerRadius, -int(tileCellsLog2)); }
 
 Atlas::Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t firstPaint, std::uint32_t maxTurns)
-    : map_(asset.asset.maps[map]),
+    : number_(map),
+      map_(asset.asset.maps[map]),
       asset_(&asset),
       firstPaint_(firstPaint),
       maxTurns_(maxTurns),
@@ -182,12 +222,61 @@ Atlas::Placed Atlas::place(Tile tile) {
             .flat = true, .programs = tile.programs, .paint = tile.paint, .crowded = {}, .used = picture_};
     Placed placed{.programs = tile.programs,
                   .firstTexel = std::uint32_t(texels_.size()),
+                  .pieces = tile.pieces,
                   .firstCell = tile.firstCell,
                   .texelCount = std::uint32_t(tile.texels.size()),
                   .crowded = std::move(tile.crowded),
                   .used = picture_};
     texels_.insert(texels_.end(), tile.texels.begin(), tile.texels.end());
     return placed;
+}
+
+std::size_t Atlas::update(const asset::Difference& difference, const PaintUpdate& paints) {
+    map_ = asset_->asset.maps[number_];
+    scanned_.update(difference);
+    if (!difference.squares.empty()) {
+        pieces_.reset();
+        levels_.clear();
+        forget(difference.squares);
+    }
+    if (paints.kinds)
+        placed_.clear();
+    else if (paints.programs)
+        std::erase_if(placed_, [](const auto& tile) { return tile.second.programs; });
+    return paints.isChanged.empty() ? 0 : recolorAll(paints);
+}
+
+/// Tiles that show something of the squares.
+void Atlas::forget(std::span<const asset::Cell> squares) {
+    // Pieces reach a little over the border of their squares, and pixels over that of their tiles.
+    constexpr double reach = 0.25;
+    const auto meets = [&](const TilePlace& tile, const asset::Cell& square) {
+        const double scale = std::ldexp(1.0, tile.level - 2 * int(square.level));  // square's sides in tiles
+        const dvec2 low = scale * dvec2(square.x, square.y) - reach, high = low + scale + 2 * reach;
+        return high.x > double(tile.x) && high.y > double(tile.y) && low.x < double(tile.x + 1) &&
+               low.y < double(tile.y + 1);
+    };
+    std::erase_if(placed_, [&](const auto& tile) {
+        return std::ranges::any_of(squares,
+                                   [&](const asset::Cell& square) { return meets(tile.first, square); });
+    });
+}
+
+/// Returns the bytes sent.
+std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
+    const std::span isChanged = std::span(changed.isChanged).subspan(firstPaint_);
+    const std::span<const asset::Paint> paints = withPaints().paints;
+    std::size_t sent = 0;
+    for (const auto& [at, tile] : placed_) {
+        if (tile.texelCount == 0)
+            continue;
+        const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
+        if (!recolor(texels, tile.pieces, tile.firstCell, paints, isChanged) || tile.firstTexel >= uploaded_)
+            continue;
+        updateTexels(texture_.get(), tile.firstTexel, texels);
+        sent += texels.size_bytes();
+    }
+    return sent;
 }
 
 /// Forgets the tiles that were not used for longest, until half of what may be kept is left.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/asset/difference.hpp>
 #include <vtm/raster/scan.hpp>
 #include <vtm/raster/view.hpp>
 #include "backend_gl/core/gl.hpp"
@@ -26,13 +27,26 @@ struct KeptAsset {
 };
 KeptAsset keptOf(const asset::AssetView& asset);
 
+/// What an update changed of paints that were there before.
+struct PaintUpdate {
+    std::vector<std::uint8_t> isChanged;  ///< by paint; none where nothing is
+    bool programs = false;                ///< what programs cost, or how their colours change
+    bool kinds = false;                   ///< solid ones became programs, or programs solid ones
+};
+/// Brings it to the next asset, that differs from the one before by squares and paints alone.
+PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::Difference& difference);
+
 /// Of one map and those in it, for one view after the other.
 class ScannedPixels {
 public:
     /// `asset` must outlive it.
     ScannedPixels(const asset::Asset& asset, std::uint32_t map, std::uint32_t firstPaint)
-        : asset_(&asset), map_(map), firstPaint_(firstPaint) {}
+        : asset_(&asset), map_(map), firstPaint_(firstPaint) {
+        command_.map = map;
+    }
 
+    /// The asset is another one now.
+    void update(const asset::Difference& difference);
     /// Puts the pixels of a box, that is not empty, into the texture. Materials have their fallback colours.
     void scan(const asset::View& view, const PixelBox& box, asset::Sums sums);
     /// RGBA32F, the box's first pixel at (0, 0): what tile shaders add up, premultiplied.
@@ -40,9 +54,11 @@ public:
 
 private:
     const asset::Scanner& scannerFor(asset::Sums sums);
+    asset::AssetView drawing() const;
 
     const asset::Asset* asset_;
     std::uint32_t map_, firstPaint_;
+    asset::Command command_;                                 ///< draws the map
     std::array<std::optional<asset::Scanner>, 2> scanners_;  ///< by Sums, made when first needed
     glm::ivec2 size_{0};
     TextureHandle texture_;
@@ -74,7 +90,7 @@ public:
         bool flat = false;        ///< one paint, no texels
         bool programs = false;    ///< of its paints one is a program
         std::uint32_t paint = 0;  ///< of the map
-        std::uint32_t firstTexel = 0, firstCell = 0, texelCount = 0;
+        std::uint32_t firstTexel = 0, pieces = 0, firstCell = 0, texelCount = 0;
         std::vector<std::uint8_t> crowded;  ///< cells whose pixels are scanned
         std::uint64_t used = 0;             ///< by which picture, the last time
     };
@@ -83,6 +99,8 @@ public:
         int level;
         glm::i64vec2 min, max;
     };
+    /// The asset is another one now, of which that changed. Returns the bytes of tiles that were sent.
+    std::size_t update(const asset::Difference& difference, const PaintUpdate& paints);
     /// For one picture. Makes what is missing, on all processors. May move the texture.
     std::vector<const Placed*> prepare(const Region& region);
     /// How a view's scale goes on from the one that was told last.
@@ -107,11 +125,14 @@ private:
     void make(const Region& region, std::size_t most);
     Placed place(Tile tile);
     asset::AssetView withPaints() const;
+    void forget(std::span<const asset::Cell> squares);
+    std::size_t recolorAll(const PaintUpdate& changed);
     void makeRoom();
     static std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& map,
                                                                    const Region& region);
     void upload();
 
+    std::uint32_t number_;  ///< of the map
     asset::Map map_;
     const KeptAsset* asset_;
     std::uint32_t firstPaint_, maxTurns_;

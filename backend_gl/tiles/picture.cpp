@@ -266,7 +266,7 @@ void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& a
         atlas.scanned().scan(view, geometry.crowded, light ? asset::Sums::Light : asset::Sums::Encoded);
         bindTexture(Unit::Layer, atlas.scanned().texture());
     }
-    bindTexture(Unit::Texels, asset.texels);
+    bindTexture(Unit::Texels, asset.records.texture());
     bindTexture(Unit::Images, asset.images);
     bindTexture(Unit::Tiles, atlas.texture());
     const auto drawAll = [&](const Program& program, const VertexArrayHandle& array,

@@ -239,6 +239,26 @@ std::optional<Reference> startOf(const TileSource& source, const LocalPieces& lo
 
 }  // namespace
 
+bool recolor(std::span<Texel> texels, std::uint32_t pieces, std::uint32_t firstCell,
+             std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged) {
+    bool changed = false;
+    for (std::uint32_t i = 0; i < pieces; ++i) {
+        const std::uint32_t left = texels[2 * i][3] & 0xFFFF, right = texels[2 * i][3] >> 16;
+        if ((isChanged[left] | isChanged[right]) == 0)
+            continue;
+        texels[2 * i + 1] = colorTexel(paints[left], paints[right]);
+        changed = true;
+    }
+    for (Texel& cell : texels.subspan(firstCell)) {
+        const std::uint32_t paint = cell[0] & 0xFFFF;
+        if (isChanged[paint] == 0)
+            continue;
+        cell = withColor(cell, paints[paint]);
+        changed = true;
+    }
+    return changed;
+}
+
 Tile crowdedTile(std::span<const asset::Paint> paints) {
     Tile tile;
     const std::vector<PlanarPiece> none;
@@ -292,6 +312,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
             if (column == 0)
                 rowStart = here;
         }
+    tile.pieces = std::uint32_t(pieces.size());
     tile.firstCell = std::uint32_t(tile.texels.size());
     tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
     return tile;

@@ -71,7 +71,7 @@ inline constexpr std::uint32_t referencesMask = (1u << 20) - 1;
 struct Tile {
     std::uint32_t paint = 0;  ///< of a tile without texels
     std::vector<asset::Texel> texels;
-    std::uint32_t firstCell = 0;
+    std::uint32_t pieces = 0, firstCell = 0;
     bool programs = false;              ///< of the paints near it one is a program
     std::vector<std::uint8_t> crowded;  ///< numbers of such cells, ascending
 };
@@ -84,6 +84,11 @@ struct TileSource {
     std::span<const asset::PaintChange> changes;  ///< by paint
     std::uint32_t maxTurns = turnsPerPixel;
 };
+
+/// Writes the colours of paints that changed into a tile's texels, of which the first are so many pieces.
+/// `isChanged`: by paint. Returns whether there are some.
+bool recolor(std::span<asset::Texel> texels, std::uint32_t pieces, std::uint32_t firstCell,
+             std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged);
 
 /// All cells of which are crowded.
 Tile crowdedTile(std::span<const asset::Paint> paints);

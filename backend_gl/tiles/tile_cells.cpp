@@ -70,6 +70,15 @@ Texel colorTexel(const asset::Paint& left, const asset::Paint& right) {
     return packer.words();
 }
 
+Texel withColor(Texel cell, const asset::Paint& paint) {
+    Packer packer;
+    packer.add(0, 32);
+    addColor(packer, paint);
+    cell[1] = packer.words()[1];
+    cell[2] = packer.words()[2];
+    return cell;
+}
+
 Texel CellWriter::write(const Reference& reference, std::span<const std::uint32_t> list) {
     const bool wide = !list.empty() && list.back() >= narrowNumbers;
     const std::size_t room = wide ? 1 : 2;

@@ -22,6 +22,8 @@ using asset::Texel;
 /// The two texels of a piece, whose numbers are rounded already.
 Texel geometryTexel(const PlanarPiece& piece);
 Texel colorTexel(const asset::Paint& left, const asset::Paint& right);
+/// A cell's texel with another colour of its paint.
+Texel withColor(Texel cell, const asset::Paint& paint);
 
 /// A cell's point with a known paint; `place` numbers it on the grid of such points, row by row.
 struct Reference {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/turns.hpp"
@@ -67,6 +68,54 @@ void updateTexels(GLuint texture, std::size_t first, std::span<const asset::Texe
         first += width * rows;
         texels = texels.subspan(width * rows);
     }
+}
+
+namespace {
+
+/// Whole rows.
+std::size_t roomOf(std::size_t texels) {
+    constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
+    return std::max<std::size_t>(1, (texels + columns - 1) / columns) * columns;
+}
+
+/// Where `next` differs from `before`, [first, end); what lies closely together is one range, as each is a
+/// call.
+std::vector<std::pair<std::size_t, std::size_t>> changedRanges(std::span<const asset::Texel> before,
+                                                               std::span<const asset::Texel> next) {
+    constexpr std::size_t gap = 32;
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        if (i < before.size() && before[i] == next[i])
+            continue;
+        if (!ranges.empty() && i - ranges.back().second < gap)
+            ranges.back().second = i + 1;
+        else
+            ranges.emplace_back(i, i + 1);
+    }
+    return ranges;
+}
+
+}  // namespace
+
+RecordTexture::RecordTexture(std::vector<asset::Texel> records) : room_(roomOf(records.size())) {
+    texture_ = texelTexture(std::move(records));
+}
+
+std::size_t RecordTexture::update(std::vector<asset::Texel> next) {
+    std::size_t sent = 0;
+    if (next.size() > room_) {
+        room_ = roomOf(next.size());
+        texture_ = texelTexture(next);
+        sent = next.size();
+    } else {
+        for (const auto& [first, end] : changedRanges(records_, next)) {
+            updateTexels(texture_.get(), first, std::span(next).subspan(first, end - first));
+            sent += end - first;
+        }
+        checkErrors("update of a texture");
+    }
+    records_ = std::move(next);
+    return sent * sizeof(asset::Texel);
 }
 
 TextureHandle imageTexture(std::vector<std::uint8_t> rgba) {

@@ -35,6 +35,24 @@ ImageTexels imageTexels(const asset::AssetView& asset);
 TextureHandle texelTexture(std::vector<asset::Texel> texels);
 /// Changes texels of such a texture from `first` on: those only are sent.
 void updateTexels(GLuint texture, std::size_t first, std::span<const asset::Texel> texels);
+/// Such a texture of records that are brought up to date.
+class RecordTexture {
+public:
+    RecordTexture() = default;
+    explicit RecordTexture(std::vector<asset::Texel> records);
+
+    /// Sends those that differ from the ones of the update before, as long as they fit; everything the first
+    /// time, and what was sent before is kept from then on. Returns the bytes sent.
+    std::size_t update(std::vector<asset::Texel> next);
+    const TextureHandle& texture() const { return texture_; }
+    /// That the texture holds.
+    std::size_t bytes() const { return room_ * sizeof(asset::Texel); }
+
+private:
+    TextureHandle texture_;
+    std::size_t room_ = 0;               ///< texels that it holds
+    std::vector<asset::Texel> records_;  ///< those of the last update
+};
 /// RGBA8, 2^imageColumnsLog2 wide. Throws likewise.
 TextureHandle imageTexture(std::vector<std::uint8_t> rgba);
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "backend_gl/core/constants.hpp"
-#include "backend_gl/upload/asset_texels.hpp"
 #include "raster/steepness.hpp"
 
 namespace vtm::gl {
@@ -87,12 +86,33 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::ui
     }
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);
-    texels = texelTexture(joinedTexels(asset, steepness, pictures.list, sections));
+    records = RecordTexture(joinedTexels(asset, steepness, pictures.list, sections));
     images = imageTexture(std::move(pictures.rgba));
     instances = uploadInstances(list.instances);
     list.instances = {};
     placements.resize((maps.size() / mapsPerRow + 1) * mapsPerRow);
     placementTexels = makeTexture(GL_RGBA32F, placementColumns, int(placements.size() / mapsPerRow));
+}
+
+bool UploadedAsset::canUpdate(const AssetView& asset, const asset::Difference& difference) const {
+    return !difference.everything && !difference.images && isSumOfMaps && asset::isSumOfMaps(asset) &&
+           asset.maps.size() == 1 && atlases.size() == 1 && asset.instances.empty() && asset.images.empty() &&
+           asset.materials.empty();
+}
+
+std::size_t UploadedAsset::update(const AssetView& asset, const asset::Difference& difference) {
+    maps.assign(asset.maps.begin(), asset.maps.end());
+    finestPixel = asset.finestPixel;
+    if (scanner)
+        scanner->update(asset, difference);
+    std::size_t sent = 0;
+    if (difference.paints) {
+        features = featuresOf(asset);
+        paints.assign(asset.paints.begin(), asset.paints.end());
+        sent += records.update(joinedTexels(asset, finiteSteepness(asset), {}, sections));
+    }
+    const PaintUpdate changed = vtm::gl::update(kept, asset, difference);
+    return sent + atlases[0].update(difference, changed);
 }
 
 void UploadedAsset::uploadPlacements(std::uint32_t first, std::uint32_t last) {
@@ -122,6 +142,10 @@ Texture& Texture::operator=(Texture&& other) noexcept {
 
 void Texture::draw(const asset::View& view, const Output& output) const {
     renderer_->draw(*this, view, output);
+}
+
+std::size_t Texture::update(const asset::AssetView& asset, const asset::Difference& difference) {
+    return renderer_->update(*this, asset, difference);
 }
 
 std::optional<double> Texture::finestPixel() const { return impl_->finestPixel; }

@@ -11,6 +11,7 @@
 #include "backend_gl/core/placement.hpp"
 #include "backend_gl/layers/instances.hpp"
 #include "backend_gl/tiles/atlas.hpp"
+#include "backend_gl/upload/asset_texels.hpp"
 
 namespace vtm::gl {
 
@@ -29,6 +30,10 @@ struct UploadedAsset {
     /// `maxTurns`: of a pixel (turns.hpp).
     UploadedAsset(const asset::AssetView& asset, unsigned materialSet, std::uint32_t maxTurns = turnsPerPixel,
                   FilterEngine filters = FilterEngine::Gpu);
+    /// Whether update() can bring it to that asset.
+    bool canUpdate(const asset::AssetView& asset, const asset::Difference& difference) const;
+    /// Sends what changed; returns its bytes.
+    std::size_t update(const asset::AssetView& asset, const asset::Difference& difference);
     UploadedAsset(const UploadedAsset&) = delete;  // atlases point into it
     UploadedAsset& operator=(const UploadedAsset&) = delete;
 
@@ -46,7 +51,8 @@ struct UploadedAsset {
     KeptAsset kept;                         ///< where it has atlases
     std::vector<Atlas> atlases;             ///< exact: of each map drawn, in the order of the commands
     Sections sections;
-    TextureHandle texels, images;
+    RecordTexture records;
+    TextureHandle images;
     BufferHandle instances;
 
     /// By map, filled up to whole rows of the texture beside it, which changes with every view.

@@ -117,7 +117,7 @@ struct Renderer::Impl {
         const Program& p = program(texture);
         const gl::Sections& s = texture.uploaded.sections;
         p.use();
-        bindTexture(Unit::Texels, texture.uploaded.texels);
+        bindTexture(Unit::Texels, texture.uploaded.records.texture());
         bindTexture(Unit::Images, texture.uploaded.images);
         glUniform1i(p.uniform("texels"), int(Unit::Texels));
         glUniform1i(p.uniform("images"), int(Unit::Images));

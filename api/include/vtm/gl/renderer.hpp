@@ -10,6 +10,7 @@
 #include <string>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/asset/difference.hpp>
 #include <vtm/gl/context.hpp>
 #include <vtm/gl/output.hpp>
 #include <vtm/image/bitmap.hpp>
@@ -70,6 +71,9 @@ public:
     /// Renderer::draw, by the renderer that uploaded it.
     void draw(const asset::View& view, const Output& output = {}) const;
 
+    /// Renderer::update, by the renderer that uploaded it.
+    std::size_t update(const asset::AssetView& asset, const asset::Difference& difference);
+
     /// How far the picture may be magnified: asset::Asset::finestPixel.
     std::optional<double> finestPixel() const;
 
@@ -111,6 +115,13 @@ public:
     /// a material throws GlError with a message that begins "material 'NAME', line L: ", or with all names if
     /// the driver's log does not say which.
     Texture upload(const asset::AssetView& asset);
+
+    /// Shows the next asset instead of the one that the texture shows: compiler::Session's result and
+    /// difference(). Colours of paints are sent where they changed, and squares of the map that changed are
+    /// made anew when they are drawn. Returns the bytes sent. Where more changed (compat mode, filters,
+    /// images, materials, instances, Difference::everything) the asset is uploaded as a whole. Throws as
+    /// upload() does; the texture then shows either asset.
+    std::size_t update(Texture& texture, const asset::AssetView& asset, const asset::Difference& difference);
 
     /// Draws on transparent black into a texture of the renderer's own and reads it back.
     image::Raster render(const Texture& texture, const asset::View& view);

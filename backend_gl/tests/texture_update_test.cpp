@@ -1,0 +1,91 @@
+// Textures that follow the edits of a session.
+
+#include <algorithm>
+#include <cmath>
+
+#include <vtm/compiler/session.hpp>
+#include <vtm/gl/renderer.hpp>
+#include "backend_gl/tests/gl_fixture.hpp"
+#include "compiler/tests/random_edits.hpp"
+
+namespace vtm::gl {
+namespace {
+
+using asset::View;
+using compiler::Session;
+
+double largestDifference(const image::Raster& a, const image::Raster& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        largest = std::max(largest, std::abs(double(a.rgba[i]) - double(b.rgba[i])));
+    return largest;
+}
+
+/// Of a picture of 64 × 64 units.
+View view(int size, double scale, double shear) {
+    return {size, size, {scale, shear * scale, -shear * scale, scale, 3.3, 1.7}};
+}
+
+/// Tiles that are kept are cut from pieces with which they once were made, of a level of detail.
+constexpr double apart = 1.0 / 255;
+
+class UpdatedTextures : public Gl, public testing::WithParamInterface<std::tuple<unsigned, int>> {};
+INSTANTIATE_TEST_SUITE_P(SeedAndItems, UpdatedTextures,
+                         testing::Combine(testing::Range(0u, 3u), testing::Values(5, 25)));
+
+TEST_P(UpdatedTextures, ShowWhatNewOnesDo) {
+    const auto [seed, items] = GetParam();
+    compiler::test::RandomEditor editor(seed, items);
+    Session session(editor.scene());
+    Texture texture = renderer->upload(session.result().asset);
+    const View views[]{view(100, 1.3, 0), view(60, 0.7, 0.4), view(12, 0.15, -0.1)};
+    std::string history;
+    for (int step = 0; step < 8; ++step) {
+        for (const View& v : views)
+            renderer->render(texture, v);  // makes tiles
+        history += editor.edit() + ", ";
+        session.update(editor.scene());
+        texture.update(session.result().asset, session.difference());
+        const Texture fresh = renderer->upload(session.result().asset);
+        for (const View& v : views)
+            ASSERT_LE(largestDifference(renderer->render(texture, v), renderer->render(fresh, v)), apart)
+                << history << "at " << v.width << " pixels";
+    }
+}
+
+/// Some squares in rows, all of them drawn.
+scene::Scene squares(int count) {
+    scene::Scene scene;
+    scene.width = scene.height = 64;
+    for (int i = 0; i < count; ++i) {
+        const double x = 2 + i % 15 * 4, y = 2 + i / 15 * 4;
+        scene::Item item;
+        item.path = std::make_shared<scene::Path>(
+            scene::polygon({{x, y}, {x + 3, y + 0.3}, {x + 2.7, y + 3}, {x + 0.2, y + 2.8}}));
+        item.paint = scene::Color{0.2f, 0.1f + 0.003f * float(i), 0.9f, 1};
+        scene.root.children.push_back({std::move(item)});
+    }
+    return scene;
+}
+
+TEST_F(Gl, RecolouringSendsLittle) {
+    scene::Scene scene = squares(200);
+    Session session(scene);
+    Texture texture = renderer->upload(session.result().asset);
+    renderer->render(texture, view(900, 14, 0));
+    const auto recolour = [&](float red) {
+        std::get<scene::Item>(scene.root.children[0].value).paint = scene::Color{red, 0.5f, 0, 1};
+        session.update(scene);
+        return texture.update(session.result().asset, session.difference());
+    };
+    recolour(0.5f);  // keeps what it sends
+    EXPECT_GT(recolour(0.8f), 0u);
+    EXPECT_LT(recolour(0.9f), 100'000u);
+    const Texture fresh = renderer->upload(session.result().asset);
+    EXPECT_EQ(largestDifference(renderer->render(texture, view(900, 14, 0)),
+                                renderer->render(fresh, view(900, 14, 0))),
+              0);
+}
+
+}  // namespace
+}  // namespace vtm::gl
