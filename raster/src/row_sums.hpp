@@ -31,8 +31,8 @@ namespace vtm::asset {
 /// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
 inline constexpr float minShare = 1e-5f;
 
-/// Chords misplace no more of a pixel's area where an edge passes through it: half a 255th.
-inline constexpr double chordTolerance = 1.0 / 512;
+/// Chords misplace no more of a pixel's area where an edge passes through it: 0.4 of a 255th.
+inline constexpr double chordTolerance = 1.0 / 640;
 
 /// A piece with what does not depend on the view: how far it is from its chord, and how much it bends.
 ///
