@@ -42,7 +42,8 @@ void writeFiltered(const State& state, Image& image, int x, int y, Color color, 
     color = clamped(color, space);
     const VGbitfield all = VG_RED | VG_GREEN | VG_BLUE | VG_ALPHA;
     if (format.grey.bits != 0 || (state.filterChannelMask & all) == all)
-        return image.setWord(x, y, format.encode(fullyConverted(color, space, format.space)));
+        return setWordAt(image.at(x, y), format.pixelBytes(),
+                         format.encode(fullyConverted(color, space, format.space)));
     ColorSpace plain = format.space;
     plain.premultiplied = false;
     const Color filtered = fullyConverted(color, space, plain);
@@ -51,7 +52,8 @@ void writeFiltered(const State& state, Image& image, int x, int y, Color color, 
     for (int c = 0; c < 4; ++c)
         if (state.filterChannelMask & bits[std::size_t(c)])
             result[c] = filtered[c];
-    image.setWord(x, y, format.encode(fullyConverted(result, plain, format.space)));
+    setWordAt(image.at(x, y), format.pixelBytes(),
+              format.encode(fullyConverted(result, plain, format.space)));
 }
 
 int tiled(int i, int size, VGTilingMode mode) {
