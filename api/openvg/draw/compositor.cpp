@@ -70,7 +70,9 @@ void Compositor::operator()(int y, std::span<const CoverageRun> runs) {
 }
 
 void Compositor::drawPart(int y, int first, int end, float share) {
-    if (drawsBytes_ && (share == 1 ? drawBytes(y, first, end) : drawEdgeBytes(y, first, end, share)))
+    if (drawsBytes_ && share != 1)
+        return drawEdgeBytes(y, first, end, share);
+    if (drawsBytes_ && drawBytes(y, first, end))
         return;
     if (share == 1 && !mask_ && !stencil_ && drawStored(y, first, end))
         return;
@@ -102,14 +104,18 @@ bool Compositor::drawBytes(int y, int first, int end) {
     return true;
 }
 
-bool Compositor::drawEdgeBytes(int y, int first, int end, float share) {
+void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
     std::uint8_t* p = surface_.pixels().at(first, y);
-    if (format_.alpha.bits != 0 && !isOpaque(p, end - first))
-        return false;
+    const bool hasAlpha = format_.alpha.bits != 0, isLinear = format_.space.linear;
     const Color source = *constant_;
     const float kept = (1 - source.a) / 255;
     for (int x = first; x < end; ++x, p += 4) {
-        if (format_.space.linear) {
+        // What is translucent must be divided by its alpha to be mixed.
+        if (hasAlpha && p[3] != 255) {
+            drawRow(x, y, std::span(&share, 1));
+            continue;
+        }
+        if (isLinear) {
             for (int c = 0; c < 3; ++c)
                 p[c] = std::uint8_t(float(p[c]) + share * (source[c] * 255 - source.a * float(p[c])) + 0.5f);
             continue;
@@ -121,7 +127,6 @@ bool Compositor::drawEdgeBytes(int y, int first, int end, float share) {
             p[c] = gamma_.encode(before + share * (after - before));
         }
     }
-    return true;
 }
 
 bool Compositor::drawStored(int y, int first, int end) {
@@ -130,7 +135,9 @@ bool Compositor::drawStored(int y, int first, int end) {
         return false;
     std::uint8_t* const p = surface_.pixels().at(first, y);
     const PixelFormat& from = *row->format;
-    if (isSource_ || (isOver_ && from.alpha.bits == 0)) {
+    // What has no alpha has no colour, unless it is stored without premultiplied alpha.
+    const bool isStraight = from.alpha.bits != 0 && !from.space.premultiplied;
+    if ((isSource_ && !isStraight) || (isOver_ && from.alpha.bits == 0)) {
         convertRow(row->pixels, from, p, format_, end - first);
         return true;
     }

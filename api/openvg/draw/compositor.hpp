@@ -29,7 +29,7 @@ private:
     void drawPart(int y, int first, int end, float share);
     /// One colour over bytes: all of a pixel, or part of it. False for what drawRow() must do.
     bool drawBytes(int y, int first, int end);
-    bool drawEdgeBytes(int y, int first, int end, float share);
+    void drawEdgeBytes(int y, int first, int end, float share);
     /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
     bool drawStored(int y, int first, int end);
     /// No more than rowChunk pixels, of any format, each covered by its share.

@@ -133,8 +133,7 @@ void TexelRows::bilinear(dvec2 first, dvec2 step, std::span<Color> colors) const
     const Image& image = texels_.image();
     const auto width = unsigned(image.width() - 1), height = unsigned(image.height() - 1);
     const std::uint8_t* const corner = image.at(0, 0);
-    const std::ptrdiff_t bytes = std::ptrdiff_t(image.format().pixelBytes()),
-                         rowBytes = std::ptrdiff_t(image.storage->pixels.width()) * bytes;
+    const std::ptrdiff_t bytes = std::ptrdiff_t(image.format().pixelBytes()), rowBytes = image.stride();
     first -= 0.5;
     withTexel([&](const auto& texel) {
         Places across(first.x, step.x), along(first.y, step.y);

@@ -81,18 +81,19 @@ void over(std::uint8_t* pixels, const std::uint8_t* sources, int count) {
 
 /// No byte above the pixel's alpha.
 template <int alpha>
-void clamp(std::uint8_t* pixels, int count) {
+void clamp(const std::uint8_t* from, std::uint8_t* to, int count) {
     using Quads = std::uint32_t __attribute__((vector_size(16)));
     inFours(count, [&](std::size_t bytes) {
-        const Bytes there = loaded(pixels, bytes);
+        const Bytes there = loaded(from, bytes);
         Quads most = std::endian::native == std::endian::little ? Quads(there) >> 8 * alpha
                                                                 : Quads(there) >> (24 - 8 * alpha);
         most &= 255;
         most |= most << 8;
         most |= most << 16;
         const Bytes limit = Bytes(most), result = limit < there ? limit : there;
-        std::memcpy(pixels, &result, bytes);
-        pixels += bytes;
+        std::memcpy(to, &result, bytes);
+        from += bytes;
+        to += bytes;
     });
 }
 
@@ -117,8 +118,8 @@ void overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int
     return alphaByte == 0 ? over<0>(pixels, sources, count) : over<3>(pixels, sources, count);
 }
 
-void clampBytes(std::uint8_t* pixels, int count, int alphaByte) {
-    return alphaByte == 0 ? clamp<0>(pixels, count) : clamp<3>(pixels, count);
+void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {
+    return alphaByte == 0 ? clamp<0>(from, to, count) : clamp<3>(from, to, count);
 }
 
 bool isOpaque(const std::uint8_t* pixels, int count) {

@@ -15,8 +15,8 @@ void overBytes(std::uint8_t* pixels, int count, Color color, bool keepsAlpha);
 /// Pixels over pixels, both with alpha in the same byte, the first or the last.
 void overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int alphaByte);
 
-/// Brings what is above its pixel's alpha down to it.
-void clampBytes(std::uint8_t* pixels, int count, int alphaByte);
+/// Copies pixels; what is above its pixel's alpha is brought down to it. `from` and `to` may be the same.
+void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
 
 /// Whether every fourth byte is 255.
 bool isOpaque(const std::uint8_t* pixels, int count);

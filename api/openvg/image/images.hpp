@@ -19,28 +19,31 @@ std::shared_ptr<Image> parentOf(const Image& image);
 /// programs' memory.
 template <class From, class To>
 void copyPixels(const From& from, To& to, const CopyArea& area) {
-    for (int j = 0; j < area.height; ++j)
-        convertRow(from.at(area.sx, area.sy + j), from.format(), to.at(area.dx, area.dy + j), to.format(),
-                   area.width);
+    convertRows({from.at(area.sx, area.sy), from.stride()}, from.format(),
+                {to.at(area.dx, area.dy), to.stride()}, to.format(), area.width, area.height, convertRow);
 }
 template <class To>
 void copyPixels(const MemoryPixels& from, To& to, const CopyArea& area) {
-    std::vector<std::uint8_t> bytes(from.isPacked() ? std::size_t(area.width) : 0);
+    if (!from.isPacked())
+        return convertRows({from.at(area.sx, area.sy), from.stride}, from.format(),
+                           {to.at(area.dx, area.dy), to.stride()}, to.format(), area.width, area.height,
+                           takeRow);
+    std::vector<std::uint8_t> bytes(std::size_t(area.width));
     for (int j = 0; j < area.height; ++j) {
-        if (from.isPacked())
-            from.unpackRow(area.sx, area.sy + j, area.width, bytes.data());
-        takeRow(from.isPacked() ? bytes.data() : from.at(area.sx, area.sy + j), from.format(),
-                to.at(area.dx, area.dy + j), to.format(), area.width);
+        from.unpackRow(area.sx, area.sy + j, area.width, bytes.data());
+        convertRow(bytes.data(), from.format(), to.at(area.dx, area.dy + j), to.format(), area.width);
     }
 }
 template <class From>
 void copyPixels(const From& from, const MemoryPixels& to, const CopyArea& area) {
-    std::vector<std::uint8_t> bytes(to.isPacked() ? std::size_t(area.width) : 0);
+    if (!to.isPacked())
+        return convertRows({from.at(area.sx, area.sy), from.stride()}, from.format(),
+                           {to.at(area.dx, area.dy), to.stride}, to.format(), area.width, area.height,
+                           convertRow);
+    std::vector<std::uint8_t> bytes(std::size_t(area.width));
     for (int j = 0; j < area.height; ++j) {
-        convertRow(from.at(area.sx, area.sy + j), from.format(),
-                   to.isPacked() ? bytes.data() : to.at(area.dx, area.dy + j), to.format(), area.width);
-        if (to.isPacked())
-            to.packRow(area.dx, area.dy + j, area.width, bytes.data());
+        convertRow(from.at(area.sx, area.sy + j), from.format(), bytes.data(), to.format(), area.width);
+        to.packRow(area.dx, area.dy + j, area.width, bytes.data());
     }
 }
 

@@ -181,10 +181,23 @@ void convertRow(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* to
 
 void takeRow(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* to, const PixelFormat& t,
              int count) {
+    const bool mayBeAbove = f.space.premultiplied && t.space.premultiplied && t.alpha.bits != 0;
+    const std::optional<ByteOrder> order = mayBeAbove ? byteOrder(t) : std::nullopt;
+    if (order && f == t)
+        return clampBytes(from, to, count, order->alpha);
     convertRow(from, f, to, t, count);
-    if (f.space.premultiplied && t.space.premultiplied && t.alpha.bits != 0)
-        if (const std::optional<ByteOrder> order = byteOrder(t))
-            clampBytes(to, count, order->alpha);
+    if (order)
+        clampBytes(to, to, count, order->alpha);
+}
+
+void convertRows(PixelRows<const std::uint8_t> from, const PixelFormat& f, PixelRows<std::uint8_t> to,
+                 const PixelFormat& t, int width, int height, decltype(convertRow)* convert) {
+    // Rows without gaps are one.
+    if (from.stride == width * std::ptrdiff_t(f.pixelBytes()) &&
+        to.stride == width * std::ptrdiff_t(t.pixelBytes()))
+        return convert(from.first, f, to.first, t, width * height);
+    for (int y = 0; y < height; ++y)
+        convert(from.first + y * from.stride, f, to.first + y * to.stride, t, width);
 }
 
 }  // namespace vtm::openvg

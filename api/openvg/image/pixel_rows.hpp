@@ -52,4 +52,15 @@ void convertRow(const std::uint8_t* from, const PixelFormat& fromFormat, std::ui
 void takeRow(const std::uint8_t* from, const PixelFormat& fromFormat, std::uint8_t* to,
              const PixelFormat& toFormat, int count);
 
+/// `stride` bytes from row to row.
+template <class Byte>
+struct PixelRows {
+    Byte* first;
+    std::ptrdiff_t stride;
+};
+/// Rows by either of them.
+void convertRows(PixelRows<const std::uint8_t> from, const PixelFormat& fromFormat,
+                 PixelRows<std::uint8_t> to, const PixelFormat& toFormat, int width, int height,
+                 decltype(convertRow)* convert);
+
 }  // namespace vtm::openvg

@@ -93,6 +93,8 @@ public:
     int height() const { return height_; }
     const PixelFormat& format() const { return format_; }
     std::size_t pixelBytes() const { return pixelBytes_; }
+    /// Bytes from row to row.
+    std::ptrdiff_t stride() const { return std::ptrdiff_t(width_) * std::ptrdiff_t(pixelBytes_); }
 
     std::uint8_t* at(int x, int y) {
         return bytes_.data() + (std::size_t(y) * std::size_t(width_) + std::size_t(x)) * pixelBytes_;

@@ -66,6 +66,7 @@ struct Image : Object {
     const PixelFormat& format() const { return storage->pixels.format(); }
     std::uint8_t* at(int x, int y) { return storage->pixels.at(area.x0 + x, area.y0 + y); }
     const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+    std::ptrdiff_t stride() const { return storage->pixels.stride(); }
     Color color(int x, int y) const {
         return format().decode(storage->pixels.word(area.x0 + x, area.y0 + y));
     }
