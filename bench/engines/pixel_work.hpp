@@ -13,6 +13,10 @@ namespace vtm::bench {
 /// The side of the surface that is drawn into, and of the square images that are moved and copied.
 inline constexpr int workSide = 800, movedSide = 256, copiedSide = 512;
 
+/// Glyphs in lines, about 14 pixels high; the same in every frame.
+inline constexpr int textLines = 40, lineGlyphs = 43;
+inline constexpr double glyphAdvance = 18.37, lineAdvance = 19;
+
 /// A frame of one kind of work. Frames of a name are the same in all engines.
 struct PixelWork {
     std::string name;

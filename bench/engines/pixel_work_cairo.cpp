@@ -98,6 +98,21 @@ std::vector<PixelWork> cairoPixelWork() {
          }},
         {"translucent rectangle",
          [=](int) { fillRectangle(c, cairo_pattern_create_rgba(0.9, 0.4, 0.1, 0.3), 700); }},
+        {"text, the same every frame",
+         [=](int) {
+             cairo_identity_matrix(c);
+             cairo_set_source_rgb(c, 0, 0, 0);
+             cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+             cairo_set_font_size(c, 16);
+             cairo_glyph_t glyphs[lineGlyphs];
+             for (int line = 0; line < textLines; ++line) {
+                 for (int i = 0; i < lineGlyphs; ++i)
+                     // The printable ones of ASCII, from ! on.
+                     glyphs[i] = {4ul + unsigned(line * lineGlyphs + i) % 94, 4 + i * glyphAdvance,
+                                  14 + line * lineAdvance};
+                 cairo_show_glyphs(c, glyphs, lineGlyphs);
+             }
+         }},
         {"upload", [=](int) { copy(canvas->large, canvas->memory, copiedSide); }},
         {"upload, premultiplied", [=](int) { copy(canvas->large, canvas->memory, copiedSide); }},
         {"read back", [=](int) { copy(canvas->memory, canvas->large, copiedSide); }},

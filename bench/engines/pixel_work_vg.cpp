@@ -1,7 +1,10 @@
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "bench/engines/pixel_work.hpp"
 #include "bench/engines/vg_canvas.hpp"
+#include "bench/input/font.hpp"
 
 namespace vtm::bench {
 
@@ -31,10 +34,36 @@ VGPath square(VGfloat side) {
 /// Premultiplied, in the order of a surface's bytes.
 constexpr auto format = VG_sABGR_8888_PRE;
 
+/// From the sheet, in which a line of DejaVu Sans has the height 1, to pixels: 16 of them an em.
+constexpr double glyphScale = 16 * 1.164;
+
 VGImage imageOf(const std::vector<std::uint32_t>& pixels, int side, VGImageFormat stored = format) {
     const VGImage image = vgCreateImage(stored, side, side, VG_IMAGE_QUALITY_FASTER);
     vgImageSubData(image, pixels.data(), 4 * side, stored, 0, 0, side, side);
     return image;
+}
+
+/// Of a sheet's glyphs, their origin the first point. VG_INVALID_HANDLE if there is no sheet.
+VGFont sheetFont() {
+    std::string why;
+    const std::optional<scene::Scene> sheet = fontSheet("", why);
+    if (!sheet)
+        return VG_INVALID_HANDLE;
+    const VGFont font = vgCreateFont(100);
+    VGuint index = 0;
+    for (const scene::Node& node : sheet->root.children) {
+        const auto* item = std::get_if<scene::Item>(&node.value);
+        if (!item || item->path->empty())
+            continue;
+        const VGPath path =
+            vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0, 0, 0, VG_PATH_CAPABILITY_ALL);
+        VgCanvas::set(path, *item->path);
+        const scene::Point at = *scene::endOf(item->path->front());
+        const VGfloat origin[]{VGfloat(at.x), VGfloat(at.y)},
+            escapement[]{VGfloat(glyphAdvance / glyphScale), 0};
+        vgSetGlyphToPath(font, index++, path, VG_FALSE, origin, escapement);
+    }
+    return font;
 }
 
 struct Canvas : VgCanvas {
@@ -44,7 +73,8 @@ struct Canvas : VgCanvas {
     VGPath all = square(workSide), part = square(700);
     VGPaint linear = gradient(VG_PAINT_TYPE_LINEAR_GRADIENT, {10, 20, 700, 600}),
             radial = gradient(VG_PAINT_TYPE_RADIAL_GRADIENT, {400, 400, 350, 420, 450}),
-            translucent = vgCreatePaint();
+            translucent = vgCreatePaint(), ink = vgCreatePaint();
+    VGFont font = sheetFont();
 
     Canvas() {
         vgSetColor(translucent, 0xe6661a4d);
@@ -62,6 +92,23 @@ struct Canvas : VgCanvas {
         vgSeti(VG_MATRIX_MODE, VG_MATRIX_PATH_USER_TO_SURFACE);
         vgLoadIdentity();
         vgDrawPath(path, VG_FILL_PATH);
+    }
+    void text() {
+        vgSetPaint(ink, VG_FILL_PATH);
+        vgSeti(VG_MATRIX_MODE, VG_MATRIX_GLYPH_USER_TO_SURFACE);
+        vgSeti(VG_FILL_RULE, VG_NON_ZERO);
+        const int count = vgGetParameteri(font, VG_FONT_NUM_GLYPHS);
+        VGuint indices[lineGlyphs];
+        for (int line = 0; line < textLines; ++line) {
+            for (int i = 0; i < lineGlyphs; ++i)
+                indices[i] = VGuint((line * lineGlyphs + i) % count);
+            const VGfloat matrix[]{
+                VGfloat(glyphScale), 0, 0, 0, VGfloat(glyphScale), 0, 4, VGfloat(14 + line * lineAdvance), 1},
+                start[]{0, 0};
+            vgLoadMatrix(matrix);
+            vgSetfv(VG_GLYPH_ORIGIN, 2, start);
+            vgDrawGlyphs(font, lineGlyphs, indices, nullptr, nullptr, VG_FILL_PATH, VG_FALSE);
+        }
     }
     void upload(VGImage image, VGImageFormat given) {
         vgImageSubData(image, pixels.data(), 4 * copiedSide, given, 0, 0, copiedSide, copiedSide);
@@ -96,6 +143,7 @@ std::vector<PixelWork> vgPixelWork() {
         {"linear gradient", [=](int) { canvas->fill(canvas->all, canvas->linear); }},
         {"radial gradient", [=](int) { canvas->fill(canvas->all, canvas->radial); }},
         {"translucent rectangle", [=](int) { canvas->fill(canvas->part, canvas->translucent); }},
+        {"text, the same every frame", [=](int) { canvas->text(); }},
         {"upload", [=](int) { canvas->upload(canvas->straight, VG_sRGBA_8888); }},
         {"upload, premultiplied", [=](int) { canvas->upload(canvas->large, format); }},
         {"upload, premultiplied on the way", [=](int) { canvas->upload(canvas->large, VG_sRGBA_8888); }},

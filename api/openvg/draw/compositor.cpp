@@ -106,27 +106,35 @@ bool Compositor::drawBytes(int y, int first, int end) {
 
 void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
     std::uint8_t* p = surface_.pixels().at(first, y);
-    const bool hasAlpha = format_.alpha.bits != 0, isLinear = format_.space.linear;
+    const bool hasAlpha = format_.alpha.bits != 0;
+    const auto each = [&](auto&& mixed) {
+        for (int x = first; x < end; ++x, p += 4) {
+            // What is translucent must be divided by its alpha to be mixed.
+            if (hasAlpha && p[3] != 255)
+                drawRow(x, y, std::span(&share, 1));
+            else
+                for (int c = 0; c < 3; ++c)
+                    p[c] = mixed(p[c], c);
+        }
+    };
     const Color source = *constant_;
     const float kept = (1 - source.a) / 255;
-    for (int x = first; x < end; ++x, p += 4) {
-        // What is translucent must be divided by its alpha to be mixed.
-        if (hasAlpha && p[3] != 255) {
-            drawRow(x, y, std::span(&share, 1));
-            continue;
-        }
-        if (isLinear) {
-            for (int c = 0; c < 3; ++c)
-                p[c] = std::uint8_t(float(p[c]) + share * (source[c] * 255 - source.a * float(p[c])) + 0.5f);
-            continue;
-        }
-        for (int c = 0; c < 3; ++c) {
-            const float before = gamma_.decodedBytes[p[c]];
-            const float after =
-                source.a == 1 ? light_[c] : gamma_.decode(std::min(source[c] + float(p[c]) * kept, 1.0f));
-            p[c] = gamma_.encode(before + share * (after - before));
-        }
+    if (format_.space.linear)
+        return each([&](std::uint8_t v, int c) {
+            return std::uint8_t(float(v) + share * (source[c] * 255 - source.a * float(v)) + 0.5f);
+        });
+    if (source.a == 1) {
+        const float left = (1 - share) * ByteGamma::steps;
+        const glm::vec3 added = share * ByteGamma::steps * light_ + 0.5f;
+        return each([&](std::uint8_t v, int c) {
+            return gamma_.encoded[std::size_t(gamma_.decodedBytes[v] * left + added[c])];
+        });
     }
+    each([&](std::uint8_t v, int c) {
+        const float before = gamma_.decodedBytes[v],
+                    after = gamma_.decode(std::min(source[c] + float(v) * kept, 1.0f));
+        return gamma_.encode(before + share * (after - before));
+    });
 }
 
 bool Compositor::drawStored(int y, int first, int end) {

@@ -123,8 +123,8 @@ void TexelRows::finish(std::span<Color> colors) const {
 void TexelRows::nearest(dvec2 first, dvec2 step, std::span<Color> colors) const {
     withTexel([&](const auto& texel) {
         for (int i = 0; i < int(colors.size()); ++i)
-            store(colors[std::size_t(i)],
-                  anywhere(texel, floorOf(first.x + i * step.x), floorOf(first.y + i * step.y)));
+            assign(colors[std::size_t(i)],
+                   anywhere(texel, floorOf(first.x + i * step.x), floorOf(first.y + i * step.y)));
     });
     finish(colors);
 }
@@ -156,7 +156,7 @@ void TexelRows::bilinear(dvec2 first, dvec2 step, std::span<Color> colors) const
                 d = anywhere(texel, x + 1, y + 1);
             }
             const Float4 low = a + right * (b - a), high = c + right * (d - c);
-            store(color, low + up * (high - low));
+            assign(color, low + up * (high - low));
         }
     });
     finish(colors);

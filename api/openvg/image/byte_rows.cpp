@@ -48,7 +48,7 @@ void inFours(int count, Function&& f) {
     if (count > 0)
         f(4 * std::size_t(count));
 }
-Bytes loaded(const std::uint8_t* p, std::size_t bytes) {
+Bytes bytesAt(const std::uint8_t* p, std::size_t bytes) {
     Bytes v{};
     std::memcpy(&v, p, bytes);
     return v;
@@ -69,9 +69,9 @@ Words alphasOf(Words pixels) {
 template <int alpha>
 void over(std::uint8_t* pixels, const std::uint8_t* sources, int count) {
     inFours(count, [&](std::size_t bytes) {
-        const Bytes s = loaded(sources, bytes), missing = ~s;
+        const Bytes s = bytesAt(sources, bytes), missing = ~s;
         const Bytes result =
-            s + blended(loaded(pixels, bytes), alphasOf<alpha>(lowerPixels(missing, missing)),
+            s + blended(bytesAt(pixels, bytes), alphasOf<alpha>(lowerPixels(missing, missing)),
                         alphasOf<alpha>(upperPixels(missing, missing)), half);
         std::memcpy(pixels, &result, bytes);
         pixels += bytes;
@@ -84,7 +84,7 @@ template <int alpha>
 void clamp(const std::uint8_t* from, std::uint8_t* to, int count) {
     using Quads = std::uint32_t __attribute__((vector_size(16)));
     inFours(count, [&](std::size_t bytes) {
-        const Bytes there = loaded(from, bytes);
+        const Bytes there = bytesAt(from, bytes);
         Quads most = std::endian::native == std::endian::little ? Quads(there) >> 8 * alpha
                                                                 : Quads(there) >> (24 - 8 * alpha);
         most &= 255;
@@ -108,7 +108,7 @@ void overBytes(std::uint8_t* pixels, int count, Color color, bool keepsAlpha) {
     }
     added += half;
     inFours(count, [&](std::size_t bytes) {
-        const Bytes result = blended(loaded(pixels, bytes), kept, kept, added);
+        const Bytes result = blended(bytesAt(pixels, bytes), kept, kept, added);
         std::memcpy(pixels, &result, bytes);
         pixels += bytes;
     });

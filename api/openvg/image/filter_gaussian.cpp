@@ -100,7 +100,7 @@ void symmetricSums(std::span<const Color* const> taps, std::span<const float> we
                 total[j] += (loaded(before[j]) + loaded(after[j])) * weight;
         }
         for (std::size_t j = 0; j < count.value; ++j)
-            store(sums[i + j], total[j]);
+            assign(sums[i + j], total[j]);
     };
     constexpr std::size_t block = 8;
     std::size_t i = 0;
@@ -113,8 +113,8 @@ void symmetricSums(std::span<const Color* const> taps, std::span<const float> we
 /// Between the second and the third of four.
 Color between(const Color* a, std::ptrdiff_t next, std::span<const float> weights) {
     Color result;
-    store(result, loaded(a[0]) * splat(weights[0]) + loaded(a[next]) * splat(weights[1]) +
-                      loaded(a[2 * next]) * splat(weights[2]) + loaded(a[3 * next]) * splat(weights[3]));
+    assign(result, loaded(a[0]) * splat(weights[0]) + loaded(a[next]) * splat(weights[1]) +
+                       loaded(a[2 * next]) * splat(weights[2]) + loaded(a[3 * next]) * splat(weights[3]));
     return result;
 }
 
@@ -153,7 +153,7 @@ private:
             Float4 sum = loaded(*from) * splat(weights[0]);
             for (std::size_t i = 1; i <= middle; ++i)
                 sum += (loaded(*(from - i)) + loaded(from[i])) * splat(weights[i]);
-            store(color, sum);
+            assign(color, sum);
             from += blur.step();
         }
     }

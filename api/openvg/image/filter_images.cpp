@@ -36,7 +36,7 @@ namespace {
 void clampColors(std::span<Color> colors, bool isPremultiplied) {
     for (Color& color : colors) {
         const Float4 c = unit(loaded(color));
-        store(color, isPremultiplied ? lesser(c, alphas(c)) : c);
+        assign(color, isPremultiplied ? lesser(c, alphas(c)) : c);
     }
 }
 

@@ -26,10 +26,10 @@ void filterRows(const Context& context, const FilterImages& images, ColorSpace o
 }
 
 /// Numbers of [0, 1] for table entries.
-using Table = std::array<float, 256>;
-const Table& unitBytes() {
-    static const Table values = [] {
-        Table v;
+using UnitTable = std::array<float, 256>;
+const UnitTable& unitBytes() {
+    static const UnitTable values = [] {
+        UnitTable v;
         for (std::size_t i = 0; i < v.size(); ++i)
             v[i] = float(i) / 255;
         return v;
@@ -62,7 +62,7 @@ void vgLookup(VGImage dst, VGImage src, const VGubyte* redLUT, const VGubyte* gr
         for (const VGubyte* table : {redLUT, greenLUT, blueLUT, alphaLUT})
             require(table != nullptr);
         const ColorSpace output{outputLinear != VG_FALSE, outputPremultiplied != VG_FALSE, false};
-        const Table& units = unitBytes();
+        const UnitTable& units = unitBytes();
         filterRows(context, images, output, [&](Color c) {
             return Color(units[redLUT[tableIndex(c.r)]], units[greenLUT[tableIndex(c.g)]],
                          units[blueLUT[tableIndex(c.b)]], units[alphaLUT[tableIndex(c.a)]]);
@@ -88,7 +88,7 @@ void vgLookupSingle(VGImage dst, VGImage src, const VGuint* lookupTable, VGImage
                                                   : 3;
         }
         const ColorSpace output{outputLinear != VG_FALSE, outputPremultiplied != VG_FALSE, false};
-        const Table& units = unitBytes();
+        const UnitTable& units = unitBytes();
         filterRows(context, images, output, [&](Color c) {
             const VGuint entry = lookupTable[tableIndex(c[channel])];
             return Color(units[entry >> 24], units[entry >> 16 & 255], units[entry >> 8 & 255],

@@ -40,7 +40,7 @@ void decodeBytes(const PixelFormat& format, ByteOrder order, const std::uint8_t*
             color.a = 1;
     else if (format.space.premultiplied)
         for (Color& color : colors)
-            store(color, lesser(loaded(color), alphas(loaded(color))));
+            assign(color, lesser(loaded(color), alphas(loaded(color))));
 }
 
 void encodeBytes(const PixelFormat& format, ByteOrder order, std::span<const Color> colors,
@@ -108,7 +108,7 @@ void colorsOfBytes(ByteOrder order, std::span<Color> colors) {
     withOrder(order, [&]<int r, int g, int b, int a>(std::integer_sequence<int, r, g, b, a>) {
         for (Color& color : colors) {
             const Float4 bytes = loaded(color);
-            store(color, __builtin_shufflevector(bytes, bytes, r, g, b, a) * splat(1 / 255.0f));
+            assign(color, __builtin_shufflevector(bytes, bytes, r, g, b, a) * splat(1 / 255.0f));
         }
     });
 }
@@ -144,7 +144,7 @@ void convertColors(std::span<Color> colors, ColorSpace from, ColorSpace to) {
     const bool isSame = from.linear == to.linear && from.luminance == to.luminance;
     if (from.premultiplied && !(isSame && to.premultiplied))
         for (Color& color : colors)
-            store(color, unpremultiplied(loaded(color)));
+            assign(color, unpremultiplied(loaded(color)));
     if (!isSame) {
         // Luminance is a sum of linear light. Grey stands for itself in all spaces of its kind.
         const bool toGrey = to.luminance && !from.luminance,
@@ -158,7 +158,7 @@ void convertColors(std::span<Color> colors, ColorSpace from, ColorSpace to) {
     }
     if (to.premultiplied && !(isSame && from.premultiplied))
         for (Color& color : colors)
-            store(color, premultiplied(loaded(color)));
+            assign(color, premultiplied(loaded(color)));
 }
 
 void convertRow(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* to, const PixelFormat& t,

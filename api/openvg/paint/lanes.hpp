@@ -16,7 +16,7 @@ inline Float4 loaded(const Color& color) {
     std::memcpy(&v, &color, sizeof v);
     return v;
 }
-inline void store(Color& color, Float4 v) { std::memcpy(&color, &v, sizeof v); }
+inline void assign(Color& color, Float4 v) { std::memcpy(&color, &v, sizeof v); }
 inline Color colorOf(Float4 v) { return {v[0], v[1], v[2], v[3]}; }
 
 inline Float4 splat(float v) { return Float4{v, v, v, v}; }

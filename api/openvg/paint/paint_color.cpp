@@ -124,7 +124,7 @@ void ColorRamp::walk(std::span<const double> offsets, std::span<Color> colors, S
             change = loaded(piece->change);
         }
         const Float4 color = start + splat(float((v - piece->origin) * piece->scale)) * change;
-        store(colors[i], premultiplies ? premultiplied(color) : color);
+        assign(colors[i], premultiplies ? premultiplied(color) : color);
     }
 }
 
