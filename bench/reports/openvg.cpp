@@ -187,7 +187,8 @@ Report openvg(const Options& options) {
         "frame of OpenVG compiles every path. Recorded: the same calls made once between vtmBeginRecording "
         "and vtmEndRecording, and drawn in turns with them by one vtmDrawRecording. Images, gradients and "
         "rectangles are drawn into 800 × 800 "
-        "pixels, images of 512 × 512 are copied and blurred; cairo has no blur. NanoVG is not in Debian.";
+        "pixels, images of 512 × 512 are copied and blurred; cairo has no blur. Text: vgDrawGlyphs and "
+        "cairo_show_glyphs, which puts glyphs on whole pixels. NanoVG is not in Debian.";
     if (!cairoVersion())
         report.notes.push_back("cairo: missing (librsvg2-dev)");
     for (const Workload& workload : workloads(oneFileOf(options), report.notes))

@@ -76,15 +76,7 @@ void Compositor::drawPart(int y, int first, int end, float share) {
         return;
     if (share == 1 && !mask_ && !stencil_ && drawStored(y, first, end))
         return;
-    const std::uint8_t* mask = mask_ ? mask_->row(y) : nullptr;
-    std::array<float, rowChunk> buffer;
-    inChunks(end - first, [&](int from, int count) {
-        const std::span<float> coverage = std::span(buffer).first(std::size_t(count));
-        const int x = first + from;
-        for (std::size_t i = 0; i < coverage.size(); ++i)
-            coverage[i] = mask ? share * (float(mask[x + int(i)]) / 255) : share;
-        drawRow(x, y, coverage);
-    });
+    drawAny(y, first, end, share);
 }
 
 // ---- Bytes ----------------------------------------------------------------------------------------
@@ -197,6 +189,18 @@ void Compositor::mixRow(std::span<const Color> before, std::span<const float> co
         const Color a = linear(before[i]), b = linear(after[i]);
         after[i] = premultiplied(fastEncoded(unpremultiplied(a + coverage[i] * (b - a))));
     }
+}
+
+void Compositor::drawAny(int y, int first, int end, float share) {
+    const std::uint8_t* mask = mask_ ? mask_->row(y) : nullptr;
+    std::array<float, rowChunk> buffer;
+    inChunks(end - first, [&](int from, int count) {
+        const std::span<float> coverage = std::span(buffer).first(std::size_t(count));
+        const int x = first + from;
+        for (std::size_t i = 0; i < coverage.size(); ++i)
+            coverage[i] = mask ? share * (float(mask[x + int(i)]) / 255) : share;
+        drawRow(x, y, coverage);
+    });
 }
 
 void Compositor::drawRow(int x, int y, std::span<const float> coverage) {

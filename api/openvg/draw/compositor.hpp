@@ -32,6 +32,7 @@ private:
     void drawEdgeBytes(int y, int first, int end, float share);
     /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
     bool drawStored(int y, int first, int end);
+    void drawAny(int y, int first, int end, float share);
     /// No more than rowChunk pixels, of any format, each covered by its share.
     void drawRow(int x, int y, std::span<const float> coverage);
     /// What the source gives, as it is blended: transformed, in the surface's space, premultiplied.
