@@ -84,9 +84,9 @@ private:
 
 using Rows = std::vector<const Color*>;
 
-/// sums[i] = Σ weights[|k|] * taps[middle + k][i].
-void symmetricSums(std::span<const Color* const> taps, std::span<const float> weights,
-                   std::span<Color> sums) {
+/// sums[i] = Σ weights[|k|] * taps[middle + k][i] for i from `first` to `end` - 1.
+void symmetricSums(std::span<const Color* const> taps, std::span<const float> weights, Color* sums,
+                   std::size_t first, std::size_t end) {
     const std::size_t middle = weights.size() - 1;
     // As many at a time as registers hold, each column's taps one after the other.
     const auto sum = [&](std::size_t i, auto count) {
@@ -103,10 +103,10 @@ void symmetricSums(std::span<const Color* const> taps, std::span<const float> we
             assign(sums[i + j], total[j]);
     };
     constexpr std::size_t block = 8;
-    std::size_t i = 0;
-    for (; i + block <= sums.size(); i += block)
+    std::size_t i = first;
+    for (; i + block <= end; i += block)
         sum(i, std::integral_constant<std::size_t, block>());
-    for (; i < sums.size(); ++i)
+    for (; i < end; ++i)
         sum(i, std::integral_constant<std::size_t, 1>());
 }
 
@@ -136,7 +136,7 @@ public:
             for (std::size_t i = 0; i < line.size(); ++i)
                 line[i] = blur.places()[i] < 0 ? fill : colors[std::size_t(blur.places()[i])];
             gather(blur, line, gathered);
-            symmetricSums(taps, blur.weights(), std::span(samples_).subspan(width_ * std::size_t(y), width_));
+            symmetricSums(taps, blur.weights(), samples_.data() + width_ * std::size_t(y), 0, width_);
         }
     }
 
@@ -168,41 +168,59 @@ public:
     BlurredRows(const LineBlur& blur, const SampledRows& source) : blur_(blur), width_(source.width()) {
         for (const int y : blur.places())
             places_.push_back(source.row(y));
-        if (blur.step() == 1)
-            return;
-        const auto step = std::size_t(blur.step()), gathered = std::size_t(blur.gathered()),
-                   taps = 2 * blur.gathering().size() - 1;
-        gathered_.resize(width_ * gathered);
-        Rows rows;
-        for (std::size_t k = 0; k < gathered; ++k) {
-            const std::span<Color> row = std::span(gathered_).subspan(width_ * k, width_);
-            symmetricSums(std::span(places_).subspan(step * k, taps), blur.gathering(), row);
-            rows.push_back(row.data());
-        }
-        places_ = std::move(rows);
-        samples_.resize(width_ * std::size_t(blur.samples()));
-        for (int k = 0; k < blur.samples(); ++k)
-            sample(k, std::span(samples_).subspan(width_ * std::size_t(k), width_));
+        if (blur.step() > 1)
+            gather();
+        samples_.resize(width_ * std::size_t(blur.step() > 1 ? blur.samples() : maxGroup));
+        row_.resize(width_);
+        if (blur.step() > 1)
+            sample(0, blur.samples());
     }
 
-    void row(int y, std::span<Color> colors) const {
-        if (blur_.step() == 1)
-            return sample(y, colors);
+    /// From the first on, one after the other.
+    std::span<Color> row(int y) {
+        if (blur_.step() == 1) {
+            if (y % maxGroup == 0)
+                sample(y, std::min(maxGroup, blur_.samples() - y));
+            return std::span(samples_).subspan(width_ * std::size_t(y % maxGroup), width_);
+        }
         const Color* const samples = samples_.data() + width_ * std::size_t(y / blur_.step());
         for (std::size_t i = 0; i < width_; ++i)
-            colors[i] = between(samples + i, std::ptrdiff_t(width_), blur_.between(y));
+            row_[i] = between(samples + i, std::ptrdiff_t(width_), blur_.between(y));
+        return row_;
     }
 
 private:
-    void sample(int k, std::span<Color> colors) const {
-        symmetricSums(std::span(places_).subspan(std::size_t(k), std::size_t(blur_.taps())), blur_.weights(),
-                      colors);
+    /// Rows that are summed at once, as many columns at a time as leave their taps in the first cache.
+    static constexpr int maxGroup = 8;
+    static constexpr std::size_t strip = 32;
+
+    /// Replaces places_ by what is gathered from them.
+    void gather() {
+        const auto step = std::size_t(blur_.step()), gathered = std::size_t(blur_.gathered()),
+                   taps = 2 * blur_.gathering().size() - 1;
+        gathered_.resize(width_ * gathered);
+        Rows rows;
+        for (std::size_t k = 0; k < gathered; ++k) {
+            Color* const row = gathered_.data() + width_ * k;
+            symmetricSums(std::span(places_).subspan(step * k, taps), blur_.gathering(), row, 0, width_);
+            rows.push_back(row);
+        }
+        places_ = std::move(rows);
+    }
+
+    /// Samples from k on, to the first rows of samples_.
+    void sample(int k, int count) {
+        for (std::size_t first = 0; first < width_; first += strip)
+            for (int i = 0; i < count; ++i)
+                symmetricSums(std::span(places_).subspan(std::size_t(k + i), std::size_t(blur_.taps())),
+                              blur_.weights(), samples_.data() + width_ * std::size_t(i), first,
+                              std::min(first + strip, width_));
     }
 
     const LineBlur& blur_;
     std::size_t width_;
     Rows places_;
-    std::vector<Color> gathered_, samples_;
+    std::vector<Color> gathered_, samples_, row_;
 };
 
 }  // namespace
@@ -218,15 +236,16 @@ void vgGaussianBlur(VGImage dst, VGImage src, VGfloat stdDeviationX, VGfloat std
         const LineBlur across(double(stdDeviationX), images.width(), images.src->width(), tilingMode),
             up(double(stdDeviationY), images.height(), images.src->height(), tilingMode);
         const SampledRows source(across, *images.src, space, tileFillColor(context.state, space));
-        const BlurredRows rows(up, source);
-        std::vector<Color> samples(source.width()), colors(std::size_t(images.width()));
+        BlurredRows rows(up, source);
+        std::vector<Color> colors(std::size_t(images.width()));
         for (int y = 0; y < images.height(); ++y) {
-            rows.row(y, samples);
+            const std::span<Color> samples = rows.row(y);
             if (across.step() > 1)
                 for (int x = 0; x < images.width(); ++x)
                     colors[std::size_t(x)] =
                         between(samples.data() + x / across.step(), 1, across.between(x));
-            writeFilteredRow(context.state, *images.dst, y, across.step() > 1 ? colors : samples, space);
+            writeFilteredRow(context.state, *images.dst, y, across.step() > 1 ? std::span(colors) : samples,
+                             space);
         }
     });
 }
