@@ -81,18 +81,7 @@ public:
         vtmDrawRecording(recording_.get());
     }
 
-private:
-    struct Drawn {
-        VGPath path;
-        Shape shape;
-    };
-
-    static void load(const scene::Affine& m) {
-        const VGfloat matrix[]{VGfloat(m[0].x), VGfloat(m[0].y), 0, VGfloat(m[1].x), VGfloat(m[1].y), 0,
-                               VGfloat(m[2].x), VGfloat(m[2].y), 1};
-        vgLoadMatrix(matrix);
-    }
-
+    /// Appends an outline.
     static void set(VGPath to, const scene::Path& path) {
         std::vector<VGubyte> commands;
         std::vector<VGfloat> numbers;
@@ -115,6 +104,18 @@ private:
         }
         if (!commands.empty())
             vgAppendPathData(to, VGint(commands.size()), commands.data(), numbers.data());
+    }
+
+private:
+    struct Drawn {
+        VGPath path;
+        Shape shape;
+    };
+
+    static void load(const scene::Affine& m) {
+        const VGfloat matrix[]{VGfloat(m[0].x), VGfloat(m[0].y), 0, VGfloat(m[1].x), VGfloat(m[1].y), 0,
+                               VGfloat(m[2].x), VGfloat(m[2].y), 1};
+        vgLoadMatrix(matrix);
     }
 
     VtmSurface* surface_;

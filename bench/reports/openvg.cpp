@@ -14,6 +14,7 @@
 #include "bench/input/files.hpp"
 #include "bench/input/font.hpp"
 #include "bench/measure/measure.hpp"
+#include "bench/reports/openvg_pixels.hpp"
 #include "bench/reports/reports.hpp"
 
 namespace vtm::bench {
@@ -184,11 +185,15 @@ Report openvg(const Options& options) {
         "of the ratios pair by pair. Paints other than colours are grey, strokes have cairo's default caps "
         "and joins in both. The first "
         "frame of OpenVG compiles every path. Recorded: the same calls made once between vtmBeginRecording "
-        "and vtmEndRecording, and drawn in turns with them by one vtmDrawRecording. NanoVG is not in Debian.";
+        "and vtmEndRecording, and drawn in turns with them by one vtmDrawRecording. Images, gradients and "
+        "rectangles are drawn into 800 × 800 "
+        "pixels, images of 512 × 512 are copied and blurred; cairo has no blur. Text: vgDrawGlyphs and "
+        "cairo_show_glyphs, which puts glyphs on whole pixels. NanoVG is not in Debian.";
     if (!cairoVersion())
         report.notes.push_back("cairo: missing (librsvg2-dev)");
     for (const Workload& workload : workloads(oneFileOf(options), report.notes))
         addWorkload(workload, options.quick ? quickBudget : budget, report);
+    addPixelRows(options.quick ? quickBudget : budget, report);
     return report;
 }
 

@@ -17,10 +17,12 @@ constexpr VtmSurfaceFormat colorFormat(VGint red, VGint green, VGint blue, VGint
 }
 constexpr VtmSurfaceFormat greyFormat(VGint bits) { return {0, 0, 0, 0, bits, maskBits, VG_FALSE, VG_FALSE}; }
 
-/// In the order of their IDs.
+/// In the order of their IDs: all without multisampling, then all with it.
 constexpr std::array formats{
     colorFormat(8, 8, 8, 8), colorFormat(8, 8, 8, 0), colorFormat(5, 6, 5, 0), colorFormat(5, 5, 5, 1),
     colorFormat(4, 4, 4, 4), colorFormat(0, 0, 0, 8), greyFormat(8),           greyFormat(1)};
+
+constexpr std::array<EGLint, 2> sampleCounts{0, 4};
 
 /// The system's config, of those that show surfaces of type `surfaceBit`, that differs least from the format:
 /// in bits of colour, then in bits of alpha, then by what it has besides. Null if there is none.
@@ -68,6 +70,31 @@ EGLConfig equal(const Display& display, const std::vector<EGLConfig>& candidates
         }
     }
     return best;
+}
+
+/// Finds by what surfaces of a config are shown, and by what OpenGL draws into them. OpenGL has samples of
+/// its own, which nothing of ours can resolve.
+void findSystems(Config& config, const std::vector<EGLConfig>& systems) {
+    const Display& display = *config.display;
+    config.window = nearest(display, systems, EGL_WINDOW_BIT, config.format);
+    config.pixmap = nearest(display, systems, EGL_PIXMAP_BIT, config.format);
+    if (config.samples == 0)
+        config.gl =
+            equal(display, systems, EGL_PBUFFER_BIT | (config.window ? EGL_WINDOW_BIT : 0), config.format);
+    if (config.gl) {
+        config.glApis = systemConfigAttribute(display, config.gl, EGL_RENDERABLE_TYPE);
+        config.depthBits = systemConfigAttribute(display, config.gl, EGL_DEPTH_SIZE);
+        config.stencilBits = systemConfigAttribute(display, config.gl, EGL_STENCIL_SIZE);
+        if (config.window)
+            config.window = config.gl;
+    }
+    if (config.window) {
+        const auto value = [&](EGLint name) { return systemConfigAttribute(display, config.window, name); };
+        config.visualId = value(EGL_NATIVE_VISUAL_ID);
+        config.visualType = value(EGL_NATIVE_VISUAL_TYPE);
+        config.minSwapInterval = value(EGL_MIN_SWAP_INTERVAL);
+        config.maxSwapInterval = value(EGL_MAX_SWAP_INTERVAL);
+    }
 }
 
 EGLint colorBits(const VtmSurfaceFormat& f) {
@@ -136,9 +163,11 @@ std::optional<EGLint> Config::attribute(EGLint name) const {
             return depthBits;
         case EGL_STENCIL_SIZE:
             return stencilBits;
-        case EGL_LEVEL:
         case EGL_SAMPLE_BUFFERS:
+            return samples != 0;
         case EGL_SAMPLES:
+            return samples;
+        case EGL_LEVEL:
         case EGL_TRANSPARENT_RED_VALUE:
         case EGL_TRANSPARENT_GREEN_VALUE:
         case EGL_TRANSPARENT_BLUE_VALUE:
@@ -172,33 +201,17 @@ void makeConfigs(Display& display) {
     for (const EGLConfig config : systems)
         lastId = std::max(lastId, systemConfigAttribute(display, config, EGL_CONFIG_ID));
     std::vector<std::shared_ptr<const Config>> made;
-    for (const VtmSurfaceFormat& format : formats) {
-        auto config = std::make_shared<Config>();
-        config->display = &display;
-        config->id = ++lastId;
-        config->format = format;
-        config->window = nearest(display, systems, EGL_WINDOW_BIT, format);
-        config->pixmap = nearest(display, systems, EGL_PIXMAP_BIT, format);
-        config->gl = equal(display, systems, EGL_PBUFFER_BIT | (config->window ? EGL_WINDOW_BIT : 0), format);
-        if (config->gl) {
-            config->glApis = systemConfigAttribute(display, config->gl, EGL_RENDERABLE_TYPE);
-            config->depthBits = systemConfigAttribute(display, config->gl, EGL_DEPTH_SIZE);
-            config->stencilBits = systemConfigAttribute(display, config->gl, EGL_STENCIL_SIZE);
-            if (config->window)
-                config->window = config->gl;
+    for (const EGLint samples : sampleCounts)
+        for (const VtmSurfaceFormat& format : formats) {
+            auto config = std::make_shared<Config>();
+            config->display = &display;
+            config->id = ++lastId;
+            config->format = format;
+            config->samples = samples;
+            findSystems(*config, systems);
+            configs().add(config);
+            made.push_back(std::move(config));
         }
-        if (config->window) {
-            const auto value = [&](EGLint name) {
-                return systemConfigAttribute(display, config->window, name);
-            };
-            config->visualId = value(EGL_NATIVE_VISUAL_ID);
-            config->visualType = value(EGL_NATIVE_VISUAL_TYPE);
-            config->minSwapInterval = value(EGL_MIN_SWAP_INTERVAL);
-            config->maxSwapInterval = value(EGL_MAX_SWAP_INTERVAL);
-        }
-        configs().add(config);
-        made.push_back(std::move(config));
-    }
     display.configs = std::move(made);
 }
 

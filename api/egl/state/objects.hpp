@@ -43,6 +43,8 @@ struct Config {
     EGLConfig handle = nullptr;
     EGLint id = 0;
     VtmSurfaceFormat format{};
+    /// What the config says of multisampling. Coverage is exact, so pixels are the same.
+    EGLint samples = 0;
     /// The system's configs by which windows and pixmaps are shown; null: they cannot be.
     EGLConfig window = nullptr, pixmap = nullptr;
     /// The system's config with the same colours, by which OpenGL draws into surfaces of this one; null: it

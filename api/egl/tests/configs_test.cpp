@@ -23,12 +23,17 @@ protected:
     }
 
     /// Of pbuffers for OpenVG with these attributes besides, in order.
-    std::vector<Sizes> chosen(Attributes attributes) const {
+    std::vector<EGLConfig> chosenConfigs(Attributes attributes) const {
         attributes.insert(attributes.end(),
                           {EGL_RENDERABLE_TYPE, EGL_OPENVG_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT});
+        return choose(attributes);
+    }
+    /// Those with as many samples.
+    std::vector<Sizes> chosen(const Attributes& attributes, EGLint samples = 0) const {
         std::vector<Sizes> result;
-        for (const EGLConfig c : choose(attributes))
-            result.push_back(sizes(c));
+        for (const EGLConfig c : chosenConfigs(attributes))
+            if (value(c, EGL_SAMPLES) == samples)
+                result.push_back(sizes(c));
         return result;
     }
 
@@ -45,11 +50,50 @@ protected:
         l1{0, 0, 0, 0, 1};
 };
 
-TEST_F(Configs, EveryFormatIsThereOnce) {
-    const Order all = chosen({EGL_COLOR_BUFFER_TYPE, EGL_DONT_CARE});
-    EXPECT_EQ(all.size(), 8u);
-    EXPECT_EQ(std::set<Sizes>(all.begin(), all.end()),
-              (std::set<Sizes>{rgba8888, rgbx8888, rgb565, rgba5551, rgba4444, a8, l8, l1}));
+TEST_F(Configs, EveryFormatIsThereWithAndWithoutSamples) {
+    const Attributes anyColors{EGL_COLOR_BUFFER_TYPE, EGL_DONT_CARE};
+    EXPECT_EQ(chosenConfigs(anyColors).size(), 16u);
+    for (const EGLint samples : {0, 4}) {
+        const Order all = chosen(anyColors, samples);
+        EXPECT_EQ(all.size(), 8u);
+        EXPECT_EQ(std::set<Sizes>(all.begin(), all.end()),
+                  (std::set<Sizes>{rgba8888, rgbx8888, rgb565, rgba5551, rgba4444, a8, l8, l1}));
+    }
+}
+
+TEST_F(Configs, SamplesMayBeAskedFor) {
+    const Order smallestFirst{rgbx8888, rgba8888, a8, rgb565, rgba5551, rgba4444};
+    for (const Attributes& asked :
+         {Attributes{EGL_SAMPLE_BUFFERS, 1}, Attributes{EGL_SAMPLE_BUFFERS, 1, EGL_SAMPLES, 4},
+          Attributes{EGL_SAMPLES, 1}, Attributes{EGL_SAMPLES, 4}}) {
+        EXPECT_EQ(chosen(asked), Order{}) << "all that are found have samples";
+        EXPECT_EQ(chosen(asked, 4), smallestFirst);
+    }
+    EXPECT_EQ(chosen({EGL_SAMPLES, 4, EGL_RED_SIZE, 8, EGL_ALPHA_SIZE, 8}, 4), Order{rgba8888});
+    EXPECT_TRUE(chosenConfigs({EGL_SAMPLES, 5}).empty());
+}
+
+// Rules 5 and 6: of as many bits, fewer samples come first. Rule 4, fewer bits, is before that.
+TEST_F(Configs, WithoutSamplesComesFirst) {
+    using Found = std::vector<std::pair<Sizes, EGLint>>;
+    const auto found = [&](const Attributes& attributes) {
+        Found result;
+        for (const EGLConfig c : chosenConfigs(attributes))
+            result.emplace_back(sizes(c), value(c, EGL_SAMPLES));
+        return result;
+    };
+    EXPECT_EQ(found({EGL_CONFIG_CAVEAT, EGL_NONE}),
+              (Found{{rgbx8888, 0}, {rgbx8888, 4}, {rgba8888, 0}, {rgba8888, 4}}));
+    EXPECT_EQ(found({EGL_CONFIG_CAVEAT, EGL_NONE, EGL_ALPHA_SIZE, 8, EGL_SAMPLES, EGL_DONT_CARE}),
+              (Found{{rgba8888, 0}, {rgba8888, 4}}));
+    EXPECT_EQ(found({EGL_COLOR_BUFFER_TYPE, EGL_LUMINANCE_BUFFER}),
+              (Found{{l1, 0}, {l1, 4}, {l8, 0}, {l8, 4}}));
+}
+
+TEST_F(Configs, OpenGlDoesNotDrawIntoSamples) {
+    EXPECT_TRUE(choose({EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT | EGL_OPENVG_BIT, EGL_SURFACE_TYPE,
+                        EGL_PBUFFER_BIT, EGL_SAMPLES, 4})
+                    .empty());
 }
 
 TEST_F(Configs, TheirAttributesAreThoseOfOpenVg) {
@@ -59,8 +103,7 @@ TEST_F(Configs, TheirAttributesAreThoseOfOpenVg) {
         EXPECT_EQ(value(c, EGL_SURFACE_TYPE) & type, type);
         EXPECT_TRUE(value(c, EGL_CONFORMANT) & EGL_OPENVG_BIT);
         EXPECT_EQ(value(c, EGL_ALPHA_MASK_SIZE), 8);
-        EXPECT_EQ(value(c, EGL_SAMPLE_BUFFERS), 0);
-        EXPECT_EQ(value(c, EGL_SAMPLES), 0);
+        EXPECT_EQ(value(c, EGL_SAMPLE_BUFFERS), value(c, EGL_SAMPLES) == 4);
         const Sizes s = sizes(c);
         EXPECT_EQ(value(c, EGL_BUFFER_SIZE), s[0] + s[1] + s[2] + s[3] + s[4]);
         EXPECT_EQ(value(c, EGL_COLOR_BUFFER_TYPE), s[4] ? EGL_LUMINANCE_BUFFER : EGL_RGB_BUFFER);
@@ -154,8 +197,6 @@ TEST_F(Configs, ExactAttributesAreExact) {
 TEST_F(Configs, MasksAndMinimaAreMet) {
     EXPECT_EQ(chosen({EGL_ALPHA_MASK_SIZE, 8, EGL_RED_SIZE, 8, EGL_ALPHA_SIZE, 8}), Order{rgba8888});
     EXPECT_EQ(chosen({EGL_ALPHA_MASK_SIZE, 9}), Order{});
-    EXPECT_EQ(chosen({EGL_SAMPLES, 4}), Order{});
-    EXPECT_EQ(chosen({EGL_SAMPLE_BUFFERS, 1}), Order{});
     EXPECT_EQ(chosen({EGL_RED_SIZE, 4, EGL_ALPHA_SIZE, 4, EGL_DEPTH_SIZE, 1}),
               isAlone() ? Order{} : Order{rgba8888});
     EXPECT_EQ(chosen({EGL_CONFORMANT, EGL_OPENVG_BIT, EGL_ALPHA_SIZE, 8}), (Order{rgba8888, a8}));
@@ -201,7 +242,7 @@ TEST_F(Configs, BothKindsAreMergedInOrder) {
     const auto all = choose({EGL_RENDERABLE_TYPE, 0, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RED_SIZE, 8,
                              EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8});
     const auto isVg = [&](EGLConfig c) { return (value(c, EGL_RENDERABLE_TYPE) & EGL_OPENVG_BIT) != 0; };
-    EXPECT_EQ(std::ranges::count_if(all, isVg), 1);
+    EXPECT_EQ(std::ranges::count_if(all, isVg), 2) << "without samples and with them";
     const EGLConfig vg = *std::ranges::find_if(all, isVg);
     for (std::size_t i = 1; i < all.size(); ++i) {
         if (all[i] != vg)

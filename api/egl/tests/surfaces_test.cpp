@@ -31,6 +31,31 @@ TEST_F(Surfaces, APbufferHasWhatItWasAskedFor) {
     EXPECT_EQ(query(s, EGL_PIXEL_ASPECT_RATIO), EGL_UNKNOWN);
 }
 
+TEST_F(Surfaces, SamplesChangeNoPixel) {
+    const auto drawn = [&](EGLint samples) {
+        const std::vector<EGLConfig> found =
+            choose({EGL_RENDERABLE_TYPE, EGL_OPENVG_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RED_SIZE, 8,
+                    EGL_ALPHA_SIZE, 8, EGL_SAMPLES, samples});
+        EXPECT_EQ(value(found.at(0), EGL_SAMPLES), samples);
+        const EGLSurface s = pbuffer(found.at(0), 16, 16);
+        const EGLContext ctx = context(found.at(0));
+        EXPECT_TRUE(eglMakeCurrent(display, s, s, ctx));
+        const VGPath path =
+            vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0, 0, 0, VG_PATH_CAPABILITY_ALL);
+        const VGubyte commands[]{VG_MOVE_TO_ABS, VG_LINE_TO_ABS, VG_LINE_TO_ABS, VG_CLOSE_PATH};
+        const VGfloat numbers[]{1.3f, 2.1f, 14.7f, 5.2f, 6.4f, 13.9f};
+        vgAppendPathData(path, 4, commands, numbers);
+        vgDrawPath(path, VG_FILL_PATH);
+        std::vector<VGuint> pixels(16 * 16);
+        vgReadPixels(pixels.data(), 64, VG_sRGBA_8888, 0, 0, 16, 16);
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        return pixels;
+    };
+    const std::vector<VGuint> exact = drawn(0);
+    EXPECT_NE(exact, std::vector<VGuint>(16 * 16));
+    EXPECT_EQ(drawn(4), exact);
+}
+
 TEST_F(Surfaces, ThereAreDefaults) {
     const EGLSurface s = eglCreatePbufferSurface(display, config(8, 8, 8, 8), nullptr);
     ASSERT_NE(s, EGL_NO_SURFACE);

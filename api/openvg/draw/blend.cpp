@@ -120,38 +120,39 @@ float hardMix(const Operands& o) {
     return (o.s * o.da + o.d * o.sa < both ? 0 : both) + o.apart();
 }
 
-/// From VG_BLEND_OVERLAY_KHR on.
-constexpr std::array<Blend, 23> blends{separable<overlay>,
-                                       separable<hardLight>,
-                                       separable<softLightSvg>,
-                                       separable<softLight>,
-                                       separable<colorDodge>,
-                                       separable<colorBurn>,
-                                       separable<difference>,
-                                       separable<subtract>,
-                                       separable<invert>,
-                                       separable<exclusion>,
-                                       separable<linearDodge>,
-                                       separable<linearBurn>,
-                                       separable<vividLight>,
-                                       separable<linearLight>,
-                                       separable<pinLight>,
-                                       separable<hardMix>,
-                                       clear,
-                                       dst,
-                                       srcOut,
-                                       dstOut,
-                                       srcAtop,
-                                       dstAtop,
-                                       exclusiveOr};
-static_assert(blends.size() == VG_BLEND_XOR_KHR - VG_BLEND_OVERLAY_KHR + 1);
-
-/// Of a VGBlendModeKHR; null if it is none.
-Blend advancedBlendOf(VGint mode) {
-    return mode >= VG_BLEND_OVERLAY_KHR && mode <= VG_BLEND_XOR_KHR
-               ? blends[std::size_t(mode - VG_BLEND_OVERLAY_KHR)]
-               : nullptr;
+template <Blend pixel>
+void blendRow(std::span<const Color> source, std::span<Color> destination) {
+    for (std::size_t i = 0; i < source.size(); ++i)
+        destination[i] = pixel(source[i], destination[i]);
 }
+template <Blend pixel>
+constexpr BlendMode modeOf{pixel, blendRow<pixel>};
+
+/// From VG_BLEND_OVERLAY_KHR on.
+constexpr std::array<BlendMode, 23> modes{modeOf<separable<overlay>>,
+                                          modeOf<separable<hardLight>>,
+                                          modeOf<separable<softLightSvg>>,
+                                          modeOf<separable<softLight>>,
+                                          modeOf<separable<colorDodge>>,
+                                          modeOf<separable<colorBurn>>,
+                                          modeOf<separable<difference>>,
+                                          modeOf<separable<subtract>>,
+                                          modeOf<separable<invert>>,
+                                          modeOf<separable<exclusion>>,
+                                          modeOf<separable<linearDodge>>,
+                                          modeOf<separable<linearBurn>>,
+                                          modeOf<separable<vividLight>>,
+                                          modeOf<separable<linearLight>>,
+                                          modeOf<separable<pinLight>>,
+                                          modeOf<separable<hardMix>>,
+                                          modeOf<clear>,
+                                          modeOf<dst>,
+                                          modeOf<srcOut>,
+                                          modeOf<dstOut>,
+                                          modeOf<srcAtop>,
+                                          modeOf<dstAtop>,
+                                          modeOf<exclusiveOr>};
+static_assert(modes.size() == VG_BLEND_XOR_KHR - VG_BLEND_OVERLAY_KHR + 1);
 
 Color src(Color s, Color) { return s; }
 Color srcOver(Color s, Color d) { return s + d * (1 - s.a); }
@@ -172,30 +173,30 @@ Color additive(Color s, Color d) { return glm::min(s + d, 1.0f); }
 
 }  // namespace
 
-Blend blendOf(VGint mode) {
+BlendMode blendModeOf(VGint mode) {
     switch (mode) {
         case VG_BLEND_SRC:
-            return src;
+            return modeOf<src>;
         case VG_BLEND_DST_OVER:
-            return dstOver;
+            return modeOf<dstOver>;
         case VG_BLEND_SRC_IN:
-            return srcIn;
+            return modeOf<srcIn>;
         case VG_BLEND_DST_IN:
-            return dstIn;
+            return modeOf<dstIn>;
         case VG_BLEND_MULTIPLY:
-            return multiply;
+            return modeOf<multiply>;
         case VG_BLEND_SCREEN:
-            return screen;
+            return modeOf<screen>;
         case VG_BLEND_DARKEN:
-            return darken;
+            return modeOf<darken>;
         case VG_BLEND_LIGHTEN:
-            return lighten;
+            return modeOf<lighten>;
         case VG_BLEND_ADDITIVE:
-            return additive;
-        default: {
-            const Blend advanced = advancedBlendOf(mode);
-            return advanced ? advanced : srcOver;
-        }
+            return modeOf<additive>;
+        default:
+            return mode >= VG_BLEND_OVERLAY_KHR && mode <= VG_BLEND_XOR_KHR
+                       ? modes[std::size_t(mode - VG_BLEND_OVERLAY_KHR)]
+                       : modeOf<srcOver>;
     }
 }
 

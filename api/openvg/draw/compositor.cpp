@@ -2,87 +2,40 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cstring>
+
+#include "api/openvg/image/byte_rows.hpp"
+#include "api/openvg/paint/lanes.hpp"
 
 namespace vtm::openvg {
-
-// ---- Clip -----------------------------------------------------------------------------------------
-
-Clip::Clip(const Context& context) : bounds_(context.surface->bounds()) {
-    if (!context.state.scissoring)
-        return;
-    Rectangle around{bounds_.x1, bounds_.y1, bounds_.x0, bounds_.y0};
-    const std::vector<VGint>& r = context.state.scissorRects;
-    for (std::size_t i = 0; i + 4 <= r.size(); i += 4) {
-        if (r[i + 2] <= 0 || r[i + 3] <= 0)
-            continue;
-        const auto end = [](VGint start, VGint size) {
-            return int(std::min(std::int64_t(start) + size, std::int64_t(maxSurfaceSide)));
-        };
-        const Rectangle box =
-            Rectangle{r[i], r[i + 1], end(r[i], r[i + 2]), end(r[i + 1], r[i + 3])}.intersected(bounds_);
-        if (box.empty())
-            continue;
-        rectangles_.push_back(box);
-        around = {std::min(around.x0, box.x0), std::min(around.y0, box.y0), std::max(around.x1, box.x1),
-                  std::max(around.y1, box.y1)};
-    }
-    isBox_ = rectangles_.size() <= 1;
-    bounds_ = around;
-}
-
-const std::vector<std::pair<int, int>>& Clip::columns(int y) const {
-    if (row_ == y)
-        return columns_;
-    row_ = y;
-    columns_.clear();
-    for (const Rectangle& r : rectangles_)
-        if (r.y0 <= y && y < r.y1)
-            columns_.emplace_back(r.x0, r.x1);
-    std::ranges::sort(columns_);
-    std::size_t kept = 0;
-    for (const auto& part : columns_) {
-        if (kept > 0 && part.first <= columns_[kept - 1].second)
-            columns_[kept - 1].second = std::max(columns_[kept - 1].second, part.second);
-        else
-            columns_[kept++] = part;
-    }
-    columns_.resize(kept);
-    return columns_;
-}
-
-// ---- Compositor -----------------------------------------------------------------------------------
 
 Compositor::Compositor(Context& context, const PixelSource& source)
     : surface_(*context.surface),
       clip_(context),
       source_(source),
-      blend_(blendOf(context.state.blendMode)),
+      blend_(blendModeOf(context.state.blendMode)),
       isOver_(context.state.blendMode == VG_BLEND_SRC_OVER),
-      mixesLight_(!surface_.pixels().format().space.linear),
+      isSource_(context.state.blendMode == VG_BLEND_SRC),
       transform_(context.state),
-      space_(surface_.pixels().format().space) {
-    const State& state = context.state;
-    if (state.masking && surface_.mask)
+      format_(surface_.pixels().format()),
+      isAlphaOnly_(format_.red.bits == 0 && format_.grey.bits == 0) {
+    if (context.state.masking && surface_.mask)
         mask_ = &*surface_.mask;
-    const PixelFormat& format = surface_.pixels().format();
-    isAlphaOnly_ = format.red.bits == 0 && format.grey.bits == 0;
-    mixesLight_ = mixesLight_ && !isAlphaOnly_;
-    hasBytes_ = std::endian::native == std::endian::little && format.bits == 32 &&
-                format.red == Channel{8, 0} && format.green == Channel{8, 8} &&
-                format.blue == Channel{8, 16} && (format.alpha.bits == 0 || format.alpha == Channel{8, 24});
+    mixesLight_ = !format_.space.linear && !isAlphaOnly_;
+    order_ = byteOrder(format_);
     if (const std::optional<Color> color = source.constant())
         use(*color);
 }
 
 void Compositor::use(Color color) {
-    constant_ = prepared(color);
-    drawsBytes_ = isOver_ && !mask_ && hasBytes_;
+    prepare(std::span(&color, 1));
+    constant_ = color;
+    drawsBytes_ = isOver_ && !mask_ && order_ == ByteOrder{0, 1, 2, 3};
     if (!drawsBytes_)
         return;
-    word_ = surface_.pixels().format().encode(*constant_);
+    word_ = format_.encode(color);
     for (int c = 0; c < 3; ++c)
-        light_[c] = gamma_.decode((*constant_)[c]);
+        light_[c] = gamma_.decode(color[c]);
 }
 
 Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
@@ -92,34 +45,23 @@ Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSo
 }
 
 bool Compositor::isPrepared() const {
-    const ColorSpace from = source_.space();
-    return from.linear == space_.linear && from.luminance == space_.luminance && !transform_.isOn();
+    const ColorSpace from = source_.space(), to = format_.space;
+    return from.linear == to.linear && from.luminance == to.luminance && !transform_.isOn();
 }
 
-Color Compositor::prepared(Color color) const {
+void Compositor::prepare(std::span<Color> colors) const {
     if (isPrepared())
-        return color;
-    ColorSpace from = source_.space();
-    color = unpremultiplied(color);
+        return;
+    ColorSpace from = source_.space(), to = format_.space;
+    from.premultiplied = to.premultiplied = true;
     if (transform_.isOn()) {
-        color = transform_(color);
+        for (Color& color : colors)
+            color = premultiplied(transform_(unpremultiplied(color)));
         from.luminance = false;  // what was grey may no longer be
     }
     // Alpha-only surfaces keep no colour to convert.
     if (!isAlphaOnly_)
-        color = converted(color, from, space_);
-    return premultiplied(color);
-}
-
-void Compositor::prepare(std::span<Color> colors) const {
-    if (constant_) {
-        std::ranges::fill(colors, *constant_);
-        return;
-    }
-    if (isPrepared())
-        return;
-    for (Color& color : colors)
-        color = prepared(color);
+        convertColors(colors, from, to);
 }
 
 void Compositor::operator()(int y, std::span<const CoverageRun> runs) {
@@ -127,107 +69,173 @@ void Compositor::operator()(int y, std::span<const CoverageRun> runs) {
         clip_.parts(y, run.first, run.end, [&](int first, int end) { drawPart(y, first, end, run.share); });
 }
 
-Color Compositor::mixed(Color before, Color after, float coverage) const {
-    if (coverage == 1)
-        return after;
-    if (mixesLight_) {
-        const auto linear = [](Color c) { return premultiplied(fastDecoded(unpremultiplied(c))); };
-        const Color a = linear(before), b = linear(after);
-        return premultiplied(fastEncoded(unpremultiplied(a + coverage * (b - a))));
-    }
-    return before + coverage * (after - before);
+void Compositor::drawPart(int y, int first, int end, float share) {
+    if (drawsBytes_ && share != 1)
+        return drawEdgeBytes(y, first, end, share);
+    if (drawsBytes_ && drawBytes(y, first, end))
+        return;
+    if (share == 1 && !mask_ && !stencil_ && drawStored(y, first, end))
+        return;
+    drawAny(y, first, end, share);
 }
 
-void Compositor::drawBytes(int y, int first, int end) {
-    const Color added = *constant_;
-    if (added.a == 1)
-        return surface_.pixels().fill(first, end, y, word_);
-    const float kept = 1 - added.a;
-    const bool hasAlpha = surface_.pixels().format().alpha.bits != 0;
-    const Color sum = added * 255.0f + 0.5f;
-    std::uint8_t* p = surface_.pixels().at(first, y);
-    for (int x = first; x < end; ++x, p += 4) {
-        if (hasAlpha && !space_.premultiplied && p[3] != 255) {
-            drawPixel(x, y, added, 1, nullptr);
-            continue;
-        }
-        for (int c = 0; c < 3; ++c)
-            p[c] = std::uint8_t(std::min(sum[c] + float(p[c]) * kept, 255.0f));
-        if (hasAlpha && space_.premultiplied)
-            p[3] = std::uint8_t(std::min(sum.a + float(p[3]) * kept, 255.0f));
+// ---- Bytes ----------------------------------------------------------------------------------------
+
+bool Compositor::drawBytes(int y, int first, int end) {
+    Pixels& pixels = surface_.pixels();
+    if (constant_->a == 1) {
+        pixels.fill(first, end, y, word_);
+        return true;
     }
+    std::uint8_t* const p = pixels.at(first, y);
+    const bool hasAlpha = format_.alpha.bits != 0, isStraight = hasAlpha && !format_.space.premultiplied;
+    // What is translucent must be divided by its alpha to be mixed.
+    if (isStraight && !isOpaque(p, end - first))
+        return false;
+    overBytes(p, end - first, *constant_, !hasAlpha || isStraight);
+    return true;
 }
 
 void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
-    const Color source = *constant_;
-    const bool isOpaque = source.a == 1, hasAlpha = surface_.pixels().format().alpha.bits != 0;
-    const float kept = (1 - source.a) / 255;
     std::uint8_t* p = surface_.pixels().at(first, y);
-    for (int x = first; x < end; ++x, p += 4) {
-        // What is translucent must be divided by its alpha to be mixed.
-        if (hasAlpha && p[3] != 255) {
-            drawPixel(x, y, source, share, nullptr);
-            continue;
+    const bool hasAlpha = format_.alpha.bits != 0;
+    const auto each = [&](auto&& mixed) {
+        for (int x = first; x < end; ++x, p += 4) {
+            // What is translucent must be divided by its alpha to be mixed.
+            if (hasAlpha && p[3] != 255)
+                drawRow(x, y, std::span(&share, 1));
+            else
+                for (int c = 0; c < 3; ++c)
+                    p[c] = mixed(p[c], c);
         }
-        if (space_.linear) {
-            for (int c = 0; c < 3; ++c)
-                p[c] = std::uint8_t(float(p[c]) + share * (source[c] * 255 - source.a * float(p[c])) + 0.5f);
-            continue;
-        }
-        for (int c = 0; c < 3; ++c) {
-            const float before = gamma_.decodedBytes[p[c]];
-            const float after =
-                isOpaque ? light_[c] : gamma_.decode(std::min(source[c] + float(p[c]) * kept, 1.0f));
-            p[c] = gamma_.encode(before + share * (after - before));
-        }
+    };
+    const Color source = *constant_;
+    const float kept = (1 - source.a) / 255;
+    if (format_.space.linear)
+        return each([&](std::uint8_t v, int c) {
+            return std::uint8_t(float(v) + share * (source[c] * 255 - source.a * float(v)) + 0.5f);
+        });
+    if (source.a == 1) {
+        const float left = (1 - share) * ByteGamma::steps;
+        const glm::vec3 added = share * ByteGamma::steps * light_ + 0.5f;
+        return each([&](std::uint8_t v, int c) {
+            return gamma_.encoded[std::size_t(gamma_.decodedBytes[v] * left + added[c])];
+        });
     }
+    each([&](std::uint8_t v, int c) {
+        const float before = gamma_.decodedBytes[v],
+                    after = gamma_.decode(std::min(source[c] + float(v) * kept, 1.0f));
+        return gamma_.encode(before + share * (after - before));
+    });
 }
 
-void Compositor::drawPixel(int x, int y, Color source, float coverage, const Color* stencil) {
-    Pixels& pixels = surface_.pixels();
-    const PixelFormat& format = pixels.format();
-    if (isOver_ && source.a == 1 && coverage == 1 && !stencil)
-        return pixels.setWord(x, y, format.encode(source));
-    Color before = format.decode(pixels.word(x, y));
-    if (!space_.premultiplied)
-        before = premultiplied(before);
-    Color after;
-    if (stencil) {
+bool Compositor::drawStored(int y, int first, int end) {
+    const std::optional<StoredRow> row = source_.stored(first, y, end - first);
+    if (!row || transform_.isOn())
+        return false;
+    std::uint8_t* const p = surface_.pixels().at(first, y);
+    const PixelFormat& from = *row->format;
+    // What has no alpha has no colour, unless it is stored without premultiplied alpha.
+    const bool isStraight = from.alpha.bits != 0 && !from.space.premultiplied;
+    if ((isSource_ && !isStraight) || (isOver_ && from.alpha.bits == 0)) {
+        convertRow(row->pixels, from, p, format_, end - first);
+        return true;
+    }
+    if (!isOver_ || !order_ || !from.space.premultiplied || from != format_)
+        return false;
+    overBytes(p, row->pixels, end - first, order_->alpha);
+    return true;
+}
+
+// ---- Any format -----------------------------------------------------------------------------------
+
+void Compositor::sourceRow(int x, int y, std::span<Color> colors) const {
+    if (constant_) {
+        std::ranges::fill(colors, *constant_);
+        return;
+    }
+    source_.colors(x, y, colors);
+    prepare(colors);
+}
+
+void Compositor::blendRow(int x, int y, std::span<const Color> source, std::span<Color> destination) const {
+    if (!stencil_)
+        return blend_.row(source, destination);
+    std::array<Color, rowChunk> stencils;
+    stencil_->colors(x, y, std::span(stencils).first(source.size()));
+    for (std::size_t i = 0; i < source.size(); ++i) {
         // Premultiplied: each channel is image colour times image alpha. A grey surface has one channel to
         // let through: formula (3), of the stencil's numbers as they are.
-        const Color s =
-            space_.luminance ? Color(glm::vec3(luminance(glm::vec3(*stencil))), stencil->a) : *stencil;
-        const Color alphas = s * source.a;
-        after = blendChannels(blend_, Color(glm::vec3(unpremultiplied(source)) * glm::vec3(alphas), alphas.a),
-                              alphas, before);
-    } else {
-        after = blend_(source, before);
+        const Color s = format_.space.luminance
+                            ? Color(glm::vec3(luminance(glm::vec3(stencils[i]))), stencils[i].a)
+                            : stencils[i];
+        const Color alphas = s * source[i].a;
+        destination[i] = blendChannels(
+            blend_.pixel, Color(glm::vec3(unpremultiplied(source[i])) * glm::vec3(alphas), alphas.a), alphas,
+            destination[i]);
     }
-    const Color result = mixed(before, after, coverage);
-    pixels.setWord(x, y, format.encode(space_.premultiplied ? result : unpremultiplied(result)));
 }
 
-void Compositor::drawPart(int y, int first, int end, float share) {
-    if (drawsBytes_)
-        return share == 1 ? drawBytes(y, first, end) : drawEdgeBytes(y, first, end, share);
-    const std::uint8_t* mask = mask_ ? mask_->row(y) : nullptr;
-    constexpr int chunk = 64;
-    std::array<Color, chunk> colors, stencils;
-    for (int start = first; start < end; start += chunk) {
-        const auto count = std::size_t(std::min(chunk, end - start));
-        const std::span<Color> part = std::span(colors).first(count);
-        if (!constant_)
-            source_.colors(start, y, part);
-        prepare(part);
-        if (stencil_)
-            stencil_->colors(start, y, std::span(stencils).first(count));
-        for (std::size_t i = 0; i < count; ++i) {
-            const int x = start + int(i);
-            const float coverage = mask ? share * (float(mask[x]) / 255) : share;
-            if (coverage > 0)
-                drawPixel(x, y, part[i], coverage, stencil_ ? &stencils[i] : nullptr);
+void Compositor::mixRow(std::span<const Color> before, std::span<const float> coverage,
+                        std::span<Color> after) const {
+    const auto linear = [](Color c) { return premultiplied(fastDecoded(unpremultiplied(c))); };
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        if (coverage[i] == 1)
+            continue;
+        if (!mixesLight_) {
+            after[i] = before[i] + coverage[i] * (after[i] - before[i]);
+            continue;
         }
+        const Color a = linear(before[i]), b = linear(after[i]);
+        after[i] = premultiplied(fastEncoded(unpremultiplied(a + coverage[i] * (b - a))));
     }
+}
+
+void Compositor::drawAny(int y, int first, int end, float share) {
+    const std::uint8_t* mask = mask_ ? mask_->row(y) : nullptr;
+    std::array<float, rowChunk> buffer;
+    inChunks(end - first, [&](int from, int count) {
+        const std::span<float> coverage = std::span(buffer).first(std::size_t(count));
+        const int x = first + from;
+        for (std::size_t i = 0; i < coverage.size(); ++i)
+            coverage[i] = mask ? share * (float(mask[x + int(i)]) / 255) : share;
+        drawRow(x, y, coverage);
+    });
+}
+
+void Compositor::drawRow(int x, int y, std::span<const float> coverage) {
+    std::array<Color, rowChunk> sources, destinations, afters;
+    const std::size_t count = coverage.size();
+    const std::span<Color> source = std::span(sources).first(count);
+    std::uint8_t* const pixels = surface_.pixels().at(x, y);
+    sourceRow(x, y, source);
+    const bool isWhole = !mask_ && coverage[0] == 1;
+    ColorSpace blended = format_.space;
+    blended.premultiplied = true;
+    const bool replaces =
+        isSource_ || (isOver_ && std::ranges::all_of(source, [](const Color& c) { return c.a == 1; }));
+    if (isWhole && !stencil_ && replaces) {
+        convertColors(source, blended, format_.space);
+        return encodeRow(format_, source, pixels);
+    }
+    const std::span<Color> before = std::span(destinations).first(count),
+                           after = std::span(afters).first(count);
+    decodeRow(format_, pixels, before);
+    convertColors(before, format_.space, blended);
+    std::ranges::copy(before, after.begin());
+    blendRow(x, y, source, after);
+    if (!isWhole)
+        mixRow(before, coverage, after);
+    convertColors(after, blended, format_.space);
+    if (!mask_)
+        return encodeRow(format_, after, pixels);
+    // What is not covered stays as it is, bit for bit.
+    std::array<std::uint8_t, 4 * rowChunk> encoded;
+    encodeRow(format_, after, encoded.data());
+    const std::size_t bytes = format_.pixelBytes();
+    for (std::size_t i = 0; i < count; ++i)
+        if (coverage[i] > 0)
+            std::memcpy(pixels + i * bytes, encoded.data() + i * bytes, bytes);
 }
 
 }  // namespace vtm::openvg

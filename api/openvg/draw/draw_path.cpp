@@ -59,7 +59,7 @@ void requirePaintModes(VGbitfield modes) {
 }
 
 void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::mat3& toSurface,
-               const Rectangle& clip, const RowSink& row) {
+               const Rectangle& clip, const RowSink& row, GlyphCache* cache) {
     const State& state = context.state;
     if (path.data.commands().empty() || clip.empty())
         return;
@@ -74,15 +74,18 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
         antialiased ? of.scan(matrix, clip, row) : of.scanCenters(matrix, clip, row);
     };
     const std::vector<ClipLine> lines = clipLines(state);
-    if (lines.empty() && !isProjective(toSurface))
+    if (lines.empty() && !isProjective(toSurface)) {
+        if (cache && antialiased)
+            return cache->scan(mask, toSurface, clip, row);
         return scan(mask, toSurface);
+    }
     if (state.clipMode == VG_CLIPMODE_CULL_NDS && !isWithin(mapped(path.data.segments(), toSurface), lines))
         return;
     PathMask seen(projectedOutline(mask.outline(), toSurface, lines, clip), mask.rule());
     scan(seen, glm::mat3(1));
 }
 
-void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface) {
+void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface, GlyphCache* cache) {
     const State& state = context.state;
     if (context.recorder)
         return context.recorder->drawPath(state, path, modes, toSurface);
@@ -98,7 +101,7 @@ void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& t
         if (!paint)
             continue;
         Compositor compositor(context, *paint);
-        coverPath(context, path, mode, toSurface, compositor.clip().bounds(), std::ref(compositor));
+        coverPath(context, path, mode, toSurface, compositor.clip().bounds(), std::ref(compositor), cache);
     }
 }
 

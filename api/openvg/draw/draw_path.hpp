@@ -20,9 +20,10 @@ StrokeParameters strokeParameters(const State& state);
 /// Gives the pixels of `clip` that a path covers, filled or stroked as the context's state says: exactly, or
 /// by centres where antialiasing is off. Nothing for a stroke without width.
 void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::mat3& toSurface,
-               const Rectangle& clip, const RowSink& row);
+               const Rectangle& clip, const RowSink& row, GlyphCache* cache = nullptr);
 
-/// Draws it with the current paints.
-void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface);
+/// Draws it with the current paints. `cache`: of a glyph, which is drawn again and again.
+void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface,
+              GlyphCache* cache = nullptr);
 
 }  // namespace vtm::openvg

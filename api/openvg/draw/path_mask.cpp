@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -95,6 +96,11 @@ Fit fitted(dvec2 min, dvec2 max) {
     return {scale, dvec2(pictureMargin) - scale * min, scale * extent + 2 * pictureMargin};
 }
 
+std::uint64_t nextId() {
+    static std::atomic<std::uint64_t> id = 0;
+    return ++id;
+}
+
 }  // namespace
 
 Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Rectangle& clip) {
@@ -114,10 +120,14 @@ Rectangle pixelsOf(const glm::mat3& toSurface, dvec2 min, dvec2 max, const Recta
 }
 
 PathMask::PathMask(scene::Path outline, scene::FillRule rule)
-    : outline_(std::make_shared<const scene::Path>(std::move(outline))), rule_(rule) {
+    : id_(nextId()), outline_(std::make_shared<const scene::Path>(std::move(outline))), rule_(rule) {
     const geometry::Box box = boxOf(*outline_);
     if (!box.empty())
         min_ = box.min, max_ = box.max;
+}
+
+Rectangle PathMask::bounds(const glm::mat3& toSurface, const Rectangle& clip) const {
+    return pixelsOf(toSurface, min_, max_, clip);
 }
 
 const asset::CoverageScanner& PathMask::scannerFor(double tolerance) {
@@ -136,7 +146,7 @@ const asset::CoverageScanner& PathMask::scannerFor(double tolerance) {
 void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) {
     if (!(max_.x > min_.x && max_.y > min_.y) || !isFinite(glm::dmat3(toSurface)))
         return;
-    const Rectangle seen = pixelsOf(toSurface, min_, max_, clip);
+    const Rectangle seen = bounds(toSurface, clip);
     if (seen.empty())
         return;
     asset::View view;
@@ -178,7 +188,7 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
 void PathMask::scanCenters(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) const {
     if (!isFinite(glm::dmat3(toSurface)))
         return;
-    const Rectangle seen = pixelsOf(toSurface, min_, max_, clip);
+    const Rectangle seen = bounds(toSurface, clip);
     if (seen.empty())
         return;
     // By row: columns from which on centres lie right of the line, and what that does to the winding.

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,6 +31,10 @@ public:
 
     const scene::Path& outline() const { return *outline_; }
     scene::FillRule rule() const { return rule_; }
+    /// No other mask of the process has it, then or later.
+    std::uint64_t id() const { return id_; }
+    /// A box around what scan() may give.
+    Rectangle bounds(const glm::mat3& toSurface, const Rectangle& clip) const;
 
     /// Exact coverage of the pixels of `clip` (section 6: pixel (x, y) is the square from there to (x + 1, y
     /// + 1)).
@@ -41,6 +46,7 @@ public:
 private:
     const asset::CoverageScanner& scannerFor(double tolerance);
 
+    std::uint64_t id_;
     std::shared_ptr<const scene::Path> outline_;  ///< shared with the scenes that are compiled
     scene::FillRule rule_;
     glm::dvec2 min_{0}, max_{0};                                     ///< a box around the outline

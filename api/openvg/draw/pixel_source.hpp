@@ -16,6 +16,12 @@
 
 namespace vtm::openvg {
 
+/// Pixels of an image from an address on.
+struct StoredRow {
+    const std::uint8_t* pixels;
+    const PixelFormat* format;
+};
+
 class PixelSource {
 public:
     explicit PixelSource(ColorSpace space) : space_(space) {}
@@ -28,6 +34,10 @@ public:
     virtual void colors(int x, int y, std::span<Color> colors) const = 0;
     /// If all pixels have the same colour.
     virtual std::optional<Color> constant() const { return std::nullopt; }
+    /// If the colours of `count` pixels are those of an image, pixel for pixel.
+    virtual std::optional<StoredRow> stored(int /*x*/, int /*y*/, int /*count*/) const {
+        return std::nullopt;
+    }
 
 private:
     ColorSpace space_;

@@ -14,18 +14,20 @@ void requirePixels(const Context& context, const char* function) {
         context.recorder->refuse(function);
 }
 
-/// Puts words of another format into the surface, where scissoring lets it.
-template <class Word>
-void write(Context& context, const CopyArea& area, const PixelFormat& format, Word&& word) {
-    if (area.width <= 0)
-        return;
+/// Puts rows of another format into the surface, where scissoring lets it. `row(j)`: the area's j-th;
+/// `convert`: convertRow() or takeRow().
+template <class Row>
+void write(Context& context, const CopyArea& area, const PixelFormat& format, decltype(convertRow)* convert,
+           Row&& row) {
     Pixels& pixels = context.surface->pixels();
     const Clip clip(context);
-    for (int j = 0; j < area.height; ++j)
+    for (int j = 0; j < area.height; ++j) {
+        const std::uint8_t* const from = row(j);
         clip.parts(area.dy + j, area.dx, area.dx + area.width, [&](int first, int end) {
-            for (int x = first; x < end; ++x)
-                pixels.setWord(x, area.dy + j, convertedWord(word(x - area.dx, j), format, pixels.format()));
+            convert(from + std::size_t(first - area.dx) * format.pixelBytes(), format,
+                    pixels.at(first, area.dy + j), pixels.format(), end - first);
         });
+    }
 }
 
 }  // namespace
@@ -53,8 +55,8 @@ void vgSetPixels(VGint dx, VGint dy, VGImage src, VGint sx, VGint sy, VGint widt
         require(width > 0 && height > 0);
         const CopyArea area = clipped({dx, dy, sx, sy, width, height}, context.surface->width(),
                                       context.surface->height(), image->width(), image->height());
-        write(context, area, image->format(),
-              [&](int i, int j) { return image->word(area.sx + i, area.sy + j); });
+        write(context, area, image->format(), convertRow,
+              [&](int j) { return image->at(area.sx, area.sy + j); });
     });
 }
 
@@ -65,8 +67,13 @@ void vgWritePixels(const void* data, VGint dataStride, VGImageFormat dataFormat,
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const CopyArea area = clipped({dx, dy, 0, 0, width, height}, context.surface->width(),
                                       context.surface->height(), width, height);
-        write(context, area, memory.format(),
-              [&](int i, int j) { return memory.word(area.sx + i, area.sy + j); });
+        std::vector<std::uint8_t> bytes(memory.isPacked() ? std::size_t(area.width) : 0);
+        write(context, area, memory.format(), takeRow, [&](int j) -> const std::uint8_t* {
+            if (!memory.isPacked())
+                return memory.at(area.sx, area.sy + j);
+            memory.unpackRow(area.sx, area.sy + j, area.width, bytes.data());
+            return bytes.data();
+        });
     });
 }
 
@@ -98,12 +105,21 @@ void vgCopyPixels(VGint dx, VGint dy, VGint sx, VGint sy, VGint width, VGint hei
     call([&](Context& context) {
         requirePixels(context, "vgCopyPixels");
         require(width > 0 && height > 0);
-        const Pixels& pixels = context.surface->pixels();
+        Pixels& pixels = context.surface->pixels();
         const CopyArea area = clipped({dx, dy, sx, sy, width, height}, pixels.width(), pixels.height(),
                                       pixels.width(), pixels.height());
-        const std::vector<std::uint32_t> words =
-            copied(area, [&](int x, int y) { return pixels.word(x, y); });
-        write(context, area, pixels.format(),
-              [&](int i, int j) { return words[std::size_t(j) * std::size_t(area.width) + std::size_t(i)]; });
+        // What is written over what is still to be read: the last rows first, each by way of a copy.
+        const bool isUp = area.dy > area.sy;
+        const Clip clip(context);
+        const std::size_t bytes = pixels.pixelBytes();
+        std::vector<std::uint8_t> row(std::size_t(area.width) * bytes);
+        for (int i = 0; i < area.height; ++i) {
+            const int j = isUp ? area.height - 1 - i : i;
+            std::memcpy(row.data(), pixels.at(area.sx, area.sy + j), row.size());
+            clip.parts(area.dy + j, area.dx, area.dx + area.width, [&](int first, int end) {
+                std::memcpy(pixels.at(first, area.dy + j), row.data() + std::size_t(first - area.dx) * bytes,
+                            std::size_t(end - first) * bytes);
+            });
+        }
     });
 }

@@ -31,7 +31,7 @@ void draw(Context& context, const Glyph& glyph, VGbitfield modes, glm::vec2 adju
         toSurface[2] +=
             toSurface[0] * (origin[0] - glyph.origin.x) + toSurface[1] * (origin[1] - glyph.origin.y);
         if (glyph.path)
-            drawPath(context, *glyph.path, modes, toSurface);
+            drawPath(context, *glyph.path, modes, toSurface, &context.objects->glyphs);
         else if (glyph.image)
             drawImage(context, *glyph.image, toSurface, VG_MATRIX_GLYPH_USER_TO_SURFACE);
     }

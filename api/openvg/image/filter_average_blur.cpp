@@ -85,6 +85,7 @@ void vgIterativeAverageBlurKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat d
                 rows.at(x, y) = Color(means[std::size_t(x)]);
         }
         const int height = images.height();
+        Raster result(rows.width, height);
         for (int x = 0; x < rows.width; ++x) {
             line.clear();
             for (int y = -up.margin(); y < height + up.margin(); ++y) {
@@ -93,7 +94,9 @@ void vgIterativeAverageBlurKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat d
             }
             const std::vector<glm::dvec4>& means = up.of(line);
             for (int y = 0; y < height; ++y)
-                writeFiltered(context.state, *images.dst, x, y, Color(means[std::size_t(y)]), space);
+                result.at(x, y) = Color(means[std::size_t(y)]);
         }
+        for (int y = 0; y < height; ++y)
+            writeFilteredRow(context.state, *images.dst, y, result.row(y), space);
     });
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "api/openvg/paint/lanes.hpp"
+
 namespace vtm::openvg {
 
 FilterImages::FilterImages(const Context& context, VGImage dstHandle, VGImage srcHandle)
@@ -15,43 +17,56 @@ ColorSpace filterSpace(const State& state) {
     return {state.filterFormatLinear, state.filterFormatPremultiplied, false};
 }
 
-Color normalized(Color color, ColorSpace from, ColorSpace to) {
+void normalizedRow(const Image& image, int y, ColorSpace space, std::span<Color> colors) {
+    decodeRow(image.format(), image.at(0, y), colors);
+    ColorSpace from = image.format().space;
     from.luminance = false;
-    return fullyConverted(color, from, to);
+    convertColors(colors, from, space);
 }
 
 Raster normalized(const Image& image, ColorSpace space) {
     Raster raster(image.width(), image.height());
     for (int y = 0; y < raster.height; ++y)
-        for (int x = 0; x < raster.width; ++x)
-            raster.at(x, y) = normalized(image.color(x, y), image.format().space, space);
+        normalizedRow(image, y, space, raster.row(y));
     return raster;
 }
 
 namespace {
 
-Color clamped(Color color, ColorSpace space) {
-    color = clampedToUnit(color);
-    return space.premultiplied ? Color(glm::min(glm::vec3(color), color.a), color.a) : color;
+void clampColors(std::span<Color> colors, bool isPremultiplied) {
+    for (Color& color : colors) {
+        const Float4 c = unit(loaded(color));
+        assign(color, isPremultiplied ? lesser(c, alphas(c)) : c);
+    }
+}
+
+/// The channels that `mask` leaves out become those of the row that is there.
+void keepChannels(VGbitfield mask, std::span<Color> colors, std::span<const Color> there) {
+    constexpr std::array<VGbitfield, 4> bits{VG_RED, VG_GREEN, VG_BLUE, VG_ALPHA};
+    for (int c = 0; c < 4; ++c)
+        if (!(mask & bits[std::size_t(c)]))
+            for (std::size_t x = 0; x < colors.size(); ++x)
+                colors[x][c] = there[x][c];
 }
 
 }  // namespace
 
-void writeFiltered(const State& state, Image& image, int x, int y, Color color, ColorSpace space) {
+void writeFilteredRow(const State& state, Image& image, int y, std::span<Color> colors, ColorSpace space) {
     const PixelFormat& format = image.format();
-    color = clamped(color, space);
-    const VGbitfield all = VG_RED | VG_GREEN | VG_BLUE | VG_ALPHA;
-    if (format.grey.bits != 0 || (state.filterChannelMask & all) == all)
-        return image.setWord(x, y, format.encode(fullyConverted(color, space, format.space)));
-    ColorSpace plain = format.space;
-    plain.premultiplied = false;
-    const Color filtered = fullyConverted(color, space, plain);
-    Color result = fullyConverted(image.color(x, y), format.space, plain);
-    constexpr std::array<VGbitfield, 4> bits{VG_RED, VG_GREEN, VG_BLUE, VG_ALPHA};
-    for (int c = 0; c < 4; ++c)
-        if (state.filterChannelMask & bits[std::size_t(c)])
-            result[c] = filtered[c];
-    image.setWord(x, y, format.encode(fullyConverted(result, plain, format.space)));
+    clampColors(colors, space.premultiplied);
+    constexpr VGbitfield all = VG_RED | VG_GREEN | VG_BLUE | VG_ALPHA;
+    if (format.grey.bits == 0 && (state.filterChannelMask & all) != all) {
+        ColorSpace plain = format.space;
+        plain.premultiplied = false;
+        std::vector<Color> there(colors.size());
+        decodeRow(format, image.at(0, y), there);
+        convertColors(there, format.space, plain);
+        convertColors(colors, space, plain);
+        keepChannels(state.filterChannelMask, colors, there);
+        space = plain;
+    }
+    convertColors(colors, space, format.space);
+    encodeRow(format, colors, image.at(0, y));
 }
 
 int tiled(int i, int size, VGTilingMode mode) {
@@ -69,6 +84,13 @@ int tiled(int i, int size, VGTilingMode mode) {
         default:
             return -1;
     }
+}
+
+std::vector<int> tiledPlaces(int first, int end, int size, VGTilingMode mode) {
+    std::vector<int> places;
+    for (int i = first; i < end; ++i)
+        places.push_back(tiled(i, size, mode));
+    return places;
 }
 
 bool isTiling(VGTilingMode mode) { return VGint(mode) >= VG_TILE_FILL && VGint(mode) <= VG_TILE_REFLECT; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "api/openvg/image/images.hpp"
@@ -17,6 +18,7 @@ struct Raster {
     Raster(int w, int h) : width(w), height(h), colors(std::size_t(w) * std::size_t(h)) {}
     Color& at(int x, int y) { return colors[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
     const Color& at(int x, int y) const { return const_cast<Raster*>(this)->at(x, y); }
+    std::span<Color> row(int y) { return {&at(0, y), std::size_t(width)}; }
 };
 
 /// What a filter reads and where it writes; throws for images that it must not get.
@@ -33,14 +35,17 @@ struct FilterImages {
 ColorSpace filterSpace(const State& state);
 
 /// Section 12.1. Grey is replicated, not converted.
-Color normalized(Color color, ColorSpace from, ColorSpace to);
+void normalizedRow(const Image& image, int y, ColorSpace space, std::span<Color> colors);
 Raster normalized(const Image& image, ColorSpace space);
 
-/// Writes a filtered colour's channels that VG_FILTER_CHANNEL_MASK names (section 12.2); clamps it.
-void writeFiltered(const State& state, Image& image, int x, int y, Color color, ColorSpace space);
+/// Writes the row's filtered colours from the left on, the channels that VG_FILTER_CHANNEL_MASK names
+/// (section 12.2). Clamps them in place.
+void writeFilteredRow(const State& state, Image& image, int y, std::span<Color> colors, ColorSpace space);
 
 /// The index of a place outside of 0 to size - 1, or -1 for the fill colour (section 9.4.1).
 int tiled(int i, int size, VGTilingMode mode);
+/// Of `first` to `end` - 1.
+std::vector<int> tiledPlaces(int first, int end, int size, VGTilingMode mode);
 bool isTiling(VGTilingMode mode);
 
 /// VG_TILE_FILL_COLOR as normalized pixels are.

@@ -112,7 +112,10 @@ void vgParametricFilterKHR(VGImage dst, VGImage src, VGImage blur, VGfloat stren
                    knocksOut = filterFlags & VG_PF_KNOCKOUT_FLAG_KHR,
                    isVisible = filterFlags & VG_PF_OBJECT_VISIBLE_FLAG_KHR;
         const Alphas alphas(*blurred.src);
-        for (int y = 0; y < images.height(); ++y)
+        std::vector<Color> row(std::size_t(images.src->width()));
+        const std::span<Color> colors = std::span(row).first(std::size_t(images.width()));
+        for (int y = 0; y < images.height(); ++y) {
+            normalizedRow(*images.src, y, space, row);
             for (int x = 0; x < images.width(); ++x) {
                 // A paint that is not there has no light to take from the other's: glows and drop shadows.
                 const double dx = double(offsetX), dy = double(offsetY);
@@ -122,7 +125,7 @@ void vgParametricFilterKHR(VGImage dst, VGImage src, VGImage blur, VGfloat stren
                     sum(highlight(std::max(lit - shaded, 0.0f)), shadow(std::max(shaded - lit, 0.0f)));
                 const Color inner = highlight.exists() ? outer : shadow(1 - std::max(shaded - lit, 0.0f));
 
-                const Color object = normalized(images.src->color(x, y), images.src->format().space, space);
+                const Color object = colors[std::size_t(x)];
                 const float innerAlpha = isInner ? object.a : 0,
                             objectAlpha = knocksOut || !isVisible ? 0
                                           : isInner               ? 1 - inner.a
@@ -130,8 +133,10 @@ void vgParametricFilterKHR(VGImage dst, VGImage src, VGImage blur, VGfloat stren
                             outerAlpha = !isOuter                 ? 0
                                          : knocksOut || isVisible ? 1 - object.a
                                                                   : 1;
-                writeFiltered(context.state, *images.dst, x, y,
-                              sum(sum(inner * innerAlpha, object * objectAlpha), outer * outerAlpha), space);
+                colors[std::size_t(x)] =
+                    sum(sum(inner * innerAlpha, object * objectAlpha), outer * outerAlpha);
             }
+            writeFilteredRow(context.state, *images.dst, y, colors, space);
+        }
     });
 }

@@ -19,12 +19,6 @@ std::shared_ptr<Image> parentOf(const Image& image) {
     return ancestor;
 }
 
-std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const PixelFormat& to) {
-    // Premultiplied colours above their alpha are clamped, even on the way into the same format.
-    const bool isSame = from == to && !from.space.premultiplied;
-    return isSame ? word : to.encode(fullyConverted(from.decode(word), from.space, to.space));
-}
-
 std::uint32_t wordOf(const std::array<VGfloat, 4>& c, const PixelFormat& format) {
     return format.encode(givenColor(c, format.space));
 }
@@ -36,6 +30,16 @@ using namespace vtm::openvg;
 namespace {
 
 void requireSize(VGint width, VGint height) { require(width > 0 && height > 0); }
+
+/// Between images of one storage, which may overlap.
+void moveRows(Image& to, const Image& from, const CopyArea& area) {
+    const std::size_t bytes = std::size_t(area.width) * to.format().pixelBytes();
+    const bool isUp = to.area.y0 + area.dy > from.area.y0 + area.sy;
+    for (int i = 0; i < area.height; ++i) {
+        const int j = isUp ? area.height - 1 - i : i;
+        std::memmove(to.at(area.dx, area.dy + j), from.at(area.sx, area.sy + j), bytes);
+    }
+}
 
 }  // namespace
 
@@ -71,9 +75,9 @@ void vgClearImage(VGImage handle, VGint x, VGint y, VGint width, VGint height) {
         const std::uint32_t word = wordOf(context.state.clearColor, image->format());
         const CopyArea area =
             clipped({x, y, 0, 0, width, height}, image->width(), image->height(), width, height);
+        const int left = image->area.x0 + area.dx;
         for (int j = 0; j < area.height; ++j)
-            for (int i = 0; i < area.width; ++i)
-                image->setWord(area.dx + i, area.dy + j, word);
+            image->storage->pixels.fill(left, left + area.width, image->area.y0 + area.dy + j, word);
     });
 }
 
@@ -131,11 +135,9 @@ void vgCopyImage(VGImage dst, VGint dx, VGint dy, VGImage src, VGint sx, VGint s
         requireSize(width, height);
         const CopyArea area = clipped({dx, dy, sx, sy, width, height}, to->width(), to->height(),
                                       from->width(), from->height());
-        const std::vector<std::uint32_t> words = copied(area, [&](int x, int y) { return from->word(x, y); });
-        std::size_t next = 0;
-        for (int j = 0; j < area.height; ++j)
-            for (int i = 0; i < area.width; ++i)
-                to->setWord(area.dx + i, area.dy + j,
-                            convertedWord(words[next++], from->format(), to->format()));
+        if (from->storage == to->storage)
+            moveRows(*to, *from, area);
+        else
+            copyPixels(*from, *to, area);
     });
 }

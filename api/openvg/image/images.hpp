@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "api/openvg/image/pixels.hpp"
+#include "api/openvg/image/pixel_rows.hpp"
 #include "api/openvg/state/context.hpp"
 
 namespace vtm::openvg {
@@ -15,17 +15,36 @@ std::shared_ptr<Image> freeImage(const Context& context, VGImage handle);
 /// The nearest ancestor that has a handle; null if there is none.
 std::shared_ptr<Image> parentOf(const Image& image);
 
-/// Converts a word from one format to another (section 3.4.4).
-std::uint32_t convertedWord(std::uint32_t word, const PixelFormat& from, const PixelFormat& to);
-
-/// Copies pixels, each converted, between things that have words and a format: images, surfaces' pixels,
-/// memory.
+/// Copies pixels, each converted (section 3.4.4), between two different storages: images, surfaces' pixels,
+/// programs' memory.
 template <class From, class To>
 void copyPixels(const From& from, To& to, const CopyArea& area) {
-    for (int j = 0; j < area.height; ++j)
-        for (int i = 0; i < area.width; ++i)
-            to.setWord(area.dx + i, area.dy + j,
-                       convertedWord(from.word(area.sx + i, area.sy + j), from.format(), to.format()));
+    convertRows({from.at(area.sx, area.sy), from.stride()}, from.format(),
+                {to.at(area.dx, area.dy), to.stride()}, to.format(), area.width, area.height, convertRow);
+}
+template <class To>
+void copyPixels(const MemoryPixels& from, To& to, const CopyArea& area) {
+    if (!from.isPacked())
+        return convertRows({from.at(area.sx, area.sy), from.stride}, from.format(),
+                           {to.at(area.dx, area.dy), to.stride()}, to.format(), area.width, area.height,
+                           takeRow);
+    std::vector<std::uint8_t> bytes(std::size_t(area.width));
+    for (int j = 0; j < area.height; ++j) {
+        from.unpackRow(area.sx, area.sy + j, area.width, bytes.data());
+        convertRow(bytes.data(), from.format(), to.at(area.dx, area.dy + j), to.format(), area.width);
+    }
+}
+template <class From>
+void copyPixels(const From& from, const MemoryPixels& to, const CopyArea& area) {
+    if (!to.isPacked())
+        return convertRows({from.at(area.sx, area.sy), from.stride()}, from.format(),
+                           {to.at(area.dx, area.dy), to.stride}, to.format(), area.width, area.height,
+                           convertRow);
+    std::vector<std::uint8_t> bytes(std::size_t(area.width));
+    for (int j = 0; j < area.height; ++j) {
+        convertRow(from.at(area.sx, area.sy + j), from.format(), bytes.data(), to.format(), area.width);
+        to.packRow(area.dx, area.dy + j, area.width, bytes.data());
+    }
 }
 
 /// A clear colour as a word of a format.

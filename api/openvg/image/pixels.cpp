@@ -132,49 +132,20 @@ std::optional<PixelFormat> imageFormat(VGint format) {
     return f;
 }
 
-std::uint32_t MemoryPixels::word(int x, int y) const {
+void MemoryPixels::unpackRow(int x, int y, int count, std::uint8_t* to) const {
     const std::uint8_t* row = first + y * stride;
-    switch (layout.bits) {
-        case 1:
-            return (row[x / 8] >> (x % 8)) & 1u;
-        case 4:
-            return (row[x / 2] >> (4 * (x % 2))) & 15u;
-        case 8:
-            return row[x];
-        case 16: {
-            std::uint16_t half;
-            std::memcpy(&half, row + 2 * std::ptrdiff_t(x), 2);
-            return half;
-        }
-        default: {
-            std::uint32_t word;
-            std::memcpy(&word, row + 4 * std::ptrdiff_t(x), 4);
-            return word;
-        }
-    }
+    const int perByte = 8 / int(layout.bits), mask = (1 << layout.bits) - 1;
+    for (const int end = x + count; x < end; ++x)
+        *to++ = std::uint8_t(row[x / perByte] >> (int(layout.bits) * (x % perByte)) & mask);
 }
 
-void MemoryPixels::setWord(int x, int y, std::uint32_t word) const {
+void MemoryPixels::packRow(int x, int y, int count, const std::uint8_t* from) const {
     std::uint8_t* row = first + y * stride;
-    const auto setBits = [&](std::uint8_t& byte, unsigned shift, unsigned mask) {
-        byte = std::uint8_t((byte & ~(mask << shift)) | (word & mask) << shift);
-    };
-    switch (layout.bits) {
-        case 1:
-            return setBits(row[x / 8], unsigned(x % 8), 1);
-        case 4:
-            return setBits(row[x / 2], 4 * unsigned(x % 2), 15);
-        case 8:
-            row[x] = std::uint8_t(word);
-            return;
-        case 16: {
-            const auto half = std::uint16_t(word);
-            std::memcpy(row + 2 * std::ptrdiff_t(x), &half, 2);
-            return;
-        }
-        default:
-            std::memcpy(row + 4 * std::ptrdiff_t(x), &word, 4);
-            return;
+    const int perByte = 8 / int(layout.bits), mask = (1 << layout.bits) - 1;
+    for (const int end = x + count; x < end; ++x) {
+        const int shift = int(layout.bits) * (x % perByte);
+        std::uint8_t& byte = row[x / perByte];
+        byte = std::uint8_t((byte & ~(mask << shift)) | (*from++ & mask) << shift);
     }
 }
 
@@ -201,6 +172,8 @@ CopyArea clipped(CopyArea a, int dstWidth, int dstHeight, int srcWidth, int srcH
     };
     along(a.dx, a.sx, a.width, dstWidth, srcWidth);
     along(a.dy, a.sy, a.height, dstHeight, srcHeight);
+    if (a.width == 0 || a.height == 0)
+        a.width = a.height = 0;
     return a;
 }
 

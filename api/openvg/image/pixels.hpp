@@ -29,6 +29,9 @@ struct PixelFormat {
     Channel red, green, blue, alpha, grey;
     ColorSpace space;
 
+    /// Of a pixel in Pixels: formats of less than a byte take a whole one there.
+    std::size_t pixelBytes() const { return bits < 8 ? 1 : bits / 8; }
+
     /// In `space`; alpha is 1 where there is none. Premultiplied colours are clamped to [0, alpha].
     Color decode(std::uint32_t word) const;
     /// Rounds to nearest; takes a colour in `space`, clamps it to [0, 1] and, premultiplied, to [0, alpha].
@@ -51,7 +54,31 @@ struct Rectangle {
     }
 };
 
-/// Formats of less than a byte take a whole one here.
+/// A word of one, two or four bytes.
+inline std::uint32_t wordAt(const std::uint8_t* p, std::size_t bytes) {
+    if (bytes == 4) {
+        std::uint32_t word;
+        std::memcpy(&word, p, 4);
+        return word;
+    }
+    if (bytes == 1)
+        return *p;
+    std::uint16_t word;
+    std::memcpy(&word, p, 2);
+    return word;
+}
+inline void setWordAt(std::uint8_t* p, std::size_t bytes, std::uint32_t word) {
+    if (bytes == 4) {
+        std::memcpy(p, &word, 4);
+    } else if (bytes == 1) {
+        *p = std::uint8_t(word);
+    } else {
+        const auto half = std::uint16_t(word);
+        std::memcpy(p, &half, 2);
+    }
+}
+
+/// Formats of less than a byte take a whole one here. No premultiplied colour is above its alpha.
 class Pixels {
 public:
     /// All words are 0. Sides are at least 1.
@@ -59,43 +86,23 @@ public:
         : width_(width),
           height_(height),
           format_(format),
-          pixelBytes_(format.bits < 8 ? 1 : format.bits / 8),
+          pixelBytes_(format.pixelBytes()),
           bytes_(std::size_t(width) * std::size_t(height) * pixelBytes_) {}
 
     int width() const { return width_; }
     int height() const { return height_; }
     const PixelFormat& format() const { return format_; }
     std::size_t pixelBytes() const { return pixelBytes_; }
+    /// Bytes from row to row.
+    std::ptrdiff_t stride() const { return std::ptrdiff_t(width_) * std::ptrdiff_t(pixelBytes_); }
 
     std::uint8_t* at(int x, int y) {
         return bytes_.data() + (std::size_t(y) * std::size_t(width_) + std::size_t(x)) * pixelBytes_;
     }
     const std::uint8_t* at(int x, int y) const { return const_cast<Pixels*>(this)->at(x, y); }
 
-    std::uint32_t word(int x, int y) const {
-        const std::uint8_t* p = at(x, y);
-        if (pixelBytes_ == 4) {
-            std::uint32_t word;
-            std::memcpy(&word, p, 4);
-            return word;
-        }
-        if (pixelBytes_ == 1)
-            return *p;
-        std::uint16_t word;
-        std::memcpy(&word, p, 2);
-        return word;
-    }
-    void setWord(int x, int y, std::uint32_t word) {
-        std::uint8_t* p = at(x, y);
-        if (pixelBytes_ == 4) {
-            std::memcpy(p, &word, 4);
-        } else if (pixelBytes_ == 1) {
-            *p = std::uint8_t(word);
-        } else {
-            const auto half = std::uint16_t(word);
-            std::memcpy(p, &half, 2);
-        }
-    }
+    std::uint32_t word(int x, int y) const { return wordAt(at(x, y), pixelBytes_); }
+    void setWord(int x, int y, std::uint32_t word) { setWordAt(at(x, y), pixelBytes_, word); }
 
     /// Columns first to end - 1 of a row.
     void fill(int first, int end, int y, std::uint32_t word) {
@@ -120,18 +127,25 @@ private:
     std::vector<std::uint8_t> bytes_;
 };
 
-/// Rows `stride` bytes apart, the first one's address given.
+/// A program's pixels: rows `stride` bytes apart, the first one's address given. Those of less than a byte
+/// are packed, the first in the lowest bits.
 struct MemoryPixels {
     std::uint8_t* first = nullptr;
     std::ptrdiff_t stride = 0;
     PixelFormat layout;
 
     const PixelFormat& format() const { return layout; }
-    std::uint32_t word(int x, int y) const;
-    void setWord(int x, int y, std::uint32_t word) const;
+    bool isPacked() const { return layout.bits < 8; }
+    /// Of pixels that are not packed.
+    std::uint8_t* at(int x, int y) const {
+        return first + y * stride + std::ptrdiff_t(x) * std::ptrdiff_t(layout.pixelBytes());
+    }
+    /// `count` packed pixels from (x, y) on to a byte each, and back.
+    void unpackRow(int x, int y, int count, std::uint8_t* to) const;
+    void packRow(int x, int y, int count, const std::uint8_t* from) const;
 };
 
-/// Throws for what vgImageSubData and its like must not be given. Only setWord writes.
+/// Throws for what vgImageSubData and its like must not be given. A const address is not written to.
 MemoryPixels memoryPixels(const void* data, VGint stride, VGImageFormat format, VGint width, VGint height);
 
 /// From (sx, sy) on to (dx, dy) on.
@@ -139,20 +153,7 @@ struct CopyArea {
     int dx, dy, sx, sy, width, height;
 };
 
-/// What is within both; width and height are 0 or less if nothing is.
+/// What is within both; width and height are 0 if nothing is.
 CopyArea clipped(CopyArea area, int dstWidth, int dstHeight, int srcWidth, int srcHeight);
-
-/// The words of the source, row by row: a copy whose source and destination may overlap goes through it.
-template <class Word>
-std::vector<std::uint32_t> copied(const CopyArea& area, Word&& word) {
-    std::vector<std::uint32_t> words;
-    if (area.width <= 0 || area.height <= 0)
-        return words;
-    words.reserve(std::size_t(area.width) * std::size_t(area.height));
-    for (int j = 0; j < area.height; ++j)
-        for (int i = 0; i < area.width; ++i)
-            words.push_back(word(area.sx + i, area.sy + j));
-    return words;
-}
 
 }  // namespace vtm::openvg

@@ -53,7 +53,7 @@ ByteGamma::ByteGamma() {
     for (std::size_t i = 0; i < decoded.size(); ++i)
         decoded[i] = decodeGamma(float(i) / 4096);
     for (std::size_t i = 0; i < encoded.size(); ++i)
-        encoded[i] = std::uint8_t(std::min(encodeGamma(float(i) / 16384), 1.0f) * 255 + 0.5f);
+        encoded[i] = std::uint8_t(std::min(encodeGamma(float(i) / steps), 1.0f) * 255 + 0.5f);
 }
 
 const ByteGamma& byteGamma() {

@@ -40,13 +40,15 @@ Color fastDecoded(Color encoded);
 /// For bytes: γ⁻¹ of v / 255 for v from 0 to 255, and of numbers from 0 to 1 within a tenth of a byte's step;
 /// γ as bytes, within 0.6 of the exact number's.
 struct ByteGamma {
+    static constexpr float steps = 16384;  ///< of linear light, of `encoded`
+
     std::array<float, 256> decodedBytes;
     std::array<float, 4097> decoded;
     std::array<std::uint8_t, 16385> encoded;
 
     ByteGamma();
     float decode(float v) const { return decoded[std::size_t(v * 4096 + 0.5f)]; }
-    std::uint8_t encode(float linear) const { return encoded[std::size_t(linear * 16384 + 0.5f)]; }
+    std::uint8_t encode(float linear) const { return encoded[std::size_t(linear * steps + 0.5f)]; }
 };
 const ByteGamma& byteGamma();
 

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "api/openvg/paint/lanes.hpp"
 
 namespace vtm::openvg {
 
@@ -91,33 +95,70 @@ ColorRamp::ColorRamp(const Paint& paint)
         stops_.insert(stops_.begin(), {0, stops_.front().color});
     if (stops_.back().offset < 1)
         stops_.push_back({1, stops_.back().color});
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Color none(0);
+    pieces_.push_back({-infinity, 0, 0, 0, stops_.front().color, none});
+    for (std::size_t i = 0; i + 1 < stops_.size(); ++i) {
+        const Stop &a = stops_[i], &b = stops_[i + 1];
+        const double low = double(a.offset), high = double(b.offset);
+        if (low < high)
+            pieces_.push_back({low, high, low, 1 / (high - low), a.color, b.color - a.color});
+    }
+    pieces_.push_back({1, infinity, 0, 0, stops_.back().color, none});
 }
 
-Color ColorRamp::at(double offset) const {
-    double v = std::isnan(offset) ? 0 : offset;
-    if (spread_ != VG_COLOR_RAMP_SPREAD_PAD) {
-        const double whole = std::floor(v);
-        v -= whole;
-        if (spread_ == VG_COLOR_RAMP_SPREAD_REFLECT && std::fmod(whole, 2) != 0)
-            v = 1 - v;
-    }
-    Color color;
-    if (v < 0) {
-        color = stops_.front().color;
-    } else if (v >= 1) {
-        color = stops_.back().color;
-    } else {
-        // The first stop behind v; the one before it is the last at or before v.
-        const auto next = std::ranges::upper_bound(stops_, float(v), {}, &Stop::offset);
-        if (next == stops_.begin() || next == stops_.end()) {
-            color = (next == stops_.end() ? stops_.back() : stops_.front()).color;
-        } else {
-            const Stop &a = *(next - 1), &b = *next;
-            color = glm::mix(a.color, b.color,
-                             float((v - double(a.offset)) / (double(b.offset) - double(a.offset))));
+const ColorRamp::Piece& ColorRamp::pieceAt(double offset) const {
+    return *(std::ranges::upper_bound(pieces_, offset, {}, &Piece::low) - 1);
+}
+
+template <bool premultiplies, class Spread>
+void ColorRamp::walk(std::span<const double> offsets, std::span<Color> colors, Spread&& spread) const {
+    // Neighbours are mostly of one piece.
+    const Piece* piece = &pieces_.front();
+    Float4 start = loaded(piece->start), change = loaded(piece->change);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const double v = spread(offsets[i]);
+        if (!(v >= piece->low && v < piece->high)) {
+            piece = &pieceAt(v);
+            start = loaded(piece->start);
+            change = loaded(piece->change);
         }
+        const Float4 color = start + splat(float((v - piece->origin) * piece->scale)) * change;
+        assign(colors[i], premultiplies ? premultiplied(color) : color);
     }
-    return premultiplied_ ? color : premultiplied(color);
+}
+
+namespace {
+
+/// Beyond, doubles have no fraction; NaN is 0.
+double bounded(double v) {
+    constexpr double limit = 1e15;
+    return std::isnan(v) ? 0 : std::clamp(v, -limit, limit);
+}
+
+}  // namespace
+
+void ColorRamp::row(std::span<const double> offsets, std::span<Color> colors) const {
+    const auto whole = [](double v) {
+        const auto i = std::int64_t(v);
+        return i - (double(i) > v);
+    };
+    const auto with = [&](auto&& spread) {
+        premultiplied_ ? walk<false>(offsets, colors, spread) : walk<true>(offsets, colors, spread);
+    };
+    if (spread_ == VG_COLOR_RAMP_SPREAD_PAD)
+        with(bounded);
+    else if (spread_ == VG_COLOR_RAMP_SPREAD_REFLECT)
+        with([&](double offset) {
+            const double v = bounded(offset);
+            const std::int64_t i = whole(v);
+            return i & 1 ? 1 - (v - double(i)) : v - double(i);
+        });
+    else
+        with([&](double offset) {
+            const double v = bounded(offset);
+            return v - double(whole(v));
+        });
 }
 
 }  // namespace vtm::openvg

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -69,7 +70,12 @@ public:
     ColorSpace space() const { return space_; }
 
     /// At a gradient's value, any number.
-    Color at(double offset) const;
+    Color at(double offset) const {
+        Color color;
+        row(std::span(&offset, 1), std::span(&color, 1));
+        return color;
+    }
+    void row(std::span<const double> offsets, std::span<Color> colors) const;
 
     struct Stop {
         float offset;
@@ -84,7 +90,18 @@ public:
     }
 
 private:
+    /// Where colours are `start + t * change`, t being 0 at `origin`.
+    struct Piece {
+        double low, high;  ///< half open
+        double origin, scale;
+        Color start, change;
+    };
+    const Piece& pieceAt(double offset) const;
+    template <bool premultiplies, class Spread>
+    void walk(std::span<const double> offsets, std::span<Color> colors, Spread&& spread) const;
+
     std::vector<Stop> stops_;
+    std::vector<Piece> pieces_;  ///< of all numbers, in order
     ColorSpace space_;
     VGColorRampSpreadMode spread_;
     bool premultiplied_;  ///< colours of stops are, and so is what lies between

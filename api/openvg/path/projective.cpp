@@ -16,7 +16,7 @@ namespace {
 using glm::dvec3;
 
 /// Of outlines on the surface.
-constexpr double pixelTolerance = 1.0 / 256;
+constexpr double projectedTolerance = 1.0 / 256;
 /// Around what is drawn: lines along the border of the view must not touch its pixels.
 constexpr double viewMargin = 2;
 /// Of a curve where it meets a line; halving as often leaves nothing between.
@@ -252,7 +252,7 @@ scene::Path projectedOutline(const scene::Path& outline, const glm::mat3& toSurf
         move.to = projected(subpath.start);
         segments.push_back(move);
         for (const RationalCurve& curve : subpath.curves)
-            appendAsPlain(segments, curve, pixelTolerance);
+            appendAsPlain(segments, curve, projectedTolerance);
     }
     // At the viewer, where w is 0, rounding decides what x / w is.
     for (Segment& s : segments)

@@ -7,6 +7,8 @@
 
 #include <dlfcn.h>
 
+#include "api/openvg/image/pixel_rows.hpp"
+
 namespace vtm::openvg {
 
 namespace {
@@ -195,36 +197,18 @@ void vtmReadSurfacePart(VtmSurface* surface, VGint x0, VGint y0, VGint width, VG
     const Pixels& pixels = surface->pixels();
     const PixelFormat& format = pixels.format();
     const PixelFormat output = bytesFormat();
-    for (int y = 0; y < height; ++y) {
-        auto* row = static_cast<std::uint8_t*>(bytes) + std::size_t(height - 1 - y) * rowBytes;
-        if (format == output) {
-            std::memcpy(row, pixels.at(x0, y0 + y), std::size_t(width) * 4);
-            continue;
-        }
-        for (int x = 0; x < width; ++x) {
-            const std::uint32_t word = output.encode(
-                fullyConverted(format.decode(pixels.word(x0 + x, y0 + y)), format.space, output.space));
-            for (int c = 0; c < 4; ++c)
-                row[4 * x + c] = std::uint8_t(word >> (8 * c));
-        }
-    }
+    for (int y = 0; y < height; ++y)
+        convertRow(pixels.at(x0, y0 + y), format,
+                   static_cast<std::uint8_t*>(bytes) + std::size_t(height - 1 - y) * rowBytes, output, width);
 }
 
 void vtmWriteSurface(VtmSurface* surface, const void* bytes, size_t rowBytes) {
     Pixels& pixels = surface->pixels();
     const PixelFormat& format = pixels.format();
     const PixelFormat input = bytesFormat();
-    for (int y = 0; y < pixels.height(); ++y) {
-        const auto* row =
-            static_cast<const std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes;
-        for (int x = 0; x < pixels.width(); ++x) {
-            std::uint32_t word = 0;
-            for (int c = 0; c < 4; ++c)
-                word |= std::uint32_t(row[4 * x + c]) << (8 * c);
-            pixels.setWord(x, y,
-                           format.encode(fullyConverted(input.decode(word), input.space, format.space)));
-        }
-    }
+    for (int y = 0; y < pixels.height(); ++y)
+        takeRow(static_cast<const std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes,
+                input, pixels.at(0, y), format, pixels.width());
 }
 
 VtmContext* vtmCreateContext(VtmContext* share) try {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <vtm/vg.h>
+#include "api/openvg/draw/glyph_cache.hpp"
 #include "api/openvg/state/error.hpp"
 #include "api/openvg/state/objects.hpp"
 #include "api/openvg/state/state.hpp"
@@ -42,6 +43,8 @@ class Handles {
 public:
     /// Held by every call of the contexts, so that objects may be used from several threads.
     std::recursive_mutex mutex;
+    /// Of the glyphs of all fonts.
+    GlyphCache glyphs;
 
     template <class T>
     VGHandle add(std::shared_ptr<T> object) {

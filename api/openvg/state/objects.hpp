@@ -64,11 +64,12 @@ struct Image : Object {
     int width() const { return area.x1 - area.x0; }
     int height() const { return area.y1 - area.y0; }
     const PixelFormat& format() const { return storage->pixels.format(); }
-    std::uint32_t word(int x, int y) const { return storage->pixels.word(area.x0 + x, area.y0 + y); }
-    void setWord(int x, int y, std::uint32_t word) {
-        storage->pixels.setWord(area.x0 + x, area.y0 + y, word);
+    std::uint8_t* at(int x, int y) { return storage->pixels.at(area.x0 + x, area.y0 + y); }
+    const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+    std::ptrdiff_t stride() const { return storage->pixels.stride(); }
+    Color color(int x, int y) const {
+        return format().decode(storage->pixels.word(area.x0 + x, area.y0 + y));
     }
-    Color color(int x, int y) const { return format().decode(word(x, y)); }
 };
 
 /// An image as another object's pattern or glyph: it may not be drawn into meanwhile (section 4).

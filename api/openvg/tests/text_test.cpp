@@ -98,6 +98,50 @@ TEST_F(TextTest, TheGlyphMatrixIsUsed) {
     EXPECT_VG_ERROR(VG_BAD_HANDLE_ERROR, vgDrawGlyph(font, 65, VG_FILL_PATH, VG_FALSE));
 }
 
+// Coverage is kept, by matrix and place.
+TEST_F(TextTest, GlyphsThatAreDrawnAgainAreThoseOfTheirPaths) {
+    const VGPath path =
+        newPath({VG_MOVE_TO_ABS, VG_QUAD_TO_ABS, VG_LINE_TO_ABS, VG_CLOSE_PATH}, {0, 0, 9, 2, 7, 9, -2, 6});
+    const std::array<VGfloat, 2> zero{};
+    vgSetGlyphToPath(font, 70, path, VG_FALSE, zero.data(), zero.data());
+    useSurface(40, 40, linear8888);
+    const auto pixels = [](auto&& draw) {
+        clear({0, 0, 0, 1});
+        draw();
+        std::vector<std::uint32_t> words(40 * 40);
+        vgReadPixels(words.data(), 160, VG_lRGBA_8888, 0, 0, 40, 40);
+        return words;
+    };
+    const auto expectSame = [&](const std::string& what) {
+        const auto ofPath = pixels([&] { vgDrawPath(path, VG_FILL_PATH | VG_STROKE_PATH); });
+        const auto glyph = [&] { vgDrawGlyph(font, 70, VG_FILL_PATH | VG_STROKE_PATH, VG_FALSE); };
+        const auto first = pixels(glyph), again = pixels(glyph);
+        EXPECT_EQ(first, again) << what;
+        int wrong = 0;
+        for (std::size_t i = 0; i < first.size(); ++i)
+            wrong += !isNear(rgbaOf(first[i]), rgbaOf(ofPath[i]), 1);
+        EXPECT_EQ(wrong, 0) << what;
+    };
+    for (const VGfloat scale : {0.7f, 1.3f, 9.0f})  // the last one is not kept
+        for (const VGfloat angle : {0.0f, 33.0f, 180.0f})
+            for (const VGfloat place : {-3.0f, 0.1f, 12.349f, 39.998f}) {
+                for (const auto mode : {VG_MATRIX_GLYPH_USER_TO_SURFACE, VG_MATRIX_PATH_USER_TO_SURFACE}) {
+                    vgSeti(VG_MATRIX_MODE, mode);
+                    vgLoadIdentity();
+                    vgTranslate(place, 10.77f);
+                    vgRotate(angle);
+                    vgScale(scale, scale);
+                }
+                expectSame(std::to_string(scale) + " " + std::to_string(angle) + " " + std::to_string(place));
+            }
+    append(path, {VG_MOVE_TO_ABS, VG_LINE_TO_ABS, VG_LINE_TO_ABS}, {1, 1, 3, 1, 3, 5});
+    expectSame("edited");
+    const std::array<VGint, 8> scissor{3, 2, 5, 20, 20, 11, 10, 3};
+    vgSetiv(VG_SCISSOR_RECTS, 8, scissor.data());
+    vgSeti(VG_SCISSORING, VG_TRUE);
+    expectSame("scissored");
+}
+
 }  // namespace
 
 }  // namespace vtm::openvg::testing

@@ -1,0 +1,24 @@
+/// \file
+/// Rows of premultiplied pixels of four bytes, blended in 16 bits: results are within 1/255 of
+/// s + d (1 - alpha), mostly its nearest byte.
+#pragma once
+
+#include <cstdint>
+
+#include "api/openvg/paint/color.hpp"
+
+namespace vtm::openvg {
+
+/// A colour over pixels; bytes are in the order of its channels. `keepsAlpha`: the fourth byte stays.
+void overBytes(std::uint8_t* pixels, int count, Color color, bool keepsAlpha);
+
+/// Pixels over pixels, both with alpha in the same byte, the first or the last.
+void overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int alphaByte);
+
+/// Copies pixels; what is above its pixel's alpha is brought down to it. `from` and `to` may be the same.
+void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
+
+/// Whether every fourth byte is 255.
+bool isOpaque(const std::uint8_t* pixels, int count);
+
+}  // namespace vtm::openvg
