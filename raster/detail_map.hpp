@@ -6,9 +6,10 @@
 
 namespace vtm::asset {
 
-/// For pixels of that many lattice steps and larger ones: fewer pieces, straight ones where they are shorter
-/// than a pixel, which change no pixel by 1/255. Where pieces meet other regions nothing moves, and all is as
-/// closed as before. Ends of pieces are no whole numbers of steps.
-PlanarMap mapForPixels(const PlanarMap& map, double pixel);
+/// The map without those that are placed in it, for pixels of that many lattice steps and larger ones: where
+/// pieces are shorter than a quarter of a pixel in the mean, fewer straight ones that change no pixel by
+/// 1/255, those that the scanner draws. Where pieces meet other regions nothing moves, and all is as closed
+/// as before. Ends of pieces are no whole numbers of steps.
+PlanarMap mapForPixels(const AssetView& asset, const Map& map, double pixel);
 
 }  // namespace vtm::asset

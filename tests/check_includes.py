@@ -75,7 +75,7 @@ ANYWHERE = None
 LIBRARIES = {
     r"glm/.*": ANYWHERE,
     r"fmt/.*": ANYWHERE,
-    r"tbb/.*": {"image", "raster", "compiler", "font", "bench", "tests"},
+    r"tbb/.*": {"image", "raster", "backend_gl", "compiler", "font", "bench", "tests"},
     r"gtest/.*|gmock/.*": ANYWHERE,
     r"pugixml\.hpp": {"svg", "bench"},
     r"hb(-ot)?\.h|fribidi\.h|linebreak\.h|fontconfig/.*|woff2/.*": {"text", "conformance/cases"},

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <random>
+#include <string>
 
 #include <vtm/compiler/session.hpp>
 #include <vtm/gl/renderer.hpp>
 #include "backend_gl/tests/gl_fixture.hpp"
-#include "compiler/tests/random_edits.hpp"
 
 namespace vtm::gl {
 namespace {
@@ -26,33 +28,6 @@ View view(int size, double scale, double shear) {
     return {size, size, {scale, shear * scale, -shear * scale, scale, 3.3, 1.7}};
 }
 
-/// Tiles that are kept are cut from pieces with which they once were made, of a level of detail.
-constexpr double apart = 1.0 / 255;
-
-class UpdatedTextures : public Gl, public testing::WithParamInterface<std::tuple<unsigned, int>> {};
-INSTANTIATE_TEST_SUITE_P(SeedAndItems, UpdatedTextures,
-                         testing::Combine(testing::Range(0u, 3u), testing::Values(5, 25)));
-
-TEST_P(UpdatedTextures, ShowWhatNewOnesDo) {
-    const auto [seed, items] = GetParam();
-    compiler::test::RandomEditor editor(seed, items);
-    Session session(editor.scene());
-    Texture texture = renderer->upload(session.result().asset);
-    const View views[]{view(100, 1.3, 0), view(60, 0.7, 0.4), view(12, 0.15, -0.1)};
-    std::string history;
-    for (int step = 0; step < 8; ++step) {
-        for (const View& v : views)
-            renderer->render(texture, v);  // makes tiles
-        history += editor.edit() + ", ";
-        session.update(editor.scene());
-        texture.update(session.result().asset, session.difference());
-        const Texture fresh = renderer->upload(session.result().asset);
-        for (const View& v : views)
-            ASSERT_LE(largestDifference(renderer->render(texture, v), renderer->render(fresh, v)), apart)
-                << history << "at " << v.width << " pixels";
-    }
-}
-
 /// Some squares in rows, all of them drawn.
 scene::Scene squares(int count) {
     scene::Scene scene;
@@ -66,6 +41,78 @@ scene::Scene squares(int count) {
         scene.root.children.push_back({std::move(item)});
     }
     return scene;
+}
+
+/// Tiles that are kept are cut from pieces with which they once were made, of a level of detail.
+constexpr double apart = 1.0 / 255;
+
+/// Recolours, moves, adds and removes items at random; some become gradients.
+class Editor {
+public:
+    Editor(unsigned seed, int items) : scene(squares(items)), random_(seed) {}
+
+    std::string edit() {
+        scene::NodeList& items = scene.root.children;
+        const std::size_t at = random_() % items.size();
+        auto& item = std::get<scene::Item>(items[at].value);
+        switch (random_() % 5) {
+            case 0:
+                item.paint = color();
+                return "recolour";
+            case 1:
+                item.transform[2] += scene::Point(share() * 20 - 10, share() * 20 - 10);
+                return "move";
+            case 2: {
+                scene::LinearGradient gradient;
+                gradient.end = {1, 1};
+                gradient.stops = {{0, color()}, {1, color()}};
+                item.paint = gradient;
+                return "gradient";
+            }
+            case 3: {
+                scene::Item added = item;
+                added.transform[2] += scene::Point(5, 5);
+                added.paint = color();
+                items.insert(items.begin() + std::ptrdiff_t(at), {std::move(added)});
+                return "add";
+            }
+            default:
+                items.erase(items.begin() + std::ptrdiff_t(at));
+                return "remove";
+        }
+    }
+
+    scene::Scene scene;
+
+private:
+    double share() { return std::uniform_real_distribution<double>()(random_); }
+    scene::Color color() { return {float(share()), float(share()), float(share()), float(share())}; }
+
+    std::mt19937 random_;
+};
+
+class UpdatedTextures : public Gl, public testing::WithParamInterface<std::tuple<unsigned, int>> {};
+INSTANTIATE_TEST_SUITE_P(SeedAndItems, UpdatedTextures,
+                         testing::Combine(testing::Range(0u, 3u), testing::Values(12, 200)));
+
+TEST_P(UpdatedTextures, ShowWhatNewOnesDo) {
+    const auto [seed, items] = GetParam();
+    Editor editor(seed, items);
+    Session session(editor.scene);
+    Texture texture = renderer->upload(session.result().asset);
+    const View views[]{view(100, 1.3, 0), view(60, 0.7, 0.4), view(12, 0.15, -0.1)};
+    std::string history;
+    for (int step = 0; step < 10; ++step) {
+        for (const View& v : views)
+            renderer->render(texture, v);  // makes tiles
+        history += editor.edit() + ", ";
+        session.update(editor.scene);
+        texture.update(session.result().asset, session.difference());
+        const Texture fresh = renderer->upload(session.result().asset);
+        for (const View& v : views)
+            ASSERT_LE(largestDifference(renderer->render(texture, v), renderer->render(fresh, v)), apart)
+                << history << "at " << v.width << " pixels";
+    }
 }
 
 TEST_F(Gl, RecolouringSendsLittle) {

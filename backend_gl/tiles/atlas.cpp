@@ -132,7 +132,7 @@ using glm::dvec2;
 constexpr double cellsPerRadius = 2.83;
 /// A tile has fewer pixels a side.
 constexpr double mostPixels = 64;
-/// Pixels: where pieces are longer in the mean, merging them gains little.
+/// Pixels: where pieces are longer in the mean, no square has less detail.
 constexpr double longPiece = 1;
 /// Of the pieces, that are left.
 constexpr double fewer = 0.9;
@@ -147,8 +147,15 @@ double footprintRadius(const asset::Map& map, const asset::View& view) {
 
 }  // namespace
 
+namespace {
+
+/// Of halvings of the map's side to a cell.
+double octavesOf(double radius) { return -std::log2(cellsPerRadius * radius); }
+
+}  // namespace
+
 int tileLevelFor(const asset::Map& map, const asset::View& view) {
-    const double cells = std::floor(-std::log2(cellsPerRadius * footprintRadius(map, view)));
+    const double cells = std::floor(octavesOf(footprintRadius(map, view)));
     return std::min(int(cells) - int(tileCellsLog2), maxTileLevel);
 }
 
@@ -182,11 +189,11 @@ const asset::PlanarIndex& Atlas::piecesFor(int level) {
         meanLength_ = length / double(std::max<std::size_t>(pieces_->map().pieces.size(), 1));
     }
     const double pixel = std::ldexp(pieces_->map().extent, -level) / mostPixels;
-    if (meanLength_ > longPiece * pixel)
+    if (meanLength_ > longPiece * pixel || map_.instances != 0)
         return *pieces_;
     const auto [found, isNew] = levels_.try_emplace(level);
     if (isNew) {
-        asset::PlanarMap map = mapForPixels(pieces_->map(), pixel);
+        asset::PlanarMap map = mapForPixels(asset_->asset, map_, pixel);
         if (double(map.pieces.size()) < fewer * double(pieces_->map().pieces.size()))
             found->second.emplace(std::move(map));
     }
@@ -336,9 +343,10 @@ Atlas::Zoom Atlas::zoomTo(const asset::View& view) {
     constexpr double least = 1 + 1e-3, most = 2;
     const double radius = footprintRadius(map_, view), last = std::exchange(lastRadius_, radius);
     const double larger = radius / last, smaller = last / radius;
-    return smaller > least && smaller < most ? Zoom::In
-           : larger > least && larger < most ? Zoom::Out
-                                             : Zoom::None;
+    const double octaves = octavesOf(radius), inOctave = octaves - std::floor(octaves);
+    if (smaller > least && smaller < most && inOctave > 0.5)
+        return Zoom::In;
+    return larger > least && larger < most && inOctave < 0.5 ? Zoom::Out : Zoom::None;
 }
 
 void Atlas::prepareAhead(const Region& region) {
@@ -347,7 +355,16 @@ void Atlas::prepareAhead(const Region& region) {
         make(region, std::size_t(size.x * size.y) / 8 + 1);
 }
 
-/// Tiles that are missing, so many at most.
+namespace {
+
+bool isCrowdedAllOver(const Tile& tile) {
+    return !tile.crowded.empty() && tile.crowded.size() == tile.texels.size();
+}
+
+}  // namespace
+
+/// Tiles that are missing, so many at most. Where levels of detail do not serve, as where hundreds of pieces
+/// meet, they are cut from all pieces.
 void Atlas::make(const Region& region, std::size_t most) {
     struct Missing {
         TilePlace at;
@@ -364,11 +381,24 @@ void Atlas::make(const Region& region, std::size_t most) {
         return;
     const asset::PlanarIndex& pieces = piecesFor(region.level);
     const std::vector<std::vector<const PlanarPiece*>> near = piecesNear(pieces.map(), region);
-    const TileSource source{withPaints(), pieces, std::span(asset_->programTurns).subspan(firstPaint_),
-                            std::span(asset_->changes).subspan(firstPaint_), maxTurns_};
+    const auto build = [&](const asset::PlanarIndex& of, const TilePlace& at,
+                           std::span<const PlanarPiece* const> nearIt) {
+        const TileSource source{withPaints(),
+                                of,
+                                *pieces_,
+                                std::span(asset_->programTurns).subspan(firstPaint_),
+                                std::span(asset_->changes).subspan(firstPaint_),
+                                maxTurns_};
+        return buildTile(source, at, tileMargin(), nearIt);
+    };
     tbb::parallel_for(std::size_t{0}, missing.size(), [&, holding = limits::current()](std::size_t i) {
         const limits::Scope scope(holding);
-        missing[i].tile = buildTile(source, missing[i].at, tileMargin(), near[missing[i].number]);
+        Missing& made = missing[i];
+        made.tile = build(pieces, made.at, near[made.number]);
+        if (&pieces == &*pieces_ || (made.tile.isConsistent && !isCrowdedAllOver(made.tile)))
+            return;
+        const Region alone{made.at.level, {made.at.x, made.at.y}, {made.at.x + 1, made.at.y + 1}};
+        made.tile = build(*pieces_, made.at, piecesNear(pieces_->map(), alone)[0]);
     });
     for (Missing& made : missing)
         placed_.emplace(made.at, place(std::move(made.tile)));

@@ -103,7 +103,7 @@ public:
     std::size_t update(const asset::Difference& difference, const PaintUpdate& paints);
     /// For one picture. Makes what is missing, on all processors. May move the texture.
     std::vector<const Placed*> prepare(const Region& region);
-    /// How a view's scale goes on from the one that was told last.
+    /// How a view's scale goes on from the one that was told last, if it comes near the next level so.
     enum class Zoom { None, In, Out };
     Zoom zoomTo(const asset::View& view);
     /// A part of what is missing, for pictures to come: an eighth of the region at most. After prepare().

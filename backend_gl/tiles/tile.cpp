@@ -129,12 +129,32 @@ public:
             else if (change < 0)
                 changes_.push_back({0, piece.left, piece.right});
         }
-        return paintBehind(from.paint, changes_);
+        const std::uint32_t paint = paintBehind(from.paint, changes_);
+        isConsistent_ = isConsistent_ && isOnly(paint, from.paint);
+        return paint;
     }
 
+    /// Whether all paints were what all changes add up to.
+    bool isConsistent() const { return isConsistent_; }
+
 private:
+    /// Whether the changes lead from `before` to that paint alone.
+    bool isOnly(std::uint32_t paint, std::uint32_t before) {
+        paints_.assign({before, paint});
+        for (const Change& change : changes_)
+            paints_.insert(paints_.end(), {change.before, change.after});
+        return std::ranges::all_of(paints_, [&](std::uint32_t p) {
+            int net = int(p == before) - int(p == paint);
+            for (const Change& change : changes_)
+                net += int(p == change.after) - int(p == change.before);
+            return net == 0;
+        });
+    }
+
     const std::vector<PlanarPiece>& pieces_;
     std::vector<Change> changes_;
+    std::vector<std::uint32_t> paints_;
+    bool isConsistent_ = true;
 };
 
 /// With those between the same two paints one after the other, where shaders gain from it: what asks paint
@@ -228,13 +248,18 @@ Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t 
     return tile;
 }
 
+/// Levels of detail move boundaries by no more than four times 1/50 of the smallest pixel, of which a tile
+/// has 64 a side; tile sides.
+constexpr double movedByDetail = 4 * 0.02 / 64;
+
 /// A point that is clear of pieces, and its paint. Where there are pieces it lies in the first cell.
 std::optional<Reference> startOf(const TileSource& source, const LocalPieces& local, bool isEmpty,
                                  std::span<const PlanarPiece* const> near) {
-    const std::optional<dvec2> point = clearPoint(local, isEmpty ? 1 : cellSize, near);
+    const double clearance = &source.pieces == &source.exact ? 0 : movedByDetail;
+    const std::optional<dvec2> point = clearPoint(local, isEmpty ? 1 : cellSize, clearance, near);
     if (!point)
         return std::nullopt;
-    return Reference{*point, 0, source.pieces.paintAt(local.toLattice(*point))};
+    return Reference{*point, 0, source.exact.paintAt(local.toLattice(*point))};
 }
 
 }  // namespace
@@ -313,6 +338,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                 rowStart = here;
         }
     tile.pieces = std::uint32_t(pieces.size());
+    tile.isConsistent = walk.isConsistent();
     tile.firstCell = std::uint32_t(tile.texels.size());
     tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
     return tile;

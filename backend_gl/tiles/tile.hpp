@@ -74,12 +74,16 @@ struct Tile {
     std::uint32_t pieces = 0, firstCell = 0;
     bool programs = false;              ///< of the paints near it one is a program
     std::vector<std::uint8_t> crowded;  ///< numbers of such cells, ascending
+    /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
+    /// other some may have none, and a cell beside them would be wrong.
+    bool isConsistent = true;
 };
 
 /// What tiles are cut from.
 struct TileSource {
     asset::AssetView asset;  ///< its paints
     const asset::PlanarIndex& pieces;
+    const asset::PlanarIndex& exact;              ///< the same without less detail
     std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::span<const asset::PaintChange> changes;  ///< by paint
     std::uint32_t maxTurns = turnsPerPixel;

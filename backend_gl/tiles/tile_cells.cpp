@@ -201,21 +201,21 @@ Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& piece
     return best;
 }
 
-std::optional<dvec2> clearPoint(const LocalPieces& local, double side,
+std::optional<dvec2> clearPoint(const LocalPieces& local, double side, double more,
                                 std::span<const PlanarPiece* const> near) {
+    const double clear = surelyClear + more;
     std::vector<PlanarPiece> pieces;
     for (const PlanarPiece* piece : near) {
         const PlanarPiece p = local.toTile(*piece);
-        const double reach = surelyClear + p.bulge();
+        const double reach = clear + p.bulge();
         const dvec2 minimum = glm::min(p.a, p.b) - reach, maximum = glm::max(p.a, p.b) + reach;
         if (minimum.x <= side && minimum.y <= side && maximum.x >= 0 && maximum.y >= 0)
             pieces.push_back(p);
     }
     for (int i = 0; i < tries; ++i) {
         const dvec2 point = spread(i) * side;
-        if (std::ranges::all_of(pieces, [&](const PlanarPiece& p) {
-                return clearance2(p, point) > surelyClear * surelyClear;
-            }))
+        if (std::ranges::all_of(pieces,
+                                [&](const PlanarPiece& p) { return clearance2(p, point) > clear * clear; }))
             return point;
     }
     return std::nullopt;
@@ -223,8 +223,9 @@ std::optional<dvec2> clearPoint(const LocalPieces& local, double side,
 
 namespace {
 
-/// tile_fragment.glsl: one loop, of a turn a reference.
-constexpr std::uint64_t turnsPerPiece = 1;
+/// tile_fragment.glsl: one loop, of a turn a reference. Where half as many pieces as would do meet, their
+/// roundings add up to what is seen.
+constexpr std::uint64_t turnsPerPiece = 2;
 /// One at least, and one to find the end.
 constexpr std::uint64_t turnsOfEnds = 2;
 

@@ -60,8 +60,9 @@ Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& piece
                       std::span<const std::uint32_t> list);
 
 /// A point of the square from the tile's least corner that pieces run past on the same side whether they
-/// are rounded or not, so that its paint is the same among both; nothing where pieces lie too close.
-std::optional<glm::dvec2> clearPoint(const LocalPieces& local, double side,
+/// are rounded or not, so that its paint is the same among both; nothing where pieces lie too close. `more`:
+/// by what else they may have been moved.
+std::optional<glm::dvec2> clearPoint(const LocalPieces& local, double side, double more,
                                      std::span<const PlanarPiece* const> near);
 
 /// Of tile_fragment.glsl, for a list of so many pieces.

@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "raster/detail_map.hpp"
 #include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {
@@ -316,14 +315,6 @@ private:
 std::vector<Boundary> mergeChains(std::span<const Boundary> boundaries, const DetailSquare& square,
                                   double pixel) {
     return Merger(boundaries, square, pixel).run();
-}
-
-PlanarMap mapForPixels(const PlanarMap& map, double pixel) {
-    const std::vector<Boundary> boundaries(map.pieces.begin(), map.pieces.end());
-    PlanarMap merged{MapPlace(map), {}};
-    for (const Boundary& boundary : mergeChains(boundaries, noBorder, pixel))
-        merged.pieces.push_back(boundary.piece);
-    return merged;
 }
 
 }  // namespace vtm::asset

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "asset/walk.hpp"
+#include "raster/detail_map.hpp"
 
 namespace vtm::asset {
 
@@ -160,6 +161,15 @@ void ScannedMap::update(const AssetView& asset, const Map& map, std::span<const 
             addLines(squares_.back(), lines);
         }
     makeSeams(std::move(lines));
+}
+
+PlanarMap mapForPixels(const AssetView& asset, const Map& map, double pixel) {
+    const ScannedMap scanned(asset, map);
+    PlanarMap all{scanned.place(), {}};
+    for (std::size_t i = 0; i < scanned.boxCount(); ++i)
+        for (const Boundary& boundary : scanned.box(i).at(pixel))
+            all.pieces.push_back(boundary.piece);
+    return all;
 }
 
 }  // namespace vtm::asset

@@ -136,6 +136,10 @@ std::optional<EGLint> Config::attribute(EGLint name) const {
         case EGL_CONFIG_ID:
             return id;
         case EGL_CONFORMANT:
+            // Shapes that complement each other leave a seam, as where there are no samples.
+            if (samples != 0)
+                return glApis;
+            [[fallthrough]];
         case EGL_RENDERABLE_TYPE:
             return EGL_OPENVG_BIT | glApis;
         case EGL_SURFACE_TYPE:

@@ -120,11 +120,13 @@ void TexelRows::finish(std::span<Color> colors) const {
         colorsOfBytes(*order_, colors);
 }
 
-void TexelRows::nearest(dvec2 first, dvec2 step, std::span<Color> colors) const {
+void TexelRows::nearest(const glm::dmat3& map, dvec2 place, std::span<Color> colors) const {
     withTexel([&](const auto& texel) {
-        for (int i = 0; i < int(colors.size()); ++i)
-            assign(colors[std::size_t(i)],
-                   anywhere(texel, floorOf(first.x + i * step.x), floorOf(first.y + i * step.y)));
+        for (Color& color : colors) {
+            const glm::dvec3 p = map * glm::dvec3(place, 1);
+            assign(color, anywhere(texel, floorOf(p.x / p.z), floorOf(p.y / p.z)));
+            place.x += 1;
+        }
     });
     finish(colors);
 }

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
 #include "api/openvg/draw/texel_source.hpp"
@@ -12,12 +13,15 @@
 
 namespace vtm::openvg {
 
-/// At first, first + step, …; whole numbers are the corners of texels. No place is above 2^30.
+/// Whole numbers are the corners of texels. No place is above 2^30.
 class TexelRows {
 public:
     explicit TexelRows(const Texels& texels);
 
-    void nearest(glm::dvec2 first, glm::dvec2 step, std::span<Color> colors) const;
+    /// Where the map leads from (x, y), (x + 1, y) …, each by itself: on a border between texels every
+    /// rounding shows.
+    void nearest(const glm::dmat3& map, glm::dvec2 place, std::span<Color> colors) const;
+    /// At first, first + step, …
     void bilinear(glm::dvec2 first, glm::dvec2 step, std::span<Color> colors) const;
 
 private:

@@ -136,9 +136,9 @@ private:
     }
 
     void affineRow(int x, int y, std::span<Color> colors) const {
-        const dvec2 first = mapped(x + 0.5, y + 0.5);
         if (!isSmooth_)
-            return rows_.nearest(first, right_, colors);
+            return rows_.nearest(fromSurface_, {x + 0.5, y + 0.5}, colors);
+        const dvec2 first = mapped(x + 0.5, y + 0.5);
         const int across = samplesAlong(right_), along = samplesAlong(up_);
         if (across == 1 && along == 1)
             return rows_.bilinear(first, right_, colors);
