@@ -136,7 +136,7 @@ constexpr double mostPixels = 64;
 constexpr double longPiece = 1;
 /// Of the pieces, that are left.
 constexpr double fewer = 0.9;
-/// What is kept before everything is thrown away: 64 MiB.
+/// What is kept at most: 64 MiB.
 constexpr std::size_t maxTexels = std::size_t(1) << 22;
 
 /// From a pixel's centre to the furthest of its corners, in sides of the map.
@@ -144,10 +144,6 @@ double footprintRadius(const asset::Map& map, const asset::View& view) {
     const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
     return 0.5 * std::max(glm::length(inverse * dvec2(1, 1)), glm::length(inverse * dvec2(1, -1))) / map.side;
 }
-
-}  // namespace
-
-namespace {
 
 /// Of halvings of the map's side to a cell.
 double octavesOf(double radius) { return -std::log2(cellsPerRadius * radius); }

@@ -36,7 +36,7 @@ using BandChords = std::vector<asset::Chord>;
 /// still in the cache.
 constexpr std::size_t chordsAtOnce = 1u << 15;
 /// After so many of a strip its paints are forgotten.
-constexpr std::size_t mostInStrip = 1u << 19;
+constexpr std::size_t mostStripChords = 1u << 19;
 /// And so many paints are remembered.
 constexpr std::size_t paintsAtOnce = 1u << 18;
 /// Fewer are kept.
@@ -190,7 +190,7 @@ struct ViewDrawing::Impl {
             inStrip += made.size();
             chords += made.size();
             const bool isMuch = chords >= chordsAtOnce || worker.state.colors().size() >= paintsAtOnce;
-            const bool forgets = inStrip >= mostInStrip;
+            const bool forgets = inStrip >= mostStripChords;
             if (band + 1 < end && !forgets && !(endsStrip && isMuch))
                 continue;
             drawPainted(worker, first, drawBands);
