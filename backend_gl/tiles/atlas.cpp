@@ -130,8 +130,6 @@ using asset::Texel;
 using glm::dvec2;
 
 constexpr double cellsPerRadius = 2.83;
-/// A tile has fewer pixels a side.
-constexpr double mostPixels = 64;
 /// Pixels: where pieces are longer in the mean, no square has less detail.
 constexpr double longPiece = 1;
 /// Of the pieces, that are left.
@@ -184,7 +182,7 @@ const asset::PlanarIndex& Atlas::piecesFor(int level) {
             length += glm::distance(piece.a, piece.b);
         meanLength_ = length / double(std::max<std::size_t>(pieces_->map().pieces.size(), 1));
     }
-    const double pixel = std::ldexp(pieces_->map().extent, -level) / mostPixels;
+    const double pixel = std::ldexp(pieces_->map().extent, -level) / tilePixels;
     if (meanLength_ > longPiece * pixel || map_.instances != 0)
         return *pieces_;
     const auto [found, isNew] = levels_.try_emplace(level);

@@ -13,6 +13,7 @@
 #include "backend_gl/tiles/rough_cells.hpp"
 #include "backend_gl/tiles/tile_cells.hpp"
 #include "backend_gl/tiles/tile_pieces.hpp"
+#include "raster/detail_map.hpp"
 #include "raster/steepness.hpp"
 
 namespace vtm::gl {
@@ -111,7 +112,8 @@ int crossing(const PlanarPiece& p, dvec2 from, dvec2 to) {
 /// The paint at one point, known that at another; `a`, `b`: the pieces near either.
 class Walk {
 public:
-    explicit Walk(const std::vector<PlanarPiece>& pieces) : pieces_(pieces) {}
+    /// `checks`: whether isConsistent() will be asked.
+    Walk(const std::vector<PlanarPiece>& pieces, bool checks) : pieces_(pieces), checks_(checks) {}
 
     std::uint32_t paintAt(dvec2 to, const Reference& from, std::span<const std::uint32_t> a,
                           std::span<const std::uint32_t> b) {
@@ -130,7 +132,7 @@ public:
                 changes_.push_back({0, piece.left, piece.right});
         }
         const std::uint32_t paint = paintBehind(from.paint, changes_);
-        isConsistent_ = isConsistent_ && isOnly(paint, from.paint);
+        isConsistent_ = isConsistent_ && (!checks_ || isOnly(paint, from.paint));
         return paint;
     }
 
@@ -152,6 +154,7 @@ private:
     }
 
     const std::vector<PlanarPiece>& pieces_;
+    const bool checks_;
     std::vector<Change> changes_;
     std::vector<std::uint32_t> paints_;
     bool isConsistent_ = true;
@@ -248,14 +251,13 @@ Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t 
     return tile;
 }
 
-/// Levels of detail move boundaries by no more than four times 1/50 of the smallest pixel, of which a tile
-/// has 64 a side; tile sides.
-constexpr double movedByDetail = 4 * 0.02 / 64;
+/// Levels of detail move boundaries by no more; tile sides.
+constexpr double movedByDetail = 4 * asset::detailTolerance / tilePixels;
 
 /// A point that is clear of pieces, and its paint. Where there are pieces it lies in the first cell.
 std::optional<Reference> startOf(const TileSource& source, const LocalPieces& local, bool isEmpty,
                                  std::span<const PlanarPiece* const> near) {
-    const double clearance = &source.pieces == &source.exact ? 0 : movedByDetail;
+    const double clearance = source.hasLessDetail() ? movedByDetail : 0;
     const std::optional<dvec2> point = clearPoint(local, isEmpty ? 1 : cellSize, clearance, near);
     if (!point)
         return std::nullopt;
@@ -317,7 +319,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     std::vector<Texel> cells;
     cells.reserve(cellCount * cellCount);
     CellWriter writer(source.asset.paints, pieces, tile.texels);
-    Walk walk(pieces);
+    Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)
         for (int column = 0; column < cellCount; ++column) {

@@ -34,6 +34,8 @@ struct TilePlace {
 /// Smaller squares would be finer than the lattice can number.
 inline constexpr int maxTileLevel = 2 * int(asset::maxLevel);
 
+/// A tile has fewer pixels a side.
+inline constexpr double tilePixels = 64;
 /// Cells a side.
 inline constexpr unsigned tileCellsLog2 = 4;
 inline constexpr double cellSize = 1.0 / (1u << tileCellsLog2);  ///< tile sides
@@ -87,6 +89,8 @@ struct TileSource {
     std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::span<const asset::PaintChange> changes;  ///< by paint
     std::uint32_t maxTurns = turnsPerPixel;
+
+    bool hasLessDetail() const { return &pieces != &exact; }
 };
 
 /// Writes the colours of paints that changed into a tile's texels, of which the first are so many pieces.

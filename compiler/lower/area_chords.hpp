@@ -10,11 +10,11 @@
 /// bound on the distance, h² κ / 8, takes two or three times as many where curves are as small as letters.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <numbers>
-#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

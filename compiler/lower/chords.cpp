@@ -123,45 +123,36 @@ double dot(scene::Point a, scene::Point b) { return a.x * b.x + a.y * b.y; }
 
 }  // namespace
 
+/// How far the curve's accelerations lead across its chord d over a step h: with p and q at the ends,
+/// h² (|d × p| + |d × q|) / 2. Of one chord or of two at once.
+struct ChordCutter::Across {
+    double ax, ay, bx, by;
+
+    explicit Across(const Curve& curve)
+        : ax(3 * curve.a.x), ay(3 * curve.a.y), bx(curve.b.x), by(curve.b.y) {}
+
+    template <class Number>
+    Number operator()(const Vertex<Number>& from, const Vertex<Number>& to) const {
+        const Number h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
+        const Number a = dx * ay - dy * ax, b = dx * by - dy * bx;  // d × P'' / 2 = a t + b
+        return h * h * (magnitude(a * from.t + b) + magnitude(a * to.t + b));
+    }
+};
+
 /// Whether across its chord d over a step h the curve strays no farther than the tolerance. With the
 /// accelerations p and q at the ends it strays by f(s) = h² s (1 - s) (d × p (2 - s) + d × q (1 + s)) / (6
 /// |d|), so by h² (|d × p| + |d × q|) / (9 √3 |d|) at most.
 struct ChordCutter::Proof {
-    double ax, ay, bx, by, maximum;
+    Across across;
+    double maximum;
 
-    Proof(const Curve& curve, double tolerance)
-        : ax(3 * curve.a.x),
-          ay(3 * curve.a.y),
-          bx(curve.b.x),
-          by(curve.b.y),
-          maximum(60.75 * tolerance * tolerance) {}
+    Proof(const Curve& curve, double tolerance) : across(curve), maximum(60.75 * tolerance * tolerance) {}
 
     /// A truth value for each number.
     template <class Number>
     auto operator()(const Vertex<Number>& from, const Vertex<Number>& to) const {
-        const Number h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
-        const Number a = dx * ay - dy * ax, b = dx * by - dy * bx;  // d × P'' / 2 = a t + b
-        const Number across = h * h * (magnitude(a * from.t + b) + magnitude(a * to.t + b));
-        return across * across <= maximum * (dx * dx + dy * dy);
-    }
-};
-
-/// Whether h³ κ is no more than it may be: h² |d × P''|, for the mean of the accelerations at both ends.
-struct ChordCutter::AreaProof {
-    double ax, ay, bx, by, maximum;
-
-    AreaProof(const Curve& curve, double area)
-        : ax(3 * curve.a.x),
-          ay(3 * curve.a.y),
-          bx(curve.b.x),
-          by(curve.b.y),
-          maximum(area * area_chords::perArea) {}
-
-    template <class Number>
-    auto operator()(const Vertex<Number>& from, const Vertex<Number>& to) const {
-        const Number h = to.t - from.t, dx = to.x - from.x, dy = to.y - from.y;
-        const Number a = dx * ay - dy * ax, b = dx * by - dy * bx;  // d × P'' / 2 = a t + b
-        return h * h * (magnitude(a * from.t + b) + magnitude(a * to.t + b)) <= maximum;
+        const Number far = across(from, to), dx = to.x - from.x, dy = to.y - from.y;
+        return far * far <= maximum * (dx * dx + dy * dy);
     }
 };
 
@@ -185,7 +176,7 @@ std::span<const scene::Point> ChordCutter::cutByArea(Point end) {
         return {};
     const int count = area_chords::count(whole);
     findVertices(count, end, area_chords::endShare);
-    if (!runForward(0, count) || !areNear(count, AreaProof(curve_, area_)))
+    if (!runForward(0, count) || !areNearByArea(count))
         return {};
     ends_.assign({curve_.start});
     appendVertices(1, count);
@@ -209,13 +200,14 @@ double ChordCutter::guessByArea() {
     });
 }
 
-/// Whether all chords are.
-template <class IsNear>
-bool ChordCutter::areNear(int count, const IsNear& isNear) const {
+/// Whether h³ κ, about h² |d × P''|, is no more than it may be for any chord.
+bool ChordCutter::areNearByArea(int count) const {
+    const Across across(curve_);
+    const double maximum = area_ * area_chords::perArea;
     PairMask near{-1, -1};
     for (std::size_t k = 0; k < std::size_t(count); k += 2)
-        near &= isNear(Vertex<Pair>{load(&t_[k]), load(&x_[k]), load(&y_[k])},
-                       Vertex<Pair>{load(&t_[k + 1]), load(&x_[k + 1]), load(&y_[k + 1])});
+        near &= across(Vertex<Pair>{load(&t_[k]), load(&x_[k]), load(&y_[k])},
+                       Vertex<Pair>{load(&t_[k + 1]), load(&x_[k + 1]), load(&y_[k + 1])}) <= maximum;
     return (near[0] & near[1]) != 0;
 }
 

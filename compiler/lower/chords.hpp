@@ -73,15 +73,14 @@ private:
     };
     /// The proof of a chord.
     struct Proof;
-    struct AreaProof;
+    struct Across;
 
     std::span<const Point> cutByArea(Point end);
     double guess();
     double guessByArea();
     bool isResolved() const;
     void findVertices(int count, Point end, double endShare);
-    template <class IsNear>
-    bool areNear(int count, const IsNear& isNear) const;
+    bool areNearByArea(int count) const;
     bool runsForward(double t0, double t1) const;
     bool runForward(int first, int last) const;
     void appendChords(int count);

@@ -12,14 +12,12 @@
 
 #include <glm/vec2.hpp>
 
+#include "raster/detail_map.hpp"
 #include "raster/planar_map.hpp"
 #include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {
 
-/// Nothing of a boundary that is shorter than a pixel moves further, pixels; longer ones move by
-/// chordTolerance at most.
-inline constexpr double detailTolerance = 0.02;
 /// No piece that is put in place of others has more area on its other side than that by pixel of its length.
 inline constexpr double movedArea = 1.0 / 512;
 

@@ -32,10 +32,7 @@ TEST_F(RowsTest, MovedImages) {
                 const TwinImage image = randomImage(name, width + 20, height + 4);
                 const glm::mat3 toSurface(1, 0, 0, 0, i & 1 ? -1 : 1, 0, -below(20),
                                           i & 1 ? image.height - below(4) : -below(4), 1);
-                const VGImage handle = uploaded(image);
-                load(VG_MATRIX_IMAGE_USER_TO_SURFACE, toSurface);
-                vgDrawImage(handle);
-                vgDestroyImage(handle);
+                draw(image, toSurface);
                 expectDrawn(before, drawing, nearest(image, glm::inverse(glm::dmat3(toSurface))),
                             "a moved image");
             }
@@ -53,10 +50,7 @@ TEST_F(RowsTest, InterpolatedImages) {
                 const float zoom = 3 + unit(), turn = 0.2f * unit(), c = zoom * std::cos(turn),
                             s = zoom * std::sin(turn);
                 const glm::mat3 toSurface(c, s, 0, -s, c, 0, -40 + 10 * unit(), -90 - unit(), 1);
-                const VGImage handle = uploaded(image);
-                load(VG_MATRIX_IMAGE_USER_TO_SURFACE, toSurface);
-                vgDrawImage(handle);
-                vgDestroyImage(handle);
+                draw(image, toSurface);
                 expectDrawn(before, drawing, bilinear(image, glm::inverse(glm::dmat3(toSurface))),
                             "an interpolated image");
             }

@@ -113,6 +113,12 @@ protected:
         vgSeti(VG_MATRIX_MODE, mode);
         vgLoadMatrix(&m[0][0]);
     }
+    static void draw(const TwinImage& image, const glm::mat3& toSurface) {
+        const VGImage handle = uploaded(image);
+        load(VG_MATRIX_IMAGE_USER_TO_SURFACE, toSurface);
+        vgDrawImage(handle);
+        vgDestroyImage(handle);
+    }
 
     std::mt19937 random_{20070131};
 };
