@@ -12,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include <vtm/gl/context.hpp>
 #include "bench/engines/engine.hpp"
 #include "bench/input/files.hpp"
 #include "bench/measure/measure.hpp"
@@ -37,6 +38,7 @@ constexpr const char* usage =
     "  --list            lists reports and files\n"
     "  --quick           fewer files and rounds: all in ten minutes on two cores; without `sweep`\n"
     "  --examples        our own drawings only, not the corpus\n"
+    "  --wall            wall time instead of CPU time in `texture` and `paper`: for GPUs\n"
     "  --only NAME       this file only\n"
     "  --file FILE       this SVG file instead; may be repeated\n"
     "  --filter REGEX    cases of Google Benchmark in `micro` and `pipeline`\n"
@@ -73,6 +75,7 @@ Arguments parse(int argc, char** argv) {
         bool* flag = option == "--list"       ? &a.list
                      : option == "--quick"    ? &o.quick
                      : option == "--examples" ? &o.examples
+                     : option == "--wall"     ? &o.wall
                                               : nullptr;
         if (flag) {
             *flag = true;
@@ -173,8 +176,14 @@ void serveOne(const std::string& name) {
 }
 
 int run(const Arguments& a) {
+    if (a.options.wall)
+        measureWallTime();
     if (a.list) {
         list(a.options);
+        return 0;
+    }
+    if (a.names.size() == 1 && a.names[0] == "driver") {
+        fmt::print("{}\n", gl::Context().renderer());
         return 0;
     }
     if (a.names.size() == 2 && a.names[0] == "serve") {
@@ -192,6 +201,8 @@ int run(const Arguments& a) {
     Report report = entry.run(a.options);
     report.seconds = (wallMilliseconds() - start) / 1000;
     report.quick = a.options.quick;
+    if (a.options.wall)
+        report.notes.push_back("Times are wall time.");
     write(report, a.output);
     return 0;
 }

@@ -86,6 +86,16 @@ Raster sumOfCopies(const Asset& asset, const View& view, bool mirrored, int from
     return sum;
 }
 
+TEST_F(Gl, TexturesSayWhatTheyTake) {
+    const Asset small = halfPlane(), more = twoLevels();
+    const std::size_t few = SampledTexture(small).bytes();
+    const asset::Prefilter coarse = asset::buildPrefilter(small);
+    const std::size_t means = coarse.size.texelsBefore(coarse.size.levels()) * 4;
+    EXPECT_GE(few, means + small.pieces.size() * sizeof(asset::Texel));
+    EXPECT_LE(few, means + (std::size_t(2) << 12) * sizeof(asset::Texel));  // a row of records or two
+    EXPECT_GT(SampledTexture(more, {.squaresPerFootprint = 1.2}).bytes(), SampledTexture(more).bytes());
+}
+
 TEST_F(Gl, RepeatedAndMirroredTexturesHaveNoSeam) {
     Asset slanting = halfPlane();
     slanting.height = 48;  // the square goes on below the picture: cut it off

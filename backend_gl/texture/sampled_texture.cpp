@@ -45,8 +45,10 @@ struct SampledTexture::Impl {
         uniform.flags = samplingFlags(features, {innerMapsOf(asset), false});
         uniform.prefilterSize = pyramid.size;
         records = RecordTexture(recordTexels(asset, pictures.list, uniform.parts));
-        if (features.has(Features::Image))
+        if (features.has(Features::Image)) {
+            imageBytes = pictures.rgba.size();
             images = imageTexture(std::move(pictures.rgba));
+        }
     }
 
     std::size_t update(const AssetView& asset) {
@@ -66,6 +68,7 @@ struct SampledTexture::Impl {
     VtmUniform uniform;
     RecordTexture records;
     TextureHandle prefilter, images;
+    std::size_t imageBytes = 0;
     Samplers samplers;
 };
 
@@ -108,6 +111,12 @@ std::size_t SampledTexture::update(const AssetView& asset, bool means) {
 }
 
 std::optional<double> SampledTexture::finestPixel() const { return impl_->finestPixel; }
+
+std::size_t SampledTexture::bytes() const {
+    constexpr std::size_t texelBytes = 4;
+    const asset::PyramidSize& means = impl_->uniform.prefilterSize;
+    return impl_->records.bytes() + means.texelsBefore(means.levels()) * texelBytes + impl_->imageBytes;
+}
 
 unsigned SampledTexture::units() const { return impl_->images.get() != 0 ? 3 : 2; }
 

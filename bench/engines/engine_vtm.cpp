@@ -38,13 +38,13 @@ public:
     void load(const CompiledFile& picture) override { texture_ = renderer_.upload(picture.asset); }
 
     double draw(const asset::View& view) override {
-        return cpuTime([&] { renderer_.draw(*texture_, view); });
+        return spentTime([&] { renderer_.draw(*texture_, view); });
     }
 
     std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         std::optional<gl::Texture> texture;  // outlives the clock
         std::vector<std::uint8_t> bytes(std::size_t(view.width) * std::size_t(view.height) * 4);
-        return cpuTime([&] {
+        return spentTime([&] {
             if (drawsOnce_ && drawOnce(picture.file, view, bytes))
                 return;
             texture = renderer_.upload(assetOf(picture.file));
@@ -80,7 +80,7 @@ public:
 
     double draw(const asset::View& view) override {
         prepareTarget(view);
-        return cpuTime([&] {
+        return spentTime([&] {
             if (filtered_)
                 draw(*filtered_, view);
             else
@@ -90,7 +90,7 @@ public:
 
     std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         prepareTarget(view);
-        return cpuTime([&] {
+        return spentTime([&] {
             if (drawOnce(picture.file, view, bytes_))
                 return;
             const asset::Asset asset = assetOf(picture.file);

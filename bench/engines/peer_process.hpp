@@ -101,10 +101,10 @@ private:
             engine.loaded = nullptr;  // also where the next one cannot be read
             engine.loaded = engine.peer->read(path, width, height);
         } else if (verb == "draw") {
-            return std::to_string(cpuTime([&] { loadedBy(engine).draw(view); }));
+            return std::to_string(spentTime([&] { loadedBy(engine).draw(view); }));
         } else if (verb == "cold") {
             std::unique_ptr<Document> document;  // outlives the clock
-            return std::to_string(cpuTime([&] {
+            return std::to_string(spentTime([&] {
                 document = engine.peer->read(path, width, height);
                 document->draw(view);
             }));

@@ -16,6 +16,8 @@ double milliseconds(clockid_t clock) {
     return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
 }
 
+clockid_t spent = CLOCK_PROCESS_CPUTIME_ID;
+
 }  // namespace
 
 /// Of /proc, since getrusage keeps the peak of the program that ran in the process before.
@@ -27,8 +29,10 @@ double peakBytes() {
     return 0;
 }
 
-double cpuMilliseconds() { return milliseconds(CLOCK_PROCESS_CPUTIME_ID); }
 double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }
+double spentMilliseconds() { return milliseconds(spent); }
+void measureWallTime() { spent = CLOCK_MONOTONIC; }
+const char* clockName() { return spent == CLOCK_MONOTONIC ? "Wall" : "CPU"; }
 
 double quantile(std::vector<double> values, double share) {
     std::ranges::sort(values);
@@ -43,8 +47,8 @@ Paired pairwise(const std::function<void()>& first, const std::function<void()>&
     second();
     std::vector<double> firsts, seconds, ratios;
     for (double spent = 0; int(ratios.size()) < 5 || (spent < budget && int(ratios.size()) < maximum);) {
-        firsts.push_back(cpuTime(first));
-        seconds.push_back(cpuTime(second));
+        firsts.push_back(spentTime(first));
+        seconds.push_back(spentTime(second));
         ratios.push_back(seconds.back() / firsts.back());
         spent += firsts.back() + seconds.back();
     }
@@ -66,9 +70,9 @@ std::optional<ChildUse> inChild(const std::function<void()>& prepare, const std:
         try {
             prepare();
             use.preparedBytes = peakBytes() - before;
-            const double cpu = cpuMilliseconds(), wall = wallMilliseconds();
+            const double cpu = milliseconds(CLOCK_PROCESS_CPUTIME_ID), wall = wallMilliseconds();
             use.result = work();
-            use.cpu = cpuMilliseconds() - cpu;
+            use.cpu = milliseconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
             use.wall = wallMilliseconds() - wall;
         } catch (...) {
             _exit(1);

@@ -8,20 +8,24 @@
 
 namespace vtm::bench {
 
-/// CPU time of this process in milliseconds: all its threads, no waiting.
-double cpuMilliseconds();
 /// Wall time in milliseconds.
 double wallMilliseconds();
+/// CPU time of this process in milliseconds: all its threads, no waiting. After measureWallTime(), wall time:
+/// for drivers whose work is not done on the CPU.
+double spentMilliseconds();
+void measureWallTime();
+/// Which of both, as a word in front of "milliseconds".
+const char* clockName();
 
 /// Bytes of the largest resident set of this process since its program began.
 double peakBytes();
 
-/// CPU milliseconds of one call.
+/// Milliseconds spent on one call.
 template <class Work>
-double cpuTime(Work&& work) {
-    const double start = cpuMilliseconds();
+double spentTime(Work&& work) {
+    const double start = spentMilliseconds();
     work();
-    return cpuMilliseconds() - start;
+    return spentMilliseconds() - start;
 }
 
 /// The value that `share` of the others are not above; 0 of none.
@@ -30,13 +34,13 @@ double median(std::vector<double> values);
 
 /// Two things that took turns, so that both met the same machine.
 struct Paired {
-    double first = 0, second = 0;  ///< medians, CPU milliseconds
+    double first = 0, second = 0;  ///< medians, milliseconds spent
     double ratio = 0;              ///< median of second / first, pair by pair
     double low = 0, high = 0;      ///< quartiles of that ratio
     int pairs = 0;
 };
 
-/// Pairs until `budget` (CPU milliseconds) is spent, at least five, at most `maximum`. One pair before them
+/// Pairs until `budget` (milliseconds) is spent, at least five, at most `maximum`. One pair before them
 /// is not counted.
 Paired pairwise(const std::function<void()>& first, const std::function<void()>& second, double budget,
                 int maximum);

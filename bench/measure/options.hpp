@@ -11,6 +11,7 @@ namespace vtm::bench {
 struct Options {
     bool quick = false;     ///< fewer files and rounds: all reports together in ten minutes on two cores
     bool examples = false;  ///< our own drawings only, not the corpus
+    bool wall = false;      ///< time is wall time, for drivers that do not work on the CPU
     std::string only;       ///< this file only; empty: all
     std::vector<std::string> files;  ///< SVG files that are measured instead; empty: ours and the corpus
     std::string filter = ".";  ///< regular expression: Google Benchmark's cases in `micro` and `pipeline`

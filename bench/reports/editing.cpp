@@ -146,17 +146,17 @@ public:
 
     /// CPU milliseconds of drawing everything.
     double redraw() {
-        return scanner_ ? cpuTime([&] { scanner_->draw(view, target()); }) : 0;
+        return scanner_ ? spentTime([&] { scanner_->draw(view, target()); }) : 0;
     }
 
     /// After an edit of the scene.
     Cost follow() {
         Cost cost;
-        cost.session = cpuTime([&] { session.update(scene); });
+        cost.session = spentTime([&] { session.update(scene); });
         cost.blocks = session.lastUpdate().blocks;
         if (scanner_) {
-            cost.scanner = cpuTime([&] { scanner_->update(session.result().asset, session.difference()); });
-            cost.boxes = cpuTime([&] { drawChanges(); });
+            cost.scanner = spentTime([&] { scanner_->update(session.result().asset, session.difference()); });
+            cost.boxes = spentTime([&] { drawChanges(); });
         }
         return cost;
     }
@@ -185,7 +185,7 @@ Costs costsOf(Editor& editor, const std::vector<Item*>& which, const Edit& edit,
     Costs costs;
     for (Item* item : which) {
         const Item before = *item;
-        const double compiling = cpuTime([&] { compiler::compile(editor.scene); });
+        const double compiling = spentTime([&] { compiler::compile(editor.scene); });
         first();
         for (const bool there : {true, false}) {
             if (there)
@@ -210,7 +210,7 @@ Costs morph(Editor& editor, const std::vector<Item*>& all, double by, int pictur
             const double angle = double(i) + 0.1 * (picture + 1);
             move(*all[i], before[i], by * std::cos(angle), by * std::sin(angle));
         }
-        const double compiling = cpuTime([&] { compiler::compile(editor.scene); });
+        const double compiling = spentTime([&] { compiler::compile(editor.scene); });
         costs.push_back(editor.follow());
         costs.back().compiling = compiling;
     }
@@ -379,7 +379,7 @@ Measured measure(const File& file, Peers& peers, const Options& options, std::ve
     Measured m;
     m.file = file.name;
     m.blocks = editor.session.lastUpdate().blocksInAll;
-    m.start = cpuTime([&] { compiler::Session{editor.scene}; });
+    m.start = spentTime([&] { compiler::Session{editor.scene}; });
     m.bytes = bytesOf(editor.session.result()) / bytesOf(fresh);
     startAll(editor, peers, file, notes);
     m.shown = editor.shows();

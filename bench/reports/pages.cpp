@@ -1,7 +1,6 @@
 // Pages of text as textures: tables over a font, beside the same page as an asset of instances and as a
 // bitmap.
 
-#include <GLES3/gl3.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,9 +14,8 @@
 #include <vtm/font/typesetter.hpp>
 #include <vtm/gl/text_texture.hpp>
 #include <vtm/image/codec.hpp>
-#include <vtm/raster/scan.hpp>
-#include "backend_gl/testing.hpp"
 #include "bench/engines/contest.hpp"
+#include "bench/engines/textures.hpp"
 #include "bench/input/text_pages.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/reports.hpp"
@@ -28,9 +26,8 @@ namespace {
 using asset::TextPage;
 using image::Raster;
 
-constexpr double budget = 4000, quickBudget = 400;  ///< CPU milliseconds a view and a pair
-constexpr int maxPixels = 1024, errorPixels = 192;  ///< the truth takes 36 times as many
-constexpr GLenum maxAnisotropy = 0x84FE;            // GL_TEXTURE_MAX_ANISOTROPY_EXT
+constexpr double budget = 4000, quickBudget = 400;               ///< CPU milliseconds a view and a pair
+constexpr int maxPixels = 1024, errorPixels = 192, samples = 6;  ///< the truth takes samples² times as many
 
 constexpr const char* fontFolder = "/usr/share/fonts/truetype/dejavu/";
 constexpr double pageWidth = 600, pageHeight = 800;
@@ -87,129 +84,23 @@ constexpr Sampling samplings[] = {
     {"minified, an eighth", [](int side, int round) { return flat(side, side / 8.0, round); }},
     {"leaning back", leaning}};
 
-/// One way to have a page as a texture.
-class Way {
-public:
-    Way(std::string called, const std::string& include, const std::string& sample, std::size_t taken)
-        : name(std::move(called)), bytes(taken), canvas_(include, R"(
-uniform mat3 toPage;
-)" + sample + R"(
-vec4 shade(vec2 pixel) { return sampled(toPage * vec3(pixel, 1.0)); })") {}
-    virtual ~Way() = default;
-    Way(const Way&) = delete;
-    Way& operator=(const Way&) = delete;
-
-    void drawOnly(const glm::dmat3& toPage, int side) {
-        bind(canvas_.program());
-        canvas_.set("toPage", toPage);
-        canvas_.drawOnly(side, side);
-    }
-    Raster draw(const glm::dmat3& toPage, int side) {
-        bind(canvas_.program());
-        canvas_.set("toPage", toPage);
-        return canvas_.draw(side, side);
-    }
-
-    const std::string name;
-    const std::size_t bytes;
-
-private:
-    virtual void bind(GLuint program) = 0;
-
-    gl::test::ShaderCanvas canvas_;
-};
-
-constexpr const char* sampleVtm = R"(
-uniform Vtm page;
-vec4 sampled(vec3 stq) { return vtm_sample_proj(page, stq / gl_FragCoord.w); })";
-
-class TableWay : public Way {
+class TableWay : public TextureWay {
 public:
     TableWay(const char* called, gl::TextTexture texture, std::size_t index)
-        : Way(called, gl::textInclude(), sampleVtm, texture.bytes(index)),
+        : TextureWay(called, gl::textInclude(), sampleVtm, texture.bytes(index)),
           texture_(std::move(texture)),
           index_(index) {}
 
 private:
-    void bind(GLuint program) override { texture_.bind(program, "page", 0, index_); }
+    void bind(GLuint program) override { texture_.bind(program, "picture", 0, index_); }
 
     gl::TextTexture texture_;
     std::size_t index_;
 };
 
-class AssetWay : public Way {
-public:
-    AssetWay(const char* called, const asset::Asset& page)
-        : Way(called, gl::sampleInclude({page}), sampleVtm, asset::summarize(page).bytes), texture_(page) {}
-
-private:
-    void bind(GLuint program) override { texture_.bind(program, "page", 0); }
-
-    gl::SampledTexture texture_;
-};
-
-/// A mip-mapped bitmap, 4096 pixels high, as exact as bytes can be.
-class BitmapWay : public Way {
-public:
-    BitmapWay(const char* called, const asset::Asset& page, int side)
-        : Way(called, "precision highp float;\n", R"(
-uniform sampler2D bitmap;
-vec4 sampled(vec3 stq) {
-    vec2 st = stq.xy / stq.z;
-    return textureGrad(bitmap, st, dFdx(st), dFdy(st)) * float(all(equal(st, clamp(st, 0.0, 1.0))));
-})",
-              std::size_t(side) * side * 4 * 4 / 3) {
-        asset::View view{side, side, {}};
-        view.toPixels = {side / page.width, 0, 0, side / page.height, 0, 0};
-        const image::Bitmap bitmap = image::toBitmap(asset::Scanner(page).draw(view));
-        glGenTextures(1, &texture_);
-        glBindTexture(GL_TEXTURE_2D, texture_);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                     bitmap.rgba.data());
-        glGenerateMipmap(GL_TEXTURE_2D);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        glTexParameteri(GL_TEXTURE_2D, maxAnisotropy, 16);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        while (glGetError() != GL_NO_ERROR) {
-        }  // a driver without anisotropy
-    }
-    ~BitmapWay() override { glDeleteTextures(1, &texture_); }
-
-private:
-    void bind(GLuint program) override {
-        glUseProgram(program);
-        glUniform1i(glGetUniformLocation(program, "bitmap"), 0);
-        glActiveTexture(GL_TEXTURE0);
-        glBindSampler(0, 0);
-        glBindTexture(GL_TEXTURE_2D, texture_);
-    }
-
-    GLuint texture_ = 0;
-};
-
-/// The mean over 6 × 6 points a pixel, each with a footprint as small as that.
-Raster truthOf(Way& exact, const glm::dmat3& toPage, int side) {
-    constexpr int samples = 6;
-    const glm::dmat3 smaller({1.0 / samples, 0, 0}, {0, 1.0 / samples, 0}, {0, 0, 1});
-    const Raster fine = exact.draw(toPage * smaller, side * samples);
-    Raster mean(side, side);
-    for (int y = 0; y < side * samples; ++y)
-        for (int x = 0; x < side * samples; ++x)
-            for (std::size_t c = 0; c < 4; ++c)
-                mean.rgba[4 * (std::size_t(y / samples) * side + x / samples) + c] +=
-                    fine.rgba[4 * (std::size_t(y) * side * samples + x) + c] / float(samples * samples);
-    return mean;
-}
-
 std::string errors(const Raster& drawn, const Raster& truth) {
-    double max = 0, squares = 0;
-    for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
-        const double d = 255 * std::abs(double(drawn.rgba[i]) - double(truth.rgba[i]));
-        max = std::max(max, d);
-        squares += d * d;
-    }
-    return fmt::format("{:.2g}, {:.3g}", std::sqrt(squares / double(truth.rgba.size())), max);
+    const TextureError error = errorOf(drawn, truth);
+    return fmt::format("{:.2g}, {:.3g}", error.rms, error.max);
 }
 
 /// A flat page of as many characters by Qt's OpenGL engine, which draws its outlines anew in every frame.
@@ -272,13 +163,15 @@ Report pages(const Options& options) {
     report.text = fmt::format(fmt::runtime(report.text), letterTexture.fontBytes() + cellTexture.fontBytes());
     BitmapWay bitmap("bitmap", flatPage, options.quick ? 1024 : 4096);
     TableWay letterWay("letters", std::move(letterTexture), 0), cellWay("cells", std::move(cellTexture), 0);
-    AssetWay assetWay("asset", flatPage);
+    AssetWay assetWay("asset", flatPage, {}, asset::summarize(flatPage).bytes);
     for (const Sampling& sampling : samplings) {
         const int few = std::min(side, errorPixels);
         const glm::dmat3 first = sampling.toPage(few, 0);
-        const Raster truth = truthOf(letterWay, first, few), cellTruth = truthOf(cellWay, first, few);
-        for (Way* const way : {static_cast<Way*>(&letterWay), static_cast<Way*>(&cellWay),
-                               static_cast<Way*>(&assetWay), static_cast<Way*>(&bitmap)}) {
+        const Raster truth = truthOf(letterWay, first, few, samples),
+                     cellTruth = truthOf(cellWay, first, few, samples);
+        for (TextureWay* const way :
+             {static_cast<TextureWay*>(&letterWay), static_cast<TextureWay*>(&cellWay),
+              static_cast<TextureWay*>(&assetWay), static_cast<TextureWay*>(&bitmap)}) {
             int a = 0, b = 0;
             const Paired time = pairwise([&] { bitmap.drawOnly(sampling.toPage(side, a++), side); },
                                          [&] { way->drawOnly(sampling.toPage(side, b++), side); },

@@ -133,7 +133,7 @@ void timeForms(const std::string& tile, const paper::CompileResult& compiled, co
             std::array<double, forms.size()> once{};
             for (std::size_t turn = 0; turn < forms.size(); ++turn) {
                 const std::size_t i = (turn + std::size_t(round + 1)) % forms.size();
-                once[i] = cpuTime([&] { patterns[i]->draw(viewOf(side, periods, round)); });
+                once[i] = spentTime([&] { patterns[i]->draw(viewOf(side, periods, round)); });
             }
             for (std::size_t i = 0; i < forms.size() && round >= 0; ++i) {
                 times[i].push_back(once[i]);

@@ -61,7 +61,7 @@ void addAlone(const File& file, Report& report) {
     std::vector<double> times;
     for (int i = 0; i < 5; ++i) {
         const OneCore one;
-        times.push_back(cpuTime([&] { compiler::compile(scene); }));
+        times.push_back(spentTime([&] { compiler::compile(scene); }));
     }
     const asset::Summary summary = asset::summarize(compiler::compile(scene).asset);
     report.rows.push_back({{"file", file.name},

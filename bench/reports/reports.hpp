@@ -23,8 +23,10 @@ Report error(const Options& options);
 Report memory(const Options& options);
 /// Drawing over the number of pixels, 64² to 8192².
 Report sides(const Options& options);
-/// Pictures as textures: flat, far away, in perspective.
+/// Pictures as textures, beside mip-mapped bitmaps: flat, far away, in perspective.
 Report texture(const Options& options);
+/// Frames by shaders as users wait for them: GPU and wall time, turning, zooming, as textures.
+Report frames(const Options& options);
 /// Pages of text from the file to pixels, beside the peers.
 Report text(const Options& options);
 /// Pictures with filters from the file to pixels, beside the peers.

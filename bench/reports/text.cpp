@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 double loadMilliseconds(const File& file) {
     std::vector<double> times;
     for (int i = 0; i < 5; ++i)
-        times.push_back(cpuTime([&] { load(file); }));
+        times.push_back(spentTime([&] { load(file); }));
     return median(times);
 }
 

@@ -1,114 +1,148 @@
+// Pictures as textures beside mip-mapped bitmaps: time, error and memory.
+
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <memory>
+#include <vector>
 
 #include <fmt/core.h>
 #include <glm/matrix.hpp>
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/gl/renderer.hpp>
-#include "backend_gl/testing.hpp"
+#include "bench/engines/textures.hpp"
 #include "bench/input/files.hpp"
+#include "bench/input/text_pages.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/reports.hpp"
+#include "bench/reports/texture_views.hpp"
 
 namespace vtm::bench {
 namespace {
 
-constexpr double budget = 3000, quickBudget = 800;  ///< CPU milliseconds a view
-constexpr int maxPixels = 512;  ///< along a side: a software driver takes seconds for more
+constexpr double budget = 2000, quickBudget = 400;  ///< CPU milliseconds a view and a pair
+constexpr int maxPixels = 512;                 ///< along a side: a software driver takes seconds for more
+constexpr int errorPixels = 128, samples = 8;  ///< the truth takes samples² times as many
 
-/// A plane of repeated pictures, by vtm_sample.
-class Plane {
-public:
-    explicit Plane(const asset::Asset& asset)
-        : texture_(asset), canvas_(gl::sampleInclude({asset}), R"(
-uniform Vtm picture;
-uniform mat3 toPicture;
-vec4 shade(vec2 pixel) {
-    vec3 p = toPicture * vec3(pixel, 1.0);
-    return vtm_sample_proj(picture, p);
-})") {}
-
-    /// `toPicture`: (pixel, 1) to homogeneous (s, t).
-    void draw(const glm::dmat3& toPicture, int side) {
-        texture_.bind(canvas_.program(), "picture", 0, {asset::Wrap::Repeat, asset::Wrap::Repeat});
-        canvas_.set("toPicture", toPicture);
-        canvas_.drawOnly(side, side);
-    }
-
-private:
-    gl::SampledTexture texture_;
-    gl::test::ShaderCanvas canvas_;
-};
-
-/// So many pictures along the raster, turned a little more each round.
-glm::dmat3 flat(int side, double periods, int round) {
-    const double angle = 0.1 + 0.02 * round;
-    const glm::dvec2 x = periods / side * glm::dvec2(std::cos(angle), std::sin(angle));
-    return {{x.x, -x.y, 0}, {x.y, x.x, 0}, {0, 0, 1}};
-}
-
-/// A floor up to a horizon just above the raster, moving on each round: in the first row one picture is as
-/// wide as the raster, and footprints are 8 times as long as wide in the last.
-glm::dmat3 floorUpToTheHorizon(int side, int round) {
-    const double horizon = side / 16.0, b = 0.9 / side * (horizon + side), a = 8 * b * horizon;
-    const glm::dmat3 moved({1, 0, 0}, {0, 1, 0}, {0.01 * round, 0.03 * round, 1});
-    return moved * glm::dmat3({b, 0, 0}, {0.5, 0, 1}, {0.5 * horizon - b * side / 2, a, horizon});
-}
-
-asset::View turned(const scene::Scene& scene, int side, int round) {
-    const double scale = side / std::max(scene.width, scene.height), angle = 0.1 + 0.02 * round;
+asset::View turned(const asset::Asset& picture, int side, int round) {
+    const double scale = side / std::max(picture.width, picture.height), angle = 0.1 + 0.02 * round;
     const double c = scale * std::cos(angle), s = scale * std::sin(angle);
     return {side, side, {c, s, -s, c, 0.05 * side, -0.05 * side}};
 }
 
-struct Sampling {
-    const char* name;
-    glm::dmat3 (*toPicture)(int side, int round);
+/// The pictures that are measured, and a page of text.
+std::vector<File> filesAndPage(const Options& options, const std::filesystem::path& folder, Report& report) {
+    if (options.quick)
+        return oneFileOf(options);
+    Options few = options;
+    few.quick = true;
+    std::vector<File> files = filesOf(few);
+    if (options.only.empty() && options.files.empty())
+        if (const std::vector<File> pages = writeTextPages(folder, report.notes); !pages.empty())
+            files.push_back(pages.front());
+    return files;
+}
+
+class FileRows {
+public:
+    FileRows(const File& file, const Options& options, gl::Renderer& renderer, Report& report)
+        : file_(file),
+          options_(options),
+          side_(std::min(options.side, maxPixels)),
+          renderer_(renderer),
+          report_(report),
+          asset_(compiler::compile(load(file)).asset),
+          vtm_("vtm_sample", asset_, {asset::Wrap::Repeat, asset::Wrap::Repeat}) {
+        for (const int pixels : options.quick ? std::vector{1024} : std::vector{256, 1024, 4096})
+            bitmaps_.push_back(std::make_unique<BitmapWay>(fmt::format("bitmap, {}", pixels), asset_, pixels,
+                                                           BitmapWay::Beyond::Repeated));
+    }
+
+    void add() {
+        addPicture();
+        for (const TextureView& view : textureViews) {
+            const int few = std::min(side_, errorPixels);
+            const image::Raster truth = truthOf(vtm_, view.toTexture(few, 0), few, samples);
+            addWay(view, vtm_, truth);
+            for (const std::unique_ptr<BitmapWay>& bitmap : bitmaps_)
+                addWay(view, *bitmap, truth);
+        }
+    }
+
+private:
+    double budgetOf() const { return options_.quick ? quickBudget : budget; }
+
+    void addPicture() {
+        const gl::Texture uploaded = renderer_.upload(asset_);
+        int a = 0, b = 0;
+        const Paired time =
+            pairwise([&] { vtm_.drawOnly(textureViews[0].toTexture(side_, a++), side_); },
+                     [&] { renderer_.draw(uploaded, turned(asset_, side_, b++)); }, budgetOf(), 41);
+        addRow(textureViews[0].name, "picture", time, "-", "-");
+    }
+
+    void addWay(const TextureView& view, TextureWay& way, const image::Raster& truth) {
+        int a = 0, b = 0;
+        const Paired time =
+            pairwise([&] { vtm_.drawOnly(view.toTexture(side_, a++), side_); },
+                     [&] { way.drawOnly(view.toTexture(side_, b++), side_); }, budgetOf(), 41);
+        const int few = std::min(side_, errorPixels);
+        const TextureError error = errorOf(way.draw(view.toTexture(few, 0), few), truth);
+        addRow(view.name, way.name, time, fmt::format("{:.2g}, {:.3g}", error.rms, error.max),
+               fmt::format("{:.3g}", double(way.bytes) / 1e6));
+    }
+
+    void addRow(const char* view, const std::string& way, const Paired& time, const std::string& error,
+                const std::string& megabytes) {
+        report_.rows.push_back({{"file", file_.name},
+                                {"view", view},
+                                {"as", way},
+                                {"ms", fmt::format("{:.3g} ({:.3g})", time.second, time.ratio)},
+                                {"rms, max", error},
+                                {"MB", megabytes}});
+    }
+
+    const File& file_;
+    const Options& options_;
+    const int side_;
+    gl::Renderer& renderer_;
+    Report& report_;
+    asset::Asset asset_;
+    AssetWay vtm_;
+    std::vector<std::unique_ptr<BitmapWay>> bitmaps_;
 };
-constexpr Sampling samplings[] = {
-    {"flat, one picture", [](int side, int round) { return flat(side, 1, round); }},
-    {"flat, 4 x 4", [](int side, int round) { return flat(side, 4, round); }},
-    {"minified, 16 x 16", [](int side, int round) { return flat(side, 16, round); }},
-    {"perspective, to the horizon", floorUpToTheHorizon}};
 
 }  // namespace
 
 Report texture(const Options& options) {
-    const int side = std::min(options.side, maxPixels);
-    Options few = options;
-    few.quick = true;
     const gl::Context context;
     gl::Renderer renderer({.pixels = gl::Pixels::Shaders, .programCache = {}, .resetStatus = {}});
     Report report;
     report.name = "texture";
     report.title = "Pictures as textures";
     report.text = fmt::format(
-        "`vtm_sample` on all of {0} × {0} pixels, repeated, against `gl::Renderer` with shaders drawing the "
-        "picture "
-        "once in the same space, in turns, both moving: CPU milliseconds, medians, and the ratio pair by "
-        "pair. "
-        "Textures go into RGBA32F. On {1}, {2}. No peer draws vector pictures in perspective.",
-        side, context.renderer(), context.version());
-    for (const File& file : options.quick ? oneFileOf(options) : filesOf(few)) {
-        const scene::Scene scene = load(file);
-        const asset::Asset asset = compiler::compile(scene).asset;
-        const gl::Texture uploaded = renderer.upload(asset);
-        Plane plane(asset);
-        for (const Sampling& sampling : samplings) {
-            int drawn = 0, sampled = 0;
-            const Paired time = pairwise([&] { renderer.draw(uploaded, turned(scene, side, drawn++)); },
-                                         [&] { plane.draw(sampling.toPicture(side, sampled++), side); },
-                                         options.quick ? quickBudget : budget, 41);
-            report.rows.push_back({{"file", file.name},
-                                   {"view", sampling.name},
-                                   {"picture ms", time.first},
-                                   {"texture ms", time.second},
-                                   {"texture / picture", time.ratio},
-                                   {"quartiles", fmt::format("{:.3g}-{:.3g}", time.low, time.high)},
-                                   {"pairs", time.pairs}});
-        }
-    }
+        "`vtm_sample` on all of {0} × {0} pixels, repeated and moving, beside mip-mapped bitmaps (longer "
+        "side in "
+        "pixels, trilinear, 16 × anisotropy where the driver has it) and, in the flat view, beside "
+        "`gl::Renderer` "
+        "with shaders drawing the picture once in the same space. {1} milliseconds, medians, each in turns "
+        "with "
+        "`vtm_sample`; in brackets the ratio to it, pair by pair. Then rms and max error of 255 against the "
+        "mean of "
+        "{2} points a pixel at {3} × {3}, and megabytes on the GPU. Textures go into RGBA32F. On {4}, {5}. "
+        "No peer "
+        "draws vector pictures in perspective.",
+        std::min(options.side, maxPixels), clockName(), samples * samples, errorPixels, context.renderer(),
+        context.version());
+    const auto folder =
+        std::filesystem::temp_directory_path() / fmt::format("vtm_bench_texture_{}", getpid());
+    std::filesystem::create_directories(folder);
+    for (const File& file : filesAndPage(options, folder, report))
+        FileRows(file, options, renderer, report).add();
+    std::filesystem::remove_all(folder);
     return report;
 }
 

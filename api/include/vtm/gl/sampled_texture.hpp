@@ -62,6 +62,9 @@ public:
     /// that may be off by more than a sixteenth of it.
     std::optional<double> finestPixel() const;
 
+    /// What it takes on the GPU: records, pyramid of means and images.
+    std::size_t bytes() const;
+
     /// Number of texture units that bind() uses: two, or three for an asset with images.
     unsigned units() const;
 
