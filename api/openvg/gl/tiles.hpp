@@ -1,0 +1,58 @@
+/// \file
+/// Covered rows as rectangles for the GPU: few, whatever the outline. The plane is divided into tiles of 16 ×
+/// 16 pixels from the first covered pixel on; tiles that are all covered are joined, and of the others the
+/// share of every pixel is given.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "api/openvg/draw/path_mask.hpp"
+
+namespace vtm::openvg::gl {
+
+/// A rectangle of pixels.
+struct Tile {
+    std::uint16_t x, y, width, height;
+    std::uint32_t shares;  ///< where those of its pixels begin, row by row; `allCovered`: all are 1
+
+    static constexpr std::uint32_t allCovered = 0xffffffff;
+};
+
+/// Disjoint tiles that hold every covered pixel, and others whose share is 0.
+struct Tiles {
+    std::vector<Tile> tiles;
+    std::vector<float> shares;
+    Rectangle box;  ///< around the tiles
+
+    bool areAllCovered() const { return shares.empty(); }
+};
+
+class TileBuilder {
+public:
+    /// Runs of a row, disjoint and each of a share above 0; places are not negative. Rows may come in any
+    /// order, and in parts.
+    void add(int y, int first, int end, float share);
+    /// Of all that was added.
+    Tiles finish();
+
+private:
+    struct Run {
+        int y, first, end;
+        float share;
+    };
+    enum class Kind : std::uint8_t { empty, partly, all };
+
+    void addBand(Tiles& tiles, std::span<const Run> runs, int y0, int y1);
+    std::vector<Kind> kindsOf(std::span<const Run> runs, int rows) const;
+    void addCovered(Tiles& tiles, int x0, int x1, int y0, int y1);
+    static void addShares(Tiles& tiles, std::span<const Run> runs, const Rectangle& block);
+
+    std::vector<Run> runs_;
+    Rectangle box_;
+    /// The last bands' rectangles that may still grow upwards: indices of tiles.
+    std::vector<std::size_t> open_, opened_;
+};
+
+}  // namespace vtm::openvg::gl
