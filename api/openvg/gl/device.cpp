@@ -10,7 +10,8 @@ namespace vtm::openvg::gl {
 
 namespace {
 
-std::string& openingFault() {
+/// Why there is no device, or no longer one. Set once.
+std::string& faultText() {
     static auto& text = *new std::string;
     return text;
 }
@@ -37,7 +38,7 @@ Device* Device::make() noexcept {
         std::atexit([] { device->stop(); });
         return device;
     } catch (const std::exception& error) {
-        openingFault() = error.what();
+        faultText() = error.what();
         return nullptr;
     }
 }
@@ -47,7 +48,7 @@ Device* Device::open() {
     return device;
 }
 
-const std::string& Device::fault() { return openingFault(); }
+const std::string& Device::fault() { return faultText(); }
 
 bool Device::isSoftware() const {
     for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"})
@@ -74,7 +75,8 @@ void Device::guarded(const std::function<void()>& job) noexcept {
     try {
         job();
         painter_->check();
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+        faultText() = error.what();
         isLost_ = true;
     }
 }

@@ -19,7 +19,7 @@ namespace vtm::openvg::gl {
 /// All functions may be called in every thread.
 class Device {
 public:
-    /// Opened with the first call. Null if it cannot be, and fault() says why.
+    /// Opened with the first call. Null if it cannot be, and fault() says why; also of one that is lost.
     static Device* open();
     static const std::string& fault();
 
