@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include <vtm/image/bitmap.hpp>
 #include <vtm/vg.h>
+#include <vtm/image/bitmap.hpp>
 
 namespace vtm::vgscript {
 

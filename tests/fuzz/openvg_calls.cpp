@@ -436,13 +436,14 @@ std::size_t runOpenVgCalls(std::span<const std::uint8_t> bytes) {
     return run(world);
 }
 
-std::vector<SurfacePicture> drawnByOpenVgCalls(std::span<const std::uint8_t> bytes, VtmCompositor compositor) {
+std::vector<SurfacePicture> drawnByOpenVgCalls(std::span<const std::uint8_t> bytes,
+                                               VtmCompositor compositor) {
     World world(bytes, compositor);
     run(world);
     std::vector<SurfacePicture> pictures;
     for (VtmSurface* const surface : world.surfaces) {
-        SurfacePicture& picture =
-            pictures.emplace_back(SurfacePicture{vtmSurfaceWidth(surface), vtmSurfaceHeight(surface), {}, {}});
+        SurfacePicture& picture = pictures.emplace_back(
+            SurfacePicture{vtmSurfaceWidth(surface), vtmSurfaceHeight(surface), {}, {}});
         vtmGetSurfaceFormat(surface, &picture.format);
         picture.pixels.resize(std::size_t(picture.width) * std::size_t(picture.height) * 4);
         vtmReadSurface(surface, picture.pixels.data(), std::size_t(picture.width) * 4);

@@ -55,8 +55,8 @@ protected:
 };
 
 void fillRectangle(VGfloat x, VGfloat y, VGfloat width, VGfloat height, std::array<VGfloat, 4> color) {
-    const VGPath path = vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0, 0, 0,
-                                     VG_PATH_CAPABILITY_ALL);
+    const VGPath path =
+        vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0, 0, 0, VG_PATH_CAPABILITY_ALL);
     vguRect(path, x, y, width, height);
     const VGPaint paint = vgCreatePaint();
     vgSetParameterfv(paint, VG_PAINT_COLOR, 4, color.data());
@@ -67,7 +67,10 @@ void fillRectangle(VGfloat x, VGfloat y, VGfloat width, VGfloat height, std::arr
 }
 
 TEST_F(CompositorTest, OnePixelIsEnough) {
-    EXPECT_LE(between(1, 1, sRGBA8888, [] { fillRectangle(0.25f, 0.25f, 0.5f, 0.5f, {1, 0.5f, 0, 0.75f}); }),
+    EXPECT_LE(between(1, 1, sRGBA8888,
+                      [] {
+                          fillRectangle(0.25f, 0.25f, 0.5f, 0.5f, {1, 0.5f, 0, 0.75f});
+                      }),
               1);
 }
 
