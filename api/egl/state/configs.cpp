@@ -249,8 +249,10 @@ EGLBoolean EGLAPIENTRY eglGetConfigs(EGLDisplay dpy, EGLConfig* list, EGLint siz
         std::vector<EGLConfig> all = systemConfigs(display);
         {
             const std::lock_guard lock(display.initializing);
+            // The others are found by what they are for: programs have room for so many configs.
             for (const auto& config : display.configs)
-                all.push_back(config->handle);
+                if (config->compositor == VTM_COMPOSITOR_AUTOMATIC)
+                    all.push_back(config->handle);
         }
         const EGLint total = EGLint(all.size());
         *count = list ? std::min(size, total) : total;

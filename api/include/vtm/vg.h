@@ -39,7 +39,8 @@ typedef struct VtmSurfaceFormat {
 /* What draws on a surface: the CPU, or the GPU through OpenGL ES (docs/openvg.md). Pixels are the same within 1/255 of a
  * channel. */
 typedef enum {
-    VTM_COMPOSITOR_AUTOMATIC, /* the GPU where there is one, else the CPU */
+    VTM_COMPOSITOR_AUTOMATIC, /* what the environment variable VTM_OPENVG_COMPOSITOR says, "cpu" or "gl"; if it says
+                               * nothing, the GPU where there is one, else the CPU */
     VTM_COMPOSITOR_CPU,
     VTM_COMPOSITOR_GL /* OpenGL ES 3, on any driver; the CPU where there is none */
 } VtmCompositor;
@@ -56,9 +57,8 @@ VG_API_CALL VtmSurface *VG_API_ENTRY vtmCreateSurface(VGint width, VGint height,
 VG_API_CALL VtmSurface *VG_API_ENTRY vtmCreateImageSurface(VtmContext *context, VGImage image, VGint maskBits,
                                                            VGErrorCode *error) VG_API_EXIT;
 
-/* Chooses what draws on a surface from now on, and keeps its pixels. New surfaces have VTM_COMPOSITOR_AUTOMATIC. The
- * environment variable VTM_OPENVG_COMPOSITOR, if it is "cpu" or "gl", is stronger. Returns what draws now:
- * VTM_COMPOSITOR_CPU or VTM_COMPOSITOR_GL. */
+/* Chooses what draws on a surface from now on, and keeps its pixels. New surfaces have VTM_COMPOSITOR_AUTOMATIC. Returns
+ * what draws now: VTM_COMPOSITOR_CPU or VTM_COMPOSITOR_GL. */
 VG_API_CALL VtmCompositor VG_API_ENTRY vtmChooseCompositor(VtmSurface *surface, VtmCompositor compositor) VG_API_EXIT;
 
 /* Returns what draws on a surface: VTM_COMPOSITOR_CPU or VTM_COMPOSITOR_GL. It changes to the CPU where the GPU fails. */

@@ -32,8 +32,9 @@ public:
     /// vgSetPixels and vgWritePixels: from an image, or from a program's memory.
     virtual void setPixels(Context& context, const Image& from, const CopyArea& area) = 0;
     virtual void writePixels(Context& context, const MemoryPixels& from, const CopyArea& area) = 0;
-    /// vgGetPixels.
+    /// vgGetPixels and vgReadPixels.
     virtual void getPixels(Context& context, Image& to, const CopyArea& area) = 0;
+    virtual void readPixels(Context& context, const MemoryPixels& to, const CopyArea& area) = 0;
     /// vgCopyPixels. The two parts may overlap.
     virtual void copyPixels(Context& context, const CopyArea& area) = 0;
     /// vgFlush and vgFinish: begins, or ends, what was asked for.
@@ -49,8 +50,8 @@ Compositor& cpuCompositor();
 Compositor* glCompositor();
 const char* compositorFault();
 
-/// By what a program wants, unless the variable VTM_OPENVG_COMPOSITOR says `cpu` or `gl`; by itself the GPU's
-/// where there is a GPU.
+/// By what a program wants. Where that is VTM_COMPOSITOR_AUTOMATIC, the variable VTM_OPENVG_COMPOSITOR
+/// decides, or else whether there is a GPU.
 Compositor& chosenCompositor(VtmCompositor wanted);
 
 /// That of the context's surface.

@@ -61,6 +61,10 @@ public:
         openvg::copyPixels(context.surface->pixels().read(), to, area);
     }
 
+    void readPixels(Context& context, const MemoryPixels& to, const CopyArea& area) override {
+        openvg::copyPixels(context.surface->pixels().read(), to, area);
+    }
+
     void copyPixels(Context& context, const CopyArea& area) override {
         Pixels& pixels = context.surface->pixels().write();
         // What is written over what is still to be read: the last rows first, each by way of a copy.

@@ -70,10 +70,9 @@ void vgReadPixels(void* data, VGint dataStride, VGImageFormat dataFormat, VGint 
     call([&](Context& context) {
         requirePixels(context, "vgReadPixels");
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
-        const Pixels& pixels = context.surface->pixels().read();
-        const CopyArea area =
-            clipped({0, 0, sx, sy, width, height}, width, height, pixels.width(), pixels.height());
-        copyPixels(pixels, memory, area);
+        compositorOf(context).readPixels(context, memory,
+                                         clipped({0, 0, sx, sy, width, height}, width, height,
+                                                 context.surface->width(), context.surface->height()));
     });
 }
 

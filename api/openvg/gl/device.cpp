@@ -57,27 +57,30 @@ bool Device::isSoftware() const {
     return false;
 }
 
-bool Device::isLost() const { return isLost_ || getpid() != process_; }
+bool Device::isLost() const { return state_ != State::running || getpid() != process_; }
 
 void Device::stop() {
-    if (isLost())
+    if (getpid() != process_)
         return;
     const std::lock_guard lock(mutex_);
     batch_ = std::make_unique<Batch>(abilities_.fetches);
-    isLost_ = true;
+    state_ = State::gone;
     worker_->run([&] { painter_ = nullptr; });
     worker_ = nullptr;
 }
 
 void Device::guarded(const std::function<void()>& job) noexcept {
-    if (isLost_)
+    if (state_ == State::gone)
         return;
     try {
         job();
         painter_->check();
+    } catch (const ProgramError& error) {
+        faultText() = error.what();
+        state_ = State::failing;
     } catch (const std::exception& error) {
         faultText() = error.what();
-        isLost_ = true;
+        state_ = State::gone;
     }
 }
 
@@ -114,13 +117,13 @@ void Device::upload(TexturePointer texture, const Rectangle& part, std::vector<s
     post([this, texture, part, kept] { painter_->upload(*texture, part, kept->data()); });
 }
 
-bool Device::download(const Texture& texture, std::uint8_t* bytes) {
+bool Device::download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes) {
     const std::lock_guard lock(mutex_);
-    if (isLost())
+    if (state_ == State::gone || getpid() != process_)
         return false;
     postBatch();
-    run([&] { painter_->download(texture, bytes); });
-    return !isLost();
+    run([&] { painter_->download(texture, part, bytes); });
+    return state_ != State::gone;
 }
 
 void Device::draw(Draw draw, const Tiles& tiles, Color color, const RampRow* ramp) {

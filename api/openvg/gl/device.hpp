@@ -26,14 +26,15 @@ public:
     const Abilities& abilities() const { return abilities_; }
     /// Shaders run on the CPU, as far as the driver's name is known.
     bool isSoftware() const;
-    /// Nothing is done any more: the context was lost, GL failed, the program ends, or it was forked.
+    /// Nothing is drawn any more: a program does not compile, the context was lost, GL failed, the process
+    /// ends, or it was forked.
     bool isLost() const;
 
     /// Null where there is no memory for it.
     TexturePointer makeTexture(GLenum format, int width, int height);
     void upload(TexturePointer texture, const Rectangle& part, std::vector<std::uint8_t> bytes);
-    /// False if the device is lost.
-    bool download(const Texture& texture, std::uint8_t* bytes);
+    /// False if the context is gone.
+    bool download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes);
     /// `ramp`: of a gradient. Nothing for no tiles.
     void draw(Draw draw, const Tiles& tiles, Color color = Color(0), const RampRow* ramp = nullptr);
 
@@ -42,6 +43,12 @@ public:
     void finish();
 
 private:
+    enum class State {
+        running,
+        failing,  ///< what was drawn can still be read
+        gone
+    };
+
     explicit Device(bool mayFetch);
     static Device* make() noexcept;
     void stop();
@@ -53,7 +60,7 @@ private:
 
     std::recursive_mutex mutex_;
     const int process_;
-    std::atomic<bool> isLost_ = false;
+    std::atomic<State> state_ = State::running;
     std::shared_ptr<Discarded> discarded_ = std::make_shared<Discarded>();
     std::unique_ptr<Painter> painter_;  ///< of the worker's thread
     Abilities abilities_;

@@ -241,6 +241,17 @@ public:
              {area.sx - box.x0, area.sy - box.y0}, to.storage->pixels, oneTile(box));
     }
 
+    void readPixels(Context& context, const MemoryPixels& to, const CopyArea& area) override {
+        if (!isReady(context))
+            return cpuCompositor().readPixels(context, to, area);
+        if (area.width == 0)
+            return;
+        Pixels pixels(area.width, area.height, context.surface->pixels().format());
+        gl::readPart(device_, context.surface->pixels(),
+                     {area.sx, area.sy, area.sx + area.width, area.sy + area.height}, pixels);
+        openvg::copyPixels(std::as_const(pixels), to, {area.dx, area.dy, 0, 0, area.width, area.height});
+    }
+
     void copyPixels(Context& context, const CopyArea& area) override {
         if (!isReady(context))
             return cpuCompositor().copyPixels(context, area);
@@ -290,12 +301,12 @@ private:
     Device& device_;
 };
 
-enum class Wish { none, cpu, gl };
-
-Wish wishOfEnvironment() {
+VtmCompositor wishOfEnvironment() {
     const char* const value = std::getenv("VTM_OPENVG_COMPOSITOR");
     const std::string_view text = value ? value : "";
-    return text == "cpu" ? Wish::cpu : text.starts_with("gl") ? Wish::gl : Wish::none;
+    return text == "cpu"            ? VTM_COMPOSITOR_CPU
+           : text.starts_with("gl") ? VTM_COMPOSITOR_GL
+                                    : VTM_COMPOSITOR_AUTOMATIC;
 }
 
 /// Without making a context where there is no hope.
@@ -317,10 +328,11 @@ Compositor* glCompositor() {
 const char* compositorFault() { return Device::fault().c_str(); }
 
 Compositor& chosenCompositor(VtmCompositor wanted) {
-    const Wish wish = wishOfEnvironment();
-    const bool isCpu = wish == Wish::cpu || (wish == Wish::none && wanted == VTM_COMPOSITOR_CPU);
-    const bool isGl = wish == Wish::gl || (wish == Wish::none && wanted == VTM_COMPOSITOR_GL);
-    Compositor* const compositor = isCpu ? nullptr : isGl ? glCompositor() : gpuCompositor();
+    if (wanted == VTM_COMPOSITOR_AUTOMATIC)
+        wanted = wishOfEnvironment();
+    Compositor* const compositor = wanted == VTM_COMPOSITOR_CPU  ? nullptr
+                                   : wanted == VTM_COMPOSITOR_GL ? glCompositor()
+                                                                 : gpuCompositor();
     return compositor ? *compositor : cpuCompositor();
 }
 

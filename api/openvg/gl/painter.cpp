@@ -41,6 +41,8 @@ Painter::Painter(std::shared_ptr<Discarded> discarded, bool mayFetch)
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl_.Disable(GL_DITHER);
+    // A driver that does not take the first program takes no other.
+    programs_->use(ProgramKey());
     check();
 }
 
@@ -99,9 +101,9 @@ void Painter::target(const Texture& texture) {
     gl_.Viewport(0, 0, texture.width(), texture.height());
 }
 
-void Painter::download(const Texture& texture, std::uint8_t* bytes) {
+void Painter::download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes) {
     target(texture);
-    gl_.ReadPixels(0, 0, texture.width(), texture.height(), GL_RGBA, GL_UNSIGNED_BYTE, bytes);
+    gl_.ReadPixels(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
 }
 
 // ---- Batches --------------------------------------------------------------------------------------

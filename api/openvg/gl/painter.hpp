@@ -32,7 +32,7 @@ public:
     TexturePointer makeTexture(GLenum format, int width, int height);
     /// Rows of bytes from the lowest one on, without gaps: four a pixel, or one.
     void upload(const Texture& texture, const Rectangle& part, const std::uint8_t* bytes);
-    void download(const Texture& texture, std::uint8_t* bytes);
+    void download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes);
     void draw(const Batch& batch);
     void finish() { gl_.Finish(); }
     /// Throws std::runtime_error where GL has failed since the last time, or the context is lost.

@@ -1,7 +1,6 @@
 #include "api/openvg/gl/programs.hpp"
 
 #include <array>
-#include <stdexcept>
 
 #include <VG/vgext.h>
 #include <fmt/format.h>
@@ -102,7 +101,7 @@ GLuint Programs::compile(GLenum stage, const std::string& text) {
     gl_.GetShaderInfoLog(shader, GLsizei(log.size()), &length, log.data());
     log.resize(std::size_t(length));
     gl_.DeleteShader(shader);
-    throw std::runtime_error("a shader does not compile: " + log);
+    throw ProgramError("a shader does not compile: " + log);
 }
 
 GLuint Programs::link(const ProgramKey& key) {
@@ -119,7 +118,7 @@ GLuint Programs::link(const ProgramKey& key) {
     gl_.GetProgramiv(program, GL_LINK_STATUS, &isLinked);
     if (!isLinked) {
         gl_.DeleteProgram(program);
-        throw std::runtime_error("a program does not link");
+        throw ProgramError("a program does not link");
     }
     gl_.UseProgram(program);
     constexpr std::array names{"shares", "sourceTexels", "otherTexels", "mask", "ramps", "backdrop"};

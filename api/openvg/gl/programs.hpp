@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "api/openvg/gl/batch.hpp"
@@ -12,6 +13,11 @@ namespace vtm::openvg::gl {
 
 /// Texture units, the same in every program.
 enum class Unit : int { shares, source, other, mask, ramps, backdrop };
+
+/// The driver does not take a program; its context goes on.
+class ProgramError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 struct ProgramText {
     std::string vertex, fragment;
@@ -24,7 +30,7 @@ class Programs {
 public:
     Programs(const Functions& gl, bool fetches) : gl_(gl), fetches_(fetches) {}
 
-    /// Makes it current. Throws std::runtime_error with the driver's log.
+    /// Makes it current. Throws ProgramError with the driver's log.
     void use(const ProgramKey& key);
 
 private:

@@ -17,6 +17,14 @@ std::vector<std::uint8_t> texelsOf(const Pixels& pixels) {
 
 Rectangle wholeOf(const Texture& texture) { return {0, 0, texture.width(), texture.height()}; }
 
+/// Leaves the pixels as they are if the context is gone.
+void download(Device& device, const Texture& texture, const Rectangle& part, Pixels& to) {
+    std::vector<std::uint8_t> bytes(std::size_t(to.width()) * std::size_t(to.height()) * 4);
+    if (device.download(texture, part, bytes.data()))
+        convertRows({bytes.data(), 4 * to.width()}, texelFormat(to.format()), {to.at(0, 0), to.stride()},
+                    to.format(), to.width(), to.height(), convertRow);
+}
+
 class TextureCopy final : public PixelCopy {
 public:
     TextureCopy(Device& device, TexturePointer texture) : device_(device), texture_(std::move(texture)) {}
@@ -25,12 +33,7 @@ public:
 
     void take(const Pixels& from) override { device_.upload(texture_, wholeOf(*texture_), texelsOf(from)); }
 
-    void give(Pixels& to) override {
-        std::vector<std::uint8_t> bytes(std::size_t(to.width()) * std::size_t(to.height()) * 4);
-        if (device_.download(*texture_, bytes.data()))
-            convertRows({bytes.data(), 4 * to.width()}, texelFormat(to.format()), {to.at(0, 0), to.stride()},
-                        to.format(), to.width(), to.height(), convertRow);
-    }
+    void give(Pixels& to) override { download(device_, *texture_, wholeOf(*texture_), to); }
 
 private:
     Device& device_;
@@ -63,6 +66,10 @@ TexturePointer writeTexture(Device& device, StoredPixels& pixels) {
     if (!ensureCopy(device, pixels))
         return nullptr;
     return static_cast<TextureCopy&>(pixels.writeCopy()).texture();
+}
+
+void readPart(Device& device, const StoredPixels& pixels, const Rectangle& part, Pixels& to) {
+    download(device, *readTexture(device, pixels), part, to);
 }
 
 void writePart(Device& device, StoredPixels& pixels, const Rectangle& part, const Pixels& from) {

@@ -12,7 +12,8 @@ namespace vtm::openvg::gl {
 TexturePointer readTexture(Device& device, const StoredPixels& pixels);
 TexturePointer writeTexture(Device& device, StoredPixels& pixels);
 
-/// Pixels of the same format into a part of others, in their texture.
+/// A part of pixels, from their texture or into it; `to` and `from` have the part's size and their format.
+void readPart(Device& device, const StoredPixels& pixels, const Rectangle& part, Pixels& to);
 void writePart(Device& device, StoredPixels& pixels, const Rectangle& part, const Pixels& from);
 
 TexturePointer maskTexture(Device& device, const MaskValues& mask);
