@@ -28,6 +28,7 @@ double peakBytes() {
 }
 
 double cpuMilliseconds() { return milliseconds(CLOCK_PROCESS_CPUTIME_ID); }
+double threadMilliseconds() { return milliseconds(CLOCK_THREAD_CPUTIME_ID); }
 double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }
 
 double quantile(std::vector<double> values, double share) {

@@ -10,6 +10,8 @@ namespace vtm::bench {
 
 /// CPU time of this process in milliseconds: all its threads, no waiting.
 double cpuMilliseconds();
+/// That of the calling thread alone.
+double threadMilliseconds();
 /// Wall time in milliseconds.
 double wallMilliseconds();
 

@@ -90,7 +90,7 @@ public:
 }  // namespace
 
 Compositor& cpuCompositor() {
-    static CpuCompositor compositor;
+    static auto& compositor = *new CpuCompositor;  // programs may call until their end
     return compositor;
 }
 

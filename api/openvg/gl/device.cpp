@@ -10,10 +10,24 @@ namespace vtm::openvg::gl {
 
 namespace {
 
-/// Why there is no device, or no longer one. Set once.
-std::string& faultText() {
-    static auto& text = *new std::string;
-    return text;
+/// Why there is no device, or no longer one: the first reason.
+class Fault {
+public:
+    void set(const char* text) {
+        if (isSet_)
+            return;
+        text_ = text;
+        isSet_ = true;
+    }
+    const char* text() const { return isSet_ ? text_.c_str() : ""; }
+
+private:
+    std::atomic<bool> isSet_ = false;
+    std::string text_;  ///< read by others once `isSet_`
+};
+Fault& fault() {
+    static auto& fault = *new Fault;
+    return fault;
 }
 
 /// For tests of what other drivers do.
@@ -38,7 +52,7 @@ Device* Device::make() noexcept {
         std::atexit([] { device->stop(); });
         return device;
     } catch (const std::exception& error) {
-        faultText() = error.what();
+        gl::fault().set(error.what());
         return nullptr;
     }
 }
@@ -48,7 +62,7 @@ Device* Device::open() {
     return device;
 }
 
-const std::string& Device::fault() { return faultText(); }
+const char* Device::fault() { return gl::fault().text(); }
 
 bool Device::isSoftware() const {
     for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"})
@@ -76,10 +90,10 @@ void Device::guarded(const std::function<void()>& job) noexcept {
         job();
         painter_->check();
     } catch (const ProgramError& error) {
-        faultText() = error.what();
+        gl::fault().set(error.what());
         state_ = State::failing;
     } catch (const std::exception& error) {
-        faultText() = error.what();
+        gl::fault().set(error.what());
         state_ = State::gone;
     }
 }

@@ -21,7 +21,7 @@ class Device {
 public:
     /// Opened with the first call. Null if it cannot be, and fault() says why; also of one that is lost.
     static Device* open();
-    static const std::string& fault();
+    static const char* fault();
 
     const Abilities& abilities() const { return abilities_; }
     /// Shaders run on the CPU, as far as the driver's name is known.

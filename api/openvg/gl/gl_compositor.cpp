@@ -325,7 +325,7 @@ Compositor* glCompositor() {
     return device->isLost() ? nullptr : &compositor;
 }
 
-const char* compositorFault() { return Device::fault().c_str(); }
+const char* compositorFault() { return Device::fault(); }
 
 Compositor& chosenCompositor(VtmCompositor wanted) {
     if (wanted == VTM_COMPOSITOR_AUTOMATIC)

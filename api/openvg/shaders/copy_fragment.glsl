@@ -10,6 +10,8 @@ void main() {
     vec4 c = exactly(texelFetch(sourceTexels, place + texels[0].base.xy, 0), texels[0].levels);
     ivec2 from = conversion.xy, to = ivec2(surface.y, surface.x == kindGrey ? 1 : 0);
     bool isStraight = texels[0].how.z != 0;
+    if (!isStraight)
+        c.rgb = min(c.rgb, c.a);
     if (from != to || isStraight != (surface.z == 0)) {
         if (!isStraight)
             c = unpremultiplied(c);

@@ -27,10 +27,10 @@ float shareOf(ivec2 pixel) {
     return texelFetch(shares, ivec2(i % shareColumns, i / shareColumns), 0).r;
 }
 
-// Premultiplied, in the surface's space.
+// Premultiplied, in the surface's space. Where alpha has few levels, its rounding may fall below a colour's.
 vec4 beforeOf(vec4 before) {
     before = exactly(before, levels);
-    return surface.z != 0 ? before : premultiplied(before);
+    return surface.z != 0 ? vec4(min(before.rgb, before.a), before.a) : premultiplied(before);
 }
 
 // Of a colour as the surface's space has it, premultiplied or not.
