@@ -140,15 +140,19 @@ bool Device::download(const Texture& texture, const Rectangle& part, std::uint8_
     return state_ != State::gone;
 }
 
-void Device::draw(Draw draw, const Tiles& tiles, Color color, const RampRow* ramp) {
+void Device::draw(const Draw& draw, Tiles tiles, Color color, const RampRow* ramp) {
     if (tiles.tiles.empty())
         return;
+    // The texture of shares has 2048 rows at least.
+    constexpr std::size_t maxShares = 1 << 20;
     const std::lock_guard lock(mutex_);
-    if (isLost())
-        return;
-    batch_->add(std::move(draw), tiles, color, ramp);
-    if (batch_->isFull())
-        postBatch();
+    for (const Tiles& part : inParts(std::move(tiles), maxShares)) {
+        if (isLost())
+            return;
+        batch_->add(draw, part, color, ramp);
+        if (batch_->isFull())
+            postBatch();
+    }
 }
 
 void Device::flush() {

@@ -36,7 +36,7 @@ public:
     /// False if the context is gone.
     bool download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes);
     /// `ramp`: of a gradient. Nothing for no tiles.
-    void draw(Draw draw, const Tiles& tiles, Color color = Color(0), const RampRow* ramp = nullptr);
+    void draw(const Draw& draw, Tiles tiles, Color color = Color(0), const RampRow* ramp = nullptr);
 
     /// Begins what was asked for, or ends it.
     void flush();

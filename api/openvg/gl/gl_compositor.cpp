@@ -56,7 +56,7 @@ public:
 
     /// False for a source that shaders do not know, or where there is no room for its textures.
     bool setSource(const Layer& layer);
-    void draw(const Tiles& tiles);
+    void draw(Tiles tiles);
 
 private:
     bool setColors();
@@ -173,11 +173,11 @@ void LayerDraw::place(glm::ivec2 origin) {
         block.texels[1] = gl::texelBlock(*other_, origin);
 }
 
-void LayerDraw::draw(const Tiles& tiles) {
+void LayerDraw::draw(Tiles tiles) {
     place({tiles.box.x0, tiles.box.y0});
     draw_.target = gl::writeTexture(device_, context_.surface->pixels());
     draw_.readsTarget = device_.abilities().fetches || !isOverwriting(tiles);
-    device_.draw(std::move(draw_), tiles, color_, ramp_ ? &*ramp_ : nullptr);
+    device_.draw(draw_, std::move(tiles), color_, ramp_ ? &*ramp_ : nullptr);
 }
 
 class GlCompositor final : public Compositor {
@@ -195,16 +195,16 @@ public:
                 clip.parts(y, run.first, run.end,
                            [&](int first, int end) { builder.add(y, first, end, run.share); });
         });
-        const Tiles tiles = builder.finish();
+        Tiles tiles = builder.finish();
         if (!tiles.tiles.empty())
-            draw.draw(tiles);
+            draw.draw(std::move(tiles));
     }
 
     void clear(Context& context, const CopyArea& area, std::uint32_t word) override {
         if (!isReady(context))
             return cpuCompositor().clear(context, area, word);
-        Draw draw = drawInto(context.surface->pixels(), ProgramKey::Task::store);
-        device_.draw(std::move(draw), scissored(context, targetOf(area)),
+        const Draw draw = drawInto(context.surface->pixels(), ProgramKey::Task::store);
+        device_.draw(draw, scissored(context, targetOf(area)),
                      context.surface->pixels().format().decode(word));
     }
 
@@ -253,7 +253,8 @@ public:
     }
 
     void copyPixels(Context& context, const CopyArea& area) override {
-        if (!isReady(context))
+        // In one part: what is copied must not have been overwritten.
+        if (!isReady(context) || !Clip(context).isBox())
             return cpuCompositor().copyPixels(context, area);
         StoredPixels& pixels = context.surface->pixels();
         const Rectangle source{area.sx, area.sy, area.sx + area.width, area.sy + area.height};
@@ -285,7 +286,7 @@ private:
 
     /// Pixels of one texture into another, `shift` from target to source. `read`: of the target.
     void copy(const TexturePointer& source, const PixelFormat& format, glm::ivec2 shift, StoredPixels& to,
-              const Tiles& tiles, const std::optional<Rectangle>& read = std::nullopt) {
+              Tiles tiles, const std::optional<Rectangle>& read = std::nullopt) {
         Draw draw = drawInto(to, ProgramKey::Task::copy);
         draw.texels[0] = source;
         draw.block.texels[0].base = {shift, 0, 0};
@@ -295,7 +296,7 @@ private:
         draw.block.conversion.y = format.space.luminance;
         if (read)
             draw.read.push_back(*read);
-        device_.draw(std::move(draw), tiles);
+        device_.draw(draw, std::move(tiles));
     }
 
     Device& device_;

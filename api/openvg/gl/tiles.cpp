@@ -7,13 +7,45 @@ namespace vtm::openvg::gl {
 namespace {
 
 constexpr int tileSide = 16;
+/// Of a block that grows upwards.
+constexpr std::size_t maxBlock = 1 << 16;
+
+Rectangle boxOf(const Tile& tile) { return {tile.x, tile.y, tile.x + tile.width, tile.y + tile.height}; }
+
+void grow(Rectangle& box, const Rectangle& by) {
+    box = box.empty() ? by
+                      : Rectangle{std::min(box.x0, by.x0), std::min(box.y0, by.y0), std::max(box.x1, by.x1),
+                                  std::max(box.y1, by.y1)};
+}
 
 }  // namespace
 
+std::vector<Tiles> inParts(Tiles tiles, std::size_t shares) {
+    std::vector<Tiles> parts;
+    if (tiles.shares.size() <= shares) {
+        parts.push_back(std::move(tiles));
+        return parts;
+    }
+    for (Tile tile : tiles.tiles) {
+        if (parts.empty() || parts.back().shares.size() >= shares)
+            parts.emplace_back();
+        Tiles& part = parts.back();
+        grow(part.box, boxOf(tile));
+        if (tile.shares != Tile::allCovered) {
+            const auto from = tiles.shares.begin() + std::ptrdiff_t(tile.shares);
+            tile.shares = std::uint32_t(part.shares.size());
+            part.shares.insert(part.shares.end(), from,
+                               from + std::ptrdiff_t(tile.width) * std::ptrdiff_t(tile.height));
+        }
+        part.tiles.push_back(tile);
+    }
+    return parts;
+}
+
 void TileBuilder::add(int y, int first, int end, float share) {
     if (runs_.empty())
-        box_ = {first, y, end, y + 1};
-    box_ = {std::min(box_.x0, first), std::min(box_.y0, y), std::max(box_.x1, end), std::max(box_.y1, y + 1)};
+        box_ = {};
+    grow(box_, {first, y, end, y + 1});
     if (!runs_.empty() && runs_.back().y == y && runs_.back().end == first && runs_.back().share == share)
         runs_.back().end = end;
     else
@@ -100,7 +132,7 @@ void TileBuilder::addShares(Tiles& tiles, std::span<const Run> runs, const Recta
     if (!tiles.tiles.empty()) {
         Tile& last = tiles.tiles.back();
         if (last.shares != Tile::allCovered && last.x == block.x0 && last.width == width &&
-            last.y + last.height == block.y0) {
+            last.y + last.height == block.y0 && tiles.shares.size() - last.shares <= maxBlock) {
             last.height = std::uint16_t(last.height + height);
             return;
         }

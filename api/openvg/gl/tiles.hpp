@@ -29,6 +29,9 @@ struct Tiles {
     bool areAllCovered() const { return shares.empty(); }
 };
 
+/// The same in parts of about so many shares: no tile has more than 2^19.
+std::vector<Tiles> inParts(Tiles tiles, std::size_t shares);
+
 class TileBuilder {
 public:
     /// Runs of a row, disjoint and each of a share above 0; places are not negative. Rows may come in any

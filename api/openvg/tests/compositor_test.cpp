@@ -83,6 +83,19 @@ TEST_F(CompositorTest, WideSurfacesAreDrawnToTheirEnds) {
               1);
 }
 
+TEST_F(CompositorTest, AnEdgeInEveryTileIsAsManySharesAsPixels) {
+    EXPECT_LE(between(1500, 1500, {8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE},
+                      [] {
+                          const VGPath path = vgCreatePath(VG_PATH_FORMAT_STANDARD, VG_PATH_DATATYPE_F, 1, 0,
+                                                           0, 0, VG_PATH_CAPABILITY_ALL);
+                          for (int i = 0; i < 150; ++i)
+                              vguRect(path, 0.5f, 10 * VGfloat(i) + 0.25f, 1499, 5);
+                          vgDrawPath(path, VG_FILL_PATH);
+                          vgDestroyPath(path);
+                      }),
+              1);
+}
+
 TEST_F(CompositorTest, ChoosingAnotherKeepsThePixels) {
     fillRectangle(0, 0, 32, 48, {1, 0, 0, 1});
     const Picture before = read(surface);

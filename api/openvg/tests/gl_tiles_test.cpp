@@ -94,6 +94,28 @@ TEST(Tiles, KeepEveryShareOfRandomRows) {
     }
 }
 
+TEST(Tiles, AreTheSameInParts) {
+    TileBuilder builder;
+    for (int y = 0; y < 200; ++y) {
+        builder.add(y, 0, 100, 1);
+        builder.add(y, 100 + y / 2, 210 + y / 2, 0.5f);
+    }
+    const Tiles whole = builder.finish();
+    const Grid expected = drawn(whole, 320, 200);
+    const std::vector<Tiles> parts = inParts(whole, 2000);
+    EXPECT_GT(parts.size(), 3u);
+    Grid grid(320, 200);
+    for (const Tiles& part : parts) {
+        const Grid one = drawn(part, 320, 200);
+        for (std::size_t i = 0; i < grid.shares.size(); ++i) {
+            grid.shares[i] += one.shares[i];
+            grid.tiles[i] += one.tiles[i];
+        }
+    }
+    EXPECT_EQ(grid.shares, expected.shares);
+    EXPECT_EQ(grid.tiles, expected.tiles);
+}
+
 TEST(Tiles, TakeRowsInAnyOrder) {
     TileBuilder up, down;
     for (int y = 0; y < 40; ++y) {
