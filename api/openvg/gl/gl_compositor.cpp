@@ -38,6 +38,9 @@ Rectangle targetOf(const CopyArea& area) {
     return {area.dx, area.dy, area.dx + area.width, area.dy + area.height};
 }
 
+/// Its places mean nothing then.
+bool isEmpty(const CopyArea& area) { return area.width == 0 || area.height == 0; }
+
 /// What scissoring leaves of a rectangle.
 Tiles scissored(const Context& context, const Rectangle& box) {
     const Clip clip(context);
@@ -201,6 +204,8 @@ public:
     }
 
     void clear(Context& context, const CopyArea& area, std::uint32_t word) override {
+        if (isEmpty(area))
+            return;
         if (!isReady(context))
             return cpuCompositor().clear(context, area, word);
         const Draw draw = drawInto(context.surface->pixels(), ProgramKey::Task::store);
@@ -209,6 +214,8 @@ public:
     }
 
     void setPixels(Context& context, const Image& from, const CopyArea& area) override {
+        if (isEmpty(area))
+            return;
         TexturePointer source;
         if (isReady(context))
             source = gl::readTexture(device_, from.storage->pixels);
@@ -219,6 +226,8 @@ public:
     }
 
     void writePixels(Context& context, const MemoryPixels& from, const CopyArea& area) override {
+        if (isEmpty(area))
+            return;
         const Clip clip(context);
         if (!isReady(context) || !clip.isBox())
             return cpuCompositor().writePixels(context, from, area);
@@ -233,6 +242,8 @@ public:
     }
 
     void getPixels(Context& context, Image& to, const CopyArea& area) override {
+        if (isEmpty(area))
+            return;
         if (!isReady(context) || !gl::readTexture(device_, to.storage->pixels))
             return cpuCompositor().getPixels(context, to, area);
         const Rectangle box{to.area.x0 + area.dx, to.area.y0 + area.dy, to.area.x0 + area.dx + area.width,
@@ -242,10 +253,10 @@ public:
     }
 
     void readPixels(Context& context, const MemoryPixels& to, const CopyArea& area) override {
+        if (isEmpty(area))
+            return;
         if (!isReady(context))
             return cpuCompositor().readPixels(context, to, area);
-        if (area.width == 0)
-            return;
         Pixels pixels(area.width, area.height, context.surface->pixels().format());
         gl::readPart(device_, context.surface->pixels(),
                      {area.sx, area.sy, area.sx + area.width, area.sy + area.height}, pixels);
@@ -253,6 +264,8 @@ public:
     }
 
     void copyPixels(Context& context, const CopyArea& area) override {
+        if (isEmpty(area))
+            return;
         // In one part: what is copied must not have been overwritten.
         if (!isReady(context) || !Clip(context).isBox())
             return cpuCompositor().copyPixels(context, area);
