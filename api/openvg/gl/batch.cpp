@@ -12,7 +12,7 @@ constexpr std::size_t maxInstances = 1 << 15, maxShares = 1 << 20, maxRamps = 64
 }  // namespace
 
 bool Batch::isFull() const {
-    return instances.size() >= maxInstances || shares.size() >= maxShares || ramps.size() >= maxRamps ||
+    return instances.size() >= maxInstances || shareCount >= maxShares || ramps.size() >= maxRamps ||
            draws.size() >= maxDraws;
 }
 
@@ -28,7 +28,7 @@ bool Batch::joins(const Draw& last, const Draw& draw) const {
            });
 }
 
-void Batch::add(Draw draw, const Tiles& tiles, Color color, const RampRow* ramp) {
+void Batch::add(Draw draw, Tiles tiles, Color color, const RampRow* ramp) {
     if (draw.read.empty())
         draw.read.push_back(tiles.box);
     if (ramp) {
@@ -36,8 +36,11 @@ void Batch::add(Draw draw, const Tiles& tiles, Color color, const RampRow* ramp)
             ramps.push_back(*ramp);
         draw.block.ramp.x = int(ramps.size() - 1);
     }
-    const std::size_t shift = shares.size();
-    shares.insert(shares.end(), tiles.shares.begin(), tiles.shares.end());
+    const std::size_t shift = shareCount;
+    if (!tiles.shares.empty()) {
+        shareCount += tiles.shares.size();
+        shares.push_back(std::move(tiles.shares));
+    }
     draw.first = instances.size();
     draw.count = tiles.tiles.size();
     for (Tile tile : tiles.tiles) {

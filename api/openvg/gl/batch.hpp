@@ -87,11 +87,12 @@ public:
     bool empty() const { return draws.empty(); }
     /// Whether this should be drawn before more comes.
     bool isFull() const;
-    void add(Draw draw, const Tiles& tiles, Color color, const RampRow* ramp);
+    void add(Draw draw, Tiles tiles, Color color, const RampRow* ramp);
 
     std::vector<Draw> draws;
     std::vector<Instance> instances;
-    std::vector<float> shares;
+    std::vector<std::vector<float>> shares;  ///< one after the other, as tiles refer to them
+    std::size_t shareCount = 0;
     std::vector<RampRow> ramps;
 
 private:

@@ -146,10 +146,10 @@ void Device::draw(const Draw& draw, Tiles tiles, Color color, const RampRow* ram
     // The texture of shares has 2048 rows at least.
     constexpr std::size_t maxShares = 1 << 20;
     const std::lock_guard lock(mutex_);
-    for (const Tiles& part : inParts(std::move(tiles), maxShares)) {
+    for (Tiles& part : inParts(std::move(tiles), maxShares)) {
         if (isLost())
             return;
-        batch_->add(draw, part, color, ramp);
+        batch_->add(draw, std::move(part), color, ramp);
         if (batch_->isFull())
             postBatch();
     }

@@ -62,9 +62,11 @@ public:
     void draw(Tiles tiles);
 
 private:
+    bool setOther(const Layer& layer);
     bool setColors();
     bool setTexels(int i, const TexelField& field);
     bool setMask();
+    void setConversion();
     bool isOverwriting(const Tiles& tiles) const;
     void place(glm::ivec2 origin);
 
@@ -114,33 +116,28 @@ bool LayerDraw::setColors() {
     return ramp_.has_value();
 }
 
-bool LayerDraw::setSource(const Layer& layer) {
-    ProgramKey& key = draw_.key;
-    const Surface& surface = *context_.surface;
-    if (!layer.source.describe(source_))
-        return false;
+bool LayerDraw::setOther(const Layer& layer) {
+    other_ = source_.factor;
+    draw_.key.multiplies = other_.has_value();
     if (layer.stencil) {
         SourceDescription stencil;
         if (!layer.stencil->describe(stencil) || !std::holds_alternative<TexelField>(stencil.colors))
             return false;
         other_ = std::get<TexelField>(stencil.colors);
-        key.isStencil = true;
-    } else {
-        other_ = source_.factor;
-        key.multiplies = other_.has_value();
+        draw_.key.isStencil = true;
     }
-    key.blendMode = context_.state.blendMode;
-    key.transforms = source_.transform.has_value();
-    if (!setColors() || !setMask() || (other_ && !setTexels(1, *other_)))
-        return false;
-    LayerBlock& block = draw_.block;
-    gl::setSurface(block, surface.pixels().format(), surface.width(), surface.height());
+    return !other_ || setTexels(1, *other_);
+}
+
+void LayerDraw::setConversion() {
+    const PixelFormat& format = context_.surface->pixels().format();
     const ScaleAndBias transform(context_.state);
-    if (key.source == SourceKind::solid && !key.multiplies) {
-        prepareColors(std::span(&color_, 1), source_.space, transform, surface.pixels().format());
+    if (draw_.key.source == SourceKind::solid && !draw_.key.multiplies) {
+        prepareColors(std::span(&color_, 1), source_.space, transform, format);
         isOpaque_ = color_.a == 1;
-        return true;
+        return;
     }
+    LayerBlock& block = draw_.block;
     block.conversion.x = source_.space.linear;
     block.conversion.y = source_.space.luminance;
     block.conversion.z = transform.isOn();
@@ -150,7 +147,17 @@ bool LayerDraw::setSource(const Layer& layer) {
     }
     if (source_.transform)
         gl::setTransform(block, *source_.transform, source_.colorSpace);
-    isOpaque_ = isOpaque_ && !transform.isOn() && !source_.transform && !key.multiplies;
+    isOpaque_ = isOpaque_ && !transform.isOn() && !source_.transform && !draw_.key.multiplies;
+}
+
+bool LayerDraw::setSource(const Layer& layer) {
+    const Surface& surface = *context_.surface;
+    if (!layer.source.describe(source_) || !setOther(layer) || !setColors() || !setMask())
+        return false;
+    draw_.key.blendMode = context_.state.blendMode;
+    draw_.key.transforms = source_.transform.has_value();
+    gl::setSurface(draw_.block, surface.pixels().format(), surface.width(), surface.height());
+    setConversion();
     return true;
 }
 

@@ -127,7 +127,10 @@ void Painter::uploadRows(FloatRows& to, GLenum internal, GLenum format, int colu
 }
 
 void Painter::uploadData(const Batch& batch) {
-    std::vector<float> shares(batch.shares);
+    std::vector<float> shares;
+    shares.reserve(batch.shareCount + shareColumns);
+    for (const std::vector<float>& part : batch.shares)
+        shares.insert(shares.end(), part.begin(), part.end());
     shares.resize((shares.size() + shareColumns - 1) / shareColumns * shareColumns);
     uploadRows(shares_, GL_R32F, GL_RED, shareColumns, 1, shares);
     std::vector<float> ramps(batch.ramps.size() * rampColumns * 4);

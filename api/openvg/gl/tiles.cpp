@@ -70,36 +70,48 @@ Tiles TileBuilder::finish() {
     return tiles;
 }
 
-std::vector<TileBuilder::Kind> TileBuilder::kindsOf(std::span<const Run> runs, int rows) const {
-    const int columns = (box_.x1 - box_.x0 + tileSide - 1) / tileSide;
-    std::vector<int> covered(std::size_t(columns), 0);  ///< rows
-    std::vector<Kind> kinds(std::size_t(columns), Kind::empty);
-    for (const Run& run : runs)
-        for (int i = (run.first - box_.x0) / tileSide; i <= (run.end - 1 - box_.x0) / tileSide; ++i) {
-            const int x0 = box_.x0 + i * tileSide, x1 = std::min(x0 + tileSide, box_.x1);
-            kinds[std::size_t(i)] = Kind::partly;
-            covered[std::size_t(i)] += run.share == 1 && run.first <= x0 && run.end >= x1;
+void TileBuilder::findKinds(std::span<const Run> runs, int rows) {
+    const auto columns = std::size_t((box_.x1 - box_.x0 + tileSide - 1) / tileSide);
+    covered_.assign(columns + 1, 0);
+    touched_.assign(columns + 1, 0);
+    const auto count = [](std::vector<int>& differences, int first, int end) {
+        if (first < end) {
+            ++differences[std::size_t(first)];
+            --differences[std::size_t(end)];
         }
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-        if (covered[i] == rows)
-            kinds[i] = Kind::all;
-    return kinds;
+    };
+    for (const Run& run : runs) {
+        const int first = run.first - box_.x0, end = run.end - box_.x0;
+        count(touched_, first / tileSide, (end + tileSide - 1) / tileSide);
+        // The last column may be narrower.
+        if (run.share == 1)
+            count(covered_, (first + tileSide - 1) / tileSide,
+                  run.end == box_.x1 ? int(columns) : end / tileSide);
+    }
+    kinds_.resize(columns);
+    for (std::size_t i = 0, covered = 0, touched = 0; i < columns; ++i) {
+        covered += std::size_t(covered_[i]);
+        touched += std::size_t(touched_[i]);
+        kinds_[i] = covered == std::size_t(rows) ? Kind::all : touched > 0 ? Kind::partly : Kind::empty;
+    }
 }
 
 void TileBuilder::addBand(Tiles& tiles, std::span<const Run> runs, int y0, int y1) {
-    const std::vector<Kind> kinds = kindsOf(runs, y1 - y0);
+    findKinds(runs, y1 - y0);
     opened_.clear();
-    for (std::size_t i = 0; i < kinds.size();) {
+    blocks_.clear();
+    for (std::size_t i = 0; i < kinds_.size();) {
         std::size_t end = i + 1;
-        while (end < kinds.size() && kinds[end] == kinds[i])
+        while (end < kinds_.size() && kinds_[end] == kinds_[i])
             ++end;
         const int x0 = box_.x0 + int(i) * tileSide, x1 = std::min(box_.x0 + int(end) * tileSide, box_.x1);
-        if (kinds[i] == Kind::all)
+        if (kinds_[i] == Kind::all)
             addCovered(tiles, x0, x1, y0, y1);
-        else if (kinds[i] == Kind::partly)
-            addShares(tiles, runs, {x0, y0, x1, y1});
+        else if (kinds_[i] == Kind::partly)
+            addBlock(tiles, x0, x1, y0, y1);
         i = end;
     }
+    fillBlocks(tiles, runs, y0);
     std::swap(open_, opened_);
 }
 
@@ -117,28 +129,41 @@ void TileBuilder::addCovered(Tiles& tiles, int x0, int x1, int y0, int y1) {
                            std::uint16_t(y1 - y0), Tile::allCovered});
 }
 
-void TileBuilder::addShares(Tiles& tiles, std::span<const Run> runs, const Rectangle& block) {
-    const int width = block.x1 - block.x0, height = block.y1 - block.y0;
+void TileBuilder::addBlock(Tiles& tiles, int x0, int x1, int y0, int y1) {
+    const int width = x1 - x0, height = y1 - y0;
     const std::size_t start = tiles.shares.size();
     tiles.shares.resize(start + std::size_t(width) * std::size_t(height), 0.0f);
-    for (const Run& run : runs) {
-        const int first = std::max(run.first, block.x0), end = std::min(run.end, block.x1);
-        if (first < end)
-            std::fill_n(tiles.shares.begin() + std::ptrdiff_t(start) +
-                            std::ptrdiff_t(run.y - block.y0) * width + (first - block.x0),
-                        end - first, run.share);
-    }
+    blocks_.push_back({x0, x1, start});
     // The shares of a tile just below end where these begin.
     if (!tiles.tiles.empty()) {
         Tile& last = tiles.tiles.back();
-        if (last.shares != Tile::allCovered && last.x == block.x0 && last.width == width &&
-            last.y + last.height == block.y0 && tiles.shares.size() - last.shares <= maxBlock) {
+        if (last.shares != Tile::allCovered && last.x == x0 && last.width == width &&
+            last.y + last.height == y0 && tiles.shares.size() - last.shares <= maxBlock) {
             last.height = std::uint16_t(last.height + height);
             return;
         }
     }
-    tiles.tiles.push_back({std::uint16_t(block.x0), std::uint16_t(block.y0), std::uint16_t(width),
-                           std::uint16_t(height), std::uint32_t(start)});
+    tiles.tiles.push_back({std::uint16_t(x0), std::uint16_t(y0), std::uint16_t(width), std::uint16_t(height),
+                           std::uint32_t(start)});
+}
+
+void TileBuilder::fillBlocks(Tiles& tiles, std::span<const Run> runs, int y0) const {
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const Run& run = runs[i];
+        // Within a row runs mostly go to the right.
+        if (i > 0 && (run.y != runs[i - 1].y || run.first < runs[i - 1].first))
+            k = 0;
+        while (k < blocks_.size() && blocks_[k].x1 <= run.first)
+            ++k;
+        for (std::size_t j = k; j < blocks_.size() && blocks_[j].x0 < run.end; ++j) {
+            const Block& block = blocks_[j];
+            const int first = std::max(run.first, block.x0), end = std::min(run.end, block.x1);
+            const std::ptrdiff_t row = std::ptrdiff_t(run.y - y0) * (block.x1 - block.x0);
+            std::fill_n(tiles.shares.begin() + std::ptrdiff_t(block.shares) + row + (first - block.x0),
+                        end - first, run.share);
+        }
+    }
 }
 
 }  // namespace vtm::openvg::gl

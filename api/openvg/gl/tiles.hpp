@@ -46,14 +46,24 @@ private:
         float share;
     };
     enum class Kind : std::uint8_t { empty, partly, all };
+    /// Columns of a band whose shares are given, and where those begin.
+    struct Block {
+        int x0, x1;
+        std::size_t shares;
+    };
 
     void addBand(Tiles& tiles, std::span<const Run> runs, int y0, int y1);
-    std::vector<Kind> kindsOf(std::span<const Run> runs, int rows) const;
+    /// Of a band's tiles.
+    void findKinds(std::span<const Run> runs, int rows);
     void addCovered(Tiles& tiles, int x0, int x1, int y0, int y1);
-    static void addShares(Tiles& tiles, std::span<const Run> runs, const Rectangle& block);
+    void addBlock(Tiles& tiles, int x0, int x1, int y0, int y1);
+    void fillBlocks(Tiles& tiles, std::span<const Run> runs, int y0) const;
 
     std::vector<Run> runs_;
     Rectangle box_;
+    std::vector<Kind> kinds_;
+    std::vector<int> covered_, touched_;  ///< by column: rows, as differences to the column before
+    std::vector<Block> blocks_;           ///< of a band, from left to right
     /// The last bands' rectangles that may still grow upwards: indices of tiles.
     std::vector<std::size_t> open_, opened_;
 };
