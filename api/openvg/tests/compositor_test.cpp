@@ -8,6 +8,8 @@
 #include <random>
 #include <thread>
 
+#include <glm/vec2.hpp>
+
 namespace vtm::openvg::testing {
 namespace {
 
@@ -118,14 +120,14 @@ TEST_F(CompositorTest, ResizingKeepsThePixels) {
 }
 
 TEST_F(CompositorTest, PartsOfASurfaceAreCopiedOverEachOther) {
-    for (const auto& [dx, dy] : {std::pair(3, 2), std::pair(-3, -2), std::pair(5, -4)})
+    for (const glm::ivec2 by : {glm::ivec2(3, 2), glm::ivec2(-3, -2), glm::ivec2(5, -4)})
         EXPECT_EQ(between(64, 48, sRGBA8888,
                           [&] {
                               for (int i = 0; i < 16; ++i)
                                   fillRectangle(VGfloat(4 * i), VGfloat(3 * i), 4, 3,
                                                 {VGfloat(i) / 16, 1 - VGfloat(i) / 16, 0.5f, 1});
                               for (int i = 0; i < 4; ++i)
-                                  vgCopyPixels(8 + dx, 8 + dy, 8, 8, 40, 30);
+                                  vgCopyPixels(8 + by.x, 8 + by.y, 8, 8, 40, 30);
                           }),
                   0);
 }
