@@ -37,8 +37,9 @@ MODULES = {
     "paper/gl": {"paper", "backend_gl", "raster", "asset", "image", "limits"},
     "api": {"svg", "text", "scene", "compiler", "raster", "asset", "image", "limits"},
     "api/gl": {"api", "raster", "asset", "image", "backend_gl"},
-    "api/openvg": {"scene", "geometry", "compiler", "raster", "asset", "image", "limits"},
-    "api/egl": set(),
+    "api/system_egl": set(),
+    "api/openvg": {"scene", "geometry", "compiler", "raster", "asset", "image", "limits", "api/system_egl"},
+    "api/egl": {"api/system_egl"},
     "api/gles": {"raster", "asset", "image", "backend_gl"},
     "backend_gl": {"raster", "asset", "image", "limits"},
     "trace": {"scene", "image", "limits"},
@@ -83,9 +84,9 @@ LIBRARIES = {
     r"zlib\.h": {"text", "svg", "asset", "image"},
     r"png\.h|jpeglib\.h|jerror\.h|webp/.*": {"image", "conformance/compare"},
     r"libdeflate\.h|avif/.*": {"image"},
-    r"VG/.*|vtm/(vtm|vg|vg_image|gles)\.h": ANYWHERE,
-    r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "bench", "api/egl", "api/gl", "api/gles"},
-    r"dlfcn\.h": {"api", "api/openvg", "api/egl", "image", "trace"},
+    r"VG/.*|vtm/(vtm|vg|vg_image|gles|egl)\.h": ANYWHERE,
+    r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "bench", "api/egl", "api/gl", "api/gles", "api/openvg", "api/system_egl"},
+    r"dlfcn\.h": {"api", "api/openvg", "api/egl", "api/system_egl", "image", "trace"},
     r"stddef\.h|stdint\.h": {"api"},
     r"stdio\.h": {"api/egl", "tests"},
     r"CLI/.*": {"tools", "conformance/runner"},
@@ -99,7 +100,7 @@ LIBRARIES = {
     r"linux/magic\.h": {"image"},
     r"malloc\.h": {"limits", "tools"},
     r"fnmatch\.h": {"conformance/runner"},
-    r"pthread\.h|unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
+    r"pthread\.h|signal\.h|unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }
 GENERATED = {"vg_constants.inc", "vg_functions.inc"}  # made by a module for itself when it is built
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cstdint>: no dot, no folder

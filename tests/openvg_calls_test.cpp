@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <random>
 #include <vector>
 
@@ -9,18 +11,37 @@
 
 namespace {
 
+std::vector<std::uint8_t> randomProgram(unsigned seed) {
+    std::vector<std::uint8_t> bytes(4096);
+    std::mt19937 random(seed);
+    for (std::uint8_t& byte : bytes)
+        byte = std::uint8_t(random() >> 24);
+    return bytes;
+}
+
 TEST(OpenVgCalls, RandomProgramsEnd) {
     constexpr unsigned programs = 600;
-    constexpr std::size_t programBytes = 4096;
     std::size_t calls = 0;
-    std::vector<std::uint8_t> bytes(programBytes);
-    for (unsigned seed = 1; seed <= programs; ++seed) {
-        std::mt19937 random(seed);
-        for (std::uint8_t& byte : bytes)
-            byte = std::uint8_t(random() >> 24);
-        calls += vtm::fuzz::runOpenVgCalls(bytes);
-    }
+    for (unsigned seed = 1; seed <= programs; ++seed)
+        calls += vtm::fuzz::runOpenVgCalls(randomProgram(seed));
     EXPECT_GT(calls, 100'000u);
+}
+
+TEST(OpenVgCalls, BothCompositorsDrawRandomProgramsAlike) {
+    constexpr unsigned programs = 300;
+    for (unsigned seed = 1; seed <= programs; ++seed) {
+        const std::vector<std::uint8_t> bytes = randomProgram(seed);
+        const auto cpu = vtm::fuzz::drawnByOpenVgCalls(bytes, VTM_COMPOSITOR_CPU),
+                   gl = vtm::fuzz::drawnByOpenVgCalls(bytes, VTM_COMPOSITOR_GL);
+        ASSERT_EQ(cpu.size(), gl.size());
+        for (std::size_t i = 0; i < cpu.size(); ++i) {
+            ASSERT_EQ(cpu[i].pixels.size(), gl[i].pixels.size());
+            int largest = 0;
+            for (std::size_t k = 0; k < cpu[i].pixels.size(); ++k)
+                largest = std::max(largest, std::abs(int(cpu[i].pixels[k]) - int(gl[i].pixels[k])));
+            EXPECT_LE(largest, 1) << "program " << seed << ", surface " << i;
+        }
+    }
 }
 
 }  // namespace

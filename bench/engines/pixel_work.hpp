@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <vtm/vg.h>
+
 namespace vtm::bench {
 
 /// The side of the surface that is drawn into, and of the square images that are moved and copied.
@@ -27,7 +29,7 @@ struct PixelWork {
 std::vector<std::uint32_t> premultipliedPixels(int side);
 
 /// Through OpenVG. What it returns owns its context, which is current.
-std::vector<PixelWork> vgPixelWork();
+std::vector<PixelWork> vgPixelWork(VtmCompositor compositor = VTM_COMPOSITOR_CPU);
 
 /// Through cairo; empty where cairo is missing. It cannot blur.
 std::vector<PixelWork> cairoPixelWork();

@@ -76,7 +76,7 @@ struct Canvas : VgCanvas {
             translucent = vgCreatePaint(), ink = vgCreatePaint();
     VGFont font = sheetFont();
 
-    Canvas() {
+    explicit Canvas(VtmCompositor compositor) : VgCanvas(compositor) {
         vgSetColor(translucent, 0xe6661a4d);
         vgSeti(VG_FILTER_FORMAT_PREMULTIPLIED, VG_TRUE);
     }
@@ -129,8 +129,8 @@ std::vector<std::uint32_t> premultipliedPixels(int side) {
     return pixels;
 }
 
-std::vector<PixelWork> vgPixelWork() {
-    const auto canvas = std::make_shared<Canvas>();
+std::vector<PixelWork> vgPixelWork(VtmCompositor compositor) {
+    const auto canvas = std::make_shared<Canvas>(compositor);
     return {
         {"image moved by whole pixels",
          [=](int i) { canvas->drawImage(1, 0, VGfloat(i * 37 % 500), VGfloat(i * 91 % 500)); }},

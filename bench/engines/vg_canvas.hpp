@@ -18,9 +18,10 @@ class VgCanvas {
 public:
     static constexpr int side = 1024;
 
-    VgCanvas() {
+    explicit VgCanvas(VtmCompositor compositor = VTM_COMPOSITOR_CPU) {
         const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
         surface_ = vtmCreateSurface(side, side, &format);
+        vtmChooseCompositor(surface_, compositor);
         context_ = vtmCreateContext(nullptr);
         vtmMakeCurrent(context_, surface_);
         paint_ = vgCreatePaint();
@@ -35,6 +36,9 @@ public:
     }
     VgCanvas(const VgCanvas&) = delete;
     VgCanvas& operator=(const VgCanvas&) = delete;
+
+    /// What was asked for draws.
+    bool isDrawnBy(VtmCompositor compositor) const { return vtmGetCompositor(surface_) == compositor; }
 
     void add(const Shape& shape) {
         const VGPath path =

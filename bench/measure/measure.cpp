@@ -29,6 +29,7 @@ double peakBytes() {
     return 0;
 }
 
+double threadMilliseconds() { return milliseconds(CLOCK_THREAD_CPUTIME_ID); }
 double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }
 double spentMilliseconds() { return milliseconds(spent); }
 void measureWallTime() { spent = CLOCK_MONOTONIC; }

@@ -8,6 +8,8 @@
 
 namespace vtm::bench {
 
+/// CPU time of the calling thread in milliseconds.
+double threadMilliseconds();
 /// Wall time in milliseconds.
 double wallMilliseconds();
 /// CPU time of this process in milliseconds: all its threads, no waiting. After measureWallTime(), wall time:

@@ -15,6 +15,7 @@
 #include "bench/input/font.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/openvg_pixels.hpp"
+#include "bench/reports/openvg_shaders.hpp"
 #include "bench/reports/reports.hpp"
 
 namespace vtm::bench {
@@ -137,7 +138,17 @@ void drawFrame(Canvas& canvas, const Workload& workload, int i) {
     canvas.draw(workload.view(i));
 }
 
-void addWorkload(const Workload& workload, double spend, Report& report) {
+/// The same by shaders, on a canvas that replaces the current one.
+void addShaders(const Workload& workload, double spend, Json& row) {
+    VgCanvas canvas(VTM_COMPOSITOR_GL);
+    if (!canvas.isDrawnBy(VTM_COMPOSITOR_GL))
+        return;
+    for (const Shape& shape : workload.shapes)
+        canvas.add(shape);
+    addShaderColumns([&](int i) { drawFrame(canvas, workload, i); }, spend, row);
+}
+
+Json callsRow(const Workload& workload, double spend) {
     VgCanvas ours;
     for (const Shape& shape : workload.shapes)
         ours.add(shape);
@@ -168,6 +179,12 @@ void addWorkload(const Workload& workload, double spend, Report& report) {
         row["recorded ms"] = recorded.second;
         row["recorded / OpenVG"] = recorded.ratio;
     }
+    return row;
+}
+
+void addWorkload(const Workload& workload, double spend, Report& report) {
+    Json row = callsRow(workload, spend);
+    addShaders(workload, spend, row);
     report.rows.push_back(std::move(row));
 }
 
@@ -188,7 +205,11 @@ Report openvg(const Options& options) {
         "and vtmEndRecording, and drawn in turns with them by one vtmDrawRecording. Images, gradients and "
         "rectangles are drawn into 800 × 800 "
         "pixels, images of 512 × 512 are copied and blurred; cairo has no blur. Text: vgDrawGlyphs and "
-        "cairo_show_glyphs, which puts glyphs on whole pixels. NanoVG is not in Debian.";
+        "cairo_show_glyphs, which puts glyphs on whole pixels. NanoVG is not in Debian. By shaders: the "
+        "compositor of OpenGL ES, "
+        "whose CPU time includes the shaders' where the driver is a software renderer, as Mesa's llvmpipe; "
+        "of "
+        "these, own thread: what is left to the program's thread on any driver, coverage above all.";
     if (!cairoVersion())
         report.notes.push_back("cairo: missing (librsvg2-dev)");
     for (const Workload& workload : workloads(oneFileOf(options), report.notes))

@@ -7,10 +7,13 @@
 #include "bench/engines/pixel_work.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/openvg_pixels.hpp"
+#include "bench/reports/openvg_shaders.hpp"
 
 namespace vtm::bench {
 
-void addPixelRows(double spend, Report& report) {
+namespace {
+
+void addRowsOfBoth(double spend, Report& report) {
     const std::vector<PixelWork> ours = vgPixelWork(), cairo = cairoPixelWork();
     for (const PixelWork& work : ours) {
         Json row{{"workload", work.name}, {"shapes", ""}, {"first frame ms", ""}};
@@ -31,6 +34,20 @@ void addPixelRows(double spend, Report& report) {
         row["quartiles"] = hasPeer ? fmt::format("{:.2f} to {:.2f}", paired.low, paired.high) : "";
         report.rows.push_back(std::move(row));
     }
+}
+
+}  // namespace
+
+void addPixelRows(double spend, Report& report) {
+    const std::size_t first = report.rows.size();
+    addRowsOfBoth(spend, report);
+    const std::vector<PixelWork> byShaders = vgPixelWork(VTM_COMPOSITOR_GL);
+    if (vtmGetCompositor(vtmGetCurrentSurface()) != VTM_COMPOSITOR_GL) {
+        report.notes.push_back(std::string("by shaders: missing, ") + vtmGetCompositorFault());
+        return;
+    }
+    for (std::size_t i = 0; i < byShaders.size(); ++i)
+        addShaderColumns(byShaders[i].draw, spend, report.rows[first + i]);
 }
 
 }  // namespace vtm::bench

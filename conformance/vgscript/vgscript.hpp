@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <vtm/vg.h>
 #include <vtm/image/bitmap.hpp>
 
 namespace vtm::vgscript {
@@ -29,6 +30,7 @@ struct Outcome {
 
 /// Runs a script on a surface and a context of its own, in this thread, whose current context it leaves as it
 /// was. `name` is for messages. Throws ScriptError.
-Outcome play(std::string_view text, const std::string& name);
+Outcome play(std::string_view text, const std::string& name,
+             VtmCompositor compositor = VTM_COMPOSITOR_AUTOMATIC);
 
 }  // namespace vtm::vgscript

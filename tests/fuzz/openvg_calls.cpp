@@ -30,8 +30,17 @@ constexpr Call table[] = {
         if (VtmSurface* const surface = vtmCreateImageSurface(context, image, a.rarely(2) ? 8 : 0, &error)) {
             VtmSurface*& old = w.surface();
             vtmDestroySurface(old);
-            old = surface;
+            old = w.chosen(surface);
         }
+    },
+    [](World& w, Arguments& a) {
+        constexpr std::array compositors{VTM_COMPOSITOR_AUTOMATIC, VTM_COMPOSITOR_CPU, VTM_COMPOSITOR_GL};
+        VtmSurface* const surface = w.surface();
+        const VtmCompositor compositor = compositors[a.byte() % compositors.size()];
+        if (!w.compositor)
+            vtmChooseCompositor(surface, compositor);
+        vtmGetCompositor(surface);
+        vtmGetCompositorFault();
     },
     [](World& w, Arguments& a) {
         VtmSurface* const surface = w.surface();
@@ -411,12 +420,35 @@ constexpr Call table[] = {
 
 }  // namespace
 
-std::size_t runOpenVgCalls(std::span<const std::uint8_t> bytes) {
-    World world(bytes);
+namespace {
+
+std::size_t run(World& world) {
     std::size_t count = 0;
     for (; !world.a.atEnd(); ++count)
         table[world.a.byte() % std::size(table)](world, world.a);
     return count;
+}
+
+}  // namespace
+
+std::size_t runOpenVgCalls(std::span<const std::uint8_t> bytes) {
+    World world(bytes);
+    return run(world);
+}
+
+std::vector<SurfacePicture> drawnByOpenVgCalls(std::span<const std::uint8_t> bytes,
+                                               VtmCompositor compositor) {
+    World world(bytes, compositor);
+    run(world);
+    std::vector<SurfacePicture> pictures;
+    for (VtmSurface* const surface : world.surfaces) {
+        SurfacePicture& picture = pictures.emplace_back(
+            SurfacePicture{vtmSurfaceWidth(surface), vtmSurfaceHeight(surface), {}, {}});
+        vtmGetSurfaceFormat(surface, &picture.format);
+        picture.pixels.resize(std::size_t(picture.width) * std::size_t(picture.height) * 4);
+        vtmReadSurface(surface, picture.pixels.data(), std::size_t(picture.width) * 4);
+    }
+    return pictures;
 }
 
 }  // namespace vtm::fuzz

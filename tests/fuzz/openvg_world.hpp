@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "tests/fuzz/openvg_arguments.hpp"
 
@@ -14,7 +15,9 @@ struct Pool {
 };
 
 struct World {
-    explicit World(std::span<const std::uint8_t> bytes) : a(bytes) {
+    /// `fixed`: what draws on all surfaces; otherwise the program chooses.
+    explicit World(std::span<const std::uint8_t> bytes, std::optional<VtmCompositor> fixed = std::nullopt)
+        : a(bytes), compositor(fixed) {
         contexts[0] = vtmCreateContext(nullptr);
         contexts[1] = vtmCreateContext(contexts[0]);
         contexts[2] = vtmCreateContext(nullptr);
@@ -42,8 +45,13 @@ struct World {
                                                            {4, 4, 4, 4, 0, 0, VG_FALSE, VG_FALSE},
                                                            {0, 0, 0, 8, 0, 8, VG_FALSE, VG_FALSE},
                                                            {0, 0, 0, 0, 1, 8, VG_FALSE, VG_FALSE}}};
-        return vtmCreateSurface(VGint(a.byte() % maxSide) + 1, VGint(a.byte() % maxSide) + 1,
-                                &formats[a.byte() % formats.size()]);
+        const VGint width = VGint(a.byte() % maxSide) + 1, height = VGint(a.byte() % maxSide) + 1;
+        return chosen(vtmCreateSurface(width, height, &formats[a.byte() % formats.size()]));
+    }
+    VtmSurface* chosen(VtmSurface* surface) {
+        if (compositor)
+            vtmChooseCompositor(surface, *compositor);
+        return surface;
     }
 
     VGHandle keep(Pool& pool, VGHandle handle) {
@@ -82,6 +90,7 @@ struct World {
     static constexpr std::size_t maxHandles = 6;
 
     Arguments a;
+    std::optional<VtmCompositor> compositor;
     std::array<VtmContext*, 3> contexts{};
     std::array<VtmSurface*, 3> surfaces{};
     Pool paths, images, paints, fonts, layers;

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <map>
 
+#include <vtm/egl.h>
+
 #include "api/egl/state/attributes.hpp"
 #include "api/egl/state/configs.hpp"
 #include "api/egl/state/thread.hpp"
@@ -32,6 +34,7 @@ constexpr std::array rules{
     Rule{EGL_BIND_TO_TEXTURE_RGB, EGL_DONT_CARE, Criterion::exact},
     Rule{EGL_BIND_TO_TEXTURE_RGBA, EGL_DONT_CARE, Criterion::exact},
     Rule{EGL_COLOR_BUFFER_TYPE, EGL_RGB_BUFFER, Criterion::exact},
+    Rule{EGL_COMPOSITOR_VTM, EGL_COMPOSITOR_AUTOMATIC_VTM, Criterion::exact},
     Rule{EGL_CONFIG_CAVEAT, EGL_DONT_CARE, Criterion::exact},
     Rule{EGL_CONFIG_ID, EGL_DONT_CARE, Criterion::exact},
     Rule{EGL_CONFORMANT, 0, Criterion::mask},
@@ -72,6 +75,9 @@ bool isLegal(EGLint attribute, EGLint value) {
             return isOneOf(value, {EGL_FALSE, EGL_TRUE});
         case EGL_COLOR_BUFFER_TYPE:
             return isOneOf(value, {EGL_RGB_BUFFER, EGL_LUMINANCE_BUFFER});
+        case EGL_COMPOSITOR_VTM:
+            return isOneOf(value,
+                           {EGL_COMPOSITOR_AUTOMATIC_VTM, EGL_COMPOSITOR_CPU_VTM, EGL_COMPOSITOR_GL_VTM});
         case EGL_CONFIG_CAVEAT:
             return isOneOf(value, {EGL_NONE, EGL_SLOW_CONFIG, EGL_NON_CONFORMANT_CONFIG});
         case EGL_TRANSPARENT_TYPE:
@@ -172,11 +178,23 @@ Candidate candidate(const Request& request, EGLConfig handle, Value&& value) {
          value(EGL_DEPTH_SIZE), value(EGL_STENCIL_SIZE), value(EGL_ALPHA_MASK_SIZE), value(EGL_CONFIG_ID)}};
 }
 
+/// Without the attribute that the system does not know.
+std::vector<EGLint> systemsList(const EGLint* list) {
+    std::vector<EGLint> systems;
+    for (const auto& [attribute, value] : attributeList(list))
+        if (attribute != EGL_COMPOSITOR_VTM)
+            systems.insert(systems.end(), {attribute, value});
+    systems.push_back(EGL_NONE);
+    return systems;
+}
+
 /// The system's choice, in its order. Throws what it says against the list.
-std::vector<EGLConfig> systemChoice(const Display& display, const EGLint* list) {
+std::vector<EGLConfig> systemChoice(const Display& display, const EGLint* given) {
     EGLint count = 0;
     if (!display.systemRuns)
         return {};
+    const std::vector<EGLint> ours = systemsList(given);
+    const EGLint* const list = ours.data();
     requireSystem(systemEgl()->ChooseConfig(display.handle, list, nullptr, 0, &count));
     std::vector<EGLConfig> chosen(std::size_t(std::max(count, 0)));
     if (count > 0)

@@ -6,6 +6,8 @@
 #include <array>
 #include <climits>
 
+#include <vtm/egl.h>
+
 #include "api/egl/state/thread.hpp"
 
 namespace vtm::egl {
@@ -23,6 +25,15 @@ constexpr std::array formats{
     colorFormat(4, 4, 4, 4), colorFormat(0, 0, 0, 8), greyFormat(8),           greyFormat(1)};
 
 constexpr std::array<EGLint, 2> sampleCounts{0, 4};
+
+/// By themselves programs find the first.
+constexpr std::array compositors{VTM_COMPOSITOR_AUTOMATIC, VTM_COMPOSITOR_CPU, VTM_COMPOSITOR_GL};
+
+EGLint compositorAttribute(VtmCompositor compositor) {
+    return compositor == VTM_COMPOSITOR_CPU  ? EGL_COMPOSITOR_CPU_VTM
+           : compositor == VTM_COMPOSITOR_GL ? EGL_COMPOSITOR_GL_VTM
+                                             : EGL_COMPOSITOR_AUTOMATIC_VTM;
+}
 
 /// The system's config, of those that show surfaces of type `surfaceBit`, that differs least from the format:
 /// in bits of colour, then in bits of alpha, then by what it has besides. Null if there is none.
@@ -167,6 +178,8 @@ std::optional<EGLint> Config::attribute(EGLint name) const {
             return depthBits;
         case EGL_STENCIL_SIZE:
             return stencilBits;
+        case EGL_COMPOSITOR_VTM:
+            return compositorAttribute(compositor);
         case EGL_SAMPLE_BUFFERS:
             return samples != 0;
         case EGL_SAMPLES:
@@ -205,17 +218,21 @@ void makeConfigs(Display& display) {
     for (const EGLConfig config : systems)
         lastId = std::max(lastId, systemConfigAttribute(display, config, EGL_CONFIG_ID));
     std::vector<std::shared_ptr<const Config>> made;
-    for (const EGLint samples : sampleCounts)
-        for (const VtmSurfaceFormat& format : formats) {
-            auto config = std::make_shared<Config>();
-            config->display = &display;
-            config->id = ++lastId;
-            config->format = format;
-            config->samples = samples;
-            findSystems(*config, systems);
-            configs().add(config);
-            made.push_back(std::move(config));
-        }
+    const auto add = [&](const VtmSurfaceFormat& format, EGLint samples, VtmCompositor compositor) {
+        auto config = std::make_shared<Config>();
+        config->display = &display;
+        config->id = ++lastId;
+        config->format = format;
+        config->samples = samples;
+        config->compositor = compositor;
+        findSystems(*config, systems);
+        configs().add(config);
+        made.push_back(std::move(config));
+    };
+    for (const VtmCompositor compositor : compositors)
+        for (const EGLint samples : sampleCounts)
+            for (const VtmSurfaceFormat& format : formats)
+                add(format, samples, compositor);
     display.configs = std::move(made);
 }
 
@@ -232,8 +249,10 @@ EGLBoolean EGLAPIENTRY eglGetConfigs(EGLDisplay dpy, EGLConfig* list, EGLint siz
         std::vector<EGLConfig> all = systemConfigs(display);
         {
             const std::lock_guard lock(display.initializing);
+            // The others are found by what they are for: programs have room for so many configs.
             for (const auto& config : display.configs)
-                all.push_back(config->handle);
+                if (config->compositor == VTM_COMPOSITOR_AUTOMATIC)
+                    all.push_back(config->handle);
         }
         const EGLint total = EGLint(all.size());
         *count = list ? std::min(size, total) : total;

@@ -43,6 +43,7 @@ struct Config {
     EGLConfig handle = nullptr;
     EGLint id = 0;
     VtmSurfaceFormat format{};
+    VtmCompositor compositor = VTM_COMPOSITOR_AUTOMATIC;  ///< of its surfaces
     /// What the config says of multisampling. Coverage is exact, so pixels are the same.
     EGLint samples = 0;
     /// The system's configs by which windows and pixmaps are shown; null: they cannot be.

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstddef>
 
-#include "api/egl/system/system.hpp"
+#include "api/system_egl/system.hpp"
 
 namespace vtm::egl {
 

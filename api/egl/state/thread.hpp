@@ -11,7 +11,7 @@
 
 #include "api/egl/state/objects.hpp"
 #include "api/egl/state/registry.hpp"
-#include "api/egl/system/system.hpp"
+#include "api/system_egl/system.hpp"
 
 namespace vtm::egl {
 

@@ -83,6 +83,7 @@ EGLSurface createFromImage(Display& display, EGLClientBuffer buffer, EGLConfig h
     VGErrorCode error = VG_NO_ERROR;
     surface->drawing = vtmCreateImageSurface(context->drawing, VGImage(number), maskBits, &error);
     require(surface->drawing != nullptr, errorOf(error));
+    vtmChooseCompositor(surface->drawing, config->compositor);
     VtmSurfaceFormat format;
     vtmGetSurfaceFormat(surface->drawing, &format);
     require(hasFormatOf(*config, format), EGL_BAD_MATCH);

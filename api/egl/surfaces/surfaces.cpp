@@ -55,6 +55,7 @@ void createDrawing(Surface& surface, EGLint width, EGLint height) {
     // A surface without a pixel is legal here, and nothing can be drawn on it; OpenVG wants one.
     surface.drawing = vtmCreateSurface(std::max(width, 1), std::max(height, 1), &format);
     require(surface.drawing != nullptr, EGL_BAD_ALLOC);
+    vtmChooseCompositor(surface.drawing, surface.config->compositor);
     surface.width = width;
     surface.height = height;
 }

@@ -1,6 +1,6 @@
 #include "api/egl/system/gl_functions.hpp"
 
-#include "api/egl/system/system.hpp"
+#include "api/system_egl/system.hpp"
 
 namespace vtm::egl {
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include <vtm/egl.h>
 #include "api/egl/tests/support.hpp"
 
 namespace vtm::egl::testing {
@@ -137,7 +138,9 @@ TEST_F(Configs, IdsAreDistinctAndFindTheirConfig) {
     }
     EXPECT_EQ(*ids.begin(), 1);
     EXPECT_EQ(*ids.rbegin(), count);
-    EXPECT_TRUE(choose({EGL_CONFIG_ID, count + 1}).empty());
+    // Twice as many of ours follow, for who asks for their compositor.
+    EXPECT_EQ(choose({EGL_CONFIG_ID, count + 1}).size(), 1u);
+    EXPECT_TRUE(choose({EGL_CONFIG_ID, count + 33}).empty());
 }
 
 TEST_F(Configs, NoMoreAreGivenThanThereIsRoomFor) {
@@ -235,6 +238,48 @@ TEST_F(Configs, ProgramsOfOpenGlGetWhatTheSystemGives) {
     for (const EGLConfig c : choose({EGL_SURFACE_TYPE, EGL_PBUFFER_BIT}))
         EXPECT_TRUE(value(c, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES_BIT);
     EXPECT_EQ(choose({EGL_SURFACE_TYPE, EGL_PBUFFER_BIT}).empty(), isAlone());
+}
+
+TEST_F(Configs, SayWhatDrawsOnTheirSurfaces) {
+    const auto chosen = [&](EGLint compositor) {
+        return choose({EGL_RENDERABLE_TYPE, EGL_OPENVG_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                       EGL_COMPOSITOR_VTM, compositor});
+    };
+    for (const EGLint compositor :
+         {EGL_COMPOSITOR_AUTOMATIC_VTM, EGL_COMPOSITOR_CPU_VTM, EGL_COMPOSITOR_GL_VTM}) {
+        const auto configs = chosen(compositor);
+        ASSERT_FALSE(configs.empty());
+        for (const EGLConfig config : configs)
+            EXPECT_EQ(value(config, EGL_COMPOSITOR_VTM), compositor);
+    }
+    // Programs that do not know of it find the first kind only.
+    EXPECT_EQ(choose({EGL_RENDERABLE_TYPE, EGL_OPENVG_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT}),
+              chosen(EGL_COMPOSITOR_AUTOMATIC_VTM));
+}
+
+TEST_F(Configs, TheCompositorDrawsWhatIsRead) {
+    for (const EGLint compositor : {EGL_COMPOSITOR_CPU_VTM, EGL_COMPOSITOR_GL_VTM}) {
+        const EGLConfig config = choose({EGL_RENDERABLE_TYPE, EGL_OPENVG_BIT, EGL_SURFACE_TYPE,
+                                         EGL_PBUFFER_BIT, EGL_COMPOSITOR_VTM, compositor})
+                                     .front();
+        const EGLint size[] = {EGL_WIDTH, 8, EGL_HEIGHT, 8, EGL_NONE};
+        const EGLSurface surface = eglCreatePbufferSurface(display, config, size);
+        eglBindAPI(EGL_OPENVG_API);
+        const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
+        ASSERT_EGL(eglMakeCurrent(display, surface, surface, context));
+        const bool isGl = compositor == EGL_COMPOSITOR_GL_VTM && *vtmGetCompositorFault() == '\0';
+        EXPECT_EQ(vtmGetCompositor(vtmGetCurrentSurface()), isGl ? VTM_COMPOSITOR_GL : VTM_COMPOSITOR_CPU);
+        const VGfloat white[] = {1, 1, 1, 1};
+        vgSetfv(VG_CLEAR_COLOR, 4, white);
+        vgClear(2, 2, 3, 3);
+        std::array<std::uint32_t, 64> pixels{};
+        vgReadPixels(pixels.data(), 32, VG_sRGBX_8888, 0, 0, 8, 8);
+        EXPECT_EQ(std::ranges::count_if(pixels, [](std::uint32_t p) { return p >> 8 == 0xffffff; }), 9);
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display, context);
+        eglDestroySurface(display, surface);
+        eglBindAPI(EGL_OPENGL_ES_API);
+    }
 }
 
 // Rules 4 and 9: with as many bits, the system's have no alpha mask.

@@ -36,6 +36,15 @@ typedef struct VtmSurfaceFormat {
     VGboolean premultiplied; /* colours are stored multiplied by alpha */
 } VtmSurfaceFormat;
 
+/* What draws on a surface: the CPU, or the GPU through OpenGL ES (docs/openvg.md). Pixels are the same within 1/255 of a
+ * channel. */
+typedef enum {
+    VTM_COMPOSITOR_AUTOMATIC, /* what the environment variable VTM_OPENVG_COMPOSITOR says, "cpu" or "gl"; if it says
+                               * nothing, the GPU where there is one, else the CPU */
+    VTM_COMPOSITOR_CPU,
+    VTM_COMPOSITOR_GL /* OpenGL ES 3, on any driver; the CPU where there is none */
+} VtmCompositor;
+
 /* Creates a surface whose pixels are 0 and whose mask is 1. Sides are in pixels. Returns NULL if the format is not one
  * of those above, a side is not in [1, 16384], or there is no memory. */
 VG_API_CALL VtmSurface *VG_API_ENTRY vtmCreateSurface(VGint width, VGint height,
@@ -47,6 +56,16 @@ VG_API_CALL VtmSurface *VG_API_ENTRY vtmCreateSurface(VGint width, VGint height,
  * glyph, VG_ILLEGAL_ARGUMENT_ERROR if drawing into its format is not supported. `error` may be NULL. */
 VG_API_CALL VtmSurface *VG_API_ENTRY vtmCreateImageSurface(VtmContext *context, VGImage image, VGint maskBits,
                                                            VGErrorCode *error) VG_API_EXIT;
+
+/* Chooses what draws on a surface from now on, and keeps its pixels. New surfaces have VTM_COMPOSITOR_AUTOMATIC. Returns
+ * what draws now: VTM_COMPOSITOR_CPU or VTM_COMPOSITOR_GL. */
+VG_API_CALL VtmCompositor VG_API_ENTRY vtmChooseCompositor(VtmSurface *surface, VtmCompositor compositor) VG_API_EXIT;
+
+/* Returns what draws on a surface: VTM_COMPOSITOR_CPU or VTM_COMPOSITOR_GL. It changes to the CPU where the GPU fails. */
+VG_API_CALL VtmCompositor VG_API_ENTRY vtmGetCompositor(const VtmSurface *surface) VG_API_EXIT;
+
+/* Returns why the GPU cannot be had; empty if it can, or if nothing has asked for it yet. */
+VG_API_CALL const char *VG_API_ENTRY vtmGetCompositorFault(void) VG_API_EXIT;
 
 /* Destroys a surface; one that is current is destroyed when it stops being current. */
 VG_API_CALL void VG_API_ENTRY vtmDestroySurface(VtmSurface *surface) VG_API_EXIT;

@@ -17,6 +17,8 @@ public:
 
     /// A box around it.
     const Rectangle& bounds() const { return bounds_; }
+    /// There is nothing more to it.
+    bool isBox() const { return isBox_; }
     /// Calls part(first, end) for the columns from `first` to `end` of a row that are in it, each once.
     template <class Part>
     void parts(int y, int first, int end, Part&& part) const;

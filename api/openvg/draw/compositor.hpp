@@ -1,67 +1,60 @@
 /// \file
-/// Coverage and colours to pixels: stages 5 and 8 of the pipeline (specification sections 2.5, 2.8 and 13).
+/// What changes a drawing surface's pixels, on the CPU or on a GPU. Arguments are legal and areas within the
+/// surface by then; scissoring, masking, blending and colours are those of the context's state.
 #pragma once
 
-#include <span>
+#include <functional>
 
-#include "api/openvg/draw/blend.hpp"
-#include "api/openvg/draw/clip.hpp"
 #include "api/openvg/draw/path_mask.hpp"
 #include "api/openvg/draw/pixel_source.hpp"
-#include "api/openvg/image/pixel_rows.hpp"
-#include "api/openvg/paint/paint_color.hpp"
+#include "api/openvg/state/context.hpp"
 
 namespace vtm::openvg {
 
-/// For one drawing call with the context's current state; takes covered rows.
+/// What a drawing call is coloured by: a source, or with VG_DRAW_IMAGE_STENCIL a paint through an image
+/// (section 10.8).
+struct Layer {
+    const PixelSource& source;
+    const PixelSource* stencil = nullptr;
+};
+
+/// Gives the rows that a drawing call covers within a rectangle, each at most once.
+using Coverage = std::function<void(const Rectangle& clip, const RowSink& row)>;
+
 class Compositor {
 public:
-    Compositor(Context& context, const PixelSource& source);
-    /// VG_DRAW_IMAGE_STENCIL: the paint through the image (section 10.8).
-    Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil);
+    virtual ~Compositor() = default;
 
-    const Clip& clip() const { return clip_; }
-    /// The one colour of what comes next, in place of the source's: in its space, premultiplied.
-    void use(Color color);
-    void operator()(int y, std::span<const CoverageRun> runs);
-
-private:
-    void drawPart(int y, int first, int end, float share);
-    /// One colour over bytes: all of a pixel, or part of it. False for what drawRow() must do.
-    bool drawBytes(int y, int first, int end);
-    void drawEdgeBytes(int y, int first, int end, float share);
-    /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
-    bool drawStored(int y, int first, int end);
-    void drawAny(int y, int first, int end, float share);
-    /// No more than rowChunk pixels, of any format, each covered by its share.
-    void drawRow(int x, int y, std::span<const float> coverage);
-    /// What the source gives, as it is blended: transformed, in the surface's space, premultiplied.
-    void sourceRow(int x, int y, std::span<Color> colors) const;
-    /// The destination replaced by what would be if the drawing covered all of each pixel.
-    void blendRow(int x, int y, std::span<const Color> source, std::span<Color> destination) const;
-    /// What was there and what would be, mixed by coverage (section 2.8).
-    void mixRow(std::span<const Color> before, std::span<const float> coverage, std::span<Color> after) const;
-    void prepare(std::span<Color> colors) const;
-    /// The source's colours need nothing of that.
-    bool isPrepared() const;
-
-    Surface& surface_;
-    Clip clip_;
-    const PixelSource& source_;
-    const PixelSource* stencil_ = nullptr;
-    BlendMode blend_;
-    bool isOver_, isSource_;            ///< VG_BLEND_SRC_OVER, VG_BLEND_SRC
-    bool mixesLight_;                   ///< edges are mixed in linear light, though the surface is not linear
-    const MaskValues* mask_ = nullptr;  ///< null: no masking
-    ScaleAndBias transform_;
-    const PixelFormat& format_;  ///< the surface's
-    bool isAlphaOnly_;
-    std::optional<ByteOrder> order_;  ///< the surface's
-    std::optional<Color> constant_;   ///< prepared
-    bool drawsBytes_ = false;         ///< `constant_` over bytes by a rule that drawBytes() knows
-    std::uint32_t word_ = 0;          ///< `constant_` as a pixel
-    glm::vec3 light_{0};              ///< `constant_` in linear light
-    const ByteGamma& gamma_ = byteGamma();
+    /// Stages 5 and 8 of the pipeline (sections 2.5, 2.8 and 13).
+    virtual void draw(Context& context, const Layer& layer, const Coverage& coverage) = 0;
+    /// vgClear: a pixel's word everywhere.
+    virtual void clear(Context& context, const CopyArea& area, std::uint32_t word) = 0;
+    /// vgSetPixels and vgWritePixels: from an image, or from a program's memory.
+    virtual void setPixels(Context& context, const Image& from, const CopyArea& area) = 0;
+    virtual void writePixels(Context& context, const MemoryPixels& from, const CopyArea& area) = 0;
+    /// vgGetPixels and vgReadPixels.
+    virtual void getPixels(Context& context, Image& to, const CopyArea& area) = 0;
+    virtual void readPixels(Context& context, const MemoryPixels& to, const CopyArea& area) = 0;
+    /// vgCopyPixels. The two parts may overlap.
+    virtual void copyPixels(Context& context, const CopyArea& area) = 0;
+    /// vgFlush and vgFinish: begins, or ends, what was asked for.
+    virtual void flush() = 0;
+    virtual void finish() = 0;
 };
+
+/// Everything in memory.
+Compositor& cpuCompositor();
+
+/// Pixels in textures, drawn by shaders; what these cannot do, the other one does with the pixels brought
+/// back. Null where there is no OpenGL ES 3, and compositorFault() says why.
+Compositor* glCompositor();
+const char* compositorFault();
+
+/// By what a program wants. Where that is VTM_COMPOSITOR_AUTOMATIC, the variable VTM_OPENVG_COMPOSITOR
+/// decides, or else whether there is a GPU.
+Compositor& chosenCompositor(VtmCompositor wanted);
+
+/// That of the context's surface.
+inline Compositor& compositorOf(const Context& context) { return *context.surface->compositor; }
 
 }  // namespace vtm::openvg

@@ -102,32 +102,25 @@ void drawImage(Context& context, const Image& image, const glm::mat3& toSurface,
     if (!pixels)
         return;
     const bool antialiased = state.renderingQuality != VG_RENDERING_QUALITY_NONANTIALIASED;
-    const auto draw = [&](Compositor& compositor) {
-        coverPolygon(corners, antialiased, compositor.clip().bounds(), std::ref(compositor));
+    const auto draw = [&](const Layer& layer) {
+        compositorOf(context).draw(context, layer, [&](const Rectangle& clip, const RowSink& row) {
+            coverPolygon(corners, antialiased, clip, row);
+        });
     };
     const VGint mode = isProjective(toSurface) && !state.isProjective(matrix) ? VGint(VG_DRAW_IMAGE_NORMAL)
                                                                               : state.imageMode;
-    if (mode == VG_DRAW_IMAGE_NORMAL) {
-        Compositor compositor(context, *pixels);
-        return draw(compositor);
-    }
-    if (mode == VG_DRAW_IMAGE_COLOR_MATRIX_NDS) {
-        const std::unique_ptr<PixelSource> transformed =
-            transformedSource(std::move(pixels), ColorTransform(currentPaint(state, VG_FILL_PATH)));
-        Compositor compositor(context, *transformed);
-        return draw(compositor);
-    }
+    if (mode == VG_DRAW_IMAGE_NORMAL)
+        return draw({*pixels});
+    if (mode == VG_DRAW_IMAGE_COLOR_MATRIX_NDS)
+        return draw(
+            {*transformedSource(std::move(pixels), ColorTransform(currentPaint(state, VG_FILL_PATH)))});
     std::unique_ptr<PixelSource> paint = paintSource(
         currentPaint(state, VG_FILL_PATH), toSurface * state.matrix(VG_MATRIX_FILL_PAINT_TO_USER), state);
     if (!paint)
         return;
-    if (mode == VG_DRAW_IMAGE_MULTIPLY) {
-        const std::unique_ptr<PixelSource> product = productSource(std::move(pixels), std::move(paint));
-        Compositor compositor(context, *product);
-        return draw(compositor);
-    }
-    Compositor compositor(context, *paint, *pixels);
-    draw(compositor);
+    if (mode == VG_DRAW_IMAGE_MULTIPLY)
+        return draw({*productSource(std::move(pixels), std::move(paint))});
+    draw({*paint, pixels.get()});
 }
 
 }  // namespace vtm::openvg

@@ -100,8 +100,9 @@ void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& t
             paintSource(currentPaint(state, mode), toSurface * paintToUser, state);
         if (!paint)
             continue;
-        Compositor compositor(context, *paint);
-        coverPath(context, path, mode, toSurface, compositor.clip().bounds(), std::ref(compositor), cache);
+        compositorOf(context).draw(context, {*paint}, [&](const Rectangle& clip, const RowSink& row) {
+            coverPath(context, path, mode, toSurface, clip, row, cache);
+        });
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "api/openvg/draw/source_description.hpp"
 #include "api/openvg/image/pixel_rows.hpp"
 #include "api/openvg/paint/paint_color.hpp"
 
@@ -30,6 +31,7 @@ public:
     /// From one pixel to the next, if all are equally far from each other.
     bool isAffine() const { return isAffine_; }
     dvec2 step() const { return step_; }
+    const glm::dmat3& fromSurface() const { return fromSurface_; }
 
 private:
     glm::dmat3 fromSurface_;
@@ -59,6 +61,15 @@ public:
         });
     }
 
+    bool describe(SourceDescription& d) const override {
+        d.colorSpace = d.space = space();
+        if (function_.isPoint())
+            d.colors = ramp_.at(1);
+        else
+            d.colors = function_.field(map_.fromSurface(), ramp_);
+        return true;
+    }
+
 private:
     RowMap map_;
     Function function_;
@@ -79,6 +90,11 @@ public:
         const double start = value(first), rise = glm::dot(step, slope_);
         for (int i = 0; i < int(values.size()); ++i)
             values[std::size_t(i)] = start + i * rise;
+    }
+
+    bool isPoint() const { return isPoint_; }
+    LinearField field(const glm::dmat3& fromSurface, const ColorRamp& ramp) const {
+        return {fromSurface, start_, slope_, &ramp};
     }
 
 private:
@@ -104,6 +120,11 @@ public:
         const dvec2 start = first - center_ - focus_;
         for (int i = 0; i < int(values.size()); ++i)
             values[std::size_t(i)] = fromFocus({start.x + i * step.x, start.y + i * step.y});
+    }
+
+    bool isPoint() const { return isPoint_; }
+    RadialField field(const glm::dmat3& fromSurface, const ColorRamp& ramp) const {
+        return {fromSurface, center_ + focus_, focus_, radius2_, &ramp};
     }
 
 private:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/openvg/draw/compositor.hpp"
+#include "api/openvg/draw/clip.hpp"
 #include "api/openvg/draw/draw_path.hpp"
 #include "api/openvg/image/images.hpp"
 #include "api/openvg/image/pixels.hpp"

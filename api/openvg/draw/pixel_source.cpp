@@ -4,6 +4,7 @@
 #include <array>
 
 #include "api/openvg/draw/gradient_source.hpp"
+#include "api/openvg/draw/source_description.hpp"
 #include "api/openvg/draw/texel_source.hpp"
 #include "api/openvg/image/pixel_rows.hpp"
 #include "api/openvg/paint/paint_color.hpp"
@@ -18,6 +19,11 @@ public:
     explicit ConstantSource(Color color) : PixelSource(sRGBA_PRE), color_(color) {}
     void colors(int, int, std::span<Color> colors) const override { std::ranges::fill(colors, color_); }
     std::optional<Color> constant() const override { return color_; }
+    bool describe(SourceDescription& d) const override {
+        d.colors = color_;
+        d.colorSpace = d.space = space();
+        return true;
+    }
 
 private:
     Color color_;
@@ -38,6 +44,18 @@ public:
             for (int i = 0; i < count; ++i)
                 colors[std::size_t(first + i)] *= paints[std::size_t(i)];
         });
+    }
+
+    bool describe(SourceDescription& d) const override {
+        SourceDescription factor;
+        if (!image_->describe(factor) || !paint_->describe(d))
+            return false;
+        const auto* const texels = std::get_if<TexelField>(&factor.colors);
+        if (!texels || factor.transform)
+            return false;
+        d.factor = *texels;
+        d.space = space();
+        return true;
     }
 
 private:

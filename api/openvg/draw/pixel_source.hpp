@@ -22,6 +22,8 @@ struct StoredRow {
     const PixelFormat* format;
 };
 
+struct SourceDescription;
+
 class PixelSource {
 public:
     explicit PixelSource(ColorSpace space) : space_(space) {}
@@ -38,6 +40,9 @@ public:
     virtual std::optional<StoredRow> stored(int /*x*/, int /*y*/, int /*count*/) const {
         return std::nullopt;
     }
+    /// The source, to be computed elsewhere; it refers to the source and what that refers to. False if there
+    /// are no words for it.
+    virtual bool describe(SourceDescription& /*description*/) const { return false; }
 
 private:
     ColorSpace space_;

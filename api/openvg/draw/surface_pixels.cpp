@@ -14,20 +14,9 @@ void requirePixels(const Context& context, const char* function) {
         context.recorder->refuse(function);
 }
 
-/// Puts rows of another format into the surface, where scissoring lets it. `row(j)`: the area's j-th;
-/// `convert`: convertRow() or takeRow().
-template <class Row>
-void write(Context& context, const CopyArea& area, const PixelFormat& format, decltype(convertRow)* convert,
-           Row&& row) {
-    Pixels& pixels = context.surface->pixels();
-    const Clip clip(context);
-    for (int j = 0; j < area.height; ++j) {
-        const std::uint8_t* const from = row(j);
-        clip.parts(area.dy + j, area.dx, area.dx + area.width, [&](int first, int end) {
-            convert(from + std::size_t(first - area.dx) * format.pixelBytes(), format,
-                    pixels.at(first, area.dy + j), pixels.format(), end - first);
-        });
-    }
+/// An area of the surface that gets pixels of a source of some size.
+CopyArea clippedToSurface(const CopyArea& area, const Context& context, int sourceWidth, int sourceHeight) {
+    return clipped(area, context.surface->width(), context.surface->height(), sourceWidth, sourceHeight);
 }
 
 }  // namespace
@@ -37,26 +26,20 @@ void vgClear(VGint x, VGint y, VGint width, VGint height) {
         require(width > 0 && height > 0);
         if (context.recorder)
             return context.recorder->clear(context.state, x, y, width, height);
-        Pixels& pixels = context.surface->pixels();
-        const std::uint32_t word = wordOf(context.state.clearColor, pixels.format());
-        const CopyArea area =
-            clipped({x, y, 0, 0, width, height}, pixels.width(), pixels.height(), width, height);
-        const Clip clip(context);
-        for (int j = 0; j < area.height; ++j)
-            clip.parts(area.dy + j, area.dx, area.dx + area.width,
-                       [&](int first, int end) { pixels.fill(first, end, area.dy + j, word); });
+        compositorOf(context).clear(context,
+                                    clippedToSurface({x, y, 0, 0, width, height}, context, width, height),
+                                    wordOf(context.state.clearColor, context.surface->pixels().format()));
     });
 }
 
 void vgSetPixels(VGint dx, VGint dy, VGImage src, VGint sx, VGint sy, VGint width, VGint height) {
     call([&](Context& context) {
         requirePixels(context, "vgSetPixels");
-        const std::shared_ptr<Image> image = freeImage(context, src);
+        const std::shared_ptr<const Image> image = freeImage(context, src);
         require(width > 0 && height > 0);
-        const CopyArea area = clipped({dx, dy, sx, sy, width, height}, context.surface->width(),
-                                      context.surface->height(), image->width(), image->height());
-        write(context, area, image->format(), convertRow,
-              [&](int j) { return image->at(area.sx, area.sy + j); });
+        compositorOf(context).setPixels(
+            context, *image,
+            clippedToSurface({dx, dy, sx, sy, width, height}, context, image->width(), image->height()));
     });
 }
 
@@ -65,15 +48,8 @@ void vgWritePixels(const void* data, VGint dataStride, VGImageFormat dataFormat,
     call([&](Context& context) {
         requirePixels(context, "vgWritePixels");
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
-        const CopyArea area = clipped({dx, dy, 0, 0, width, height}, context.surface->width(),
-                                      context.surface->height(), width, height);
-        std::vector<std::uint8_t> bytes(memory.isPacked() ? std::size_t(area.width) : 0);
-        write(context, area, memory.format(), takeRow, [&](int j) -> const std::uint8_t* {
-            if (!memory.isPacked())
-                return memory.at(area.sx, area.sy + j);
-            memory.unpackRow(area.sx, area.sy + j, area.width, bytes.data());
-            return bytes.data();
-        });
+        compositorOf(context).writePixels(
+            context, memory, clippedToSurface({dx, dy, 0, 0, width, height}, context, width, height));
     });
 }
 
@@ -82,10 +58,10 @@ void vgGetPixels(VGImage dst, VGint dx, VGint dy, VGint sx, VGint sy, VGint widt
         requirePixels(context, "vgGetPixels");
         const std::shared_ptr<Image> image = freeImage(context, dst);
         require(width > 0 && height > 0);
-        const Pixels& pixels = context.surface->pixels();
-        const CopyArea area = clipped({dx, dy, sx, sy, width, height}, image->width(), image->height(),
-                                      pixels.width(), pixels.height());
-        copyPixels(pixels, *image, area);
+        compositorOf(context).getPixels(
+            context, *image,
+            clipped({dx, dy, sx, sy, width, height}, image->width(), image->height(),
+                    context.surface->width(), context.surface->height()));
     });
 }
 
@@ -94,10 +70,9 @@ void vgReadPixels(void* data, VGint dataStride, VGImageFormat dataFormat, VGint 
     call([&](Context& context) {
         requirePixels(context, "vgReadPixels");
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
-        const Pixels& pixels = context.surface->pixels();
-        const CopyArea area =
-            clipped({0, 0, sx, sy, width, height}, width, height, pixels.width(), pixels.height());
-        copyPixels(pixels, memory, area);
+        compositorOf(context).readPixels(context, memory,
+                                         clipped({0, 0, sx, sy, width, height}, width, height,
+                                                 context.surface->width(), context.surface->height()));
     });
 }
 
@@ -105,21 +80,8 @@ void vgCopyPixels(VGint dx, VGint dy, VGint sx, VGint sy, VGint width, VGint hei
     call([&](Context& context) {
         requirePixels(context, "vgCopyPixels");
         require(width > 0 && height > 0);
-        Pixels& pixels = context.surface->pixels();
-        const CopyArea area = clipped({dx, dy, sx, sy, width, height}, pixels.width(), pixels.height(),
-                                      pixels.width(), pixels.height());
-        // What is written over what is still to be read: the last rows first, each by way of a copy.
-        const bool isUp = area.dy > area.sy;
-        const Clip clip(context);
-        const std::size_t bytes = pixels.pixelBytes();
-        std::vector<std::uint8_t> row(std::size_t(area.width) * bytes);
-        for (int i = 0; i < area.height; ++i) {
-            const int j = isUp ? area.height - 1 - i : i;
-            std::memcpy(row.data(), pixels.at(area.sx, area.sy + j), row.size());
-            clip.parts(area.dy + j, area.dx, area.dx + area.width, [&](int first, int end) {
-                std::memcpy(pixels.at(first, area.dy + j), row.data() + std::size_t(first - area.dx) * bytes,
-                            std::size_t(end - first) * bytes);
-            });
-        }
+        compositorOf(context).copyPixels(
+            context, clippedToSurface({dx, dy, sx, sy, width, height}, context, context.surface->width(),
+                                      context.surface->height()));
     });
 }

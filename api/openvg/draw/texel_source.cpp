@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "api/openvg/draw/source_description.hpp"
 #include "api/openvg/draw/texel_rows.hpp"
 #include "api/openvg/image/pixel_rows.hpp"
 
@@ -47,18 +48,15 @@ int Texels::inside(double v, int size) const {
 
 // ---- The source -----------------------------------------------------------------------------------
 
+int samplesAlong(glm::dvec2 side) {
+    const double length = glm::length(side);
+    // A little longer is not longer.
+    return length > 1.001 ? int(std::min(std::ceil(length), double(maxSamples))) : 1;
+}
+
 namespace {
 
 using glm::dvec2;
-
-/// Samples along each side of a pixel's footprint, at most.
-constexpr int maxSamples = 16;
-
-/// A side longer than a texel is sampled at least once a texel. A little longer is not longer.
-int samplesAlong(dvec2 side) {
-    const double length = glm::length(side);
-    return length > 1.001 ? int(std::min(std::ceil(length), double(maxSamples))) : 1;
-}
 
 /// Whether pixels are texels: the map moves by whole pixels, and may turn rows upside down.
 bool isMove(const glm::dmat3& m) {
@@ -101,6 +99,13 @@ public:
         if (!(p.x >= 0 && p.y >= 0 && p.x + count - 1 < image.width() && p.y < image.height()))
             return std::nullopt;
         return StoredRow{image.at(int(p.x), int(p.y)), &image.format()};
+    }
+
+    bool describe(SourceDescription& d) const override {
+        d.colors = TexelField{fromSurface_, &texels_.image(), texels_.tiling(), texels_.fill(),
+                              isSmooth_ && !isMove_};
+        d.colorSpace = d.space = space();
+        return true;
     }
 
 private:

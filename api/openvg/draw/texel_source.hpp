@@ -14,6 +14,7 @@ public:
     const Image& image() const { return image_; }
     /// Of colours: the image's own, premultiplied.
     ColorSpace space() const;
+    VGTilingMode tiling() const { return tiling_; }
     /// The fill colour of VG_TILE_FILL, in space().
     Color fill() const { return fill_; }
 
@@ -30,6 +31,11 @@ private:
     VGTilingMode tiling_;
     Color fill_;
 };
+
+/// A side of a pixel's footprint that is longer than a texel is sampled at least once a texel, up to this
+/// many times.
+inline constexpr int maxSamples = 16;
+int samplesAlong(glm::dvec2 side);
 
 /// Nearest, bilinear if smooth, or where the view minifies the mean of bilinear samples over the pixel's
 /// footprint. `fromSurface` leads to the image's coordinates.

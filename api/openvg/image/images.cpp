@@ -77,7 +77,7 @@ void vgClearImage(VGImage handle, VGint x, VGint y, VGint width, VGint height) {
             clipped({x, y, 0, 0, width, height}, image->width(), image->height(), width, height);
         const int left = image->area.x0 + area.dx;
         for (int j = 0; j < area.height; ++j)
-            image->storage->pixels.fill(left, left + area.width, image->area.y0 + area.dy + j, word);
+            image->storage->pixels.write().fill(left, left + area.width, image->area.y0 + area.dy + j, word);
     });
 }
 

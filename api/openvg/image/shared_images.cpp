@@ -130,7 +130,7 @@ VtmPixels vtmTakeSharedPixels(VtmSharedImage* image, void* to) {
     const std::shared_ptr<ImageStorage> storage = image->storage.lock();
     if (!storage)
         return VTM_PIXELS_GONE;
-    const Pixels& pixels = storage->pixels;
+    const Pixels& pixels = storage->pixels.read();
     const std::size_t rowBytes = std::size_t(vtmSharedImageWidth(image)) * pixels.pixelBytes();
     std::vector<std::uint8_t> stored;
     stored.reserve(rowBytes * std::size_t(vtmSharedImageHeight(image)));
@@ -155,7 +155,7 @@ void vtmPutSharedPixels(VtmSharedImage* image, const void* from) {
     const std::shared_ptr<ImageStorage> storage = image->storage.lock();
     if (!storage || image->bytes.empty())
         return;
-    Pixels& pixels = storage->pixels;
+    Pixels& pixels = storage->pixels.write();
     const auto* bytes = static_cast<const std::uint8_t*>(from);
     std::size_t i = 0;
     for (int y = image->area.y0; y < image->area.y1; ++y)

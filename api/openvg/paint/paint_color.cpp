@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "api/openvg/draw/source_description.hpp"
 #include "api/openvg/paint/lanes.hpp"
 
 namespace vtm::openvg {
@@ -23,6 +24,14 @@ public:
         for (Color& color : colors)
             color = premultiplied(
                 transform_(converted(unpremultiplied(color), source_->space(), transform_.space())));
+    }
+
+    bool describe(SourceDescription& d) const override {
+        if (!source_->describe(d) || d.transform)
+            return false;
+        d.transform = transform_;
+        d.space = space();
+        return true;
     }
 
 private:

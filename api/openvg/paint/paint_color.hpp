@@ -26,6 +26,8 @@ public:
     bool isOn() const { return isOn_; }
     /// Of a colour that is not premultiplied.
     Color operator()(Color color) const { return clampedToUnit(color * scale_ + bias_); }
+    Color scale() const { return scale_; }
+    Color bias() const { return bias_; }
 
 private:
     bool isOn_;
@@ -42,6 +44,9 @@ public:
     ColorSpace space() const { return space_; }
     /// Clamps its result to [0, 1].
     Color operator()(Color color) const;
+
+    const glm::mat4& matrix() const { return matrix_; }
+    Color added() const { return added_; }
 
 private:
     glm::mat4 matrix_;
@@ -77,6 +82,10 @@ public:
     }
     void row(std::span<const double> offsets, std::span<Color> colors) const;
 
+    VGColorRampSpreadMode spread() const { return spread_; }
+    /// Whether stops are mixed as premultiplied colours.
+    bool isPremultiplied() const { return premultiplied_; }
+
     struct Stop {
         float offset;
         Color color;  ///< premultiplied if the ramp's are
@@ -89,19 +98,22 @@ public:
         return premultiplied_ ? color : premultiplied(color);
     }
 
-private:
     /// Where colours are `start + t * change`, t being 0 at `origin`.
     struct Piece {
         double low, high;  ///< half open
         double origin, scale;
         Color start, change;
     };
+    /// Of all numbers, in order.
+    const std::vector<Piece>& pieces() const { return pieces_; }
+
+private:
     const Piece& pieceAt(double offset) const;
     template <bool premultiplies, class Spread>
     void walk(std::span<const double> offsets, std::span<Color> colors, Spread&& spread) const;
 
     std::vector<Stop> stops_;
-    std::vector<Piece> pieces_;  ///< of all numbers, in order
+    std::vector<Piece> pieces_;
     ColorSpace space_;
     VGColorRampSpreadMode spread_;
     bool premultiplied_;  ///< colours of stops are, and so is what lies between

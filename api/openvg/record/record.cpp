@@ -303,7 +303,7 @@ RecordedMask Recorder::maskOfLayer(const MaskLayer& layer) {
     if (const auto written = layers_.find(layer.handle); written != layers_.end())
         return written->second;
     const auto isAll = [&](std::uint8_t value) {
-        return std::ranges::all_of(layer.mask.values, [&](std::uint8_t v) { return v == value; });
+        return std::ranges::all_of(layer.mask.values(), [&](std::uint8_t v) { return v == value; });
     };
     if (isAll(255))
         return {};

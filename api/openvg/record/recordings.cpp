@@ -8,7 +8,7 @@
 #include <vtm/asset/container.hpp>
 #include <vtm/compiler/compile.hpp>
 #include <vtm/raster/scan.hpp>
-#include "api/openvg/draw/compositor.hpp"
+#include "api/openvg/draw/row_compositor.hpp"
 #include "api/openvg/record/record.hpp"
 #include "api/openvg/state/matrix.hpp"
 
@@ -81,7 +81,7 @@ void drawOpaque(Context& context, const VtmRecording& recording, const asset::Vi
     // Roundings of running sums: this is no 255th of a pixel.
     constexpr float rounding = 1e-5f;
     const std::unique_ptr<PixelSource> source = constantSource(Color(0));
-    Compositor compositor(context, *source);
+    RowCompositor compositor(context, *source);
     recording.light.scan(view, [&](int y, const asset::ColorRun& run) {
         if (run.color.a < rounding)
             return;
@@ -97,7 +97,7 @@ void drawTranslucent(Context& context, const VtmRecording& recording, const asse
                      const Rectangle& seen) {
     const image::Raster light = recording.light.draw(view);
     PictureSource source(light, seen);
-    Compositor compositor(context, source);
+    RowCompositor compositor(context, source);
     std::vector<CoverageRun> moved;
     recording.coverage->scan(view, [&](int y, std::span<const CoverageRun> runs) {
         moved.assign(runs.begin(), runs.end());

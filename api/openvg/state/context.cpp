@@ -7,6 +7,7 @@
 
 #include <dlfcn.h>
 
+#include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/image/pixel_rows.hpp"
 
 namespace vtm::openvg {
@@ -116,6 +117,7 @@ VtmSurface* vtmCreateSurface(VGint width, VGint height, const VtmSurfaceFormat* 
         return nullptr;
     auto surface = std::make_unique<VtmSurface>();
     surface->storage = std::make_shared<ImageStorage>(Pixels(width, height, *pixelFormat));
+    surface->compositor = &chosenCompositor(VTM_COMPOSITOR_AUTOMATIC);
     if (format->maskBits != 0)
         surface->mask.emplace(width, height);
     return surface.release();
@@ -136,11 +138,23 @@ VtmSurface* vtmCreateImageSurface(VtmContext* context, VGImage image, VGint mask
         auto surface = std::make_unique<VtmSurface>();
         surface->storage = target->storage;
         surface->isImage = true;
+        surface->compositor = &chosenCompositor(VTM_COMPOSITOR_AUTOMATIC);
         if (maskBits != 0)
             surface->mask.emplace(target->width(), target->height());
         return surface.release();
     });
 }
+
+VtmCompositor vtmChooseCompositor(VtmSurface* surface, VtmCompositor compositor) {
+    surface->compositor = &chosenCompositor(compositor);
+    return vtmGetCompositor(surface);
+}
+
+VtmCompositor vtmGetCompositor(const VtmSurface* surface) {
+    return surface->compositor == &cpuCompositor() ? VTM_COMPOSITOR_CPU : VTM_COMPOSITOR_GL;
+}
+
+const char* vtmGetCompositorFault(void) { return compositorFault(); }
 
 void vtmDestroySurface(VtmSurface* surface) {
     if (!surface)
@@ -155,7 +169,7 @@ void vtmDestroySurface(VtmSurface* surface) {
 VGboolean vtmResizeSurface(VtmSurface* surface, VGint width, VGint height) try {
     if (surface->isImage || !isSide(width) || !isSide(height))
         return VG_FALSE;
-    const Pixels& old = surface->pixels();
+    const Pixels& old = surface->pixels().read();
     Pixels pixels(width, height, old.format());
     const int columns = std::min(width, old.width()), rows = std::min(height, old.height());
     for (int y = 0; y < rows; ++y)
@@ -166,7 +180,7 @@ VGboolean vtmResizeSurface(VtmSurface* surface, VGint width, VGint height) try {
         for (int y = 0; y < rows; ++y)
             std::copy_n(surface->mask->row(y), columns, mask->row(y));
     }
-    surface->storage->pixels = std::move(pixels);
+    surface->pixels().replace(std::move(pixels));
     surface->mask = std::move(mask);
     return VG_TRUE;
 } catch (const std::bad_alloc&) {
@@ -194,7 +208,7 @@ void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
 
 void vtmReadSurfacePart(VtmSurface* surface, VGint x0, VGint y0, VGint width, VGint height, void* bytes,
                         size_t rowBytes) {
-    const Pixels& pixels = surface->pixels();
+    const Pixels& pixels = surface->pixels().read();
     const PixelFormat& format = pixels.format();
     const PixelFormat output = bytesFormat();
     for (int y = 0; y < height; ++y)
@@ -203,7 +217,7 @@ void vtmReadSurfacePart(VtmSurface* surface, VGint x0, VGint y0, VGint width, VG
 }
 
 void vtmWriteSurface(VtmSurface* surface, const void* bytes, size_t rowBytes) {
-    Pixels& pixels = surface->pixels();
+    Pixels& pixels = surface->pixels().write();
     const PixelFormat& format = pixels.format();
     const PixelFormat input = bytesFormat();
     for (int y = 0; y < pixels.height(); ++y)
@@ -260,7 +274,7 @@ VGboolean vtmMakeCurrent(VtmContext* context, VtmSurface* surface) {
     surface->user = context;
     surface->storage->isTarget = true;
     if (surface->mask)
-        std::ranges::fill(surface->mask->values, std::uint8_t(255));
+        surface->mask->fill(255);
     return VG_TRUE;
 }
 
@@ -289,6 +303,9 @@ VGErrorCode vgGetError(void) {
     return context ? std::exchange(context->error, VG_NO_ERROR) : VG_NO_CONTEXT_ERROR;
 }
 
-// Every call draws at once.
-void vgFlush(void) {}
-void vgFinish(void) {}
+void vgFlush(void) {
+    call([](Context& context) { compositorOf(context).flush(); });
+}
+void vgFinish(void) {
+    call([](Context& context) { compositorOf(context).finish(); });
+}

@@ -18,15 +18,19 @@
 #include "api/openvg/state/objects.hpp"
 #include "api/openvg/state/state.hpp"
 
+namespace vtm::openvg {
+class Compositor;
+}
+
 struct VtmSurface {
     std::shared_ptr<vtm::openvg::ImageStorage> storage;
-    std::optional<vtm::openvg::MaskValues> mask;  ///< nothing: every value counts as 1
-    bool isImage = false;                         ///< drawn into an image of a context
-    VtmContext* user = nullptr;                   ///< the context that it is current with
-    bool isDestroyed = false;                     ///< goes when it is no longer current
+    std::optional<vtm::openvg::MaskValues> mask;    ///< nothing: every value counts as 1
+    vtm::openvg::Compositor* compositor = nullptr;  ///< one for all surfaces of its kind
+    bool isImage = false;                           ///< drawn into an image of a context
+    VtmContext* user = nullptr;                     ///< the context that it is current with
+    bool isDestroyed = false;                       ///< goes when it is no longer current
 
-    vtm::openvg::Pixels& pixels() { return storage->pixels; }
-    const vtm::openvg::Pixels& pixels() const { return storage->pixels; }
+    vtm::openvg::StoredPixels& pixels() const { return storage->pixels; }
     int width() const { return pixels().width(); }
     int height() const { return pixels().height(); }
     vtm::openvg::Rectangle bounds() const { return {0, 0, width(), height()}; }

@@ -3,6 +3,7 @@
 /// or another object.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <map>
@@ -14,7 +15,7 @@
 #include <VG/openvg.h>
 
 #include "api/openvg/draw/path_masks.hpp"
-#include "api/openvg/image/pixels.hpp"
+#include "api/openvg/image/stored_pixels.hpp"
 #include "api/openvg/path/path_data.hpp"
 
 namespace vtm::openvg {
@@ -41,7 +42,7 @@ struct SharedPixels;
 struct ImageStorage {
     explicit ImageStorage(Pixels p) : pixels(std::move(p)) {}
 
-    Pixels pixels;
+    StoredPixels pixels;
     std::atomic<int> images = 0;               ///< that show a part of it
     std::atomic<int> uses = 0;                 ///< as patterns and glyphs
     std::atomic<bool> isTarget = false;        ///< drawn into
@@ -64,11 +65,12 @@ struct Image : Object {
     int width() const { return area.x1 - area.x0; }
     int height() const { return area.y1 - area.y0; }
     const PixelFormat& format() const { return storage->pixels.format(); }
-    std::uint8_t* at(int x, int y) { return storage->pixels.at(area.x0 + x, area.y0 + y); }
-    const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+    /// To be changed, or to be read.
+    std::uint8_t* at(int x, int y) { return storage->pixels.write().at(area.x0 + x, area.y0 + y); }
+    const std::uint8_t* at(int x, int y) const { return storage->pixels.read().at(area.x0 + x, area.y0 + y); }
     std::ptrdiff_t stride() const { return storage->pixels.stride(); }
     Color color(int x, int y) const {
-        return format().decode(storage->pixels.word(area.x0 + x, area.y0 + y));
+        return format().decode(storage->pixels.read().word(area.x0 + x, area.y0 + y));
     }
 };
 
@@ -120,15 +122,32 @@ struct Paint : Object {
 
 // ---- Section 7.2 ----------------------------------------------------------------------------------
 
+namespace gl {
+class Texture;
+}
+
 /// Coverage in bytes, 255 being 1; row 0 at the bottom.
 struct MaskValues {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> values;
+    /// The same on a GPU; null: there is none, or it is out of date.
+    mutable std::shared_ptr<const gl::Texture> texture;
 
     MaskValues() = default;
-    MaskValues(int w, int h) : width(w), height(h), values(std::size_t(w) * std::size_t(h), 255) {}
-    std::uint8_t* row(int y) { return values.data() + std::size_t(y) * std::size_t(width); }
-    const std::uint8_t* row(int y) const { return const_cast<MaskValues*>(this)->row(y); }
+    MaskValues(int w, int h) : width(w), height(h), values_(std::size_t(w) * std::size_t(h), 255) {}
+    /// To be changed, or to be read.
+    std::uint8_t* row(int y) {
+        texture = nullptr;
+        return values_.data() + std::size_t(y) * std::size_t(width);
+    }
+    const std::uint8_t* row(int y) const { return values_.data() + std::size_t(y) * std::size_t(width); }
+    const std::vector<std::uint8_t>& values() const { return values_; }
+    void fill(std::uint8_t value) {
+        texture = nullptr;
+        std::ranges::fill(values_, value);
+    }
+
+private:
+    std::vector<std::uint8_t> values_;
 };
 
 struct MaskLayer : Object {

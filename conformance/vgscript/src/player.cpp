@@ -94,7 +94,9 @@ private:
 
 class Player {
 public:
-    explicit Player(const std::string& name) : frame_(name) { outcome_.bound = coverageBound; }
+    Player(const std::string& name, VtmCompositor compositor) : frame_(name), compositor_(compositor) {
+        outcome_.bound = coverageBound;
+    }
 
     Outcome play(const std::vector<Statement>& statements) {
         auto statement = statements.begin();
@@ -158,6 +160,7 @@ private:
         surface_.reset(vtmCreateSurface(width_, height_, &format_));
         if (!context_ || !surface_)
             frame_.fail("no such surface");
+        vtmChooseCompositor(surface_.get(), compositor_);
         vtmMakeCurrent(context_.get(), surface_.get());
     }
 
@@ -291,6 +294,7 @@ private:
     }
 
     Frame frame_;
+    VtmCompositor compositor_;
     Outcome outcome_;
     int line_ = 0;
     VGint width_ = 64, height_ = 64;
@@ -303,6 +307,8 @@ private:
 
 }  // namespace
 
-Outcome play(std::string_view text, const std::string& name) { return Player(name).play(parse(text, name)); }
+Outcome play(std::string_view text, const std::string& name, VtmCompositor compositor) {
+    return Player(name, compositor).play(parse(text, name));
+}
 
 }  // namespace vtm::vgscript

@@ -1,6 +1,6 @@
 // Finding the system's libEGL. It has the name that ours has, so it is looked for file by file.
 
-#include "api/egl/system/system.hpp"
+#include "api/system_egl/system.hpp"
 
 #include <cstdlib>
 #include <memory>
@@ -15,15 +15,13 @@ namespace {
 
 constexpr const char* fileName = "/libEGL.so.1";
 
-#ifdef __GLIBC__
-/// The library that this code is in.
+/// The library that this code is in; null: the program.
 void* ourselves() {
     Dl_info info;
     if (dladdr(reinterpret_cast<void*>(&systemEgl), &info) == 0)
         return nullptr;
     return dlopen(info.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
 }
-#endif
 
 /// Where the loader looks, in its order.
 std::vector<std::string> loaderFolders() {
@@ -51,8 +49,13 @@ std::vector<std::string> loaderFolders() {
 /// A library of ours knows the functions of vtm/vg.h, wherever it was copied to: forwarding to it would come
 /// back to us.
 bool isOurs(const System& system) {
-    return system.GetProcAddress == &::eglGetProcAddress ||
-           system.GetProcAddress("vtmCreateContext") != nullptr;
+    // Ours must not be called before it knows of a system's.
+    void* const library = ourselves();
+    const bool isThisOne =
+        library && dlsym(library, "eglGetProcAddress") == reinterpret_cast<void*>(system.GetProcAddress);
+    if (library)
+        dlclose(library);
+    return isThisOne || system.GetProcAddress("vtmCreateContext") != nullptr;
 }
 
 const System* load(const std::string& path) {

@@ -1,4 +1,4 @@
-#include "api/openvg/draw/compositor.hpp"
+#include "api/openvg/draw/row_compositor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,25 +9,47 @@
 
 namespace vtm::openvg {
 
-Compositor::Compositor(Context& context, const PixelSource& source)
-    : surface_(*context.surface),
+namespace {
+
+bool hasAlphaOnly(const PixelFormat& format) { return format.red.bits == 0 && format.grey.bits == 0; }
+
+}  // namespace
+
+void prepareColors(std::span<Color> colors, ColorSpace from, const ScaleAndBias& transform,
+                   const PixelFormat& format) {
+    ColorSpace to = format.space;
+    if (from.linear == to.linear && from.luminance == to.luminance && !transform.isOn())
+        return;
+    from.premultiplied = to.premultiplied = true;
+    if (transform.isOn()) {
+        for (Color& color : colors)
+            color = premultiplied(transform(unpremultiplied(color)));
+        from.luminance = false;  // what was grey may no longer be
+    }
+    // Alpha-only surfaces keep no colour to convert.
+    if (!hasAlphaOnly(format))
+        convertColors(colors, from, to);
+}
+
+RowCompositor::RowCompositor(Context& context, const PixelSource& source)
+    : pixels_(context.surface->pixels().write()),
       clip_(context),
       source_(source),
       blend_(blendModeOf(context.state.blendMode)),
       isOver_(context.state.blendMode == VG_BLEND_SRC_OVER),
       isSource_(context.state.blendMode == VG_BLEND_SRC),
       transform_(context.state),
-      format_(surface_.pixels().format()),
-      isAlphaOnly_(format_.red.bits == 0 && format_.grey.bits == 0) {
-    if (context.state.masking && surface_.mask)
-        mask_ = &*surface_.mask;
+      format_(pixels_.format()),
+      isAlphaOnly_(hasAlphaOnly(format_)) {
+    if (context.state.masking && context.surface->mask)
+        mask_ = &*context.surface->mask;
     mixesLight_ = !format_.space.linear && !isAlphaOnly_;
     order_ = byteOrder(format_);
     if (const std::optional<Color> color = source.constant())
         use(*color);
 }
 
-void Compositor::use(Color color) {
+void RowCompositor::use(Color color) {
     prepare(std::span(&color, 1));
     constant_ = color;
     drawsBytes_ = isOver_ && !mask_ && order_ == ByteOrder{0, 1, 2, 3};
@@ -38,38 +60,18 @@ void Compositor::use(Color color) {
         light_[c] = gamma_.decode(color[c]);
 }
 
-Compositor::Compositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
-    : Compositor(context, paint) {
+RowCompositor::RowCompositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
+    : RowCompositor(context, paint) {
     stencil_ = &stencil;
     drawsBytes_ = false;
 }
 
-bool Compositor::isPrepared() const {
-    const ColorSpace from = source_.space(), to = format_.space;
-    return from.linear == to.linear && from.luminance == to.luminance && !transform_.isOn();
-}
-
-void Compositor::prepare(std::span<Color> colors) const {
-    if (isPrepared())
-        return;
-    ColorSpace from = source_.space(), to = format_.space;
-    from.premultiplied = to.premultiplied = true;
-    if (transform_.isOn()) {
-        for (Color& color : colors)
-            color = premultiplied(transform_(unpremultiplied(color)));
-        from.luminance = false;  // what was grey may no longer be
-    }
-    // Alpha-only surfaces keep no colour to convert.
-    if (!isAlphaOnly_)
-        convertColors(colors, from, to);
-}
-
-void Compositor::operator()(int y, std::span<const CoverageRun> runs) {
+void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
     for (const CoverageRun& run : runs)
         clip_.parts(y, run.first, run.end, [&](int first, int end) { drawPart(y, first, end, run.share); });
 }
 
-void Compositor::drawPart(int y, int first, int end, float share) {
+void RowCompositor::drawPart(int y, int first, int end, float share) {
     if (drawsBytes_ && share != 1)
         return drawEdgeBytes(y, first, end, share);
     if (drawsBytes_ && drawBytes(y, first, end))
@@ -81,13 +83,12 @@ void Compositor::drawPart(int y, int first, int end, float share) {
 
 // ---- Bytes ----------------------------------------------------------------------------------------
 
-bool Compositor::drawBytes(int y, int first, int end) {
-    Pixels& pixels = surface_.pixels();
+bool RowCompositor::drawBytes(int y, int first, int end) {
     if (constant_->a == 1) {
-        pixels.fill(first, end, y, word_);
+        pixels_.fill(first, end, y, word_);
         return true;
     }
-    std::uint8_t* const p = pixels.at(first, y);
+    std::uint8_t* const p = pixels_.at(first, y);
     const bool hasAlpha = format_.alpha.bits != 0, isStraight = hasAlpha && !format_.space.premultiplied;
     // What is translucent must be divided by its alpha to be mixed.
     if (isStraight && !isOpaque(p, end - first))
@@ -96,8 +97,8 @@ bool Compositor::drawBytes(int y, int first, int end) {
     return true;
 }
 
-void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
-    std::uint8_t* p = surface_.pixels().at(first, y);
+void RowCompositor::drawEdgeBytes(int y, int first, int end, float share) {
+    std::uint8_t* p = pixels_.at(first, y);
     const bool hasAlpha = format_.alpha.bits != 0;
     const auto each = [&](auto&& mixed) {
         for (int x = first; x < end; ++x, p += 4) {
@@ -129,11 +130,11 @@ void Compositor::drawEdgeBytes(int y, int first, int end, float share) {
     });
 }
 
-bool Compositor::drawStored(int y, int first, int end) {
+bool RowCompositor::drawStored(int y, int first, int end) {
     const std::optional<StoredRow> row = source_.stored(first, y, end - first);
     if (!row || transform_.isOn())
         return false;
-    std::uint8_t* const p = surface_.pixels().at(first, y);
+    std::uint8_t* const p = pixels_.at(first, y);
     const PixelFormat& from = *row->format;
     // What has no alpha has no colour, unless it is stored without premultiplied alpha.
     const bool isStraight = from.alpha.bits != 0 && !from.space.premultiplied;
@@ -149,7 +150,7 @@ bool Compositor::drawStored(int y, int first, int end) {
 
 // ---- Any format -----------------------------------------------------------------------------------
 
-void Compositor::sourceRow(int x, int y, std::span<Color> colors) const {
+void RowCompositor::sourceRow(int x, int y, std::span<Color> colors) const {
     if (constant_) {
         std::ranges::fill(colors, *constant_);
         return;
@@ -158,7 +159,8 @@ void Compositor::sourceRow(int x, int y, std::span<Color> colors) const {
     prepare(colors);
 }
 
-void Compositor::blendRow(int x, int y, std::span<const Color> source, std::span<Color> destination) const {
+void RowCompositor::blendRow(int x, int y, std::span<const Color> source,
+                             std::span<Color> destination) const {
     if (!stencil_)
         return blend_.row(source, destination);
     std::array<Color, rowChunk> stencils;
@@ -176,8 +178,8 @@ void Compositor::blendRow(int x, int y, std::span<const Color> source, std::span
     }
 }
 
-void Compositor::mixRow(std::span<const Color> before, std::span<const float> coverage,
-                        std::span<Color> after) const {
+void RowCompositor::mixRow(std::span<const Color> before, std::span<const float> coverage,
+                           std::span<Color> after) const {
     const auto linear = [](Color c) { return premultiplied(fastDecoded(unpremultiplied(c))); };
     for (std::size_t i = 0; i < after.size(); ++i) {
         if (coverage[i] == 1)
@@ -191,7 +193,7 @@ void Compositor::mixRow(std::span<const Color> before, std::span<const float> co
     }
 }
 
-void Compositor::drawAny(int y, int first, int end, float share) {
+void RowCompositor::drawAny(int y, int first, int end, float share) {
     const std::uint8_t* mask = mask_ ? mask_->row(y) : nullptr;
     std::array<float, rowChunk> buffer;
     inChunks(end - first, [&](int from, int count) {
@@ -203,11 +205,11 @@ void Compositor::drawAny(int y, int first, int end, float share) {
     });
 }
 
-void Compositor::drawRow(int x, int y, std::span<const float> coverage) {
+void RowCompositor::drawRow(int x, int y, std::span<const float> coverage) {
     std::array<Color, rowChunk> sources, destinations, afters;
     const std::size_t count = coverage.size();
     const std::span<Color> source = std::span(sources).first(count);
-    std::uint8_t* const pixels = surface_.pixels().at(x, y);
+    std::uint8_t* const pixels = pixels_.at(x, y);
     sourceRow(x, y, source);
     const bool isWhole = !mask_ && coverage[0] == 1;
     ColorSpace blended = format_.space;

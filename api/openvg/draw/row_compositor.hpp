@@ -1,0 +1,72 @@
+/// \file
+/// Coverage and colours to pixels: stages 5 and 8 of the pipeline (specification sections 2.5, 2.8 and 13).
+#pragma once
+
+#include <span>
+
+#include "api/openvg/draw/blend.hpp"
+#include "api/openvg/draw/clip.hpp"
+#include "api/openvg/draw/path_mask.hpp"
+#include "api/openvg/draw/pixel_source.hpp"
+#include "api/openvg/image/pixel_rows.hpp"
+#include "api/openvg/paint/paint_color.hpp"
+
+namespace vtm::openvg {
+
+/// A source's colours as they are blended into pixels of a format: transformed, in the format's space,
+/// premultiplied.
+void prepareColors(std::span<Color> colors, ColorSpace from, const ScaleAndBias& transform,
+                   const PixelFormat& to);
+
+/// Rows into pixels in memory: for one drawing call with the context's current state.
+class RowCompositor {
+public:
+    RowCompositor(Context& context, const PixelSource& source);
+    /// VG_DRAW_IMAGE_STENCIL: the paint through the image (section 10.8).
+    RowCompositor(Context& context, const PixelSource& paint, const PixelSource& stencil);
+
+    const Clip& clip() const { return clip_; }
+    /// The one colour of what comes next, in place of the source's: in its space, premultiplied.
+    void use(Color color);
+    void operator()(int y, std::span<const CoverageRun> runs);
+
+private:
+    void drawPart(int y, int first, int end, float share);
+    /// One colour over bytes: all of a pixel, or part of it. False for what drawRow() must do.
+    bool drawBytes(int y, int first, int end);
+    void drawEdgeBytes(int y, int first, int end, float share);
+    /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
+    bool drawStored(int y, int first, int end);
+    void drawAny(int y, int first, int end, float share);
+    /// No more than rowChunk pixels, of any format, each covered by its share.
+    void drawRow(int x, int y, std::span<const float> coverage);
+    /// What the source gives, as it is blended: transformed, in the surface's space, premultiplied.
+    void sourceRow(int x, int y, std::span<Color> colors) const;
+    /// The destination replaced by what would be if the drawing covered all of each pixel.
+    void blendRow(int x, int y, std::span<const Color> source, std::span<Color> destination) const;
+    /// What was there and what would be, mixed by coverage (section 2.8).
+    void mixRow(std::span<const Color> before, std::span<const float> coverage, std::span<Color> after) const;
+    void prepare(std::span<Color> colors) const {
+        prepareColors(colors, source_.space(), transform_, format_);
+    }
+
+    Pixels& pixels_;  ///< the surface's
+    Clip clip_;
+    const PixelSource& source_;
+    const PixelSource* stencil_ = nullptr;
+    BlendMode blend_;
+    bool isOver_, isSource_;            ///< VG_BLEND_SRC_OVER, VG_BLEND_SRC
+    bool mixesLight_;                   ///< edges are mixed in linear light, though the surface is not linear
+    const MaskValues* mask_ = nullptr;  ///< null: no masking
+    ScaleAndBias transform_;
+    const PixelFormat& format_;  ///< the surface's
+    bool isAlphaOnly_;
+    std::optional<ByteOrder> order_;  ///< the surface's
+    std::optional<Color> constant_;   ///< prepared
+    bool drawsBytes_ = false;         ///< `constant_` over bytes by a rule that drawBytes() knows
+    std::uint32_t word_ = 0;          ///< `constant_` as a pixel
+    glm::vec3 light_{0};              ///< `constant_` in linear light
+    const ByteGamma& gamma_ = byteGamma();
+};
+
+}  // namespace vtm::openvg

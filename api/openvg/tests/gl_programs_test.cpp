@@ -1,0 +1,74 @@
+// The compositor's programs as text: GLSL ES 3.00 by the reference compiler, and WebGL 2's where nothing is
+// fetched.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <VG/vgext.h>
+
+#include "api/openvg/gl/programs.hpp"
+
+namespace vtm::openvg::gl {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Each blend mode with one source, each source and flag with one blend mode.
+std::vector<ProgramKey> everyKey() {
+    std::vector<ProgramKey> keys;
+    const auto add = [&](const ProgramKey& key) { keys.push_back(key); };
+    for (const auto task : {ProgramKey::Task::store, ProgramKey::Task::copy})
+        add({.task = task});
+    for (int mode = VG_BLEND_SRC; mode <= VG_BLEND_ADDITIVE; ++mode)
+        add({.isStencil = mode % 2 == 0, .blendMode = mode});
+    for (int mode = VG_BLEND_OVERLAY_KHR; mode <= VG_BLEND_XOR_KHR; ++mode)
+        add({.isStencil = mode % 2 == 0, .blendMode = mode});
+    for (const auto source : {SourceKind::solid, SourceKind::linear, SourceKind::radial, SourceKind::texels})
+        for (int flags = 0; flags < 16; ++flags)
+            add({.source = source,
+                 .transforms = (flags & 1) != 0,
+                 .multiplies = (flags & 2) != 0,
+                 .isStencil = (flags & 4) != 0,
+                 .isMasked = (flags & 8) != 0,
+                 .blendMode = VG_BLEND_SRC_OVER});
+    return keys;
+}
+
+TEST(GlPrograms, AreGlslEs300ByTheReferenceCompiler) {
+    if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
+        GTEST_SKIP() << "glslangValidator is not installed";
+    const fs::path folder = fs::path(testing::TempDir()) / "vtm_openvg_programs";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    std::set<std::string> written;
+    const auto write = [&](const std::string& text, const char* stage) {
+        if (written.insert(text).second)
+            std::ofstream(folder / (std::to_string(written.size()) + stage)) << text;
+    };
+    for (const ProgramKey& key : everyKey()) {
+        const ProgramText text = programText(key, false);
+        EXPECT_EQ(text.fragment.find("#define FETCHES"), std::string::npos);
+        write(text.vertex, ".vert");
+        write(text.fragment, ".frag");
+    }
+    const std::string log = (folder / "log").string();
+    const std::string command = "glslangValidator " + (folder / "*.vert").string() + " " +
+                                (folder / "*.frag").string() + " > " + log + " 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << std::ifstream(log).rdbuf();
+    fs::remove_all(folder);
+}
+
+TEST(GlPrograms, FetchOnlyWhereTheyBlend) {
+    for (const ProgramKey& key : everyKey())
+        EXPECT_EQ(programText(key, true).fragment.find("#define FETCHES") != std::string::npos,
+                  key.task == ProgramKey::Task::layer);
+}
+
+}  // namespace
+}  // namespace vtm::openvg::gl
