@@ -55,7 +55,8 @@ std::vector<web::View> debugPages(const Source& source) {
 
 /// Found as exactly as files are drawn.
 web::Ids itemsOf(const scene::Scene& scene) {
-    const compiler::Options options;
+    compiler::Options options;
+    options.instances = false;  // ids need it
     compiler::PickMap map = compiler::compilePickMap(scene, options);
     web::Ids ids;
     for (const auto& item : map.itemOfPaint)

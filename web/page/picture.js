@@ -5,7 +5,7 @@ import {Inputs, makeProgram} from './gpu.js';
 import {byColumns, inverse, multiply, scaling} from './matrix.js';
 import {Outlines} from './outlines.js';
 
-const budget = 28;       // milliseconds that a step of drawing takes
+const budget = 32;       // milliseconds that a step of drawing takes
 const tileSide = 128;    // device pixels
 const coarsest = 1 / 8;  // of the window's resolution
 const faded = 0.55;      // towards white, under outlines
@@ -20,6 +20,7 @@ export class Picture {
     const picture = new Picture();
     picture.gl = gl;
     picture.program = await makeProgram(gl, manifest.programs.viewVertex, manifest.programs.viewFragment);
+    performance.mark('vtm-compiled');
     picture.views = new Map();
     await picture.prepare('picture');
     picture.secondsPerPixel = null;
@@ -82,6 +83,7 @@ export class Picture {
     const [left, top, right, bottom] = this.box, x = (left + right) >> 1, y = (top + bottom) >> 1;
     this.draw([x, y, x + 1, y + 1], 1);
     const side = 64, sample = [Math.max(left, x - side), Math.max(top, y - side), Math.min(right, x + side), Math.min(bottom, y + side)];
+    performance.mark('vtm-warm');
     this.secondsPerPixel = 0;
     this.draw(sample, 1);
     this.frame.drawn = 0;

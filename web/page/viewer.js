@@ -23,6 +23,7 @@ export class Viewer {
     this.items = null;
     this.pending = false;
     this.changed = 0;
+    this.frames = 0;
     this.panel = new Panel(this);
     this.resize();
     this.camera.fit();
@@ -121,6 +122,7 @@ export class Viewer {
 
   change() {
     this.isChanged = true;
+    this.canvas.dataset.state = 'changed';
     this.changed = performance.now();
     this.request();
   }
@@ -149,17 +151,20 @@ export class Viewer {
 
   begin() {
     this.isChanged = false;
+    Object.assign(this.canvas.dataset, {state: 'coarse', frame: ++this.frames});
     this.fitCanvas();
     const left = this.split === null ? null : this.split * this.camera.window.width;
     this.isComplete = this.picture.begin(this.camera, this.picture.views.has(this.view) ? this.view : 'picture', left ?? Infinity);
     placeGroundAndImage(this.camera, left);
+    performance.mark('vtm-drawn');
     this.panel.showView();
     writeAddress({...this.camera.state, view: this.view, split: this.split, ground: this.ground});
   }
 
   finish() {
     this.isFirst = false;
+    performance.mark('vtm-complete');
     this.panel.showTime(this.picture.time);
-    this.canvas.dataset.complete = String(Number(this.canvas.dataset.complete ?? 0) + 1);
+    this.canvas.dataset.state = 'complete';
   }
 }
