@@ -9,6 +9,7 @@ import {hideMessage, showMessage} from './messages.js';
 import {Picture} from './picture.js';
 import {Viewer} from './viewer.js';
 
+// What is in data attributes of these says how far the page is: canvas state and frame, stage items.
 const canvas = byId('canvas'), stage = byId('stage');
 const contextOptions = {alpha: true, antialias: false, depth: false, stencil: false, preserveDrawingBuffer: true};
 
@@ -22,6 +23,7 @@ async function start(gl, viewer) {
   viewer.isFirst = true;
   await viewer.show(viewer.view);
   viewer.items = await Items.make(gl);
+  stage.dataset.items = viewer.items ? 'ready' : 'none';
 }
 
 function listenToLoss(gl, viewer) {

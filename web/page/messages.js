@@ -11,7 +11,10 @@ export function showMessage(title, text) {
   message.hidden = false;
 }
 
-export const hideMessage = () => { byId('message').hidden = true; };
+export function hideMessage() {
+  byId('message').hidden = true;
+  byId('message').replaceChildren();
+}
 
 // For a few seconds.
 let noticeTimer = 0;
