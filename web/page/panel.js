@@ -89,6 +89,6 @@ export class Panel {
   }
 
   showTime(milliseconds) {
-    byId('time').textContent = `${milliseconds < 9.95 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`;
+    byId('time').textContent = milliseconds === 0 ? '' : `${milliseconds < 9.95 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`;
   }
 }

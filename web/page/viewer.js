@@ -107,7 +107,7 @@ export class Viewer {
     const {clientWidth, clientHeight} = this.stage, fits = this.camera.scale === this.camera.fitScale;
     this.camera.resize(clientWidth, clientHeight, window.devicePixelRatio || 1);
     if (fits)
-      this.camera.fit();
+      this.camera.scale = this.camera.fitScale;
     this.camera.limit();
     this.change();
   }
