@@ -1,5 +1,6 @@
 /// \file
-/// What SampledTexture and IdRenderer give to GL, as data: for another binding of it, WebGL's, to upload, compile and set.
+/// What SampledTexture and IdRenderer give to GL, as data: for another binding of it, WebGL's, to upload,
+/// compile and set.
 #pragma once
 
 #include <array>

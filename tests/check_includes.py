@@ -86,7 +86,7 @@ LIBRARIES = {
     r"libdeflate\.h|avif/.*": {"image"},
     r"VG/.*|vtm/(vtm|vg|vg_image|gles)\.h": ANYWHERE,
     r"EGL/.*|GLES3/.*|GLES2/.*|KHR/.*": {"backend_gl", "examples", "bench", "api/egl", "api/gl", "api/gles"},
-    r"dlfcn\.h": {"api", "api/openvg", "api/egl", "image", "trace"},
+    r"dlfcn\.h": {"api", "api/openvg", "api/egl", "backend_gl", "image", "trace"},
     r"stddef\.h|stdint\.h": {"api"},
     r"stdio\.h": {"api/egl", "tests"},
     r"CLI/.*": {"tools", "conformance/runner"},

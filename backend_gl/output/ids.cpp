@@ -129,7 +129,7 @@ IdRenderer::~IdRenderer() = default;
 IdTexture IdRenderer::upload(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint) {
     requireIds(asset, idOfPaint);
     dropErrors();
-    const StateGuard guard(impl_->contract, true);
+    const StateGuard guard(impl_->contract, true, Touched::uploads());
     auto texture = std::make_unique<IdTexture::Impl>();
     texture->map = mapOf(asset);
     texture->texels = texelTexture(recordsOf(asset, idOfPaint, texture->sections));
@@ -180,12 +180,13 @@ IdData idData(const asset::AssetView& asset, std::span<const std::uint32_t> idOf
     Sections s;
     const std::vector<Texel> texels = recordsOf(asset, idOfPaint, s);
     using Words = std::vector<std::uint32_t>;
-    return {joined(source.vertex),
-            joined(source.fragment),
-            {{texelData("texels", texels)},
-             {{"sections", Words{s.leaves, s.pieces, s.paints, s.data}}, {"rootEntry", Words{map.root.bits}}}},
-            {map.x, map.y, map.side},
-            unitsPerSide};
+    return {
+        joined(source.vertex),
+        joined(source.fragment),
+        {{texelData("texels", texels)},
+         {{"sections", Words{s.leaves, s.pieces, s.paints, s.data}}, {"rootEntry", Words{map.root.bits}}}},
+        {map.x, map.y, map.side},
+        unitsPerSide};
 }
 
 }  // namespace vtm::gl

@@ -1,5 +1,6 @@
-// export_programs FOLDER: writes every program as NUMBER_NAME.vert and .frag, for other compilers to read: the renderers',
-// filters', ids' and paper mode's, and programs of one sample each with every kind of include.
+// export_programs FOLDER: writes every program as NUMBER_NAME.vert and .frag, for other compilers to read:
+// the renderers', filters', ids' and paper mode's, and programs of one sample each with every kind of
+// include.
 #include <cstdio>
 #include <exception>
 #include <filesystem>

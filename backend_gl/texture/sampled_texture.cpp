@@ -107,7 +107,7 @@ SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOpt
     const Pyramid pyramid(asset, options);
     checkErrors("something before this texture was made");
     const StateContract contract;
-    const StateGuard guard(contract, true);
+    const StateGuard guard(contract, true, Touched::uploads());
     impl_ = std::make_unique<Impl>(asset, pyramid.view);
 }
 SampledTexture::~SampledTexture() = default;
@@ -125,7 +125,7 @@ std::size_t SampledTexture::update(const AssetView& asset, bool means) {
         pyramid = {made.size, made.texels};
     }
     const StateContract contract;
-    const StateGuard guard(contract, true);
+    const StateGuard guard(contract, true, Touched::uploads());
     const std::size_t sent = impl_->update(asset);
     if (means) {
         impl_->prefilter = uploadPrefilter(pyramid);
@@ -153,8 +153,13 @@ void SampledTexture::bind(unsigned program, const std::string& name, unsigned fi
 namespace {
 
 TextureData prefilterData(const asset::PrefilterView& pyramid) {
-    TextureData data{"prefilter", TextureData::Format::Rgba8, pyramid.size.width, pyramid.size.height,
-                     pyramid.size.levels(), true, {}};
+    TextureData data{"prefilter",
+                     TextureData::Format::Rgba8,
+                     pyramid.size.width,
+                     pyramid.size.height,
+                     pyramid.size.levels(),
+                     true,
+                     {}};
     const auto bytes = std::as_bytes(std::span(pyramid.texels));
     data.bytes.resize(bytes.size());
     std::memcpy(data.bytes.data(), bytes.data(), bytes.size());
