@@ -1,6 +1,6 @@
 /// \file
-/// A page that shows an asset: HTML with everything in it, drawn by WebGL 2 with the shaders of docs/texture.md.
-/// docs/view.md describes the page and its data.
+/// A page that shows an asset: HTML with everything in it, drawn by WebGL 2 with the shaders of
+/// docs/texture.md. docs/view.md describes the page and its data.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ struct Item {
     bool isStroke = false;
 };
 
-/// An asset, exact and without instances, whose paints have ids: 0 for nothing, i + 1 for items[i]. Without items
-/// ids are called regions.
+/// An asset, exact and without instances, whose paints have ids: 0 for nothing, i + 1 for items[i]. Without
+/// items ids are called regions.
 struct Ids {
     asset::Asset asset;
     std::vector<std::uint32_t> idOfPaint;
@@ -52,8 +52,8 @@ struct View {
 
 struct Source {
     std::string title;
-    asset::Asset picture;     ///< exact, without filters
-    double finestPixel = 0;   ///< user units: how far the page zooms
+    asset::Asset picture;    ///< exact, without filters
+    double finestPixel = 0;  ///< user units: how far the page zooms
     std::optional<Ids> ids;
     std::vector<View> views;
     std::vector<std::uint8_t> svg;  ///< the file, plain or gzipped, for the browser to draw; empty: none

@@ -92,14 +92,16 @@ std::optional<web::Ids> idsOf(const Source& source) {
 
 /// Before files told, nearly all were compiled with the usual tolerance.
 double finestPixelOf(const asset::Asset& asset) {
-    const double usual = compiler::Options().tolerance * std::max(asset.width, asset.height) / asset::finestShare;
+    const double usual =
+        compiler::Options().tolerance * std::max(asset.width, asset.height) / asset::finestShare;
     return asset.finestPixel.value_or(usual);
 }
 
 void refuseFilters(const asset::Asset& asset) {
     if (!asset.filters.empty())
         throw std::runtime_error(
-            "has filters that are computed when it is drawn; compile it with --filter-pixels, or view its SVG file");
+            "has filters that are computed when it is drawn; compile it with --filter-pixels, or view its "
+            "SVG file");
 }
 
 std::string titleOf(const std::string& input) {
@@ -119,8 +121,9 @@ std::string pageOf(const ViewOptions& options) {
     std::vector<std::uint8_t> svg = isSvg ? input.bytes : std::vector<std::uint8_t>();
     Source source = loadSource(std::move(input), options.source);
     refuseFilters(*source.asset);
-    web::Source page{titleOf(options.input), {}, finestPixelOf(*source.asset), idsOf(source),
-                     debugPages(source), std::move(svg)};
+    web::Source page{titleOf(options.input),       {},
+                     finestPixelOf(*source.asset), idsOf(source),
+                     debugPages(source),           std::move(svg)};
     page.picture = std::move(*source.asset);
     return web::page(page);
 }
@@ -143,8 +146,8 @@ int view(ViewOptions options) {
     return done;
 }
 
-/// Where the user chose none. Filters are drawn once, finely enough for a window. A page zooms four times closer than
-/// usual assets would let it, which costs a seventh of their size.
+/// Where the user chose none. Filters are drawn once, finely enough for a window. A page zooms four times
+/// closer than usual assets would let it, which costs a seventh of their size.
 constexpr unsigned usualFilterPixels = 1024;
 constexpr double usualTolerance = 0x1p-18;
 
@@ -154,14 +157,17 @@ void addView(CLI::App& app, int& exitCode) {
     const auto options = std::make_shared<ViewOptions>();
     options->source.compiler.filterPixels = usualFilterPixels;
     options->source.compiler.tolerance = usualTolerance;
-    CLI::App* command = app.add_subcommand("view", "Make a page that shows a picture in any browser, at any zoom");
-    command->add_option("FILE", options->input, "SVG, .vtmtree or .vtm file, or - for standard input")->required();
+    CLI::App* command =
+        app.add_subcommand("view", "Make a page that shows a picture in any browser, at any zoom");
+    command->add_option("FILE", options->input, "SVG, .vtmtree or .vtm file, or - for standard input")
+        ->required();
     command->add_option("-o,--output", options->output,
                         "The page, or - for standard output; FILE.html in the current folder if not given");
     addSourceOptions(*command, options->source);
     command->footer(
         "The page is one file and needs no server: WebGL 2 draws it with VTM's own shaders.\n\n"
-        "Examples:\n  vtm view tiger.svg\n  vtm view tiger.svg -o page.html\n  vtm view map.svg --tolerance 1e-6\n"
+        "Examples:\n  vtm view tiger.svg\n  vtm view tiger.svg -o page.html\n  vtm view map.svg --tolerance "
+        "1e-6\n"
         "  vtm view tiger.vtm -o - > page.html");
     command->callback([options, &exitCode] { exitCode = view(*options); });
 }

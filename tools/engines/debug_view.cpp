@@ -208,8 +208,8 @@ private:
 
 const vec3 placedColor(0.55f, 0.2f, 0.7f);
 
-/// visit(corner, size, color, isPlaced) for the squares of each map that is drawn, then for the boxes around the maps
-/// that are placed in it.
+/// visit(corner, size, color, isPlaced) for the squares of each map that is drawn, then for the boxes around
+/// the maps that are placed in it.
 template <class Visit>
 void forEachCell(const Asset& asset, Visit&& visit) {
     for (const asset::Command& command : asset.commands) {
@@ -306,7 +306,8 @@ std::optional<asset::Asset> debugAsset(const Asset& asset, DebugView view) {
     }
 }
 
-std::vector<DebugOutline> debugOutlines(const Asset& asset, const std::vector<compiler::UnprovenSquare>& unproven,
+std::vector<DebugOutline> debugOutlines(const Asset& asset,
+                                        const std::vector<compiler::UnprovenSquare>& unproven,
                                         DebugView view) {
     std::vector<DebugOutline> outlines;
     if (view == DebugView::Cells)

@@ -35,7 +35,8 @@ struct DebugOutline {
 };
 /// What Cells and Fallback draw.
 std::vector<DebugOutline> debugOutlines(const asset::Asset& asset,
-                                        const std::vector<compiler::UnprovenSquare>& unproven, DebugView view);
+                                        const std::vector<compiler::UnprovenSquare>& unproven,
+                                        DebugView view);
 
 /// A colour and what it stands for.
 struct DebugMark {

@@ -107,7 +107,7 @@ export class Picture {
     gl.viewport(0, 0, share === 1 ? gl.canvas.width : this.coarse.width, targetHeight);
     this.drawPicture(fromPicture, targetHeight);
     this.frame.view.outlines?.draw(fromPicture, share === 1 ? gl.canvas.width : this.coarse.width, targetHeight);
-    gl.finish();  // else the time would be that of asking
+    this.wait(box, targetHeight);
     this.note(performance.now() - start, area(box));
   }
 
@@ -121,6 +121,11 @@ export class Picture {
       byColumns([toUnit, inverse(fromPicture), upwards].reduce(multiply)));
     gl.uniform1f(gl.getUniformLocation(program, 'fade'), fade);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  // Reading a pixel waits until all are drawn, which finish() does not in every browser.
+  wait([left, , , bottom], targetHeight) {
+    this.gl.readPixels(left, targetHeight - bottom, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
   note(milliseconds, pixels) {

@@ -54,8 +54,8 @@ public:
             packed = isDifference ? other : packed;
         }
         list_[name] = {{"bytes", bytes.size()}, {"base", isDifference ? Json(base.name) : Json()}};
-        elements_ += fmt::format("<script type=\"application/octet-stream\" id=\"chunk-{}\">{}</script>\n", name,
-                                 base64(packed));
+        elements_ += fmt::format("<script type=\"application/octet-stream\" id=\"chunk-{}\">{}</script>\n",
+                                 name, base64(packed));
         return name;
     }
     std::string add(const std::string& name, std::string_view text) {
@@ -86,8 +86,12 @@ Json addTexture(Chunks& chunks, const std::string& view, const gl::TextureData& 
     const bool isRecords = texture.format == gl::TextureData::Format::Rgba32ui;
     const std::string name = view + '-' + texture.name;
     chunks.add(name, texture.bytes, isRecords ? base : Base());
-    return {{"name", texture.name},     {"format", formatName(texture.format)}, {"width", texture.width},
-            {"height", texture.height}, {"levels", texture.levels},             {"filtered", texture.isFiltered},
+    return {{"name", texture.name},
+            {"format", formatName(texture.format)},
+            {"width", texture.width},
+            {"height", texture.height},
+            {"levels", texture.levels},
+            {"filtered", texture.isFiltered},
             {"chunk", name}};
 }
 
@@ -127,8 +131,7 @@ Json addView(Chunks& chunks, const View& view, const Base& picture) {
         json["data"] = addData(chunks, view.name, gl::sampledData(*view.asset, small), picture);
     }
     if (!view.outlines.empty())
-        json["outlines"] =
-            chunks.add(view.name + "-outlines", outlineBytes(view.outlines));
+        json["outlines"] = chunks.add(view.name + "-outlines", outlineBytes(view.outlines));
     return json;
 }
 
@@ -150,8 +153,8 @@ std::string sourceOf(std::string_view stage) { return "#version 300 es\n" + std:
 Json addPrograms(Chunks& chunks, const asset::Asset& picture) {
     using namespace shaders;
     return {{"viewVertex", chunks.add("view-vertex", sourceOf(view_vertex))},
-            {"viewFragment",
-             chunks.add("view-fragment", "#version 300 es\n" + gl::sampleInclude({picture}) + std::string(view_fragment))},
+            {"viewFragment", chunks.add("view-fragment", "#version 300 es\n" + gl::sampleInclude({picture}) +
+                                                             std::string(view_fragment))},
             {"outlineVertex", chunks.add("outline-vertex", sourceOf(outline_vertex))},
             {"outlineFragment", chunks.add("outline-fragment", sourceOf(outline_fragment))}};
 }
@@ -171,9 +174,12 @@ std::string filled(std::string_view format, const std::map<std::string_view, std
 
 /// Nothing is loaded, and nothing runs but what we wrote.
 std::string policy() {
-    const auto hash = [](std::string_view digits) { return "'sha256-" + base64(fromHexadecimal(digits)) + "'"; };
-    return fmt::format("default-src 'none'; script-src {}; style-src {}; img-src blob:; base-uri 'none'; form-action 'none'",
-                       hash(text::scriptSha256), hash(text::styleSha256));
+    const auto hash = [](std::string_view digits) {
+        return "'sha256-" + base64(fromHexadecimal(digits)) + "'";
+    };
+    return fmt::format(
+        "default-src 'none'; script-src {}; style-src {}; img-src blob:; base-uri 'none'; form-action 'none'",
+        hash(text::scriptSha256), hash(text::styleSha256));
 }
 
 }  // namespace

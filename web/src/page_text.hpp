@@ -1,5 +1,6 @@
 /// \file
-/// The files of web/page, which the build embeds: the template, and what stands in it, with SHA-256 in hexadecimal.
+/// The files of web/page, which the build embeds: the template, and what stands in it, with SHA-256 in
+/// hexadecimal.
 #pragma once
 
 #include <string_view>
