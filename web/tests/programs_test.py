@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -92,7 +93,7 @@ compiling.forEach((made, i) => {
 });
 return [failures, gl.getParameter(gl.VERSION), parallel !== null];
 """
-BATCH = 24
+BATCH = 6
 
 
 def by_kind(names):
@@ -117,7 +118,7 @@ def drawn(names):
 
 def compiled(names):
     """Those that are drawn, and a sample of the others; all if asked for."""
-    sample = 6
+    sample = 12
     if "VTM_TEST_ALL" in os.environ:
         return names
     return sorted(drawn(names).union(*(kind[::sample] for kind in by_kind(names))))
@@ -166,6 +167,28 @@ class Programs(unittest.TestCase):
             text = self.text(name, "frag")
             arrays = set(re.findall(r"^\s*(?:const )?(?:u?i?vec[234]|float|u?int|\w*Level) (?:vtm_)?(\w+)\[\w+\]", text, re.M))
             self.assertLessEqual(arrays - {"kernel", "weights"}, stacks, name)
+
+    def test_every_loop_has_a_condition(self):
+        for name in self.names:
+            for stage in ("vert", "frag"):
+                self.assertNotRegex(self.text(name, stage), r"while\s*\(\s*true|for\s*\([^;]*;\s*;", name)
+
+    def translated(self, name, stage):
+        """Through SPIR-V, which knows ES from 3.10 on, back to GLSL ES 3.00."""
+        source, binary, back = (self.folder / f"translated{suffix}" for suffix in (f".{stage}", ".spv", f"_back.{stage}"))
+        source.write_text(self.text(name, stage).replace("#version 300 es", "#version 310 es", 1))
+        for command in (["glslangValidator", "-G", "--aml", "--amb", "-o", binary, source],
+                        ["spirv-cross", "--es", "--version", "300", "--output", back, binary], ["glslangValidator", back]):
+            done = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, f"{name}.{stage}: {done.stdout[:2000]}{done.stderr[:2000]}")
+
+    def test_other_compilers_understand_every_kind(self):
+        for program in ("glslangValidator", "spirv-cross"):
+            if not shutil.which(program):
+                self.skipTest(f"{program} is not installed")
+        for name in compiled(self.names):
+            for stage in ("vert", "frag"):
+                self.translated(name, stage)
 
     def test_every_precision_is_highp(self):
         """GLES promises it for fragments (GLSL ES 3.00 section 4.5.4), and nothing relies on a default."""

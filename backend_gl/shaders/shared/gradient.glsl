@@ -130,10 +130,8 @@ vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float l
     float n = periodic ? floor(u - reach) : 0.0, end = periodic ? u + reach : 1.0;
     Period part = Period(0.0, 0.0, 0.0);
     uint next = 0u;
-    while (true) {
+    while (n < end || part.from < part.last) {
         if (!(part.from < part.last)) {
-            if (!(n < end))
-                break;
             part = periodAt(spread, n++, u, reach);
             next = stopsUpTo(ASSET firstStop, count, part.middle + part.from);
         }
