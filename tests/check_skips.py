@@ -18,6 +18,7 @@ FEATURES = [
     ("avif", r"built without libavif"),
     ("potrace", r"built without potrace"),
     ("glslang", r"glslangValidator"),
+    ("chromium", r"Chromium"),
     ("valgrind", r"valgrind|callgrind"),
     ("xvfb", r"Xvfb|X server"),
     ("gl", r"OpenGL|EGL|does not draw"),

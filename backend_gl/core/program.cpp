@@ -133,25 +133,35 @@ std::vector<std::string> stage(std::initializer_list<std::string_view> parts) {
     return texts;
 }
 
-ShaderHandle compile(std::string_view program, GLenum stage, const std::vector<std::string>& parts) {
+ShaderHandle begun(GLenum stage, const std::vector<std::string>& parts) {
     std::vector<const char*> texts;
     for (const std::string& part : parts)
         texts.push_back(part.c_str());
-
     ShaderHandle shader(glCreateShader(stage));
     glShaderSource(shader.get(), GLsizei(texts.size()), texts.data(), nullptr);
     glCompileShader(shader.get());
-    GLint compiled = GL_FALSE;
-    glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
-    if (compiled)
-        return shader;
+    return shader;
+}
+
+template <class Get>
+std::string logBy(Get get, GLuint object) {
     std::string log(4096, '\0');
     GLsizei length = 0;
-    glGetShaderInfoLog(shader.get(), GLsizei(log.size()), &length, log.data());
+    get(object, GLsizei(log.size()), &length, log.data());
     log.resize(std::size_t(length));
-    throw GlError(fmt::format("{} shader of program {}: {}",
-                              stage == GL_VERTEX_SHADER ? "vertex" : "fragment", program, log));
+    return log;
 }
+
+void requireCompiled(std::string_view program, const char* stage, const ShaderHandle& shader) {
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
+    if (!compiled)
+        throw GlError(fmt::format("{} shader of program {}: {}", stage, program,
+                                  logBy(glGetShaderInfoLog, shader.get())));
+}
+
+/// Of GL_KHR_parallel_shader_compile.
+constexpr GLenum completionStatus = 0x91B1;
 
 }  // namespace
 
@@ -167,33 +177,50 @@ std::string joined(const std::vector<std::string>& parts) {
     return text;
 }
 
-Program::Program(const ProgramSource& source, const ProgramCache& cache) {
-    const std::string text =
-        cache.keeps() ? joined(source.vertex) + '\0' + joined(source.fragment) : std::string();
+Program::Program(const ProgramSource& source, const ProgramCache& cache) : Program(begin(source, cache)) {
+    complete(cache);
+}
+
+Program Program::begin(const ProgramSource& source, const ProgramCache& cache) {
+    Program program;
+    std::string text = cache.keeps() ? joined(source.vertex) + '\0' + joined(source.fragment) : std::string();
     if (std::optional<ProgramHandle> kept = cache.load(text)) {
-        program_ = std::move(*kept);
-        compiled_ = false;
-        return;
+        program.program_ = std::move(*kept);
+        program.compiled_ = false;
+        return program;
     }
-    program_ = ProgramHandle(glCreateProgram());
-    const ShaderHandle vertex = compile(source.name, GL_VERTEX_SHADER, source.vertex);
-    const ShaderHandle fragment = compile(source.name, GL_FRAGMENT_SHADER, source.fragment);
-    glAttachShader(program_.get(), vertex.get());
-    glAttachShader(program_.get(), fragment.get());
+    const GLuint name = glCreateProgram();
+    program.program_ = ProgramHandle(name);
+    program.pending_ = Pending{source.name, std::move(text), begun(GL_VERTEX_SHADER, source.vertex),
+                               begun(GL_FRAGMENT_SHADER, source.fragment)};
+    glAttachShader(name, program.pending_->vertex.get());
+    glAttachShader(name, program.pending_->fragment.get());
     if (cache.keeps())
-        glProgramParameteri(program_.get(), GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
-    glLinkProgram(program_.get());
+        glProgramParameteri(name, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    glLinkProgram(name);
+    return program;
+}
+
+bool Program::isReady() const {
+    if (isComplete() || !hasExtension("GL_KHR_parallel_shader_compile"))
+        return true;
+    GLint completed = GL_FALSE;
+    glGetProgramiv(program_.get(), completionStatus, &completed);
+    return completed == GL_TRUE;
+}
+
+void Program::complete(const ProgramCache& cache) {
+    if (isComplete())
+        return;
+    requireCompiled(pending_->name, "vertex", pending_->vertex);
+    requireCompiled(pending_->name, "fragment", pending_->fragment);
     GLint linked = GL_FALSE;
     glGetProgramiv(program_.get(), GL_LINK_STATUS, &linked);
-    if (linked) {
-        cache.store(text, program_);
-        return;
-    }
-    std::string log(4096, '\0');
-    GLsizei length = 0;
-    glGetProgramInfoLog(program_.get(), GLsizei(log.size()), &length, log.data());
-    log.resize(std::size_t(length));
-    throw GlError(fmt::format("program {} does not link: {}", source.name, log));
+    if (!linked)
+        throw GlError(fmt::format("program {} does not link: {}", pending_->name,
+                                  logBy(glGetProgramInfoLog, program_.get())));
+    cache.store(pending_->text, program_);
+    pending_.reset();
 }
 
 }  // namespace vtm::gl

@@ -52,6 +52,16 @@ public:
     /// prelude, 1 the constants, 2 the first part.
     explicit Program(const ProgramSource& source, const ProgramCache& cache = ProgramCache());
 
+    /// Gives the driver what it needs to compile the program on threads of its own, and asks for nothing. It
+    /// may be used after complete().
+    static Program begin(const ProgramSource& source, const ProgramCache& cache);
+    /// Whether complete() would not wait. Always, where the driver does not say
+    /// (GL_KHR_parallel_shader_compile).
+    bool isReady() const;
+    /// Waits for the driver. Throws as the constructor does.
+    void complete(const ProgramCache& cache);
+    bool isComplete() const { return !pending_; }
+
     GLuint name() const { return program_.get(); }
     void use() const { glUseProgram(program_.get()); }
     /// -1, which GL ignores, where the program does without.
@@ -61,8 +71,17 @@ public:
     bool compiled() const { return compiled_; }
 
 private:
+    /// What is needed until the driver has linked.
+    struct Pending {
+        std::string name, text;  ///< the text is for the cache
+        ShaderHandle vertex, fragment;
+    };
+
+    Program() = default;
+
     ProgramHandle program_;
     bool compiled_ = true;
+    std::optional<Pending> pending_;
 };
 
 }  // namespace vtm::gl

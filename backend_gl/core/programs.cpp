@@ -89,22 +89,68 @@ const Program& Programs::filter(FilterProgram program) {
     return found->second;
 }
 
-const Program& Programs::get(Kind kind, Features features, unsigned materialSet, Finish finish) {
-    const std::tuple key(kind, features.flags(), features.has(Features::Material) ? materialSet : 0,
-                         finish.flags());
+Programs::Key Programs::keyOf(Kind kind, Features features, unsigned materialSet, Finish finish) {
+    return {kind, features.flags(), features.has(Features::Material) ? materialSet : 0, finish.flags()};
+}
+
+Program& Programs::begun(const Key& key) {
+    const auto& [kind, flags, materialSet, finish] = key;
     auto found = programs_.find(key);
     if (found == programs_.end()) {
-        try {
-            const std::string_view materials =
-                features.has(Features::Material) ? std::string_view(materialSets_[materialSet].source) : "";
-            found = programs_.emplace(key, Program(source(kind, features, finish, materials), cache_)).first;
-        } catch (const GlError& error) {
-            throw GlError(blamedOnMaterial(materialSets_[materialSet].materials, error.what()));
-        }
-        bindUnits(found->second);
+        const Features features(flags);
+        const std::string_view materials =
+            features.has(Features::Material) ? std::string_view(materialSets_[materialSet].source) : "";
+        found =
+            programs_.emplace(key, Program::begin(source(kind, features, Finish(finish), materials), cache_))
+                .first;
+        if (found->second.isComplete())
+            bindUnits(found->second);
     }
     return found->second;
 }
+
+const Program& Programs::complete(const Key& key) {
+    Program& program = begun(key);
+    if (program.isComplete())
+        return program;
+    try {
+        program.complete(cache_);
+    } catch (const GlError& error) {
+        programs_.erase(key);
+        throw GlError(blamedOnMaterial(materialSets_[std::get<2>(key)].materials, error.what()));
+    }
+    bindUnits(program);
+    return program;
+}
+
+const Program& Programs::get(Kind kind, Features features, unsigned materialSet, Finish finish) {
+    return complete(keyOf(kind, features, materialSet, finish));
+}
+
+bool Programs::warmUp(const std::vector<Key>& keys) {
+    for (const Key& key : keys)
+        begun(key);
+    bool ready = true;
+    for (const Key& key : keys)
+        if (begun(key).isReady())
+            complete(key);
+        else
+            ready = false;
+    return ready;
+}
+
+bool Programs::warmUpPicture(Features features, unsigned materialSet, Finish finish) {
+    return warmUp({keyOf(Kind::Flat, {}, 0, finish), keyOf(Kind::Tile, {}, 0, finish),
+                   keyOf(Kind::Tile, features, materialSet, finish)});
+}
+
+bool Programs::warmUpLayers(Features features, unsigned materialSet) {
+    return warmUp({keyOf(Kind::Solid, {}, 0, {}), keyOf(Kind::Pieces, {}, 0, {}),
+                   keyOf(Kind::Fill, {}, 0, {}), keyOf(Kind::Fill, features, materialSet, {}),
+                   keyOf(Kind::Layer, {}, 0, {}), keyOf(Kind::Blend, {}, 0, {})});
+}
+
+bool Programs::warmUpCompose(Finish finish) { return warmUp({keyOf(Kind::Compose, {}, 0, finish)}); }
 
 ProgramSource Programs::source(Kind kind, Features features, Finish finish, std::string_view materials) {
     using namespace shaders;

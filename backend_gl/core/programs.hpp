@@ -76,6 +76,13 @@ public:
     const Program& compose(Finish finish);
     const Program& filter(FilterProgram program);
 
+    /// Begin to compile, before anything is drawn: the programs of a picture with these paints, of its
+    /// layers, of what puts them into a framebuffer. Where the driver compiles on threads of its own, false
+    /// until it is done.
+    bool warmUpPicture(Features features, unsigned materialSet, Finish finish);
+    bool warmUpLayers(Features features, unsigned materialSet);
+    bool warmUpCompose(Finish finish);
+
     ProgramFigures figures() const;
 
     /// The text of every program that there can be, numbers' too, with no materials.
@@ -84,7 +91,12 @@ public:
 
 private:
     enum class Kind : unsigned { Solid, Pieces, Flat, Tile, CrowdedTile, Fill, Layer, Blend, Compose };
+    using Key = std::tuple<Kind, unsigned, unsigned, unsigned>;  ///< features, material set, finish
+    static Key keyOf(Kind kind, Features features, unsigned materialSet, Finish finish);
     const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});
+    Program& begun(const Key& key);
+    const Program& complete(const Key& key);
+    bool warmUp(const std::vector<Key>& keys);
     static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
 
     static ProgramSource filterSource(FilterProgram program);
@@ -95,7 +107,7 @@ private:
     };
     ProgramCache cache_;
     std::vector<MaterialSet> materialSets_{{{}, materialsSource({})}};
-    std::map<std::tuple<Kind, unsigned, unsigned, unsigned>, Program> programs_;
+    std::map<Key, Program> programs_;
     std::map<FilterProgram, Program> filters_;
 };
 

@@ -18,8 +18,8 @@ constexpr std::uint32_t loop(std::uint32_t turns, std::uint32_t each = 0) { retu
 /// stopsUpTo() of gradient.glsl halves [0, count] until nothing is left.
 std::uint32_t searchTurns(std::uint32_t count) { return loop(std::uint32_t(std::bit_width(count)) + 1); }
 
-/// addRamp(): stretches between stops and the weight's two bends, one before and one behind the stops; three
-/// where sums stand for the rest.
+/// Of a period in rampMean(): stretches between stops and the weight's two bends, one before and one behind
+/// the stops; three where sums stand for the rest.
 std::uint32_t rampTurns(std::uint32_t count) {
     return searchTurns(count) + (count > longRamp ? loop(3, searchTurns(count)) : loop(count + 3));
 }

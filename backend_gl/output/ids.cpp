@@ -14,6 +14,7 @@
 #include "backend_gl/core/requirements.hpp"
 #include "backend_gl/core/state_guard.hpp"
 #include "backend_gl/output/destination.hpp"
+#include "backend_gl/sampled_data.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
 #include "backend_gl/upload/upload.hpp"
 
@@ -42,11 +43,35 @@ void requireIntegers(GLuint framebuffer) {
         throw GlError(fmt::format("framebuffer {} does not have an unsigned integer format", framebuffer));
 }
 
+void requireIds(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint) {
+    if (!asset::isSumOfMaps(asset) || idOfPaint.size() != asset.paints.size())
+        throw std::invalid_argument("ids need an asset of exact mode and one id for each paint");
+    if (!asset.instances.empty())
+        throw std::invalid_argument("ids need an asset without instances: Options::instances = false");
+}
+
+asset::Map mapOf(const asset::AssetView& asset) {
+    return asset.commands.empty() ? asset::Map{0, 0, 1, {}, 0} : asset.maps[asset.commands[0].map];
+}
+
+/// `sections`: paints are numbers, data are nodes.
+std::vector<Texel> recordsOf(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint,
+                             Sections& sections) {
+    std::vector<Texel> numbers, texels;
+    for (const std::uint32_t id : idOfPaint)
+        numbers.push_back({id, 0, 0, 0});
+    sections.leaves = appendTexels(texels, asset.leaves);
+    sections.pieces = appendTexels(texels, asset.pieces);
+    sections.paints = appendTexels<Texel>(texels, numbers);
+    sections.data = appendTexels(texels, asset.nodes);
+    return texels;
+}
+
 }  // namespace
 
 struct IdTexture::Impl {
     asset::Map map;
-    Sections sections;  ///< paints: numbers; data: nodes
+    Sections sections;  ///< as recordsOf() sets them
     TextureHandle texels;
 };
 
@@ -102,27 +127,12 @@ IdRenderer::IdRenderer() {
 IdRenderer::~IdRenderer() = default;
 
 IdTexture IdRenderer::upload(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint) {
-    if (!asset::isSumOfMaps(asset) || idOfPaint.size() != asset.paints.size())
-        throw std::invalid_argument("ids need an asset of exact mode and one id for each paint");
-    if (!asset.instances.empty())
-        throw std::invalid_argument("ids need an asset without instances: Options::instances = false");
+    requireIds(asset, idOfPaint);
     dropErrors();
-    const StateGuard guard(impl_->contract, true);
+    const StateGuard guard(impl_->contract, true, Touched::uploads());
     auto texture = std::make_unique<IdTexture::Impl>();
-    if (!asset.commands.empty())
-        texture->map = asset.maps[asset.commands[0].map];
-    else
-        texture->map = {0, 0, 1, {}, 0};
-    std::vector<Texel> numbers;
-    for (const std::uint32_t id : idOfPaint)
-        numbers.push_back({id, 0, 0, 0});
-    Sections& s = texture->sections;
-    std::vector<Texel> texels;
-    s.leaves = appendTexels(texels, asset.leaves);
-    s.pieces = appendTexels(texels, asset.pieces);
-    s.paints = appendTexels<Texel>(texels, numbers);
-    s.data = appendTexels(texels, asset.nodes);
-    texture->texels = texelTexture(std::move(texels));
+    texture->map = mapOf(asset);
+    texture->texels = texelTexture(recordsOf(asset, idOfPaint, texture->sections));
     return IdTexture(std::move(texture));
 }
 
@@ -161,6 +171,22 @@ void IdRenderer::draw(const IdTexture& texture, const asset::View& view,
     requireIntegers(into);
     const OneDrawBuffer one;
     impl_->draw(*texture.impl_, view);
+}
+
+IdData idData(const asset::AssetView& asset, std::span<const std::uint32_t> idOfPaint) {
+    requireIds(asset, idOfPaint);
+    const asset::Map map = mapOf(asset);
+    const ProgramSource source = idsSource();
+    Sections s;
+    const std::vector<Texel> texels = recordsOf(asset, idOfPaint, s);
+    using Words = std::vector<std::uint32_t>;
+    return {
+        joined(source.vertex),
+        joined(source.fragment),
+        {{texelData("texels", texels)},
+         {{"sections", Words{s.leaves, s.pieces, s.paints, s.data}}, {"rootEntry", Words{map.root.bits}}}},
+        {map.x, map.y, map.side},
+        unitsPerSide};
 }
 
 }  // namespace vtm::gl

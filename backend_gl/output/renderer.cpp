@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -66,6 +67,7 @@ struct Renderer::Impl {
     std::function<unsigned()> reset;
     const void* context = currentContext();
     bool lost = false;
+    const int maxPart = partSide();
 
     Resources resources;
     bool hasFloats = floatFormat().has_value();
@@ -97,13 +99,13 @@ struct Renderer::Impl {
 
     /// What every call does: work() in the state that drawing relies on.
     template <class Work>
-    auto call(Work&& work) {
+    auto call(Touched touched, Work&& work) {
         if (currentContext() != context)
             throw GlError("the renderer's context is not current");
         checkLost();
         dropErrors();
         try {
-            const StateGuard guard(contract, options.restoreState);
+            const StateGuard guard(contract, options.restoreState, touched);
             resources.pool.dropUnused();
             return work(guard);
         } catch (const OutOfMemory&) {
@@ -115,6 +117,17 @@ struct Renderer::Impl {
             lost = true;
             throw;
         }
+    }
+
+    template <class Work>
+    auto call(Work&& work) {
+        return call(Touched(), std::forward<Work>(work));
+    }
+
+    /// Of draw(). Several maps are added up by blending, and layers are blended with each other.
+    static Touched touchedBy(const UploadedAsset& asset, const Output& output) {
+        const bool isPicture = asset.isSumOfMaps && asset.atlases.size() == 1;
+        return isPicture ? Touched::picture(output.write == Output::Write::Over) : Touched();
     }
 
     /// The picture in a target of the pool, which gets it back.
@@ -143,25 +156,49 @@ struct Renderer::Impl {
         if (asset.scanner && d.finish.flags() == 0 && d.bits == 8) {
             const OneDrawBuffer one;
             for (const PixelBox& box : d.boxes)
-                forEachPart(box, partSide(), [&](const PixelBox& part) { drawScanned(asset, d, part); });
+                forEachPart(box, maxPart, [&](const PixelBox& part) { drawScanned(asset, d, part); });
             return check("drawing");
         }
         drawByShaders(asset, d);
     }
 
+    /// Samples of one pixel may lie in several tiles; each pixel's colour is made in one.
+    static bool drawsDirectly(const UploadedAsset& asset, const Destination& d) {
+        return asset.isSumOfMaps && asset.atlases.size() == 1 && !d.multisampled;
+    }
+
+    /// Of a target between a picture and its framebuffer.
+    static Finish finishOfTarget(const Destination& d) {
+        return Finish(d.finish.has(Finish::LinearLight) ? Finish::LinearLight | Finish::LinearOut : 0u);
+    }
+
     void drawByShaders(UploadedAsset& asset, const Destination& d) {
         const OneDrawBuffer one;
-        // Samples of one pixel may lie in several tiles; each pixel's colour is made in one.
-        if (asset.isSumOfMaps && asset.atlases.size() == 1 && !d.multisampled) {
+        if (drawsDirectly(asset, d)) {
             for (const PixelBox& box : d.boxes)
-                forEachPart(box, partSide(), [&](const PixelBox& part) { drawDirectly(asset, d, part); });
+                forEachPart(box, maxPart, [&](const PixelBox& part) { drawDirectly(asset, d, part); });
         } else {
             PixelBox all;
             for (const PixelBox& box : d.boxes)
                 all = all.joined(box);
-            forEachPart(all, partSide(), [&](const PixelBox& part) { drawThroughTarget(asset, d, part); });
+            forEachPart(all, maxPart, [&](const PixelBox& part) { drawThroughTarget(asset, d, part); });
         }
         check("drawing");
+    }
+
+    /// As the draw() functions choose among ways to draw.
+    bool warmUp(const UploadedAsset& asset, const Destination& d) {
+        Programs& programs = resources.programs;
+        if (asset.filtered || (asset.scanner && d.finish.flags() == 0 && d.bits == 8))
+            return programs.warmUpCompose(d.finish);
+        if (!asset.isSumOfMaps) {
+            const bool layers = programs.warmUpLayers(asset.features, asset.materialSet);
+            return programs.warmUpCompose(d.finish) && layers;
+        }
+        if (drawsDirectly(asset, d))
+            return programs.warmUpPicture(asset.features, asset.materialSet, d.finish);
+        const bool picture = programs.warmUpPicture(asset.features, asset.materialSet, finishOfTarget(d));
+        return programs.warmUpCompose(d.finish) && picture;
     }
 
     void drawDirectly(UploadedAsset& asset, const Destination& d, const PixelBox& box) {
@@ -201,9 +238,7 @@ struct Renderer::Impl {
     void drawThroughTarget(UploadedAsset& asset, const Destination& d, const PixelBox& frame) {
         const asset::View view = viewOf(d.view, frame);
         const bool shows = isInvertible(view);
-        const bool linearLight = d.finish.has(Finish::LinearLight);
-        const Finish within(linearLight ? Finish::LinearLight | Finish::LinearOut : 0u);
-        Target target = shows ? paint(asset, view, within, layerFormat(asset)) : Target();
+        Target target = shows ? paint(asset, view, finishOfTarget(d), layerFormat(asset)) : Target();
         for (const PixelBox& box : d.boxes) {
             const PixelBox part{glm::max(box.min, frame.min), glm::min(box.max, frame.max)};
             if (part.empty())
@@ -222,7 +257,7 @@ struct Renderer::Impl {
     void paintParts(UploadedAsset& asset, const asset::View& view, Use&& use) {
         if (!isInvertible(view))
             return;
-        forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
+        forEachPart(wholeOf(view), maxPart, [&](const PixelBox& box) {
             const asset::View part = viewOf(view, box);
             Target target = paint(asset, part);
             use(target, part, box.min);
@@ -234,7 +269,7 @@ struct Renderer::Impl {
     image::Bitmap bitmap(UploadedAsset& asset, const asset::View& view) {
         image::Bitmap bitmap{view.width, view.height, {}};
         bitmap.rgba.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
-        forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
+        forEachPart(wholeOf(view), maxPart, [&](const PixelBox& box) {
             Target target = bytes.take(box.size(), GL_RGBA8);
             Output output;
             output.framebuffer = target.framebuffer.get();
@@ -263,7 +298,7 @@ Renderer::Renderer(const RendererOptions& options) {
 Renderer::~Renderer() = default;
 
 Texture Renderer::upload(const asset::AssetView& asset) {
-    return impl_->call([&](const StateGuard&) {
+    return impl_->call(Touched::uploads(), [&](const StateGuard&) {
         Programs& programs = impl_->resources.programs;
         const bool usesCpu = impl_->scans || (!impl_->hasFloats && asset.mode == asset::Mode::Compat);
         auto texture =
@@ -285,7 +320,15 @@ std::size_t Renderer::update(Texture& texture, const asset::AssetView& asset,
         texture.impl_ = std::move(upload(asset).impl_);
         return texture.impl_->records.bytes();
     }
-    return impl_->call([&](const StateGuard&) { return texture.impl_->update(asset, difference); });
+    return impl_->call(Touched::uploads(),
+                       [&](const StateGuard&) { return texture.impl_->update(asset, difference); });
+}
+
+bool Renderer::warmUp(const Texture& texture, const Output& output) {
+    return impl_->call([&](const StateGuard& guard) {
+        const Destination d = destinationOf({1, 1}, output, guard.drawFramebuffer());
+        return impl_->warmUp(*texture.impl_, d);
+    });
 }
 
 image::Raster Renderer::render(const Texture& texture, const asset::View& view) {
@@ -312,7 +355,7 @@ image::Bitmap Renderer::renderBitmap(const Texture& texture, const asset::View& 
 
 void Renderer::draw(const Texture& texture, const asset::View& view, const Output& output) {
     asset::validate(view);
-    impl_->call([&](const StateGuard& guard) {
+    impl_->call(Impl::touchedBy(*texture.impl_, output), [&](const StateGuard& guard) {
         impl_->draw(*texture.impl_, destinationOf(view, output, guard.drawFramebuffer()));
     });
 }
@@ -322,11 +365,12 @@ void Renderer::draw(const BytePixels& pixels, const Output& output) {
         throw std::invalid_argument("pixels are already blended, so they cannot be added in linear light");
     const asset::View view{pixels.width, pixels.height};
     asset::validate(view);
-    impl_->call([&](const StateGuard& guard) {
+    impl_->call(Touched::picture(output.write == Output::Write::Over), [&](const StateGuard& guard) {
         const Destination d = destinationOf(view, output, guard.drawFramebuffer());
         const OneDrawBuffer one;
         for (const PixelBox& box : d.boxes)
-            forEachPart(box, partSide(), [&](const PixelBox& part) { impl_->drawGiven(pixels, d, part); });
+            forEachPart(box, impl_->maxPart,
+                        [&](const PixelBox& part) { impl_->drawGiven(pixels, d, part); });
         impl_->check("drawing");
     });
 }
@@ -334,7 +378,7 @@ void Renderer::draw(const BytePixels& pixels, const Output& output) {
 void Renderer::draw(const Texture& texture, const asset::View& view) {
     asset::validate(view);
     impl_->call([&](const StateGuard&) {
-        forEachPart(wholeOf(view), partSide(), [&](const PixelBox& box) {
+        forEachPart(wholeOf(view), impl_->maxPart, [&](const PixelBox& box) {
             Target target = impl_->bytes.take(box.size(), GL_RGBA8);
             Output output;
             output.framebuffer = target.framebuffer.get();

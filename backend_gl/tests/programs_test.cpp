@@ -1,6 +1,7 @@
 #include "backend_gl/core/programs.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -122,6 +123,53 @@ TEST_F(Gl, CompileErrorsCarryTheDriversLog) {
         EXPECT_NE(std::string(error.what()).find("fragment shader of program broken"), std::string::npos);
         EXPECT_NE(std::string(error.what()).find("nonsense"), std::string::npos);
     }
+}
+
+/// Into an RGBA8 framebuffer.
+class WarmUp : public Gl {
+protected:
+    void SetUp() override {
+        Gl::SetUp();
+        if (!context)
+            return;
+        target = makeTexture(GL_RGBA8, 40, 40);
+        framebuffer = makeFramebuffer();
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.get(), 0);
+    }
+
+    TextureHandle target;
+    FramebufferHandle framebuffer;
+};
+
+TEST_F(WarmUp, LeavesNothingToCompileForTheFirstPicture) {
+    RendererOptions options;
+    options.pixels = Pixels::Shaders;
+    Output linear, over;
+    linear.encoding = Output::Encoding::Linear;
+    over.write = Output::Write::Over;
+    for (const asset::Asset& asset : {disc(), layers(), everyPaint()})
+        for (const Output& output : {Output(), linear, over}) {
+            Renderer fresh(options);
+            const Texture texture = fresh.upload(asset);
+            const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+            while (!fresh.warmUp(texture, output))
+                ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+            const unsigned compiled = fresh.programs().compiled;
+            EXPECT_GT(compiled, 0u);
+            fresh.draw(texture, turnedView(40, 40, {32, 32}, 0.6, 0.3), output);
+            EXPECT_EQ(fresh.programs().compiled, compiled);
+        }
+}
+
+TEST_F(WarmUp, PicturesNeedNotWaitForIt) {
+    RendererOptions options;
+    options.pixels = Pixels::Shaders;
+    Renderer warm(options), cold(options);
+    const asset::View view = turnedView(40, 40, {32, 32}, 0.6, 0.3);
+    const Texture texture = warm.upload(layers());
+    warm.warmUp(texture);
+    EXPECT_EQ(warm.renderBitmap(texture, view).rgba, cold.renderBitmap(cold.upload(layers()), view).rgba);
 }
 
 TEST_F(Gl, TexturesBeyondTheDriversLimitAreAnError) {

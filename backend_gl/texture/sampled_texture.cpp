@@ -1,6 +1,7 @@
 #include <vtm/gl/sampled_texture.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "backend_gl/core/features.hpp"
 #include "backend_gl/core/requirements.hpp"
 #include "backend_gl/core/state_guard.hpp"
+#include "backend_gl/sampled_data.hpp"
 #include "backend_gl/texture/sample_include.hpp"
 #include "backend_gl/texture/vtm_uniform.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
@@ -31,23 +33,53 @@ const asset::Map& onlyMap(const AssetView& asset) {
     return asset.maps[asset.commands[0].map];
 }
 
-}  // namespace
-
-struct SampledTexture::Impl {
-    Impl(const AssetView& asset, const asset::PrefilterView& pyramid)
-        : Impl(asset, pyramid, imageTexels(asset)) {}
-    Impl(const AssetView& asset, const asset::PrefilterView& pyramid, ImageTexels pictures)
-        : finestPixel(asset.finestPixel), prefilter(uploadPrefilter(pyramid)) {
+/// An asset as a `uniform Vtm`, before it is uploaded.
+struct Sampled {
+    Sampled(const AssetView& asset, const asset::PyramidSize& prefilterSize) : images(imageTexels(asset)) {
         const Features features = featuresOf(asset);
         uniform.width = asset.width;
         uniform.height = asset.height;
         uniform.map = onlyMap(asset);
         uniform.flags = samplingFlags(features, {innerMapsOf(asset), false});
-        uniform.prefilterSize = pyramid.size;
-        records = RecordTexture(recordTexels(asset, pictures.list, uniform.parts));
-        if (features.has(Features::Image)) {
-            imageBytes = pictures.rgba.size();
-            images = imageTexture(std::move(pictures.rgba));
+        uniform.prefilterSize = prefilterSize;
+        records = recordTexels(asset, images.list, uniform.parts);
+        hasImages = features.has(Features::Image);
+    }
+
+    VtmUniform uniform;
+    ImageTexels images;
+    std::vector<Texel> records;
+    bool hasImages;
+};
+
+/// The asset's own, or one that is built.
+struct Pyramid {
+    Pyramid(const AssetView& asset, const asset::PrefilterOptions& options) : view(asset.prefilter) {
+        if (view.size.empty()) {
+            made = asset::buildPrefilter(asset, options);
+            view = {made.size, made.texels};
+        }
+    }
+    Pyramid(const Pyramid&) = delete;  // the view is of what was made
+    Pyramid& operator=(const Pyramid&) = delete;
+
+    asset::Prefilter made;
+    asset::PrefilterView view;
+};
+
+}  // namespace
+
+struct SampledTexture::Impl {
+    Impl(const AssetView& asset, const asset::PrefilterView& pyramid)
+        : Impl(asset, pyramid, Sampled(asset, pyramid.size)) {}
+    Impl(const AssetView& asset, const asset::PrefilterView& pyramid, Sampled sampled)
+        : finestPixel(asset.finestPixel),
+          uniform(sampled.uniform),
+          records(std::move(sampled.records)),
+          prefilter(uploadPrefilter(pyramid)) {
+        if (sampled.hasImages) {
+            imageBytes = sampled.images.rgba.size();
+            images = imageTexture(std::move(sampled.images.rgba));
         }
     }
 
@@ -75,16 +107,11 @@ struct SampledTexture::Impl {
 SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOptions& options) {
     onlyMap(asset);
     requireCurrentContext();
-    asset::Prefilter made;
-    asset::PrefilterView pyramid = asset.prefilter;
-    if (pyramid.size.empty()) {
-        made = asset::buildPrefilter(asset, options);
-        pyramid = {made.size, made.texels};
-    }
+    const Pyramid pyramid(asset, options);
     checkErrors("something before this texture was made");
     const StateContract contract;
-    const StateGuard guard(contract, true);
-    impl_ = std::make_unique<Impl>(asset, pyramid);
+    const StateGuard guard(contract, true, Touched::uploads());
+    impl_ = std::make_unique<Impl>(asset, pyramid.view);
 }
 SampledTexture::~SampledTexture() = default;
 SampledTexture::SampledTexture(SampledTexture&&) noexcept = default;
@@ -101,7 +128,7 @@ std::size_t SampledTexture::update(const AssetView& asset, bool means) {
         pyramid = {made.size, made.texels};
     }
     const StateContract contract;
-    const StateGuard guard(contract, true);
+    const StateGuard guard(contract, true, Touched::uploads());
     const std::size_t sent = impl_->update(asset);
     if (means) {
         impl_->prefilter = uploadPrefilter(pyramid);
@@ -130,6 +157,37 @@ void SampledTexture::bind(unsigned program, const std::string& name, unsigned fi
     else
         binding.unused("images", 1);
     checkErrors("binding a texture");
+}
+
+namespace {
+
+TextureData prefilterData(const asset::PrefilterView& pyramid) {
+    TextureData data{"prefilter",
+                     TextureData::Format::Rgba8,
+                     pyramid.size.width,
+                     pyramid.size.height,
+                     pyramid.size.levels(),
+                     true,
+                     {}};
+    const auto bytes = std::as_bytes(std::span(pyramid.texels));
+    data.bytes.resize(bytes.size());
+    std::memcpy(data.bytes.data(), bytes.data(), bytes.size());
+    return data;
+}
+
+}  // namespace
+
+ShaderData sampledData(const AssetView& asset, const asset::PrefilterOptions& options) {
+    onlyMap(asset);
+    const Pyramid pyramid(asset, options);
+    const Sampled sampled(asset, pyramid.view.size);
+    ShaderData data;
+    data.textures.push_back(texelData("texels", sampled.records));
+    data.textures.push_back(prefilterData(pyramid.view));
+    if (sampled.hasImages)
+        data.textures.push_back(imageData("images", sampled.images.rgba));
+    data.uniforms = sampled.uniform.values({});
+    return data;
 }
 
 }  // namespace vtm::gl

@@ -60,7 +60,7 @@ struct TextTexture::Impl {
     /// All records, in a new texture.
     void send() {
         const StateContract contract;
-        const StateGuard guard(contract, true);
+        const StateGuard guard(contract, true, Touched::uploads());
         std::vector<Texel> texels = recordTexels(font, {}, parts);
         fontTexels = texels.size();
         for (Page& page : pages) {
@@ -85,7 +85,7 @@ struct TextTexture::Impl {
             return send();
         page.texels = own.size();
         const StateContract contract;
-        const StateGuard guard(contract, true);
+        const StateGuard guard(contract, true, Touched::uploads());
         updateTexels(records.get(), page.first, own);
         checkErrors("update of a page");
     }
@@ -94,7 +94,7 @@ struct TextTexture::Impl {
         const asset::Prefilter made =
             asset::buildPrefilter(asset::pageAsset(page.text, font), prefilterOptions(page.text));
         const StateContract contract;
-        const StateGuard guard(contract, true);
+        const StateGuard guard(contract, true, Touched::uploads());
         page.prefilterSize = made.size;
         page.prefilter = uploadPrefilter({made.size, made.texels});
     }

@@ -119,23 +119,54 @@ GLuint Samplers::of(Wrapping wrapping) {
     return found.get();
 }
 
+std::vector<UniformValue> VtmUniform::values(Wrapping wrapping) const {
+    using Ints = std::vector<std::int32_t>;
+    using Words = std::vector<std::uint32_t>;
+    using Floats = std::vector<float>;
+    return {{"sections", Words{parts.leaves, parts.pieces, parts.paints, parts.data}},
+            {"imageSection", Words{parts.images}},
+            {"rampSums", Words{parts.rampSums}},
+            {"nodes", Words{parts.nodes}},
+            {"root", Words{map.root.bits}},
+            {"features", Words{flags}},
+            {"size", Floats{float(width), float(height)}},
+            {"square", Floats{float(map.x), float(map.y), float(map.side)}},
+            {"prefilterTexels", Floats{float(prefilterSize.width), float(prefilterSize.height)}},
+            {"wrapping", Ints{int(wrapping.s), int(wrapping.t)}},
+            {"page", Words{page}},
+            {"instances", Words{map.instances}},
+            {"placed", Words{parts.instanceTrees, parts.instances, parts.symbols, parts.palettes}}};
+}
+
+namespace {
+
+/// A list of one number to four, by the function for so many.
+template <class Numbers, class... Functions>
+void setNumbers(GLint place, const Numbers& numbers, Functions... functions) {
+    const std::array byCount{functions...};
+    byCount[numbers.size() - 1](place, 1, numbers.data());
+}
+
+struct UniformSetter {
+    GLint place;
+
+    void operator()(const std::vector<GLint>& n) const {
+        setNumbers(place, n, glUniform1iv, glUniform2iv, glUniform3iv, glUniform4iv);
+    }
+    void operator()(const std::vector<GLuint>& n) const {
+        setNumbers(place, n, glUniform1uiv, glUniform2uiv, glUniform3uiv, glUniform4uiv);
+    }
+    void operator()(const std::vector<GLfloat>& n) const {
+        setNumbers(place, n, glUniform1fv, glUniform2fv, glUniform3fv, glUniform4fv);
+    }
+};
+
+}  // namespace
+
 void VtmUniform::set(GLuint program, const std::string& name, Wrapping wrapping) const {
-    const auto at = [&](const char* member) {
-        return glGetUniformLocation(program, (name + '.' + member).c_str());
-    };
-    glUniform4ui(at("sections"), parts.leaves, parts.pieces, parts.paints, parts.data);
-    glUniform1ui(at("imageSection"), parts.images);
-    glUniform1ui(at("rampSums"), parts.rampSums);
-    glUniform1ui(at("nodes"), parts.nodes);
-    glUniform1ui(at("root"), map.root.bits);
-    glUniform1ui(at("features"), flags);
-    glUniform2f(at("size"), float(width), float(height));
-    glUniform3f(at("square"), float(map.x), float(map.y), float(map.side));
-    glUniform2f(at("prefilterTexels"), float(prefilterSize.width), float(prefilterSize.height));
-    glUniform2i(at("wrapping"), int(wrapping.s), int(wrapping.t));
-    glUniform1ui(at("page"), page);
-    glUniform1ui(at("instances"), map.instances);
-    glUniform4ui(at("placed"), parts.instanceTrees, parts.instances, parts.symbols, parts.palettes);
+    for (const UniformValue& value : values(wrapping))
+        std::visit(UniformSetter{glGetUniformLocation(program, (name + '.' + value.name).c_str())},
+                   value.numbers);
 }
 
 Binding::Binding(GLuint program, const std::string& name, unsigned firstUnit, unsigned units)

@@ -11,6 +11,7 @@
 
 #include <vtm/gl/sampled_texture.hpp>
 #include "backend_gl/core/gl.hpp"
+#include "backend_gl/sampled_data.hpp"
 
 namespace vtm::gl {
 
@@ -35,6 +36,7 @@ struct VtmUniform {
     asset::PyramidSize prefilterSize;
     GLuint page = 0;  ///< first texel of a page of text; 0: none
 
+    std::vector<UniformValue> values(Wrapping wrapping) const;
     /// Of the current program.
     void set(GLuint program, const std::string& name, Wrapping wrapping) const;
 };

@@ -15,15 +15,21 @@ namespace vtm::gl {
 
 namespace {
 
+/// Of a texture with so many texels, at least one.
+std::size_t rowsOf(std::size_t texels, unsigned columnsLog2) {
+    const std::size_t columns = std::size_t(1) << columnsLog2;
+    const std::size_t rows = (std::max<std::size_t>(texels, 1) + columns - 1) / columns;
+    if (rows > std::size_t(std::numeric_limits<GLsizei>::max()))
+        throw GlError("the asset is too large for a texture");
+    return rows;
+}
+
 /// `items` grows to whole rows.
 template <class Items>
 TextureHandle layOut(Items items, std::size_t itemsPerTexel, unsigned columnsLog2, GLenum format,
                      GLenum layout, GLenum type) {
     const std::size_t columns = std::size_t(1) << columnsLog2;
-    const std::size_t texels = std::max<std::size_t>(items.size() / itemsPerTexel, 1);
-    const std::size_t rows = (texels + columns - 1) / columns;
-    if (rows > std::size_t(std::numeric_limits<GLsizei>::max()))
-        throw GlError("the asset is too large for a texture");
+    const std::size_t rows = rowsOf(items.size() / itemsPerTexel, columnsLog2);
     TextureHandle texture = makeTexture(format, int(columns), int(rows));
     items.resize(rows * columns * itemsPerTexel);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLsizei(columns), GLsizei(rows), layout, type, items.data());
@@ -53,6 +59,29 @@ ImageTexels imageTexels(const asset::AssetView& asset) {
 
 TextureHandle texelTexture(std::vector<asset::Texel> texels) {
     return layOut(std::move(texels), 1, texelColumnsLog2, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+}
+
+namespace {
+
+TextureData wholeRows(std::string name, TextureData::Format format, std::span<const std::byte> bytes,
+                      std::size_t bytesPerTexel, unsigned columnsLog2) {
+    const std::size_t rows = rowsOf(bytes.size() / bytesPerTexel, columnsLog2);
+    TextureData data{std::move(name), format, 1u << columnsLog2, unsigned(rows), 1, false, {}};
+    data.bytes.resize(rows * bytesPerTexel << columnsLog2);
+    if (!bytes.empty())
+        std::memcpy(data.bytes.data(), bytes.data(), bytes.size());
+    return data;
+}
+
+}  // namespace
+
+TextureData texelData(std::string name, std::span<const asset::Texel> texels) {
+    return wholeRows(std::move(name), TextureData::Format::Rgba32ui, std::as_bytes(texels),
+                     sizeof(asset::Texel), texelColumnsLog2);
+}
+
+TextureData imageData(std::string name, std::span<const std::uint8_t> rgba) {
+    return wholeRows(std::move(name), TextureData::Format::Rgba8, std::as_bytes(rgba), 4, imageColumnsLog2);
 }
 
 void updateTexels(GLuint texture, std::size_t first, std::span<const asset::Texel> texels) {

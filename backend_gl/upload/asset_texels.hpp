@@ -5,10 +5,12 @@
 
 #include <cstring>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
 #include "backend_gl/core/gl.hpp"
+#include "backend_gl/sampled_data.hpp"
 
 namespace vtm::gl {
 
@@ -55,6 +57,10 @@ private:
 };
 /// RGBA8, 2^imageColumnsLog2 wide. Throws likewise.
 TextureHandle imageTexture(std::vector<std::uint8_t> rgba);
+
+/// The same textures as data.
+TextureData texelData(std::string name, std::span<const asset::Texel> texels);
+TextureData imageData(std::string name, std::span<const std::uint8_t> rgba);
 
 /// Beside each texel of the data, if any gradient has more than `longRamp` stops; else nothing. At stop j
 /// less at stop i of one gradient it is the premultiplied ramp's integral between them, red, green, blue,

@@ -16,5 +16,6 @@ void addDiff(CLI::App& app, int& exitCode);
 void addNormalize(CLI::App& app, int& exitCode);
 void addFont(CLI::App& app, int& exitCode);
 void addTrace(CLI::App& app, int& exitCode);
+void addView(CLI::App& app, int& exitCode);
 
 }  // namespace vtm::tools

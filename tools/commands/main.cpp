@@ -23,6 +23,7 @@ constexpr const char* exitCodes =
     "Examples:\n"
     "  vtm render tiger.svg -o tiger.png -w 800\n"
     "  vtm compile tiger.svg -o tiger.vtm\n"
+    "  vtm view tiger.svg -o tiger.html\n"
     "  vtm diff a.png b.png --max 2\n"
     "  vtm render --help\n\n"
     "Exit codes: 0 done; 1 bad input, or something could not be read, drawn or written; 2 bad usage; 141 the "
@@ -132,6 +133,7 @@ void addSubcommands(CLI::App& app, int& exitCode) {
     addNormalize(app, exitCode);
     addFont(app, exitCode);
     addTrace(app, exitCode);
+    addView(app, exitCode);
     for (CLI::App* command : app.get_subcommands({})) {
         addQuiet(*command);
         addLimitOptions(*command);

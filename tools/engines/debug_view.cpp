@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <utility>
 
@@ -207,23 +208,32 @@ private:
 
 const vec3 placedColor(0.55f, 0.2f, 0.7f);
 
-/// Of placed maps the box around each.
-void drawCells(Canvas& canvas, const Asset& asset) {
+/// visit(corner, size, color, isPlaced) for the squares of each map that is drawn, then for the boxes around
+/// the maps that are placed in it.
+template <class Visit>
+void forEachCell(const Asset& asset, Visit&& visit) {
     for (const asset::Command& command : asset.commands) {
         const asset::Map& map = asset.maps[command.map];
         asset::walk(asset, map.root, [&](asset::Cell cell, Entry) {
             const double side = map.side / std::exp2(2.0 * cell.level);
-            canvas.outline(map.x + cell.x * side, map.y + cell.y * side, side, heat(cell.level / maxLevel));
+            visit(glm::dvec2(map.x, map.y) + glm::dvec2(cell.x, cell.y) * side, glm::dvec2(side),
+                  heat(cell.level / maxLevel), false);
         });
         asset::forEachMap(asset, map, [&](const asset::PlacedMap& placed) {
             const glm::dmat2& linear = placed.toPicture.linear;
             const glm::dvec2 size = glm::abs(linear[0]) + glm::abs(linear[1]);
             const glm::dvec2 corner = placed.toPicture(glm::dvec2(0.5)) - 0.5 * size;
             if (&placed.map != &map)
-                canvas.frame(corner, size, placedColor);
+                visit(corner, size, placedColor, true);
             return true;
         });
     }
+}
+
+void drawCells(Canvas& canvas, const Asset& asset) {
+    forEachCell(asset, [&](glm::dvec2 corner, glm::dvec2 size, vec3 color, bool isPlaced) {
+        isPlaced ? canvas.frame(corner, size, color) : canvas.outline(corner.x, corner.y, size.x, color);
+    });
 }
 
 void drawTiles(Canvas& canvas, const Asset& asset, const asset::View& view) {
@@ -238,6 +248,18 @@ void drawTiles(Canvas& canvas, const Asset& asset, const asset::View& view) {
             for (double x = from.x; x < to.x; ++x)
                 canvas.outline(corner.x + x * grid.side, corner.y + y * grid.side, grid.side, heat(1));
     }
+}
+
+}  // namespace
+
+namespace {
+
+/// The colour scale's stops.
+std::vector<DebugMark> marksAt(std::initializer_list<const char*> texts) {
+    std::vector<DebugMark> marks;
+    for (const char* text : texts)
+        marks.push_back({heat(double(marks.size()) / double(texts.size() - 1)), text});
+    return marks;
 }
 
 }  // namespace
@@ -265,14 +287,51 @@ void prepare(Source& source, DebugView view) {
     if (view == DebugView::Fallback && !source.proof)
         throw UsageError(
             "--debug-view fallback: needs an SVG file; a .vtm file does not record these squares");
-    if (view == DebugView::Depth)
-        source.asset = Squares(*source.asset, depthColor).take();
-    else if (view == DebugView::Pieces)
-        source.asset = Squares(*source.asset, piecesColor).take();
-    else if (view == DebugView::Cost)
-        source.asset = Squares(*source.asset, costColor).take();
-    else if (view == DebugView::Regions)
-        source.asset = regionsAsset(std::move(*source.asset));
+    if (std::optional<Asset> shown = debugAsset(*source.asset, view))
+        source.asset = std::move(*shown);
+}
+
+std::optional<asset::Asset> debugAsset(const Asset& asset, DebugView view) {
+    switch (view) {
+        case DebugView::Depth:
+            return Squares(asset, depthColor).take();
+        case DebugView::Pieces:
+            return Squares(asset, piecesColor).take();
+        case DebugView::Cost:
+            return Squares(asset, costColor).take();
+        case DebugView::Regions:
+            return regionsAsset(asset);
+        default:
+            return std::nullopt;
+    }
+}
+
+std::vector<DebugOutline> debugOutlines(const Asset& asset,
+                                        const std::vector<compiler::UnprovenSquare>& unproven,
+                                        DebugView view) {
+    std::vector<DebugOutline> outlines;
+    if (view == DebugView::Cells)
+        forEachCell(asset, [&](glm::dvec2 corner, glm::dvec2 size, vec3 color, bool) {
+            outlines.push_back({corner, size, color});
+        });
+    if (view == DebugView::Fallback)
+        for (const compiler::UnprovenSquare& square : unproven)
+            outlines.push_back({{square.x, square.y}, glm::dvec2(square.side), heat(1)});
+    return outlines;
+}
+
+std::vector<DebugMark> debugLegend(DebugView view) {
+    switch (view) {
+        case DebugView::Cells:
+        case DebugView::Depth:
+            return marksAt({"level 0", "1.5", "3", "4.5", "6 and deeper"});
+        case DebugView::Pieces:
+            return marksAt({"1 piece", "2.8", "8", "23", "64 and more"});
+        case DebugView::Cost:
+            return marksAt({"5 ns a pixel", "22", "100", "447", "2000 and more"});
+        default:
+            return {};
+    }
 }
 
 void layLines(image::Bitmap& picture, DebugView view, const Source& source, const asset::View& to) {

@@ -13,7 +13,7 @@ class Proposals(Command):
                              ("inof", "info"), ("Trace", "trace")):
             self.assertIn(f"did you mean '{meant}'?", self.vtm(typed, self.svg, expect=2).stderr)
         said = self.vtm("frobnicate", expect=2).stderr
-        self.assertIn("the subcommands are render, compile, info, diff, normalize, font, trace", said)
+        self.assertIn("the subcommands are render, compile, info, diff, normalize, font, trace, view", said)
 
     def test_a_file_in_place_of_a_subcommand(self):
         self.assertIn("vtm render square.svg -o", self.vtm("square.svg", expect=2).stderr)
@@ -26,7 +26,7 @@ class Proposals(Command):
 
 class Help(Command):
     def test_examples(self):
-        for name in ("render", "compile", "info", "diff", "normalize", "trace"):
+        for name in ("render", "compile", "info", "diff", "normalize", "trace", "view"):
             self.assertIn(f"  vtm {name} ", self.vtm(name, "--help").stdout)
         self.assertIn("Examples:", self.vtm("--help").stdout)
         self.assertIn("vtm info", self.vtm("info", "-h").stdout)

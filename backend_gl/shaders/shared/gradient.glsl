@@ -61,45 +61,63 @@ float pixelWeight(float d, float reach, float even) {
     return rest < slope ? rest / slope : 1.0;
 }
 
-// Adds what the padded ramp differs from a colour at middle + d for d from `from` to `last`, times weights, and the
-// weights: colours that are all alike stay what they are, where blend modes may jump. Between stops and bends of the
-// weight it is a quadratic times a straight line, which Simpson's rule integrates exactly; at the same time that serves
-// what lies before the first stop and behind the last.
-void addRamp(ASSET_IN uint firstStop, uint count, float middle, float from, float last, float reach, float even,
-             vec4 base, inout vec4 sum, inout float weights) {
-    uint next = stopsUpTo(ASSET firstStop, count, middle + from);
-    while (from < last) {
-        uvec4 before = texelAt(ASSET firstStop + (next == 0u ? 0u : next - 1u));
-        uvec4 after = texelAt(ASSET firstStop + min(next, count - 1u));
-        float end = next == count ? last : min(last, uintBitsToFloat(after.x) - middle);
-        float bend = from < -even ? -even : from < even ? even : last, to = min(end, bend);
-        if (from < to) {
-            float at = 0.5 * (from + to), sixth = (to - from) / 6.0;
-            vec3 shares = sixth * vec3(pixelWeight(from, reach, even), 4.0 * pixelWeight(at, reach, even),
-                                       pixelWeight(to, reach, even));
-            sum += shares.x * (colorBetween(before, after, middle + from) - base) +
-                   shares.y * (colorBetween(before, after, middle + at) - base) +
-                   shares.z * (colorBetween(before, after, middle + to) - base);
-            weights += shares.x + shares.y + shares.z;
-            from = to;
-        }
-        next += to == end ? 1u : 0u;
-#if LONG_RAMPS
-        // On to the last stop, instead of from stop to stop: all weights are 1 there.
-        uint upTo = stopsUpTo(ASSET firstStop, from < last && count > longRamp ? count : 0u, middle + last);
-        if (upTo > next) {
-            float end = uintBitsToFloat(texelAt(ASSET firstStop + upTo - 1u).x) - middle;
-            sum += integralBetween(ASSET firstStop + next - 1u, firstStop + upTo - 1u) - (end - from) * base;
-            weights += end - from;
-            from = end;
-            next = upTo;
-        }
-#endif
-    }
+// A part of one period of the ramp, along it: the pixel's middle, and distances d from there, `from` to `last`.
+struct Period {
+    float middle, from, last;
+};
+
+// Of the n-th period, from n to n + 1, what a pixel with u in its middle has of it. A padded ramp is one.
+Period periodAt(uint spread, float n, float u, float reach) {
+    if (spread != spreadReflect && spread != spreadRepeat)
+        return Period(u, -reach, reach);
+    float a = max(-reach, n - u), b = min(reach, n + 1.0 - u);
+    if (spread == spreadReflect && mod(n, 2.0) != 0.0)
+        return Period(n + 1.0 - u, -b, -a);
+    return Period(u - n, a, b);
 }
 
+// Adds what the ramp differs from a colour, times weights, and the weights, up to the next stop or bend of the weight, and
+// moves the part's beginning there: colours that are all alike stay what they are, where blend modes may jump. It is a
+// quadratic times a straight line, which Simpson's rule integrates exactly; at the same time that serves what lies before
+// the first stop and behind the last. `next` is the stop that comes next.
+void addStretch(ASSET_IN uint firstStop, uint count, float reach, float even, vec4 base, inout Period part, inout uint next,
+                inout vec4 sum, inout float weights) {
+    float middle = part.middle, from = part.from;
+    uvec4 before = texelAt(ASSET firstStop + (next == 0u ? 0u : next - 1u));
+    uvec4 after = texelAt(ASSET firstStop + min(next, count - 1u));
+    float end = next == count ? part.last : min(part.last, uintBitsToFloat(after.x) - middle);
+    float bend = from < -even ? -even : from < even ? even : part.last, to = min(end, bend);
+    if (from < to) {
+        float at = 0.5 * (from + to), sixth = (to - from) / 6.0;
+        vec3 shares = sixth * vec3(pixelWeight(from, reach, even), 4.0 * pixelWeight(at, reach, even),
+                                   pixelWeight(to, reach, even));
+        sum += shares.x * (colorBetween(before, after, middle + from) - base) +
+               shares.y * (colorBetween(before, after, middle + at) - base) +
+               shares.z * (colorBetween(before, after, middle + to) - base);
+        weights += shares.x + shares.y + shares.z;
+        part.from = to;
+    }
+    next += to == end ? 1u : 0u;
+}
+
+#if LONG_RAMPS
+// On to the last stop, instead of from stop to stop: all weights are 1 there.
+void skipStops(ASSET_IN uint firstStop, uint count, vec4 base, inout Period part, inout uint next, inout vec4 sum,
+               inout float weights) {
+    uint upTo = stopsUpTo(ASSET firstStop, part.from < part.last && count > longRamp ? count : 0u, part.middle + part.last);
+    if (upTo > next) {
+        float end = uintBitsToFloat(texelAt(ASSET firstStop + upTo - 1u).x) - part.middle;
+        sum += integralBetween(ASSET firstStop + next - 1u, firstStop + upTo - 1u) - (end - part.from) * base;
+        weights += end - part.from;
+        part.from = end;
+        next = upTo;
+    }
+}
+#endif
+
 // The mean over a pixel whose sides change u by `longer` > 0 and `shorter`, and in whose middle `base` is. A reflected ramp
-// repeats after two, so no mean is over more; a padded one is all but two colours beyond 1024.
+// repeats after two, so no mean is over more; a padded one is all but two colours beyond 1024. One loop over the stretches
+// of all periods, since some compilers (SwiftShader's) take twice as long for each loop around a loop.
 vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float longer, float shorter,
               vec4 base) {
     bool periodic = spread == spreadReflect || spread == spreadRepeat;
@@ -109,13 +127,18 @@ vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float l
     float reach = 0.5 * (longer + shorter), even = 0.5 * (longer - shorter), weights = 0.0;
     u -= periodic ? 2.0 * floor(0.5 * u) : 0.0;
     vec4 sum = vec4(0.0);
-    // One turn with the whole stretch where the ramp is padded.
-    float first = periodic ? floor(u - reach) : 0.0, last = periodic ? u + reach : 1.0;
-    for (float n = first; n < last; ++n) {
-        float a = periodic ? max(-reach, n - u) : -reach, b = periodic ? min(reach, n + 1.0 - u) : reach;
-        bool mirrored = spread == spreadReflect && mod(n, 2.0) != 0.0;
-        addRamp(ASSET firstStop, count, mirrored ? n + 1.0 - u : periodic ? u - n : u, mirrored ? -b : a,
-                mirrored ? -a : b, reach, even, base, sum, weights);
+    float n = periodic ? floor(u - reach) : 0.0, end = periodic ? u + reach : 1.0;
+    Period part = Period(0.0, 0.0, 0.0);
+    uint next = 0u;
+    while (n < end || part.from < part.last) {
+        if (!(part.from < part.last)) {
+            part = periodAt(spread, n++, u, reach);
+            next = stopsUpTo(ASSET firstStop, count, part.middle + part.from);
+        }
+        addStretch(ASSET firstStop, count, reach, even, base, part, next, sum, weights);
+#if LONG_RAMPS
+        skipStops(ASSET firstStop, count, base, part, next, sum, weights);
+#endif
     }
     return weights > 0.0 ? base + sum / weights : base;
 }

@@ -123,6 +123,14 @@ public:
     /// upload() does; the texture then shows either asset.
     std::size_t update(Texture& texture, const asset::AssetView& asset, const asset::Difference& difference);
 
+    /// Compiles in advance what drawing `texture` into such an output needs, so that the first picture does
+    /// not wait for it: the programs of a picture, or of layers; those of filters, and of cells that the CPU
+    /// computes (docs/backend.md), are compiled when they are first needed. Where the driver compiles on
+    /// threads of its own (GL_KHR_parallel_shader_compile) it returns false until they are done: call it
+    /// again, once a frame. Elsewhere it returns true when they are compiled. draw() may come at any time and
+    /// waits for what it needs. Throws as draw() does.
+    bool warmUp(const Texture& texture, const Output& output = {});
+
     /// Draws on transparent black into a texture of the renderer's own and reads it back.
     image::Raster render(const Texture& texture, const asset::View& view);
 
