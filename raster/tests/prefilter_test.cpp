@@ -74,10 +74,10 @@ Asset manyLeaves(unsigned levels) {
 TEST(PrefilterSize, FollowsTheTree) {
     EXPECT_EQ(prefilterSize(emptyAsset()), (PyramidSize{1, 1}));
     EXPECT_EQ(prefilterSize(halfPlane()), (PyramidSize{1, 1}));
-    EXPECT_LE(prefilterSize(twoLevels()).width, 24u);
-    // 64 × 64 leaves: a footprint that is 2/3 as large as a leaf meets (5/3)² of them, which is too many, one
-    // that is half as large (3/2)². A base texel is half of the former.
-    EXPECT_EQ(prefilterSize(manyLeaves(3)), (PyramidSize{192, 192}));
+    EXPECT_LE(prefilterSize(twoLevels()).width, 16u);
+    // 64 × 64 leaves: a footprint as large as a leaf meets 2 × 2 of them, which is too many, one that is 3/4
+    // as large fewer. A base texel is half of the former.
+    EXPECT_EQ(prefilterSize(manyLeaves(3)), (PyramidSize{128, 128}));
     EXPECT_EQ(prefilterSize(manyLeaves(4)), (PyramidSize{512, 512}));
     EXPECT_EQ(prefilterSize(manyLeaves(5)), (PyramidSize{512, 512}));
 }
