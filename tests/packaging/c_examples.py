@@ -48,12 +48,11 @@ def label(picture):
     picture.expect(360, 112, WHITE, "the last letter is where the escapements have led")
 
 
-def window(folder, source):
-    """On an X server of its own, if there is one."""
-    built = subprocess.run(["pkg-config", "--exists", "x11"], check=False)
-    if built.returncode != 0:
+def window(folder, source, packages):
+    """On an X server of its own, if there is one; libX11 is the system's."""
+    if subprocess.run(["pkg-config", "--exists", "x11"], check=False).returncode != 0:
         return
-    run("make", "-C", folder, "window")
+    run("make", "-C", folder, "window", env={"PKG_CONFIG_PATH": packages})
     shown = subprocess.run([sys.executable, source / "api/egl/tests/under_xvfb.py", folder / "window", "1"], check=False)
     require(shown.returncode in (0, NEVER_SHOWN), "the window is not shown")
 
@@ -61,10 +60,10 @@ def window(folder, source):
 def check(folder):
     place = folder.fresh("c_examples") / "c"
     shutil.copytree(folder.source / "examples/openvg/c", place)
-    installed = {"PKG_CONFIG_LIBDIR": str(folder.prefix / "lib/pkgconfig")}
+    packages = str(folder.prefix / "lib/pkgconfig")
     run("make", "-C", place, "CFLAGS=-std=c11 -Wall -Wextra -Wpedantic -Werror", "first_path", "label", "quality",
-        env=installed)
+        env={"PKG_CONFIG_LIBDIR": packages})
     for name, look in (("first_path", first_path), ("label", label)):
         run(place / name, place / f"{name}.ppm", env={"EGL_PLATFORM": "surfaceless"})
         look(Picture(place / f"{name}.ppm"))
-    window(place, folder.source)
+    window(place, folder.source, packages)
