@@ -55,6 +55,8 @@ if(TARGET vtm_openvg)
     vtm_install_pkgconfig(vtm-openvg "OpenVG 1.1 on VTM" LIBDIR ${vtm_openvg_dir} LIBS -lOpenVG ${rpath})
     vtm_install_pkgconfig(vtm-egl "EGL with OpenVG, in front of the system's" LIBDIR ${vtm_openvg_dir} REQUIRES vtm-openvg
         LIBS -lEGL ${rpath})
+    # The name that programs ask for.
+    vtm_install_pkgconfig(openvg "OpenVG 1.1, VGU and EGL" LIBDIR ${vtm_openvg_dir} REQUIRES vtm-egl)
 endif()
 
 # ---- The command ----------------------------------------------------------------------------------

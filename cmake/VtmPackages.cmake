@@ -59,7 +59,7 @@ The part of libvtm that draws with OpenGL ES 3.0, and makes textures of
 vector pictures." DEPENDS "libvtm0 ${same}" EXTRA ${PROJECT_BINARY_DIR}/package/triggers)
 endif()
 if(TARGET vtm_openvg)
-    list(APPEND development "libvtm-openvg0 ${same}")
+    list(APPEND development "libvtm-openvg0 ${same}" libegl-dev)  # EGL/egl.h
     vtm_package(openvg libvtm-openvg0 libs "OpenVG 1.1 and EGL with OpenVG
 The libraries stand in a folder of their own, not where they would take the
 place of the system's EGL.")

@@ -9,6 +9,7 @@ check.py WAY BUILD SOURCE FOLDER: BUILD is a finished build of SOURCE; all is wr
   fetch_content    the same through FetchContent
   debian           cpack; the packages, unpacked, are a prefix; lintian has no errors
   python           the Python module of the prefix
+  c_examples       examples/openvg/c, outside of the tree: its Makefile, and what the programs draw
   readme           README.md's code compiles against the prefix
   exports          the libraries export what public headers declare
 """
@@ -171,7 +172,10 @@ def main():
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     way, *places = sys.argv[1:]
     check = Check(*places)
-    if way == "readme":
+    if way == "c_examples":
+        import c_examples
+        c_examples.check(check)
+    elif way == "readme":
         import readme
         readme.check(check)
     elif way == "exports":

@@ -6,6 +6,7 @@
 
 #include "api/egl/state/thread.hpp"
 #include "api/egl/surfaces/blitter.hpp"
+#include "api/egl/surfaces/posting.hpp"
 #include "api/egl/system/system_surfaces.hpp"
 
 namespace vtm::egl {
@@ -68,6 +69,16 @@ EGLint side(const Surface& surface, EGLint name, EGLint drawn) {
     if (surface.kind == Surface::Kind::window && surface.glUses > 0)
         systemEgl()->QuerySurface(surface.display.handle, surface.target, name, &value);
     return value;
+}
+
+/// A program that asks for the size draws for it: the window in which this thread's OpenVG draws has its new
+/// size from here on. Section 3.10.1.1 only asks for that in eglSwapBuffers, when a frame for the old size is
+/// drawn already.
+void followWindow(EGLSurface handle, EGLint attribute) {
+    const auto surface = currentSurface();
+    if ((attribute == EGL_WIDTH || attribute == EGL_HEIGHT) && surface && surface->handle == handle &&
+        surface->terminations == surface->display.terminations)
+        fitToTarget(*surface);
 }
 
 /// Of table 3.5; nothing for those that a surface of this kind leaves unmodified.
@@ -160,11 +171,17 @@ EGLBoolean EGLAPIENTRY eglDestroySurface(EGLDisplay dpy, EGLSurface handle) {
 }
 
 EGLBoolean EGLAPIENTRY eglQuerySurface(EGLDisplay dpy, EGLSurface handle, EGLint attribute, EGLint* value) {
-    if (!surfaces().has(handle))
+    const bool isAdopted = isAdoptedCurrent(handle);
+    if (!surfaces().has(handle) && !isAdopted)
         return forward(&System::QuerySurface, EGLBoolean(EGL_FALSE), EGL_BAD_SURFACE, dpy, handle, attribute,
                        value);
     return call(EGLBoolean(EGL_FALSE), [&] {
-        const auto surface = getSurface(initializedDisplay(dpy), handle);
+        const auto surface = isAdopted ? currentSurface() : getSurface(initializedDisplay(dpy), handle);
+        followWindow(handle, attribute);
+        if (isAdopted) {
+            requireSystem(systemEgl()->QuerySurface(dpy, handle, attribute, value));
+            return EGLBoolean(EGL_TRUE);
+        }
         const std::optional<EGLint> found = surfaceAttribute(*surface, attribute);
         require(value != nullptr, EGL_BAD_PARAMETER);
         if (found)

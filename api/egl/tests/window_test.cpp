@@ -161,6 +161,25 @@ TEST_F(Windows, AreFollowedWhenResized) {
     EXPECT_EQ(x.pixel(window, 29, 19), green);
 }
 
+TEST_F(Windows, AreFollowedWhenAskedForTheirSize) {
+    const unsigned long window = x.window(60, 40);
+    const EGLSurface s = onWindow(window);
+    ASSERT_EGL(eglMakeCurrent(display, s, s, ctx));
+    vg.fill(60, 40, {1, 0, 0, 1});
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    x.resize(window, 90, 70);
+    EXPECT_EQ(query(s, EGL_WIDTH), 90);
+    EXPECT_EQ(query(s, EGL_HEIGHT), 70);
+    // What is drawn now is seen with the next swap, also where there was no window before.
+    vg.fill(90, 70, {0, 1, 0, 1});
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    EXPECT_EQ(x.pixel(window, 89, 0), green);
+    // A surface that is not current keeps its pixels and its size.
+    ASSERT_TRUE(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT));
+    x.resize(window, 30, 20);
+    EXPECT_EQ(query(s, EGL_WIDTH), 90);
+}
+
 TEST_F(Windows, OfEveryFormatAreShown) {
     struct Case {
         EGLint red, alpha, luminance;
@@ -261,7 +280,6 @@ TEST_F(Windows, OfTheSystemsConfigsAreDrawnInto) {
     ASSERT_EGL(eglSwapBuffers(display, s));
     EXPECT_EQ(x.pixel(window, 5, 5), green);
     x.resize(window, 20, 15);
-    ASSERT_EGL(eglSwapBuffers(display, s));
     EXPECT_EQ(query(s, EGL_WIDTH), 20);
     vg.fill(20, 15, {0, 0, 1, 1});
     ASSERT_EGL(eglSwapBuffers(display, s));
