@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -121,18 +122,15 @@ std::size_t SampledTexture::update(const AssetView& asset, bool means) {
     onlyMap(asset);
     requireCurrentContext();
     checkErrors("something before this texture was updated");
-    asset::Prefilter made;
-    asset::PrefilterView pyramid = asset.prefilter;
-    if (means && pyramid.size.empty()) {
-        made = asset::buildPrefilter(asset);
-        pyramid = {made.size, made.texels};
-    }
+    std::optional<Pyramid> pyramid;
+    if (means)
+        pyramid.emplace(asset, asset::PrefilterOptions{});
     const StateContract contract;
     const StateGuard guard(contract, true, Touched::uploads());
     const std::size_t sent = impl_->update(asset);
-    if (means) {
-        impl_->prefilter = uploadPrefilter(pyramid);
-        impl_->uniform.prefilterSize = pyramid.size;
+    if (pyramid) {
+        impl_->prefilter = uploadPrefilter(pyramid->view);
+        impl_->uniform.prefilterSize = pyramid->view.size;
     }
     return sent;
 }

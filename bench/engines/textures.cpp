@@ -1,7 +1,6 @@
 #include "bench/engines/textures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -106,16 +105,6 @@ image::Raster truthOf(TextureWay& exact, const glm::dmat3& toTexture, int side, 
                 mean.rgba[4 * (std::size_t(y / samples) * side + x / samples) + c] +=
                     fine.rgba[4 * (std::size_t(y) * side * samples + x) + c] / float(samples * samples);
     return mean;
-}
-
-TextureError errorOf(const image::Raster& drawn, const image::Raster& truth) {
-    double max = 0, squares = 0;
-    for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
-        const double d = 255 * std::abs(double(drawn.rgba[i]) - double(truth.rgba[i]));
-        max = std::max(max, d);
-        squares += d * d;
-    }
-    return {std::sqrt(squares / double(truth.rgba.size())), max};
 }
 
 }  // namespace vtm::bench

@@ -76,10 +76,4 @@ private:
 /// The mean over `samples`² points a pixel, each with a footprint as small as that.
 image::Raster truthOf(TextureWay& exact, const glm::dmat3& toTexture, int side, int samples);
 
-/// Of 255.
-struct TextureError {
-    double rms = 0, max = 0;
-};
-TextureError errorOf(const image::Raster& drawn, const image::Raster& truth);
-
 }  // namespace vtm::bench

@@ -19,6 +19,7 @@
 #include "bench/input/text_pages.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/reports.hpp"
+#include "conformance/compare/compare.hpp"
 
 namespace vtm::bench {
 namespace {
@@ -99,7 +100,7 @@ private:
 };
 
 std::string errors(const Raster& drawn, const Raster& truth) {
-    const TextureError error = errorOf(drawn, truth);
+    const compare::Difference error = compare::compare(drawn, truth);
     return fmt::format("{:.2g}, {:.3g}", error.rms, error.max);
 }
 

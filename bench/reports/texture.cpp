@@ -19,6 +19,7 @@
 #include "bench/measure/measure.hpp"
 #include "bench/reports/reports.hpp"
 #include "bench/reports/texture_views.hpp"
+#include "conformance/compare/compare.hpp"
 
 namespace vtm::bench {
 namespace {
@@ -90,7 +91,7 @@ private:
             pairwise([&] { vtm_.drawOnly(view.toTexture(side_, a++), side_); },
                      [&] { way.drawOnly(view.toTexture(side_, b++), side_); }, budgetOf(), 41);
         const int few = std::min(side_, errorPixels);
-        const TextureError error = errorOf(way.draw(view.toTexture(few, 0), few), truth);
+        const compare::Difference error = compare::compare(way.draw(view.toTexture(few, 0), few), truth);
         addRow(view.name, way.name, time, fmt::format("{:.2g}, {:.3g}", error.rms, error.max),
                fmt::format("{:.3g}", double(way.bytes) / 1e6));
     }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <vtm/image/codec.hpp>
+#include "image/base64.hpp"
 #include "svg/css/cursor.hpp"
 
 namespace vtm::svg {
@@ -71,19 +72,8 @@ std::string percentDecoded(std::string_view text) {
     return decoded;
 }
 
-/// RFC 4648 section 4.
 std::string dataUrl(std::string_view type, std::span<const std::uint8_t> bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string url = "data:" + std::string(type) + ";base64,";
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        unsigned group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < count ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            url += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
-    }
-    return url;
+    return "data:" + std::string(type) + ";base64," + image::base64(bytes);
 }
 
 std::vector<std::uint8_t> decodeDataUrl(std::string_view href) {

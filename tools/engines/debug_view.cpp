@@ -250,10 +250,6 @@ void drawTiles(Canvas& canvas, const Asset& asset, const asset::View& view) {
     }
 }
 
-}  // namespace
-
-namespace {
-
 /// The colour scale's stops.
 std::vector<DebugMark> marksAt(std::initializer_list<const char*> texts) {
     std::vector<DebugMark> marks;

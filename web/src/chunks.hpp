@@ -17,8 +17,6 @@ std::vector<std::uint8_t> difference(std::span<const std::uint8_t> bytes, std::s
 /// zlib's format, as small as zlib makes it.
 std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes);
 
-std::string base64(std::span<const std::uint8_t> bytes);
-
 /// "3af0": bytes. Needs an even number of digits in lower case.
 std::vector<std::uint8_t> fromHexadecimal(std::string_view digits);
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "backend_gl/sampled_data.hpp"
+#include "image/base64.hpp"
 #include "web/src/chunks.hpp"
 #include "web/src/page_text.hpp"
 #include "web/src/shader_text.hpp"
@@ -55,7 +56,7 @@ public:
         }
         list_[name] = {{"bytes", bytes.size()}, {"base", isDifference ? Json(base.name) : Json()}};
         elements_ += fmt::format("<script type=\"application/octet-stream\" id=\"chunk-{}\">{}</script>\n",
-                                 name, base64(packed));
+                                 name, image::base64(packed));
         return name;
     }
     std::string add(const std::string& name, std::string_view text) {
@@ -175,7 +176,7 @@ std::string filled(std::string_view format, const std::map<std::string_view, std
 /// Nothing is loaded, and nothing runs but what we wrote.
 std::string policy() {
     const auto hash = [](std::string_view digits) {
-        return "'sha256-" + base64(fromHexadecimal(digits)) + "'";
+        return "'sha256-" + image::base64(fromHexadecimal(digits)) + "'";
     };
     return fmt::format(
         "default-src 'none'; script-src {}; style-src {}; img-src blob:; base-uri 'none'; form-action 'none'",

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include <vtm/vg.h>
+#include "conformance/compare/compare.hpp"
 #include "conformance/vgscript/vgscript.hpp"
 
 namespace vtm::cases::openvg {
@@ -32,14 +32,6 @@ std::string textOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// In 1/255 of a channel.
-double difference(const image::Raster& a, const image::Raster& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); ++i)
-        largest = std::max(largest, 255 * std::abs(double(a.rgba[i]) - double(b.rgba[i])));
-    return largest;
-}
-
 bool hasGl() {
     const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
     VtmSurface* const surface = vtmCreateSurface(1, 1, &format);
@@ -57,7 +49,7 @@ TEST(OpenVgCompositors, DrawTheSameScripts) {
                                 gl = vgscript::play(text, name, VTM_COMPOSITOR_GL);
         EXPECT_EQ(cpu.failures, gl.failures) << script;
         ASSERT_EQ(cpu.picture.rgba.size(), gl.picture.rgba.size()) << script;
-        EXPECT_LE(difference(cpu.picture, gl.picture), 1.001) << script;
+        EXPECT_LE(compare::compare(cpu.picture, gl.picture).max, 1.001) << script;
         ASSERT_TRUE(hasGl()) << script << ": " << vtmGetCompositorFault();
     }
 }
