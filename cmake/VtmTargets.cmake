@@ -22,22 +22,26 @@ if(VTM_WERROR)
 endif()
 
 option(VTM_PRECOMPILE_HEADERS "Precompile what most files include: a whole build takes less time" OFF)
+option(VTM_PRECOMPILE_TESTS "The same for tests" OFF)
 set(vtm_precompiled
     <algorithm> <array> <bit> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <mutex> <numbers> <optional>
     <random> <span> <stdexcept> <string> <string_view> <unordered_map> <utility> <variant> <vector>
     <fmt/format.h>
     <glm/common.hpp> <glm/geometric.hpp> <glm/mat2x2.hpp> <glm/mat3x2.hpp> <glm/matrix.hpp> <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
 
-# vtm_precompile(target flags): targets of the same flags share what the first of them compiles.
-function(vtm_precompile target flags)
-    string(MAKE_C_IDENTIFIER "vtm_precompiled_${flags}" first)
+# vtm_precompile(target kind header...): these headers too. Targets of one kind share what the first of them compiles,
+# so they have the same flags and definitions.
+function(vtm_precompile target kind)
+    string(MAKE_C_IDENTIFIER "vtm_precompiled_${kind}" first)
     get_property(known GLOBAL PROPERTY ${first})
     if(known)
         target_precompile_headers(${target} REUSE_FROM ${known})
     else()
-        target_precompile_headers(${target} PRIVATE ${vtm_precompiled})
+        target_precompile_headers(${target} PRIVATE ${vtm_precompiled} ${ARGN})
         set_property(GLOBAL PROPERTY ${first} ${target})
     endif()
+    # ccache needs it.
+    target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>")
     target_link_libraries(${target} PRIVATE fmt::fmt)  # its definitions are those of the precompiled headers
 endfunction()
 
@@ -68,6 +72,11 @@ function(vtm_test name)
     add_executable(${name}_tests ${ARG_SOURCES})
     target_link_libraries(${name}_tests PRIVATE vtm_warnings ${ARG_LINK} GTest::gtest_main)
     target_compile_definitions(${name}_tests PRIVATE VTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    if(VTM_PRECOMPILE_TESTS)
+        vtm_precompile(${name}_tests tests <gtest/gtest.h>)
+        list(FILTER ARG_SOURCES INCLUDE REGEX "\\.c$")
+        set_source_files_properties(${ARG_SOURCES} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
     gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
 endfunction()
 

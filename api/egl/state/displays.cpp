@@ -106,12 +106,17 @@ std::string clientString(EGLint name) {
 }
 
 template <class Get>
-EGLDisplay adopted(bool mayBeAlone, Get&& get) {
+EGLDisplay adopted(bool mayBeAlone, std::optional<void*> native, Get&& get) {
     thisThread().error = EGL_SUCCESS;
     const EGLDisplay display = get();
     if (display != EGL_NO_DISPLAY)
-        addDisplay(display, true, mayBeAlone);
+        addDisplay(display, true, mayBeAlone, native);
     return display;
+}
+
+/// What a display of this platform is named by, if that may be an X11 Display.
+std::optional<void*> x11Display(EGLenum platform, void* native) {
+    return platform == EGL_PLATFORM_X11_EXT ? std::optional(native) : std::nullopt;
 }
 
 }  // namespace
@@ -124,7 +129,7 @@ static EGLDisplay ownPlatformDisplay(EGLenum platform, void* native) {
 }
 
 EGLDisplay EGLAPIENTRY getPlatformDisplayExt(EGLenum platform, void* native, const EGLint* attributes) {
-    return adopted(false, [&]() -> EGLDisplay {
+    return adopted(false, x11Display(platform, native), [&]() -> EGLDisplay {
         const auto get = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
             systemEgl()->GetProcAddress("eglGetPlatformDisplayEXT"));
         return get ? get(platform, native, attributes) : EGL_NO_DISPLAY;
@@ -138,7 +143,8 @@ using namespace vtm::egl;
 EGLDisplay EGLAPIENTRY eglGetDisplay(EGLNativeDisplayType native) {
     const bool isDefault = native == EGL_DEFAULT_DISPLAY;
     if (systemEgl()) {
-        const EGLDisplay display = adopted(isDefault, [&] { return systemEgl()->GetDisplay(native); });
+        const EGLDisplay display =
+            adopted(isDefault, static_cast<void*>(native), [&] { return systemEgl()->GetDisplay(native); });
         if (display != EGL_NO_DISPLAY || !isDefault)
             return display;
     }
@@ -148,7 +154,8 @@ EGLDisplay EGLAPIENTRY eglGetDisplay(EGLNativeDisplayType native) {
 
 EGLDisplay EGLAPIENTRY eglGetPlatformDisplay(EGLenum platform, void* native, const EGLAttrib* attributes) {
     if (systemEgl() && systemEgl()->GetPlatformDisplay)
-        return adopted(false, [&] { return systemEgl()->GetPlatformDisplay(platform, native, attributes); });
+        return adopted(false, x11Display(platform, native),
+                       [&] { return systemEgl()->GetPlatformDisplay(platform, native, attributes); });
     return ownPlatformDisplay(platform, native);
 }
 

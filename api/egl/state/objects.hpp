@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,6 +19,7 @@ namespace vtm::egl {
 
 struct Config;
 class Blitter;
+class XPicture;
 class GlImage;
 
 /// Section 2.1.2. A display stays for ever once a program has asked for it.
@@ -28,6 +30,9 @@ struct Display {
     bool isSystems = false;
     /// OpenVG alone is better than nothing, if the system cannot initialise it.
     bool mayBeAlone = false;
+    /// What the program named it by, if that is an X11 Display where windows are X11's; null: the default
+    /// one.
+    std::optional<void*> native;
 
     std::mutex initializing;
     std::atomic<bool> isInitialized = false;
@@ -81,11 +86,12 @@ struct Surface {
     std::atomic<EGLint> swapBehavior = EGL_BUFFER_PRESERVED;
     VGImage image = VG_INVALID_HANDLE;   ///< that it draws into
     EGLSurface target = EGL_NO_SURFACE;  ///< the system's
-    EGLNativePixmapType pixmap = 0;      ///< that it is for; 0: only the system knows
+    std::uintptr_t native = 0;           ///< window or pixmap that it is for; 0: only the system knows
     EGLConfig targetConfig = nullptr;    ///< of that
     bool isAdopted = false;              ///< `target` is the program's, and `handle` too
     const unsigned terminations;         ///< of the display, when it was created
     std::unique_ptr<Blitter> blitter;    ///< made when first needed
+    std::unique_ptr<XPicture> xPicture;  ///< as well
     EGLint swapInterval = 1;
 
     std::atomic<int> vgUses = 0, glUses = 0;  ///< threads where it is current

@@ -54,7 +54,7 @@ Display* findDisplay(EGLDisplay handle) {
     return it == displays().all.end() ? nullptr : it->second.get();
 }
 
-Display& addDisplay(EGLDisplay handle, bool isSystems, bool mayBeAlone) {
+Display& addDisplay(EGLDisplay handle, bool isSystems, bool mayBeAlone, std::optional<void*> native) {
     const std::lock_guard lock(displays().mutex);
     std::unique_ptr<Display>& display = displays().all[handle];
     if (!display) {
@@ -62,6 +62,7 @@ Display& addDisplay(EGLDisplay handle, bool isSystems, bool mayBeAlone) {
         display->handle = handle;
         display->isSystems = isSystems;
         display->mayBeAlone = mayBeAlone;
+        display->native = native;
     }
     return *display;
 }

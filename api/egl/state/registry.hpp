@@ -106,8 +106,9 @@ Table<Image>& images();
 
 /// Null if no program got it from us.
 Display* findDisplay(EGLDisplay handle);
-/// The one that there is, or a new one.
-Display& addDisplay(EGLDisplay handle, bool isSystems, bool mayBeAlone);
+/// The one that there is, or a new one with these members.
+Display& addDisplay(EGLDisplay handle, bool isSystems, bool mayBeAlone,
+                    std::optional<void*> native = std::nullopt);
 /// The display of a machine without any. Asked for again it is the same.
 Display& ownDisplay();
 

@@ -1,5 +1,9 @@
 #include "api/egl/surfaces/blitter.hpp"
 
+#include <utility>
+
+#include <vtm/vg_gl.h>
+
 #include "api/egl/system/gl_functions.hpp"
 
 namespace vtm::egl {
@@ -7,11 +11,11 @@ namespace vtm::egl {
 namespace {
 
 constexpr const char* vertexShader =
-    "attribute vec2 corner;\n"
+    "attribute vec4 corner;\n"
     "varying vec2 st;\n"
     "void main() {\n"
-    "    st = vec2(corner.x, 1.0 - corner.y);\n"
-    "    gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);\n"
+    "    st = corner.zw;\n"
+    "    gl_Position = vec4(2.0 * corner.xy - 1.0, 0.0, 1.0);\n"
     "}\n";
 
 constexpr const char* fragmentShader =
@@ -24,12 +28,47 @@ constexpr const char* fragmentShader =
     "varying vec2 st;\n"
     "void main() { gl_FragColor = texture2D(drawing, st); }\n";
 
-constexpr float corners[] = {0, 0, 1, 0, 0, 1, 1, 1};
+/// Corners of the target and of a texture: of one whose rows begin at the bottom, and at the top.
+constexpr float fromBottom[] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0, 1, 1, 1, 1, 1};
+constexpr float fromTop[] = {0, 0, 0, 1, 1, 0, 1, 1, 0, 1, 0, 0, 1, 1, 1, 0};
+
+/// Draws the texture that is bound.
+void drawTexture(const float* corners) {
+    gl().VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, corners);
+    gl().DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+GLuint newTexture() {
+    GLuint texture = 0;
+    gl().GenTextures(1, &texture);
+    gl().BindTexture(GL_TEXTURE_2D, texture);
+    for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl().TexParameteri(GL_TEXTURE_2D, name, GL_NEAREST);
+    for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        gl().TexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+/// That samples what a GPU has drawn; EGL_NO_CONTEXT where there is none that can.
+EGLContext sharingContext(const Display& display, EGLConfig config) {
+    VtmGlContext its{};
+    if (!vtmGetGlContext(&its) || its.display != display.handle)
+        return EGL_NO_CONTEXT;
+    try {
+        return newGlContext(display, config, its.context, its.attributes);
+    } catch (const Error&) {
+        return EGL_NO_CONTEXT;
+    }
+}
 
 }  // namespace
 
-Blitter::Blitter(const Display& display, EGLConfig config)
-    : display_(display.handle), context_(newGlContext(display, config)) {}
+Blitter::Blitter(const Display& display, EGLConfig config, bool isOnGpu)
+    : display_(display.handle), context_(isOnGpu ? sharingContext(display, config) : EGL_NO_CONTEXT) {
+    sharesTextures_ = context_ != EGL_NO_CONTEXT;
+    if (!sharesTextures_)
+        context_ = newGlContext(display, config);
+}
 
 Blitter::~Blitter() {
     if (context_ != EGL_NO_CONTEXT)
@@ -51,30 +90,44 @@ void Blitter::prepare() {
     gl().GetProgramiv(program, GL_LINK_STATUS, &isLinked);
     require(isLinked, EGL_BAD_ALLOC);
     gl().UseProgram(program);
-    GLuint texture = 0;
-    gl().GenTextures(1, &texture);
     gl().ActiveTexture(GL_TEXTURE0);
-    gl().BindTexture(GL_TEXTURE_2D, texture);
-    for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        gl().TexParameteri(GL_TEXTURE_2D, name, GL_NEAREST);
-    for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        gl().TexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
     gl().Disable(GL_DITHER);
     gl().EnableVertexAttribArray(0);
-    gl().VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, corners);
     isPrepared_ = true;
+}
+
+/// The drawing's pixels, from memory.
+void Blitter::upload(VtmSurface* drawing) {
+    const GLsizei width = vtmSurfaceWidth(drawing), height = vtmSurfaceHeight(drawing);
+    const std::size_t rowBytes = std::size_t(width) * 4;
+    pixels_.resize(rowBytes * std::size_t(height));
+    vtmReadSurface(drawing, pixels_.data(), rowBytes);
+    if (texture_ == 0)
+        texture_ = newTexture();
+    gl().BindTexture(GL_TEXTURE_2D, texture_);
+    if (std::exchange(width_, width) != width || std::exchange(height_, height) != height)
+        gl().TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                        pixels_.data());
+    else
+        gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
 }
 
 void Blitter::draw(VtmSurface* drawing) {
     if (!isPrepared_)
         prepare();
-    const GLsizei width = vtmSurfaceWidth(drawing), height = vtmSurfaceHeight(drawing);
-    const std::size_t rowBytes = std::size_t(width) * 4;
-    pixels_.resize(rowBytes * std::size_t(height));
-    vtmReadSurface(drawing, pixels_.data(), rowBytes);
-    gl().Viewport(0, 0, width, height);
-    gl().TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
-    gl().DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    gl().Viewport(0, 0, vtmSurfaceWidth(drawing), vtmSurfaceHeight(drawing));
+    VtmGlPicture picture;
+    if (sharesTextures_ && vtmTakeGlPicture(drawing, &picture)) {
+        const auto ready = static_cast<GLsync>(picture.ready);
+        gl().WaitSync(ready, 0, GL_TIMEOUT_IGNORED);
+        gl().DeleteSync(ready);
+        gl().BindTexture(GL_TEXTURE_2D, picture.texture);
+        drawTexture(fromBottom);
+        vtmReturnGlPicture(gl().FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+    } else {
+        upload(drawing);
+        drawTexture(fromTop);
+    }
     require(gl().GetError() == GL_NO_ERROR, EGL_BAD_ALLOC);
 }
 

@@ -16,8 +16,8 @@ namespace vtm::egl {
 
 class Blitter {
 public:
-    /// For surfaces of the system's with this config. Throws Error.
-    Blitter(const Display& display, EGLConfig config);
+    /// For surfaces of the system's with this config. `isOnGpu`: of drawings there. Throws Error.
+    Blitter(const Display& display, EGLConfig config, bool isOnGpu);
     ~Blitter();
     Blitter(const Blitter&) = delete;
     Blitter& operator=(const Blitter&) = delete;
@@ -35,10 +35,14 @@ public:
 private:
     void prepare();
     void draw(VtmSurface* drawing);
+    void upload(VtmSurface* drawing);
 
     const EGLDisplay display_;
+    bool sharesTextures_ = false;  ///< of drawings on a GPU
     EGLContext context_ = EGL_NO_CONTEXT;
     bool isPrepared_ = false;
+    unsigned texture_ = 0;           ///< of drawings in memory
+    EGLint width_ = 0, height_ = 0;  ///< of that
     std::vector<std::uint8_t> pixels_;
 };
 

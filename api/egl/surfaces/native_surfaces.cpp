@@ -41,13 +41,13 @@ EGLint targetAttribute(const Surface& surface, EGLint name) {
 /// `make` creates the system's surface with a config of the system's.
 template <class Number, class Make>
 EGLSurface createNative(Display& display, Kind kind, EGLConfig handle, const Number* list, Make&& make,
-                        EGLNativePixmapType pixmap) {
+                        std::uintptr_t native) {
     const auto config = getConfig(display, handle);
     const bool isWindow = kind == Kind::window;
     const EGLConfig best = isWindow ? config->window : config->pixmap;
     require(best != nullptr && display.systemRuns, EGL_BAD_MATCH);
     const auto surface = std::make_shared<Surface>(display, config, kind);
-    surface->pixmap = pixmap;
+    surface->native = native;
     surface->renderBuffer = isWindow ? EGL_BACK_BUFFER : EGL_SINGLE_BUFFER;
     for (const auto& [attribute, value] : attributeList(list)) {
         if (isWindow && attribute == EGL_RENDER_BUFFER) {
@@ -65,9 +65,9 @@ EGLSurface createNative(Display& display, Kind kind, EGLConfig handle, const Num
 
 template <class Number, class Make>
 EGLSurface createdNative(EGLDisplay dpy, Kind kind, EGLConfig config, const Number* list, Make&& make,
-                         EGLNativePixmapType pixmap = 0) {
+                         std::uintptr_t native = 0) {
     return call(EGLSurface(EGL_NO_SURFACE),
-                [&] { return createNative(initializedDisplay(dpy), kind, config, list, make, pixmap); });
+                [&] { return createNative(initializedDisplay(dpy), kind, config, list, make, native); });
 }
 
 /// Calls the system's function of EGL_EXT_platform_base.
@@ -107,9 +107,10 @@ EGLSurface EGLAPIENTRY eglCreateWindowSurface(EGLDisplay dpy, EGLConfig config, 
     if (!configs().has(config))
         return forward(&System::CreateWindowSurface, EGLSurface(EGL_NO_SURFACE), EGL_BAD_CONFIG, dpy, config,
                        window, list);
-    return createdNative(dpy, Kind::window, config, list, [&](EGLConfig systems) {
+    const auto make = [&](EGLConfig systems) {
         return systemEgl()->CreateWindowSurface(dpy, systems, window, nullptr);
-    });
+    };
+    return createdNative(dpy, Kind::window, config, list, make, std::uintptr_t(window));
 }
 
 EGLSurface EGLAPIENTRY eglCreatePlatformWindowSurface(EGLDisplay dpy, EGLConfig config, void* window,
@@ -132,7 +133,7 @@ EGLSurface EGLAPIENTRY eglCreatePixmapSurface(EGLDisplay dpy, EGLConfig config, 
     const auto make = [&](EGLConfig systems) {
         return systemEgl()->CreatePixmapSurface(dpy, systems, pixmap, nullptr);
     };
-    return createdNative(dpy, Kind::pixmap, config, list, make, pixmap);
+    return createdNative(dpy, Kind::pixmap, config, list, make, std::uintptr_t(pixmap));
 }
 
 EGLSurface EGLAPIENTRY eglCreatePlatformPixmapSurface(EGLDisplay dpy, EGLConfig config, void* pixmap,

@@ -3,31 +3,47 @@
 #include "api/egl/surfaces/posting.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "api/egl/images/images.hpp"
 #include "api/egl/state/thread.hpp"
 #include "api/egl/surfaces/blitter.hpp"
-#include "api/egl/surfaces/x_pixmaps.hpp"
+#include "api/egl/surfaces/x_pictures.hpp"
 #include "api/egl/system/system_surfaces.hpp"
 
 namespace vtm::egl {
 
 namespace {
 
+bool isOnGpu(const VtmSurface* drawing) { return vtmGetCompositor(drawing) == VTM_COMPOSITOR_GL; }
+
 Blitter& blitterOf(Surface& surface) {
     if (!surface.blitter)
-        surface.blitter = std::make_unique<Blitter>(surface.display, surface.targetConfig);
+        surface.blitter =
+            std::make_unique<Blitter>(surface.display, surface.targetConfig, isOnGpu(surface.drawing));
     return *surface.blitter;
 }
 
-/// False if only the system can do it.
-bool putDrawing(EGLNativePixmapType pixmap, const Surface& surface) {
-    if (pixmap == 0)
+/// By the name of the driver, where the system tells.
+bool isSoftware(const Display& display) {
+    const auto driverName = reinterpret_cast<PFNEGLGETDISPLAYDRIVERNAMEPROC>(
+        systemEgl()->GetProcAddress("eglGetDisplayDriverName"));
+    const char* const name = driverName ? driverName(display.handle) : nullptr;
+    return name && std::string_view(name).ends_with("swrast");
+}
+
+/// Without OpenGL. False if only the system can do it.
+bool putDrawing(Surface& surface) {
+    if (surface.native == 0)
         return false;
-    const int width = vtmSurfaceWidth(surface.drawing), height = vtmSurfaceHeight(surface.drawing);
-    std::vector<std::uint8_t> pixels(std::size_t(width) * std::size_t(height) * 4);
-    vtmReadSurface(surface.drawing, pixels.data(), std::size_t(width) * 4);
-    return putPicture(pixmap, width, height, pixels.data());
+    if (!surface.xPicture)
+        surface.xPicture = std::make_unique<XPicture>(surface.display);
+    return surface.xPicture->put(surface.native, surface.drawing);
+}
+
+/// Where OpenGL would only be a detour.
+bool putOnWindow(Surface& surface) {
+    return !isOnGpu(surface.drawing) && isSoftware(surface.display) && putDrawing(surface);
 }
 
 /// Of this thread's current context of OpenVG, and none other.
@@ -56,7 +72,8 @@ EGLBoolean swap(EGLDisplay dpy, EGLSurface handle) {
         const auto surface = postedSurface(dpy, handle);
         if (surface->kind == Surface::Kind::window) {
             fitToTarget(*surface);
-            blitterOf(*surface).swap(surface->target, surface->drawing, surface->swapInterval);
+            if (!putOnWindow(*surface))
+                blitterOf(*surface).swap(surface->target, surface->drawing, surface->swapInterval);
         } else {
             showPixmap(*surface);
         }
@@ -80,8 +97,8 @@ void copyTo(const Surface& surface, EGLNativePixmapType pixmap) {
     system->QuerySurface(display.handle, target, EGL_WIDTH, &width);
     system->QuerySurface(display.handle, target, EGL_HEIGHT, &height);
     require(width == surface.width && height == surface.height, EGL_BAD_MATCH);
-    if (!putDrawing(pixmap, surface))
-        Blitter(display, surface.config->pixmap).copy(target, surface.drawing);
+    if (!XPicture(display).put(std::uintptr_t(pixmap), surface.drawing))
+        Blitter(display, surface.config->pixmap, isOnGpu(surface.drawing)).copy(target, surface.drawing);
 }
 
 /// To be posted by us.
@@ -130,7 +147,7 @@ void takeFromGl(Surface& surface) {
 
 void showPixmap(Surface& surface) {
     if (surface.kind == Surface::Kind::pixmap && surface.terminations == surface.display.terminations)
-        if (!putDrawing(surface.pixmap, surface))
+        if (!putDrawing(surface))
             blitterOf(surface).copy(surface.target, surface.drawing);
 }
 

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 
+#include <vtm/vg_gl.h>
+
 #include "api/egl/state/thread.hpp"
 #include "api/egl/surfaces/blitter.hpp"
 #include "api/egl/surfaces/posting.hpp"
+#include "api/egl/surfaces/x_pictures.hpp"
 #include "api/egl/system/system_surfaces.hpp"
 
 namespace vtm::egl {
@@ -54,6 +57,9 @@ void createDrawing(Surface& surface, EGLint width, EGLint height) {
     format.linear = VGboolean(surface.isLinear);
     format.premultiplied = VGboolean(surface.isPremultiplied);
     // A surface without a pixel is legal here, and nothing can be drawn on it; OpenVG wants one.
+    // Windows of this display can then show what a GPU has drawn.
+    if (surface.target != EGL_NO_SURFACE)
+        vtmPreferGlDisplay(surface.display.handle);
     surface.drawing = vtmCreateSurface(std::max(width, 1), std::max(height, 1), &format);
     require(surface.drawing != nullptr, EGL_BAD_ALLOC);
     vtmChooseCompositor(surface.drawing, surface.config->compositor);

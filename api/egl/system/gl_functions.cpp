@@ -17,11 +17,16 @@ const Gl& gl() {
 }
 
 EGLContext newGlContext(const Display& display, EGLConfig config) {
-    const System& system = *systemEgl();
     const EGLint attributes[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
+    return newGlContext(display, config, EGL_NO_CONTEXT, attributes);
+}
+
+EGLContext newGlContext(const Display& display, EGLConfig config, EGLContext share,
+                        const EGLint* attributes) {
+    const System& system = *systemEgl();
     const EGLenum api = system.QueryAPI();
     requireSystem(system.BindAPI(EGL_OPENGL_ES_API));
-    const EGLContext context = system.CreateContext(display.handle, config, EGL_NO_CONTEXT, attributes);
+    const EGLContext context = system.CreateContext(display.handle, config, share, attributes);
     const EGLint error = system.GetError();
     system.BindAPI(api);
     require(context != EGL_NO_CONTEXT, error);

@@ -1,5 +1,5 @@
 /// \file
-/// OpenGL ES 2 behind the system's EGL, for what happens in contexts of ours.
+/// OpenGL ES behind the system's EGL, for what happens in contexts of ours.
 #pragma once
 
 #include <EGL/egl.h>
@@ -9,14 +9,16 @@
 
 namespace vtm::egl {
 
-/// Its functions, named without their prefix, as far as they are called here. Null where the system has none.
+/// Its functions, named without their prefix, as far as they are called here. Null where the system has none;
+/// those of fences are OpenGL ES 3's.
 struct Gl {
-#define VTM_EGL_GL(f)                                                                                      \
-    f(ActiveTexture) f(AttachShader) f(BindAttribLocation) f(BindFramebuffer) f(BindTexture)               \
-        f(CompileShader) f(CreateProgram) f(CreateShader) f(Disable) f(DrawArrays)                         \
-            f(EnableVertexAttribArray) f(Finish) f(FramebufferTexture2D) f(GenFramebuffers) f(GenTextures) \
-                f(GetError) f(GetProgramiv) f(LinkProgram) f(ReadPixels) f(ShaderSource) f(TexImage2D)     \
-                    f(TexParameteri) f(TexSubImage2D) f(UseProgram) f(VertexAttribPointer) f(Viewport)
+#define VTM_EGL_GL(f)                                                                                    \
+    f(ActiveTexture) f(AttachShader) f(BindAttribLocation) f(BindFramebuffer) f(BindTexture)             \
+        f(CompileShader) f(CreateProgram) f(CreateShader) f(DeleteSync) f(Disable) f(DrawArrays)         \
+            f(EnableVertexAttribArray) f(FenceSync) f(Finish) f(FramebufferTexture2D) f(GenFramebuffers) \
+                f(GenTextures) f(GetError) f(GetProgramiv) f(LinkProgram) f(ReadPixels) f(ShaderSource)  \
+                    f(TexImage2D) f(TexParameteri) f(TexSubImage2D) f(UseProgram) f(VertexAttribPointer) \
+                        f(Viewport) f(WaitSync)
 #define VTM_EGL_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
     VTM_EGL_GL(VTM_EGL_GL_MEMBER)
 #undef VTM_EGL_GL_MEMBER
@@ -25,8 +27,9 @@ struct Gl {
 /// Asked for once, when first called. There must be a system's library.
 const Gl& gl();
 
-/// Of OpenGL ES 2, sharing nothing. Throws Error.
+/// Of OpenGL ES 2, sharing nothing; or with other attributes, sharing with a context. Throws Error.
 EGLContext newGlContext(const Display& display, EGLConfig config);
+EGLContext newGlContext(const Display& display, EGLConfig config, EGLContext share, const EGLint* attributes);
 
 /// Makes a context current in the system for as long as this lives, and then again what was.
 class GlCurrent {

@@ -39,6 +39,10 @@ struct X11 {
         find<int(void*, unsigned long, unsigned, unsigned)>("XResizeWindow")(display, window, width, height);
         sync();
     }
+    void destroy(unsigned long window) const {
+        find<int(void*, unsigned long)>("XDestroyWindow")(display, window);
+        sync();
+    }
     /// Red, green, blue from the highest to the lowest byte; y from the top.
     unsigned long pixel(unsigned long drawable, int x, int y) const {
         sync();
@@ -198,6 +202,49 @@ TEST_F(Windows, OfEveryFormatAreShown) {
         ASSERT_EGL(eglSwapBuffers(display, s));
         EXPECT_EQ(x.pixel(window, 4, 4), k.shown) << k.red << ' ' << k.alpha << ' ' << k.luminance;
     }
+}
+
+/// Windows that are named by their number, and by an address, are shown in different ways.
+TEST_F(Windows, ShowEveryPixel) {
+    constexpr EGLint width = 61, height = 43;
+    for (const bool isByNumber : {true, false}) {
+        unsigned long window = x.window(width, height);
+        const EGLSurface s =
+            isByNumber ? onWindow(window) : eglCreatePlatformWindowSurface(display, c, &window, nullptr);
+        ASSERT_NE(s, EGL_NO_SURFACE) << std::hex << eglGetError();
+        ASSERT_EGL(eglMakeCurrent(display, s, s, ctx));
+        for (int frame = 0; frame < 3; ++frame) {
+            vg.fill(width, height, {0, 0, 0.25f, 1});
+            for (int i = 0; i < 20; ++i)
+                vg.fill(width - 3 * i, height - 2 * i,
+                        {float(i) / 20, float(i * frame % 7) / 7, float(i % 5) / 5, i % 2 ? 0.4f : 1});
+            ASSERT_EGL(eglSwapBuffers(display, s));
+            int wrong = 0;
+            for (EGLint y = 0; y < height; ++y)
+                for (EGLint column = 0; column < width; ++column) {
+                    VGuint drawn = 0;
+                    vg.readPixels(&drawn, 4, VG_sRGBA_8888_PRE, column, y, 1, 1);
+                    wrong += x.pixel(window, column, height - 1 - y) != drawn >> 8;
+                }
+            EXPECT_EQ(wrong, 0) << "frame " << frame << ", by number: " << isByNumber;
+        }
+    }
+}
+
+/// A window that was destroyed is an error, and nothing worse.
+TEST_F(Windows, MayBeGone) {
+    const unsigned long window = x.window(20, 10), other = x.window(20, 10);
+    const EGLSurface s = onWindow(window);
+    ASSERT_EGL(eglMakeCurrent(display, s, s, ctx));
+    vg.fill(20, 10, {0, 1, 0, 1});
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    x.destroy(window);
+    eglSwapBuffers(display, s);
+    const EGLSurface t = onWindow(other);
+    ASSERT_EGL(eglMakeCurrent(display, t, t, ctx));
+    vg.fill(20, 10, {0, 0, 1, 1});
+    ASSERT_EGL(eglSwapBuffers(display, t));
+    EXPECT_EQ(x.pixel(other, 5, 5), blue);
 }
 
 TEST_F(Windows, LeaveTheProgramsOpenGlAlone) {

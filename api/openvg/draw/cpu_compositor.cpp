@@ -14,7 +14,7 @@ namespace {
 /// Puts rows of another format into the surface, where scissoring lets it. `row(j)`: the area's j-th;
 /// `convert`: convertRow() or takeRow().
 template <class Row>
-void write(Context& context, const CopyArea& area, const PixelFormat& format, decltype(convertRow)* convert,
+void write(Context& context, const CopyArea& area, const PixelFormat& format, RowConversion* convert,
            Row&& row) {
     Pixels& pixels = context.surface->pixels().write();
     const Clip clip(context);

@@ -1,5 +1,6 @@
 #include "api/openvg/gl/context.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
@@ -51,10 +52,14 @@ bool isSoftware(EGLDeviceEXT device) {
     return text && isListed(text(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
 }
 
+std::atomic<EGLDisplay> preferred = EGL_NO_DISPLAY;
+
 /// Best first.
 std::vector<EGLDisplay> candidateDisplays() {
     const egl::System& system = *egl::systemEgl();
     std::vector<EGLDisplay> displays;
+    if (const EGLDisplay first = preferred; first != EGL_NO_DISPLAY)
+        displays.push_back(first);
     if (!std::getenv("EGL_PLATFORM")) {
         if (!isSoftwareWanted())
             for (const EGLDeviceEXT device : listedDevices().value_or(std::vector<EGLDeviceEXT>()))
@@ -71,22 +76,29 @@ std::string refusal(const char* function) {
     return fmt::format("{} failed (0x{:04x})", function, egl::systemEgl()->GetError());
 }
 
+constexpr EGLint plainAttributes[] = {EGL_CONTEXT_CLIENT_VERSION, 3, EGL_NONE};
+constexpr EGLint attributesWithNotice[] = {EGL_CONTEXT_CLIENT_VERSION, 3,
+                                           EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
+                                           EGL_LOSE_CONTEXT_ON_RESET_EXT, EGL_NONE};
+
 /// With notice of resets where that can be had.
-EGLContext createContext(EGLDisplay display, EGLConfig config) {
+ContextHandle createContext(EGLDisplay display, EGLConfig config) {
     const egl::System& system = *egl::systemEgl();
-    if (isListed(system.QueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness")) {
-        const EGLint withNotice[] = {EGL_CONTEXT_CLIENT_VERSION, 3,
-                                     EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
-                                     EGL_LOSE_CONTEXT_ON_RESET_EXT, EGL_NONE};
-        const EGLContext context = system.CreateContext(display, config, EGL_NO_CONTEXT, withNotice);
+    const bool canNotify =
+        isListed(system.QueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness");
+    for (const EGLint* const attributes : {attributesWithNotice, plainAttributes}) {
+        if (attributes == attributesWithNotice && !canNotify)
+            continue;
+        const EGLContext context = system.CreateContext(display, config, EGL_NO_CONTEXT, attributes);
         if (context != EGL_NO_CONTEXT)
-            return context;
+            return {display, context, attributes};
     }
-    const EGLint plain[] = {EGL_CONTEXT_CLIENT_VERSION, 3, EGL_NONE};
-    return system.CreateContext(display, config, EGL_NO_CONTEXT, plain);
+    return {};
 }
 
 }  // namespace
+
+void preferDisplay(EGLDisplay display) { preferred = display; }
 
 Drivers likelyDrivers() {
     if (!egl::systemEgl())
@@ -130,26 +142,25 @@ std::string Context::open(EGLDisplay display) {
     EGLint count = 0;
     if (!system.ChooseConfig(display, wanted, &config, 1, &count) || count == 0)
         return refusal("eglChooseConfig");
-    const EGLContext context = createContext(display, config);
-    if (context == EGL_NO_CONTEXT)
+    const ContextHandle handle = createContext(display, config);
+    if (handle.context == EGL_NO_CONTEXT)
         return refusal("eglCreateContext");
-    if (!system.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+    if (!system.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, handle.context)) {
         const std::string reason = refusal("eglMakeCurrent");
-        system.DestroyContext(display, context);
+        system.DestroyContext(display, handle.context);
         return reason;
     }
-    display_ = display;
-    context_ = context;
+    handle_ = handle;
     return {};
 }
 
 Context::~Context() {
-    if (context_ == EGL_NO_CONTEXT)
+    if (handle_.context == EGL_NO_CONTEXT)
         return;
     const egl::System& system = *egl::systemEgl();
     // The display stays initialised: EGL shares it with all other users of the process.
-    system.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    system.DestroyContext(display_, context_);
+    system.MakeCurrent(handle_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    system.DestroyContext(handle_.display, handle_.context);
 }
 
 }  // namespace vtm::openvg::gl

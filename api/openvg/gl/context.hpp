@@ -13,7 +13,18 @@ namespace vtm::openvg::gl {
 enum class Drivers { none, software, perhapsGpu };
 Drivers likelyDrivers();
 
-/// On a GPU where EGL's list of devices has one, else what the platform offers; EGL_PLATFORM decides alone.
+/// The display that contexts are opened on from now on, if that works; EGL_NO_DISPLAY: none.
+void preferDisplay(EGLDisplay display);
+
+/// `attributes`: a list for eglCreateContext.
+struct ContextHandle {
+    EGLDisplay display = EGL_NO_DISPLAY;
+    EGLContext context = EGL_NO_CONTEXT;
+    const EGLint* attributes = nullptr;
+};
+
+/// On the preferred display if there is one; on a GPU where EGL's list of devices has one, else what the
+/// platform offers; EGL_PLATFORM decides alone.
 /// Current in the thread that makes it; nothing but this thread may use it.
 class Context {
 public:
@@ -23,11 +34,12 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    const ContextHandle& handle() const { return handle_; }
+
 private:
     std::string open(EGLDisplay display);
 
-    EGLDisplay display_ = EGL_NO_DISPLAY;
-    EGLContext context_ = EGL_NO_CONTEXT;
+    ContextHandle handle_;
 };
 
 }  // namespace vtm::openvg::gl

@@ -41,6 +41,7 @@ bool isFetchAllowed() {
 Device::Device(bool mayFetch) : process_(getpid()), worker_(std::make_unique<Worker>()) {
     worker_->run([&] { painter_ = std::make_unique<Painter>(discarded_, mayFetch); });
     abilities_ = painter_->abilities();
+    context_ = painter_->context();
     batch_ = std::make_unique<Batch>(abilities_.fetches);
 }
 
@@ -159,6 +160,22 @@ void Device::flush() {
     const std::lock_guard lock(mutex_);
     if (!isLost())
         postBatch();
+}
+
+GLsync Device::fence() {
+    const std::lock_guard lock(mutex_);
+    if (isLost())
+        return nullptr;
+    postBatch();
+    GLsync fence = nullptr;
+    run([&] { fence = painter_->fence(); });
+    return fence;
+}
+
+void Device::waitFor(GLsync fence) {
+    const std::lock_guard lock(mutex_);
+    if (!isLost())
+        post([this, fence] { painter_->waitFor(fence); });
 }
 
 void Device::finish() {

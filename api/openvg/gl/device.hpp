@@ -42,6 +42,12 @@ public:
     void flush();
     void finish();
 
+    /// That it was opened with.
+    const ContextHandle& context() const { return context_; }
+    /// For contexts that share with this one (class Painter). Null if the context is gone.
+    GLsync fence();
+    void waitFor(GLsync fence);
+
 private:
     enum class State {
         running,
@@ -64,6 +70,7 @@ private:
     std::shared_ptr<Discarded> discarded_ = std::make_shared<Discarded>();
     std::unique_ptr<Painter> painter_;  ///< of the worker's thread
     Abilities abilities_;
+    ContextHandle context_;
     std::unique_ptr<Batch> batch_;
     std::unique_ptr<Worker> worker_;
 };

@@ -24,16 +24,6 @@ using gl::SourceKind;
 using gl::TexturePointer;
 using gl::Tiles;
 
-/// A rectangle, all of it covered.
-Tiles oneTile(const Rectangle& box) {
-    Tiles tiles;
-    tiles.box = box;
-    if (!box.empty())
-        tiles.tiles.push_back({std::uint16_t(box.x0), std::uint16_t(box.y0), std::uint16_t(box.x1 - box.x0),
-                               std::uint16_t(box.y1 - box.y0), gl::Tile::allCovered});
-    return tiles;
-}
-
 Rectangle targetOf(const CopyArea& area) {
     return {area.dx, area.dy, area.dx + area.width, area.dy + area.height};
 }
@@ -45,7 +35,7 @@ bool isEmpty(const CopyArea& area) { return area.width == 0 || area.height == 0;
 Tiles scissored(const Context& context, const Rectangle& box) {
     const Clip clip(context);
     if (clip.isBox())
-        return oneTile(box.intersected(clip.bounds()));
+        return gl::oneTile(box.intersected(clip.bounds()));
     gl::TileBuilder builder;
     for (int y = box.y0; y < box.y1; ++y)
         clip.parts(y, box.x0, box.x1, [&](int first, int end) { builder.add(y, first, end, 1); });
@@ -256,7 +246,7 @@ public:
         const Rectangle box{to.area.x0 + area.dx, to.area.y0 + area.dy, to.area.x0 + area.dx + area.width,
                             to.area.y0 + area.dy + area.height};
         copy(gl::readTexture(device_, context.surface->pixels()), context.surface->pixels().format(),
-             {area.sx - box.x0, area.sy - box.y0}, to.storage->pixels, oneTile(box));
+             {area.sx - box.x0, area.sy - box.y0}, to.storage->pixels, gl::oneTile(box));
     }
 
     void readPixels(Context& context, const MemoryPixels& to, const CopyArea& area) override {
@@ -309,11 +299,7 @@ private:
               Tiles tiles, const std::optional<Rectangle>& read = std::nullopt) {
         Draw draw = drawInto(to, ProgramKey::Task::copy);
         draw.texels[0] = source;
-        draw.block.texels[0].base = {shift, 0, 0};
-        draw.block.texels[0].levels = gl::levelsOf(format);
-        draw.block.texels[0].how.z = !format.space.premultiplied;
-        draw.block.conversion.x = format.space.linear;
-        draw.block.conversion.y = format.space.luminance;
+        gl::setCopied(draw.block, format, shift);
         if (read)
             draw.read.push_back(*read);
         device_.draw(draw, std::move(tiles));

@@ -67,6 +67,14 @@ void setSurface(LayerBlock& block, const PixelFormat& format, int width, int hei
     block.conversion.w = !format.space.linear && !isAlphaOnly(format);
 }
 
+void setCopied(LayerBlock& block, const PixelFormat& format, glm::ivec2 shift) {
+    block.texels[0].base = {shift, 0, 0};
+    block.texels[0].levels = levelsOf(format);
+    block.texels[0].how.z = !format.space.premultiplied;
+    block.conversion.x = format.space.linear;
+    block.conversion.y = format.space.luminance;
+}
+
 void setOrigin(LayerBlock& block, glm::ivec2 origin) {
     block.frame.z = origin.x;
     block.frame.w = origin.y;

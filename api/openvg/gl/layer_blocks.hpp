@@ -24,6 +24,9 @@ void setOrigin(LayerBlock& block, glm::ivec2 origin);
 /// Texels of an image.
 TexelBlock texelBlock(const TexelField& field, glm::ivec2 origin);
 
+/// Copying: of the format that texels have, and where they are: `shift` from pixels to texels.
+void setCopied(LayerBlock& block, const PixelFormat& format, glm::ivec2 shift);
+
 /// What a gradient's ramp is; nothing if it has more pieces than a row holds.
 std::optional<RampRow> rampRow(const ColorRamp& ramp);
 void setGradient(LayerBlock& block, const LinearField& field, glm::ivec2 origin);

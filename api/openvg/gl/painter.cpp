@@ -71,6 +71,17 @@ void Painter::check() {
         throw std::runtime_error(fmt::format("GL failed (0x{:04x})", error));
 }
 
+GLsync Painter::fence() {
+    const GLsync fence = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl_.Flush();
+    return fence;
+}
+
+void Painter::waitFor(GLsync fence) {
+    gl_.WaitSync(fence, 0, GL_TIMEOUT_IGNORED);
+    gl_.DeleteSync(fence);
+}
+
 // ---- Textures -------------------------------------------------------------------------------------
 
 void Painter::bind(Unit unit, GLuint texture) {

@@ -27,6 +27,7 @@ public:
     Painter(std::shared_ptr<Discarded> discarded, bool mayFetch);
 
     const Abilities& abilities() const { return abilities_; }
+    const ContextHandle& context() const { return context_.handle(); }
 
     /// RGBA8 or R8. Null where there is no memory for it.
     TexturePointer makeTexture(GLenum format, int width, int height);
@@ -35,6 +36,10 @@ public:
     void download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes);
     void draw(const Batch& batch);
     void finish() { gl_.Finish(); }
+    /// For other contexts of the share group: when what was asked for so far is done.
+    GLsync fence();
+    /// What is asked for from now on waits for a fence of another context, which is deleted.
+    void waitFor(GLsync fence);
     /// Throws std::runtime_error where GL has failed since the last time, or the context is lost.
     void check();
 

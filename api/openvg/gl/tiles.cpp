@@ -20,6 +20,15 @@ void grow(Rectangle& box, const Rectangle& by) {
 
 }  // namespace
 
+Tiles oneTile(const Rectangle& box) {
+    Tiles tiles;
+    tiles.box = box;
+    if (!box.empty())
+        tiles.tiles.push_back({std::uint16_t(box.x0), std::uint16_t(box.y0), std::uint16_t(box.x1 - box.x0),
+                               std::uint16_t(box.y1 - box.y0), Tile::allCovered});
+    return tiles;
+}
+
 std::vector<Tiles> inParts(Tiles tiles, std::size_t shares) {
     std::vector<Tiles> parts;
     if (tiles.shares.size() <= shares) {

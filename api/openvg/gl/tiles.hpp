@@ -29,6 +29,9 @@ struct Tiles {
     bool areAllCovered() const { return shares.empty(); }
 };
 
+/// A rectangle, all of it covered.
+Tiles oneTile(const Rectangle& box);
+
 /// The same in parts of about so many shares: no tile has more than 2^19.
 std::vector<Tiles> inParts(Tiles tiles, std::size_t shares);
 

@@ -79,6 +79,25 @@ void over(std::uint8_t* pixels, const std::uint8_t* sources, int count) {
     });
 }
 
+/// With c and a up to 255 and t = c a + 128, (t + t / 256) / 256 is c a / 255, rounded to nearest.
+template <int alpha>
+void premultiply(const std::uint8_t* from, std::uint8_t* to, int count) {
+    Words alphaIsKept{};
+    alphaIsKept[alpha] = alphaIsKept[4 + alpha] = 255;
+    const auto multiplied = [&](Words pixels) {
+        const Words t = pixels * (alphasOf<alpha>(pixels) | alphaIsKept) + half;
+        return t + (t >> 8);
+    };
+    inFours(count, [&](std::size_t bytes) {
+        const Bytes there = bytesAt(from, bytes);
+        const Bytes result =
+            whole(multiplied(lowerPixels(there, Bytes{})), multiplied(upperPixels(there, Bytes{})));
+        std::memcpy(to, &result, bytes);
+        from += bytes;
+        to += bytes;
+    });
+}
+
 /// No byte above the pixel's alpha.
 template <int alpha>
 void clamp(const std::uint8_t* from, std::uint8_t* to, int count) {
@@ -120,6 +139,10 @@ void overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int
 
 void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {
     return alphaByte == 0 ? clamp<0>(from, to, count) : clamp<3>(from, to, count);
+}
+
+void premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {
+    return alphaByte == 0 ? premultiply<0>(from, to, count) : premultiply<3>(from, to, count);
 }
 
 bool isOpaque(const std::uint8_t* pixels, int count) {

@@ -18,6 +18,10 @@ void overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int
 /// Copies pixels; what is above its pixel's alpha is brought down to it. `from` and `to` may be the same.
 void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
 
+/// Copies pixels, colours multiplied by their pixel's alpha and rounded to nearest. `from` and `to` may be
+/// the same.
+void premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
+
 /// Whether every fourth byte is 255.
 bool isOpaque(const std::uint8_t* pixels, int count);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/openvg/image/byte_rows.hpp"
+#include "api/openvg/image/conversion_table.hpp"
 #include "api/openvg/paint/lanes.hpp"
 
 namespace vtm::openvg {
@@ -91,6 +92,21 @@ bool isReordered(const PixelFormat& from, const PixelFormat& to) {
                                      !(from.space.premultiplied && to.alpha.bits == 0)));
 }
 
+/// Whether a conversion multiplies by alpha, and moves bytes.
+bool isPremultiplied(const PixelFormat& from, const PixelFormat& to) {
+    return byteOrder(from) && byteOrder(to) && from.space.linear == to.space.linear && from.alpha.bits != 0 &&
+           to.alpha.bits != 0 && !from.space.premultiplied && to.space.premultiplied;
+}
+
+void premultiplyRow(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* to, const PixelFormat& t,
+                    int count) {
+    const ByteOrder order = *byteOrder(t);
+    if (*byteOrder(f) == order)
+        return premultiplyBytes(from, to, count, order.alpha);
+    reorderBytes(from, f, to, t, count);
+    premultiplyBytes(to, to, count, order.alpha);
+}
+
 }  // namespace
 
 std::optional<ByteOrder> byteOrder(const PixelFormat& format) {
@@ -170,6 +186,8 @@ void convertRow(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* to
     }
     if (isReordered(f, t))
         return reorderBytes(from, f, to, t, count);
+    if (isPremultiplied(f, t))
+        return premultiplyRow(from, f, to, t, count);
     std::array<Color, rowChunk> buffer;
     inChunks(count, [&](int first, int size) {
         const std::span<Color> colors = std::span(buffer).first(std::size_t(size));
@@ -191,7 +209,16 @@ void takeRow(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* to, c
 }
 
 void convertRows(PixelRows<const std::uint8_t> from, const PixelFormat& f, PixelRows<std::uint8_t> to,
-                 const PixelFormat& t, int width, int height, decltype(convertRow)* convert) {
+                 const PixelFormat& t, int width, int height, RowConversion* convert) {
+    // A table is made in the time of 65536 pixels, once.
+    constexpr int enoughForTable = 1 << 14;
+    if (f != t && !isReordered(f, t) && !isPremultiplied(f, t) &&
+        std::int64_t(width) * height >= enoughForTable)
+        if (const auto table = ConversionTable::of(f, t, convert)) {
+            for (int y = 0; y < height; ++y)
+                table->apply(from.first + y * from.stride, to.first + y * to.stride, width);
+            return;
+        }
     // Rows without gaps are one.
     if (from.stride == width * std::ptrdiff_t(f.pixelBytes()) &&
         to.stride == width * std::ptrdiff_t(t.pixelBytes()))

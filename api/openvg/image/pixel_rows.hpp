@@ -45,12 +45,12 @@ void encodeRow(const PixelFormat& format, std::span<const Color> colors, std::ui
 void convertColors(std::span<Color> colors, ColorSpace from, ColorSpace to);
 
 /// Copies pixels, converted from one format to another. Rows must not overlap.
-void convertRow(const std::uint8_t* from, const PixelFormat& fromFormat, std::uint8_t* to,
-                const PixelFormat& toFormat, int count);
+using RowConversion = void(const std::uint8_t* from, const PixelFormat& fromFormat, std::uint8_t* to,
+                           const PixelFormat& toFormat, int count);
+RowConversion convertRow;
 
 /// The same of what a program gave: premultiplied colours above their alpha are clamped to it.
-void takeRow(const std::uint8_t* from, const PixelFormat& fromFormat, std::uint8_t* to,
-             const PixelFormat& toFormat, int count);
+RowConversion takeRow;
 
 /// `stride` bytes from row to row.
 template <class Byte>
@@ -58,9 +58,9 @@ struct PixelRows {
     Byte* first;
     std::ptrdiff_t stride;
 };
-/// Rows by either of them.
+/// Rows by either of them; many pixels by a table (conversion_table.hpp).
 void convertRows(PixelRows<const std::uint8_t> from, const PixelFormat& fromFormat,
                  PixelRows<std::uint8_t> to, const PixelFormat& toFormat, int width, int height,
-                 decltype(convertRow)* convert);
+                 RowConversion* convert);
 
 }  // namespace vtm::openvg

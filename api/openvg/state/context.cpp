@@ -95,15 +95,14 @@ std::optional<PixelFormat> surfaceFormat(const VtmSurfaceFormat& f) {
     return std::nullopt;
 }
 
-/// Of vtmReadSurface and vtmWriteSurface.
-PixelFormat bytesFormat() { return *surfaceFormat({8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE}); }
-
 bool isSide(VGint side) { return side >= 1 && side <= maxSurfaceSide; }
 bool isMask(VGint bits) { return bits == 0 || bits == 8; }
 
 }  // namespace
 
 Context* currentContext() { return current.context; }
+
+PixelFormat bytesFormat() { return *surfaceFormat({8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE}); }
 
 }  // namespace vtm::openvg
 
@@ -209,20 +208,18 @@ void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
 void vtmReadSurfacePart(VtmSurface* surface, VGint x0, VGint y0, VGint width, VGint height, void* bytes,
                         size_t rowBytes) {
     const Pixels& pixels = surface->pixels().read();
-    const PixelFormat& format = pixels.format();
-    const PixelFormat output = bytesFormat();
-    for (int y = 0; y < height; ++y)
-        convertRow(pixels.at(x0, y0 + y), format,
-                   static_cast<std::uint8_t*>(bytes) + std::size_t(height - 1 - y) * rowBytes, output, width);
+    const auto stride = std::ptrdiff_t(rowBytes);
+    convertRows({pixels.at(x0, y0), pixels.stride()}, pixels.format(),
+                {static_cast<std::uint8_t*>(bytes) + (height - 1) * stride, -stride}, bytesFormat(), width,
+                height, convertRow);
 }
 
 void vtmWriteSurface(VtmSurface* surface, const void* bytes, size_t rowBytes) {
     Pixels& pixels = surface->pixels().write();
-    const PixelFormat& format = pixels.format();
-    const PixelFormat input = bytesFormat();
-    for (int y = 0; y < pixels.height(); ++y)
-        takeRow(static_cast<const std::uint8_t*>(bytes) + std::size_t(pixels.height() - 1 - y) * rowBytes,
-                input, pixels.at(0, y), format, pixels.width());
+    const auto stride = std::ptrdiff_t(rowBytes);
+    convertRows({static_cast<const std::uint8_t*>(bytes) + (pixels.height() - 1) * stride, -stride},
+                bytesFormat(), {pixels.at(0, 0), pixels.stride()}, pixels.format(), pixels.width(),
+                pixels.height(), takeRow);
 }
 
 VtmContext* vtmCreateContext(VtmContext* share) try {

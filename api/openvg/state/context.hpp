@@ -27,8 +27,10 @@ struct VtmSurface {
     std::optional<vtm::openvg::MaskValues> mask;    ///< nothing: every value counts as 1
     vtm::openvg::Compositor* compositor = nullptr;  ///< one for all surfaces of its kind
     bool isImage = false;                           ///< drawn into an image of a context
-    VtmContext* user = nullptr;                     ///< the context that it is current with
-    bool isDestroyed = false;                       ///< goes when it is no longer current
+    /// What vtmTakeGlPicture gave.
+    std::shared_ptr<const vtm::openvg::gl::Texture> picture;
+    VtmContext* user = nullptr;  ///< the context that it is current with
+    bool isDestroyed = false;    ///< goes when it is no longer current
 
     vtm::openvg::StoredPixels& pixels() const { return storage->pixels; }
     int width() const { return pixels().width(); }
@@ -113,6 +115,9 @@ using Context = ::VtmContext;
 
 /// Of this thread; null if there is none.
 Context* currentContext();
+
+/// Of what vtmReadSurface and vtmWriteSurface copy.
+PixelFormat bytesFormat();
 
 inline void setError(Context& context, VGErrorCode code) {
     if (context.error == VG_NO_ERROR)

@@ -65,6 +65,41 @@ TEST_F(RowsTest, EveryFormatBecomesEveryOther) {
         }
 }
 
+/// Many pixels are converted by tables, few one by one.
+TEST_F(RowsTest, ManyPixelsBecomeWhatFewDo) {
+    constexpr int side = 256, strip = 32;
+    // Each byte beside each alpha, wherever that is.
+    std::vector<std::uint8_t> bytes(side * side * 4);
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x)
+            for (std::size_t i = 0; i < 4; ++i)
+                bytes[(y * side + x) * 4 + i] = std::uint8_t(i == 0 ? y : i == 3 ? x + y : x);
+    const auto bytesOf = [](VGImage image, VGImageFormat format) {
+        std::vector<std::uint8_t> result(side * side * 4);
+        vgGetImageSubData(image, result.data(), side * 4, format, 0, 0, side, side);
+        return result;
+    };
+    for (const VGImageFormat from : formats) {
+        const VGImage image = newImage(from, side, side);
+        vgImageSubData(image, bytes.data(), side * 4, from, 0, 0, side, side);
+        for (const VGImageFormat to : formats) {
+            const VGImage whole = newImage(to, side, side), inStrips = newImage(to, side, side);
+            vgCopyImage(whole, 0, 0, image, 0, 0, side, side, VG_FALSE);
+            for (int y = 0; y < side; y += strip)
+                vgCopyImage(inStrips, 0, y, image, 0, y, side, strip, VG_FALSE);
+            EXPECT_EQ(bytesOf(whole, to), bytesOf(inStrips, to)) << std::hex << from << " to " << to;
+            vgImageSubData(whole, bytes.data(), side * 4, from, 0, 0, side, side);
+            for (int y = 0; y < side; y += strip)
+                vgImageSubData(inStrips, &bytes[std::size_t(y) * side * 4], side * 4, from, 0, y, side,
+                               strip);
+            EXPECT_EQ(bytesOf(whole, to), bytesOf(inStrips, to)) << std::hex << from << " into " << to;
+            vgDestroyImage(whole);
+            vgDestroyImage(inStrips);
+        }
+        vgDestroyImage(image);
+    }
+}
+
 TEST_F(RowsTest, ColoursOfProgramsAreClampedToTheirAlpha) {
     for (const VGImageFormat to : {VG_sRGBA_8888_PRE, VG_sABGR_8888_PRE, VG_lRGBA_8888_PRE, VG_sRGBA_8888}) {
         TwinImage given(VG_sRGBA_8888_PRE, width, height), clamped = given;

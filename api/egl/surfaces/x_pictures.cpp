@@ -1,0 +1,95 @@
+#include "api/egl/surfaces/x_pictures.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include <dlfcn.h>
+
+#include "api/egl/state/configs.hpp"
+
+namespace vtm::egl {
+
+namespace {
+
+/// What eglGetDisplay was given is an X11 Display where configs have X11's classes of visuals.
+bool hasVisuals(const Display& display) {
+    constexpr EGLint staticGray = 0, directColor = 5;
+    const std::vector<EGLConfig> configs = systemConfigs(display);
+    return std::ranges::any_of(configs, [&](EGLConfig config) {
+        const EGLint visual = systemConfigAttribute(display, config, EGL_NATIVE_VISUAL_TYPE);
+        return visual > staticGray && visual <= directColor;
+    });
+}
+
+std::string nameOf(const Display& display) {
+    if (!display.native || !hasVisuals(display))
+        return {};
+    if (*display.native == nullptr) {
+        const char* const name = std::getenv("DISPLAY");
+        return name ? name : "";
+    }
+    // The program has loaded it, since it has a Display.
+    void* const library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    const auto displayString =
+        library ? reinterpret_cast<const char* (*)(void*)>(dlsym(library, "XDisplayString")) : nullptr;
+    return displayString ? displayString(*display.native) : "";
+}
+
+/// Rows of bytes red, green, blue, alpha as the server's words.
+void toWords(const std::uint8_t* pixels, int count, int depth, std::uint8_t* words) {
+    for (int i = 0; i < count; ++i, pixels += 4) {
+        std::uint32_t p;
+        std::memcpy(&p, pixels, 4);
+        if (depth == 16) {
+            const auto word = std::uint16_t((p & 0xf8) << 8 | (p >> 5 & 0x7e0) | (p >> 19 & 0x1f));
+            std::memcpy(words + 2 * std::size_t(i), &word, 2);
+        } else {
+            p = (p & 0xff00ff00) | (p >> 16 & 0xff) | (p & 0xff) << 16;
+            std::memcpy(words + 4 * std::size_t(i), &p, 4);
+        }
+    }
+}
+
+void copyDrawing(VtmSurface* drawing, const XServer::Drawable& to, std::uint8_t* picture) {
+    static_assert(std::endian::native == std::endian::little);
+    // Rows that stay in a cache between the two steps.
+    const int most = std::max(1, (1 << 16) / to.width);
+    const std::size_t pixelRow = std::size_t(to.width) * 4;
+    std::vector<std::uint8_t> pixels(pixelRow * std::size_t(std::min(most, to.height)));
+    for (int y = 0; y < to.height; y += most) {
+        const int rows = std::min(most, to.height - y);
+        vtmReadSurfacePart(drawing, 0, to.height - y - rows, to.width, rows, pixels.data(), pixelRow);
+        for (int row = 0; row < rows; ++row)
+            toWords(&pixels[std::size_t(row) * pixelRow], to.width, to.depth,
+                    picture + std::size_t(y + row) * to.rowBytes());
+    }
+}
+
+}  // namespace
+
+XPicture::XPicture(const Display& display)
+    : server_(display.systemRuns ? XServer::named(nameOf(display)) : nullptr) {}
+
+bool XPicture::put(std::uintptr_t drawable, VtmSurface* drawing) {
+    const auto target = server_ ? server_->find(drawable) : std::nullopt;
+    if (!target || target->width != vtmSurfaceWidth(drawing) || target->height != vtmSurfaceHeight(drawing) ||
+        (target->depth != 16 && target->depth != 24 && target->depth != 32))
+        return false;
+    const std::size_t bytes = target->rowBytes() * std::size_t(target->height);
+    if (!shared_ || shared_->size() < bytes)
+        shared_ = server_->share(bytes);
+    if (shared_) {
+        copyDrawing(drawing, *target, shared_->bytes());
+        server_->put(*target, *shared_);
+    } else {
+        std::vector<std::uint8_t> picture(bytes);
+        copyDrawing(drawing, *target, picture.data());
+        server_->put(*target, picture.data());
+    }
+    return server_->find(drawable).has_value();
+}
+
+}  // namespace vtm::egl

@@ -1,0 +1,123 @@
+#include "api/openvg/image/conversion_table.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+namespace vtm::openvg {
+
+namespace {
+
+bool canBeWords(const PixelFormat& from) { return from.bits <= 16; }
+
+bool canBeChannels(const PixelFormat& from, const PixelFormat& to) {
+    return byteOrder(from) && byteOrder(to) && from.space.luminance == to.space.luminance;
+}
+
+}  // namespace
+
+std::shared_ptr<const ConversionTable> ConversionTable::of(const PixelFormat& from, const PixelFormat& to,
+                                                           RowConversion* convert) {
+    struct Entry {
+        PixelFormat from, to;
+        RowConversion* convert;
+        std::shared_ptr<const ConversionTable> table;
+    };
+    constexpr std::size_t maxEntries = 16;  // of 256 KB at most
+    static auto& mutex = *new std::mutex;
+    static auto& entries = *new std::vector<Entry>;  // the last used one is the first
+    if (!canBeWords(from) && !canBeChannels(from, to))
+        return nullptr;
+    const std::lock_guard lock(mutex);
+    auto it = std::ranges::find_if(entries, [&](const Entry& entry) {
+        return entry.from == from && entry.to == to && entry.convert == convert;
+    });
+    if (it == entries.end()) {
+        auto table = std::make_shared<const ConversionTable>(from, to, convert);
+        if (entries.size() == maxEntries)
+            entries.pop_back();
+        it = entries.insert(entries.end(), {from, to, convert, std::move(table)});
+    }
+    std::rotate(entries.begin(), it, it + 1);
+    return entries.front().table;
+}
+
+ConversionTable::ConversionTable(const PixelFormat& from, const PixelFormat& to, RowConversion* convert)
+    : fromBytes_(from.pixelBytes()), toBytes_(to.pixelBytes()) {
+    if (canBeWords(from))
+        addWords(from, to, convert);
+    else
+        addChannels(from, to, convert);
+}
+
+void ConversionTable::addWords(const PixelFormat& from, const PixelFormat& to, RowConversion* convert) {
+    const std::size_t count = std::size_t(1) << 8 * fromBytes_;
+    std::vector<std::uint8_t> all(count * fromBytes_), converted(count * toBytes_);
+    for (std::size_t word = 0; word < count; ++word)
+        setWordAt(&all[word * fromBytes_], fromBytes_, std::uint32_t(word));
+    convert(all.data(), from, converted.data(), to, int(count));
+    words_.resize(count);
+    for (std::size_t word = 0; word < count; ++word)
+        words_[word] = wordAt(&converted[word * toBytes_], toBytes_);
+}
+
+void ConversionTable::addChannels(const PixelFormat& from, const PixelFormat& to, RowConversion* convert) {
+    fromOrder_ = *byteOrder(from);
+    toOrder_ = *byteOrder(to);
+    const bool alphaMatters = from.alpha.bits != 0 && (from.space.premultiplied || to.space.premultiplied);
+    alphaMask_ = alphaMatters ? 255 : 0;
+    channels_.resize(alphaMatters ? 256 * 256 : 256);
+    std::array<std::uint8_t, 4 * 256> row, converted;
+    for (int alpha = 0; alpha < 256; ++alpha) {
+        for (int value = 0; value < 256; ++value) {
+            std::uint8_t* const pixel = &row[std::size_t(4 * value)];
+            std::fill_n(pixel, 4, std::uint8_t(value));
+            pixel[fromOrder_.alpha] = std::uint8_t(alpha);
+        }
+        convert(row.data(), from, converted.data(), to, 256);
+        alphas_[std::size_t(alpha)] = converted[std::size_t(toOrder_.alpha)];
+        if (alpha > alphaMask_)
+            continue;
+        for (int value = 0; value < 256; ++value)
+            channels_[std::size_t(256 * alpha + value)] = converted[std::size_t(4 * value + toOrder_.red)];
+    }
+}
+
+void ConversionTable::apply(const std::uint8_t* from, std::uint8_t* to, int count) const {
+    if (words_.empty())
+        convertChannels(from, to, count);
+    else if (fromBytes_ == 1)
+        convertWords<std::uint8_t>(from, to, count);
+    else
+        convertWords<std::uint16_t>(from, to, count);
+}
+
+template <class Word>
+void ConversionTable::convertWords(const std::uint8_t* from, std::uint8_t* to, int count) const {
+    const auto each = [&]<class Result>(Result) {
+        for (int i = 0; i < count; ++i) {
+            Word word;
+            std::memcpy(&word, from + std::size_t(i) * sizeof(Word), sizeof(Word));
+            const auto result = Result(words_[word]);
+            std::memcpy(to + std::size_t(i) * sizeof(Result), &result, sizeof(Result));
+        }
+    };
+    if (toBytes_ == 4)
+        each(std::uint32_t());
+    else if (toBytes_ == 2)
+        each(std::uint16_t());
+    else
+        each(std::uint8_t());
+}
+
+void ConversionTable::convertChannels(const std::uint8_t* from, std::uint8_t* to, int count) const {
+    for (int i = 0; i < count; ++i, from += 4, to += 4) {
+        const std::uint8_t alpha = from[fromOrder_.alpha];
+        const std::uint8_t* const row = &channels_[std::size_t(alpha & alphaMask_) * 256];
+        to[toOrder_.red] = row[from[fromOrder_.red]];
+        to[toOrder_.green] = row[from[fromOrder_.green]];
+        to[toOrder_.blue] = row[from[fromOrder_.blue]];
+        to[toOrder_.alpha] = alphas_[alpha];
+    }
+}
+
+}  // namespace vtm::openvg
