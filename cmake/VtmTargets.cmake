@@ -23,6 +23,7 @@ endif()
 
 option(VTM_PRECOMPILE_HEADERS "Precompile what most files include: a whole build takes less time" OFF)
 option(VTM_PRECOMPILE_TESTS "The same for tests" OFF)
+set(VTM_TEST_FLAGS "" CACHE STRING "The compiler's flags for tests alone, after the others")
 set(vtm_precompiled
     <algorithm> <array> <bit> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <mutex> <numbers> <optional>
     <random> <span> <stdexcept> <string> <string_view> <unordered_map> <utility> <variant> <vector>
@@ -72,6 +73,7 @@ function(vtm_test name)
     add_executable(${name}_tests ${ARG_SOURCES})
     target_link_libraries(${name}_tests PRIVATE vtm_warnings ${ARG_LINK} GTest::gtest_main)
     target_compile_definitions(${name}_tests PRIVATE VTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_compile_options(${name}_tests PRIVATE ${VTM_TEST_FLAGS})
     if(VTM_PRECOMPILE_TESTS)
         vtm_precompile(${name}_tests tests <gtest/gtest.h>)
         list(FILTER ARG_SOURCES INCLUDE REGEX "\\.c$")

@@ -46,6 +46,8 @@ Report paper(const Options& options);
 /// vgDrawPath under changing matrices against cairo: the Tiger or the file named, many paths, glyphs, an
 /// edited path.
 Report openvg(const Options& options);
+/// Frames on windows of every format, by OpenVG.
+Report windows(const Options& options);
 /// Time, memory and bytes over the number of curves, up to the largest.
 Report scaling(const Options& options);
 /// Time and memory of drawing once what is quadratic, from 10^2 to 10^5 shapes.
