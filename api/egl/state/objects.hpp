@@ -94,6 +94,8 @@ struct Surface {
     std::unique_ptr<XPicture> xPicture;  ///< as well
     EGLint swapInterval = 1;
 
+    std::atomic<bool> isShown = false;  ///< what is drawn was swapped, in this size
+
     std::atomic<int> vgUses = 0, glUses = 0;  ///< threads where it is current
     bool glDrewLast = false, vgDrewLast = false;
 

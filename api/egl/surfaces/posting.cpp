@@ -77,6 +77,7 @@ EGLBoolean swap(EGLDisplay dpy, EGLSurface handle) {
         } else {
             showPixmap(*surface);
         }
+        surface->isShown = true;
         return EGLBoolean(EGL_TRUE);
     });
 }
@@ -132,6 +133,7 @@ void fitToTarget(Surface& surface) {
     require(vtmResizeSurface(surface.drawing, std::max(width, 1), std::max(height, 1)), EGL_BAD_ALLOC);
     surface.width = width;
     surface.height = height;
+    surface.isShown = false;
 }
 
 void giveToGl(Surface& surface) {
@@ -159,6 +161,21 @@ EGLBoolean EGLAPIENTRY swapBuffersWithDamageKhr(EGLDisplay dpy, EGLSurface surfa
 EGLBoolean EGLAPIENTRY swapBuffersWithDamageExt(EGLDisplay dpy, EGLSurface surface, const EGLint* rectangles,
                                                 EGLint count) {
     return swapWithDamage("eglSwapBuffersWithDamageEXT", dpy, surface, rectangles, count);
+}
+
+EGLBoolean EGLAPIENTRY setDamageRegionKhr(EGLDisplay dpy, EGLSurface handle, EGLint* rectangles,
+                                          EGLint count) {
+    if (isOurs(handle))
+        return call(EGLBoolean(EGL_FALSE), [&] {
+            const auto surface = postedSurface(dpy, handle);
+            require(surface->isBackBuffered() && surface->swapBehavior == EGL_BUFFER_DESTROYED,
+                    EGL_BAD_MATCH);
+            return EGLBoolean(EGL_TRUE);
+        });
+    thisThread().error = EGL_SUCCESS;
+    const auto function =
+        reinterpret_cast<PFNEGLSETDAMAGEREGIONKHRPROC>(systemEgl()->GetProcAddress("eglSetDamageRegionKHR"));
+    return function ? function(dpy, handle, rectangles, count) : EGLBoolean(EGL_FALSE);
 }
 
 }  // namespace vtm::egl

@@ -22,4 +22,7 @@ EGLBoolean EGLAPIENTRY swapBuffersWithDamageKhr(EGLDisplay, EGLSurface, const EG
 EGLBoolean EGLAPIENTRY swapBuffersWithDamageExt(EGLDisplay, EGLSurface, const EGLint* rectangles,
                                                 EGLint count);
 
+/// Of EGL_KHR_partial_update: a hint that OpenVG does without.
+EGLBoolean EGLAPIENTRY setDamageRegionKhr(EGLDisplay, EGLSurface, EGLint* rectangles, EGLint count);
+
 }  // namespace vtm::egl

@@ -123,6 +123,8 @@ std::optional<EGLint> surfaceAttribute(const Surface& surface, EGLint attribute)
             return surface.renderBuffer;
         case EGL_SWAP_BEHAVIOR:
             return surface.swapBehavior;
+        case EGL_BUFFER_AGE_EXT:
+            return surface.isBackBuffered() && surface.isShown ? 1 : 0;
         default:
             throw Error{EGL_BAD_ATTRIBUTE};
     }

@@ -43,6 +43,7 @@ const std::array extensions{
     Named{"eglCreatePlatformPixmapSurfaceEXT", plain(&createPlatformPixmapSurfaceExt)},
     Named{"eglSwapBuffersWithDamageKHR", plain(&swapBuffersWithDamageKhr)},
     Named{"eglSwapBuffersWithDamageEXT", plain(&swapBuffersWithDamageExt)},
+    Named{"eglSetDamageRegionKHR", plain(&setDamageRegionKhr)},
 };
 
 template <class List>

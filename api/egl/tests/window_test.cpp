@@ -231,6 +231,21 @@ TEST_F(Windows, ShowEveryPixel) {
     }
 }
 
+TEST_F(Windows, KnowTheAgeOfTheirBuffer) {
+    const unsigned long window = x.window(20, 10);
+    const EGLSurface s = onWindow(window);
+    ASSERT_EGL(eglMakeCurrent(display, s, s, ctx));
+    EXPECT_EQ(query(s, EGL_BUFFER_AGE_EXT), 0);
+    vg.fill(20, 10, {0, 1, 0, 1});
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    EXPECT_EQ(query(s, EGL_BUFFER_AGE_EXT), 1);
+    x.resize(window, 30, 10);
+    EXPECT_EQ(query(s, EGL_WIDTH), 30);
+    EXPECT_EQ(query(s, EGL_BUFFER_AGE_EXT), 0);
+    ASSERT_EGL(eglSwapBuffers(display, s));
+    EXPECT_EQ(query(s, EGL_BUFFER_AGE_EXT), 1);
+}
+
 /// A window that was destroyed is an error, and nothing worse.
 TEST_F(Windows, MayBeGone) {
     const unsigned long window = x.window(20, 10), other = x.window(20, 10);
