@@ -223,7 +223,7 @@ Atlas::Placed Atlas::place(Tile tile) {
             .flat = true, .programs = tile.programs, .paint = tile.paint, .crowded = {}, .used = picture_};
     Placed placed{.programs = tile.programs,
                   .firstTexel = std::uint32_t(texels_.size()),
-                  .pieces = tile.pieces,
+                  .pairs = tile.pairs,
                   .firstCell = tile.firstCell,
                   .texelCount = std::uint32_t(tile.texels.size()),
                   .crowded = std::move(tile.crowded),
@@ -272,7 +272,7 @@ std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
         if (tile.texelCount == 0)
             continue;
         const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
-        if (!recolor(texels, tile.pieces, tile.firstCell, paints, isChanged) || tile.firstTexel >= uploaded_)
+        if (!recolor(texels, tile.pairs, tile.firstCell, paints, isChanged) || tile.firstTexel >= uploaded_)
             continue;
         updateTexels(texture_.get(), tile.firstTexel, texels);
         sent += texels.size_bytes();

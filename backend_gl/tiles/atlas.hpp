@@ -90,7 +90,7 @@ public:
         bool flat = false;        ///< one paint, no texels
         bool programs = false;    ///< of its paints one is a program
         std::uint32_t paint = 0;  ///< of the map
-        std::uint32_t firstTexel = 0, pieces = 0, firstCell = 0, texelCount = 0;
+        std::uint32_t firstTexel = 0, pairs = 0, firstCell = 0, texelCount = 0;
         std::vector<std::uint8_t> crowded;  ///< cells whose pixels are scanned
         std::uint64_t used = 0;             ///< by which picture, the last time
     };

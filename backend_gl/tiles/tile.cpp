@@ -217,6 +217,10 @@ public:
         return turns > maxTurns_ || rough_.mayBe(pixels, paint, pieces, list);
     }
 
+    /// For the texels of a tile, so that tiles that are crowded all over do not fill the memory: as many as
+    /// some cells may have at most.
+    std::uint64_t room() const { return 8 * maxTurns_; }
+
 private:
     /// The scanner has no colours of materials, so shaders take up to half of what a driver allows; pixels
     /// that share an invocation have cells that are alike.
@@ -237,7 +241,7 @@ Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t 
         return tile;
     const std::vector<PlanarPiece> none;
     const HandedOver isHandedOver(source, places, true);
-    CellWriter writer(source.asset.paints, none, tile.texels);
+    CellWriter writer(source.asset.paints, none, isHandedOver.room(), tile.texels);
     std::vector<Texel> cells;
     for (int cell = 0; cell < cellCount * cellCount; ++cell) {
         const Reference here{dvec2(0.5), 0, paint};
@@ -266,14 +270,14 @@ std::optional<Reference> startOf(const TileSource& source, const LocalPieces& lo
 
 }  // namespace
 
-bool recolor(std::span<Texel> texels, std::uint32_t pieces, std::uint32_t firstCell,
+bool recolor(std::span<Texel> texels, std::uint32_t pairs, std::uint32_t firstCell,
              std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged) {
     bool changed = false;
-    for (std::uint32_t i = 0; i < pieces; ++i) {
-        const std::uint32_t left = texels[2 * i][3] & 0xFFFF, right = texels[2 * i][3] >> 16;
+    for (std::uint32_t i = 0; i < pairs; ++i) {
+        const std::uint32_t pair = texels[2 * i + 1][0], left = pair & 0xFFFF, right = pair >> 16;
         if ((isChanged[left] | isChanged[right]) == 0)
             continue;
-        texels[2 * i + 1] = colorTexel(paints[left], paints[right]);
+        texels[2 * i] = colorTexel(paints[left], paints[right]);
         changed = true;
     }
     for (Texel& cell : texels.subspan(firstCell)) {
@@ -289,7 +293,7 @@ bool recolor(std::span<Texel> texels, std::uint32_t pieces, std::uint32_t firstC
 Tile crowdedTile(std::span<const asset::Paint> paints) {
     Tile tile;
     const std::vector<PlanarPiece> none;
-    const CellWriter writer(paints, none, tile.texels);
+    const CellWriter writer(paints, none, 0, tile.texels);
     for (int cell = 0; cell < cellCount * cellCount; ++cell)
         tile.crowded.push_back(std::uint8_t(cell));
     tile.texels.assign(tile.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
@@ -311,14 +315,9 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     const HandedOver isHandedOver(source, places, programs);
     Tile tile;
     tile.programs = programs;
-    for (const PlanarPiece& piece : pieces) {
-        limits::check();
-        tile.texels.push_back(geometryTexel(piece));
-        tile.texels.push_back(colorTexel(source.asset.paints[piece.left], source.asset.paints[piece.right]));
-    }
     std::vector<Texel> cells;
     cells.reserve(cellCount * cellCount);
-    CellWriter writer(source.asset.paints, pieces, tile.texels);
+    CellWriter writer(source.asset.paints, pieces, isHandedOver.room(), tile.texels);
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)
@@ -331,7 +330,8 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                 here.paint = walk.paintAt(here.point, rowStart, lists.of(i - cellCount), lists.of(i));
             else
                 here.paint = walk.paintAt(here.point, last, lists.of(i - 1), lists.of(i));
-            const bool crowded = isHandedOver(places.pixels(column, row), here.paint, pieces, lists.of(i));
+            const bool crowded = !writer.hasRoomFor(lists.of(i)) ||
+                                 isHandedOver(places.pixels(column, row), here.paint, pieces, lists.of(i));
             cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
             if (crowded)
                 tile.crowded.push_back(std::uint8_t(i));
@@ -339,7 +339,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
             if (column == 0)
                 rowStart = here;
         }
-    tile.pieces = std::uint32_t(pieces.size());
+    tile.pairs = writer.pairs();
     tile.isConsistent = walk.isConsistent();
     tile.firstCell = std::uint32_t(tile.texels.size());
     tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
