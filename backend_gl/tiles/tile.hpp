@@ -36,9 +36,17 @@ inline constexpr int maxTileLevel = 2 * int(asset::maxLevel);
 
 /// A tile has fewer pixels a side.
 inline constexpr double tilePixels = 64;
-/// Cells a side.
-inline constexpr unsigned tileCellsLog2 = 4;
-inline constexpr double cellSize = 1.0 / (1u << tileCellsLog2);  ///< tile sides
+/// Cells a side; of tiles with long lists up to the second.
+inline constexpr unsigned tileCellsLog2 = 4, maxCellsLog2 = 6;
+/// In the word with a tile's first cell.
+inline constexpr unsigned gridShift = 28;
+/// The cells of a tile, row by row.
+struct CellGrid {
+    unsigned log2 = tileCellsLog2;
+
+    int cellsPerSide() const { return 1 << log2; }
+    double cellSize() const { return 1.0 / (1u << log2); }  ///< tile sides
+};
 /// Reference points stand on a grid of 2^referenceLog2 a side in their cell, moved by this: in steps of end
 /// points, so that none is an end point.
 inline constexpr unsigned referenceLog2 = 2;
@@ -72,8 +80,9 @@ struct Tile {
     std::uint32_t paint = 0;  ///< of a tile without texels
     std::vector<asset::Texel> texels;
     std::uint32_t pairs = 0, firstCell = 0;
-    bool programs = false;              ///< of the paints near it one is a program
-    std::vector<std::uint8_t> crowded;  ///< numbers of such cells, ascending
+    CellGrid grid;
+    bool programs = false;               ///< of the paints near it one is a program
+    std::vector<std::uint16_t> crowded;  ///< numbers of such cells, ascending
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
     bool isConsistent = true;

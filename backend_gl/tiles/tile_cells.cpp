@@ -84,11 +84,8 @@ std::uint32_t sidesOf(const PlanarPiece& piece, glm::dvec2 point) {
 }  // namespace
 
 CellWriter::CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
-                       std::uint64_t room, std::vector<Texel>& texels)
-    : paints_(paints),
-      pieces_(pieces),
-      end_(std::min<std::uint64_t>(room, 1u << firstTexelBits)),
-      texels_(texels) {
+                       std::vector<Texel>& texels)
+    : paints_(paints), pieces_(pieces), texels_(texels) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;  // texels
     for (const PlanarPiece& piece : pieces) {
         limits::check();
@@ -171,10 +168,11 @@ double distance2(dvec2 a, dvec2 d, double inverseLength2, dvec2 point) {
     return glm::dot(gap, gap);
 }
 
-Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& pieces,
+Reference referenceIn(const CellGrid& grid, int column, int row, const std::vector<PlanarPiece>& pieces,
                       std::span<const std::uint32_t> list) {
     // From the middle outwards.
     static constexpr std::array<unsigned, 16> order{5, 10, 6, 9, 0, 15, 3, 12, 1, 14, 2, 13, 4, 11, 7, 8};
+    const double cellSize = grid.cellSize();
     Reference best;
     double bestClearance = -1;
     for (const unsigned place : order) {

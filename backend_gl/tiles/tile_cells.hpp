@@ -34,14 +34,13 @@ struct Reference {
 /// Writes cells, and before them the pairs of paints and the lists.
 class CellWriter {
 public:
-    /// `pieces`, whose numbers are rounded already, and `texels`, which are empty, must outlive it. `room`:
-    /// for how many texels.
+    /// `pieces`, whose numbers are rounded already, and `texels`, which are empty, must outlive it.
     CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
-               std::uint64_t room, std::vector<Texel>& texels);
+               std::vector<Texel>& texels);
 
     std::uint32_t pairs() const { return pairs_; }
     bool hasRoomFor(std::span<const std::uint32_t> list) const {
-        return texels_.size() + list.size() <= end_;
+        return texels_.size() + list.size() <= 1u << firstTexelBits;
     }
     Texel write(const Reference& reference, std::span<const std::uint32_t> list);
     Texel writeCrowded(const Reference& reference) const;
@@ -53,7 +52,6 @@ private:
     const std::vector<PlanarPiece>& pieces_;
     std::vector<Texel> geometry_;  ///< by piece: its texel, with the pair, but not how a point lies
     std::uint32_t pairs_ = 0;
-    std::uint64_t end_;
     std::vector<Texel>& texels_;
 };
 
@@ -61,7 +59,7 @@ private:
 double distance2(glm::dvec2 a, glm::dvec2 d, double inverseLength2, glm::dvec2 point);
 
 /// The reference point of a cell, as far from its pieces as can be; without its paint.
-Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& pieces,
+Reference referenceIn(const CellGrid& grid, int column, int row, const std::vector<PlanarPiece>& pieces,
                       std::span<const std::uint32_t> list);
 
 /// A point of the square from the tile's least corner that pieces run past on the same side whether they

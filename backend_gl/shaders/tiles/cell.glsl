@@ -12,6 +12,8 @@ flat in vec2 tileOrigin;
 flat in uvec3 tileTexels;
 flat in vec4 tilePicture;
 
+uint lowBits(uint word, uint count) { return word & ((1u << count) - 1u); }
+
 uvec4 tileTexel(uint index) { return texelFetch(tiles, texelPlace(tileTexels.x + index), 0); }
 
 // Times 65535.
@@ -32,14 +34,15 @@ vec2 tilePoint(vec2 pixel) {
 bool isFlatTile() { return tileTexels.z != 0u; }
 
 Cell cellAt(vec2 pixel) {
-    const float side = float(1u << tileCellsLog2);
+    uint log2 = tileTexels.y >> gridShift;
+    float side = float(1u << log2), cellSize = tilePicture.w;
     vec2 o = tilePoint(pixel);
     vec2 place = clamp(floor(o * side), 0.0, side - 1.0);
-    uvec4 texel = tileTexel(tileTexels.y + (uint(place.y) << tileCellsLog2) + uint(place.x));
+    uvec4 texel = tileTexel(lowBits(tileTexels.y, gridShift) + (uint(place.y) << log2) + uint(place.x));
     // A tile of one paint has no cells: what stands there is another tile's.
     texel = isFlatTile() ? uvec4(0u) : texel;
     uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;
-    return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) / side - referenceShift * tileStep);
+    return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) * cellSize - referenceShift * tileStep);
 }
 
 // A cell's pieces, one after the other. That all were met has to be counted: compilers take it for granted that a loop
@@ -47,8 +50,6 @@ Cell cellAt(vec2 pixel) {
 struct List {
     uint next, left;
 };
-
-uint lowBits(uint word, uint count) { return word & ((1u << count) - 1u); }
 
 List listOf(Cell cell) {
     uint low = lowBits(cell.texel.x >> lengthShift, lowLengthBits), high = cell.texel.w >> firstTexelBits;
