@@ -7,7 +7,8 @@
 
 namespace vtm::gl {
 
-/// Squares of `side` picture units, one with its corner at the map's, each of `cells` × `cells` cells.
+/// Squares of `side` picture units, one with its corner at the map's, each of `cells` × `cells` cells; of
+/// more where there are many pieces.
 struct TileGrid {
     double side = 0;
     unsigned cells = 0;

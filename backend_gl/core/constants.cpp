@@ -41,8 +41,9 @@ std::string layout() {
 
 std::string tiles() {
     return constant("leftOfChordBit", leftOfChordBit) + constant("leftOfCurveBit", leftOfCurveBit) +
-           constant("moreBit", moreBit) + constant("wideBit", wideBit) + constant("crowdedBit", crowdedBit) +
-           constant("referencesMask", referencesMask) + constant("tileCellsLog2", tileCellsLog2) +
+           constant("crowdedBit", crowdedBit) + constant("lengthShift", lengthShift) +
+           constant("lowLengthBits", lowLengthBits) + constant("firstTexelBits", firstTexelBits) +
+           constant("gridShift", gridShift) +
            fmt::format("const float tileStep = {:.17g};\nconst float tileSlopeScale = {:.1f};\n",
                        std::ldexp(1.0, -int(tileStepLog2)), tileSlopeScale) +
            fmt::format("const vec2 referenceShift = vec2({}, {});\n", referenceShiftX, referenceShiftY);

@@ -10,7 +10,7 @@
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 
-#include "backend_gl/core/requirements.hpp"
+#include "backend_gl/core/software_driver.hpp"
 
 namespace vtm::gl {
 
@@ -184,6 +184,6 @@ void Context::makeCurrent() const {
 
 const std::string& Context::renderer() const { return impl_->renderer; }
 const std::string& Context::version() const { return impl_->version; }
-bool Context::isSoftware() const { return runsOnCpu(impl_->renderer); }
+bool Context::isSoftware() const { return runsOnCpu(impl_->renderer).value_or(false); }
 
 }  // namespace vtm::gl

@@ -1,8 +1,7 @@
 #include "backend_gl/core/requirements.hpp"
 
-#include <algorithm>
 #include <cstdio>
-#include <string_view>
+#include <utility>
 
 #include <EGL/egl.h>
 #include <fmt/format.h>
@@ -28,9 +27,6 @@ constexpr Limit limits[] = {
     {GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS, "GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS", int(unitCount)},
 };
 
-/// As GL_RENDERER begins or tells: Mesa's, ANGLE's, Apple's.
-constexpr std::string_view softwareDrivers[] = {"llvmpipe", "softpipe", "SwiftShader", "Software"};
-
 }  // namespace
 
 void requireCurrentContext() {
@@ -49,17 +45,6 @@ void requireContext() {
         if (limit(l.name) < l.minimum)
             throw GlError(
                 fmt::format("the driver's {} is {}: {} is needed", l.text, limit(l.name), l.minimum));
-}
-
-bool isSoftwareDriver() {
-    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return name != nullptr && runsOnCpu(name);
-}
-
-bool runsOnCpu(std::string_view renderer) {
-    return std::ranges::any_of(softwareDrivers, [&](std::string_view driver) {
-        return renderer.find(driver) != std::string_view::npos;
-    });
 }
 
 std::function<unsigned()> driversResetStatus() {

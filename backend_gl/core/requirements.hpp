@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
 
 #include "backend_gl/core/gl.hpp"
 
@@ -17,9 +16,5 @@ void requireCurrentContext();
 /// The current context's glGetGraphicsResetStatus, where it has one and was made to give notice; else
 /// nothing.
 std::function<unsigned()> driversResetStatus();
-
-/// Whether the driver's "GPU" is this machine's CPU: of the current context, or by its GL_RENDERER.
-bool isSoftwareDriver();
-bool runsOnCpu(std::string_view renderer);
 
 }  // namespace vtm::gl

@@ -17,6 +17,6 @@ extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_f
 extern const std::string_view layer, store, colors, numbers;
 extern const std::string_view source_fragment, per_pixel_fragment, blur_fragment, extreme_fragment,
     move_fragment, convolve_fragment, light_fragment, turbulence_fragment, result_fragment;
-extern const std::string_view output, compose_fragment, screen_vertex, id_fragment;
+extern const std::string_view output, compose_fragment, screen_vertex, id_fragment, work_fragment;
 
 }  // namespace vtm::gl::shaders

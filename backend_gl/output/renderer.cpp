@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "backend_gl/core/requirements.hpp"
+#include "backend_gl/core/software_driver.hpp"
 #include "backend_gl/core/state_guard.hpp"
 #include "backend_gl/layers/layer_renderer.hpp"
 #include "backend_gl/output/compose.hpp"

@@ -148,6 +148,37 @@ TEST_F(Gl, CrowdedCellsOfSeveralMapsAddUp) {
         2);
 }
 
+/// Petals of two colours, many to a pixel in the middle of the picture and few near its border.
+Asset petals() {
+    scene::Scene scene;
+    scene.width = scene.height = 64;
+    for (int i = 0; i < 1500; ++i) {
+        const double radius = 0.8 * std::sqrt(i), angle = 2.4 * i, size = 0.1 + 0.02 * radius;
+        const scene::Point at(32 + radius * std::cos(angle), 32 + radius * std::sin(angle));
+        scene::Item item;
+        item.path = std::make_shared<scene::Path>(scene::Path{
+            scene::MoveTo{at},
+            scene::CubicTo{at + scene::Point(size, 0), at + scene::Point(size, size),
+                           at + scene::Point(0, size)},
+            scene::CubicTo{at + scene::Point(-size, size), at + scene::Point(-size, 0), at}, scene::Close{}});
+        item.paint = i % 2 == 0 ? scene::Color{1, 0.2f, 0, 1} : scene::Color{0, 0.3f, 1, 0.5f};
+        scene.root.children.push_back({item});
+    }
+    return compiler::compile(scene).asset;
+}
+
+/// Tiles have more and smaller cells where lists are long: at some of these scales all three grids occur.
+TEST_F(Gl, ManySmallPiecesAreExact) {
+    const Asset asset = petals();
+    const Texture texture = renderer->upload(asset);
+    const asset::Scanner scanner(asset);
+    for (const double zoom : {0.11, 0.4, 0.73, 1.0, 1.9, 3.3, 7.7})
+        for (const double angle : {0.0, 0.6, 2.1}) {
+            const View view = turnedView(90, 80, {32, 32}, zoom, angle, 0, angle > 2);
+            EXPECT_LE(worst(renderer->render(texture, view), scanner.draw(view)), 2) << zoom << ' ' << angle;
+        }
+}
+
 bool isMagenta(const float* pixel) {
     return pixel[0] == 1 && pixel[1] == 0 && pixel[2] == 1 && pixel[3] == 1;
 }

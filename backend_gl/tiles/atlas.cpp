@@ -134,8 +134,9 @@ constexpr double cellsPerRadius = 2.83;
 constexpr double longPiece = 1;
 /// Of the pieces, that are left.
 constexpr double fewer = 0.9;
-/// What is kept at most: 64 MiB.
-constexpr std::size_t maxTexels = std::size_t(1) << 22;
+/// What is kept at most, 64 MiB, beside what the last picture used; and the most that every driver has room
+/// for: tiles beyond are crowded.
+constexpr std::size_t maxTexels = std::size_t(1) << 22, maxOfPicture = std::size_t(1) << 24;
 
 /// From a pixel's centre to the furthest of its corners, in sides of the map.
 double footprintRadius(const asset::Map& map, const asset::View& view) {
@@ -219,13 +220,18 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::Plan
 
 Atlas::Placed Atlas::place(Tile tile) {
     if (tile.texels.empty())
-        return {
-            .flat = true, .programs = tile.programs, .paint = tile.paint, .crowded = {}, .used = picture_};
+        return {.flat = true,
+                .programs = tile.programs,
+                .paint = tile.paint,
+                .grid = {},
+                .crowded = {},
+                .used = picture_};
     Placed placed{.programs = tile.programs,
                   .firstTexel = std::uint32_t(texels_.size()),
-                  .pieces = tile.pieces,
+                  .pairs = tile.pairs,
                   .firstCell = tile.firstCell,
                   .texelCount = std::uint32_t(tile.texels.size()),
+                  .grid = tile.grid,
                   .crowded = std::move(tile.crowded),
                   .used = picture_};
     texels_.insert(texels_.end(), tile.texels.begin(), tile.texels.end());
@@ -272,7 +278,7 @@ std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
         if (tile.texelCount == 0)
             continue;
         const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
-        if (!recolor(texels, tile.pieces, tile.firstCell, paints, isChanged) || tile.firstTexel >= uploaded_)
+        if (!recolor(texels, tile.pairs, tile.firstCell, paints, isChanged) || tile.firstTexel >= uploaded_)
             continue;
         updateTexels(texture_.get(), tile.firstTexel, texels);
         sent += texels.size_bytes();
@@ -282,7 +288,7 @@ std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
 
 /// Forgets the tiles that were not used for longest, until half of what may be kept is left.
 void Atlas::makeRoom() {
-    if (texels_.size() <= maxTexels)
+    if (texels_.size() <= std::max(maxTexels, 2 * texelsOfPicture_))
         return;
     std::vector<std::pair<std::uint64_t, std::size_t>> sizes;  // by picture
     for (const auto& [at, tile] : placed_)
@@ -321,11 +327,13 @@ std::vector<const Atlas::Placed*> Atlas::prepare(const Region& region) {
     makeRoom();
     ++picture_;
     make(region, std::numeric_limits<std::size_t>::max());
+    texelsOfPicture_ = 0;
     std::vector<const Placed*> tiles;
     for (std::int64_t y = region.min.y; y < region.max.y; ++y)
         for (std::int64_t x = region.min.x; x < region.max.x; ++x) {
             Placed& tile = placed_.at({region.level, x, y});
             tile.used = picture_;
+            texelsOfPicture_ += tile.texelCount;
             tiles.push_back(&tile);
         }
     upload();
@@ -394,30 +402,45 @@ void Atlas::make(const Region& region, std::size_t most) {
         const Region alone{made.at.level, {made.at.x, made.at.y}, {made.at.x + 1, made.at.y + 1}};
         made.tile = build(*pieces_, made.at, piecesNear(pieces_->map(), alone)[0]);
     });
-    for (Missing& made : missing)
-        placed_.emplace(made.at, place(std::move(made.tile)));
+    std::size_t added = 0;
+    for (const Missing& made : missing)
+        added += made.tile.texels.size();
+    texels_.reserve(texels_.size() + added);
+    for (Missing& made : missing) {
+        const bool fits = texels_.size() + made.tile.texels.size() <= maxOfPicture;
+        placed_.emplace(made.at, place(fits ? std::move(made.tile) : crowdedTile(withPaints().paints)));
+    }
 }
 
-/// Whole rows from the first that has new texels.
+namespace {
+
+constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
+
+std::size_t rowsOf(std::size_t texels) { return (texels + columns - 1) / columns; }
+
+void sendRows(std::size_t row, std::size_t rows, std::size_t width, const Texel* texels) {
+    if (rows != 0 && width != 0)
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, GLint(row), GLsizei(width), GLsizei(rows), GL_RGBA_INTEGER,
+                        GL_UNSIGNED_INT, texels);
+}
+
+}  // namespace
+
+/// Rows from the first that has new texels.
 void Atlas::upload() {
     if (uploaded_ == texels_.size() && texture_.get() != 0)
         return;
-    constexpr std::size_t columns = std::size_t(1) << texelColumnsLog2;
-    const auto rowsOf = [](std::size_t texels) { return (texels + columns - 1) / columns; };
     if (texture_.get() == 0 || texels_.size() > capacity_) {
-        const std::size_t rows = std::max<std::size_t>(rowsOf(texels_.size() + texels_.size() / 2), 1);
+        const std::size_t rows =
+            std::clamp(rowsOf(texels_.size() + texels_.size() / 2), std::size_t(1), maxOfPicture / columns);
         texture_ = makeTexture(GL_RGBA32UI, int(columns), int(rows));
         capacity_ = rows * columns;
         uploaded_ = 0;
     }
-    const std::size_t first = uploaded_ / columns, end = rowsOf(texels_.size());
-    if (first < end) {
-        std::vector<Texel> rows(texels_.begin() + std::ptrdiff_t(first * columns), texels_.end());
-        rows.resize((end - first) * columns);
-        glBindTexture(GL_TEXTURE_2D, texture_.get());
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, GLint(first), GLsizei(columns), GLsizei(end - first),
-                        GL_RGBA_INTEGER, GL_UNSIGNED_INT, rows.data());
-    }
+    const std::size_t first = uploaded_ / columns, whole = texels_.size() / columns;
+    glBindTexture(GL_TEXTURE_2D, texture_.get());
+    sendRows(first, whole - first, columns, &texels_[first * columns]);
+    sendRows(whole, 1, texels_.size() % columns, texels_.data() + whole * columns);
     checkErrors("tiles");
     uploaded_ = texels_.size();
 }

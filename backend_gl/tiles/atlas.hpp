@@ -90,9 +90,10 @@ public:
         bool flat = false;        ///< one paint, no texels
         bool programs = false;    ///< of its paints one is a program
         std::uint32_t paint = 0;  ///< of the map
-        std::uint32_t firstTexel = 0, pieces = 0, firstCell = 0, texelCount = 0;
-        std::vector<std::uint8_t> crowded;  ///< cells whose pixels are scanned
-        std::uint64_t used = 0;             ///< by which picture, the last time
+        std::uint32_t firstTexel = 0, pairs = 0, firstCell = 0, texelCount = 0;
+        CellGrid grid;
+        std::vector<std::uint16_t> crowded;  ///< cells whose pixels are scanned
+        std::uint64_t used = 0;              ///< by which picture, the last time
     };
     /// Squares of a level: [min, max), row by row.
     struct Region {
@@ -143,8 +144,9 @@ private:
     std::map<int, std::optional<asset::PlanarIndex>> levels_;
 
     std::map<TilePlace, Placed> placed_;
-    std::uint64_t picture_ = 0;  ///< how many were prepared
-    double lastRadius_ = 0;      ///< of a pixel, by zoomTo()
+    std::uint64_t picture_ = 0;        ///< how many were prepared
+    std::size_t texelsOfPicture_ = 0;  ///< that the last one used
+    double lastRadius_ = 0;            ///< of a pixel, by zoomTo()
     std::optional<Placed> crowded_;
     std::vector<asset::Texel> texels_;
     std::size_t uploaded_ = 0, capacity_ = 0;

@@ -72,9 +72,9 @@ public:
     }
 
     /// Pixels of the box that a square's cell can show in.
-    PixelBox pixelsOfCell(i64vec2 at, unsigned cell) const {
-        constexpr unsigned cells = 1u << tileCellsLog2;
-        return pixelsOf(dvec2(at) + dvec2(cell % cells, cell / cells) * cellSize, cellSize);
+    PixelBox pixelsOfCell(i64vec2 at, const CellGrid& grid, int cell) const {
+        const dvec2 place(cell % grid.cellsPerSide(), cell / grid.cellsPerSide());
+        return pixelsOf(dvec2(at) + place * grid.cellSize(), grid.cellSize());
     }
     /// ... and the first square.
     PixelBox pixelsOfFirst() const { return pixelsOf({0, 0}, 1); }
@@ -140,8 +140,8 @@ TileVertex tileVertex(const Squares& squares, const Placed& tile, std::int64_t x
     const dvec2 origin = squares.pixel(x, y), picture = squares.picture(x, y);
     return {{0, 0},
             {float(origin.x), float(origin.y)},
-            {tile.firstTexel, tile.firstCell, tile.flat ? 1 + tile.paint : 0},
-            {float(picture.x), float(picture.y), float(squares.side()), 0}};
+            {tile.firstTexel, tile.firstCell | tile.grid.log2 << gridShift, tile.flat ? 1 + tile.paint : 0},
+            {float(picture.x), float(picture.y), float(squares.side()), float(tile.grid.cellSize())}};
 }
 
 /// Each tile by itself: a longer rectangle would have corners of its neighbours on its edges, where rounding
@@ -155,8 +155,8 @@ Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const 
             const Placed& tile = **next++;
             if (!squares.visible({x, y}))
                 continue;
-            for (const std::uint8_t cell : tile.crowded)
-                geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, cell));
+            for (const std::uint16_t cell : tile.crowded)
+                geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, tile.grid, cell));
             if (!tile.flat || tile.programs)
                 addSquare(tile.programs ? geometry.programs : geometry.solid, squares, {x, y},
                           tileVertex(squares, tile, x, y));

@@ -25,9 +25,6 @@ using asset::cross;
 using asset::Sides;
 using glm::dvec2;
 
-/// Cells a side.
-constexpr int cellCount = 1 << tileCellsLog2;
-
 // ---- Lists ----------------------------------------------------------------------------------------
 
 /// Pieces by cell: those of cell i are numbers[first[i]] to numbers[first[i + 1]], ascending.
@@ -41,7 +38,9 @@ struct Lists {
 
 /// Calls visit(cell) for every cell that the piece can come nearer to than `margin`.
 template <class Visit>
-void forEachCell(const PlanarPiece& p, double margin, Visit&& visit) {
+void forEachCell(const CellGrid& grid, const PlanarPiece& p, double margin, Visit&& visit) {
+    const int cellCount = grid.cellsPerSide();
+    const double cellSize = grid.cellSize();
     const dvec2 d = p.b - p.a;
     const double inverse = 1 / glm::dot(d, d);
     const double reach = margin + p.bulge();
@@ -80,12 +79,12 @@ void forEachCell(const PlanarPiece& p, double margin, Visit&& visit) {
     }
 }
 
-Lists listsOf(const std::vector<PlanarPiece>& pieces, double margin) {
+Lists listsOf(const CellGrid& grid, const std::vector<PlanarPiece>& pieces, double margin) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // cell, piece
     for (std::uint32_t i = 0; i < pieces.size(); ++i)
-        forEachCell(pieces[i], margin, [&](std::uint32_t cell) { found.emplace_back(cell, i); });
+        forEachCell(grid, pieces[i], margin, [&](std::uint32_t cell) { found.emplace_back(cell, i); });
     Lists lists;
-    lists.first.assign(cellCount * cellCount + 1, 0);
+    lists.first.assign((std::size_t(1) << 2 * grid.log2) + 1, 0);
     for (const auto& [cell, piece] : found)
         ++lists.first[cell + 1];
     for (std::size_t i = 1; i < lists.first.size(); ++i)
@@ -95,6 +94,20 @@ Lists listsOf(const std::vector<PlanarPiece>& pieces, double margin) {
     for (const auto& [cell, piece] : found)
         lists.numbers[next[cell]++] = piece;
     return lists;
+}
+
+/// Where cells with pieces list more of them in the mean, cells half and a quarter as wide serve better. A
+/// pixel evaluates what comes near its cell: of pieces smaller than that, those in an area of (1.7 cells)²,
+/// (1.2 cells)² or (0.96 cells)², cells being those of the coarsest grid. Where lists are short, more cells
+/// cost more than that.
+constexpr double longList = 8, longestList = 30;
+
+CellGrid gridFor(const Lists& lists) {
+    std::size_t cells = 0;
+    for (std::size_t i = 0; i + 1 < lists.first.size(); ++i)
+        cells += lists.of(i).empty() ? 0 : 1;
+    const double mean = double(lists.numbers.size()) / double(cells);
+    return {mean > longestList ? maxCellsLog2 : mean > longList ? tileCellsLog2 + 1 : tileCellsLog2};
 }
 
 // ---- Paints of reference points --------------------------------------------------------------------
@@ -188,8 +201,8 @@ public:
     /// more than twice that.
     double stretch() const { return 2 * margin_; }
     /// The pixels with centres in a cell.
-    asset::PixelsNear pixels(int column, int row) const {
-        const double cell = cellSize * side_;
+    asset::PixelsNear pixels(const CellGrid& grid, int column, int row) const {
+        const double cell = grid.cellSize() * side_;
         return {corner_ + cell * dvec2(column + 0.5, row + 0.5), std::sqrt(0.5) * cell, stretch()};
     }
 
@@ -239,12 +252,14 @@ Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t 
     const HandedOver isHandedOver(source, places, true);
     CellWriter writer(source.asset.paints, none, tile.texels);
     std::vector<Texel> cells;
-    for (int cell = 0; cell < cellCount * cellCount; ++cell) {
+    const int side = tile.grid.cellsPerSide();
+    for (int cell = 0; cell < side * side; ++cell) {
         const Reference here{dvec2(0.5), 0, paint};
-        const bool crowded = isHandedOver(places.pixels(cell % cellCount, cell / cellCount), paint, none, {});
+        const bool crowded =
+            isHandedOver(places.pixels(tile.grid, cell % side, cell / side), paint, none, {});
         cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
         if (crowded)
-            tile.crowded.push_back(std::uint8_t(cell));
+            tile.crowded.push_back(std::uint16_t(cell));
     }
     if (!tile.crowded.empty())
         tile.texels = std::move(cells);
@@ -258,7 +273,8 @@ constexpr double movedByDetail = 4 * asset::detailTolerance / tilePixels;
 std::optional<Reference> startOf(const TileSource& source, const LocalPieces& local, bool isEmpty,
                                  std::span<const PlanarPiece* const> near) {
     const double clearance = source.hasLessDetail() ? movedByDetail : 0;
-    const std::optional<dvec2> point = clearPoint(local, isEmpty ? 1 : cellSize, clearance, near);
+    const std::optional<dvec2> point =
+        clearPoint(local, isEmpty ? 1 : CellGrid().cellSize(), clearance, near);
     if (!point)
         return std::nullopt;
     return Reference{*point, 0, source.exact.paintAt(local.toLattice(*point))};
@@ -266,14 +282,14 @@ std::optional<Reference> startOf(const TileSource& source, const LocalPieces& lo
 
 }  // namespace
 
-bool recolor(std::span<Texel> texels, std::uint32_t pieces, std::uint32_t firstCell,
+bool recolor(std::span<Texel> texels, std::uint32_t pairs, std::uint32_t firstCell,
              std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged) {
     bool changed = false;
-    for (std::uint32_t i = 0; i < pieces; ++i) {
-        const std::uint32_t left = texels[2 * i][3] & 0xFFFF, right = texels[2 * i][3] >> 16;
+    for (std::uint32_t i = 0; i < pairs; ++i) {
+        const std::uint32_t pair = texels[2 * i + 1][0], left = pair & 0xFFFF, right = pair >> 16;
         if ((isChanged[left] | isChanged[right]) == 0)
             continue;
-        texels[2 * i + 1] = colorTexel(paints[left], paints[right]);
+        texels[2 * i] = colorTexel(paints[left], paints[right]);
         changed = true;
     }
     for (Texel& cell : texels.subspan(firstCell)) {
@@ -290,8 +306,8 @@ Tile crowdedTile(std::span<const asset::Paint> paints) {
     Tile tile;
     const std::vector<PlanarPiece> none;
     const CellWriter writer(paints, none, tile.texels);
-    for (int cell = 0; cell < cellCount * cellCount; ++cell)
-        tile.crowded.push_back(std::uint8_t(cell));
+    for (int cell = 0; cell < 1 << 2 * tile.grid.log2; ++cell)
+        tile.crowded.push_back(std::uint16_t(cell));
     tile.texels.assign(tile.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
     return tile;
 }
@@ -302,44 +318,47 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     const CellPlaces places(source, place, margin);
     const bool programs = hasPrograms(source.asset, near);
     const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
-    const Lists lists = listsOf(pieces, margin);
-    const std::optional<Reference> start = startOf(source, local, lists.numbers.empty(), near);
+    const Lists coarse = listsOf(CellGrid(), pieces, margin);
+    const std::optional<Reference> start = startOf(source, local, coarse.numbers.empty(), near);
     if (!start)
         return crowdedTile(source.asset.paints);
-    if (lists.numbers.empty())
+    if (coarse.numbers.empty())
         return flatTile(source, places, start->paint);
     const HandedOver isHandedOver(source, places, programs);
     Tile tile;
     tile.programs = programs;
-    for (const PlanarPiece& piece : pieces) {
-        limits::check();
-        tile.texels.push_back(geometryTexel(piece));
-        tile.texels.push_back(colorTexel(source.asset.paints[piece.left], source.asset.paints[piece.right]));
-    }
+    tile.grid = gridFor(coarse);
+    std::optional<Lists> fine;
+    if (tile.grid.log2 != CellGrid().log2)
+        fine = listsOf(tile.grid, pieces, margin);
+    const Lists& lists = fine ? *fine : coarse;
+    const int cellCount = tile.grid.cellsPerSide();
     std::vector<Texel> cells;
-    cells.reserve(cellCount * cellCount);
     CellWriter writer(source.asset.paints, pieces, tile.texels);
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)
         for (int column = 0; column < cellCount; ++column) {
             const std::size_t i = cells.size();
-            Reference here = referenceIn(column, row, pieces, lists.of(i));
+            Reference here = referenceIn(tile.grid, column, row, pieces, lists.of(i));
             if (i == 0)
-                here.paint = walk.paintAt(here.point, *start, {}, lists.of(i));
+                here.paint = walk.paintAt(here.point, *start, {}, coarse.of(0));
             else if (column == 0)
-                here.paint = walk.paintAt(here.point, rowStart, lists.of(i - cellCount), lists.of(i));
+                here.paint =
+                    walk.paintAt(here.point, rowStart, lists.of(i - std::size_t(cellCount)), lists.of(i));
             else
                 here.paint = walk.paintAt(here.point, last, lists.of(i - 1), lists.of(i));
-            const bool crowded = isHandedOver(places.pixels(column, row), here.paint, pieces, lists.of(i));
+            const bool crowded =
+                !writer.hasRoomFor(lists.of(i)) ||
+                isHandedOver(places.pixels(tile.grid, column, row), here.paint, pieces, lists.of(i));
             cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
             if (crowded)
-                tile.crowded.push_back(std::uint8_t(i));
+                tile.crowded.push_back(std::uint16_t(i));
             last = here;
             if (column == 0)
                 rowStart = here;
         }
-    tile.pieces = std::uint32_t(pieces.size());
+    tile.pairs = writer.pairs();
     tile.isConsistent = walk.isConsistent();
     tile.firstCell = std::uint32_t(tile.texels.size());
     tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());

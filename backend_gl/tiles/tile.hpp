@@ -36,9 +36,17 @@ inline constexpr int maxTileLevel = 2 * int(asset::maxLevel);
 
 /// A tile has fewer pixels a side.
 inline constexpr double tilePixels = 64;
-/// Cells a side.
-inline constexpr unsigned tileCellsLog2 = 4;
-inline constexpr double cellSize = 1.0 / (1u << tileCellsLog2);  ///< tile sides
+/// Cells a side; of tiles with long lists up to the second.
+inline constexpr unsigned tileCellsLog2 = 4, maxCellsLog2 = 6;
+/// In the word with a tile's first cell.
+inline constexpr unsigned gridShift = 28;
+/// The cells of a tile, row by row.
+struct CellGrid {
+    unsigned log2 = tileCellsLog2;
+
+    int cellsPerSide() const { return 1 << log2; }
+    double cellSize() const { return 1.0 / (1u << log2); }  ///< tile sides
+};
 /// Reference points stand on a grid of 2^referenceLog2 a side in their cell, moved by this: in steps of end
 /// points, so that none is an end point.
 inline constexpr unsigned referenceLog2 = 2;
@@ -47,35 +55,34 @@ inline constexpr double referenceShiftX = 0.625, referenceShiftY = 0.25;
 inline constexpr unsigned tileStepLog2 = 16, tileCoordinateBits = 18;
 /// Slopes have 12 bits; this stands for 1.
 inline constexpr double tileSlopeScale = 2047;
-/// Sides of the reference point that go with each piece.
+/// Sides of a cell's reference point that go with each piece in its list.
 inline constexpr std::uint32_t leftOfChordBit = 1, leftOfCurveBit = 2;
-/// Bits of the first word of a texel of references: more texels follow; references are whole words. Of a
-/// cell: its pixels are made elsewhere.
-inline constexpr std::uint32_t moreBit = 1u << 23, wideBit = 1u << 24, crowdedBit = 1u << 25;
-/// ... and how many references there are from that texel on.
-inline constexpr std::uint32_t referencesMask = (1u << 20) - 1;
+/// Of a cell's first word: its pixels are made elsewhere.
+inline constexpr std::uint32_t crowdedBit = 1u << 31;
+/// A cell's first word holds the lower bits of its list's length, from bit lengthShift on; its last word the
+/// list's first texel and, above, the rest of the length.
+inline constexpr unsigned lengthShift = 20, lowLengthBits = 11, firstTexelBits = 23;
 
-/// `texels` holds the pieces, the rest of the longer lists and, from `firstCell`, the cells row by row;
-/// nothing if the tile has one paint. Fields are packed from the lowest bit of the first word on.
+/// `texels` holds the pairs of paints beside pieces, the lists of pieces and, from `firstCell`, the cells row
+/// by row; nothing if the tile has one paint. A piece stands in the list of every cell that it matters to, so
+/// that a pixel reads its pieces one after the other. Fields are packed from the lowest bit of the first word
+/// on.
 ///
-/// - Piece, two texels. First: a.x, a.y, b.x, b.y (18 bits each), slopes at a and b (12 bits each, signed);
-///   left | right << 16. Second: the colours on the left and on the right, premultiplied 16-bit unorm red,
-///   green, blue, alpha, of solid paints.
-/// - Reference, to a piece: its number << 2 | leftOfCurveBit | leftOfChordBit, as the reference point lies.
-/// - References, one texel: references from here on | n << 20 | moreBit | wideBit; then n of them in half
-/// words, six at most; with
-///   moreBit four at most, the last word being the texel with the next ones. With wideBit they are words:
-///   three, or two with moreBit.
-/// - Cell, one texel: paint at the reference point | place of that point << 16 | as above; the paint's colour
-///   as in a piece; then two references in half words at most, or one word with wideBit, or with moreBit, n
-///   being 0, the texel with the first ones. With crowdedBit it has none: its list would take more turns of
-///   loops than a pixel may.
+/// - Pair, two texels. First: the colours on the left and on the right, premultiplied 16-bit unorm red,
+///   green, blue, alpha, of solid paints. Second: left | right << 16.
+/// - Piece, one texel: a.x, a.y, b.x, b.y (18 bits each), slopes at a and b (12 bits each, signed); texel of
+///   its pair << 2 | leftOfCurveBit | leftOfChordBit, as the cell's reference point lies.
+/// - Cell, one texel: paint at the reference point | place of that point << 16 | length of the list (lower
+///   bits) << lengthShift | crowdedBit; the paint's colour as in a pair; first texel of the list | length >>
+///   lowLengthBits << firstTexelBits. With crowdedBit the list is empty: it would take more turns of loops
+///   than a pixel may, or more texels than a tile.
 struct Tile {
     std::uint32_t paint = 0;  ///< of a tile without texels
     std::vector<asset::Texel> texels;
-    std::uint32_t pieces = 0, firstCell = 0;
-    bool programs = false;              ///< of the paints near it one is a program
-    std::vector<std::uint8_t> crowded;  ///< numbers of such cells, ascending
+    std::uint32_t pairs = 0, firstCell = 0;
+    CellGrid grid;
+    bool programs = false;               ///< of the paints near it one is a program
+    std::vector<std::uint16_t> crowded;  ///< numbers of such cells, ascending
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
     bool isConsistent = true;
@@ -93,9 +100,9 @@ struct TileSource {
     bool hasLessDetail() const { return &pieces != &exact; }
 };
 
-/// Writes the colours of paints that changed into a tile's texels, of which the first are so many pieces.
+/// Writes the colours of paints that changed into a tile's texels, of which the first are so many pairs.
 /// `isChanged`: by paint. Returns whether there are some.
-bool recolor(std::span<asset::Texel> texels, std::uint32_t pieces, std::uint32_t firstCell,
+bool recolor(std::span<asset::Texel> texels, std::uint32_t pairs, std::uint32_t firstCell,
              std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged);
 
 /// All cells of which are crowded.

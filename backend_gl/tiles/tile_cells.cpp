@@ -4,22 +4,18 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <vtm/limits/limits.hpp>
 #include "backend_gl/tiles/tile_pieces.hpp"
 
 namespace vtm::gl {
 
 namespace {
-
-/// Below, a reference fits half a word.
-constexpr std::uint32_t narrowNumbers = 1u << 14;
-
-std::uint32_t countBits(std::size_t count, bool wide) {
-    return std::uint32_t(count) << 20 | (wide ? wideBit : 0);
-}
 
 std::uint32_t steps(double coordinate) {
     return std::uint32_t(std::lround(std::ldexp(coordinate + 1, tileStepLog2)));
@@ -52,17 +48,6 @@ void addColor(Packer& packer, const asset::Paint& paint) {
 
 }  // namespace
 
-Texel geometryTexel(const PlanarPiece& piece) {
-    Packer packer;
-    for (const double v : {piece.a.x, piece.a.y, piece.b.x, piece.b.y})
-        packer.add(steps(v), tileCoordinateBits);
-    for (const double slope : {piece.slopeA, piece.slopeB})
-        packer.add(std::uint32_t(slopeSteps(slope)), 12);
-    packer.add(piece.left, 16);
-    packer.add(piece.right, 16);
-    return packer.words();
-}
-
 Texel colorTexel(const asset::Paint& left, const asset::Paint& right) {
     Packer packer;
     addColor(packer, left);
@@ -79,62 +64,66 @@ Texel withColor(Texel cell, const asset::Paint& paint) {
     return cell;
 }
 
-Texel CellWriter::write(const Reference& reference, std::span<const std::uint32_t> list) {
-    const bool wide = !list.empty() && list.back() >= narrowNumbers;
-    const std::size_t room = wide ? 1 : 2;
-    Texel cell = withoutReferences(reference);
-    if (list.size() > room) {
-        cell[0] |= moreBit;
-        cell[3] = append(reference.point, list, wide);
-        return cell;
+namespace {
+
+Texel geometryTexel(const PlanarPiece& piece, std::uint32_t pairTexel) {
+    Packer packer;
+    for (const double v : {piece.a.x, piece.a.y, piece.b.x, piece.b.y})
+        packer.add(steps(v), tileCoordinateBits);
+    for (const double slope : {piece.slopeA, piece.slopeB})
+        packer.add(std::uint32_t(slopeSteps(slope)), 12);
+    packer.add(pairTexel << 2, 32);
+    return packer.words();
+}
+
+std::uint32_t sidesOf(const PlanarPiece& piece, glm::dvec2 point) {
+    const asset::Sides at = piece.sidesOf(point);
+    return (at.leftOfCurve ? leftOfCurveBit : 0) | (at.leftOfChord ? leftOfChordBit : 0);
+}
+
+}  // namespace
+
+CellWriter::CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
+                       std::vector<Texel>& texels)
+    : paints_(paints), pieces_(pieces), texels_(texels) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;  // texels
+    for (const PlanarPiece& piece : pieces) {
+        limits::check();
+        const auto [found, isNew] = pairs.try_emplace({piece.left, piece.right}, texels.size());
+        if (isNew) {
+            texels.push_back(colorTexel(paints[piece.left], paints[piece.right]));
+            texels.push_back({piece.left | piece.right << 16, 0, 0, 0});
+        }
+        geometry_.push_back(geometryTexel(piece, found->second));
     }
-    cell[0] |= countBits(list.size(), wide);
-    for (std::size_t i = 0; i < list.size(); ++i)
-        cell[3] |= referenceWord(list[i], reference.point) << (i * 16);
+    pairs_ = std::uint32_t(pairs.size());
+}
+
+Texel CellWriter::write(const Reference& reference, std::span<const std::uint32_t> list) {
+    Texel cell = withoutList(reference);
+    const auto length = std::uint32_t(list.size());
+    cell[0] |= (length & ((1u << lowLengthBits) - 1)) << lengthShift;
+    cell[3] = std::uint32_t(texels_.size()) | length >> lowLengthBits << firstTexelBits;
+    for (const std::uint32_t i : list) {
+        Texel texel = geometry_[i];
+        texel[3] |= sidesOf(pieces_[i], reference.point);
+        texels_.push_back(texel);
+    }
     return cell;
 }
 
 Texel CellWriter::writeCrowded(const Reference& reference) const {
-    Texel cell = withoutReferences(reference);
+    Texel cell = withoutList(reference);
     cell[0] |= crowdedBit;
     return cell;
 }
 
-Texel CellWriter::withoutReferences(const Reference& reference) const {
+Texel CellWriter::withoutList(const Reference& reference) const {
     Packer packer;
     packer.add(reference.paint, 16);
     packer.add(reference.place, 16);
     addColor(packer, paints_[reference.paint]);
     return packer.words();
-}
-
-/// Returns the first texel.
-std::uint32_t CellWriter::append(glm::dvec2 point, std::span<const std::uint32_t> list, bool wide) {
-    const std::size_t all = wide ? 3 : 6, some = wide ? 2 : 4;
-    const auto first = std::uint32_t(texels_.size());
-    while (!list.empty()) {
-        const bool more = list.size() > all;
-        const std::size_t count = more ? some : list.size();
-        const auto left = std::uint32_t(std::min<std::size_t>(list.size(), referencesMask));
-        Texel texel{countBits(count, wide) | (more ? moreBit : 0) | left, 0, 0, 0};
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t word = referenceWord(list[i], point);
-            if (wide)
-                texel[1 + i] = word;
-            else
-                texel[1 + i / 2] |= word << (i % 2 * 16);
-        }
-        if (more)
-            texel[3] = std::uint32_t(texels_.size() + 1);
-        texels_.push_back(texel);
-        list = list.subspan(count);
-    }
-    return first;
-}
-
-std::uint32_t CellWriter::referenceWord(std::uint32_t number, glm::dvec2 point) const {
-    const asset::Sides at = pieces_[number].sidesOf(point);
-    return number << 2 | (at.leftOfCurve ? leftOfCurveBit : 0) | (at.leftOfChord ? leftOfChordBit : 0);
 }
 
 namespace {
@@ -179,10 +168,11 @@ double distance2(dvec2 a, dvec2 d, double inverseLength2, dvec2 point) {
     return glm::dot(gap, gap);
 }
 
-Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& pieces,
+Reference referenceIn(const CellGrid& grid, int column, int row, const std::vector<PlanarPiece>& pieces,
                       std::span<const std::uint32_t> list) {
     // From the middle outwards.
     static constexpr std::array<unsigned, 16> order{5, 10, 6, 9, 0, 15, 3, 12, 1, 14, 2, 13, 4, 11, 7, 8};
+    const double cellSize = grid.cellSize();
     Reference best;
     double bestClearance = -1;
     for (const unsigned place : order) {

@@ -19,8 +19,7 @@ namespace vtm::gl {
 
 using asset::Texel;
 
-/// The two texels of a piece, whose numbers are rounded already.
-Texel geometryTexel(const PlanarPiece& piece);
+/// The first texel of a pair of paints.
 Texel colorTexel(const asset::Paint& left, const asset::Paint& right);
 /// A cell's texel with another colour of its paint.
 Texel withColor(Texel cell, const asset::Paint& paint);
@@ -32,23 +31,27 @@ struct Reference {
     std::uint32_t paint = 0;
 };
 
-/// Writes cells, and the references for which they have no room.
+/// Writes cells, and before them the pairs of paints and the lists.
 class CellWriter {
 public:
+    /// `pieces`, whose numbers are rounded already, and `texels`, which are empty, must outlive it.
     CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
-               std::vector<Texel>& texels)
-        : paints_(paints), pieces_(pieces), texels_(texels) {}
+               std::vector<Texel>& texels);
 
+    std::uint32_t pairs() const { return pairs_; }
+    bool hasRoomFor(std::span<const std::uint32_t> list) const {
+        return texels_.size() + list.size() <= 1u << firstTexelBits;
+    }
     Texel write(const Reference& reference, std::span<const std::uint32_t> list);
     Texel writeCrowded(const Reference& reference) const;
 
 private:
-    Texel withoutReferences(const Reference& reference) const;
-    std::uint32_t append(glm::dvec2 point, std::span<const std::uint32_t> list, bool wide);
-    std::uint32_t referenceWord(std::uint32_t number, glm::dvec2 point) const;
+    Texel withoutList(const Reference& reference) const;
 
     std::span<const asset::Paint> paints_;
     const std::vector<PlanarPiece>& pieces_;
+    std::vector<Texel> geometry_;  ///< by piece: its texel, with the pair, but not how a point lies
+    std::uint32_t pairs_ = 0;
     std::vector<Texel>& texels_;
 };
 
@@ -56,7 +59,7 @@ private:
 double distance2(glm::dvec2 a, glm::dvec2 d, double inverseLength2, glm::dvec2 point);
 
 /// The reference point of a cell, as far from its pieces as can be; without its paint.
-Reference referenceIn(int column, int row, const std::vector<PlanarPiece>& pieces,
+Reference referenceIn(const CellGrid& grid, int column, int row, const std::vector<PlanarPiece>& pieces,
                       std::span<const std::uint32_t> list);
 
 /// A point of the square from the tile's least corner that pieces run past on the same side whether they

@@ -2,8 +2,8 @@
 // every other, fetches and all.
 // Requires: fetch.glsl, shadow.glsl; tile_vertex.glsl's outputs; constants of backend_gl/tiles/tile.hpp; CROWDED defined as 1 where the
 // tile has crowded cells, else 0.
-// Exports: tileOrigin, tileTexels, tilePicture, Cell, tilePoint, isFlatTile, cellAt, List, listOf,
-// nextReference, tileTexel, unpackColor, finishedSum.
+// Exports: tileOrigin, tileTexels, tilePicture, Cell, tilePoint, isFlatTile, cellAt, List, listOf, nextPiece, tileTexel,
+// unpackColor, finishedSum.
 
 uniform usampler2D tiles;
 uniform vec4 pixelToTile;  // distances, by columns
@@ -11,6 +11,8 @@ uniform vec4 pixelToTile;  // distances, by columns
 flat in vec2 tileOrigin;
 flat in uvec3 tileTexels;
 flat in vec4 tilePicture;
+
+uint lowBits(uint word, uint count) { return word & ((1u << count) - 1u); }
 
 uvec4 tileTexel(uint index) { return texelFetch(tiles, texelPlace(tileTexels.x + index), 0); }
 
@@ -32,54 +34,32 @@ vec2 tilePoint(vec2 pixel) {
 bool isFlatTile() { return tileTexels.z != 0u; }
 
 Cell cellAt(vec2 pixel) {
-    const float side = float(1u << tileCellsLog2);
+    uint log2 = tileTexels.y >> gridShift;
+    float side = float(1u << log2), cellSize = tilePicture.w;
     vec2 o = tilePoint(pixel);
     vec2 place = clamp(floor(o * side), 0.0, side - 1.0);
-    uvec4 texel = tileTexel(tileTexels.y + (uint(place.y) << tileCellsLog2) + uint(place.x));
+    uvec4 texel = tileTexel(lowBits(tileTexels.y, gridShift) + (uint(place.y) << log2) + uint(place.x));
     // A tile of one paint has no cells: what stands there is another tile's.
     texel = isFlatTile() ? uvec4(0u) : texel;
     uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;
-    return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) / side - referenceShift * tileStep);
+    return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) * cellSize - referenceShift * tileStep);
 }
 
-// References, as a texel of them.
-uvec4 firstReferences(Cell cell) { return uvec4(cell.texel.x & ~referencesMask, cell.texel.w, 0u, cell.texel.w); }
-uint referenceCount(uvec4 references) { return references.x >> 20 & 7u; }
-
-// How many there are of the first texel on. That all were met has to be counted: compilers take it for granted that a
-// loop ends where the program says.
-uint referencesFrom(uvec4 references) { return max(references.x & referencesMask, referenceCount(references)); }
-
-// Number of the i-th piece << 2 | bits.
-uint referenceAt(uvec4 references, uint i) {
-    bool wide = (references.x & wideBit) != 0u;
-    uint halves = wide ? i * 2u : i;
-    uint word = halves < 2u ? references.y : halves < 4u ? references.z : references.w;
-    return wide ? word : word >> (halves << 4 & 16u) & 0xFFFFu;
-}
-
-// A cell's references, one after the other.
+// A cell's pieces, one after the other. That all were met has to be counted: compilers take it for granted that a loop
+// ends where the program says.
 struct List {
-    uvec4 references;
-    uint i, left;
+    uint next, left;
 };
 
 List listOf(Cell cell) {
-    uvec4 references = firstReferences(cell);
-    // Such a cell has no references of its own.
-    if ((references.x & moreBit) != 0u)
-        references = tileTexel(references.w);
-    return List(references, 0u, referencesFrom(references));
+    uint low = lowBits(cell.texel.x >> lengthShift, lowLengthBits), high = cell.texel.w >> firstTexelBits;
+    return List(lowBits(cell.texel.w, firstTexelBits), low | high << lowLengthBits);
 }
 
 // Requires that some are left.
-uint nextReference(inout List list) {
-    if (list.i == referenceCount(list.references)) {
-        list.references = tileTexel(list.references.w);
-        list.i = 0u;
-    }
+uvec4 nextPiece(inout List list) {
     --list.left;
-    return referenceAt(list.references, list.i++);
+    return tileTexel(list.next++);
 }
 
 // ---- Pixels that were too much ----------------------------------------------------------------------

@@ -10,10 +10,8 @@ void main() {
     uint met = 0u, all = list.left;
     do {
         if (list.left != 0u) {
-            uint reference = nextReference(list), first = reference >> 2 << 1;
-            TilePiece piece = tilePiece(tileTexel(first).xyz, cell.o);
-            float weight = pieceWeight(piece, cell.way, reference, tileToBox);
-            uvec4 colors = tileTexel(first + 1u);
+            uvec4 bits = nextPiece(list), colors = tileTexel(bits.w >> 2);
+            float weight = pieceWeight(tilePiece(bits.xyz, cell.o), cell.way, bits.w, tileToBox);
             sum += weight * (regionValueIn(65535.0, unpackColor(colors.xy)) -
                              regionValueIn(65535.0, unpackColor(colors.zw)));
             ++met;

@@ -24,14 +24,14 @@ vec2 centreOf(uint part) {
 
 // Weight of a piece in the whole pixel; in a quarter, a fourth of what it weighs more there than in the whole. The
 // pixel's centre is the quarter's reference point.
-float weightIn(uint part, TilePiece piece, uvec3 bits, uint reference, Cell cell) {
+float weightIn(uint part, TilePiece piece, uvec4 bits, Cell cell) {
     bool whole = part == 0u;
     uint sides = sidesOf(piece);
-    float weight = pieceWeight(piece, whole ? cell.way : vec2(0.0), whole ? reference : sides, tileToBox);
+    float weight = pieceWeight(piece, whole ? cell.way : vec2(0.0), whole ? bits.w : sides, tileToBox);
     if (whole)
         return weight;
     vec2 centre = centreOf(part);
-    return 0.25 * (pieceWeight(tilePiece(bits, centre), centre - cell.o, sides, 2.0 * tileToBox) - weight);
+    return 0.25 * (pieceWeight(tilePiece(bits.xyz, centre), centre - cell.o, sides, 2.0 * tileToBox) - weight);
 }
 
 // ---- Weights by paint -----------------------------------------------------------------------------
@@ -109,11 +109,10 @@ void main() {
     do {
         do {
             if (list.left != 0u && shares.waiting.paint == noPaint) {
-                uint reference = nextReference(list);
-                uvec4 bits = tileTexel(reference >> 2 << 1);
+                uvec4 bits = nextPiece(list);
                 TilePiece piece = tilePiece(bits.xyz, cell.o);
-                uint left = low(bits.w), right = high(bits.w);
-                float weight = weightIn(part, piece, bits.xyz, reference, cell);
+                uint pair = tileTexel((bits.w >> 2) + 1u).x, left = low(pair), right = high(pair);
+                float weight = weightIn(part, piece, bits, cell);
                 if (part == 0u)
                     cut = cut || isFraction(weight) && (isSteep(left) || isSteep(right));
                 if (part == 0u ? weight != 0.0 : mayMeetPixel(piece)) {

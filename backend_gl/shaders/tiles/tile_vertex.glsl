@@ -3,8 +3,10 @@
 
 layout(location = 0) in vec2 position;  // pixels
 layout(location = 1) in vec2 origin;    // the tile's least corner, pixels
-layout(location = 2) in uvec3 texelsOf;  // first texel, first cell; 1 + paint of a tile without texels, else 0
-layout(location = 3) in vec4 picture;   // the least corner in picture coordinates; z: picture units a tile
+// First texel; first cell | log2 of the cells a side << gridShift; 1 + paint of a tile without texels, else 0.
+layout(location = 2) in uvec3 texelsOf;
+// The least corner in picture coordinates; picture units a tile; tiles a cell.
+layout(location = 3) in vec4 picture;
 
 uniform vec2 targetSize;
 

@@ -22,7 +22,8 @@ namespace vtm::gl {
 
 /// Selects what computes the pixels of exact pictures drawn into 8-bit framebuffers without conversion.
 enum class Pixels {
-    Automatic,  ///< Scanned where the driver runs shaders on the CPU (llvmpipe and the like), else Shaders
+    Automatic,  ///< Scanned where the driver runs shaders on the CPU (llvmpipe and the like), else Shaders.
+                ///< Drivers that GL_RENDERER does not tell are timed once in a process, for some milliseconds
     Shaders,
     Scanned  ///< vtm/raster/scan.hpp, on the CPU, several times faster there; pictures with materials take
              ///< Shaders

@@ -1,0 +1,30 @@
+/// \file
+/// Whether the driver's "GPU" is this machine's CPU: by its name, and where that tells nothing by the CPU
+/// time that drawing takes.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace vtm::gl {
+
+/// Whether a driver with that GL_RENDERER runs shaders on the CPU; nothing where the name does not tell.
+std::optional<bool> runsOnCpu(std::string_view renderer);
+
+/// CPU milliseconds of all threads of the process: of drawing a known amount of arithmetic, and of a share of
+/// it on one core.
+struct WorkTimes {
+    double drawing = 0, share = 0;
+};
+/// Draws some, of as much as a software driver takes one to three milliseconds for. GL is in the state of
+/// StateGuard. Throws GlError.
+WorkTimes timeWork();
+bool isCpuWork(const WorkTimes& times);
+
+/// Of the current context, in the state of StateGuard, by the name that is given. Drivers whose name does not
+/// tell are timed once in a process.
+bool isSoftwareDriver(std::string_view renderer);
+/// ... by GL_RENDERER.
+bool isSoftwareDriver();
+
+}  // namespace vtm::gl
