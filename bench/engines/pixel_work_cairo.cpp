@@ -52,15 +52,24 @@ void copy(Surface& to, const Surface& from, int side) {
     cairo_set_operator(to.c, CAIRO_OPERATOR_OVER);
 }
 
+cairo_matrix_t turned(int i) {
+    cairo_matrix_t matrix;
+    cairo_matrix_init_translate(&matrix, workSide / 2, workSide / 2);
+    cairo_matrix_rotate(&matrix, 0.3 + i);
+    cairo_matrix_scale(&matrix, 1.4, 1.4);
+    cairo_matrix_translate(&matrix, -movedSide / 2, -movedSide / 2);
+    return matrix;
+}
+
 struct Canvas {
     std::vector<std::uint32_t> moved = premultipliedPixels(movedSide),
                                copied = premultipliedPixels(copiedSide);
     Surface target{workSide}, image{moved, movedSide}, memory{copied, copiedSide}, large{copiedSide};
 
-    void drawImage(const cairo_matrix_t& matrix) {
+    void drawImage(const cairo_matrix_t& matrix, cairo_filter_t filter = CAIRO_FILTER_BILINEAR) {
         cairo_set_matrix(target.c, &matrix);
         cairo_set_source_surface(target.c, image.surface, 0, 0);
-        cairo_pattern_set_filter(cairo_get_source(target.c), CAIRO_FILTER_BILINEAR);
+        cairo_pattern_set_filter(cairo_get_source(target.c), filter);
         cairo_rectangle(target.c, 0, 0, movedSide, movedSide);
         cairo_fill(target.c);
     }
@@ -78,15 +87,8 @@ std::vector<PixelWork> cairoPixelWork() {
              cairo_matrix_init_translate(&matrix, i * 37 % 500, i * 91 % 500);
              canvas->drawImage(matrix);
          }},
-        {"image rotated and scaled",
-         [=](int i) {
-             cairo_matrix_t matrix;
-             cairo_matrix_init_translate(&matrix, workSide / 2, workSide / 2);
-             cairo_matrix_rotate(&matrix, 0.3 + i);
-             cairo_matrix_scale(&matrix, 1.4, 1.4);
-             cairo_matrix_translate(&matrix, -movedSide / 2, -movedSide / 2);
-             canvas->drawImage(matrix);
-         }},
+        {"image rotated and scaled", [=](int i) { canvas->drawImage(turned(i)); }},
+        {"the same, nearest pixels", [=](int i) { canvas->drawImage(turned(i), CAIRO_FILTER_NEAREST); }},
         {"linear gradient",
          [=](int i) {
              fillRectangle(c, withStops(cairo_pattern_create_linear(10 + i % 7, 20, 700, 600)), workSide);

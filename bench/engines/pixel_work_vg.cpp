@@ -87,6 +87,11 @@ struct Canvas : VgCanvas {
         vgLoadMatrix(matrix);
         vgDrawImage(moved);
     }
+    void drawTurned(int i) {
+        const VGfloat angle = 0.3f + VGfloat(i), c = 1.4f * std::cos(angle), s = 1.4f * std::sin(angle);
+        constexpr VGfloat half = movedSide / 2, middle = workSide / 2;
+        drawImage(1.4f, angle, middle - half * (c - s), middle - half * (s + c));
+    }
     void fill(VGPath path, VGPaint paint) {
         vgSetPaint(paint, VG_FILL_PATH);
         vgSeti(VG_MATRIX_MODE, VG_MATRIX_PATH_USER_TO_SURFACE);
@@ -134,11 +139,12 @@ std::vector<PixelWork> vgPixelWork(VtmCompositor compositor) {
     return {
         {"image moved by whole pixels",
          [=](int i) { canvas->drawImage(1, 0, VGfloat(i * 37 % 500), VGfloat(i * 91 % 500)); }},
-        {"image rotated and scaled",
+        {"image rotated and scaled", [=](int i) { canvas->drawTurned(i); }},
+        {"the same, nearest pixels",
          [=](int i) {
-             const VGfloat angle = 0.3f + VGfloat(i), c = 1.4f * std::cos(angle), s = 1.4f * std::sin(angle);
-             constexpr VGfloat half = movedSide / 2, middle = workSide / 2;
-             canvas->drawImage(1.4f, angle, middle - half * (c - s), middle - half * (s + c));
+             vgSeti(VG_IMAGE_QUALITY, VG_IMAGE_QUALITY_NONANTIALIASED);
+             canvas->drawTurned(i);
+             vgSeti(VG_IMAGE_QUALITY, VG_IMAGE_QUALITY_FASTER);
          }},
         {"linear gradient", [=](int) { canvas->fill(canvas->all, canvas->linear); }},
         {"radial gradient", [=](int) { canvas->fill(canvas->all, canvas->radial); }},

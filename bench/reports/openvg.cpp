@@ -94,6 +94,16 @@ Path flower(scene::Point center, double radius, int petals, double depth) {
     return path;
 }
 
+/// Crosses itself everywhere.
+Path polygon(unsigned seed, int points) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(0, side);
+    std::vector<scene::Point> corners;
+    for (int i = 0; i < points; ++i)
+        corners.emplace_back(place(random), place(random));
+    return scene::polygon(corners);
+}
+
 std::vector<Workload> workloads(const std::vector<File>& files, std::vector<std::string>& notes) {
     std::vector<Workload> all;
     const auto turning = [](int i) { return turned(7 * i, 1); };
@@ -126,8 +136,11 @@ std::vector<Workload> workloads(const std::vector<File>& files, std::vector<std:
         notes.push_back("2000 glyphs: missing, " + why);
     }
     const auto edited = [](int i) { return flower({512, 512}, 400, 40, 0.7 + 0.2 * std::sin(i)); };
-    all.push_back(
-        {"one path edited every frame", {{edited(0)}}, [](int) { return scene::identity; }, edited});
+    const auto still = [](int) { return scene::identity; };
+    all.push_back({"one path edited every frame", {{edited(0)}}, still, edited});
+    all.push_back({"a random polygon of 3000 points every frame", {{polygon(0, 3000)}}, still, [](int i) {
+                       return polygon(unsigned(i), 3000);
+                   }});
     return all;
 }
 

@@ -15,6 +15,7 @@
 #include "api/openvg/path/flatten.hpp"
 #include "api/openvg/state/matrix.hpp"
 #include "compiler/coverage_map.hpp"
+#include "compiler/outline_coverage.hpp"
 
 namespace vtm::openvg {
 
@@ -48,29 +49,7 @@ asset::CoverageScanner compiled(const std::shared_ptr<const scene::Path>& outlin
                               {.tolerance = tolerance, .piecesPerLeaf = piecesPerLeaf, .maxWork = maxWork}));
 }
 
-/// The subpaths whose boxes meet a picture: all others wind round no point of it. Of a stroke with dashes
-/// from afar most are such.
-std::shared_ptr<const scene::Path> partSeen(const scene::Path& outline, const scene::Affine& toPicture,
-                                            dvec2 picture) {
-    auto result = std::make_shared<scene::Path>();
-    scene::Path& seen = *result;
-    for (auto first = outline.begin(); first != outline.end();) {
-        const auto end = std::find_if(first + 1, outline.end(), [](const scene::Command& command) {
-            return std::holds_alternative<scene::MoveTo>(command);
-        });
-        const std::size_t before = seen.size();
-        seen.insert(seen.end(), first, end);
-        const geometry::Box box =
-            geometry::mapped(boxOf({seen.begin() + std::ptrdiff_t(before), seen.end()}), toPicture);
-        if (box.intersection({dvec2(0), picture}).empty())
-            seen.resize(before);
-        first = end;
-    }
-    return result;
-}
-
-/// Of an outline so many pixels wide doubles do not tell a curve from its rounding: it is drawn as lines, few
-/// of them, where the compiler would cut it finer and finer.
+/// Wider outlines are drawn as lines, few of them, where their curves would be cut finer and finer.
 constexpr double maxPixels = double(1LL << 40);
 
 std::shared_ptr<const scene::Path> asLines(const scene::Path& outline, const glm::mat3& toSurface) {
@@ -165,19 +144,23 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
     const dvec2 origin = dvec2(m[2]) - dvec2(seen.x0, seen.y0);
     const dvec2 extent = max_ - min_;
     const double stretch = std::max(glm::length(dvec2(m[0])), glm::length(dvec2(m[1])));
-    const double tolerance = pixelTolerance / (stretch * std::max(extent.x, extent.y));
-    if (tolerance < tolerances.back()) {
-        // The view is the picture; what lies outside is cut off before anything is rounded.
-        const scene::Affine toView{dvec2(m[0]), dvec2(m[1]), origin};
-        const dvec2 picture(view.width, view.height);
-        view.toPixels = scene::identity;
-        if (stretch * std::max(extent.x, extent.y) > maxPixels)
-            return compiled(asLines(*outline_, toSurface), rule_,
-                            scene::translation(-double(seen.x0), -double(seen.y0)), picture, viewTolerance)
+    const double pixels = stretch * std::max(extent.x, extent.y), tolerance = pixelTolerance / pixels;
+    // Of such views doubles do not tell a curve from its rounding.
+    const bool isForView = tolerance<tolerances.back(), areLines = pixels> maxPixels;
+    if (isForView || !isScanned_) {
+        isScanned_ = true;
+        const std::shared_ptr<const scene::Path> outline =
+            areLines ? asLines(*outline_, toSurface) : outline_;
+        const scene::Affine toView = areLines ? scene::translation(-double(seen.x0), -double(seen.y0))
+                                              : scene::Affine{dvec2(m[0]), dvec2(m[1]), origin};
+        if (compiler::coverOutline(*outline, rule_, toView, view.width, view.height, onSurface))
+            return;
+        if (isForView) {
+            // What lies outside of the view is cut off before anything is rounded.
+            view.toPixels = scene::identity;
+            return compiled(outline, rule_, toView, dvec2(view.width, view.height), viewTolerance)
                 .scan(view, onSurface);
-        compiled(partSeen(*outline_, toView, picture), rule_, toView, picture, viewTolerance)
-            .scan(view, onSurface);
-        return;
+        }
     }
     const Fit fit = fitted(min_, max_);
     const dvec2 x = dvec2(m[0]) / fit.scale, y = dvec2(m[1]) / fit.scale;

@@ -1,9 +1,9 @@
 /// \file
 /// Which pixels an outline covers, and how much: a planar map with two sides, inside and outside.
 ///
-/// It is compiled once, in the path's own space, and drawn under any matrix. The tolerance is a share of the
-/// outline's size, so where a view magnifies it further than that allows, a finer one is made, and beyond
-/// what can be proven one for the view alone.
+/// What is drawn once is covered without a map. When it is drawn again the map is compiled, in the path's own
+/// space, and drawn under any matrix. The tolerance is a share of the outline's size, so where a view
+/// magnifies it further than that allows, a finer one is made; beyond what can be proven there are no maps.
 #pragma once
 
 #include <array>
@@ -50,6 +50,7 @@ private:
     std::shared_ptr<const scene::Path> outline_;  ///< shared with the scenes that are compiled
     scene::FillRule rule_;
     glm::dvec2 min_{0}, max_{0};                                     ///< a box around the outline
+    bool isScanned_ = false;                                         ///< it was drawn before
     std::array<std::optional<asset::CoverageScanner>, 5> scanners_;  ///< from coarse to fine
 };
 

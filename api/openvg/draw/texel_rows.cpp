@@ -121,12 +121,26 @@ void TexelRows::finish(std::span<Color> colors) const {
 }
 
 void TexelRows::nearest(const glm::dmat3& map, dvec2 place, std::span<Color> colors) const {
-    withTexel([&](const auto& texel) {
+    const Image& image = texels_.image();
+    const auto width = unsigned(image.width()), height = unsigned(image.height());
+    const std::uint8_t* const corner = image.at(0, 0);
+    const std::ptrdiff_t bytes = std::ptrdiff_t(image.format().pixelBytes()), rowBytes = image.stride();
+    // The product of the map and the place, part by part as it is summed: some are the same along the row.
+    const dvec2 right(map[0]), up = dvec2(map[1]) * place.y, shift(map[2]);
+    const auto walk = [&](const auto& texel, const auto& divided) {
         for (Color& color : colors) {
-            const glm::dvec3 p = map * glm::dvec3(place, 1);
-            assign(color, anywhere(texel, floorOf(p.x / p.z), floorOf(p.y / p.z)));
+            const dvec2 p = divided(right * place.x + up + shift);
+            const int x = floorOf(p.x), y = floorOf(p.y);
+            const bool isStored = unsigned(x) < width && unsigned(y) < height;
+            assign(color, isStored ? texel(corner + y * rowBytes + x * bytes) : anywhere(texel, x, y));
             place.x += 1;
         }
+    };
+    withTexel([&](const auto& texel) {
+        if (map[2].z == 1)
+            walk(texel, [](dvec2 p) { return p; });
+        else
+            walk(texel, [z = map[2].z](dvec2 p) { return p / z; });
     });
     finish(colors);
 }

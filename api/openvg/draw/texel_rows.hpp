@@ -18,7 +18,7 @@ class TexelRows {
 public:
     explicit TexelRows(const Texels& texels);
 
-    /// Where the map leads from (x, y), (x + 1, y) …, each by itself: on a border between texels every
+    /// Where an affine map leads from (x, y), (x + 1, y) …, each by itself: on a border between texels every
     /// rounding shows.
     void nearest(const glm::dmat3& map, glm::dvec2 place, std::span<Color> colors) const;
     /// At first, first + step, …
