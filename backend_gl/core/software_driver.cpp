@@ -5,7 +5,7 @@
 #include <ctime>
 #include <map>
 #include <mutex>
-#include <span>
+#include <optional>
 #include <string>
 
 #include <glm/vec4.hpp>
@@ -13,29 +13,9 @@
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/program.hpp"
 #include "backend_gl/core/shader_text.hpp"
+#include "gles_context/renderer_name.hpp"
 
 namespace vtm::gl {
-
-namespace {
-
-/// As GL_RENDERER begins or tells: Mesa's, ANGLE's, Apple's.
-constexpr std::string_view softwareDrivers[] = {"llvmpipe", "LLVMPIPE", "softpipe", "SwiftShader",
-                                                "Software"};
-constexpr std::string_view gpus[] = {"NVIDIA", "GeForce", "Quadro",  "Tegra", "AMD", "Radeon",    "Intel",
-                                     "Mali",   "Adreno",  "PowerVR", "Apple", "V3D", "VideoCore", "Vivante"};
-
-bool names(std::span<const std::string_view> drivers, std::string_view renderer) {
-    return std::ranges::any_of(
-        drivers, [&](std::string_view driver) { return renderer.find(driver) != std::string_view::npos; });
-}
-
-}  // namespace
-
-std::optional<bool> runsOnCpu(std::string_view renderer) {
-    if (names(softwareDrivers, renderer))
-        return true;
-    return names(gpus, renderer) ? std::optional(false) : std::nullopt;
-}
 
 namespace {
 
@@ -102,7 +82,7 @@ WorkTimes timeWork() {
 bool isCpuWork(const WorkTimes& times) { return times.drawing > times.share; }
 
 bool isSoftwareDriver(std::string_view renderer) {
-    if (const std::optional<bool> known = runsOnCpu(renderer))
+    if (const std::optional<bool> known = gles_context::isSoftwareName(renderer))
         return *known;
     static std::mutex mutex;
     static std::map<std::string, bool, std::less<>> timed;

@@ -3,13 +3,9 @@
 /// time that drawing takes.
 #pragma once
 
-#include <optional>
 #include <string_view>
 
 namespace vtm::gl {
-
-/// Whether a driver with that GL_RENDERER runs shaders on the CPU; nothing where the name does not tell.
-std::optional<bool> runsOnCpu(std::string_view renderer);
 
 /// CPU milliseconds of all threads of the process: of drawing a known amount of arithmetic, and of a share of
 /// it on one core.

@@ -6,6 +6,8 @@
 
 #include <unistd.h>
 
+#include "gles_context/renderer_name.hpp"
+
 namespace vtm::openvg::gl {
 
 namespace {
@@ -65,12 +67,7 @@ Device* Device::open() {
 
 const char* Device::fault() { return gl::fault().text(); }
 
-bool Device::isSoftware() const {
-    for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"})
-        if (abilities_.renderer.find(name) != std::string::npos)
-            return true;
-    return false;
-}
+bool Device::isSoftware() const { return gles_context::isSoftwareName(abilities_.renderer).value_or(false); }
 
 bool Device::isLost() const { return state_ != State::running || getpid() != process_; }
 

@@ -43,7 +43,7 @@ public:
     void finish();
 
     /// That it was opened with.
-    const ContextHandle& context() const { return context_; }
+    const gles_context::Context& context() const { return context_; }
     /// For contexts that share with this one (class Painter). Null if the context is gone.
     GLsync fence();
     void waitFor(GLsync fence);
@@ -70,7 +70,7 @@ private:
     std::shared_ptr<Discarded> discarded_ = std::make_shared<Discarded>();
     std::unique_ptr<Painter> painter_;  ///< of the worker's thread
     Abilities abilities_;
-    ContextHandle context_;
+    gles_context::Context context_;
     std::unique_ptr<Batch> batch_;
     std::unique_ptr<Worker> worker_;
 };

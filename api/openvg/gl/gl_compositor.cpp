@@ -318,7 +318,7 @@ VtmCompositor wishOfEnvironment() {
 
 /// Without making a context where there is no hope.
 Compositor* gpuCompositor() {
-    static const bool mayBe = gl::likelyDrivers() == gl::Drivers::perhapsGpu;
+    static const bool mayBe = gl::likelyDrivers() == gles_context::Drivers::perhapsGpu;
     return mayBe && glCompositor() && !Device::open()->isSoftware() ? glCompositor() : nullptr;
 }
 

@@ -27,7 +27,7 @@ public:
     Painter(std::shared_ptr<Discarded> discarded, bool mayFetch);
 
     const Abilities& abilities() const { return abilities_; }
-    const ContextHandle& context() const { return context_.handle(); }
+    const gles_context::Context& context() const { return context_.made(); }
 
     /// RGBA8 or R8. Null where there is no memory for it.
     TexturePointer makeTexture(GLenum format, int width, int height);

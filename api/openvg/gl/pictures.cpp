@@ -38,8 +38,8 @@ void vtmPreferGlDisplay(void* display) { gl::preferDisplay(display); }
 VGboolean vtmGetGlContext(VtmGlContext* context) {
     if (!glCompositor())
         return VG_FALSE;
-    const gl::ContextHandle& handle = gl::Device::open()->context();
-    *context = {handle.display, handle.context, handle.attributes};
+    const vtm::gles_context::Context& its = gl::Device::open()->context();
+    *context = {its.display, its.handle, its.attributes};
     return VG_TRUE;
 }
 
