@@ -92,6 +92,7 @@ LIBRARIES = {
     r"dlfcn\.h": {"api", "api/openvg", "api/egl", "api/system_egl", "backend_gl", "image", "trace"},
     r"stddef\.h|stdint\.h": {"api"},
     r"stdio\.h": {"api/egl", "tests"},
+    r"immintrin\.h": {"api/openvg"},
     r"CLI/.*": {"tools", "conformance/runner"},
     r"nlohmann/.*": {"tools", "web", "bench", "conformance/cases", "conformance/runner"},
     r"benchmark/.*|librsvg/.*|cairo\.h|blend2d/.*|thorvg\.h": {"bench"},

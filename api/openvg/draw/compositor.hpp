@@ -27,6 +27,11 @@ public:
 
     /// Stages 5 and 8 of the pipeline (sections 2.5, 2.8 and 13).
     virtual void draw(Context& context, const Layer& layer, const Coverage& coverage) = 0;
+    /// Glyphs one after the other, in one colour.
+    virtual void drawGlyphs(Context& context, const PixelSource& color, std::span<const PlacedGlyph> glyphs) {
+        for (const PlacedGlyph& glyph : glyphs)
+            draw(context, {color}, [&](const Rectangle& clip, const RowSink& row) { glyph.play(clip, row); });
+    }
     /// vgClear: a pixel's word everywhere.
     virtual void clear(Context& context, const CopyArea& area, std::uint32_t word) = 0;
     /// vgSetPixels and vgWritePixels: from an image, or from a program's memory.

@@ -35,6 +35,13 @@ public:
         coverage(rows.clip().bounds(), std::ref(rows));
     }
 
+    void drawGlyphs(Context& context, const PixelSource& color,
+                    std::span<const PlacedGlyph> glyphs) override {
+        RowCompositor rows(context, color);
+        for (const PlacedGlyph& glyph : glyphs)
+            rows.draw(glyph);
+    }
+
     void clear(Context& context, const CopyArea& area, std::uint32_t word) override {
         Pixels& pixels = context.surface->pixels().write();
         const Clip clip(context);

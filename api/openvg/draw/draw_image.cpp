@@ -31,23 +31,22 @@ void coverRectangle(glm::dvec2 min, glm::dvec2 max, const Rectangle& clip, const
               x1 = within(std::ceil(max.x), clip.x0, clip.x1),
               y0 = within(std::floor(min.y), clip.y0, clip.y1),
               y1 = within(std::ceil(max.y), clip.y0, clip.y1);
+    if (x0 >= x1)
+        return;
+    // Only the first and the last column may be covered in part.
+    const double left = share(min.x, max.x, x0), right = share(min.x, max.x, x1 - 1);
+    const int first = left < 1 ? x0 + 1 : x0, end = right < 1 ? std::max(x1 - 1, first) : x1;
     std::vector<CoverageRun> runs;
     for (int y = y0; y < y1; ++y) {
         const double high = share(min.y, max.y, y);
         runs.clear();
-        const auto add = [&](int first, int end, double width) {
-            if (first < end && width * high > 0)
-                runs.push_back({first, end, float(width * high)});
+        const auto add = [&](int from, int to, double width) {
+            if (from < to && width * high > 0)
+                runs.push_back({from, to, float(width * high)});
         };
-        // Only the first and the last column may be covered in part.
-        if (x1 - x0 < 3) {
-            for (int x = x0; x < x1; ++x)
-                add(x, x + 1, share(min.x, max.x, x));
-        } else {
-            add(x0, x0 + 1, share(min.x, max.x, x0));
-            add(x0 + 1, x1 - 1, 1);
-            add(x1 - 1, x1, share(min.x, max.x, x1 - 1));
-        }
+        add(x0, first, left);
+        add(first, end, 1);
+        add(end, x1, right);
         if (!runs.empty())
             row(y, runs);
     }

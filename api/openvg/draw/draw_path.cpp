@@ -58,6 +58,13 @@ void requirePaintModes(VGbitfield modes) {
     require(modes != 0 && (modes & ~VGbitfield(VG_FILL_PATH | VG_STROKE_PATH)) == 0);
 }
 
+PathMask& maskOf(const State& state, Path& path, VGPaintMode mode) {
+    if (mode == VG_STROKE_PATH)
+        return path.masks.stroked(path.data, strokeParameters(state));
+    return path.masks.filled(
+        path.data, state.fillRule == VG_EVEN_ODD ? scene::FillRule::EvenOdd : scene::FillRule::NonZero);
+}
+
 void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::mat3& toSurface,
                const Rectangle& clip, const RowSink& row, GlyphCache* cache) {
     const State& state = context.state;
@@ -65,18 +72,18 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
         return;
     if (mode == VG_STROKE_PATH && !hasStroke(state))
         return;
-    PathMask& mask = mode == VG_STROKE_PATH ? path.masks.stroked(path.data, strokeParameters(state))
-                                            : path.masks.filled(path.data, state.fillRule == VG_EVEN_ODD
-                                                                               ? scene::FillRule::EvenOdd
-                                                                               : scene::FillRule::NonZero);
+    PathMask& mask = maskOf(state, path, mode);
     const bool antialiased = state.renderingQuality != VG_RENDERING_QUALITY_NONANTIALIASED;
     const auto scan = [&](PathMask& of, const glm::mat3& matrix) {
         antialiased ? of.scan(matrix, clip, row) : of.scanCenters(matrix, clip, row);
     };
     const std::vector<ClipLine> lines = clipLines(state);
     if (lines.empty() && !isProjective(toSurface)) {
-        if (cache && antialiased)
-            return cache->scan(mask, toSurface, clip, row);
+        PlacedGlyph glyph;
+        if (cache && antialiased && cache->place(mask, toSurface, clip, glyph)) {
+            glyph.play(clip, row);
+            return cache->trim();
+        }
         return scan(mask, toSurface);
     }
     if (state.clipMode == VG_CLIPMODE_CULL_NDS && !isWithin(mapped(path.data.segments(), toSurface), lines))

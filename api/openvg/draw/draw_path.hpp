@@ -17,6 +17,9 @@ bool hasStroke(const State& state);
 /// Of a state that hasStroke().
 StrokeParameters strokeParameters(const State& state);
 
+/// A path filled or stroked as a state says; strokes only of a state that hasStroke().
+PathMask& maskOf(const State& state, Path& path, VGPaintMode mode);
+
 /// Gives the pixels of `clip` that a path covers, filled or stroked as the context's state says: exactly, or
 /// by centres where antialiasing is off. Nothing for a stroke without width.
 void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::mat3& toSurface,

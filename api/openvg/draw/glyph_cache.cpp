@@ -1,15 +1,19 @@
 #include "api/openvg/draw/glyph_cache.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
+#include <iterator>
+
+#include "api/openvg/draw/edge_mixer.hpp"
 
 namespace vtm::openvg {
 
 namespace {
 
-/// Of what is kept: about 5000 glyphs of 14 pixels.
+/// Of what is kept: about 20 000 glyphs of 14 pixels.
 constexpr std::size_t maxBytes = 8 << 20;
-/// Of a glyph, in pixels: larger ones cost more to draw than to scan.
-constexpr int maxGlyphSide = 64;
 constexpr int phaseBits = 10, phases = 1 << phaseBits;
 /// Beyond, floats have no 1024ths.
 constexpr float maxPlace = 1 << 13;
@@ -17,81 +21,163 @@ constexpr float maxPlace = 1 << 13;
 constexpr int farthest = 1 << 15;
 constexpr Rectangle everywhere{-farthest, -farthest, farthest, farthest};
 
-/// What an entry takes besides its runs.
-constexpr std::size_t entryBytes = 256;
+/// To the nearest 1024th.
+int inPhases(float place) {
+    constexpr int positive = 1 << 24;  // numbers above 0 are truncated as one rounds down
+    return int(double(place) * phases + positive + 0.5) - positive;
+}
+
+/// What an entry takes besides its coverage.
+constexpr std::size_t entryBytes = 160;
 
 }  // namespace
 
-glm::mat3 GlyphCache::Key::toPixel() const {
-    return {
-        matrix[0], matrix[1], 0, matrix[2], matrix[3], 0, float(phase[0]) / phases, float(phase[1]) / phases,
-        1};
-}
+// ---- One glyph ------------------------------------------------------------------------------------
 
-GlyphCache::Coverage GlyphCache::scanned(PathMask& mask, const glm::mat3& toPixel, const Rectangle& box) {
-    Coverage coverage;
-    mask.scan(toPixel, box, [&](int y, std::span<const CoverageRun> runs) {
-        coverage.rows.push_back({y, coverage.runs.size()});
-        coverage.runs.insert(coverage.runs.end(), runs.begin(), runs.end());
+GlyphCoverage::GlyphCoverage(PathMask& mask, const glm::mat3& toPixel, const Rectangle& box) : box_(box) {
+    mask.scan(toPixel, box, [&](int row, std::span<const CoverageRun> runs) {
+        const auto y = std::uint8_t(row - box.y0);
+        for (const CoverageRun& run : runs) {
+            const unsigned share = fixedShare(run.share);
+            const auto first = std::uint8_t(run.first - box.x0), end = std::uint8_t(run.end - box.x0);
+            if (share == wholeShare)
+                runs_.push_back({first, end, y});
+            else if (share > 0)
+                for (std::uint8_t x = first; x < end; ++x)
+                    edges_.push_back({x, y, std::uint16_t(share)});
+        }
     });
-    return coverage;
+    edges_.shrink_to_fit();
+    runs_.shrink_to_fit();
 }
 
-const GlyphCache::Coverage& GlyphCache::add(const Key& key, Coverage coverage) {
-    const std::size_t bytes = coverage.bytes() + entryBytes;
-    Entries added;  // of its own until nothing can fail any more
-    added.push_front({{}, std::move(coverage)});
-    added.front().place = found_.emplace(key, added.begin()).first;
-    entries_.splice(entries_.begin(), added);
-    bytes_ += bytes;
-    while (bytes_ > maxBytes && entries_.size() > 1) {
-        bytes_ -= entries_.back().coverage.bytes() + entryBytes;
-        found_.erase(entries_.back().place);
-        entries_.pop_back();
+void GlyphCoverage::play(int left, int bottom, const Rectangle& clip, const RowSink& row) const {
+    left += box_.x0;
+    bottom += box_.y0;
+    std::vector<CoverageRun> played;
+    const auto add = [&](int first, int end, float share) {
+        first = std::max(first + left, clip.x0);
+        end = std::min(end + left, clip.x1);
+        if (first < end)
+            played.push_back({first, end, share});
+    };
+    auto edge = edges_.begin();
+    auto run = runs_.begin();
+    for (int y = std::max(0, clip.y0 - bottom); y < std::min(box_.y1 - box_.y0, clip.y1 - bottom); ++y) {
+        played.clear();
+        while (edge != edges_.end() && edge->y < y)
+            ++edge;
+        while (run != runs_.end() && run->y < y)
+            ++run;
+        while (true) {
+            const bool hasEdge = edge != edges_.end() && edge->y == y,
+                       hasRun = run != runs_.end() && run->y == y;
+            if (hasEdge && (!hasRun || edge->x < run->first)) {
+                add(edge->x, edge->x + 1, float(edge->share) / wholeShare);
+                ++edge;
+            } else if (hasRun) {
+                add(run->first, run->end, 1);
+                ++run;
+            } else {
+                break;
+            }
+        }
+        if (!played.empty())
+            row(bottom + y, played);
     }
-    return entries_.front().coverage;
 }
 
-void GlyphCache::scan(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) {
+// ---- All of them ----------------------------------------------------------------------------------
+
+std::uint64_t GlyphCache::hash(const Key& key) {
+    // Rounds of multiplication, of which the high half returns to the low one.
+    constexpr std::uint64_t odd = 0x9E37'79B9'7F4A'7C15;
+    const auto mixed = [](std::uint64_t h) { return (h ^ h >> 32) * odd; };
+    std::uint64_t h = mixed(key.mask << 20 ^ key.phase);
+    h = mixed(h ^ (std::uint64_t(key.matrix[0]) << 32 | key.matrix[1]));
+    h = mixed(h ^ (std::uint64_t(key.matrix[2]) << 32 | key.matrix[3]));
+    return h ^ h >> 32;
+}
+
+GlyphCache::Entry* GlyphCache::find(const Key& key, std::uint64_t hash) {
+    if (slots_.empty())
+        return nullptr;
+    for (std::size_t i = hash;; ++i) {
+        const Slot& slot = slots_[i & (slots_.size() - 1)];
+        if (slot.place == 0)
+            return nullptr;
+        if (slot.tag == std::uint32_t(hash >> 32) && entries_[slot.place - 1].key == key)
+            return &entries_[slot.place - 1];
+    }
+}
+
+void GlyphCache::insert(std::uint64_t hash, std::size_t entry) {
+    std::size_t i = hash;
+    while (slots_[i & (slots_.size() - 1)].place != 0)
+        ++i;
+    slots_[i & (slots_.size() - 1)] = {std::uint32_t(hash >> 32), std::uint32_t(entry + 1)};
+}
+
+void GlyphCache::rehash() {
+    slots_.assign(std::bit_ceil(4 * entries_.size()), {});
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        insert(hash(entries_[i].key), i);
+}
+
+bool GlyphCache::place(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip,
+                       PlacedGlyph& glyph) {
     const glm::vec3 place = toSurface[2];
     if (!(std::abs(place.x) < maxPlace && std::abs(place.y) < maxPlace))
-        return mask.scan(toSurface, clip, row);
-    const int x = int(std::lround(place.x * phases)), y = int(std::lround(place.y * phases));
-    const Key key{mask.id(),
-                  {toSurface[0].x, toSurface[0].y, toSurface[1].x, toSurface[1].y},
-                  {x & (phases - 1), y & (phases - 1)}};
-    const auto it = found_.find(key);
-    if (it != found_.end()) {
-        entries_.splice(entries_.begin(), entries_, it->second);
-        return play(it->second->coverage, x >> phaseBits, y >> phaseBits, clip, row);
+        return false;
+    const int x = inPhases(place.x), y = inPhases(place.y);
+    const auto phase = [](int v) { return std::uint32_t(v & (phases - 1)); };
+    const auto bits = [&](int column, int row) {
+        return std::bit_cast<std::uint32_t>(toSurface[column][row]);
+    };
+    const Key key{
+        mask.id(), {bits(0, 0), bits(0, 1), bits(1, 0), bits(1, 1)}, phase(x) << phaseBits | phase(y)};
+    glyph = {nullptr, x >> phaseBits, y >> phaseBits};
+    const std::uint64_t hashed = hash(key);
+    if (Entry* const found = find(key, hashed)) {
+        found->used = ++clock_;
+        glyph.coverage = &found->coverage;
+        return true;
     }
     if (mask.bounds(toSurface, clip).empty())
-        return;
-    const Rectangle box = mask.bounds(key.toPixel(), everywhere);
-    if (box.x1 - box.x0 > maxGlyphSide || box.y1 - box.y0 > maxGlyphSide)
-        return mask.scan(toSurface, clip, row);
-    play(add(key, scanned(mask, key.toPixel(), box)), x >> phaseBits, y >> phaseBits, clip, row);
+        return true;
+    glm::mat3 toPixel = toSurface;
+    toPixel[2] = {float(phase(x)) / phases, float(phase(y)) / phases, 1};
+    const Rectangle box = mask.bounds(toPixel, everywhere);
+    if (box.x1 - box.x0 > GlyphCoverage::maxSide || box.y1 - box.y0 > GlyphCoverage::maxSide)
+        return false;
+    entries_.push_back({key, {mask, toPixel, box}, ++clock_});
+    const GlyphCoverage& coverage = entries_.back().coverage;
+    bytes_ += coverage.bytes() + entryBytes;
+    if (slots_.size() < 2 * entries_.size())
+        rehash();
+    else
+        insert(hashed, entries_.size() - 1);
+    glyph.coverage = &coverage;
+    return true;
 }
 
-void GlyphCache::play(const Coverage& coverage, int left, int bottom, const Rectangle& clip,
-                      const RowSink& row) {
-    for (std::size_t i = 0; i < coverage.rows.size(); ++i) {
-        const std::size_t first = coverage.rows[i].first, end = i + 1 < coverage.rows.size()
-                                                                    ? coverage.rows[i + 1].first
-                                                                    : coverage.runs.size();
-        const int at = coverage.rows[i].y + bottom;
-        if (at < clip.y0 || at >= clip.y1)
-            continue;
-        moved_.clear();
-        for (std::size_t k = first; k < end; ++k) {
-            const CoverageRun& run = coverage.runs[k];
-            const int from = std::max(run.first + left, clip.x0), to = std::min(run.end + left, clip.x1);
-            if (from < to)
-                moved_.push_back({from, to, run.share});
-        }
-        if (!moved_.empty())
-            row(at, moved_);
+void GlyphCache::trim() {
+    if (bytes_ <= maxBytes)
+        return;
+    std::vector<Entry> all(std::make_move_iterator(entries_.begin()),
+                           std::make_move_iterator(entries_.end()));
+    std::ranges::sort(all, std::greater(), &Entry::used);
+    entries_.clear();
+    bytes_ = 0;
+    // More goes than must: this takes a while.
+    constexpr std::size_t left = maxBytes / 4 * 3;
+    for (Entry& entry : all) {
+        bytes_ += entry.coverage.bytes() + entryBytes;
+        if (bytes_ > left)
+            break;
+        entries_.push_back(std::move(entry));
     }
+    rehash();
 }
 
 }  // namespace vtm::openvg

@@ -3,59 +3,98 @@
 #pragma once
 
 #include <array>
-#include <compare>
+#include <cstddef>
 #include <cstdint>
-#include <list>
-#include <map>
+#include <deque>
+#include <span>
 #include <vector>
 
 #include "api/openvg/draw/path_mask.hpp"
 
 namespace vtm::openvg {
 
+/// What a glyph covers. Columns and rows are counted from the lower left corner of its box.
+class GlyphCoverage {
+public:
+    /// The most that a box has along a side.
+    static constexpr int maxSide = 64;
+
+    /// A pixel that is covered in part.
+    struct Edge {
+        std::uint8_t x, y;
+        std::uint16_t share;  ///< in 65536ths, not 0
+    };
+    /// Pixels that are all covered.
+    struct Run {
+        std::uint8_t first, end, y;
+    };
+
+    GlyphCoverage(PathMask& mask, const glm::mat3& toPixel, const Rectangle& box);
+
+    /// Around all of it, from the pixel on in which the glyph's origin is.
+    const Rectangle& box() const { return box_; }
+    /// Row by row, from left to right.
+    std::span<const Edge> edges() const { return edges_; }
+    std::span<const Run> runs() const { return runs_; }
+    std::size_t bytes() const { return sizeof(Edge) * edges_.capacity() + sizeof(Run) * runs_.capacity(); }
+
+    /// Gives the rows as PathMask::scan() does, moved by whole pixels.
+    void play(int left, int bottom, const Rectangle& clip, const RowSink& row) const;
+
+private:
+    Rectangle box_;
+    std::vector<Edge> edges_;
+    std::vector<Run> runs_;
+};
+
+/// A glyph on a surface: the pixel that its origin is in.
+struct PlacedGlyph {
+    const GlyphCoverage* coverage = nullptr;  ///< null: nothing is seen of it
+    int left = 0, bottom = 0;
+
+    /// On the surface, within `clip`.
+    void play(const Rectangle& clip, const RowSink& row) const {
+        if (coverage)
+            coverage->play(left, bottom, clip, row);
+    }
+};
+
 class GlyphCache {
 public:
-    /// Like mask.scan(), but places are rounded to 1/1024 of a pixel: no coverage is off by more than half of
-    /// that along each axis.
-    void scan(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row);
+    /// Finds or keeps a glyph's coverage, good until trim(). Places are rounded to 1/1024 of a pixel: no
+    /// coverage is off by more than half of that along each axis. False for those that are not kept.
+    bool place(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip, PlacedGlyph& glyph);
+    /// Forgets what was not drawn longest, if it is too much.
+    void trim();
 
 private:
     struct Key {
         std::uint64_t mask;
-        std::array<float, 4> matrix;  ///< without its translation
-        std::array<int, 2> phase;     ///< in 1024ths of a pixel
+        std::array<std::uint32_t, 4> matrix;  ///< bits of floats, without its translation
+        std::uint32_t phase;                  ///< both places within a pixel, in 1024ths
 
-        glm::mat3 toPixel() const;
-
-        friend auto operator<=>(const Key&, const Key&) = default;
+        friend bool operator==(const Key&, const Key&) = default;
     };
-    /// Runs, and where those of each row begin; columns and rows from the pixel that the origin is in.
-    struct Coverage {
-        struct Row {
-            int y;
-            std::size_t first;
-        };
-        std::vector<Row> rows;
-        std::vector<CoverageRun> runs;
-
-        std::size_t bytes() const { return sizeof(Row) * rows.size() + sizeof(CoverageRun) * runs.size(); }
-    };
-    struct Entry;
-    using Entries = std::list<Entry>;
     struct Entry {
-        std::map<Key, Entries::iterator>::iterator place;
-        Coverage coverage;
+        Key key;
+        GlyphCoverage coverage;
+        std::uint64_t used;
+    };
+    /// Of a table with open addressing.
+    struct Slot {
+        std::uint32_t tag = 0;    ///< of the key's hash
+        std::uint32_t place = 0;  ///< 1 more than that of the entry; 0: none
     };
 
-    static Coverage scanned(PathMask& mask, const glm::mat3& toPixel, const Rectangle& box);
-    const Coverage& add(const Key& key, Coverage coverage);
-    /// Gives what is covered, moved by whole pixels.
-    void play(const Coverage& coverage, int left, int bottom, const Rectangle& clip, const RowSink& row);
+    static std::uint64_t hash(const Key& key);
+    Entry* find(const Key& key, std::uint64_t hash);
+    void insert(std::uint64_t hash, std::size_t entry);
+    void rehash();
 
-    Entries entries_;  ///< the last used first
-    std::map<Key, Entries::iterator> found_;
+    std::deque<Entry> entries_;
+    std::vector<Slot> slots_;  ///< a power of two, at least twice as many as there are entries
     std::size_t bytes_ = 0;
-    std::vector<CoverageRun> moved_;
+    std::uint64_t clock_ = 0;  ///< counts what is drawn
 };
 
 }  // namespace vtm::openvg

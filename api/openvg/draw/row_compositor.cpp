@@ -53,11 +53,8 @@ void RowCompositor::use(Color color) {
     prepare(std::span(&color, 1));
     constant_ = color;
     drawsBytes_ = isOver_ && !mask_ && order_ == ByteOrder{0, 1, 2, 3};
-    if (!drawsBytes_)
-        return;
-    word_ = format_.encode(color);
-    for (int c = 0; c < 3; ++c)
-        light_[c] = gamma_.decode(color[c]);
+    if (drawsBytes_)
+        word_ = format_.encode(color);
 }
 
 RowCompositor::RowCompositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
@@ -97,37 +94,79 @@ bool RowCompositor::drawBytes(int y, int first, int end) {
     return true;
 }
 
+template <class Function>
+void RowCompositor::withMixer(Function&& f) const {
+    const auto with = [&](const auto& mixer) {
+        if (format_.alpha.bits == 0)
+            return f([&](std::uint8_t* p, unsigned share) {
+                mixer(p, share);
+                return true;
+            });
+        f([&, isPremultiplied = format_.space.premultiplied](std::uint8_t* p, unsigned share) {
+            if (p[3] == 255) {
+                mixer(p, share);
+                return true;
+            }
+            // What is translucent must be divided by its alpha to be mixed.
+            if (p[3] != 0 || !isPremultiplied)
+                return false;
+            const Color mixed = *constant_ * (float(share) * (255.0f / wholeShare)) + 0.5f;
+            for (int c = 0; c < 4; ++c)
+                p[c] = std::uint8_t(int(mixed[c]));
+            return true;
+        });
+    };
+    if (format_.space.linear)
+        with(LinearMixer(*constant_));
+    else if (constant_->a == 1)
+        with(OpaqueMixer(*constant_));
+    else
+        with(TranslucentMixer(*constant_));
+}
+
 void RowCompositor::drawEdgeBytes(int y, int first, int end, float share) {
     std::uint8_t* p = pixels_.at(first, y);
-    const bool hasAlpha = format_.alpha.bits != 0;
-    const auto each = [&](auto&& mixed) {
-        for (int x = first; x < end; ++x, p += 4) {
-            // What is translucent must be divided by its alpha to be mixed.
-            if (hasAlpha && p[3] != 255)
+    const unsigned fixed = fixedShare(share);
+    withMixer([&](auto&& mixed) {
+        for (int x = first; x < end; ++x, p += 4)
+            if (!mixed(p, fixed))
                 drawRow(x, y, std::span(&share, 1));
-            else
-                for (int c = 0; c < 3; ++c)
-                    p[c] = mixed(p[c], c);
-        }
-    };
-    const Color source = *constant_;
-    const float kept = (1 - source.a) / 255;
-    if (format_.space.linear)
-        return each([&](std::uint8_t v, int c) {
-            return std::uint8_t(float(v) + share * (source[c] * 255 - source.a * float(v)) + 0.5f);
-        });
-    if (source.a == 1) {
-        const float left = (1 - share) * ByteGamma::steps;
-        const glm::vec3 added = share * ByteGamma::steps * light_ + 0.5f;
-        return each([&](std::uint8_t v, int c) {
-            return gamma_.encoded[std::size_t(gamma_.decodedBytes[v] * left + added[c])];
-        });
-    }
-    each([&](std::uint8_t v, int c) {
-        const float before = gamma_.decodedBytes[v],
-                    after = gamma_.decode(std::min(source[c] + float(v) * kept, 1.0f));
-        return gamma_.encode(before + share * (after - before));
     });
+}
+
+void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom) {
+    std::uint8_t* const corner = pixels_.at(left, bottom);
+    const std::ptrdiff_t stride = pixels_.stride();
+    for (const GlyphCoverage::Run& run : coverage.runs()) {
+        if (constant_->a != 1) {
+            drawPart(bottom + run.y, left + run.first, left + run.end, 1);
+            continue;
+        }
+        std::uint8_t* p = corner + run.y * stride + 4 * std::ptrdiff_t(run.first);
+        for (int x = run.first; x < run.end; ++x, p += 4)
+            std::memcpy(p, &word_, 4);
+    }
+    withMixer([&](auto&& mixed) {
+        for (const GlyphCoverage::Edge& edge : coverage.edges()) {
+            if (mixed(corner + edge.y * stride + 4 * std::ptrdiff_t(edge.x), edge.share))
+                continue;
+            const float share = float(edge.share) / wholeShare;
+            drawRow(left + edge.x, bottom + edge.y, std::span(&share, 1));
+        }
+    });
+}
+
+void RowCompositor::draw(const PlacedGlyph& glyph) {
+    if (!glyph.coverage)
+        return;
+    const Rectangle &box = glyph.coverage->box(), &bounds = clip_.bounds();
+    const Rectangle at{box.x0 + glyph.left, box.y0 + glyph.bottom, box.x1 + glyph.left,
+                       box.y1 + glyph.bottom};
+    const bool isWithin =
+        at.x0 >= bounds.x0 && at.y0 >= bounds.y0 && at.x1 <= bounds.x1 && at.y1 <= bounds.y1;
+    if (drawsBytes_ && clip_.isBox() && isWithin)
+        return drawGlyphBytes(*glyph.coverage, at.x0, at.y0);
+    glyph.play(bounds, std::ref(*this));
 }
 
 bool RowCompositor::drawStored(int y, int first, int end) {

@@ -6,6 +6,8 @@
 
 #include "api/openvg/draw/blend.hpp"
 #include "api/openvg/draw/clip.hpp"
+#include "api/openvg/draw/edge_mixer.hpp"
+#include "api/openvg/draw/glyph_cache.hpp"
 #include "api/openvg/draw/path_mask.hpp"
 #include "api/openvg/draw/pixel_source.hpp"
 #include "api/openvg/image/pixel_rows.hpp"
@@ -29,12 +31,18 @@ public:
     /// The one colour of what comes next, in place of the source's: in its space, premultiplied.
     void use(Color color);
     void operator()(int y, std::span<const CoverageRun> runs);
+    void draw(const PlacedGlyph& glyph);
 
 private:
     void drawPart(int y, int first, int end, float share);
     /// One colour over bytes: all of a pixel, or part of it. False for what drawRow() must do.
     bool drawBytes(int y, int first, int end);
     void drawEdgeBytes(int y, int first, int end, float share);
+    void drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom);
+    /// Calls f with what mixes the one colour into a pixel of bytes by its share; f(p, share) returns false
+    /// for a pixel that drawRow() must mix.
+    template <class Function>
+    void withMixer(Function&& f) const;
     /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
     bool drawStored(int y, int first, int end);
     void drawAny(int y, int first, int end, float share);
@@ -65,8 +73,6 @@ private:
     std::optional<Color> constant_;   ///< prepared
     bool drawsBytes_ = false;         ///< `constant_` over bytes by a rule that drawBytes() knows
     std::uint32_t word_ = 0;          ///< `constant_` as a pixel
-    glm::vec3 light_{0};              ///< `constant_` in linear light
-    const ByteGamma& gamma_ = byteGamma();
 };
 
 }  // namespace vtm::openvg

@@ -1,7 +1,11 @@
 // Section 11: fonts and glyphs.
 
+#include "api/openvg/draw/clip.hpp"
+#include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/draw/draw_path.hpp"
 #include "api/openvg/image/images.hpp"
+#include "api/openvg/path/projective.hpp"
+#include "api/openvg/state/matrix.hpp"
 
 using namespace vtm::openvg;
 
@@ -22,22 +26,87 @@ const Glyph& glyphOf(const Font& font, VGuint index) {
     return it->second;
 }
 
-/// Draws a glyph with its origin at VG_GLYPH_ORIGIN and moves on. Paint moves with the glyph, as programs
-/// expect it: its coordinates are those of the glyph's path.
-void draw(Context& context, const Glyph& glyph, VGbitfield modes, glm::vec2 adjustment) {
-    std::array<VGfloat, 2>& origin = context.state.glyphOrigin;
-    if (modes != 0) {
-        glm::mat3 toSurface = context.state.matrix(VG_MATRIX_GLYPH_USER_TO_SURFACE);
-        toSurface[2] +=
-            toSurface[0] * (origin[0] - glyph.origin.x) + toSurface[1] * (origin[1] - glyph.origin.y);
-        if (glyph.path)
-            drawPath(context, *glyph.path, modes, toSurface, &context.objects->glyphs);
-        else if (glyph.image)
-            drawImage(context, *glyph.image, toSurface, VG_MATRIX_GLYPH_USER_TO_SURFACE);
+/// Draws glyphs one after the other. Those whose coverage is kept, and that are filled or stroked in one
+/// colour, are drawn together.
+class GlyphDrawing {
+public:
+    GlyphDrawing(Context& context, VGbitfield modes)
+        : context_(context),
+          state_(context.state),
+          modes_(modes),
+          matrix_(state_.matrix(VG_MATRIX_GLYPH_USER_TO_SURFACE)),
+          clip_(context) {
+        if (modes == VG_FILL_PATH || modes == VG_STROKE_PATH)
+            setColor(VGPaintMode(modes));
     }
-    origin[0] += glyph.escapement.x + adjustment.x;
-    origin[1] += glyph.escapement.y + adjustment.y;
-}
+
+    /// At VG_GLYPH_ORIGIN, and moves on. Paint moves with the glyph, as programs expect it: its coordinates
+    /// are those of the glyph's path.
+    void draw(const Glyph& glyph, glm::vec2 adjustment) {
+        std::array<VGfloat, 2>& origin = context_.state.glyphOrigin;
+        if (modes_ != 0) {
+            glm::mat3 toSurface = matrix_;
+            toSurface[2] +=
+                toSurface[0] * (origin[0] - glyph.origin.x) + toSurface[1] * (origin[1] - glyph.origin.y);
+            draw(glyph, toSurface);
+        }
+        origin[0] += glyph.escapement.x + adjustment.x;
+        origin[1] += glyph.escapement.y + adjustment.y;
+    }
+
+    /// Draws what is still to be drawn.
+    void finish() {
+        if (!placed_.empty())
+            compositorOf(context_).drawGlyphs(context_, *color_, placed_);
+        placed_.clear();
+        context_.objects->glyphs.trim();
+    }
+
+private:
+    void setColor(VGPaintMode mode) {
+        if (context_.recorder || state_.renderingQuality == VG_RENDERING_QUALITY_NONANTIALIASED ||
+            !clipLines(state_).empty() || isProjective(matrix_) || !inverseOf(matrix_) ||
+            (mode == VG_STROKE_PATH && !hasStroke(state_)))
+            return;
+        color_ = paintSource(currentPaint(state_, mode), matrix_, state_);
+        if (color_ && !color_->constant())
+            color_ = nullptr;
+    }
+
+    void draw(const Glyph& glyph, const glm::mat3& toSurface) {
+        if (glyph.path && color_ && place(*glyph.path, toSurface))
+            return;
+        finish();
+        if (glyph.path)
+            drawPath(context_, *glyph.path, modes_, toSurface, &context_.objects->glyphs);
+        else if (glyph.image)
+            drawImage(context_, *glyph.image, toSurface, VG_MATRIX_GLYPH_USER_TO_SURFACE);
+    }
+
+    /// False for what is not kept.
+    bool place(Path& path, const glm::mat3& toSurface) {
+        constexpr std::size_t maxPlaced = 256;  // nothing is forgotten meanwhile
+        if (path.data.commands().empty())
+            return true;
+        PlacedGlyph glyph;
+        PathMask& mask = maskOf(state_, path, VGPaintMode(modes_));
+        if (!context_.objects->glyphs.place(mask, toSurface, clip_.bounds(), glyph))
+            return false;
+        if (glyph.coverage)
+            placed_.push_back(glyph);
+        if (placed_.size() == maxPlaced)
+            finish();
+        return true;
+    }
+
+    Context& context_;
+    const State& state_;
+    const VGbitfield modes_;
+    const glm::mat3 matrix_;
+    const Clip clip_;
+    std::unique_ptr<PixelSource> color_;  ///< null: each glyph is drawn by itself
+    std::vector<PlacedGlyph> placed_;
+};
 
 }  // namespace
 
@@ -87,7 +156,9 @@ void vgDrawGlyph(VGFont handle, VGuint glyphIndex, VGbitfield paintModes, VGbool
         const std::shared_ptr<Font> font = context.objects->get<Font>(handle);
         const Glyph& glyph = glyphOf(*font, glyphIndex);
         requireGlyphModes(paintModes);
-        draw(context, glyph, paintModes, glm::vec2(0));
+        GlyphDrawing drawing(context, paintModes);
+        drawing.draw(glyph, glm::vec2(0));
+        drawing.finish();
     });
 }
 
@@ -98,10 +169,13 @@ void vgDrawGlyphs(VGFont handle, VGint glyphCount, const VGuint* glyphIndices, c
         require(glyphCount > 0 && glyphIndices != nullptr && isAligned(glyphIndices));
         require(isAligned(adjustments_x) && isAligned(adjustments_y));
         requireGlyphModes(paintModes);
-        for (VGint i = 0; i < glyphCount; ++i)
-            glyphOf(*font, glyphIndices[i]);
-        for (VGint i = 0; i < glyphCount; ++i)
-            draw(context, glyphOf(*font, glyphIndices[i]), paintModes,
-                 {adjustments_x ? adjustments_x[i] : 0, adjustments_y ? adjustments_y[i] : 0});
+        std::vector<const Glyph*> glyphs;
+        for (const VGuint index : std::span(glyphIndices, std::size_t(glyphCount)))
+            glyphs.push_back(&glyphOf(*font, index));
+        GlyphDrawing drawing(context, paintModes);
+        for (std::size_t i = 0; i < glyphs.size(); ++i)
+            drawing.draw(*glyphs[i],
+                         {adjustments_x ? adjustments_x[i] : 0, adjustments_y ? adjustments_y[i] : 0});
+        drawing.finish();
     });
 }

@@ -119,14 +119,20 @@ void clamp(const std::uint8_t* from, std::uint8_t* to, int count) {
 }  // namespace
 
 void overBytes(std::uint8_t* pixels, int count, Color color, bool keepsAlpha) {
+    std::uint16_t addedOnce[4], keptOnce[4];
+    for (int i = 0; i < 4; ++i) {
+        const bool stays = keepsAlpha && i == 3;
+        addedOnce[i] = std::uint16_t((stays ? 0 : std::min(color[i], color.a) * (255 * 256.0f) + 0.5f) + 128);
+        keptOnce[i] = std::uint16_t(stays ? 65535 : (1 - color.a) * 65535 + 0.5f);
+    }
+    const int done = wide::overBytes(pixels, count, addedOnce, keptOnce);
+    pixels += 4 * std::ptrdiff_t(done);
     Words added, kept;
     for (int i = 0; i < 8; ++i) {
-        const bool stays = keepsAlpha && i % 4 == 3;
-        added[i] = std::uint16_t(stays ? 0 : std::min(color[i % 4], color.a) * (255 * 256.0f) + 0.5f);
-        kept[i] = std::uint16_t(stays ? 65535 : (1 - color.a) * 65535 + 0.5f);
+        added[i] = addedOnce[i % 4];
+        kept[i] = keptOnce[i % 4];
     }
-    added += half;
-    inFours(count, [&](std::size_t bytes) {
+    inFours(count - done, [&](std::size_t bytes) {
         const Bytes result = blended(bytesAt(pixels, bytes), kept, kept, added);
         std::memcpy(pixels, &result, bytes);
         pixels += bytes;
@@ -134,11 +140,17 @@ void overBytes(std::uint8_t* pixels, int count, Color color, bool keepsAlpha) {
 }
 
 void overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int alphaByte) {
-    return alphaByte == 0 ? over<0>(pixels, sources, count) : over<3>(pixels, sources, count);
+    const int done = wide::overBytes(pixels, sources, count, alphaByte);
+    pixels += 4 * std::ptrdiff_t(done);
+    sources += 4 * std::ptrdiff_t(done);
+    return alphaByte == 0 ? over<0>(pixels, sources, count - done) : over<3>(pixels, sources, count - done);
 }
 
 void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {
-    return alphaByte == 0 ? clamp<0>(from, to, count) : clamp<3>(from, to, count);
+    const int done = wide::clampBytes(from, to, count, alphaByte);
+    from += 4 * std::ptrdiff_t(done);
+    to += 4 * std::ptrdiff_t(done);
+    return alphaByte == 0 ? clamp<0>(from, to, count - done) : clamp<3>(from, to, count - done);
 }
 
 void premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {

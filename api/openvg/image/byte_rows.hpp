@@ -25,4 +25,14 @@ void premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int
 /// Whether every fourth byte is 255.
 bool isOpaque(const std::uint8_t* pixels, int count);
 
+namespace wide {
+
+/// The same on processors with AVX2, of the first pixels: returns how many, none on others.
+int overBytes(std::uint8_t* pixels, int count, const std::uint16_t (&added)[4],
+              const std::uint16_t (&kept)[4]);
+int overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int alphaByte);
+int clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
+
+}  // namespace wide
+
 }  // namespace vtm::openvg

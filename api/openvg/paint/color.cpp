@@ -48,8 +48,10 @@ Color fastDecoded(Color c) {
 }
 
 ByteGamma::ByteGamma() {
-    for (std::size_t i = 0; i < decodedBytes.size(); ++i)
+    for (std::size_t i = 0; i < decodedBytes.size(); ++i) {
         decodedBytes[i] = decodeGamma(float(i) / 255);
+        halfSteps[i] = std::uint16_t(std::min(decodedBytes[i], 1.0f) * 2 * steps + 0.5f);
+    }
     for (std::size_t i = 0; i < decoded.size(); ++i)
         decoded[i] = decodeGamma(float(i) / 4096);
     for (std::size_t i = 0; i < encoded.size(); ++i)

@@ -43,12 +43,13 @@ struct ByteGamma {
     static constexpr float steps = 16384;  ///< of linear light, of `encoded`
 
     std::array<float, 256> decodedBytes;
+    std::array<std::uint16_t, 256> halfSteps;  ///< of decodedBytes, 32768 being 1
     std::array<float, 4097> decoded;
     std::array<std::uint8_t, 16385> encoded;
 
     ByteGamma();
-    float decode(float v) const { return decoded[std::size_t(v * 4096 + 0.5f)]; }
-    std::uint8_t encode(float linear) const { return encoded[std::size_t(linear * steps + 0.5f)]; }
+    float decode(float v) const { return decoded[unsigned(int(v * 4096 + 0.5f))]; }
+    std::uint8_t encode(float linear) const { return encoded[unsigned(int(linear * steps + 0.5f))]; }
 };
 const ByteGamma& byteGamma();
 

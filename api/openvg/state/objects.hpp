@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <map>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -163,7 +163,7 @@ struct Glyph {
 };
 
 struct Font : Object {
-    std::map<VGuint, Glyph> glyphs;
+    std::unordered_map<VGuint, Glyph> glyphs;
 };
 
 }  // namespace vtm::openvg

@@ -142,6 +142,143 @@ TEST_F(TextTest, GlyphsThatAreDrawnAgainAreThoseOfTheirPaths) {
     expectSame("scissored");
 }
 
+/// A line of text in four ways of colours, surfaces and states, glyph by glyph as paths and in one call: the
+/// same within 1/255. Places are those that the cache keeps.
+class GlyphLine : public TextTest {
+protected:
+    static constexpr int width = 90, height = 24;
+
+    GlyphLine() {
+        const std::array<VGfloat, 2> zero{}, next{11.25f, 0.125f};
+        for (VGuint i = 0; i < 5; ++i) {
+            const auto s = VGfloat(i);
+            paths_[i] = newPath({VG_MOVE_TO_ABS, VG_CUBIC_TO_ABS, VG_LINE_TO_ABS, VG_CLOSE_PATH},
+                                {1, 1, 4 + s, -2, 12, 6 + s, 7 - s, 12, 2, 9 - s});
+            vgSetGlyphToPath(font, 100 + i, paths_[i], VG_FALSE, zero.data(), next.data());
+        }
+    }
+    static void loadMatrix(VGMatrixMode mode, VGfloat x, VGfloat y) {
+        vgSeti(VG_MATRIX_MODE, mode);
+        vgLoadIdentity();
+        vgTranslate(x, y);
+        vgScale(1.25f, 1.25f);
+    }
+    template <class Draw>
+    static std::vector<std::uint32_t> pixels(const VtmSurfaceFormat& format,
+                                             const std::array<VGfloat, 4>& ground, Draw&& draw) {
+        clear(ground);
+        draw();
+        const VGImageFormat read = format.linear ? format.premultiplied ? VG_lRGBA_8888_PRE : VG_lRGBA_8888
+                                   : format.premultiplied ? VG_sRGBA_8888_PRE
+                                                          : VG_sRGBA_8888;
+        std::vector<std::uint32_t> words(width * height);
+        vgReadPixels(words.data(), 4 * width, read, 0, 0, width, height);
+        return words;
+    }
+    void expectSame(const VtmSurfaceFormat& format, const std::array<VGfloat, 4>& ground, VGbitfield modes,
+                    VGfloat x, const std::string& what) {
+        useSurface(width, height, format);
+        const std::array<VGuint, 7> text{100, 103, 101, 104, 102, 100, 103};
+        const auto byPath = pixels(format, ground, [&] {
+            for (std::size_t i = 0; i < text.size(); ++i) {
+                loadMatrix(VG_MATRIX_PATH_USER_TO_SURFACE, x + 1.25f * 11.25f * VGfloat(i),
+                           3.5f + 1.25f * 0.125f * VGfloat(i));
+                vgDrawPath(paths_[text[i] - 100], modes);
+            }
+        });
+        loadMatrix(VG_MATRIX_GLYPH_USER_TO_SURFACE, x, 3.5f);
+        for (int again = 0; again < 2; ++again) {
+            const auto together = pixels(format, ground, [&] {
+                moveTo(0, 0);
+                vgDrawGlyphs(font, VGint(text.size()), text.data(), nullptr, nullptr, modes, VG_FALSE);
+            });
+            int wrong = 0;
+            for (std::size_t i = 0; i < together.size(); ++i)
+                wrong += !isNear(rgbaOf(together[i]), rgbaOf(byPath[i]), 1);
+            EXPECT_EQ(wrong, 0) << what << ", drawn " << again;
+        }
+    }
+    void expectSameEverywhere(const std::string& what) {
+        for (const bool linear : {false, true})
+            for (const bool premultiplied : {false, true})
+                for (const VGint alpha : {0, 8})
+                    for (const std::array<VGfloat, 4>& ground : {std::array<VGfloat, 4>{1, 1, 1, 1},
+                                                                 {0, 0, 0, 1},
+                                                                 {0.8f, 0.3f, 0.1f, 1},
+                                                                 {0, 0, 0, 0},
+                                                                 {0.2f, 0.9f, 0.4f, 0.5f}})
+                        for (const VGfloat x : {-4.25f, 2.5f})  // cut off on the left, on the right
+                            expectSame({8, 8, 8, alpha, 0, 8, VGboolean(linear), VGboolean(premultiplied)},
+                                       ground, mode_, x,
+                                       what + (linear ? ", linear" : ", sRGB") +
+                                           (premultiplied ? ", premultiplied" : "") + ", alpha " +
+                                           std::to_string(alpha) + ", ground " + std::to_string(ground[1]) +
+                                           " at " + std::to_string(x));
+    }
+
+    std::array<VGPath, 5> paths_;
+    VGbitfield mode_ = VG_FILL_PATH;
+};
+
+TEST_F(GlyphLine, IsThatOfItsPaths) {
+    for (const std::array<VGfloat, 4>& ink : {std::array<VGfloat, 4>{0, 0, 0, 1},
+                                              {1, 1, 1, 1},
+                                              {0.9f, 0.1f, 0.4f, 1},
+                                              {0, 0, 0, 0.5f},
+                                              {0.2f, 0.7f, 1, 0.25f},
+                                              {1, 1, 1, 0}}) {
+        vgSetPaint(newPaint(ink), VG_FILL_PATH | VG_STROKE_PATH);
+        expectSameEverywhere("ink " + std::to_string(ink[0]) + " " + std::to_string(ink[3]));
+    }
+}
+
+TEST_F(GlyphLine, InEveryState) {
+    vgSetPaint(newPaint({0.9f, 0.1f, 0.4f, 0.75f}), VG_FILL_PATH | VG_STROKE_PATH);
+    vgSeti(VG_BLEND_MODE, VG_BLEND_SRC);
+    expectSameEverywhere("VG_BLEND_SRC");
+    vgSeti(VG_BLEND_MODE, VG_BLEND_SRC_OVER);
+    const std::array<VGint, 8> scissor{3, 2, 40, 9, 30, 6, 25, 18};
+    vgSetiv(VG_SCISSOR_RECTS, 8, scissor.data());
+    vgSeti(VG_SCISSORING, VG_TRUE);
+    expectSameEverywhere("scissored by two");
+    vgSetiv(VG_SCISSOR_RECTS, 4, scissor.data());
+    expectSameEverywhere("scissored");
+    vgSetiv(VG_SCISSOR_RECTS, 0, nullptr);
+    expectSameEverywhere("scissored by none");
+    vgSeti(VG_SCISSORING, VG_FALSE);
+    mode_ = VG_STROKE_PATH;
+    expectSameEverywhere("stroked");
+    mode_ = VG_FILL_PATH | VG_STROKE_PATH;
+    expectSameEverywhere("both");
+    mode_ = VG_FILL_PATH;
+    vgSeti(VG_RENDERING_QUALITY, VG_RENDERING_QUALITY_NONANTIALIASED);
+    expectSameEverywhere("not antialiased");
+}
+
+// More than is kept: what was forgotten is covered anew.
+TEST_F(GlyphLine, ManyPlaces) {
+    const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
+    useSurface(width, height, format);
+    vgSeti(VG_MATRIX_MODE, VG_MATRIX_GLYPH_USER_TO_SURFACE);
+    const auto drawn = [&](VGfloat x) {
+        vgLoadIdentity();
+        vgTranslate(x, 3);
+        return pixels(format, {1, 1, 1, 1}, [&] {
+            moveTo(0, 0);
+            vgDrawGlyph(font, 103, VG_FILL_PATH, VG_FALSE);
+        });
+    };
+    const auto first = drawn(2.25f);
+    for (int i = 0; i < 1024; ++i)
+        for (int k = 0; k < 24; ++k) {
+            vgLoadIdentity();
+            vgTranslate(2 + VGfloat(i) / 1024, 2 + VGfloat(k) / 1024);
+            moveTo(0, 0);
+            vgDrawGlyph(font, 103, VG_FILL_PATH, VG_FALSE);
+        }
+    EXPECT_EQ(drawn(2.25f), first);
+}
+
 }  // namespace
 
 }  // namespace vtm::openvg::testing

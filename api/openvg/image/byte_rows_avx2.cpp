@@ -1,0 +1,110 @@
+// What byte_rows.cpp does with four pixels at a time, with eight; results are the same bit for bit.
+
+#include "api/openvg/image/byte_rows.hpp"
+
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
+namespace vtm::openvg::wide {
+
+#ifdef __x86_64__
+
+namespace {
+
+constexpr int pixelsAtOnce = 8;
+
+bool hasAvx2() {
+    static const bool has = __builtin_cpu_supports("avx2");
+    return has;
+}
+
+int wholeOnes(int count) { return hasAvx2() ? count / pixelsAtOnce * pixelsAtOnce : 0; }
+
+/// Four bytes of a pixel to its alpha's.
+__attribute__((target("avx2"))) __m256i alphaShuffle(int alphaByte) {
+    return _mm256_add_epi8(_mm256_setr_epi8(0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12, 0, 0, 0, 0, 4,
+                                            4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12),
+                           _mm256_set1_epi8(char(alphaByte)));
+}
+
+/// There · kept + added, in 8.8 fixed point, of the lower or the upper pixels of both halves.
+__attribute__((target("avx2"))) __m256i blended(__m256i words, __m256i kept, __m256i added) {
+    return _mm256_srli_epi16(_mm256_add_epi16(_mm256_mulhi_epu16(words, kept), added), 8);
+}
+
+__attribute__((target("avx2"))) void overColor(std::uint8_t* pixels, int count, std::uint64_t added,
+                                               std::uint64_t kept) {
+    const __m256i zero = _mm256_setzero_si256(), a = _mm256_set1_epi64x(std::int64_t(added)),
+                  k = _mm256_set1_epi64x(std::int64_t(kept));
+    for (auto* p = reinterpret_cast<__m256i*>(pixels); count > 0; count -= pixelsAtOnce, ++p) {
+        const __m256i there = _mm256_loadu_si256(p);
+        _mm256_storeu_si256(p, _mm256_packus_epi16(blended(_mm256_unpacklo_epi8(zero, there), k, a),
+                                                   blended(_mm256_unpackhi_epi8(zero, there), k, a)));
+    }
+}
+
+__attribute__((target("avx2"))) void overPixels(std::uint8_t* pixels, const std::uint8_t* sources, int count,
+                                                int alphaByte) {
+    const __m256i zero = _mm256_setzero_si256(), shuffle = alphaShuffle(alphaByte),
+                  half = _mm256_set1_epi16(128);
+    const auto* s = reinterpret_cast<const __m256i*>(sources);
+    for (auto* p = reinterpret_cast<__m256i*>(pixels); count > 0; count -= pixelsAtOnce, ++p, ++s) {
+        const __m256i source = _mm256_loadu_si256(s), there = _mm256_loadu_si256(p),
+                      missing = _mm256_shuffle_epi8(_mm256_xor_si256(source, _mm256_set1_epi8(-1)), shuffle);
+        const __m256i low = blended(_mm256_unpacklo_epi8(zero, there), _mm256_unpacklo_epi8(missing, missing),
+                                    half),
+                      high = blended(_mm256_unpackhi_epi8(zero, there),
+                                     _mm256_unpackhi_epi8(missing, missing), half);
+        _mm256_storeu_si256(p, _mm256_add_epi8(source, _mm256_packus_epi16(low, high)));
+    }
+}
+
+__attribute__((target("avx2"))) void clampPixels(const std::uint8_t* from, std::uint8_t* to, int count,
+                                                 int alphaByte) {
+    const __m256i shuffle = alphaShuffle(alphaByte);
+    const auto* f = reinterpret_cast<const __m256i*>(from);
+    for (auto* t = reinterpret_cast<__m256i*>(to); count > 0; count -= pixelsAtOnce, ++t, ++f) {
+        const __m256i given = _mm256_loadu_si256(f);
+        _mm256_storeu_si256(t, _mm256_min_epu8(given, _mm256_shuffle_epi8(given, shuffle)));
+    }
+}
+
+std::uint64_t joined(const std::uint16_t (&words)[4]) {
+    return std::uint64_t(words[0]) | std::uint64_t(words[1]) << 16 | std::uint64_t(words[2]) << 32 |
+           std::uint64_t(words[3]) << 48;
+}
+
+}  // namespace
+
+int overBytes(std::uint8_t* pixels, int count, const std::uint16_t (&added)[4],
+              const std::uint16_t (&kept)[4]) {
+    const int whole = wholeOnes(count);
+    if (whole > 0)
+        overColor(pixels, whole, joined(added), joined(kept));
+    return whole;
+}
+
+int overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int alphaByte) {
+    const int whole = wholeOnes(count);
+    if (whole > 0)
+        overPixels(pixels, sources, whole, alphaByte);
+    return whole;
+}
+
+int clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {
+    const int whole = wholeOnes(count);
+    if (whole > 0)
+        clampPixels(from, to, whole, alphaByte);
+    return whole;
+}
+
+#else
+
+int overBytes(std::uint8_t*, int, const std::uint16_t (&)[4], const std::uint16_t (&)[4]) { return 0; }
+int overBytes(std::uint8_t*, const std::uint8_t*, int, int) { return 0; }
+int clampBytes(const std::uint8_t*, std::uint8_t*, int, int) { return 0; }
+
+#endif
+
+}  // namespace vtm::openvg::wide
