@@ -177,9 +177,19 @@ bool RowCompositor::drawStored(int y, int first, int end) {
     const PixelFormat& from = *row->format;
     // What has no alpha has no colour, unless it is stored without premultiplied alpha.
     const bool isStraight = from.alpha.bits != 0 && !from.space.premultiplied;
-    if ((isSource_ && !isStraight) || (isOver_ && from.alpha.bits == 0)) {
-        convertRow(row->pixels, from, p, format_, end - first);
+    const auto convert = [&](const PixelFormat& format) {
+        if (!converter_ || converter_->from() != format)
+            converter_.emplace(format, format_, convertRow, clip_.bounds().area());
+        (*converter_)(row->pixels, p, end - first);
         return true;
+    };
+    if ((isSource_ && !isStraight) || (isOver_ && from.alpha.bits == 0))
+        return convert(from);
+    const std::optional<ByteOrder> fromOrder = isOver_ ? byteOrder(from) : std::nullopt;
+    if (fromOrder && isOpaque(row->pixels, end - first, fromOrder->alpha)) {
+        PixelFormat opaque = from;
+        opaque.alpha.bits = 0;
+        return convert(opaque);
     }
     if (!isOver_ || !order_ || !from.space.premultiplied || from != format_)
         return false;

@@ -69,10 +69,11 @@ private:
     ScaleAndBias transform_;
     const PixelFormat& format_;  ///< the surface's
     bool isAlphaOnly_;
-    std::optional<ByteOrder> order_;  ///< the surface's
-    std::optional<Color> constant_;   ///< prepared
-    bool drawsBytes_ = false;         ///< `constant_` over bytes by a rule that drawBytes() knows
-    std::uint32_t word_ = 0;          ///< `constant_` as a pixel
+    std::optional<ByteOrder> order_;         ///< the surface's
+    std::optional<Color> constant_;          ///< prepared
+    std::optional<RowConverter> converter_;  ///< of the image that drawStored() saw last
+    bool drawsBytes_ = false;                ///< `constant_` over bytes by a rule that drawBytes() knows
+    std::uint32_t word_ = 0;                 ///< `constant_` as a pixel
 };
 
 }  // namespace vtm::openvg

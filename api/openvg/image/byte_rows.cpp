@@ -157,10 +157,10 @@ void premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int
     return alphaByte == 0 ? premultiply<0>(from, to, count) : premultiply<3>(from, to, count);
 }
 
-bool isOpaque(const std::uint8_t* pixels, int count) {
+bool isOpaque(const std::uint8_t* pixels, int count, int alphaByte) {
     std::uint8_t all = 255;
     for (int i = 0; i < count; ++i)
-        all &= pixels[4 * i + 3];
+        all &= pixels[4 * i + alphaByte];
     return all == 255;
 }
 

@@ -22,8 +22,8 @@ void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alpha
 /// the same.
 void premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
 
-/// Whether every fourth byte is 255.
-bool isOpaque(const std::uint8_t* pixels, int count);
+/// Whether each pixel's alpha, the first or the last byte, is 255.
+bool isOpaque(const std::uint8_t* pixels, int count, int alphaByte = 3);
 
 namespace wide {
 

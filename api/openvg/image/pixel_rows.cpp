@@ -208,23 +208,31 @@ void takeRow(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* to, c
         clampBytes(to, to, count, order->alpha);
 }
 
-void convertRows(PixelRows<const std::uint8_t> from, const PixelFormat& f, PixelRows<std::uint8_t> to,
-                 const PixelFormat& t, int width, int height, RowConversion* convert) {
+RowConverter::RowConverter(const PixelFormat& from, const PixelFormat& to, RowConversion* convert,
+                           std::int64_t pixels)
+    : from_(from), to_(to), convert_(convert) {
     // A table is made in the time of 65536 pixels, once.
     constexpr int enoughForTable = 1 << 14;
-    if (f != t && !isReordered(f, t) && !isPremultiplied(f, t) &&
-        std::int64_t(width) * height >= enoughForTable)
-        if (const auto table = ConversionTable::of(f, t, convert)) {
-            for (int y = 0; y < height; ++y)
-                table->apply(from.first + y * from.stride, to.first + y * to.stride, width);
-            return;
-        }
+    if (from != to && !isReordered(from, to) && !isPremultiplied(from, to) && pixels >= enoughForTable)
+        table_ = ConversionTable::of(from, to, convert);
+}
+
+void RowConverter::operator()(const std::uint8_t* from, std::uint8_t* to, int count) const {
+    if (table_)
+        table_->apply(from, to, count);
+    else
+        convert_(from, from_, to, to_, count);
+}
+
+void convertRows(PixelRows<const std::uint8_t> from, const PixelFormat& f, PixelRows<std::uint8_t> to,
+                 const PixelFormat& t, int width, int height, RowConversion* convert) {
+    const RowConverter row(f, t, convert, std::int64_t(width) * height);
     // Rows without gaps are one.
     if (from.stride == width * std::ptrdiff_t(f.pixelBytes()) &&
         to.stride == width * std::ptrdiff_t(t.pixelBytes()))
-        return convert(from.first, f, to.first, t, width * height);
+        return row(from.first, to.first, width * height);
     for (int y = 0; y < height; ++y)
-        convert(from.first + y * from.stride, f, to.first + y * to.stride, t, width);
+        row(from.first + y * from.stride, to.first + y * to.stride, width);
 }
 
 }  // namespace vtm::openvg

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -52,13 +53,29 @@ RowConversion convertRow;
 /// The same of what a program gave: premultiplied colours above their alpha are clamped to it.
 RowConversion takeRow;
 
+class ConversionTable;
+
+/// A conversion for about so many pixels, by rows: many are converted by a table (conversion_table.hpp).
+class RowConverter {
+public:
+    RowConverter(const PixelFormat& from, const PixelFormat& to, RowConversion* convert, std::int64_t pixels);
+
+    const PixelFormat& from() const { return from_; }
+    void operator()(const std::uint8_t* from, std::uint8_t* to, int count) const;
+
+private:
+    PixelFormat from_, to_;
+    RowConversion* convert_;
+    std::shared_ptr<const ConversionTable> table_;
+};
+
 /// `stride` bytes from row to row.
 template <class Byte>
 struct PixelRows {
     Byte* first;
     std::ptrdiff_t stride;
 };
-/// Rows by either of them; many pixels by a table (conversion_table.hpp).
+/// Rows by either of them, in the way of RowConverter.
 void convertRows(PixelRows<const std::uint8_t> from, const PixelFormat& fromFormat,
                  PixelRows<std::uint8_t> to, const PixelFormat& toFormat, int width, int height,
                  RowConversion* convert);

@@ -49,6 +49,7 @@ struct Rectangle {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
     bool empty() const { return x0 >= x1 || y0 >= y1; }
+    std::int64_t area() const { return empty() ? 0 : std::int64_t(x1 - x0) * (y1 - y0); }
     Rectangle intersected(const Rectangle& o) const {
         return {x0 > o.x0 ? x0 : o.x0, y0 > o.y0 ? y0 : o.y0, x1 < o.x1 ? x1 : o.x1, y1 < o.y1 ? y1 : o.y1};
     }
