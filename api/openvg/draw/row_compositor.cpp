@@ -63,37 +63,6 @@ RowCompositor::RowCompositor(Context& context, const PixelSource& paint, const P
     drawsBytes_ = false;
 }
 
-void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
-    for (const CoverageRun& run : runs)
-        clip_.parts(y, run.first, run.end, [&](int first, int end) { drawPart(y, first, end, run.share); });
-}
-
-void RowCompositor::drawPart(int y, int first, int end, float share) {
-    if (drawsBytes_ && share != 1)
-        return drawEdgeBytes(y, first, end, share);
-    if (drawsBytes_ && drawBytes(y, first, end))
-        return;
-    if (share == 1 && !mask_ && !stencil_ && drawStored(y, first, end))
-        return;
-    drawAny(y, first, end, share);
-}
-
-// ---- Bytes ----------------------------------------------------------------------------------------
-
-bool RowCompositor::drawBytes(int y, int first, int end) {
-    if (constant_->a == 1) {
-        pixels_.fill(first, end, y, word_);
-        return true;
-    }
-    std::uint8_t* const p = pixels_.at(first, y);
-    const bool hasAlpha = format_.alpha.bits != 0, isStraight = hasAlpha && !format_.space.premultiplied;
-    // What is translucent must be divided by its alpha to be mixed.
-    if (isStraight && !isOpaque(p, end - first))
-        return false;
-    overBytes(p, end - first, *constant_, !hasAlpha || isStraight);
-    return true;
-}
-
 template <class Function>
 void RowCompositor::withMixer(Function&& f) const {
     const auto with = [&](const auto& mixer) {
@@ -124,14 +93,47 @@ void RowCompositor::withMixer(Function&& f) const {
         with(TranslucentMixer(*constant_));
 }
 
-void RowCompositor::drawEdgeBytes(int y, int first, int end, float share) {
-    std::uint8_t* p = pixels_.at(first, y);
-    const unsigned fixed = fixedShare(share);
+void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
+    const auto draw = [&](const auto& drawEdge) {
+        for (const CoverageRun& run : runs)
+            clip_.parts(y, run.first, run.end, [&](int first, int end) {
+                run.share == 1 ? drawPart(y, first, end, 1) : drawEdge(first, end, run.share);
+            });
+    };
+    if (!drawsBytes_)
+        return draw([&](int first, int end, float share) { drawPart(y, first, end, share); });
     withMixer([&](auto&& mixed) {
-        for (int x = first; x < end; ++x, p += 4)
-            if (!mixed(p, fixed))
-                drawRow(x, y, std::span(&share, 1));
+        draw([&](int first, int end, float share) {
+            std::uint8_t* p = pixels_.at(first, y);
+            for (int x = first; x < end; ++x, p += 4)
+                if (!mixed(p, fixedShare(share)))
+                    drawRow(x, y, std::span(&share, 1));
+        });
     });
+}
+
+void RowCompositor::drawPart(int y, int first, int end, float share) {
+    if (drawsBytes_ && drawBytes(y, first, end))
+        return;
+    if (share == 1 && !mask_ && !stencil_ && drawStored(y, first, end))
+        return;
+    drawAny(y, first, end, share);
+}
+
+// ---- Bytes ----------------------------------------------------------------------------------------
+
+bool RowCompositor::drawBytes(int y, int first, int end) {
+    if (constant_->a == 1) {
+        pixels_.fill(first, end, y, word_);
+        return true;
+    }
+    std::uint8_t* const p = pixels_.at(first, y);
+    const bool hasAlpha = format_.alpha.bits != 0, isStraight = hasAlpha && !format_.space.premultiplied;
+    // What is translucent must be divided by its alpha to be mixed.
+    if (isStraight && !isOpaque(p, end - first))
+        return false;
+    overBytes(p, end - first, *constant_, !hasAlpha || isStraight);
+    return true;
 }
 
 void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom) {
@@ -146,12 +148,30 @@ void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int 
         for (int x = run.first; x < run.end; ++x, p += 4)
             std::memcpy(p, &word_, 4);
     }
+    const std::span<const GlyphCoverage::Edge> edges = coverage.edges();
+    const auto at = [&](const GlyphCoverage::Edge& edge) {
+        return corner + edge.y * stride + 4 * std::ptrdiff_t(edge.x);
+    };
+    std::uint32_t ground = 0;
+    const std::uint32_t* flat = nullptr;
+    if (!edges.empty() && constant_->a == 1 && !format_.space.linear &&
+        (format_.alpha.bits == 0 || at(edges[0])[3] == 255)) {
+        // Of the thread: a line of text alone is worth no table.
+        static thread_local FlatGround grounds;
+        ground = wordAt(at(edges[0]), 4);
+        flat = grounds.words(*constant_, ground);
+        if (!flat)
+            grounds.count(*constant_, ground, edges.size());
+    }
     withMixer([&](auto&& mixed) {
-        for (const GlyphCoverage::Edge& edge : coverage.edges()) {
-            if (mixed(corner + edge.y * stride + 4 * std::ptrdiff_t(edge.x), edge.share))
-                continue;
-            const float share = float(edge.share) / wholeShare;
-            drawRow(left + edge.x, bottom + edge.y, std::span(&share, 1));
+        for (const GlyphCoverage::Edge& edge : edges) {
+            std::uint8_t* const p = at(edge);
+            if (flat && wordAt(p, 4) == ground) {
+                setWordAt(p, 4, flat[FlatGround::indexOf(edge.share)]);
+            } else if (!mixed(p, edge.share)) {
+                const float share = float(edge.share) / wholeShare;
+                drawRow(left + edge.x, bottom + edge.y, std::span(&share, 1));
+            }
         }
     });
 }

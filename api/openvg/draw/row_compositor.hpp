@@ -34,10 +34,10 @@ public:
     void draw(const PlacedGlyph& glyph);
 
 private:
+    /// Where drawsBytes_, all of each pixel only.
     void drawPart(int y, int first, int end, float share);
-    /// One colour over bytes: all of a pixel, or part of it. False for what drawRow() must do.
+    /// One colour over bytes, all of each pixel. False for what drawRow() must do.
     bool drawBytes(int y, int first, int end);
-    void drawEdgeBytes(int y, int first, int end, float share);
     void drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom);
     /// Calls f with what mixes the one colour into a pixel of bytes by its share; f(p, share) returns false
     /// for a pixel that drawRow() must mix.
