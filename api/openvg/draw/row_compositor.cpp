@@ -45,6 +45,7 @@ RowCompositor::RowCompositor(Context& context, const PixelSource& source)
         mask_ = &*context.surface->mask;
     mixesLight_ = !format_.space.linear && !isAlphaOnly_;
     order_ = byteOrder(format_);
+    stored_ = storedRule();
     if (const std::optional<Color> color = source.constant())
         use(*color);
 }
@@ -61,6 +62,7 @@ RowCompositor::RowCompositor(Context& context, const PixelSource& paint, const P
     : RowCompositor(context, paint) {
     stencil_ = &stencil;
     drawsBytes_ = false;
+    stored_ = Stored::no;
 }
 
 template <class Function>
@@ -115,7 +117,7 @@ void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
 void RowCompositor::drawPart(int y, int first, int end, float share) {
     if (drawsBytes_ && drawBytes(y, first, end))
         return;
-    if (share == 1 && !mask_ && !stencil_ && drawStored(y, first, end))
+    if (share == 1 && drawStored(y, first, end))
         return;
     drawAny(y, first, end, share);
 }
@@ -190,21 +192,29 @@ void RowCompositor::draw(const PlacedGlyph& glyph) {
 }
 
 bool RowCompositor::drawStored(int y, int first, int end) {
+    if (stored_ == Stored::no)
+        return false;
     const std::optional<StoredRow> row = source_.stored(first, y, end - first);
-    if (!row || transform_.isOn())
+    if (!row)
         return false;
     std::uint8_t* const p = pixels_.at(first, y);
-    const PixelFormat& from = *row->format;
-    // What has no alpha has no colour, unless it is stored without premultiplied alpha.
-    const bool isStraight = from.alpha.bits != 0 && !from.space.premultiplied;
-    if ((isSource_ && !isStraight) || (isOver_ && from.alpha.bits == 0)) {
-        convertRow(row->pixels, from, p, format_, end - first);
-        return true;
-    }
-    if (!isOver_ || !order_ || !from.space.premultiplied || from != format_)
-        return false;
-    overBytes(p, row->pixels, end - first, order_->alpha);
+    if (stored_ == Stored::over)
+        overBytes(p, row->pixels, end - first, order_->alpha);
+    else
+        convertRow(row->pixels, *source_.storedFormat(), p, format_, end - first);
     return true;
+}
+
+/// How drawStored() draws pixels of the source's format.
+RowCompositor::Stored RowCompositor::storedRule() const {
+    const PixelFormat* const from = source_.storedFormat();
+    if (!from || transform_.isOn() || mask_)
+        return Stored::no;
+    // What has no alpha has no colour, unless it is stored without premultiplied alpha.
+    const bool isStraight = from->alpha.bits != 0 && !from->space.premultiplied;
+    if ((isSource_ && !isStraight) || (isOver_ && from->alpha.bits == 0))
+        return Stored::copied;
+    return isOver_ && order_ && from->space.premultiplied && *from == format_ ? Stored::over : Stored::no;
 }
 
 // ---- Any format -----------------------------------------------------------------------------------

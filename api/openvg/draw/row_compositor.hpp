@@ -45,6 +45,8 @@ private:
     void withMixer(Function&& f) const;
     /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
     bool drawStored(int y, int first, int end);
+    enum class Stored { no, copied, over };
+    Stored storedRule() const;
     void drawAny(int y, int first, int end, float share);
     /// No more than rowChunk pixels, of any format, each covered by its share.
     void drawRow(int x, int y, std::span<const float> coverage);
@@ -70,6 +72,7 @@ private:
     const PixelFormat& format_;  ///< the surface's
     bool isAlphaOnly_;
     std::optional<ByteOrder> order_;  ///< the surface's
+    Stored stored_ = Stored::no;      ///< how pixels of an image are drawn as they are stored
     std::optional<Color> constant_;   ///< prepared
     bool drawsBytes_ = false;         ///< `constant_` over bytes by a rule that drawBytes() knows
     std::uint32_t word_ = 0;          ///< `constant_` as a pixel
