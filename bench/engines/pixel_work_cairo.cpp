@@ -82,6 +82,12 @@ struct Canvas {
     Surface target{workSide}, image{moved, movedSide}, memory{copied, copiedSide}, large{copiedSide},
         drawn{drawnSide};
 
+    Canvas() {
+        // Of an empty surface cairo would copy nothing.
+        cairo_set_source_rgb(drawn.c, 0.5, 0.6, 0.7);
+        cairo_paint(drawn.c);
+    }
+
     void drawImage(const cairo_matrix_t& matrix, cairo_filter_t filter = CAIRO_FILTER_BILINEAR) {
         cairo_set_matrix(target.c, &matrix);
         cairo_set_source_surface(target.c, image.surface, 0, 0);
