@@ -44,6 +44,21 @@ cairo_pattern_t* withStops(cairo_pattern_t* pattern) {
     return pattern;
 }
 
+void showText(cairo_t* c) {
+    cairo_identity_matrix(c);
+    cairo_set_source_rgb(c, 0, 0, 0);
+    cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(c, 16);
+    cairo_glyph_t glyphs[lineGlyphs];
+    for (int line = 0; line < textLines; ++line) {
+        for (int i = 0; i < lineGlyphs; ++i)
+            // The printable ones of ASCII, from ! on.
+            glyphs[i] = {4ul + unsigned(line * lineGlyphs + i) % 94, 4 + i * glyphAdvance,
+                         14 + line * lineAdvance};
+        cairo_show_glyphs(c, glyphs, lineGlyphs);
+    }
+}
+
 void copy(Surface& to, const Surface& from, int side) {
     cairo_set_operator(to.c, CAIRO_OPERATOR_SOURCE);
     cairo_set_source_surface(to.c, from.surface, 0, 0);
@@ -64,7 +79,14 @@ cairo_matrix_t turned(int i) {
 struct Canvas {
     std::vector<std::uint32_t> moved = premultipliedPixels(movedSide),
                                copied = premultipliedPixels(copiedSide);
-    Surface target{workSide}, image{moved, movedSide}, memory{copied, copiedSide}, large{copiedSide};
+    Surface target{workSide}, image{moved, movedSide}, memory{copied, copiedSide}, large{copiedSide},
+        drawn{drawnSide};
+
+    Canvas() {
+        // Of an empty surface cairo would copy nothing.
+        cairo_set_source_rgb(drawn.c, 0.5, 0.6, 0.7);
+        cairo_paint(drawn.c);
+    }
 
     void drawImage(const cairo_matrix_t& matrix, cairo_filter_t filter = CAIRO_FILTER_BILINEAR) {
         cairo_set_matrix(target.c, &matrix);
@@ -100,24 +122,16 @@ std::vector<PixelWork> cairoPixelWork() {
          }},
         {"translucent rectangle",
          [=](int) { fillRectangle(c, cairo_pattern_create_rgba(0.9, 0.4, 0.1, 0.3), 700); }},
-        {"text, the same every frame",
+        {"text, the same every frame", [=](int) { showText(c); }},
+        {"text on white, cleared every frame",
          [=](int) {
-             cairo_identity_matrix(c);
-             cairo_set_source_rgb(c, 0, 0, 0);
-             cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-             cairo_set_font_size(c, 16);
-             cairo_glyph_t glyphs[lineGlyphs];
-             for (int line = 0; line < textLines; ++line) {
-                 for (int i = 0; i < lineGlyphs; ++i)
-                     // The printable ones of ASCII, from ! on.
-                     glyphs[i] = {4ul + unsigned(line * lineGlyphs + i) % 94, 4 + i * glyphAdvance,
-                                  14 + line * lineAdvance};
-                 cairo_show_glyphs(c, glyphs, lineGlyphs);
-             }
+             cairo_set_source_rgb(c, 1, 1, 1);
+             cairo_paint(c);
+             showText(c);
          }},
         {"upload", [=](int) { copy(canvas->large, canvas->memory, copiedSide); }},
         {"upload, premultiplied", [=](int) { copy(canvas->large, canvas->memory, copiedSide); }},
-        {"read back", [=](int) { copy(canvas->memory, canvas->large, copiedSide); }},
+        {"read back", [=](int) { copy(canvas->memory, canvas->drawn, copiedSide); }},
         {"copy", [=](int) { copy(canvas->target, canvas->large, copiedSide); }},
     };
 }

@@ -150,6 +150,11 @@ std::vector<PixelWork> vgPixelWork(VtmCompositor compositor) {
         {"radial gradient", [=](int) { canvas->fill(canvas->all, canvas->radial); }},
         {"translucent rectangle", [=](int) { canvas->fill(canvas->part, canvas->translucent); }},
         {"text, the same every frame", [=](int) { canvas->text(); }},
+        {"text on white, cleared every frame",
+         [=](int) {
+             vgClear(0, 0, workSide, workSide);
+             canvas->text();
+         }},
         {"upload", [=](int) { canvas->upload(canvas->straight, VG_sRGBA_8888); }},
         {"upload, premultiplied", [=](int) { canvas->upload(canvas->large, format); }},
         {"upload, premultiplied on the way", [=](int) { canvas->upload(canvas->large, VG_sRGBA_8888); }},

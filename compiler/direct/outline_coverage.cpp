@@ -246,9 +246,10 @@ private:
     }
 
     double crowded(int first) {
+        if (rule_ == scene::FillRule::NonZero && isInsideEverywhere(first))
+            return 1;
         inPixel_.clear();
         steps_.clear();
-        int lowest = winding_, highest = winding_;  // that can be in the pixel
         for (int i = first; i >= 0; i = passages_[std::size_t(i)].next) {
             const Passage& p = passages_[std::size_t(i)];
             const std::size_t end = std::size_t(i) + 1 < passages_.size() ? p.end : edges_.size();
@@ -256,14 +257,20 @@ private:
                             edges_.begin() + std::ptrdiff_t(end));
             if (p.step.change != 0)
                 steps_.push_back(p.step);
-            // Beyond the strand, seen from the corner, it is greater by its change, or by the step if that
-            // lies between the two.
-            const int beyond = p.step.change != 0 ? p.step.change : p.change;
-            (beyond < 0 ? lowest : highest) += beyond;
         }
-        if (rule_ == scene::FillRule::NonZero && (lowest > 0 || highest < 0))
-            return 1;
         return pixel_.share(rule_, winding_, inPixel_, steps_);
+    }
+
+    /// Whether no winding number in the pixel can be 0, wherever its strands cross. A strand adds 0 or its
+    /// change to that of the corner, or 0 or its step if there is one.
+    bool isInsideEverywhere(int first) const {
+        int lowest = winding_, highest = winding_;
+        for (int i = first; i >= 0; i = passages_[std::size_t(i)].next) {
+            const Passage& p = passages_[std::size_t(i)];
+            const int added = p.step.change != 0 ? p.step.change : p.change;
+            (added < 0 ? lowest : highest) += added;
+        }
+        return lowest > 0 || highest < 0;
     }
 
     /// Goes on to the next pixel.

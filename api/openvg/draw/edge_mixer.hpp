@@ -63,6 +63,46 @@ private:
     bool isGrey_;
 };
 
+/// What an OpaqueMixer makes of one pixel, a word, for 4096 shares: in the middle of each step, so the share
+/// is off by 2^-13, 0.4 of a byte at most, where white is drawn on black.
+class FlatGround {
+public:
+    /// The words by share for this colour on a ground of that word; null if there are none.
+    const std::uint32_t* words(const Color& color, std::uint32_t ground) const {
+        return color == color_ && ground == ground_ ? words_.data() : nullptr;
+    }
+    static std::size_t indexOf(unsigned share) { return share >> stepBits; }
+    /// Counts what is mixed on a ground, and makes the table when it pays.
+    void count(const Color& color, std::uint32_t ground, std::size_t pixels) {
+        if (color != nextColor_ || ground != nextGround_)
+            mixed_ = 0;
+        nextColor_ = color;
+        nextGround_ = ground;
+        mixed_ += pixels;
+        if (mixed_ > words_.size())
+            make();
+    }
+
+private:
+    static constexpr int stepBits = 4;
+
+    void make() {
+        const OpaqueMixer mixer(nextColor_);
+        for (std::size_t i = 0; i < words_.size(); ++i) {
+            words_[i] = nextGround_;
+            mixer(reinterpret_cast<std::uint8_t*>(&words_[i]), unsigned(i << stepBits) + (1 << stepBits) / 2);
+        }
+        color_ = nextColor_;
+        ground_ = nextGround_;
+        mixed_ = 0;
+    }
+
+    std::array<std::uint32_t, (wholeShare >> stepBits)> words_;
+    Color color_{-1}, nextColor_{-1};  ///< no colour at first
+    std::uint32_t ground_ = 0, nextGround_ = 0;
+    std::size_t mixed_ = 0;
+};
+
 /// A translucent colour on sRGB surfaces: it is blended in their space, and the edge is mixed in linear
 /// light.
 class TranslucentMixer {

@@ -94,8 +94,8 @@ std::uint64_t GlyphCache::hash(const Key& key) {
     constexpr std::uint64_t odd = 0x9E37'79B9'7F4A'7C15;
     const auto mixed = [](std::uint64_t h) { return (h ^ h >> 32) * odd; };
     std::uint64_t h = mixed(key.mask << 20 ^ key.phase);
-    h = mixed(h ^ (std::uint64_t(key.matrix[0]) << 32 | key.matrix[1]));
-    h = mixed(h ^ (std::uint64_t(key.matrix[2]) << 32 | key.matrix[3]));
+    h = mixed(h ^ key.columns[0]);
+    h = mixed(h ^ key.columns[1]);
     return h ^ h >> 32;
 }
 
@@ -104,24 +104,22 @@ GlyphCache::Entry* GlyphCache::find(const Key& key, std::uint64_t hash) {
         return nullptr;
     for (std::size_t i = hash;; ++i) {
         const Slot& slot = slots_[i & (slots_.size() - 1)];
-        if (slot.place == 0)
-            return nullptr;
-        if (slot.tag == std::uint32_t(hash >> 32) && entries_[slot.place - 1].key == key)
-            return &entries_[slot.place - 1];
+        if (!slot.entry || (slot.hash == hash && slot.entry->key == key))
+            return slot.entry;
     }
 }
 
-void GlyphCache::insert(std::uint64_t hash, std::size_t entry) {
+void GlyphCache::insert(std::uint64_t hash, Entry& entry) {
     std::size_t i = hash;
-    while (slots_[i & (slots_.size() - 1)].place != 0)
+    while (slots_[i & (slots_.size() - 1)].entry)
         ++i;
-    slots_[i & (slots_.size() - 1)] = {std::uint32_t(hash >> 32), std::uint32_t(entry + 1)};
+    slots_[i & (slots_.size() - 1)] = {hash, &entry};
 }
 
 void GlyphCache::rehash() {
     slots_.assign(std::bit_ceil(4 * entries_.size()), {});
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-        insert(hash(entries_[i].key), i);
+    for (Entry& entry : entries_)
+        insert(hash(entry.key), entry);
 }
 
 bool GlyphCache::place(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip,
@@ -131,11 +129,10 @@ bool GlyphCache::place(PathMask& mask, const glm::mat3& toSurface, const Rectang
         return false;
     const int x = inPhases(place.x), y = inPhases(place.y);
     const auto phase = [](int v) { return std::uint32_t(v & (phases - 1)); };
-    const auto bits = [&](int column, int row) {
-        return std::bit_cast<std::uint32_t>(toSurface[column][row]);
+    const auto bits = [&](int column) {
+        return std::bit_cast<std::uint64_t>(std::array{toSurface[column].x, toSurface[column].y});
     };
-    const Key key{
-        mask.id(), {bits(0, 0), bits(0, 1), bits(1, 0), bits(1, 1)}, phase(x) << phaseBits | phase(y)};
+    const Key key{mask.id(), {bits(0), bits(1)}, phase(x) << phaseBits | phase(y)};
     glyph = {nullptr, x >> phaseBits, y >> phaseBits};
     const std::uint64_t hashed = hash(key);
     if (Entry* const found = find(key, hashed)) {
@@ -156,7 +153,7 @@ bool GlyphCache::place(PathMask& mask, const glm::mat3& toSurface, const Rectang
     if (slots_.size() < 2 * entries_.size())
         rehash();
     else
-        insert(hashed, entries_.size() - 1);
+        insert(hashed, entries_.back());
     glyph.coverage = &coverage;
     return true;
 }

@@ -70,10 +70,13 @@ public:
 private:
     struct Key {
         std::uint64_t mask;
-        std::array<std::uint32_t, 4> matrix;  ///< bits of floats, without its translation
-        std::uint32_t phase;                  ///< both places within a pixel, in 1024ths
+        std::array<std::uint64_t, 2> columns;  ///< of the matrix, as bits, without its translation
+        std::uint32_t phase;                   ///< both places within a pixel, in 1024ths
 
-        friend bool operator==(const Key&, const Key&) = default;
+        bool operator==(const Key& o) const {
+            return mask == o.mask && columns[0] == o.columns[0] && columns[1] == o.columns[1] &&
+                   phase == o.phase;
+        }
     };
     struct Entry {
         Key key;
@@ -82,13 +85,13 @@ private:
     };
     /// Of a table with open addressing.
     struct Slot {
-        std::uint32_t tag = 0;    ///< of the key's hash
-        std::uint32_t place = 0;  ///< 1 more than that of the entry; 0: none
+        std::uint64_t hash = 0;
+        Entry* entry = nullptr;
     };
 
     static std::uint64_t hash(const Key& key);
     Entry* find(const Key& key, std::uint64_t hash);
-    void insert(std::uint64_t hash, std::size_t entry);
+    void insert(std::uint64_t hash, Entry& entry);
     void rehash();
 
     std::deque<Entry> entries_;

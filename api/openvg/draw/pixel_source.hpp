@@ -16,10 +16,9 @@
 
 namespace vtm::openvg {
 
-/// Pixels of an image from an address on.
+/// Pixels of an image's format from an address on.
 struct StoredRow {
     const std::uint8_t* pixels;
-    const PixelFormat* format;
 };
 
 struct SourceDescription;
@@ -36,7 +35,9 @@ public:
     virtual void colors(int x, int y, std::span<Color> colors) const = 0;
     /// If all pixels have the same colour.
     virtual std::optional<Color> constant() const { return std::nullopt; }
-    /// If the colours of `count` pixels are those of an image, pixel for pixel.
+    /// The format that stored() gives pixels in; null if it never does.
+    virtual const PixelFormat* storedFormat() const { return nullptr; }
+    /// If the colours of `count` pixels are those of an image, pixel for pixel. Valid until the next call.
     virtual std::optional<StoredRow> stored(int /*x*/, int /*y*/, int /*count*/) const {
         return std::nullopt;
     }

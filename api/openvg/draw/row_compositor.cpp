@@ -45,6 +45,7 @@ RowCompositor::RowCompositor(Context& context, const PixelSource& source)
         mask_ = &*context.surface->mask;
     mixesLight_ = !format_.space.linear && !isAlphaOnly_;
     order_ = byteOrder(format_);
+    stored_ = storedRule();
     if (const std::optional<Color> color = source.constant())
         use(*color);
 }
@@ -61,37 +62,7 @@ RowCompositor::RowCompositor(Context& context, const PixelSource& paint, const P
     : RowCompositor(context, paint) {
     stencil_ = &stencil;
     drawsBytes_ = false;
-}
-
-void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
-    for (const CoverageRun& run : runs)
-        clip_.parts(y, run.first, run.end, [&](int first, int end) { drawPart(y, first, end, run.share); });
-}
-
-void RowCompositor::drawPart(int y, int first, int end, float share) {
-    if (drawsBytes_ && share != 1)
-        return drawEdgeBytes(y, first, end, share);
-    if (drawsBytes_ && drawBytes(y, first, end))
-        return;
-    if (share == 1 && !mask_ && !stencil_ && drawStored(y, first, end))
-        return;
-    drawAny(y, first, end, share);
-}
-
-// ---- Bytes ----------------------------------------------------------------------------------------
-
-bool RowCompositor::drawBytes(int y, int first, int end) {
-    if (constant_->a == 1) {
-        pixels_.fill(first, end, y, word_);
-        return true;
-    }
-    std::uint8_t* const p = pixels_.at(first, y);
-    const bool hasAlpha = format_.alpha.bits != 0, isStraight = hasAlpha && !format_.space.premultiplied;
-    // What is translucent must be divided by its alpha to be mixed.
-    if (isStraight && !isOpaque(p, end - first))
-        return false;
-    overBytes(p, end - first, *constant_, !hasAlpha || isStraight);
-    return true;
+    stored_ = Stored::no;
 }
 
 template <class Function>
@@ -124,14 +95,47 @@ void RowCompositor::withMixer(Function&& f) const {
         with(TranslucentMixer(*constant_));
 }
 
-void RowCompositor::drawEdgeBytes(int y, int first, int end, float share) {
-    std::uint8_t* p = pixels_.at(first, y);
-    const unsigned fixed = fixedShare(share);
+void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
+    const auto draw = [&](const auto& drawEdge) {
+        for (const CoverageRun& run : runs)
+            clip_.parts(y, run.first, run.end, [&](int first, int end) {
+                run.share == 1 ? drawPart(y, first, end, 1) : drawEdge(first, end, run.share);
+            });
+    };
+    if (!drawsBytes_)
+        return draw([&](int first, int end, float share) { drawPart(y, first, end, share); });
     withMixer([&](auto&& mixed) {
-        for (int x = first; x < end; ++x, p += 4)
-            if (!mixed(p, fixed))
-                drawRow(x, y, std::span(&share, 1));
+        draw([&](int first, int end, float share) {
+            std::uint8_t* p = pixels_.at(first, y);
+            for (int x = first; x < end; ++x, p += 4)
+                if (!mixed(p, fixedShare(share)))
+                    drawRow(x, y, std::span(&share, 1));
+        });
     });
+}
+
+void RowCompositor::drawPart(int y, int first, int end, float share) {
+    if (drawsBytes_ && drawBytes(y, first, end))
+        return;
+    if (share == 1 && drawStored(y, first, end))
+        return;
+    drawAny(y, first, end, share);
+}
+
+// ---- Bytes ----------------------------------------------------------------------------------------
+
+bool RowCompositor::drawBytes(int y, int first, int end) {
+    if (constant_->a == 1) {
+        pixels_.fill(first, end, y, word_);
+        return true;
+    }
+    std::uint8_t* const p = pixels_.at(first, y);
+    const bool hasAlpha = format_.alpha.bits != 0, isStraight = hasAlpha && !format_.space.premultiplied;
+    // What is translucent must be divided by its alpha to be mixed.
+    if (isStraight && !isOpaque(p, end - first))
+        return false;
+    overBytes(p, end - first, *constant_, !hasAlpha || isStraight);
+    return true;
 }
 
 void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom) {
@@ -146,12 +150,30 @@ void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int 
         for (int x = run.first; x < run.end; ++x, p += 4)
             std::memcpy(p, &word_, 4);
     }
+    const std::span<const GlyphCoverage::Edge> edges = coverage.edges();
+    const auto at = [&](const GlyphCoverage::Edge& edge) {
+        return corner + edge.y * stride + 4 * std::ptrdiff_t(edge.x);
+    };
+    std::uint32_t ground = 0;
+    const std::uint32_t* flat = nullptr;
+    if (!edges.empty() && constant_->a == 1 && !format_.space.linear &&
+        (format_.alpha.bits == 0 || at(edges[0])[3] == 255)) {
+        // Of the thread: a line of text alone is worth no table.
+        static thread_local FlatGround grounds;
+        ground = wordAt(at(edges[0]), 4);
+        flat = grounds.words(*constant_, ground);
+        if (!flat)
+            grounds.count(*constant_, ground, edges.size());
+    }
     withMixer([&](auto&& mixed) {
-        for (const GlyphCoverage::Edge& edge : coverage.edges()) {
-            if (mixed(corner + edge.y * stride + 4 * std::ptrdiff_t(edge.x), edge.share))
-                continue;
-            const float share = float(edge.share) / wholeShare;
-            drawRow(left + edge.x, bottom + edge.y, std::span(&share, 1));
+        for (const GlyphCoverage::Edge& edge : edges) {
+            std::uint8_t* const p = at(edge);
+            if (flat && wordAt(p, 4) == ground) {
+                setWordAt(p, 4, flat[FlatGround::indexOf(edge.share)]);
+            } else if (!mixed(p, edge.share)) {
+                const float share = float(edge.share) / wholeShare;
+                drawRow(left + edge.x, bottom + edge.y, std::span(&share, 1));
+            }
         }
     });
 }
@@ -170,31 +192,40 @@ void RowCompositor::draw(const PlacedGlyph& glyph) {
 }
 
 bool RowCompositor::drawStored(int y, int first, int end) {
+    if (stored_ == Stored::no)
+        return false;
     const std::optional<StoredRow> row = source_.stored(first, y, end - first);
-    if (!row || transform_.isOn())
+    if (!row)
         return false;
     std::uint8_t* const p = pixels_.at(first, y);
-    const PixelFormat& from = *row->format;
-    // What has no alpha has no colour, unless it is stored without premultiplied alpha.
-    const bool isStraight = from.alpha.bits != 0 && !from.space.premultiplied;
-    const auto convert = [&](const PixelFormat& format) {
-        if (!converter_ || converter_->from() != format)
-            converter_.emplace(format, format_, convertRow, clip_.bounds().area());
-        (*converter_)(row->pixels, p, end - first);
+    if (stored_ == Stored::over) {
+        overBytes(p, row->pixels, end - first, order_->alpha);
         return true;
-    };
-    if ((isSource_ && !isStraight) || (isOver_ && from.alpha.bits == 0))
-        return convert(from);
-    const std::optional<ByteOrder> fromOrder = isOver_ ? byteOrder(from) : std::nullopt;
-    if (fromOrder && isOpaque(row->pixels, end - first, fromOrder->alpha)) {
-        PixelFormat opaque = from;
-        opaque.alpha.bits = 0;
-        return convert(opaque);
     }
-    if (!isOver_ || !order_ || !from.space.premultiplied || from != format_)
-        return false;
-    overBytes(p, row->pixels, end - first, order_->alpha);
+    PixelFormat from = *source_.storedFormat();
+    if (stored_ == Stored::copiedIfOpaque) {
+        if (!isOpaque(row->pixels, end - first, byteOrder(from)->alpha))
+            return false;
+        from.alpha.bits = 0;
+    }
+    if (!converter_)
+        converter_.emplace(from, format_, convertRow, clip_.bounds().area());
+    (*converter_)(row->pixels, p, end - first);
     return true;
+}
+
+/// How drawStored() draws pixels of the source's format.
+RowCompositor::Stored RowCompositor::storedRule() const {
+    const PixelFormat* const from = source_.storedFormat();
+    if (!from || transform_.isOn() || mask_)
+        return Stored::no;
+    // What has no alpha has no colour, unless it is stored without premultiplied alpha.
+    const bool isStraight = from->alpha.bits != 0 && !from->space.premultiplied;
+    if ((isSource_ && !isStraight) || (isOver_ && from->alpha.bits == 0))
+        return Stored::copied;
+    if (isOver_ && order_ && from->space.premultiplied && *from == format_)
+        return Stored::over;
+    return isOver_ && byteOrder(*from) ? Stored::copiedIfOpaque : Stored::no;
 }
 
 // ---- Any format -----------------------------------------------------------------------------------

@@ -34,10 +34,10 @@ public:
     void draw(const PlacedGlyph& glyph);
 
 private:
+    /// Where drawsBytes_, all of each pixel only.
     void drawPart(int y, int first, int end, float share);
-    /// One colour over bytes: all of a pixel, or part of it. False for what drawRow() must do.
+    /// One colour over bytes, all of each pixel. False for what drawRow() must do.
     bool drawBytes(int y, int first, int end);
-    void drawEdgeBytes(int y, int first, int end, float share);
     void drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom);
     /// Calls f with what mixes the one colour into a pixel of bytes by its share; f(p, share) returns false
     /// for a pixel that drawRow() must mix.
@@ -45,6 +45,8 @@ private:
     void withMixer(Function&& f) const;
     /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
     bool drawStored(int y, int first, int end);
+    enum class Stored { no, copied, copiedIfOpaque, over };
+    Stored storedRule() const;
     void drawAny(int y, int first, int end, float share);
     /// No more than rowChunk pixels, of any format, each covered by its share.
     void drawRow(int x, int y, std::span<const float> coverage);
@@ -70,8 +72,9 @@ private:
     const PixelFormat& format_;  ///< the surface's
     bool isAlphaOnly_;
     std::optional<ByteOrder> order_;         ///< the surface's
+    Stored stored_ = Stored::no;             ///< how pixels of an image are drawn as they are stored
+    std::optional<RowConverter> converter_;  ///< of these, once one was converted
     std::optional<Color> constant_;          ///< prepared
-    std::optional<RowConverter> converter_;  ///< of the image that drawStored() saw last
     bool drawsBytes_ = false;                ///< `constant_` over bytes by a rule that drawBytes() knows
     std::uint32_t word_ = 0;                 ///< `constant_` as a pixel
 };

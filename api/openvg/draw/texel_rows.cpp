@@ -120,29 +120,50 @@ void TexelRows::finish(std::span<Color> colors) const {
         colorsOfBytes(*order_, colors);
 }
 
+template <class Function>
+void TexelRows::walk(const glm::dmat3& map, dvec2 place, std::size_t count, Function&& f) const {
+    // The product of the map and the place, part by part as it is summed: some are the same along the row.
+    const dvec2 right(map[0]), up = dvec2(map[1]) * place.y, shift(map[2]);
+    const auto each = [&](const auto& divided) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const dvec2 p = divided(right * place.x + up + shift);
+            f(floorOf(p.x), floorOf(p.y));
+            place.x += 1;
+        }
+    };
+    if (map[2].z == 1)
+        each([](dvec2 p) { return p; });
+    else
+        each([z = map[2].z](dvec2 p) { return p / z; });
+}
+
 void TexelRows::nearest(const glm::dmat3& map, dvec2 place, std::span<Color> colors) const {
     const Image& image = texels_.image();
     const auto width = unsigned(image.width()), height = unsigned(image.height());
     const std::uint8_t* const corner = image.at(0, 0);
     const std::ptrdiff_t bytes = std::ptrdiff_t(image.format().pixelBytes()), rowBytes = image.stride();
-    // The product of the map and the place, part by part as it is summed: some are the same along the row.
-    const dvec2 right(map[0]), up = dvec2(map[1]) * place.y, shift(map[2]);
-    const auto walk = [&](const auto& texel, const auto& divided) {
-        for (Color& color : colors) {
-            const dvec2 p = divided(right * place.x + up + shift);
-            const int x = floorOf(p.x), y = floorOf(p.y);
-            const bool isStored = unsigned(x) < width && unsigned(y) < height;
-            assign(color, isStored ? texel(corner + y * rowBytes + x * bytes) : anywhere(texel, x, y));
-            place.x += 1;
-        }
-    };
     withTexel([&](const auto& texel) {
-        if (map[2].z == 1)
-            walk(texel, [](dvec2 p) { return p; });
-        else
-            walk(texel, [z = map[2].z](dvec2 p) { return p / z; });
+        Color* color = colors.data();
+        walk(map, place, colors.size(), [&](int x, int y) {
+            const bool isStored = unsigned(x) < width && unsigned(y) < height;
+            assign(*color++, isStored ? texel(corner + y * rowBytes + x * bytes) : anywhere(texel, x, y));
+        });
     });
     finish(colors);
+}
+
+void TexelRows::nearestStored(const glm::dmat3& map, dvec2 place, int count, std::uint8_t* pixels) const {
+    const Image& image = texels_.image();
+    const auto width = unsigned(image.width()), height = unsigned(image.height());
+    const std::uint8_t* const corner = image.at(0, 0);
+    const std::size_t bytes = image.format().pixelBytes();
+    const std::ptrdiff_t rowBytes = image.stride();
+    walk(map, place, std::size_t(count), [&](int x, int y) {
+        const bool isStored = unsigned(x) < width && unsigned(y) < height;
+        const int column = isStored ? x : texels_.column(x), row = isStored ? y : texels_.row(y);
+        setWordAt(pixels, bytes, wordAt(corner + row * rowBytes + column * std::ptrdiff_t(bytes), bytes));
+        pixels += bytes;
+    });
 }
 
 void TexelRows::bilinear(dvec2 first, dvec2 step, std::span<Color> colors) const {

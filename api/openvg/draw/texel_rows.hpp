@@ -21,6 +21,8 @@ public:
     /// Where an affine map leads from (x, y), (x + 1, y) …, each by itself: on a border between texels every
     /// rounding shows.
     void nearest(const glm::dmat3& map, glm::dvec2 place, std::span<Color> colors) const;
+    /// The same as they are stored, of a tiling that has no other colours.
+    void nearestStored(const glm::dmat3& map, glm::dvec2 place, int count, std::uint8_t* pixels) const;
     /// At first, first + step, …
     void bilinear(glm::dvec2 first, glm::dvec2 step, std::span<Color> colors) const;
 
@@ -28,6 +30,9 @@ private:
     /// Calls f with what reads a texel as this image stores it.
     template <class Function>
     void withTexel(Function&& f) const;
+    /// Calls f(x, y) with the texel of each place.
+    template <class Function>
+    void walk(const glm::dmat3& map, glm::dvec2 place, std::size_t count, Function&& f) const;
     template <class Texel>
     Float4 anywhere(const Texel& texel, int x, int y) const;
     /// From what texels are read as to colours.

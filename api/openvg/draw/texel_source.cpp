@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -91,14 +92,24 @@ public:
         });
     }
 
+    const PixelFormat* storedFormat() const override {
+        const bool isNearest = isAffine_ && !isSmooth_ && texels_.tiling() != VG_TILE_FILL;
+        return isMove_ || isNearest ? &texels_.image().format() : nullptr;
+    }
+
     std::optional<StoredRow> stored(int x, int y, int count) const override {
-        if (!isMove_)
-            return std::nullopt;
         const Image& image = texels_.image();
-        const dvec2 p = mapped(x + 0.5, y + 0.5);
-        if (!(p.x >= 0 && p.y >= 0 && p.x + count - 1 < image.width() && p.y < image.height()))
+        if (isMove_) {
+            const dvec2 p = mapped(x + 0.5, y + 0.5);
+            if (!(p.x >= 0 && p.y >= 0 && p.x + count - 1 < image.width() && p.y < image.height()))
+                return std::nullopt;
+            return StoredRow{image.at(int(p.x), int(p.y))};
+        }
+        if (!isNear(x, y) || !isNear(x + count, y))
             return std::nullopt;
-        return StoredRow{image.at(int(p.x), int(p.y)), &image.format()};
+        nearest_.resize(std::size_t(count) * image.format().pixelBytes());
+        rows_.nearestStored(fromSurface_, {x + 0.5, y + 0.5}, count, nearest_.data());
+        return StoredRow{nearest_.data()};
     }
 
     bool describe(SourceDescription& d) const override {
@@ -192,7 +203,8 @@ private:
     TexelRows rows_;  ///< of texels_
     glm::dmat3 fromSurface_;
     bool isSmooth_, isAffine_, isMove_;
-    dvec2 right_, up_;  ///< from a pixel to its neighbours; of affine maps
+    mutable std::vector<std::uint8_t> nearest_;  ///< what stored() gave
+    dvec2 right_, up_;                           ///< from a pixel to its neighbours; of affine maps
 };
 
 }  // namespace

@@ -107,8 +107,8 @@ public:
 
     /// Columns first to end - 1 of a row.
     void fill(int first, int end, int y, std::uint32_t word) {
-        if (pixelBytes_ == 1) {
-            std::memset(at(first, y), int(word & 255), std::size_t(end - first));
+        if (pixelBytes_ == 1 || (pixelBytes_ == 4 && word == (word & 255) * 0x01010101u)) {
+            std::memset(at(first, y), int(word & 255), std::size_t(end - first) * pixelBytes_);
             return;
         }
         if (pixelBytes_ == 4) {

@@ -38,6 +38,24 @@ TEST_F(RowsTest, MovedImages) {
             }
 }
 
+TEST_F(RowsTest, NearestPixels) {
+    vgSeti(VG_IMAGE_QUALITY, VG_IMAGE_QUALITY_NONANTIALIASED);
+    for (const SurfaceKind& kind : surfaces)
+        for (const VGImageFormat name :
+             {kind.name, VG_sRGBA_8888, VG_sRGBA_8888_PRE, VG_sXBGR_8888, VG_sRGB_565, VG_lL_8, VG_A_8})
+            for (int i = 0; i < 8; ++i) {
+                TwinDrawing drawing;
+                const TwinImage before = prepare(kind, drawing);
+                const TwinImage image = randomImage(name, 90, 70);
+                const float zoom = 3 + unit(), turn = 0.2f * unit(), c = zoom * std::cos(turn),
+                            s = zoom * std::sin(turn);
+                const glm::mat3 toSurface(c, s, 0, -s, c, 0, -40 + 10 * unit(), -90 - unit(), 1);
+                draw(image, toSurface);
+                expectDrawn(before, drawing, nearest(image, glm::inverse(glm::dmat3(toSurface))),
+                            "nearest pixels");
+            }
+}
+
 TEST_F(RowsTest, InterpolatedImages) {
     for (const SurfaceKind& kind : surfaces)
         for (const VGImageFormat name : {VG_sRGBA_8888, VG_sRGBA_8888_PRE, VG_sARGB_8888, VG_sXBGR_8888,

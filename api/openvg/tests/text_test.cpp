@@ -255,6 +255,21 @@ TEST_F(GlyphLine, InEveryState) {
     expectSameEverywhere("not antialiased");
 }
 
+// On one ground again and again: by a table at last.
+TEST_F(GlyphLine, OnAFlatGround) {
+    for (const VGint alpha : {0, 8})
+        for (const std::array<VGfloat, 4>& ink :
+             {std::array<VGfloat, 4>{0, 0, 0, 1}, {1, 1, 1, 1}, {0.9f, 0.1f, 0.4f, 1}})
+            for (const std::array<VGfloat, 4>& ground :
+                 {std::array<VGfloat, 4>{1, 1, 1, 1}, {0, 0, 0, 1}, {0.8f, 0.3f, 0.1f, 1}, {0, 0, 0, 0}}) {
+                vgSetPaint(newPaint(ink), VG_FILL_PATH | VG_STROKE_PATH);
+                const VtmSurfaceFormat format{8, 8, 8, alpha, 0, 0, VG_FALSE, VG_TRUE};
+                for (int i = 0; i < 40; ++i)
+                    expectSame(format, ground, VG_FILL_PATH, 2.5f,
+                               "ink " + std::to_string(ink[0]) + ", ground " + std::to_string(ground[0]));
+            }
+}
+
 // More than is kept: what was forgotten is covered anew.
 TEST_F(GlyphLine, ManyPlaces) {
     const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
