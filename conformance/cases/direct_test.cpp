@@ -217,6 +217,30 @@ TEST(DrawnOnce, GridsFinerThanPixelsAreGrey) {
             ASSERT_NEAR(drawn.pixel(x, y)[3], 1 - 0.7 * 0.7, 1.0 / 255) << x << ", " << y;
 }
 
+/// So many that those are looked for that are hidden, step by step.
+std::string nearlyEqualCircles(int count) {
+    Numbers numbers;
+    const auto nearly = [&](double value) { return value + (numbers.between() / 64 - 0.5) / 8; };
+    std::string circles;
+    for (int i = 0; i < count; ++i) {
+        const double x = nearly(32), y = nearly(32), r = nearly(25);
+        circles += fmt::format(
+            "<circle cx=\"{:.4f}\" cy=\"{:.4f}\" r=\"{:.4f}\" fill=\"#{:06x}\" fill-opacity=\"{}\"/>", x, y,
+            r, numbers.color(), i % 3 == 0 ? 1 : 0.5);
+    }
+    return circles;
+}
+
+TEST(DrawnOnce, HiddenOutlinesChangeNothing) {
+    EXPECT_LE(differenceFromLarger(sceneOf(nearlyEqualCircles(20000)), 4), 1.0);
+    // Below what covers all of them there is nothing to see.
+    const scene::Scene covered =
+        sceneOf(nearlyEqualCircles(20000) + "<rect width=\"64\" height=\"64\" fill=\"#3c6\"/>");
+    const image::Raster drawn = compiler::ViewDrawing::make(covered, wholePicture(covered, 64))->draw();
+    for (int i = 0; i < 64 * 64; ++i)
+        ASSERT_NEAR(drawn.rgba[std::size_t(4 * i + 1)], 0xcc / 255.0, 0.5 / 255) << i;
+}
+
 TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
     const scene::Scene scene = sceneOf(crossingLines(16000, "nonzero") + stackedCircles(500));
     const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 100));
