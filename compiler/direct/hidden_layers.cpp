@@ -1,7 +1,6 @@
 #include "compiler/direct/hidden_layers.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <vtm/limits/limits.hpp>
 
@@ -27,8 +26,7 @@ HiddenLayers::HiddenLayers(const LoweredScene& picture, const ViewChains& chains
     rows_ = strips_ * rowsOfStrip_;
     squares_.resize(std::size_t(rows_) * std::size_t(columns_ + 1));
     for (std::int32_t row = 0; row < rows_; ++row)
-        for (std::int32_t column = 0; column <= columns_; ++column)
-            squares_[indexOf(row, column)].next = column;
+        squaresOf(row).clear();
     shown_.resize(picture.layers.size() * std::size_t(strips_), 1);
 
     const std::vector<LayerCover> covers = layerCovers(picture);
@@ -65,68 +63,28 @@ void HiddenLayers::touch(const ViewChains& chains, const DownChain& chain) {
             const glm::vec2 a = vertices[at], b = vertices[at + 1];
             add(a.x + (bottom - a.y) * ((b.x - a.x) / (b.y - a.y)));
         }
-        touches_.push_back({row, column(left), column(right),
-                            chain.top <= middle && middle < chain.bottom ? chain.winding : 0});
+        // What is not met in the middle adds nothing on its right.
+        touches_.push_back({row,
+                            {column(left), column(right),
+                             chain.top <= middle && middle < chain.bottom ? chain.winding : 0}});
     }
 }
 
 void HiddenLayers::add(std::uint32_t layer, const LayerCover& cover, bool isEvenOdd) {
     if (!cover.mayBeHidden)
         return;
-    std::ranges::sort(touches_, [](const Touch& a, const Touch& b) {
-        return a.row != b.row ? a.row < b.row : a.first < b.first;
+    std::ranges::sort(touches_, [](const RowTouch& a, const RowTouch& b) {
+        return a.row != b.row ? a.row < b.row : a.touch.first < b.touch.first;
     });
     std::uint8_t* const shown = &shown_[layer * std::size_t(strips_)];
     std::fill(shown, shown + strips_, std::uint8_t{0});
-    for (std::size_t first = 0, end = 0; first < touches_.size(); first = end) {
+    for (std::size_t first = 0; first < touches_.size();) {
         const std::int32_t row = touches_[first].row;
-        while (end < touches_.size() && touches_[end].row == row)
-            ++end;
-        addRow(std::span(touches_).subspan(first, end - first), cover, isEvenOdd, shown[row / rowsOfStrip_]);
+        ofRow_.clear();
+        for (; first < touches_.size() && touches_[first].row == row; ++first)
+            ofRow_.push_back(touches_[first].touch);
+        shown[row / rowsOfStrip_] |= std::uint8_t{squaresOf(row).add(ofRow_, cover, isEvenOdd, stepsLeft_)};
     }
-}
-
-void HiddenLayers::addRow(std::span<const Touch> touches, const LayerCover& cover, bool isEvenOdd,
-                          std::uint8_t& isShown) {
-    const std::int32_t row = touches[0].row;
-    std::int32_t winding = 0, done = 0;
-    for (const Touch& t : touches) {
-        if (t.first > done && (isEvenOdd ? winding % 2 != 0 : winding != 0)) {
-            isShown |= std::uint8_t{isOpen(row, done, t.first - 1)};
-            coverSquares(row, done, t.first, cover);
-        }
-        isShown |= std::uint8_t{isOpen(row, t.first, t.last)};
-        winding += t.winding;
-        done = std::max(done, t.last + 1);
-    }
-}
-
-void HiddenLayers::coverSquares(std::int32_t row, std::int32_t first, std::int32_t end,
-                                const LayerCover& cover) {
-    if (cover.alpha <= 0)
-        return;
-    for (std::int32_t column = nextOpen(row, first); column < end && stepsLeft_ > 0;
-         column = nextOpen(row, column + 1)) {
-        --stepsLeft_;
-        Square& square = squares_[indexOf(row, column)];
-        // Of a group's layers only the topmost counts.
-        if (cover.group != noIndex && square.group == cover.group)
-            continue;
-        square.group = cover.group;
-        square.light *= 1 - cover.alpha;
-        if (square.light <= unseen)
-            square.next = column + 1;
-    }
-}
-
-std::int32_t HiddenLayers::nextOpen(std::int32_t row, std::int32_t column) {
-    Square* const squares = &squares_[indexOf(row, 0)];
-    std::int32_t open = column;
-    while (squares[open].next != open)
-        open = squares[open].next;
-    while (squares[column].next != open && column != open)
-        column = std::exchange(squares[column].next, open);
-    return open;
 }
 
 }  // namespace vtm::compiler

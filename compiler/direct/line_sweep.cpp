@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <vtm/limits/limits.hpp>
+#include "compiler/containers/small_sort.hpp"
 #include "compiler/paint/region_paints.hpp"
 
 namespace vtm::compiler {
@@ -24,6 +25,13 @@ constexpr float mostReach = 0.25f;
 /// Chains near those take so many steps instead of one, at most.
 constexpr int mostSmallSteps = 1024;
 
+/// Where so many chains are cut, or more, of so many layers, those are looked for that are hidden in a step.
+constexpr std::size_t manyCuts = 1u << 14, manyLayers = 64;
+/// So many chains before one is looked at, its vertices are fetched.
+constexpr std::size_t ahead = 16;
+/// On a row of squares so many to a pixel.
+constexpr std::int32_t squaresInAPixel = 16;
+
 /// Chains that meet a row, in the mean.
 double meanCutOf(const ViewChains& chains) {
     const double rows = double(chains.bands()) * asset::bandRows;
@@ -36,6 +44,13 @@ double meanCutOf(const ViewChains& chains) {
 /// Edges that are misplaced in a step may cover more than there is of a pixel: then their shares of it.
 glm::vec4 withinAPixel(const glm::vec4& color) { return color.a > 1 ? color / color.a : color; }
 
+template <class T>
+void arrange(const std::vector<T>& items, std::span<const Placed> order, std::vector<T>& arranged) {
+    arranged.clear();
+    for (const Placed& p : order)
+        arranged.push_back(items[p.number]);
+}
+
 }  // namespace
 
 LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
@@ -43,7 +58,8 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
       vertices_(chains.vertices()),
       state_(state),
       width_(width),
-      sums_(std::size_t(width) + 2) {}
+      sums_(std::size_t(width) + 2),
+      squares_(std::size_t((width + 2) * squaresInAPixel + 2)) {}
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
                     std::vector<asset::Chord>& chords) {
@@ -63,6 +79,8 @@ void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bot
 void LineSweep::row(float top, float bottom) {
     std::erase_if(cuts_, [&](const Cut& cut) { return cut.bottom <= top; });
     take(top, bottom);
+    hides_ = mayHide();
+    order_.clear();
     findPieces(top, bottom);
     const double ends = double(changes_.size()) / double(cuts_.size() + 1);
     const auto count = std::size_t(cutsInRow / (meanCut_ + 1) * (1 + moreForEnds * ends));
@@ -167,37 +185,46 @@ void LineSweep::take(float top, float bottom) {
         const DownChain& chain = chains_[toCome_[begun]];
         if (chain.bottom <= top)
             continue;
-        cuts_.push_back({chain.first, chain.end - 1, chain.top, chain.bottom, vertices_[chain.first].x, 0, 0,
-                         0, 0, chain.layer, chain.winding});
+        cuts_.push_back({chain.first, chain.end - 1, chain.top, chain.bottom, chain.layer, chain.winding});
     }
     toCome_ = toCome_.subspan(begun);
-    const auto isLeft = [](const Cut& a, const Cut& b) { return a.x < b.x; };
-    std::stable_sort(cuts_.begin() + before, cuts_.end(), isLeft);
-    std::inplace_merge(cuts_.begin(), cuts_.begin() + before, cuts_.end(), isLeft);
+    const auto isAbove = [](const Cut& a, const Cut& b) { return a.layer > b.layer; };
+    std::stable_sort(cuts_.begin() + before, cuts_.end(), isAbove);
+    std::inplace_merge(cuts_.begin(), cuts_.begin() + before, cuts_.end(), isAbove);
 }
 
-bool LineSweep::Cut::isSpecial(const Step& step) const {
-    return top < step.bottom && bottom > step.top &&
-           (right - left > mostReach || top > step.top || bottom < step.bottom);
-}
-
-/// Where the chain goes in the step.
-void LineSweep::look(Cut& cut, const Step& step) const {
-    while (vertices_[cut.at + 1].y <= step.top && cut.at + 1 < cut.last)
-        ++cut.at;
-    const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
-    if (a.y > step.top || b.y < step.bottom || a.y == b.y)
-        return lookAround(cut, step);
-    const float slope = (b.x - a.x) / (b.y - a.y);
-    cut.from = a.x + (step.top - a.y) * slope;
-    cut.to = a.x + (step.bottom - a.y) * slope;
-    cut.x = 0.5f * (cut.from + cut.to);
-    cut.left = std::min(cut.from, cut.to);
-    cut.right = std::max(cut.from, cut.to);
+LineSweep::Seen LineSweep::look(std::size_t number, const Step& step) {
+    Cut& cut = cuts_[number];
+    Seen seen{std::uint32_t(number), cut.layer, cut.winding};
+    seen.isAtMiddle = cut.isAt(step.middle());
+    seen.hasEnd = cut.top > step.top || cut.bottom < step.bottom;
+    const auto findEdge = [&] {
+        while (vertices_[cut.at + 1].y <= step.top && cut.at + 1 < cut.last)
+            ++cut.at;
+        const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
+        if (a.y > step.top || b.y < step.bottom || a.y == b.y)
+            return false;
+        cut.a = a;
+        cut.slope = (b.x - a.x) / (b.y - a.y);
+        cut.edgeBottom = b.y;
+        return true;
+    };
+    if ((cut.a.y <= step.top && cut.edgeBottom >= step.bottom) || findEdge()) {
+        seen.from = cut.a.x + (step.top - cut.a.y) * cut.slope;
+        seen.to = cut.a.x + (step.bottom - cut.a.y) * cut.slope;
+        seen.x = 0.5f * (seen.from + seen.to);
+        seen.left = std::min(seen.from, seen.to);
+        seen.right = std::max(seen.from, seen.to);
+    } else {
+        lookAround(cut, step, seen);
+    }
+    seen.isSpecial =
+        cut.top < step.bottom && cut.bottom > step.top && (seen.hasEnd || seen.right - seen.left > mostReach);
+    return seen;
 }
 
 /// Where it has a vertex.
-void LineSweep::lookAround(Cut& cut, const Step& step) const {
+void LineSweep::lookAround(const Cut& cut, const Step& step, Seen& seen) const {
     const auto xAt = [&](const glm::vec2* edge, float y) {
         return edge[0].x + (y - edge[0].y) * ((edge[1].x - edge[0].x) / (edge[1].y - edge[0].y));
     };
@@ -205,77 +232,130 @@ void LineSweep::lookAround(Cut& cut, const Step& step) const {
     const glm::vec2 *const first = edge, *const last = vertices_ + cut.last;
     // Above its upper end and below its lower one it is taken to be there.
     const float middle = step.middle();
-    cut.from = edge->y < step.top && edge[1].y > step.top ? xAt(edge, step.top) : edge->x;
+    seen.from = edge->y < step.top && edge[1].y > step.top ? xAt(edge, step.top) : edge->x;
     if (edge[1].y <= step.top)
-        cut.from = edge[1].x;
-    cut.x = cut.to = cut.left = cut.right = cut.from;
+        seen.from = edge[1].x;
+    seen.x = seen.to = seen.left = seen.right = seen.from;
     for (; edge < last && edge->y < step.bottom; ++edge) {
         if (edge->y <= middle && edge[1].y > middle)
-            cut.x = xAt(edge, middle);
+            seen.x = xAt(edge, middle);
         else if (edge[1].y <= middle)
-            cut.x = edge[1].x;
-        cut.to = edge[1].y > step.bottom ? xAt(edge, step.bottom) : edge[1].x;
+            seen.x = edge[1].x;
+        seen.to = edge[1].y > step.bottom ? xAt(edge, step.bottom) : edge[1].x;
         if (edge->y >= step.top || edge == first) {
-            cut.left = std::min(cut.left, cut.to);
-            cut.right = std::max(cut.right, cut.to);
+            seen.left = std::min(seen.left, seen.to);
+            seen.right = std::max(seen.right, seen.to);
         }
     }
 }
 
-/// They are nearly in order, as a rule.
-void LineSweep::sort(std::vector<Cut>& cuts) {
-    constexpr std::size_t manyMoves = 16;
-    std::size_t moves = 0;
-    for (std::size_t i = 1; i < cuts.size(); ++i) {
-        if (!(cuts[i].x < cuts[i - 1].x))
-            continue;
-        const Cut cut = cuts[i];
-        std::size_t to = i;
-        do {
-            cuts[to] = cuts[to - 1];
-            --to;
-        } while (to > 0 && cut.x < cuts[to - 1].x);
-        cuts[to] = cut;
-        moves += i - to;
-        if (moves > manyMoves * cuts.size()) {
-            std::ranges::stable_sort(cuts, {}, &Cut::x);
-            return;
-        }
+// ---- What shows -----------------------------------------------------------------------------------
+
+bool LineSweep::mayHide() const {
+    if (cuts_.size() < manyCuts)
+        return false;
+    std::size_t layers = 1;
+    for (std::size_t i = 1; i < cuts_.size() && layers < manyLayers; ++i)
+        layers += cuts_[i].layer != cuts_[i - 1].layer;
+    return layers >= manyLayers;
+}
+
+/// Chains' vertices lie far from each other.
+void LineSweep::fetchAhead(std::size_t number, const Step& step) const {
+    if (number + ahead < cuts_.size() && cuts_[number + ahead].edgeBottom < step.bottom)
+        __builtin_prefetch(vertices_ + cuts_[number + ahead].at + 1);
+}
+
+void LineSweep::lookAtAll(const Step& step) {
+    seen_.clear();
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+        fetchAhead(i, step);
+        seen_.push_back(look(i, step));
     }
+    if (order_.size() == seen_.size()) {  // as in the step before, and nearly in order
+        for (Placed& p : order_)
+            p.x = seen_[p.number].x;
+        return;
+    }
+    order_.clear();
+    for (const Seen& seen : seen_)
+        order_.push_back({seen.x, seen.cut});
+}
+
+/// Those of layers that are not hidden.
+void LineSweep::lookForShown(const Step& step) {
+    seen_.clear();
+    CoveredRow(squares_).clear();
+    for (std::size_t i = 0; i < cuts_.size();) {
+        const std::size_t before = seen_.size();
+        for (const std::uint32_t layer = cuts_[i].layer; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
+            fetchAhead(i, step);
+            seen_.push_back(look(i, step));
+        }
+        if (!isShown(std::span(seen_).subspan(before)))
+            seen_.erase(seen_.begin() + std::ptrdiff_t(before), seen_.end());
+    }
+    order_.clear();
+    for (const Seen& seen : seen_)
+        order_.push_back({seen.x, std::uint32_t(order_.size())});
+}
+
+/// Chains that begin, end or are nearly level in the step show if they do anywhere in it.
+bool LineSweep::isShown(std::span<const Seen> ofLayer) {
+    const std::uint32_t layer = ofLayer[0].layer;
+    const LayerCover& cover = state_.cover(layer);
+    if (!cover.mayBeHidden)
+        return true;
+    const auto square = [&](float x) {
+        return std::clamp(std::int32_t((x + ViewChains::beside) * squaresInAPixel), 0,
+                          std::int32_t(squares_.size()) - 2);
+    };
+    touches_.clear();
+    for (const Seen& seen : ofLayer) {
+        const std::int32_t winding = seen.isAtMiddle ? seen.winding : 0;
+        if (seen.isSpecial)
+            touches_.push_back({square(seen.left), square(seen.right), winding});
+        else if (seen.isAtMiddle)
+            touches_.push_back({square(seen.x), square(seen.x), winding});
+    }
+    sortStably(touches_.begin(), touches_.end(),
+               [](const Touch& a, const Touch& b) { return a.first < b.first; });
+    std::size_t steps = squares_.size();
+    return CoveredRow(squares_).add(touches_, cover, state_.isEvenOdd(layer), steps);
 }
 
 // ---- Drawing --------------------------------------------------------------------------------------
 
 void LineSweep::draw(const Step& step) {
     limits::check();
-    bool hasSpecial = false;
-    for (Cut& cut : cuts_) {
-        look(cut, step);
-        hasSpecial = hasSpecial || cut.isSpecial(step);
-    }
-    sort(cuts_);
-    if (hasSpecial && smallSteps_ > 0)
+    if (hides_)
+        lookForShown(step);
+    else
+        lookAtAll(step);
+    sortPlaces(order_, spare_);
+    arrange(seen_, order_, sorted_);
+    if (smallSteps_ > 0 && std::ranges::any_of(sorted_, &Seen::isSpecial))
         drawByParts(step);
     else
-        cross(cuts_, step, {});
+        cross(sorted_, step, {});
     drawn_ += step.height;
 }
 
 /// Chains that reach into the same columns, together.
 void LineSweep::drawByParts(const Step& step) {
-    leftmost_.resize(cuts_.size());
+    leftmost_.resize(sorted_.size());
     float leftmost = INFINITY;
-    for (std::size_t i = cuts_.size(); i-- > 0;)
-        leftmost_[i] = leftmost = std::min(leftmost, cuts_[i].left);
+    for (std::size_t i = sorted_.size(); i-- > 0;)
+        leftmost_[i] = leftmost = std::min(leftmost, sorted_[i].left);
     Region left;
     float right = -INFINITY;
     bool hasSpecial = false;
-    for (std::size_t first = 0, i = 0; i < cuts_.size(); ++i) {
-        right = std::max(right, cuts_[i].right);
-        hasSpecial = hasSpecial || cuts_[i].isSpecial(step);
-        if (i + 1 < cuts_.size() && right >= leftmost_[i + 1])
+    for (std::size_t first = 0, i = 0; i < sorted_.size(); ++i) {
+        right = std::max(right, sorted_[i].right);
+        hasSpecial = hasSpecial || sorted_[i].isSpecial;
+        if (i + 1 < sorted_.size() && right >= leftmost_[i + 1])
             continue;
-        const std::span part = std::span(cuts_).subspan(first, i + 1 - first);
+        const std::span part = std::span(sorted_).subspan(first, i + 1 - first);
         if (hasSpecial && smallSteps_ > 0)
             drawInSteps(part, step, left);
         else
@@ -287,59 +367,64 @@ void LineSweep::drawByParts(const Step& step) {
 }
 
 /// Some of the chains in smaller steps, as many as their reach asks for and the row may take.
-void LineSweep::drawInSteps(std::span<const Cut> cuts, const Step& step, Region& left) {
+void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Region& left) {
     float reach = 0;
     bool hasEnds = false;
-    for (const Cut& cut : cuts) {
-        reach = std::max(reach, cut.right - cut.left);
-        hasEnds = hasEnds || cut.top > step.top || cut.bottom < step.bottom;
+    for (const Seen& seen : chains) {
+        reach = std::max(reach, seen.right - seen.left);
+        hasEnds = hasEnds || seen.hasEnd;
     }
     auto count = std::clamp(int(reach / mostReach) + 1, hasEnds ? 4 : 1, mostSmallSteps);
-    count = int(std::min(std::size_t(count), smallSteps_ / cuts.size()));
+    count = int(std::min(std::size_t(count), smallSteps_ / chains.size()));
     if (count <= 1) {
-        left = cross(cuts, step, left);
+        left = cross(chains, step, left);
         return;
     }
-    smallSteps_ -= cuts.size() * std::size_t(count);
-    part_.assign(cuts.begin(), cuts.end());
+    smallSteps_ -= chains.size() * std::size_t(count);
+    part_.assign(chains.begin(), chains.end());
+    partOrder_.clear();
+    for (const Seen& seen : part_)
+        partOrder_.push_back({seen.x, std::uint32_t(partOrder_.size())});
     const float height = (step.bottom - step.top) / float(count);
     Region right;
     for (int i = 0; i < count; ++i) {
         const Step small{step.top + float(i) * height, step.top + float(i + 1) * height,
                          step.height / float(count)};
-        for (Cut& cut : part_)
-            look(cut, small);
-        sort(part_);
-        right = cross(part_, small, left);
+        for (Placed& p : partOrder_) {
+            part_[p.number] = look(part_[p.number].cut, small);
+            p.x = part_[p.number].x;
+        }
+        sortPlaces(partOrder_, spare_);
+        arrange(part_, partOrder_, partSorted_);
+        right = cross(partSorted_, small, left);
         if (i + 1 < count)
-            for (const Cut& cut : part_)
-                if (cut.isAt(small.middle()))
-                    state_.cross(cut.layer, -cut.winding);
+            for (const Seen& seen : part_)
+                if (seen.isAtMiddle)
+                    state_.cross(seen.layer, -seen.winding);
     }
     left = right;
 }
 
 /// From left to right through the chains at the middle of a step. Returns the region on their right.
-Region LineSweep::cross(std::span<const Cut> cuts, const Step& step, Region left) {
-    const float middle = step.middle();
+Region LineSweep::cross(std::span<const Seen> chains, const Step& step, Region left) {
     // Of two chains next to each other the second often leads back.
     Region before;
     std::uint64_t keyBefore = 0, key = state_.key();
     bool isKnown = false;
-    for (const Cut& cut : cuts) {
-        if (!cut.isAt(middle))
+    for (const Seen& seen : chains) {
+        if (!seen.isAtMiddle)
             continue;
-        state_.cross(cut.layer, cut.winding);
+        state_.cross(seen.layer, seen.winding);
         const std::uint64_t keyLeft = std::exchange(key, state_.key());
         if (key == keyLeft)
             continue;
-        if (state_.isHidden(cut.layer, left)) {
+        if (state_.isHidden(seen.layer, left)) {
             isKnown = false;
             continue;
         }
         const Region right = isKnown && key == keyBefore ? before : state_.region();
         if (right.paint != left.paint)
-            change(cut, step, left.paint, right.paint);
+            change(seen, step, left.paint, right.paint);
         before = std::exchange(left, right);
         keyBefore = keyLeft;
         isKnown = true;
@@ -347,17 +432,17 @@ Region LineSweep::cross(std::span<const Cut> cuts, const Step& step, Region left
     return left;
 }
 
-void LineSweep::change(const Cut& cut, const Step& step, RegionPaint left, RegionPaint right) {
+void LineSweep::change(const Seen& seen, const Step& step, RegionPaint left, RegionPaint right) {
     const auto isProgram = [](RegionPaint paint) { return (paint & programBit) != 0; };
     if (isProgram(left) || isProgram(right))
-        chords_->push_back({{cut.from, drawn_},
-                            {cut.to, drawn_ + step.height},
+        chords_->push_back({{seen.from, drawn_},
+                            {seen.to, drawn_ + step.height},
                             isProgram(left) ? left : 0,
                             isProgram(right) ? right : 0});
     const auto colorOf = [&](RegionPaint paint) {
         return isProgram(paint) ? glm::vec4(0) : state_.colors()[paint];
     };
-    add(cut.from, cut.to, step.height * (colorOf(right) - colorOf(left)));
+    add(seen.from, seen.to, step.height * (colorOf(right) - colorOf(left)));
 }
 
 /// A change along an edge, by columns, with its whole height.

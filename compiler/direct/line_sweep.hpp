@@ -5,6 +5,9 @@
 /// The paints follow from the order, and an edge covers what it covers in the step. What is misplaced are the
 /// triangles between edges that cross within the step. Where chains begin, end or are nearly level, the few
 /// that are near take smaller steps. In each step the changes of paint add up, since outlines are closed.
+///
+/// Where many layers are cut, they are asked from the top which of them show in the step, and the others are
+/// left out of it.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +17,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "compiler/containers/sort_places.hpp"
+#include "compiler/direct/covered_row.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/view_chains.hpp"
 #include "raster/chord.hpp"
@@ -38,20 +43,30 @@ private:
 
         float middle() const { return 0.5f * (top + bottom); }
     };
-    /// A chain in a step.
+    /// A chain that the row cuts. Many are gone through in each step, so there is no more in it.
     struct Cut {
-        std::uint32_t at;    ///< the upper end of the edge that the step's top cuts, or the chain's
+        std::uint32_t at;    ///< the upper end of the edge that was looked at last, or the chain's
         std::uint32_t last;  ///< of the chain
         float top, bottom;   ///< of the chain
-        float x;             ///< in the middle of the step
-        float from, to;      ///< where it enters and leaves the step
-        float left, right;   ///< between
         std::uint32_t layer;
         std::int32_t winding;
+        glm::vec2 a{0};  ///< of an edge that the row cuts, the upper end
+        float slope = 0;
+        float edgeBottom = -1;  ///< where it ends; none at first
 
         bool isAt(float y) const { return top <= y && y < bottom; }
-        /// Whether it begins or ends in the step, or is nearly level there.
-        bool isSpecial(const Step& step) const;
+    };
+    /// Where a chain goes in a step.
+    struct Seen {
+        std::uint32_t cut;  ///< of cuts_
+        std::uint32_t layer;
+        std::int32_t winding;
+        float x = 0;                ///< in the middle
+        float from = 0, to = 0;     ///< where it enters and leaves the step
+        float left = 0, right = 0;  ///< between
+        bool isAtMiddle = false;
+        bool hasEnd = false;     ///< it begins or ends in the step
+        bool isSpecial = false;  ///< it does, or is nearly level there
     };
     /// A part of a row with the same chains.
     struct Piece {
@@ -69,14 +84,18 @@ private:
     void findPieces(float top, float bottom);
     bool placeByContent(float top, float bottom, std::size_t most);
     void take(float top, float bottom);
-    void look(Cut& cut, const Step& step) const;
-    void lookAround(Cut& cut, const Step& step) const;
-    static void sort(std::vector<Cut>& cuts);
+    Seen look(std::size_t number, const Step& step);
+    void lookAround(const Cut& cut, const Step& step, Seen& seen) const;
+    bool mayHide() const;
+    void fetchAhead(std::size_t number, const Step& step) const;
+    void lookAtAll(const Step& step);
+    void lookForShown(const Step& step);
+    bool isShown(std::span<const Seen> ofLayer);
     void draw(const Step& step);
     void drawByParts(const Step& step);
-    void drawInSteps(std::span<const Cut> cuts, const Step& step, Region& left);
-    Region cross(std::span<const Cut> cuts, const Step& step, Region left);
-    void change(const Cut& cut, const Step& step, RegionPaint left, RegionPaint right);
+    void drawInSteps(std::span<const Seen> chains, const Step& step, Region& left);
+    Region cross(std::span<const Seen> chains, const Step& step, Region left);
+    void change(const Seen& seen, const Step& step, RegionPaint left, RegionPaint right);
     void add(float from, float to, const glm::vec4& amount);
     void finishRow(float top, float bottom);
 
@@ -86,17 +105,28 @@ private:
     const int width_;
     double meanCut_ = 0;  ///< chains that meet a row, in the mean; 0 until it is asked for
     std::vector<asset::Chord>* chords_ = nullptr;
-    std::vector<Cut> cuts_;                  ///< from left to right
+    std::vector<Cut> cuts_;      ///< from the topmost layer down
+    std::vector<Seen> seen_;     ///< those of them that may show in the step
+    std::vector<Placed> order_;  ///< of these, from left to right
+    std::vector<Seen> sorted_;   ///< in this order
+    std::vector<Placed> spare_;
     std::span<const std::uint32_t> toCome_;  ///< from the top
     std::vector<Step> steps_;
     std::vector<Change> changes_;
     std::vector<Piece> pieces_;
-    std::vector<Cut> part_;        ///< of cuts_, in smaller steps
-    std::vector<float> leftmost_;  ///< of the cuts from i on
+    std::vector<Seen> part_;  ///< of sorted_, in smaller steps
+    std::vector<Placed> partOrder_;
+    std::vector<Seen> partSorted_;
+    std::vector<float> leftmost_;  ///< in sorted_, from i on
     std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
     float drawn_ = 0;              ///< of the row
     std::size_t smallSteps_ = 0;   ///< chains in smaller steps that may still be taken: by the step
     std::size_t smallInBand_ = 0;  ///< and by the rest of the band
+
+    // Which layers show.
+    bool hides_ = false;  ///< in the row
+    std::vector<CoveredSquare> squares_;
+    std::vector<Touch> touches_;
 };
 
 }  // namespace vtm::compiler

@@ -69,6 +69,7 @@ public:
     bool isHidden(std::uint32_t layer, const Region& by) const {
         return layer < by.hidden && shades_[layer].kind != Shade::None;
     }
+    const LayerCover& cover(std::uint32_t layer) const { return covers_[layer]; }
     bool isOfClip(std::uint32_t layer) const { return shades_[layer].kind == Shade::None; }
     bool isInside(std::uint32_t layer, std::int32_t winding) const {
         return layers_[layer].isInside(winding);

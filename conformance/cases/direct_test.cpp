@@ -217,6 +217,33 @@ TEST(DrawnOnce, GridsFinerThanPixelsAreGrey) {
             ASSERT_NEAR(drawn.pixel(x, y)[3], 1 - 0.7 * 0.7, 1.0 / 255) << x << ", " << y;
 }
 
+/// So many that those are looked for that are hidden, step by step.
+std::string nearlyEqualCircles(int count) {
+    Numbers numbers;
+    const auto nearly = [&](double value) { return value + (numbers.between() / 64 - 0.5) / 8; };
+    std::string circles;
+    for (int i = 0; i < count; ++i) {
+        const double x = nearly(32), y = nearly(32), r = nearly(25);
+        circles += fmt::format(
+            "<circle cx=\"{:.4f}\" cy=\"{:.4f}\" r=\"{:.4f}\" fill=\"#{:06x}\" fill-opacity=\".5\"/>", x, y,
+            r, numbers.color());
+    }
+    return circles;
+}
+
+/// In a clip that is larger than the picture nothing is hidden: no layer is known to cover all of its inside.
+TEST(DrawnOnce, HiddenOutlinesChangeNothing) {
+    const std::string circles = nearlyEqualCircles(20000);
+    const std::string clip = "<clipPath id=\"c\"><path d=\"M-9,-9H99V99H-9Z\"/></clipPath>";
+    const scene::Scene plain = sceneOf(circles),
+                       clipped = sceneOf(clip + "<g clip-path=\"url(#c)\">" + circles + "</g>");
+    const image::Raster some = compiler::ViewDrawing::make(plain, wholePicture(plain, 64))->draw(),
+                        all = compiler::ViewDrawing::make(clipped, wholePicture(clipped, 64))->draw();
+    for (std::size_t i = 0; i < some.rgba.size(); ++i)
+        ASSERT_NEAR(some.rgba[i], all.rgba[i], 1.0 / 255) << i;
+    EXPECT_LE(differenceFromLarger(plain, 4), 1.0);
+}
+
 TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
     const scene::Scene scene = sceneOf(crossingLines(16000, "nonzero") + stackedCircles(500));
     const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 100));

@@ -60,7 +60,6 @@ class RowConverter {
 public:
     RowConverter(const PixelFormat& from, const PixelFormat& to, RowConversion* convert, std::int64_t pixels);
 
-    const PixelFormat& from() const { return from_; }
     void operator()(const std::uint8_t* from, std::uint8_t* to, int count) const;
 
 private:
