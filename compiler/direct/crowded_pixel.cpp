@@ -14,7 +14,7 @@ constexpr int deepest = 10, shallowest = 5;
 constexpr std::size_t maxWork = 1 << 16;
 
 /// The height at which two edges cross, below both their upper ends and above their lower ones.
-std::optional<double> crossing(const PixelEdge& a, const PixelEdge& b) {
+std::optional<double> crossingHeight(const PixelEdge& a, const PixelEdge& b) {
     const double low = std::max(a.y0, b.y0), high = std::min(a.y1, b.y1);
     if (!(low < high))
         return std::nullopt;
@@ -112,7 +112,7 @@ void CrowdedPixel::cutAtCrossings(double low, double high, std::span<const Pixel
         add(edges[i].y1);
         for (std::size_t k = 0; k < i; ++k)
             if (edges[k].strand != edges[i].strand)
-                if (const std::optional<double> y = crossing(edges[i], edges[k]))
+                if (const std::optional<double> y = crossingHeight(edges[i], edges[k]))
                     add(*y);
     }
     sorted(heights_, heights_.size(), [](double y) { return y; });

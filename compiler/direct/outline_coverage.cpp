@@ -16,19 +16,20 @@ namespace {
 using asset::CoverageRun;
 
 /// Lattice steps a pixel: vertices are rounded to 2^-13 of one.
-constexpr int stepBits = 14;
-constexpr double perStep = 1.0 / (1 << stepBits);
-constexpr int maxSide = 1 << (maxLatticeBits - stepBits);
+constexpr int pixelBits = 14;
+constexpr double perStep = 1.0 / (1 << pixelBits);
+constexpr int maxSide = 1 << (maxLatticeBits - pixelBits);
 
 /// The first column stands for all that is left of the view: what lies there is moved into it.
-constexpr int outside = 1;
+constexpr int outerColumns = 1;
 
 /// In pixels: curves that are one chord stray by this at most, others misplace this much of a pixel where
 /// they pass through it, an eighth of a 255th. Some may pass through the same one.
-constexpr double strayed = 1.0 / 1024, misplacedArea = 1.0 / 2048;
+constexpr double strayed = 1.0 / 1024, areaMisplaced = 1.0 / 2048;
 
-/// What passes through pixels, of all of them: about two seconds where it crosses itself everywhere.
-constexpr double maxPassages = 1 << 23;
+/// Edges times the pixels that they pass through: about two seconds where these cross everywhere, four where
+/// thousands pass through each pixel.
+constexpr double maxPassages = 3'000'000;
 
 /// A monotone run on its way up. Right of it the winding number is greater by `change`.
 struct Strand {
@@ -60,7 +61,7 @@ Strand strandOf(const Outlines& outlines, Run run) {
     s.way = goesUp ? 1 : -1;
     s.change = goesUp ? 1 : -1;
     s.goesRight = first->x <= last->x;
-    s.row = first->y >> stepBits;
+    s.row = first->y >> pixelBits;
     s.x = s.x1 = first->x * perStep;
     s.y = s.y1 = first->y * perStep;
     s.next = first + s.way;
@@ -106,12 +107,12 @@ struct Passage {
 /// of the areas right of what passes through it. A single strand divides a pixel into two parts, whose
 /// winding numbers differ by 1: that at the corner and the integral give both shares, and the one that is
 /// inside is the coverage. Where several strands meet, CrowdedPixel tells what lies between.
-class Row {
+class PixelRow {
 public:
-    Row(scene::FillRule rule, int width)
+    PixelRow(scene::FillRule rule, int width)
         : rule_(rule),
           width_(width),
-          first_(std::size_t(outside + width) + 1, -1),
+          first_(std::size_t(outerColumns + width) + 1, -1),
           touched_(first_.size() / 64 + 1) {}
 
     void begin(int y) {
@@ -161,7 +162,7 @@ public:
         int done = 0;
         forEachTouched([&](int column) {
             int& first = first_[std::size_t(column)];
-            const int x = column - outside;
+            const int x = column - outerColumns;
             if (x > done && isInside(rule_, winding_))
                 runs_.push_back({done, x, 1});
             done = x + 1;
@@ -302,17 +303,17 @@ bool coverOutline(const scene::Path& outline, scene::FillRule rule, const scene:
                   int height, const std::function<void(int y, std::span<const CoverageRun> runs)>& row) {
     if (width > maxSide || height > maxSide)
         return false;
-    constexpr double steps = 1 << stepBits;
+    constexpr double steps = 1 << pixelBits;
     Outlines outlines;
-    const scene::Affine toSteps = scene::compose(scene::scaling(steps, steps),
-                                                 scene::compose(scene::translation(outside, 0), toPixels));
-    addOutline(outlines, outline, toSteps, ChordTolerance(strayed, misplacedArea).scaled(steps),
-               glm::dvec2(0), glm::dvec2(outside + width, height) * steps);
+    const scene::Affine toSteps = scene::compose(
+        scene::scaling(steps, steps), scene::compose(scene::translation(outerColumns, 0), toPixels));
+    addOutline(outlines, outline, toSteps, ChordTolerance(strayed, areaMisplaced).scaled(steps),
+               glm::dvec2(0), glm::dvec2(outerColumns + width, height) * steps);
     if (passages(outlines) > maxPassages)
         return false;
     std::vector<Strand> strands = strandsOf(outlines, height);
     std::vector<int> active;
-    Row pixels(rule, width);
+    PixelRow pixels(rule, width);
     std::size_t begun = 0;
     for (int y = 0; y < height && (begun < strands.size() || !active.empty()); ++y) {
         limits::check();
