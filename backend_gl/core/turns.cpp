@@ -12,7 +12,7 @@ using asset::Op;
 using asset::Spread;
 using asset::Texel;
 
-/// A loop of n turns makes one more to find that it is at its end.
+/// A loop of n turns, and one more, which a driver may take to find that it is at its end.
 constexpr std::uint32_t loop(std::uint32_t turns, std::uint32_t each = 0) { return turns + 1 + turns * each; }
 
 /// stopsUpTo() of gradient.glsl halves [0, count] until nothing is left.

@@ -128,7 +128,7 @@ precision highp sampler2D;
 precision highp usampler2D;
 )";
 
-/// Of the loops over taps in sample_prefilter.glsl: at most 4 rows of 16, for a footprint of 4 : 1.
+/// Of the loop over taps in sample_prefilter.glsl, and some: at most 4 rows of 16, for a footprint of 4 : 1.
 constexpr float prefilterTurns = 4 * (16 + 2) + 1;
 /// Footprints are widened to this share of their length.
 constexpr float maxAnisotropy = 16;

@@ -114,6 +114,8 @@ float pieceSum(Frame frame, uvec4 piece) {
         next = i == 0 ? c.a : i <= inner ? next : i == inner + 1 ? c.b : cornerB;
         sum += seg(last, next);
         last = next;
+        if (i == end)
+            break;  // or some drivers run the body once more
     }
     return sum;
 }

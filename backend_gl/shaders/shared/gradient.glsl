@@ -26,6 +26,8 @@ uint stopsUpTo(ASSET_IN uint firstStop, uint count, float u) {
             from = middle + 1u;
         else
             to = middle;
+        if (from >= to)
+            break;
     }
     return from;
 }
@@ -139,6 +141,8 @@ vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float l
 #if LONG_RAMPS
         skipStops(ASSET firstStop, count, base, part, next, sum, weights);
 #endif
+        if (n >= end && part.from >= part.last)
+            break;
     }
     return weights > 0.0 ? base + sum / weights : base;
 }

@@ -61,6 +61,8 @@ vec4 filtered(ASSET_IN uvec4 level, vec2 p, Kernel kernel) {
         ++tap.x;
         if (tap.x == taps)
             tap = ivec2(0, tap.y + 1);
+        if (i + 1 == taps * taps)
+            break;
     }
     return sum;
 }
@@ -127,6 +129,8 @@ vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
         Kernel ofLevel = Kernel(coarser ? 0.5 * kernel.width : kernel.width, kernel.cubic);
         sum += weight * (coarser ? share : 1.0 - share) *
                filtered(ASSET level, p + float(probe) * probes.step, ofLevel);
+        if (i + 1 == levels * (probes.side + 1))
+            break;
     }
     // Catmull-Rom overshoots beside edges.
     sum.a = clamp(sum.a, 0.0, 1.0);

@@ -1,7 +1,8 @@
 // The stack machine of paint programs.
 // Requires: fetch.glsl, gradient.glsl, image.glsl, blend.glsl; constants op*, maxStack; LINEAR, RADIAL,
 // IMAGE, GROUPS, MIXING, MATERIAL defined as 1 or 0: what the asset's programs contain. Some drivers run
-// both sides of every branch, so what cannot occur is left out. Where MATERIAL is 1: materialColor, which
+// both sides of every branch, so what cannot occur is left out; and the body of a loop, with all loops in it, once more to
+// find that it has ended, unless it is left at the bottom, by a break. Where MATERIAL is 1: materialColor, which
 // backend_gl/core/programs.cpp makes.
 // Twin of: raster/src/paint.cpp.
 // Exports: paintColor.
@@ -56,6 +57,8 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
             vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point, pixel);
             stack[top] = over(source * uintBitsToFloat(instruction.z), stack[top]);
         }
+        if (i + 1u == first + count)
+            break;
     }
     return stack[top];
 }
@@ -68,6 +71,8 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
         uvec4 instruction = texelAt(ASSET ASSET_PART(sections).w + i);
         vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point, pixel);
         sum = over(source * uintBitsToFloat(instruction.z), sum);
+        if (i + 1u == first + count)
+            break;
     }
     return sum;
 }

@@ -42,6 +42,8 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
         }
         if (weight != 0.0)
             sum += weight * numberColor(ASSET recent, paint, point, pixel);
+        if (i + 1u == terms)
+            break;
     }
     if (isPlaced())
         sum -= squareArea(frame) * numberColor(ASSET recent, 0u, point, pixel);
@@ -67,6 +69,8 @@ vec4 leafIntegral(ASSET_IN Frame frame, uvec4 leaf, vec2 point, mat3x2 pixel) {
         float weight = spend(pieceTurns(piece)) ? pieceSum(frame, piece) : 0.0;
         if (weight != 0.0)
             sum += weight * (numberColor(ASSET low(piece.w)) - numberColor(ASSET high(piece.w)));
+        if (i + 1u == end)
+            break;
     }
     return sum;
 }

@@ -26,8 +26,11 @@ uint paletteAt(Vtm vtm, uint place) {
 }
 
 uint paintOf(Vtm vtm, uint number) {
-    for (int i = innerDepth - 1; i >= 0; --i)
+    for (int i = innerDepth - 1; i >= 0; --i) {
         number = number == 0u ? innerGrounds[i] : paletteAt(vtm, innerPalettes[i] + number - 1u);
+        if (i == 0)
+            break;
+    }
     return number;
 }
 

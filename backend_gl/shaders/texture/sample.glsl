@@ -3,6 +3,9 @@
 // constants wrap*, turnsPerPixel, prefilterTurns, FEATURES, VTM_SAMPLES.
 // Exports: vtm_sample, vtm_sample_proj, vtm_sample_grad.
 
+// Here as everywhere loops are left at the bottom, by a break: some drivers run the body otherwise once more, with all
+// loops in it, to find that they have ended. (Others take long to compile nested loops with conditions at the bottom.)
+
 // ---- The footprint ------------------------------------------------------------------------------------
 
 bool repeats(int wrapping) { return wrapping == wrapRepeat || wrapping == wrapMirror; }
@@ -34,15 +37,14 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
     vec2 halfBox = 0.5 * (abs(footprint.sides[0]) + abs(footprint.sides[1])) / vtm.size;
     vec2 s = copies(vtm.wrapping.x, footprint.st.x, halfBox.x);
     vec2 t = copies(vtm.wrapping.y, footprint.st.y, halfBox.y);
-    for (float y = t.x; y <= t.y && spend(1.0); ++y)
-        for (float x = s.x; x <= s.y && spend(1.0); ++x) {
-            bvec2 mirrored = bvec2(isMirrored(vtm.wrapping.x, x), isMirrored(vtm.wrapping.y, y));
-            vec2 st = footprint.st - vec2(x, y);
-            st = mix(st, 1.0 - st, mirrored);
-            vec2 turned = mix(vec2(1.0), vec2(-1.0), mirrored);
-            vec2 lower = max(st - halfBox, 0.0), upper = min(st + halfBox, 1.0);
-            if (any(greaterThan(lower, upper)))
-                continue;
+    vec2 copy = vec2(s.x, t.x);
+    while (copy.y <= t.y && spend(1.0)) {
+        bvec2 mirrored = bvec2(isMirrored(vtm.wrapping.x, copy.x), isMirrored(vtm.wrapping.y, copy.y));
+        vec2 st = footprint.st - copy;
+        st = mix(st, 1.0 - st, mirrored);
+        vec2 turned = mix(vec2(1.0), vec2(-1.0), mirrored);
+        vec2 lower = max(st - halfBox, 0.0), upper = min(st + halfBox, 1.0);
+        if (all(lessThanEqual(lower, upper))) {
             // A box that only touches the picture's end has no cell beyond it.
             lower = clamp(lower * scale + offset, 0.0, lastPlace);
             upper = clamp(upper * scale + offset, 0.0, 1.0);
@@ -52,6 +54,10 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
             part.turn = cross2(part.toBox[0], part.toBox[1]) < 0.0 ? -1.0 : 1.0;
             addPicture(vtm, part, sum);
         }
+        copy = copy.x < s.y ? vec2(copy.x + 1.0, copy.y) : vec2(s.x, copy.y + 1.0);
+        if (copy.y > t.y)
+            break;
+    }
 }
 
 // A share of what a pixel may take. The prefilter's own turns are set aside; what was begun and not finished is not
@@ -99,6 +105,8 @@ vec4 vtm_sample_proj(Vtm vtm, vec3 stq) {
         mat2 strip = mat2(sides[0] - away * g.x, sides[1] - away * g.y) * scale;
         strip[axis] /= float(count);
         sum += sampled(vtm, st + away, strip[0], strip[1], turnsOfSample / float(count));
+        if (i + 1 == count)
+            break;
     }
     return sum / float(count);
 }

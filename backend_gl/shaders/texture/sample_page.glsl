@@ -95,6 +95,8 @@ bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout
         root = record.x;
         pageInk = walk.color == 0u ? vec4(unpackUnorm2x16(record.z), unpackUnorm2x16(record.w))
                                    : uintBitsToFloat(texelAt(vtm, walk.color));
+        if (found)
+            break;
     }
     return found;
 }
@@ -122,6 +124,8 @@ void addPage(Vtm vtm, CopyFootprint part, inout vec4 sum) {
         PageLayer layer = PageLayer(texelAt(vtm, at), texelAt(vtm, at + 3u), uintBitsToFloat(texelAt(vtm, at + 1u)),
                                     uintBitsToFloat(texelAt(vtm, at + 2u)));
         addLayer(vtm, part, layer, page, sum);
+        if (i + 1u == page.x)
+            break;
     }
     onPage = false;
 }

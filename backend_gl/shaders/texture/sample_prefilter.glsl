@@ -99,11 +99,14 @@ vec4 prefiltered(Vtm vtm, Footprint footprint) {
     vec2 count = vec2(taps * parts, taps), levelTexels = max(vtm.prefilterTexels * exp2(-lod), 1.0);
     vec2 spacing = vec2(tapSpacing(lengths.x, count.x, exp2(lod)), tapSpacing(lengths.y, count.y, exp2(lod)));
     vec4 sum = vec4(0.0);
-    for (float j = 0.0; j < count.y; ++j)
-        for (float i = 0.0; i < count.x; ++i) {
-            vec2 st = footprint.st + sides * ((vec2(i, j) - 0.5 * (count - 1.0)) * spacing);
-            sum += textureLod(vtm.prefilter, st, lod) * inside(vtm.wrapping.x, st.x, levelTexels.x) *
-                   inside(vtm.wrapping.y, st.y, levelTexels.y);
-        }
+    vec2 tap = vec2(0.0);
+    while (tap.y < count.y) {
+        vec2 st = footprint.st + sides * ((tap - 0.5 * (count - 1.0)) * spacing);
+        sum += textureLod(vtm.prefilter, st, lod) * inside(vtm.wrapping.x, st.x, levelTexels.x) *
+               inside(vtm.wrapping.y, st.y, levelTexels.y);
+        tap = tap.x + 1.0 < count.x ? vec2(tap.x + 1.0, tap.y) : vec2(0.0, tap.y + 1.0);
+        if (tap.y >= count.y)
+            break;
+    }
     return sum / (count.x * count.y);
 }

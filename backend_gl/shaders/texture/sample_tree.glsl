@@ -46,8 +46,11 @@ uint childAt(Vtm vtm, uint node, ivec2 cell) {
 // The node that holds `cell`, from the root.
 uint nodeAround(Vtm vtm, uint root, ivec2 cell, int level) {
     uint node = root >> 2;
-    for (int l = 1; l < level && spend(1.0); ++l)
+    for (int l = 1; l < level && spend(1.0); ++l) {
         node = childAt(vtm, node, cell >> (2 * (level - l))) >> 2;
+        if (l + 1 == level)
+            break;
+    }
     return node;
 }
 
@@ -82,6 +85,8 @@ Walk walkFrom(Vtm vtm, CopyFootprint part, uint root) {
         walk.entry = childAt(vtm, walk.parent, child);
         walk.cell = child;
         ++walk.level;
+        if ((walk.entry & 3u) != kindNode)
+            break;
     }
     walk.top = walk.level;
     return walk;
@@ -121,6 +126,8 @@ bool nextSquare(Vtm vtm, CopyFootprint part, inout Walk walk, out ivec2 cell, ou
             walk.cell >>= 2;
         }
         walk.rising = !onward;
+        if (found || isDone(walk))
+            break;
     }
     return found;
 }
@@ -135,6 +142,8 @@ void addTree(Vtm vtm, CopyFootprint part, uint root, inout vec4 sum) {
         uint entry;
         if (nextSquare(vtm, part, walk, cell, side, entry))
             addSquare(vtm, part, cell, side, entry, sum);
+        if (isDone(walk))
+            break;
     }
 }
 
