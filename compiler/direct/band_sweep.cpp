@@ -19,8 +19,9 @@ constexpr std::size_t slabSteps = 500;
 /// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
 /// would take more.
 constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 23;
-/// So does one that begins with more chains: a row could look at them only a few times.
-constexpr std::size_t mostAtOnce = 1u << 17;
+/// So does one that begins with more chains, of so many layers that some may hide others: a row could look at
+/// them only a few times. Chains of few layers may not cross at all.
+constexpr std::size_t mostAtOnce = 1u << 17, manyLayers = 64;
 /// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
 /// next strip.
 constexpr std::size_t fewToBegin = 1u << 15;
@@ -52,7 +53,7 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         stripTop_ = top;
         free_.insert(free_.end(), active_.begin(), active_.end());
         active_.clear();
-        if (above > mostAtOnce)
+        if (above > mostAtOnce && windings_.size() >= manyLayers)
             onLines_ = chains.size();
     }
     if (onLines_ > fewToBegin && 2 * chains.size() > onLines_)
