@@ -37,9 +37,9 @@ using Freed = std::unique_ptr<void, decltype([](void* reply) { std::free(reply);
 
 /// A function of a library that may be missing, and then it is null.
 template <class Signature>
-class Function {
+class Loaded {
 public:
-    Function(void* library, const char* name)
+    Loaded(void* library, const char* name)
         : function_(library ? reinterpret_cast<Signature*>(dlsym(library, name)) : nullptr) {}
 
     explicit operator bool() const { return function_; }
@@ -56,23 +56,23 @@ void* open(const char* name) { return dlopen(name, RTLD_LAZY | RTLD_LOCAL); }
 
 struct Xcb {
     void* const library = open("libxcb.so.1");
-    const Function<void*(const char*, int*)> connect{library, "xcb_connect"};
-    const Function<void(void*)> disconnect{library, "xcb_disconnect"};
-    const Function<int(void*)> hasError{library, "xcb_connection_has_error"};
-    const Function<std::uint32_t(void*)> maximumLength{library, "xcb_get_maximum_request_length"};
-    const Function<std::uint32_t(void*)> generateId{library, "xcb_generate_id"};
-    const Function<void*(void*)> pollForEvent{library, "xcb_poll_for_event"};
-    const Function<const Extension*(void*, void*)> extensionData{library, "xcb_get_extension_data"};
-    const Function<void*(void*, Cookie)> requestCheck{library, "xcb_request_check"};
-    const Function<Cookie(void*, std::uint32_t)> getGeometry{library, "xcb_get_geometry"};
-    const Function<Geometry*(void*, Cookie, void**)> geometryReply{library, "xcb_get_geometry_reply"};
-    const Function<Cookie(void*, std::uint32_t, std::uint32_t, std::uint32_t, const void*)> createGc{
+    const Loaded<void*(const char*, int*)> connect{library, "xcb_connect"};
+    const Loaded<void(void*)> disconnect{library, "xcb_disconnect"};
+    const Loaded<int(void*)> hasError{library, "xcb_connection_has_error"};
+    const Loaded<std::uint32_t(void*)> maximumLength{library, "xcb_get_maximum_request_length"};
+    const Loaded<std::uint32_t(void*)> generateId{library, "xcb_generate_id"};
+    const Loaded<void*(void*)> pollForEvent{library, "xcb_poll_for_event"};
+    const Loaded<const Extension*(void*, void*)> extensionData{library, "xcb_get_extension_data"};
+    const Loaded<void*(void*, Cookie)> requestCheck{library, "xcb_request_check"};
+    const Loaded<Cookie(void*, std::uint32_t)> getGeometry{library, "xcb_get_geometry"};
+    const Loaded<Geometry*(void*, Cookie, void**)> geometryReply{library, "xcb_get_geometry_reply"};
+    const Loaded<Cookie(void*, std::uint32_t, std::uint32_t, std::uint32_t, const void*)> createGc{
         library, "xcb_create_gc"};
-    const Function<Cookie(void*, std::uint32_t)> freeGc{library, "xcb_free_gc"};
-    const Function<Cookie(void*, std::uint8_t format, std::uint32_t drawable, std::uint32_t gc,
-                          std::uint16_t width, std::uint16_t height, std::int16_t x, std::int16_t y,
-                          std::uint8_t leftPad, std::uint8_t depth, std::uint32_t length,
-                          const std::uint8_t* bytes)>
+    const Loaded<Cookie(void*, std::uint32_t)> freeGc{library, "xcb_free_gc"};
+    const Loaded<Cookie(void*, std::uint8_t format, std::uint32_t drawable, std::uint32_t gc,
+                        std::uint16_t width, std::uint16_t height, std::int16_t x, std::int16_t y,
+                        std::uint8_t leftPad, std::uint8_t depth, std::uint32_t length,
+                        const std::uint8_t* bytes)>
         putImage{library, "xcb_put_image"};
 
     bool isWhole() const {
@@ -85,14 +85,14 @@ struct Xcb {
 struct XcbShm {
     void* const library = open("libxcb-shm.so.0");
     void* const extension = library ? dlsym(library, "xcb_shm_id") : nullptr;
-    const Function<Cookie(void*, std::uint32_t segment, std::uint32_t id, std::uint8_t isReadOnly)> attach{
+    const Loaded<Cookie(void*, std::uint32_t segment, std::uint32_t id, std::uint8_t isReadOnly)> attach{
         library, "xcb_shm_attach_checked"};
-    const Function<Cookie(void*, std::uint32_t segment)> detach{library, "xcb_shm_detach"};
-    const Function<Cookie(void*, std::uint32_t drawable, std::uint32_t gc, std::uint16_t pictureWidth,
-                          std::uint16_t pictureHeight, std::uint16_t fromX, std::uint16_t fromY,
-                          std::uint16_t width, std::uint16_t height, std::int16_t x, std::int16_t y,
-                          std::uint8_t depth, std::uint8_t format, std::uint8_t sendsEvent,
-                          std::uint32_t segment, std::uint32_t offset)>
+    const Loaded<Cookie(void*, std::uint32_t segment)> detach{library, "xcb_shm_detach"};
+    const Loaded<Cookie(void*, std::uint32_t drawable, std::uint32_t gc, std::uint16_t pictureWidth,
+                        std::uint16_t pictureHeight, std::uint16_t fromX, std::uint16_t fromY,
+                        std::uint16_t width, std::uint16_t height, std::int16_t x, std::int16_t y,
+                        std::uint8_t depth, std::uint8_t format, std::uint8_t sendsEvent,
+                        std::uint32_t segment, std::uint32_t offset)>
         putImage{library, "xcb_shm_put_image"};
 
     bool isWhole() const { return extension && attach && detach && putImage; }
