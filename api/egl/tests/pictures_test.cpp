@@ -1,6 +1,7 @@
 // vtm/vg_gl.h: what OpenVG drew on a GPU, sampled by a context of OpenGL ES that shares with the
 // compositor's.
 
+#include <functional>
 #include <random>
 
 #include <GLES3/gl3.h>
@@ -99,6 +100,17 @@ protected:
         ASSERT_EQ(vgGetError(), VG_NO_ERROR);
     }
 
+    /// One that the GPU draws on, current meanwhile.
+    void withSurface(const VtmSurfaceFormat& format, const std::function<void(VtmSurface*)>& test) {
+        VtmSurface* const surface = vtmCreateSurface(width, height, &format);
+        ASSERT_NE(surface, nullptr);
+        ASSERT_EQ(vtmChooseCompositor(surface, VTM_COMPOSITOR_GL), VTM_COMPOSITOR_GL);
+        ASSERT_TRUE(vtmMakeCurrent(vgContext, surface));
+        test(surface);
+        vtmMakeCurrent(nullptr, nullptr);
+        vtmDestroySurface(surface);
+    }
+
     void expectSame(VtmSurface* surface) {
         VtmGlPicture picture{};
         ASSERT_TRUE(vtmTakeGlPicture(surface, &picture));
@@ -119,38 +131,30 @@ TEST_F(GlPictures, HaveTheBytesOfEveryFormat) {
                 SCOPED_TRACE(::testing::Message() << s[0] << s[1] << s[2] << s[3] << s[4] << ' '
                                                   << int(isLinear) << int(isPremultiplied));
                 const VtmSurfaceFormat format{s[0], s[1], s[2], s[3], s[4], 0, isLinear, isPremultiplied};
-                VtmSurface* const surface = vtmCreateSurface(width, height, &format);
-                ASSERT_NE(surface, nullptr);
-                ASSERT_EQ(vtmChooseCompositor(surface, VTM_COMPOSITOR_GL), VTM_COMPOSITOR_GL);
-                ASSERT_TRUE(vtmMakeCurrent(vgContext, surface));
-                drawSomething(unsigned(s[1] * 4 + isLinear * 2 + isPremultiplied));
-                expectSame(surface);
-                vtmMakeCurrent(nullptr, nullptr);
-                vtmDestroySurface(surface);
+                withSurface(format, [&](VtmSurface* surface) {
+                    drawSomething(unsigned(s[1] * 4 + isLinear * 2 + isPremultiplied));
+                    expectSame(surface);
+                });
             }
 }
 
 TEST_F(GlPictures, FollowWhatIsDrawnAndTheSize) {
-    const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_FALSE};
-    VtmSurface* const surface = vtmCreateSurface(width, height, &format);
-    vtmChooseCompositor(surface, VTM_COMPOSITOR_GL);
-    ASSERT_TRUE(vtmMakeCurrent(vgContext, surface));
-    expectSame(surface);
-    for (unsigned frame = 0; frame < 5; ++frame) {
-        drawSomething(frame);
+    withSurface({8, 8, 8, 8, 0, 0, VG_FALSE, VG_FALSE}, [&](VtmSurface* surface) {
         expectSame(surface);
+        for (unsigned frame = 0; frame < 5; ++frame) {
+            drawSomething(frame);
+            expectSame(surface);
+            expectSame(surface);
+        }
+        // What is in memory only is brought to the GPU.
+        const Bytes pixels(std::size_t(width) * height * 4, 77);
+        vtmWriteSurface(surface, pixels.data(), std::size_t(width) * 4);
         expectSame(surface);
-    }
-    // What is in memory only is brought to the GPU.
-    const Bytes pixels(std::size_t(width) * height * 4, 77);
-    vtmWriteSurface(surface, pixels.data(), std::size_t(width) * 4);
-    expectSame(surface);
-    ASSERT_TRUE(vtmResizeSurface(surface, 2 * width, height / 2));
-    expectSame(surface);
-    drawSomething(9);
-    expectSame(surface);
-    vtmMakeCurrent(nullptr, nullptr);
-    vtmDestroySurface(surface);
+        ASSERT_TRUE(vtmResizeSurface(surface, 2 * width, height / 2));
+        expectSame(surface);
+        drawSomething(9);
+        expectSame(surface);
+    });
 }
 
 TEST_F(GlPictures, AreNotGivenOfSurfacesThatTheCpuDraws) {

@@ -146,7 +146,8 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
     const double stretch = std::max(glm::length(dvec2(m[0])), glm::length(dvec2(m[1])));
     const double pixels = stretch * std::max(extent.x, extent.y), tolerance = pixelTolerance / pixels;
     // Of such views doubles do not tell a curve from its rounding.
-    const bool isForView = tolerance<tolerances.back(), areLines = pixels> maxPixels;
+    const bool isForView = tolerance < tolerances.back();
+    const bool areLines = pixels > maxPixels;
     if (isForView || !isScanned_) {
         isScanned_ = true;
         const std::shared_ptr<const scene::Path> outline =

@@ -47,9 +47,7 @@ TEST_F(RowsTest, NearestPixels) {
                 TwinDrawing drawing;
                 const TwinImage before = prepare(kind, drawing);
                 const TwinImage image = randomImage(name, 90, 70);
-                const float zoom = 3 + unit(), turn = 0.2f * unit(), c = zoom * std::cos(turn),
-                            s = zoom * std::sin(turn);
-                const glm::mat3 toSurface(c, s, 0, -s, c, 0, -40 + 10 * unit(), -90 - unit(), 1);
+                const glm::mat3 toSurface = magnifying();
                 draw(image, toSurface);
                 expectDrawn(before, drawing, nearest(image, glm::inverse(glm::dmat3(toSurface))),
                             "nearest pixels");
@@ -64,10 +62,7 @@ TEST_F(RowsTest, InterpolatedImages) {
                 TwinDrawing drawing;
                 const TwinImage before = prepare(kind, drawing);
                 const TwinImage image = randomImage(name, 90, 70);
-                // Magnified until the surface is inside of it.
-                const float zoom = 3 + unit(), turn = 0.2f * unit(), c = zoom * std::cos(turn),
-                            s = zoom * std::sin(turn);
-                const glm::mat3 toSurface(c, s, 0, -s, c, 0, -40 + 10 * unit(), -90 - unit(), 1);
+                const glm::mat3 toSurface = magnifying();
                 draw(image, toSurface);
                 expectDrawn(before, drawing, bilinear(image, glm::inverse(glm::dmat3(toSurface))),
                             "an interpolated image");

@@ -48,6 +48,13 @@ protected:
         }
         return image;
     }
+
+    /// Magnifies an image of 90 × 70 pixels until the surface is inside of it, and turns it.
+    glm::mat3 magnifying() {
+        const float zoom = 3 + unit(), turn = 0.2f * unit(), c = zoom * std::cos(turn),
+                    s = zoom * std::sin(turn);
+        return {c, s, 0, -s, c, 0, -40 + 10 * unit(), -90 - unit(), 1};
+    }
     static VGImage uploaded(const TwinImage& image) {
         const VGImage handle = newImage(image.name, image.width, image.height);
         vgImageSubData(handle, image.bytes().data(), image.stride(), image.name, 0, 0, image.width,
