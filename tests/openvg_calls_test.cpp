@@ -11,6 +11,9 @@
 
 namespace {
 
+/// With VTM_TEST_ALL a million calls and more by each compositor.
+unsigned numberOfPrograms(unsigned sampled) { return std::getenv("VTM_TEST_ALL") ? 6000 : sampled; }
+
 std::vector<std::uint8_t> randomProgram(unsigned seed) {
     std::vector<std::uint8_t> bytes(4096);
     std::mt19937 random(seed);
@@ -20,7 +23,7 @@ std::vector<std::uint8_t> randomProgram(unsigned seed) {
 }
 
 TEST(OpenVgCalls, RandomProgramsEnd) {
-    constexpr unsigned programs = 600;
+    const unsigned programs = numberOfPrograms(600);
     std::size_t calls = 0;
     for (unsigned seed = 1; seed <= programs; ++seed)
         calls += vtm::fuzz::runOpenVgCalls(randomProgram(seed));
@@ -28,7 +31,7 @@ TEST(OpenVgCalls, RandomProgramsEnd) {
 }
 
 TEST(OpenVgCalls, BothCompositorsDrawRandomProgramsAlike) {
-    constexpr unsigned programs = 300;
+    const unsigned programs = numberOfPrograms(300);
     for (unsigned seed = 1; seed <= programs; ++seed) {
         const std::vector<std::uint8_t> bytes = randomProgram(seed);
         const auto cpu = vtm::fuzz::drawnByOpenVgCalls(bytes, VTM_COMPOSITOR_CPU),

@@ -603,8 +603,11 @@ TEST(Instances, MayBeNested) {
             const asset::Asset again = asset::read(asset::write(nested));
             const image::Raster drawn = asset::Scanner(again).draw(view);
             EXPECT_LE(compare::compare(drawn, asset::evaluate(again, view)).max, assetMax);
-            EXPECT_LE(compare::compare(drawn, asset::Scanner(asset::planarMaps(again), again).draw(view)).max,
-                      assetMax);
+            if (depth <= 4) {  // then a million pieces, and three times as many with every depth
+                EXPECT_LE(
+                    compare::compare(drawn, asset::Scanner(asset::planarMaps(again), again).draw(view)).max,
+                    assetMax);
+            }
             EXPECT_LE(compare::compare(drawn, gl.render(again, view)).max, referenceMax);
             if (depth == 3) {  // close enough for the prefilter to have no share
                 const asset::View close = viewOf(seed, 96, 12);
