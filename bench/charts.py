@@ -148,7 +148,7 @@ def draw_paper(paper):
     for tile in dict.fromkeys(row["tile"] for row in timed):
         rows = []
         for form in dict.fromkeys(row["form"] for row in timed):
-            ours = [row for row in timed if row["tile"] == tile and row["form"] == form and row["periods"] <= 4]
+            ours = [row for row in timed if row["tile"] == tile and row["form"] == form and row["shown"] in ("1 x 1 periods", "4 x 4 periods")]
             rows.append((form.replace("compressed", "compr."), [(float(ours[0]["paper"]), "the paper")],
                          statistics.median(row["ratio"] for row in ours), plot.COLOURS[2]))
         yield plot.strips(f"The paper's four configurations, {tile}, magnified", "time over the first (bar: here; dot: the paper)", rows, mark=1)

@@ -31,7 +31,8 @@ inline constexpr std::size_t maxCells = 4'000'000, maxMasks = 100'000;
 struct CompileResult {
     Asset asset;
     CompileOptions options;
-    /// The mask of each item, in painter's order (groups in depth).
+    /// The mask of each item, in painter's order (groups in depth); noIndex: it covers the picture and needs
+    /// none.
     std::vector<std::uint32_t> maskOfItem;
     /// Nodes with bounds, and the masks, [first, end), that these hold.
     struct BoundedNode {
@@ -53,7 +54,8 @@ struct CompileResult {
 CompileResult compile(const scene::Scene& scene, const CompileOptions& options = {});
 
 /// Row 16: remakes the mask of an item whose path, transform, fill rule or stroke changed, and
-/// touches nothing else. `item` counts in painter's order. Throws std::out_of_range, compiler::LimitError.
+/// touches nothing else. `item` counts in painter's order. Throws std::out_of_range, compiler::LimitError,
+/// std::invalid_argument where it covered the picture and has no mask.
 void rebuildMask(CompileResult& result, std::size_t item, const scene::Item& changed);
 
 }  // namespace vtm::paper

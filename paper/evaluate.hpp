@@ -53,6 +53,11 @@ struct Footprint {
 /// Coverage of a mask by the pixel around a picture point.
 double maskCoverage(const Mask& mask, glm::dvec2 point, const Footprint& pixel, Cost& cost);
 
+/// The same where the picture repeats over the plane, in pixels up to the picture's size: as one grows from
+/// half the picture's shorter side to all of it, the mask's share of the picture takes over.
+double repeatedCoverage(const Mask& mask, glm::dvec2 pictureSize, glm::dvec2 point, const Footprint& pixel,
+                        Cost& cost);
+
 /// Whether a picture point is inside; on or beyond the square's border it is not.
 bool classify(const Mask& mask, glm::dvec2 point);
 
@@ -65,6 +70,8 @@ struct Sample {
 };
 /// One fragment: the recursion walked at a picture point.
 Sample sample(const Asset& asset, glm::dvec2 point, const Footprint& pixel);
+/// The same where the picture repeats.
+Sample sampleRepeated(const Asset& asset, glm::dvec2 point, const Footprint& pixel);
 
 /// Draws on transparent black, a sample a pixel, times the coverage of the picture's rectangle (by the
 /// distance to its nearest side); adds what it cost to `cost` if there is one. `asset`

@@ -52,18 +52,22 @@ public:
         palette_.paints.push_back({});
     }
 
-    /// 0 where nothing can be painted.
-    std::uint32_t add(const scene::Paint& paint, const scene::Affine& transform) {
+    /// A paint of the palette, 0 where nothing can be painted, and whether it hides what lies below.
+    struct Added {
+        std::uint32_t index = 0;
+        bool opaque = false;
+    };
+    Added add(const scene::Paint& paint, const scene::Affine& transform) {
         const auto index = table_.add(paint, transform);
         if (!index)
-            return 0;
+            return {};
         const compiler::Source& source = picture_.sources[*index];
         if (source.op == asset::Op::Solid)
             palette_.paints.push_back(std::bit_cast<asset::Paint>(source.color));
         else
             programs_.push_back({std::uint32_t(palette_.paints.size()), source}),
                 palette_.paints.push_back({});
-        return std::uint32_t(palette_.paints.size() - 1);
+        return {std::uint32_t(palette_.paints.size() - 1), source.opaque};
     }
 
     /// What the programs refer to first, then a program of one instruction for each.
@@ -91,7 +95,7 @@ struct Missing {
     auto operator<=>(const Missing&) const = default;
 };
 
-/// Each function returns the node that shows something over `rest`, or `rest` where nothing is to show.
+/// Each function returns what shows something over `rest`, or `rest` where nothing is to show.
 class Folding {
 public:
     explicit Folding(CompileResult& result)
@@ -99,7 +103,7 @@ public:
           palette_(result.asset.palette, std::max(result.asset.width, result.asset.height)) {}
 
     void run(const scene::Scene& scene) {
-        result_.asset.root = group(scene.root, noIndex);
+        result_.asset.root = nodeOf(group(scene.root, {}));
         palette_.finish();
         for (const auto& [missing, times] : missing_)
             result_.warnings.push_back(std::string("the paper's model has no ") + missing.what + " (" +
@@ -107,24 +111,24 @@ public:
     }
 
 private:
-    std::uint32_t group(const scene::Group& g, std::uint32_t rest) {
+    Side group(const scene::Group& g, const Side& rest) {
         if (g.blend != scene::BlendMode::Normal)
             ++missing_[{"blend modes", "drawn as normal"}];
         if (g.filter)
             ++missing_[{"filters", "drawn without"}];
         if (g.mask)
             ++missing_[{"masks by luminance or alpha", "drawn without"}];
-        std::uint32_t inside = sequence(g.children, rest);
+        Side inside = sequence(g.children, rest);
         if (inside == rest)
             return rest;
         // A group with normal blending is as if its children stood in its place, so o G + (1 - o) T.
         if (g.opacity < 1)
-            inside = push({noIndex, g.opacity, {0, inside, false}, {0, rest, false}});
+            inside = push({noIndex, g.opacity, inside, rest});
         return g.clip ? clipped(*g.clip, inside, rest) : inside;
     }
 
     /// Painter's order. A part of a long sequence stands behind a node that knows its bounds, and so on down.
-    std::uint32_t sequence(std::span<const scene::Node> nodes, std::uint32_t rest) {
+    Side sequence(std::span<const scene::Node> nodes, Side rest) {
         constexpr std::size_t parts = 4;
         if (nodes.size() <= parts || !result_.options.balanced) {
             for (const scene::Node& node : nodes)
@@ -134,8 +138,9 @@ private:
         for (std::size_t i = 0; i < parts; ++i) {
             const std::size_t first = nodes.size() * i / parts, end = nodes.size() * (i + 1) / parts;
             const auto firstMask = std::uint32_t(result_.asset.masks.size());
-            const std::uint32_t inside = sequence(nodes.subspan(first, end - first), rest);
-            if (end - first > 1 && inside != rest)
+            const std::size_t unbounded = withoutMask_;
+            const Side inside = sequence(nodes.subspan(first, end - first), rest);
+            if (end - first > 1 && inside != rest && unbounded == withoutMask_)
                 rest = bounded(inside, rest, firstMask);
             else
                 rest = inside;
@@ -143,16 +148,16 @@ private:
         return rest;
     }
 
-    std::uint32_t bounded(std::uint32_t inside, std::uint32_t rest, std::uint32_t firstMask) {
-        Node node{noIndex, 1, {0, inside, false}, {0, rest, false}};
+    Side bounded(const Side& inside, const Side& rest, std::uint32_t firstMask) {
+        Node node{noIndex, 1, inside, rest};
         const auto endMask = std::uint32_t(result_.asset.masks.size());
         node.bounds = boundsOf(result_.asset, firstMask, endMask);
-        const std::uint32_t index = push(node);
-        result_.bounded.push_back({index, firstMask, endMask});
-        return index;
+        const Side made = push(node);
+        result_.bounded.push_back({made.rest, firstMask, endMask});
+        return made;
     }
 
-    std::uint32_t shown(const scene::Node& node, std::uint32_t rest) {
+    Side shown(const scene::Node& node, const Side& rest) {
         limits::check();
         if (const auto* item = std::get_if<scene::Item>(&node.value))
             return this->item(*item, rest);
@@ -162,41 +167,59 @@ private:
     }
 
     /// The model itself: a mask and two sides.
-    std::uint32_t select(const scene::Select& s, std::uint32_t rest) {
-        const std::uint32_t inside = s.inside ? group(*s.inside, rest) : rest;
-        const std::uint32_t outside = s.outside ? group(*s.outside, rest) : rest;
+    Side select(const scene::Select& s, const Side& rest) {
+        const Side inside = s.inside ? group(*s.inside, rest) : rest;
+        const Side outside = s.outside ? group(*s.outside, rest) : rest;
         if (inside == outside)
-            return rest;
-        const std::uint32_t shape = mask(*s.mask.path, s.mask.transform, s.mask.geometry);
-        return push({shape, 1, {0, inside, false}, {0, outside, false}});
+            return inside;
+        return push({add(maskOf(*s.mask.path, s.mask.transform, s.mask.geometry)), 1, inside, outside});
     }
 
-    std::uint32_t item(const scene::Item& item, std::uint32_t rest) {
+    /// One that covers the picture needs no mask and, opaque as it is, no node either.
+    Side item(const scene::Item& item, const Side& rest) {
         const limits::Stage stage("making the mask of", item.place);
         if (std::holds_alternative<scene::Pattern>(item.paint))
             ++missing_[{"patterns", "not drawn"}];
-        const std::uint32_t paint = palette_.add(item.paint, item.transform);
-        const std::uint32_t shape = mask(*item.path, item.transform, item.geometry);
-        result_.maskOfItem.push_back(shape);
-        return push({shape, item.opacity, {paint, rest, false}, {0, rest, false}});
+        const Palette::Added paint = palette_.add(item.paint, item.transform);
+        MaskResult made = maskOf(*item.path, item.transform, item.geometry);
+        const bool covers = made.coversPicture;
+        const std::uint32_t mask = covers ? noIndex : add(std::move(made));
+        result_.maskOfItem.push_back(mask);
+        withoutMask_ += covers;
+        const Side inside = over(paint, rest);
+        return covers && item.opacity == 1 ? inside : push({mask, item.opacity, inside, rest});
+    }
+
+    /// A paint over what a side shows.
+    Side over(const Palette::Added& paint, const Side& rest) {
+        if (paint.index == 0)
+            return rest;
+        return {paint.index, paint.opaque ? noIndex : nodeOf(rest), false};
+    }
+
+    /// What a side shows, as a node.
+    std::uint32_t nodeOf(const Side& side) {
+        return side.paint == 0 ? side.rest : push({noIndex, 1, side, {}}).rest;
     }
 
     /// Union of the shapes: inside one of them `inside`, otherwise the next one decides.
-    std::uint32_t clipped(const scene::Clip& clip, std::uint32_t inside, std::uint32_t rest) {
-        std::uint32_t result = rest;
+    Side clipped(const scene::Clip& clip, const Side& inside, const Side& rest) {
+        Side result = rest;
         for (const scene::ClipShape& shape : clip.shapes) {
-            const std::uint32_t within = shape.clip ? clipped(*shape.clip, inside, result) : inside;
-            const std::uint32_t outline = mask(*shape.path, shape.transform, shape.rule);
-            result = push({outline, 1, {0, within, false}, {0, result, false}});
+            const Side within = shape.clip ? clipped(*shape.clip, inside, result) : inside;
+            result = push({add(maskOf(*shape.path, shape.transform, shape.rule)), 1, within, result});
         }
         return clip.clip && result != rest ? clipped(*clip.clip, result, rest) : result;
     }
 
-    std::uint32_t mask(const scene::Path& path, const scene::Affine& transform,
-                       const std::variant<scene::FillRule, scene::StrokeStyle>& geometry) {
+    MaskResult maskOf(const scene::Path& path, const scene::Affine& transform,
+                      const std::variant<scene::FillRule, scene::StrokeStyle>& geometry) const {
+        return makeMask(path, transform, geometry, maskOptions(result_.asset, result_.options));
+    }
+
+    std::uint32_t add(MaskResult made) {
         if (result_.asset.masks.size() >= maxMasks)
             throw compiler::LimitError("the picture needs more than " + std::to_string(maxMasks) + " masks");
-        auto made = makeMask(path, transform, geometry, maskOptions(result_.asset, result_.options));
         cells_ += made.mask.cells.size();
         if (cells_ > maxCells)
             throw compiler::LimitError("the picture needs more than " + std::to_string(maxCells) + " cells");
@@ -205,15 +228,16 @@ private:
         return std::uint32_t(result_.asset.masks.size() - 1);
     }
 
-    std::uint32_t push(const Node& node) {
+    Side push(const Node& node) {
         limits::check();
         result_.asset.nodes.push_back(node);
-        return std::uint32_t(result_.asset.nodes.size() - 1);
+        return {0, std::uint32_t(result_.asset.nodes.size() - 1), false};
     }
 
     CompileResult& result_;
     Palette palette_;
     std::size_t cells_ = 0;
+    std::size_t withoutMask_ = 0;  ///< items that cover the picture
     std::map<Missing, std::size_t> missing_;
 };
 
@@ -262,6 +286,8 @@ CompileResult compile(const scene::Scene& scene, const CompileOptions& options) 
 
 void rebuildMask(CompileResult& result, std::size_t item, const scene::Item& changed) {
     const std::uint32_t index = result.maskOfItem.at(item);
+    if (index == noIndex)
+        throw std::invalid_argument("the item covered the picture, so it has no mask to be made again");
     auto made = makeMask(*changed.path, changed.transform, changed.geometry,
                          maskOptions(result.asset, result.options));
     result.asset.masks[index] = std::move(made.mask);

@@ -13,6 +13,7 @@ namespace vtm::paper {
 struct MaskResult {
     Mask mask;
     std::size_t approximated = 0;  ///< cells of the last level that need more than a strict cell can say
+    bool coversPicture = false;    ///< all of it is inside, whatever the mask says beyond its border
 };
 
 struct MaskOptions {

@@ -51,8 +51,9 @@ private:
 
 class Fragment {
 public:
-    Fragment(const Asset& asset, const asset::Paints& palette, dvec2 point, const Footprint& pixel)
-        : asset_(asset), palette_(palette), point_(point), pixel_(pixel) {}
+    Fragment(const Asset& asset, const asset::Paints& palette, dvec2 point, const Footprint& pixel,
+             bool repeats = false)
+        : asset_(asset), palette_(palette), point_(point), pixel_(pixel), repeats_(repeats) {}
 
     Sample run() {
         if (asset_.root == noIndex)
@@ -71,9 +72,14 @@ private:
         ++sample_.cost.nodes;
         double b = node.bounds ? (isNear(*node.bounds) ? 1.0 : 0.0) : double(node.opacity);
         if (b > 0 && node.mask != noIndex)
-            b *= maskCoverage(asset_.masks[node.mask], point_, pixel_, sample_.cost);
+            b *= coverage(asset_.masks[node.mask]);
         show(node.inside, entry.weight * b, pending);
         show(node.outside, entry.weight * (1 - b), pending);
+    }
+
+    double coverage(const Mask& mask) {
+        return repeats_ ? repeatedCoverage(mask, {asset_.width, asset_.height}, point_, pixel_, sample_.cost)
+                        : maskCoverage(mask, point_, pixel_, sample_.cost);
     }
 
     /// Masks cover nothing of pixels that are further from their squares (isFar in mask.cpp).
@@ -110,6 +116,7 @@ private:
     const asset::Paints& palette_;
     const dvec2 point_;
     const Footprint& pixel_;
+    const bool repeats_;
     glm::dvec4 sum_{0};
     bool discards_ = false, shows_ = false;
     Sample sample_;
@@ -133,6 +140,10 @@ Cost& Cost::operator+=(const Cost& o) {
 
 Sample sample(const Asset& asset, dvec2 point, const Footprint& pixel) {
     return Fragment(asset, asset::Paints(asset.palette), point, pixel).run();
+}
+
+Sample sampleRepeated(const Asset& asset, dvec2 point, const Footprint& pixel) {
+    return Fragment(asset, asset::Paints(asset.palette), point, pixel, true).run();
 }
 
 image::Raster evaluate(const Asset& asset, const asset::View& view, Cost* cost) {

@@ -123,6 +123,15 @@ double maskCoverage(const Mask& mask, dvec2 point, const Footprint& pixel, Cost&
     return glm::mix(finer, level(mask.mip, unsigned(base) + 1, uv, cost), blend);
 }
 
+double repeatedCoverage(const Mask& mask, dvec2 pictureSize, dvec2 point, const Footprint& pixel,
+                        Cost& cost) {
+    const dvec2 share = mask.side / pictureSize;
+    const double mean = share.x * share.y * mask.mip.texels.back() / 255,
+                 periods = pixel.longer / std::min(pictureSize.x, pictureSize.y);
+    return glm::mix(maskCoverage(mask, point, pixel, cost), mean,
+                    std::clamp(std::log2(periods) + 1, 0.0, 1.0));
+}
+
 bool classify(const Mask& mask, dvec2 point) {
     const dvec2 uv = (point - dvec2(mask.x, mask.y)) / mask.side;
     Cost unused;

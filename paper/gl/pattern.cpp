@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include <glm/mat2x2.hpp>
@@ -66,10 +68,34 @@ ProgramSource sourceOf(PatternForm form, unsigned depth, Reach range) {
                           form.filtered && range != Reach::Near, depth});
 }
 
+ProgramSource surfaceSourceOf(PatternForm form, unsigned depth) {
+    return patternSource({.compressed = form.compressed,
+                          .filtered = form.filtered,
+                          .linear = form.linear,
+                          .mip = form.filtered,
+                          .depth = depth,
+                          .shown = Shown::Surface});
+}
+
+void requireSides(glm::ivec2 size) {
+    if (std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > asset::maxViewSide)
+        throw std::length_error("a side of the surface's raster is out of range");
+}
+
+/// From the framebuffer that is bound.
+void read(image::Raster& raster) {
+    std::vector<std::uint8_t> bytes(raster.rgba.size());
+    glReadPixels(0, 0, raster.width, raster.height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+    checkErrors("reading a pattern");
+    std::ranges::transform(bytes, raster.rgba.begin(), [](std::uint8_t b) { return float(b) / 255; });
+}
+
 }  // namespace
 
-std::string patternShader(PatternForm form, unsigned depth) {
-    return joined(sourceOf(form, depth, Reach::Between).fragment);
+std::string patternShader(PatternForm form, unsigned depth, Shown shown) {
+    return joined(
+        (shown == Shown::Surface ? surfaceSourceOf(form, depth) : sourceOf(form, depth, Reach::Between))
+            .fragment);
 }
 
 struct Pattern::Impl {
@@ -90,63 +116,94 @@ struct Pattern::Impl {
 
     const Program& programOf(Reach range) {
         auto found = programs.find(range);
-        if (found == programs.end()) {
-            found = programs.emplace(range, Program(sourceOf(form, depth, range))).first;
-            const Program& program = found->second;
-            program.use();
-            glUniform1i(program.uniform("places"), 0);
-            glUniform1i(program.uniform("cells"), 1);
-            glUniform1i(program.uniform("mip"), 2);
-            glUniform4f(program.uniform("insideColor"), 1, 1, 1, 1);
-            glUniform4f(program.uniform("outsideColor"), 0, 0, 0, 0);
-        }
+        if (found == programs.end())
+            found = programs.emplace(range, compiled(sourceOf(form, depth, range))).first;
         return found->second;
+    }
+    const Program& surfaceProgram() {
+        if (!onSurfaces)
+            onSurfaces.emplace(compiled(surfaceSourceOf(form, depth)));
+        return *onSurfaces;
+    }
+    static Program compiled(const ProgramSource& source) {
+        Program program(source);
+        program.use();
+        glUniform1i(program.uniform("places"), 0);
+        glUniform1i(program.uniform("cells"), 1);
+        glUniform1i(program.uniform("mip"), 2);
+        glUniform4f(program.uniform("insideColor"), 1, 1, 1, 1);
+        glUniform4f(program.uniform("outsideColor"), 0, 0, 0, 0);
+        return program;
     }
 
     /// Leaves its framebuffer bound.
     void draw(const asset::View& view) {
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
-        if (view.width != width || view.height != height) {
-            target = makeTexture(GL_RGBA8, view.width, view.height);
-            glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.get(), 0);
-            width = view.width;
-            height = view.height;
-        }
+        bindTarget({view.width, view.height});
         const glm::dmat2 linear(view.toPixels[0], view.toPixels[1]), inverse = glm::inverse(linear);
         const dvec2 origin = inverse * -view.toPixels[2];
         // As maskCoverage, which counts the analytic coverage as level 0.
         const double lod = std::log2(Footprint(linear).longer) + mipLog2;
-        const Program& program = programOf(!form.filtered || lod <= -1 ? Reach::Near
-                                           : lod < 0                   ? Reach::Between
-                                                                       : Reach::Far);
+        const Reach range = !form.filtered || lod <= -1 ? Reach::Near : lod < 0 ? Reach::Between : Reach::Far;
+        const Program& program = programOf(range);
         const glm::mat2 pixelInPeriods(inverse);
         const float toPattern[6] = {float(inverse[0].x), float(inverse[0].y), float(inverse[1].x),
                                     float(inverse[1].y), float(origin.x),     float(origin.y)};
-        glViewport(0, 0, width, height);
-        glBindVertexArray(vertexArray.get());
         program.use();
-        const TextureHandle* textures[] = {&places, &cells, &mip};
-        for (GLenum i = 0; i < 3; ++i) {
-            glActiveTexture(GL_TEXTURE0 + i);
-            glBindTexture(GL_TEXTURE_2D, textures[i]->get());
-        }
+        bindTextures(range == Reach::Between ? GL_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
         glUniformMatrix2fv(program.uniform("pixelInPeriods"), 1, GL_FALSE, &pixelInPeriods[0][0]);
         glUniformMatrix3x2fv(program.uniform("toPattern"), 1, GL_FALSE, toPattern);
         glUniform1f(program.uniform("lod"), float(lod));
+        glBindVertexArray(vertexArray.get());
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glFinish();
         checkErrors("drawing a pattern");
     }
 
+    /// Leaves its framebuffer bound.
+    void draw(const UploadedSurface& surface, glm::ivec2 size) {
+        bindTarget(size);
+        const GLfloat nothing[4] = {};
+        glClearBufferfv(GL_COLOR, 0, nothing);
+        const Program& program = surfaceProgram();
+        program.use();
+        bindTextures(GL_LINEAR_MIPMAP_LINEAR);
+        glUniform1f(program.uniform("mipLog2"), float(mipLog2));
+        surface.draw();
+        glFinish();
+        checkErrors("drawing a pattern on a surface");
+    }
+
+    void bindTarget(glm::ivec2 size) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+        if (size != targetSize) {
+            target = makeTexture(GL_RGBA8, size.x, size.y);
+            glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.get(), 0);
+            targetSize = size;
+        }
+        glViewport(0, 0, size.x, size.y);
+    }
+
+    /// Before level 0 one level is read.
+    void bindTextures(GLint mipFilter) const {
+        const TextureHandle* textures[] = {&places, &cells, &mip};
+        for (GLenum i = 0; i < 3; ++i) {
+            glActiveTexture(GL_TEXTURE0 + i);
+            glBindTexture(GL_TEXTURE_2D, textures[i]->get());
+        }
+        if (form.filtered)
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, mipFilter);
+    }
+
     PatternForm form;
     StateContract contract;
     unsigned depth, mipLog2;
-    std::map<Reach, Program> programs;  ///< compiled when first needed
+    std::map<Reach, Program> programs;  ///< of views, compiled when first needed
+    std::optional<Program> onSurfaces;
     VertexArrayHandle vertexArray = makeVertexArray();
     FramebufferHandle framebuffer = makeFramebuffer();
     TextureHandle places, cells, mip, target;
     std::size_t bytes = 0;
-    int width = 0, height = 0;
+    glm::ivec2 targetSize{0};
 };
 
 Pattern::Pattern(const Mask& mask, PatternForm form) {
@@ -177,10 +234,24 @@ image::Raster Pattern::render(const asset::View& view) {
     dropErrors();
     const StateGuard guard(impl_->contract, true);
     impl_->draw(view);
-    std::vector<std::uint8_t> bytes(raster.rgba.size());
-    glReadPixels(0, 0, view.width, view.height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
-    checkErrors("reading a pattern");
-    std::ranges::transform(bytes, raster.rgba.begin(), [](std::uint8_t b) { return float(b) / 255; });
+    read(raster);
+    return raster;
+}
+
+void Pattern::draw(const UploadedSurface& surface, glm::ivec2 size) {
+    requireSides(size);
+    dropErrors();
+    const StateGuard guard(impl_->contract, true);
+    impl_->draw(surface, size);
+}
+
+image::Raster Pattern::render(const UploadedSurface& surface, glm::ivec2 size) {
+    requireSides(size);
+    image::Raster raster(size.x, size.y);
+    dropErrors();
+    const StateGuard guard(impl_->contract, true);
+    impl_->draw(surface, size);
+    read(raster);
     return raster;
 }
 

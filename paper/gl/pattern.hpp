@@ -10,6 +10,8 @@
 #include <vtm/gl/context.hpp>
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/view.hpp>
+#include "paper/gl/programs.hpp"
+#include "paper/gl/surface.hpp"
 #include "paper/model.hpp"
 
 namespace vtm::paper {
@@ -24,7 +26,7 @@ struct PatternForm {
 /// The fragment shader of a tree or grid of so many levels (at least 1), GLSL ES 3.00: what is counted for
 /// rows 9 and
 /// 10. Filtered, it is the one that reads both the cells and the mip.
-std::string patternShader(PatternForm form, unsigned depth);
+std::string patternShader(PatternForm form, unsigned depth, Shown shown = Shown::View);
 
 /// Needs a current context for its whole life, in any state, and leaves that as it was.
 class Pattern {
@@ -43,6 +45,12 @@ public:
     void draw(const asset::View& view);
     /// ... and reads it back: the coverage in all four channels.
     image::Raster render(const asset::View& view);
+
+    /// The same over a surface. The level of the mip is each pixel's own, from the derivatives of (s, t), and
+    /// two levels are blended (row 7). Throws std::length_error where a side of the raster is not in
+    /// [1, asset::maxViewSide].
+    void draw(const UploadedSurface& surface, glm::ivec2 size);
+    image::Raster render(const UploadedSurface& surface, glm::ivec2 size);
 
 private:
     struct Impl;

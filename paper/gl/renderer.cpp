@@ -1,7 +1,11 @@
 #include "paper/gl/renderer.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <stdexcept>
+#include <tuple>
 
 #include <glm/matrix.hpp>
 
@@ -53,6 +57,11 @@ void setUniforms(const Program& program, const asset::View& view) {
                 float(pixel.y));
 }
 
+void clamp(image::Raster& raster) {
+    std::ranges::transform(raster.rgba, raster.rgba.begin(),
+                           [](float v) { return std::clamp(v, 0.0f, 1.0f); });
+}
+
 void bindTexture(Unit unit, const TextureHandle& texture) {
     glActiveTexture(GL_TEXTURE0 + GLenum(unit));
     glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -69,13 +78,19 @@ struct Texture::Impl {
           materials(asset.palette.materials),
           width(asset.width),
           height(asset.height),
-          root(asset.root) {}
+          root(asset.root) {
+        for (const Mask& mask : asset.masks)
+            widestWithoutMips =
+                std::min(widestWithoutMips, std::ldexp(mask.side, -int(mask.mip.sizeLog2 + 1)));
+    }
 
     Sections sections;  // before `uploaded`, which sets it
     UploadedAsset uploaded;
     std::vector<asset::Material> materials;
     double width, height;
     std::uint32_t root;
+    /// Pixels up to this size, picture units, need no mip of any mask (maskCoverage).
+    double widestWithoutMips = std::numeric_limits<double>::infinity();
 };
 
 Texture::Texture(const Asset& asset) {
@@ -92,20 +107,20 @@ struct Renderer::Impl {
     explicit Impl(StateContract c) : contract(std::move(c)) {}
 
     StateContract contract;
-    /// By the features of the paints and the materials' text.
-    std::map<std::pair<unsigned, std::string>, Program> programs;
+    /// By the features of the paints, the materials' text and the parts.
+    std::map<std::tuple<unsigned, std::string, MapParts>, Program> programs;
     TargetPool pool;
     VertexArrayHandle vertexArray = makeVertexArray();
 
-    const Program& program(const Texture::Impl& texture) {
+    const Program& program(const Texture::Impl& texture, MapParts parts) {
         const Features features = texture.uploaded.features;
         const std::string materials =
             features.has(Features::Material) ? materialsSource(texture.materials) : "";
-        const std::pair key(features.flags(), materials);
+        const std::tuple key(features.flags(), materials, parts);
         auto found = programs.find(key);
         if (found == programs.end()) {
             try {
-                found = programs.emplace(key, Program(mapSource(features, materials))).first;
+                found = programs.emplace(key, Program(mapSource(features, materials, parts))).first;
             } catch (const GlError& error) {
                 throw GlError(blamedOnMaterial(texture.materials, error.what()));
             }
@@ -113,8 +128,8 @@ struct Renderer::Impl {
         return found->second;
     }
 
-    void bind(const Texture::Impl& texture) {
-        const Program& p = program(texture);
+    const Program& bind(const Texture::Impl& texture, MapParts parts) {
+        const Program& p = program(texture, parts);
         const gl::Sections& s = texture.uploaded.sections;
         p.use();
         bindTexture(Unit::Texels, texture.uploaded.records.texture());
@@ -127,22 +142,40 @@ struct Renderer::Impl {
         glUniform2ui(p.uniform("paperSections"), texture.sections.masks, texture.sections.nodes);
         glUniform2f(p.uniform("pictureSize"), float(texture.width), float(texture.height));
         glUniform1ui(p.uniform("rootNode"), texture.root);
+        return p;
     }
 
-    void drawPart(const Texture::Impl& texture, const asset::View& part, float* pixels, int rowLength) {
-        glBindVertexArray(vertexArray.get());
-        glViewport(0, 0, part.width, part.height);
-        Target target = pool.take({part.width, part.height});
-        bind(texture);
-        setUniforms(program(texture), part);
+    /// Calls draw() with a target bound, whose making binds a texture, and reads it back into rows of so many
+    /// pixels.
+    template <class Draw>
+    void drawInto(float* pixels, int rowLength, glm::ivec2 size, Draw&& draw) {
+        Target target = pool.take(size);
+        glViewport(0, 0, size.x, size.y);
         target.bind();
-        target.touch({{0, 0}, {part.width, part.height}});
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        target.touch({{0, 0}, size});
+        draw();
         glPixelStorei(GL_PACK_ROW_LENGTH, rowLength);
-        glReadPixels(0, 0, part.width, part.height, GL_RGBA, GL_FLOAT, pixels);
+        glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, pixels);
         pool.giveBack(std::move(target));
         pool.dropUnused();
         checkErrors("drawing in paper mode");
+    }
+
+    void drawPart(const Texture::Impl& texture, const asset::View& part, float* pixels, int rowLength) {
+        drawInto(pixels, rowLength, {part.width, part.height}, [&] {
+            const Footprint pixel(dmat2(part.toPixels[0], part.toPixels[1]));
+            setUniforms(bind(texture, {Shown::View, pixel.longer > texture.widestWithoutMips}), part);
+            glBindVertexArray(vertexArray.get());
+            glDrawArrays(GL_TRIANGLES, 0, 3);
+        });
+    }
+
+    void drawSurface(const Texture::Impl& texture, const Surface& surface, image::Raster& raster) {
+        const UploadedSurface uploaded(surface);
+        drawInto(raster.rgba.data(), raster.width, {raster.width, raster.height}, [&] {
+            bind(texture, {Shown::Surface, true});
+            uploaded.draw();
+        });
     }
 };
 
@@ -170,8 +203,20 @@ image::Raster Renderer::render(const Texture& texture, const asset::View& view) 
             part.toPixels[2] -= dvec2(x, y);
             impl_->drawPart(*texture.impl_, part, raster.pixel(x, y), view.width);
         }
-    std::ranges::transform(raster.rgba, raster.rgba.begin(),
-                           [](float v) { return std::clamp(v, 0.0f, 1.0f); });
+    clamp(raster);
+    return raster;
+}
+
+image::Raster Renderer::render(const Texture& texture, const Surface& surface, glm::ivec2 size) {
+    if (std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > partSide())
+        throw std::length_error("a side of the surface's raster is out of range");
+    image::Raster raster(size.x, size.y);
+    if (texture.impl_->root == noIndex)
+        return raster;
+    dropErrors();
+    const StateGuard guard(impl_->contract, true);
+    impl_->drawSurface(*texture.impl_, surface, raster);
+    clamp(raster);
     return raster;
 }
 

@@ -8,6 +8,7 @@
 #include <vtm/gl/context.hpp>
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/view.hpp>
+#include "paper/gl/surface.hpp"
 #include "paper/model.hpp"
 
 namespace vtm::paper {
@@ -39,6 +40,11 @@ public:
     /// Draws on transparent black and reads back. Positions are in single precision: pixels should not be
     /// smaller than 2^-20 of the picture.
     image::Raster render(const Texture& texture, const asset::View& view);
+    /// The same with the picture repeated over a surface (row 12). Masks are antialiased, and their mips
+    /// chosen and blended, pixel by pixel from the derivatives of (s, t). Throws std::length_error where a
+    /// side of the raster is not in [1, 4096] or beyond the driver's; std::invalid_argument as
+    /// UploadedSurface.
+    image::Raster render(const Texture& texture, const Surface& surface, glm::ivec2 size);
 
 private:
     struct Impl;

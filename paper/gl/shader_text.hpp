@@ -6,6 +6,7 @@
 
 namespace vtm::paper::shaders {
 
-extern const std::string_view paper_hermite, paper_mask, paper_fragment, paper_pattern_fragment;
+extern const std::string_view paper_hermite, paper_mask, paper_fragment, paper_pattern_fragment,
+    paper_surface_vertex;
 
 }  // namespace vtm::paper::shaders

@@ -424,6 +424,86 @@ TEST(PaperRow16, ShapesMayLeaveThePictureAndComeBack) {
     expectColor(result, {50, 50}, {1, 0, 0, 1});
 }
 
+TEST(PaperRow16, WhatCoversThePictureHasNoMask) {
+    const scene::Item ground = filled(scene::rectangle({-1, 0}, {100, 100}));
+    CompileResult result = compile(sceneOf({{ground}}));
+    EXPECT_THROW(rebuildMask(result, 0, filled(disc({50, 50}, 20))), std::invalid_argument);
+}
+
+// ---- Shapes that cover the picture ----------------------------------------------------------------
+
+const Path all = scene::rectangle({0, 0}, {side, side});
+const scene::Color yellow{1, 1, 0, 1}, blue{0, 0, 1, 1}, green{0, 1, 0, 1}, red{1, 0, 0, 1};
+
+scene::Group groupOf(std::vector<scene::Node> nodes) {
+    scene::Group group;
+    group.children = std::move(nodes);
+    return group;
+}
+
+scene::Select selectOf(const Path& shape, const scene::Node& inside, const scene::Node& outside) {
+    scene::Select select;
+    select.mask = {std::make_shared<const Path>(shape), scene::identity, FillRule::NonZero};
+    select.inside = std::make_shared<const scene::Group>(groupOf({inside}));
+    select.outside = std::make_shared<const scene::Group>(groupOf({outside}));
+    return select;
+}
+
+TEST(PaperRow5, ThreeSelectionsAmongFourPaintsAreThreeMasks) {
+    const scene::Select inner = selectOf(disc({40, 50}, 10), {filled(all, red)}, {filled(all, yellow)}),
+                        outer = selectOf(scene::rectangle({70, 10}, {90, 90}), {filled(all, blue)},
+                                         {filled(all, green)});
+    const CompileResult result = compile(sceneOf({{selectOf(disc({40, 50}, 30), {inner}, {outer})}}));
+    EXPECT_EQ(result.asset.masks.size(), 3u);
+    EXPECT_EQ(result.asset.nodes.size(), 3u);
+    expectColor(result, {40, 50}, {1, 0, 0, 1});
+    expectColor(result, {20, 50}, {1, 1, 0, 1});
+    expectColor(result, {80, 50}, {0, 0, 1, 1});
+    expectColor(result, {5, 5}, {0, 1, 0, 1});
+}
+
+TEST(Covering, HidesWhatLiesBelowIfItIsOpaque) {
+    const CompileResult result = compile(
+        sceneOf({{filled(disc({50, 50}, 20))}, {filled(all, blue)}, {filled(disc({20, 20}, 5), red)}}));
+    EXPECT_EQ(result.asset.root, result.asset.nodes.size() - 1);
+    EXPECT_EQ(result.maskOfItem[1], noIndex);
+    Cost cost;
+    evaluate(result.asset, {10, 10, {0.1, 0, 0, 0.1, 0, 0}}, &cost);
+    EXPECT_EQ(cost.nodes, 100u);
+    expectColor(result, {50, 50}, {0, 0, 1, 1});
+    expectColor(result, {20, 20}, {1, 0, 0, 1});
+}
+
+/// Beside the same shapes with a speck outside, which makes them masks.
+TEST(Covering, DrawsWhatAMaskDraws) {
+    const auto sceneWith = [](const Path& cover) {
+        scene::Item faint = filled(cover, scene::Color{0, 0, 1, 0.5f}), half = filled(cover, green);
+        half.opacity = 0.25f;
+        scene::Group group = groupOf({{filled(cover, yellow)}, {filled(disc({60, 60}, 15))}});
+        group.opacity = 0.5f;
+        scene::Group clipped = groupOf({{filled(cover, red)}, {faint}});
+        auto clip = std::make_shared<scene::Clip>();
+        clip->shapes.push_back(
+            {std::make_shared<const Path>(disc({30, 30}, 20)), scene::identity, FillRule::NonZero, nullptr});
+        clipped.clip = clip;
+        std::vector<scene::Node> nodes{{filled(disc({50, 50}, 30))}, {faint}, {group}, {clipped}, {half}};
+        for (int i = 0; i < 8; ++i)
+            nodes.push_back({filled(disc({10.0 + 10 * i, 80}, 6), blue)});
+        nodes.insert(nodes.begin() + 7, {faint});
+        return sceneOf(nodes);
+    };
+    // A hole of no area in the middle of the picture keeps the mask.
+    const Path pierced = joined(scene::rectangle({-50, -50}, {150, 150}),
+                                scene::polygon({{1, 1}, {1.001, 1}, {1.001, 1.001}}));
+    const CompileResult without = compile(sceneWith(scene::rectangle({-50, -50}, {150, 150}))),
+                        with = compile(sceneWith(pierced));
+    EXPECT_LT(without.asset.masks.size(), with.asset.masks.size());
+    const asset::View view{60, 60, {1, 0, 0, 1, -30, -30}};
+    const image::Raster a = evaluate(without.asset, view), b = evaluate(with.asset, view);
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        ASSERT_NEAR(a.rgba[i], b.rgba[i], 1e-5) << i / 4 % 60 << ", " << i / 240;
+}
+
 // ---- Options ------------------------------------------------------------------------------------
 
 TEST(CompileOptions, OutOfRangeIsRefused) {

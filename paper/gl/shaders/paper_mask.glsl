@@ -1,13 +1,20 @@
 // Masks of the paper mode: the 16-tree, strict cells and the mip of the classification function.
-// Requires: fetch.glsl, paper_hermite.glsl; constants paper*, kindNode, kindSolid. Positions are in single precision: a view may
+// Requires: fetch.glsl, paper_hermite.glsl; SURFACE, MIPS defined as 1 or 0;
+// constants paper*, kindNode, kindSolid. Positions are in single precision: a view may
 // show a pixel of 2^-20 of the picture, no less.
 // Twin of: paper/evaluate/cell.cpp, paper/evaluate/mask.cpp.
-// Exports: maskCoverage, pixelNormals.
+// Exports: maskCoverage, pixelNormals, pixelLonger, pictureSize.
 
-// Inverse transpose of the view's linear part: picture gradients to pixel gradients.
+// Picture gradients to pixel gradients, and the longer of the pixel's axes in picture units: the view's, or of each pixel
+// of a surface.
+#if SURFACE
+mat2 pixelNormals;
+float pixelLonger;
+#else
 uniform mat2 pixelNormals;
-// The longer of the pixel's axes in picture units.
 uniform float pixelLonger;
+#endif
+uniform vec2 pictureSize;
 // First texel of the masks, of the nodes, from the start of the data.
 uniform uvec2 paperSections;
 
@@ -65,6 +72,7 @@ float cellCoverage(Mask mask, vec2 uv) {
     return clamp(0.5 - h, 0.0, 1.0);
 }
 
+#if MIPS
 // ---- The mip (row 7) ------------------------------------------------------------------------------
 
 float mipTexel(uint first, uint index) {
@@ -99,19 +107,37 @@ float mipLevel(Mask mask, uint k, vec2 uv) {
     return weight.x * weight.y * shrink * shrink * mipTexel(mask.mip, mipStart(mask.mipLog2, mask.mipLog2));
 }
 
+#endif
 // ---- Both -----------------------------------------------------------------------------------------
 
-float maskCoverage(uint index, vec2 point) {
-    Mask mask = maskAt(index);
+// Of one picture.
+float singleCoverage(Mask mask, vec2 point) {
     vec2 uv = (point - mask.corner) / mask.side;
     float longer = pixelLonger / mask.side;
     vec2 away = abs(uv - 0.5);
     if (max(away.x, away.y) >= 0.5 + 2.0 * longer)
         return 0.0;
+#if !MIPS
+    return cellCoverage(mask, uv);
+#else
     float lod = min(log2(longer) + float(mask.mipLog2) + 1.0, paperMaxLod);
     if (lod <= 0.0)
         return cellCoverage(mask, uv);
     float base = floor(lod);
     float finer = base == 0.0 ? cellCoverage(mask, uv) : mipLevel(mask, uint(base), uv);
     return mix(finer, mipLevel(mask, uint(base) + 1u, uv), lod - base);
+#endif
+}
+
+float maskCoverage(uint index, vec2 point) {
+    Mask mask = maskAt(index);
+#if SURFACE
+    // Of a picture that repeats: its share of a period takes over as a pixel grows from half of one to all of it.
+    vec2 share = mask.side / pictureSize;
+    float mean = share.x * share.y * mipTexel(mask.mip, mipStart(mask.mipLog2, mask.mipLog2));
+    float periods = pixelLonger / min(pictureSize.x, pictureSize.y);
+    return mix(singleCoverage(mask, point), mean, clamp(log2(periods) + 1.0, 0.0, 1.0));
+#else
+    return singleCoverage(mask, point);
+#endif
 }

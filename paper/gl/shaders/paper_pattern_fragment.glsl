@@ -1,18 +1,26 @@
 // One mask repeated over the plane, as the paper has it (rows 6 to 11): a lookup and two colours. Each step is a
 // function, so that bench_report can count it in the compiled shader.
-// Requires: paper_hermite.glsl; COMPRESSED, FILTERED, LINEAR, CELLS, MIP defined as 1 or 0, DEPTH; constants pattern*.
+// Requires: paper_hermite.glsl; COMPRESSED, FILTERED, LINEAR, CELLS, MIP, SURFACE defined as 1 or 0, DEPTH; constants
+// pattern*. With SURFACE, CELLS too.
 // Made by: paper/gl/pattern.cpp. Twin of: paper/evaluate/mask.cpp.
 
+#if SURFACE
+in vec2 st;                    // in periods
+mat2 pixelInPeriods;           // a pixel's sides
+float lod;                     // of the mip's level 0
+uniform float mipLog2;         // its side
+#else
 uniform mat3x2 toPattern;      // (pixel, 1) to periods
+uniform mat2 pixelInPeriods;
+uniform float lod;
+#endif
 uniform vec4 insideColor, outsideColor;
 #if CELLS
 uniform usampler2D places;     // of squares: column of the cell's or the node's texel, a multiple of 4, + kind; row << 16
 uniform sampler2D cells;       // A and B, in periods, in a texel; slopes and operator in the next; twice
-uniform mat2 pixelInPeriods;   // a pixel's sides
 #endif
 #if MIP
-uniform sampler2D mip;         // of the classification function
-uniform float lod;             // of its level 0; the analytic coverage stands for one before it
+uniform sampler2D mip;         // of the classification function; the analytic coverage stands for a level before 0
 #endif
 
 out vec4 color;
@@ -81,12 +89,20 @@ float cellCoverage(vec2 uv) {
 #endif
 
 #if MIP
-// Row 7: from a pixel of half a texel to one of a texel the mip takes over.
-float minified(float coverage, vec2 st) { return mix(coverage, textureLod(mip, st, lod).r, min(lod + 1.0, 1.0)); }
+// Row 7: from a pixel of half a texel to one of a texel the mip takes over, and its levels are blended as any texture's.
+float minified(float coverage, vec2 st) { return mix(coverage, textureLod(mip, st, lod).r, clamp(lod + 1.0, 0.0, 1.0)); }
 #endif
 
 void main() {
+#if SURFACE
+    pixelInPeriods = mat2(dFdx(st), dFdy(st));
+#if MIP
+    vec2 sides = vec2(dot(pixelInPeriods[0], pixelInPeriods[0]), dot(pixelInPeriods[1], pixelInPeriods[1]));
+    lod = 0.5 * log2(max(sides.x, sides.y)) + mipLog2;
+#endif
+#else
     vec2 st = toPattern * vec3(gl_FragCoord.xy, 1.0);
+#endif
     float b = 0.0;
 #if CELLS
     b = cellCoverage(min(fract(st), patternLargest));  // rounding may reach the period
