@@ -28,7 +28,6 @@ Rectangle targetOf(const CopyArea& area) {
     return {area.dx, area.dy, area.dx + area.width, area.dy + area.height};
 }
 
-/// Its places mean nothing then.
 bool isEmpty(const CopyArea& area) { return area.width == 0 || area.height == 0; }
 
 /// What scissoring leaves of a rectangle.

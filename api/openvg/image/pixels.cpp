@@ -164,17 +164,16 @@ CopyArea clipped(CopyArea a, int dstWidth, int dstHeight, int srcWidth, int srcH
         const std::int64_t skip = std::max({std::int64_t(0), -std::int64_t(d), -std::int64_t(s)});
         const std::int64_t left =
             std::min({std::int64_t(size), std::int64_t(dstSize) - d, std::int64_t(srcSize) - s});
-        size = int(std::max(std::int64_t(0), left - skip));
-        if (size > 0) {
-            d = int(d + skip);
-            s = int(s + skip);
-        }
+        if (left <= skip)
+            return false;
+        size = int(left - skip);
+        d = int(d + skip);
+        s = int(s + skip);
+        return true;
     };
-    along(a.dx, a.sx, a.width, dstWidth, srcWidth);
-    along(a.dy, a.sy, a.height, dstHeight, srcHeight);
-    if (a.width == 0 || a.height == 0)
-        a.width = a.height = 0;
-    return a;
+    const bool meets =
+        along(a.dx, a.sx, a.width, dstWidth, srcWidth) && along(a.dy, a.sy, a.height, dstHeight, srcHeight);
+    return meets ? a : CopyArea{};
 }
 
 }  // namespace vtm::openvg

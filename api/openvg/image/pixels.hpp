@@ -151,10 +151,10 @@ MemoryPixels memoryPixels(const void* data, VGint stride, VGImageFormat format, 
 
 /// From (sx, sy) on to (dx, dy) on.
 struct CopyArea {
-    int dx, dy, sx, sy, width, height;
+    int dx = 0, dy = 0, sx = 0, sy = 0, width = 0, height = 0;
 };
 
-/// What is within both; width and height are 0 if nothing is.
+/// What is within both; all 0 if nothing is.
 CopyArea clipped(CopyArea area, int dstWidth, int dstHeight, int srcWidth, int srcHeight);
 
 }  // namespace vtm::openvg
