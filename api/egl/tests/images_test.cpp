@@ -259,22 +259,6 @@ TEST_F(EglImagesInGl, KeepTheBitsOfPixelsThatOpenGlLeavesAlone) {
     EXPECT_EQ(after[3], pixels[3]);
 }
 
-TEST_F(EglImagesInGl, OfTexturesAreTheSystemsAlone) {
-    GLuint name = 0;
-    function<decltype(::glGenTextures)>("glGenTextures")(1, &name);
-    function<decltype(::glBindTexture)>("glBindTexture")(GL_TEXTURE_2D, name);
-    function<decltype(::glTexImage2D)>("glTexImage2D")(GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA,
-                                                       GL_UNSIGNED_BYTE, nullptr);
-    const auto createKhr = function<std::remove_pointer_t<PFNEGLCREATEIMAGEKHRPROC>>("eglCreateImageKHR");
-    const auto destroyKhr = function<std::remove_pointer_t<PFNEGLDESTROYIMAGEKHRPROC>>("eglDestroyImageKHR");
-    const EGLImage made =
-        createKhr(display, gl, EGL_GL_TEXTURE_2D_KHR, EGLClientBuffer(std::uintptr_t(name)), nullptr);
-    ASSERT_NE(made, EGL_NO_IMAGE) << std::hex << eglGetError();
-    EXPECT_EQ(createTarget(made), VG_INVALID_HANDLE);
-    EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
-    EXPECT_TRUE(destroyKhr(display, made));
-}
-
 TEST_F(EglImages, GoWithTheDisplay) {
     const EGLImage made = create(image);
     ASSERT_TRUE(eglTerminate(display));

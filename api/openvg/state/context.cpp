@@ -9,6 +9,7 @@
 
 #include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/image/pixel_rows.hpp"
+#include "api/openvg/image/shared_pixels.hpp"
 
 namespace vtm::openvg {
 
@@ -304,5 +305,8 @@ void vgFlush(void) {
     call([](Context& context) { compositorOf(context).flush(); });
 }
 void vgFinish(void) {
-    call([](Context& context) { compositorOf(context).finish(); });
+    call([](Context& context) {
+        compositorOf(context).finish();
+        handOverForeignPixels();
+    });
 }
