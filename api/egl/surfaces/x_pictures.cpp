@@ -70,6 +70,11 @@ void copyDrawing(VtmSurface* drawing, const XServer::Drawable& to, std::uint8_t*
 
 }  // namespace
 
+std::uintptr_t platformDrawable(const Display& display, const void* native) {
+    // The address of an XID: those are unsigned long.
+    return native && display.native && hasVisuals(display) ? *static_cast<const unsigned long*>(native) : 0;
+}
+
 XPicture::XPicture(const Display& display)
     : server_(display.systemRuns ? XServer::named(nameOf(display)) : nullptr) {}
 
