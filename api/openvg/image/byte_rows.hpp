@@ -32,6 +32,12 @@ int overBytes(std::uint8_t* pixels, int count, const std::uint16_t (&added)[4],
               const std::uint16_t (&kept)[4]);
 int overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int alphaByte);
 int clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
+int premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
+
+/// Moves each pixel's bytes: the i-th of the result is the given one, or 0 if that is negative, or'ed with
+/// `added`.
+int moveBytes(const std::uint8_t* from, std::uint8_t* to, int count, const int (&places)[4],
+              std::uint32_t added);
 
 }  // namespace wide
 

@@ -1,7 +1,9 @@
 #include "api/openvg/image/conversion_table.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
+#include <ranges>
 
 namespace vtm::openvg {
 
@@ -80,6 +82,7 @@ void ConversionTable::addChannels(const PixelFormat& from, const PixelFormat& to
         for (int value = 0; value < 256; ++value)
             channels_[std::size_t(256 * alpha + value)] = converted[std::size_t(4 * value + toOrder_.red)];
     }
+    placeOpaque();
 }
 
 void ConversionTable::apply(const std::uint8_t* from, std::uint8_t* to, int count) const {
@@ -109,10 +112,38 @@ void ConversionTable::convertWords(const std::uint8_t* from, std::uint8_t* to, i
         each(std::uint8_t());
 }
 
+void ConversionTable::placeOpaque() {
+    const auto place = [&](int from, int to, const std::uint8_t* bytes) {
+        for (std::size_t value = 0; value < 256; ++value) {
+            std::array<std::uint8_t, 4> pixel{};
+            pixel[std::size_t(to)] = bytes[value];
+            std::memcpy(&placed_[std::size_t(from)][value], pixel.data(), 4);
+        }
+    };
+    const std::uint8_t* const row = &channels_[std::size_t(alphaMask_) * 256];
+    place(fromOrder_.red, toOrder_.red, row);
+    place(fromOrder_.green, toOrder_.green, row);
+    place(fromOrder_.blue, toOrder_.blue, row);
+    place(fromOrder_.alpha, toOrder_.alpha, alphas_.data());
+    const auto isZero = [](std::uint8_t byte) { return byte == 0; };
+    isClearZero_ =
+        alphaMask_ != 0 && alphas_[0] == 0 && std::ranges::all_of(channels_ | std::views::take(256), isZero);
+}
+
 void ConversionTable::convertChannels(const std::uint8_t* from, std::uint8_t* to, int count) const {
     for (int i = 0; i < count; ++i, from += 4, to += 4) {
         const std::uint8_t alpha = from[fromOrder_.alpha];
-        const std::uint8_t* const row = &channels_[std::size_t(alpha & alphaMask_) * 256];
+        if ((alpha & alphaMask_) == alphaMask_) {
+            const std::uint32_t pixel =
+                placed_[0][from[0]] | placed_[1][from[1]] | placed_[2][from[2]] | placed_[3][from[3]];
+            std::memcpy(to, &pixel, 4);
+            continue;
+        }
+        if (alpha == 0 && isClearZero_) {
+            std::memset(to, 0, 4);
+            continue;
+        }
+        const std::uint8_t* const row = &channels_[std::size_t(alpha) * 256];
         to[toOrder_.red] = row[from[fromOrder_.red]];
         to[toOrder_.green] = row[from[fromOrder_.green]];
         to[toOrder_.blue] = row[from[fromOrder_.blue]];

@@ -26,6 +26,7 @@ public:
 private:
     void addWords(const PixelFormat& from, const PixelFormat& to, RowConversion* convert);
     void addChannels(const PixelFormat& from, const PixelFormat& to, RowConversion* convert);
+    void placeOpaque();
     template <class Word>
     void convertWords(const std::uint8_t* from, std::uint8_t* to, int count) const;
     void convertChannels(const std::uint8_t* from, std::uint8_t* to, int count) const;
@@ -38,6 +39,9 @@ private:
     std::uint8_t alphaMask_ = 0;
     std::vector<std::uint8_t> channels_;
     std::array<std::uint8_t, 256> alphas_{};
+    /// What each of a pixel's bytes becomes, in its place, where alpha does not matter or is 255.
+    std::array<std::array<std::uint32_t, 256>, 4> placed_{};
+    bool isClearZero_ = false;  ///< pixels without alpha become 0
 };
 
 }  // namespace vtm::openvg
