@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <mutex>
+#include <numeric>
 #include <ranges>
 
 namespace vtm::openvg {
@@ -83,6 +84,7 @@ void ConversionTable::addChannels(const PixelFormat& from, const PixelFormat& to
             channels_[std::size_t(256 * alpha + value)] = converted[std::size_t(4 * value + toOrder_.red)];
     }
     placeOpaque();
+    widen();
 }
 
 void ConversionTable::apply(const std::uint8_t* from, std::uint8_t* to, int count) const {
@@ -130,7 +132,38 @@ void ConversionTable::placeOpaque() {
         alphaMask_ != 0 && alphas_[0] == 0 && std::ranges::all_of(channels_ | std::views::take(256), isZero);
 }
 
+void ConversionTable::widen() {
+    std::array<std::uint8_t, 256> same;
+    std::iota(same.begin(), same.end(), std::uint8_t(0));
+    const bool isKept = alphas_ == same,
+               isConstant = std::ranges::count(alphas_, alphas_[0]) == std::ptrdiff_t(alphas_.size());
+    if (!isKept && !isConstant)
+        return;
+    places_[toOrder_.red] = fromOrder_.red;
+    places_[toOrder_.green] = fromOrder_.green;
+    places_[toOrder_.blue] = fromOrder_.blue;
+    places_[toOrder_.alpha] = isKept ? fromOrder_.alpha : -1;
+    added_ = isKept ? 0 : placed_[std::size_t(fromOrder_.alpha)][0];
+    colors_.emplace(&channels_[std::size_t(alphaMask_) * 256], fromOrder_.alpha);
+}
+
 void ConversionTable::convertChannels(const std::uint8_t* from, std::uint8_t* to, int count) const {
+    while (count > 0) {
+        const int done =
+            colors_ ? wide::lookUpBytes(from, to, count, *colors_, places_, added_, alphaMask_ != 0) : 0;
+        from += 4 * std::ptrdiff_t(done);
+        to += 4 * std::ptrdiff_t(done);
+        count -= done;
+        // Those that are not all opaque, or too few.
+        const int single = std::min(count, 64);
+        convertSingle(from, to, single);
+        from += 4 * std::ptrdiff_t(single);
+        to += 4 * std::ptrdiff_t(single);
+        count -= single;
+    }
+}
+
+void ConversionTable::convertSingle(const std::uint8_t* from, std::uint8_t* to, int count) const {
     for (int i = 0; i < count; ++i, from += 4, to += 4) {
         const std::uint8_t alpha = from[fromOrder_.alpha];
         if ((alpha & alphaMask_) == alphaMask_) {
