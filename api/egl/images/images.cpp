@@ -52,6 +52,20 @@ Shown& shown() {
     return shown;
 }
 
+/// `mayGlHaveDrawn`: also the other way.
+void synchronizeShown(bool mayGlHaveDrawn) {
+    if (shown().isEmpty)
+        return;
+    const std::lock_guard lock(shown().mutex);
+    shown().drop([&](const auto& image) {
+        try {
+            return !image->gl->synchronize(mayGlHaveDrawn);
+        } catch (const Error&) {
+            return false;  // not now
+        }
+    });
+}
+
 /// Where the system has OpenGL ES, its drivers know the image.
 void showInGl(const std::shared_ptr<Image>& image) {
     if (!image->display.systemRuns)
@@ -65,6 +79,7 @@ void showInGl(const std::shared_ptr<Image>& image) {
         return;
     }
     image->handle = image->gl->handle();
+    vtmSetFinishFunction([] { synchronizeShown(false); });
     shown().all.push_back(image);
     shown().isEmpty = false;
 }
@@ -128,17 +143,7 @@ Image::~Image() {
 void synchronizeImages() {
     if (haveImported())
         synchronizeImported();
-    if (shown().isEmpty)
-        return;
-    const bool isGlCurrent = systemEgl()->GetCurrentContext() != EGL_NO_CONTEXT;
-    const std::lock_guard lock(shown().mutex);
-    shown().drop([&](const auto& image) {
-        try {
-            return !image->gl->synchronize(isGlCurrent);
-        } catch (const Error&) {
-            return false;  // not now
-        }
-    });
+    synchronizeShown(systemEgl() && systemEgl()->GetCurrentContext() != EGL_NO_CONTEXT);
 }
 
 void forgetImages(Display& display) {

@@ -220,6 +220,10 @@ TEST_F(EglImagesInGl, HaveTheSamePixelsInEitherApi) {
     glFill(0, 0, 1, 1);
     EXPECT_TRUE(eglWaitGL());
     EXPECT_EQ(texel(image), 0x0000ffffu);
+    // So is what OpenVG itself has.
+    set(image, 0, 1, 0x11223344);
+    function<decltype(::vgFinish)>("vgFinish")();
+    EXPECT_EQ(glTexel(0, 1), 0x11223344u);
 }
 
 TEST_F(EglImagesInGl, OutliveTheirSource) {

@@ -56,6 +56,10 @@ VG_API_CALL VtmPixels VG_API_ENTRY vtmTakeSharedPixels(VtmSharedImage *image, vo
  * pixels were taken for the first time. */
 VG_API_CALL void VG_API_ENTRY vtmPutSharedPixels(VtmSharedImage *image, const void *pixels) VG_API_EXIT;
 
+/* A function that vgFinish calls, in the thread that called it, so that what was drawn can be given to other APIs. It must
+ * not call OpenVG. NULL: none. */
+VG_API_CALL void VG_API_ENTRY vtmSetFinishFunction(void (*function)(void)) VG_API_EXIT;
+
 /*
  * Pixels that another API keeps, as images of OpenVG: our libEGL makes the system's EGLImages known by these.
  *

@@ -68,9 +68,9 @@ private:
 };
 
 /// Along rows, and along columns, four at a time: what is read of a row is in one place.
-constexpr std::size_t channels = 4, columnsAtOnce = 4;
-using AveragesAcross = Averages<channels>;
-using AveragesUp = Averages<columnsAtOnce * channels>;
+constexpr std::size_t colorChannels = 4, columnsAtOnce = 4;
+using AveragesAcross = Averages<colorChannels>;
+using AveragesUp = Averages<columnsAtOnce * colorChannels>;
 
 void averageRow(AveragesAcross& across, std::span<const Color> row, const std::vector<int>& places,
                 Color fill, std::span<Color> means) {
@@ -92,16 +92,16 @@ void averageColumns(AveragesUp& up, const Raster& rows, const std::vector<int>& 
     line.resize(places.size());
     const int count = std::min(int(columnsAtOnce), rows.width - first);
     const auto value = [](auto& place, int column, std::size_t channel) -> double& {
-        return place[std::size_t(column) * channels + channel];
+        return place[std::size_t(column) * colorChannels + channel];
     };
     for (std::size_t i = 0; i < places.size(); ++i)
         for (int x = 0; x < count; ++x)
-            for (std::size_t c = 0; c < channels; ++c)
+            for (std::size_t c = 0; c < colorChannels; ++c)
                 value(line[i], x, c) = (places[i] < 0 ? fill : rows.at(first + x, places[i]))[int(c)];
     up.apply(line);
     for (int y = 0; y < means.height; ++y)
         for (int x = 0; x < count; ++x)
-            for (std::size_t c = 0; c < channels; ++c)
+            for (std::size_t c = 0; c < colorChannels; ++c)
                 means.at(first + x, y)[int(c)] = float(value(line[std::size_t(y)], x, c));
 }
 

@@ -17,7 +17,7 @@ std::vector<int> placesOf(int kernelSize, int shift, int count, int size, VGTili
 }
 
 /// Kernels are turned round: the first weight is that of the first place.
-std::vector<double> turned(const VGshort* values, VGint count) {
+std::vector<double> reversedWeights(const VGshort* values, VGint count) {
     return {std::reverse_iterator(values + count), std::reverse_iterator(values)};
 }
 
@@ -123,8 +123,8 @@ void vgSeparableConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kern
         SourceLines source(*images.src, context.state, kernelHeight,
                            placesOf(kernelWidth, shiftX, images.width(), images.src->width(), tilingMode),
                            placesOf(kernelHeight, shiftY, images.height(), images.src->height(), tilingMode),
-                           turned(kernelX, kernelWidth));
-        writeSums(context.state, images, source, turned(kernelY, kernelHeight), 1, double(scale),
+                           reversedWeights(kernelX, kernelWidth));
+        writeSums(context.state, images, source, reversedWeights(kernelY, kernelHeight), 1, double(scale),
                   double(bias));
     });
 }

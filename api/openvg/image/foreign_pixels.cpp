@@ -86,6 +86,8 @@ Foreigners& foreigners() {
     return foreigners;
 }
 
+std::atomic<void (*)()> finishFunction = nullptr;
+
 std::shared_ptr<const SharedPixels> openedPixels(const Context& context, VGeglImageKHR name,
                                                  const Foreign& foreign) {
     const bool isOnGpu = context.surface && &compositorOf(context) == glCompositor();
@@ -124,7 +126,11 @@ std::shared_ptr<const SharedPixels> foreignPixels(const Context& context, VGeglI
     return pixels;
 }
 
-void handOverForeignPixels() { vtmFinishForeignPixels(VG_FALSE); }
+void handOverPixels() {
+    vtmFinishForeignPixels(VG_FALSE);
+    if (const auto function = finishFunction.load())
+        function();
+}
 
 }  // namespace vtm::openvg
 
@@ -137,6 +143,8 @@ VGboolean vtmNameForeignPixels(VGeglImageKHR name, const VtmForeignFunctions* fu
 } catch (const std::bad_alloc&) {
     return VG_FALSE;
 }
+
+void vtmSetFinishFunction(void (*function)(void)) { finishFunction = function; }
 
 void vtmForgetForeignPixels(VGeglImageKHR name, void* owner) {
     const std::lock_guard lock(foreigners().mutex);

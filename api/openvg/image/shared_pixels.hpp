@@ -24,6 +24,6 @@ struct SharedPixels {
 std::shared_ptr<const SharedPixels> foreignPixels(const Context& context, VGeglImageKHR name);
 
 /// What OpenVG has changed goes to the other APIs (vgFinish).
-void handOverForeignPixels();
+void handOverPixels();
 
 }  // namespace vtm::openvg

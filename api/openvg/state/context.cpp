@@ -322,6 +322,6 @@ void vgFlush(void) {
 void vgFinish(void) {
     call([](Context& context) {
         compositorOf(context).finish();
-        handOverForeignPixels();
+        handOverPixels();
     });
 }
