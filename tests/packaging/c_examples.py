@@ -6,7 +6,7 @@ import sys
 from check import require, run
 
 PAPER, GOLD, INK = (255, 255, 255), (255, 192, 0), (32, 48, 96)
-RED, YELLOW, WHITE = (255, 0, 0), (255, 255, 0), (255, 255, 255)
+RED, GREEN, BLUE, YELLOW, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0), (255, 255, 255)
 NEVER_SHOWN = 77
 
 
@@ -48,6 +48,25 @@ def label(picture):
     picture.expect(360, 112, WHITE, "the last letter is where the escapements have led")
 
 
+def turned_texture(picture):
+    require((picture.width, picture.height) == (320, 160), "the picture is 320 x 160")
+    for (x, y), color, what in (((80, 110), RED, "its lower left is turned down"), ((110, 80), GREEN, "its lower right to the right"),
+                                ((50, 80), BLUE, "its upper left to the left"), ((80, 50), WHITE, "its upper right up")):
+        picture.expect(x, y, color, what)
+    picture.expect(240, 80, GREEN, "the pattern repeats from the origin: (240, 79) is (48, 15)")
+    picture.expect(200, 85, YELLOW, "with what OpenGL ES changed later")
+    picture.expect(310, 10, (0, 0, 0), "the disc is round")
+
+
+def texture(folder, packages):
+    """With the system's OpenGL ES, if there is one."""
+    if subprocess.run(["pkg-config", "--exists", "glesv2"], check=False).returncode != 0:
+        return
+    run("make", "-C", folder, "texture", env={"PKG_CONFIG_PATH": packages})
+    run(folder / "texture", folder / "texture.ppm", env={"EGL_PLATFORM": "surfaceless"})
+    turned_texture(Picture(folder / "texture.ppm"))
+
+
 def window(folder, source, packages):
     """On an X server of its own, if there is one; libX11 is the system's."""
     if subprocess.run(["pkg-config", "--exists", "x11"], check=False).returncode != 0:
@@ -66,4 +85,5 @@ def check(folder):
     for name, look in (("first_path", first_path), ("label", label)):
         run(place / name, place / f"{name}.ppm", env={"EGL_PLATFORM": "surfaceless"})
         look(Picture(place / f"{name}.ppm"))
+    texture(place, packages)
     window(place, folder.source, packages)

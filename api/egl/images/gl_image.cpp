@@ -1,22 +1,8 @@
 #include "api/egl/images/gl_image.hpp"
 
-#include "api/egl/state/configs.hpp"
 #include "api/egl/system/gl_functions.hpp"
 
 namespace vtm::egl {
-
-namespace {
-
-/// By which OpenGL ES 2 draws into pbuffers. Throws Error.
-EGLConfig anyGlConfig(const Display& display) {
-    for (const EGLConfig config : systemConfigs(display))
-        if (systemConfigAttribute(display, config, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT &&
-            systemConfigAttribute(display, config, EGL_SURFACE_TYPE) & EGL_PBUFFER_BIT)
-            return config;
-    throw Error{EGL_BAD_MATCH};
-}
-
-}  // namespace
 
 GlImage::GlImage(const Display& display, VtmSharedImage* pixels)
     : display_(display.handle),
@@ -35,7 +21,7 @@ GlImage::~GlImage() { free(); }
 
 void GlImage::create(const Display& display) {
     const System& system = *systemEgl();
-    const EGLConfig config = anyGlConfig(display);
+    const EGLConfig config = pbufferConfig(display);
     context_ = newGlContext(display, config);
     const EGLint size[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     surface_ = system.CreatePbufferSurface(display_, config, size);

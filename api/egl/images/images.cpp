@@ -1,5 +1,5 @@
 // Section 3.9: EGLImages. Those of OpenVG's images are ours (EGL_KHR_image_base, EGL_KHR_vg_parent_image),
-// all others the system's.
+// all others the system's, which OpenVG may use too.
 
 #include "api/egl/images/images.hpp"
 
@@ -7,6 +7,7 @@
 #include <atomic>
 
 #include "api/egl/images/gl_image.hpp"
+#include "api/egl/images/imported_pixels.hpp"
 #include "api/egl/state/attributes.hpp"
 #include "api/egl/state/thread.hpp"
 
@@ -51,6 +52,20 @@ Shown& shown() {
     return shown;
 }
 
+/// `mayGlHaveDrawn`: also the other way.
+void synchronizeShown(bool mayGlHaveDrawn) {
+    if (shown().isEmpty)
+        return;
+    const std::lock_guard lock(shown().mutex);
+    shown().drop([&](const auto& image) {
+        try {
+            return !image->gl->synchronize(mayGlHaveDrawn);
+        } catch (const Error&) {
+            return false;  // not now
+        }
+    });
+}
+
 /// Where the system has OpenGL ES, its drivers know the image.
 void showInGl(const std::shared_ptr<Image>& image) {
     if (!image->display.systemRuns)
@@ -64,6 +79,7 @@ void showInGl(const std::shared_ptr<Image>& image) {
         return;
     }
     image->handle = image->gl->handle();
+    vtmSetFinishFunction([] { synchronizeShown(false); });
     shown().all.push_back(image);
     shown().isEmpty = false;
 }
@@ -125,20 +141,13 @@ Image::~Image() {
 }
 
 void synchronizeImages() {
-    if (shown().isEmpty)
-        return;
-    const bool isGlCurrent = systemEgl()->GetCurrentContext() != EGL_NO_CONTEXT;
-    const std::lock_guard lock(shown().mutex);
-    shown().drop([&](const auto& image) {
-        try {
-            return !image->gl->synchronize(isGlCurrent);
-        } catch (const Error&) {
-            return false;  // not now
-        }
-    });
+    if (haveImported())
+        synchronizeImported();
+    synchronizeShown(systemEgl() && systemEgl()->GetCurrentContext() != EGL_NO_CONTEXT);
 }
 
-void forgetImages(const Display& display) {
+void forgetImages(Display& display) {
+    detachImported(display);
     for (const auto& image : images().removeAll(display))
         retire(*image);
     const std::lock_guard lock(shown().mutex);
@@ -151,7 +160,9 @@ EGLImageKHR EGLAPIENTRY createImageKhr(EGLDisplay dpy, EGLContext context, EGLen
         return call(none, [&] { return createImage(dpy, context, target, buffer, list); });
     if (const auto systems = systemsExtension<decltype(createImageKhr)>(dpy, "eglCreateImageKHR")) {
         thisThread().error = EGL_SUCCESS;
-        return systems(dpy, context, target, buffer, list);
+        const EGLImage image = systems(dpy, context, target, buffer, list);
+        importImage(dpy, image);
+        return image;
     }
     return call(none, [&]() -> EGLImage {
         initializedDisplay(dpy);
@@ -166,6 +177,7 @@ EGLBoolean EGLAPIENTRY destroyImageKhr(EGLDisplay dpy, EGLImageKHR image) {
     if (!systems)
         return destroyImage(dpy, image);
     thisThread().error = EGL_SUCCESS;
+    forgetImported(dpy, image);
     return systems(dpy, image);
 }
 
@@ -177,11 +189,16 @@ EGLImage EGLAPIENTRY eglCreateImage(EGLDisplay dpy, EGLContext context, EGLenum 
                                     EGLClientBuffer buffer, const EGLAttrib* list) {
     if (isOfVg(context, target))
         return call(none, [&] { return createImage(dpy, context, target, buffer, list); });
-    return forward(&System::CreateImage, none, EGL_BAD_PARAMETER, dpy, context, target, buffer, list);
+    const EGLImage image =
+        forward(&System::CreateImage, none, EGL_BAD_PARAMETER, dpy, context, target, buffer, list);
+    importImage(dpy, image);
+    return image;
 }
 
 EGLBoolean EGLAPIENTRY eglDestroyImage(EGLDisplay dpy, EGLImage handle) {
-    if (!images().has(handle))
+    if (!images().has(handle)) {
+        forgetImported(dpy, handle);
         return forward(&System::DestroyImage, EGLBoolean(EGL_FALSE), EGL_BAD_PARAMETER, dpy, handle);
+    }
     return destroyImage(dpy, handle);
 }

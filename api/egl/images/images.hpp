@@ -14,7 +14,7 @@ struct Display;
 void synchronizeImages();
 
 /// When the display terminates.
-void forgetImages(const Display& display);
+void forgetImages(Display& display);
 
 /// Functions of EGL_KHR_image_base.
 EGLImageKHR EGLAPIENTRY createImageKhr(EGLDisplay, EGLContext, EGLenum target, EGLClientBuffer,

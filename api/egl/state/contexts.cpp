@@ -118,6 +118,8 @@ EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay dpy, EGLSurface draw, EGLSurfac
     const bool isOurs =
         handle == EGL_NO_CONTEXT ? isVgCurrentApi() || currentApi() == EGL_NONE : contexts().has(handle);
     if (!isOurs && !surfaces().has(draw) && !surfaces().has(read)) {
+        if (isAdoptedCurrent(draw))
+            leave(*currentSurface());
         const EGLBoolean succeeded =
             forward(&System::MakeCurrent, EGLBoolean(EGL_FALSE),
                     handle == EGL_NO_CONTEXT ? EGL_BAD_MATCH : EGL_BAD_CONTEXT, dpy, draw, read, handle);

@@ -81,9 +81,10 @@ std::string displayString(const Display& display, EGLint name) {
         case EGL_VENDOR:
             return systems.empty() ? "VTM" : "VTM, " + systems;
         case EGL_VERSION:
-            return systems.empty()
-                       ? std::to_string(display.major) + '.' + std::to_string(display.minor) + " VTM"
-                       : systems;
+            // A space follows the number, which some drivers leave out.
+            return systems.find(' ') != std::string::npos
+                       ? systems
+                       : std::to_string(display.major) + '.' + std::to_string(display.minor) + " VTM";
         case EGL_EXTENSIONS:
             return withWord(
                 withWord(display.systemRuns ? systems : "EGL_KHR_no_config_context", "EGL_KHR_image_base"),

@@ -49,22 +49,10 @@ GLuint newTexture() {
     return texture;
 }
 
-/// That samples what a GPU has drawn; EGL_NO_CONTEXT where there is none that can.
-EGLContext sharingContext(const Display& display, EGLConfig config) {
-    VtmGlContext its{};
-    if (!vtmGetGlContext(&its) || its.display != display.handle)
-        return EGL_NO_CONTEXT;
-    try {
-        return newGlContext(display, config, its.context, its.attributes);
-    } catch (const Error&) {
-        return EGL_NO_CONTEXT;
-    }
-}
-
 }  // namespace
 
 Blitter::Blitter(const Display& display, EGLConfig config, bool isOnGpu)
-    : display_(display.handle), context_(isOnGpu ? sharingContext(display, config) : EGL_NO_CONTEXT) {
+    : display_(display.handle), context_(isOnGpu ? newSharingContext(display, config) : EGL_NO_CONTEXT) {
     sharesTextures_ = context_ != EGL_NO_CONTEXT;
     if (!sharesTextures_)
         context_ = newGlContext(display, config);

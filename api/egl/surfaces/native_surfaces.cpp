@@ -5,6 +5,8 @@
 #include "api/egl/state/configs.hpp"
 #include "api/egl/state/thread.hpp"
 #include "api/egl/surfaces/surfaces.hpp"
+#include "api/egl/surfaces/x_pictures.hpp"
+#include "api/egl/system/system_surfaces.hpp"
 
 namespace vtm::egl {
 
@@ -65,7 +67,7 @@ EGLSurface createNative(Display& display, Kind kind, EGLConfig handle, const Num
 
 template <class Number, class Make>
 EGLSurface createdNative(EGLDisplay dpy, Kind kind, EGLConfig config, const Number* list, Make&& make,
-                         std::uintptr_t native = 0) {
+                         std::uintptr_t native) {
     return call(EGLSurface(EGL_NO_SURFACE),
                 [&] { return createNative(initializedDisplay(dpy), kind, config, list, make, native); });
 }
@@ -77,13 +79,23 @@ EGLSurface callExt(const char* name, EGLDisplay dpy, EGLConfig config, void* nat
     return create ? create(dpy, config, native, list) : EGL_NO_SURFACE;
 }
 
+std::uintptr_t platformNative(EGLDisplay dpy, const void* native) {
+    const Display* const display = findDisplay(dpy);
+    return display && display->systemRuns ? platformDrawable(*display, native) : 0;
+}
+
 EGLSurface createExt(const char* name, Kind kind, EGLDisplay dpy, EGLConfig config, void* native,
                      const EGLint* list) {
     if (configs().has(config))
-        return createdNative(dpy, kind, config, list,
-                             [&](EGLConfig systems) { return callExt(name, dpy, systems, native, nullptr); });
+        return createdNative(
+            dpy, kind, config, list,
+            [&](EGLConfig systems) { return callExt(name, dpy, systems, native, nullptr); },
+            platformNative(dpy, native));
     thisThread().error = EGL_SUCCESS;
-    return callExt(name, dpy, config, native, list);
+    const EGLSurface made = callExt(name, dpy, config, native, list);
+    if (kind == Kind::window)
+        noteWindow(dpy, made, platformNative(dpy, native));
+    return made;
 }
 
 }  // namespace
@@ -104,9 +116,12 @@ using namespace vtm::egl;
 
 EGLSurface EGLAPIENTRY eglCreateWindowSurface(EGLDisplay dpy, EGLConfig config, EGLNativeWindowType window,
                                               const EGLint* list) {
-    if (!configs().has(config))
-        return forward(&System::CreateWindowSurface, EGLSurface(EGL_NO_SURFACE), EGL_BAD_CONFIG, dpy, config,
-                       window, list);
+    if (!configs().has(config)) {
+        const EGLSurface made = forward(&System::CreateWindowSurface, EGLSurface(EGL_NO_SURFACE),
+                                        EGL_BAD_CONFIG, dpy, config, window, list);
+        noteWindow(dpy, made, std::uintptr_t(window));
+        return made;
+    }
     const auto make = [&](EGLConfig systems) {
         return systemEgl()->CreateWindowSurface(dpy, systems, window, nullptr);
     };
@@ -115,14 +130,18 @@ EGLSurface EGLAPIENTRY eglCreateWindowSurface(EGLDisplay dpy, EGLConfig config, 
 
 EGLSurface EGLAPIENTRY eglCreatePlatformWindowSurface(EGLDisplay dpy, EGLConfig config, void* window,
                                                       const EGLAttrib* list) {
-    if (!configs().has(config))
-        return forward(&System::CreatePlatformWindowSurface, EGLSurface(EGL_NO_SURFACE), EGL_BAD_CONFIG, dpy,
-                       config, window, list);
-    return createdNative(dpy, Kind::window, config, list, [&](EGLConfig systems) {
+    if (!configs().has(config)) {
+        const EGLSurface made = forward(&System::CreatePlatformWindowSurface, EGLSurface(EGL_NO_SURFACE),
+                                        EGL_BAD_CONFIG, dpy, config, window, list);
+        noteWindow(dpy, made, platformNative(dpy, window));
+        return made;
+    }
+    const auto make = [&](EGLConfig systems) {
         return systemEgl()->CreatePlatformWindowSurface
                    ? systemEgl()->CreatePlatformWindowSurface(dpy, systems, window, nullptr)
                    : EGL_NO_SURFACE;
-    });
+    };
+    return createdNative(dpy, Kind::window, config, list, make, platformNative(dpy, window));
 }
 
 EGLSurface EGLAPIENTRY eglCreatePixmapSurface(EGLDisplay dpy, EGLConfig config, EGLNativePixmapType pixmap,
@@ -141,9 +160,10 @@ EGLSurface EGLAPIENTRY eglCreatePlatformPixmapSurface(EGLDisplay dpy, EGLConfig 
     if (!configs().has(config))
         return forward(&System::CreatePlatformPixmapSurface, EGLSurface(EGL_NO_SURFACE), EGL_BAD_CONFIG, dpy,
                        config, pixmap, list);
-    return createdNative(dpy, Kind::pixmap, config, list, [&](EGLConfig systems) {
+    const auto make = [&](EGLConfig systems) {
         return systemEgl()->CreatePlatformPixmapSurface
                    ? systemEgl()->CreatePlatformPixmapSurface(dpy, systems, pixmap, nullptr)
                    : EGL_NO_SURFACE;
-    });
+    };
+    return createdNative(dpy, Kind::pixmap, config, list, make, platformNative(dpy, pixmap));
 }

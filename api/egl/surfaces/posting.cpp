@@ -142,7 +142,11 @@ void giveToGl(Surface& surface) {
 }
 
 void takeFromGl(Surface& surface) {
-    if (std::exchange(surface.glDrewLast, false) || surface.isAdopted)
+    // On surfaces of the system's OpenGL may draw unseen, except while OpenVG alone has them.
+    const bool mayGlHaveDrawn =
+        surface.isAdopted &&
+        (!surface.vgDrewLast || systemEgl()->GetCurrentSurface(EGL_DRAW) == surface.target);
+    if (std::exchange(surface.glDrewLast, false) || mayGlHaveDrawn)
         blitterOf(surface).read(surface.target, surface.drawing);
     surface.vgDrewLast = true;
 }

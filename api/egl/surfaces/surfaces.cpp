@@ -57,8 +57,8 @@ void createDrawing(Surface& surface, EGLint width, EGLint height) {
     format.linear = VGboolean(surface.isLinear);
     format.premultiplied = VGboolean(surface.isPremultiplied);
     // A surface without a pixel is legal here, and nothing can be drawn on it; OpenVG wants one.
-    // Windows of this display can then show what a GPU has drawn.
-    if (surface.target != EGL_NO_SURFACE)
+    // Windows of this display can then show what a GPU has drawn, and OpenVG has its textures.
+    if (surface.display.systemRuns)
         vtmPreferGlDisplay(surface.display.handle);
     surface.drawing = vtmCreateSurface(std::max(width, 1), std::max(height, 1), &format);
     require(surface.drawing != nullptr, EGL_BAD_ALLOC);

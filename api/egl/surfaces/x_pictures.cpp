@@ -38,37 +38,33 @@ std::string nameOf(const Display& display) {
     return displayString ? displayString(*display.native) : "";
 }
 
-/// Rows of bytes red, green, blue, alpha as the server's words.
-void toWords(const std::uint8_t* pixels, int count, int depth, std::uint8_t* words) {
-    for (int i = 0; i < count; ++i, pixels += 4) {
-        std::uint32_t p;
-        std::memcpy(&p, pixels, 4);
-        if (depth == 16) {
-            const auto word = std::uint16_t((p & 0xf8) << 8 | (p >> 5 & 0x7e0) | (p >> 19 & 0x1f));
-            std::memcpy(words + 2 * std::size_t(i), &word, 2);
-        } else {
-            p = (p & 0xff00ff00) | (p >> 16 & 0xff) | (p & 0xff) << 16;
-            std::memcpy(words + 4 * std::size_t(i), &p, 4);
-        }
+/// Five, six and five bits of pixels without regard to alpha: over black.
+void toSmallWords(const std::uint8_t* pixels, int count, std::uint8_t* words) {
+    for (int i = 0; i < count; ++i, pixels += 4, words += 2) {
+        const auto word = std::uint16_t((pixels[0] & 0xf8) << 8 | (pixels[1] & 0xfc) << 3 | pixels[2] >> 3);
+        std::memcpy(words, &word, 2);
     }
 }
 
 void copyDrawing(VtmSurface* drawing, const XServer::Drawable& to, std::uint8_t* picture) {
     static_assert(std::endian::native == std::endian::little);
-    // Rows that stay in a cache between the two steps.
-    const int most = std::max(1, (1 << 16) / to.width);
-    const std::size_t pixelRow = std::size_t(to.width) * 4;
-    std::vector<std::uint8_t> pixels(pixelRow * std::size_t(std::min(most, to.height)));
-    for (int y = 0; y < to.height; y += most) {
-        const int rows = std::min(most, to.height - y);
-        vtmReadSurfacePart(drawing, 0, to.height - y - rows, to.width, rows, pixels.data(), pixelRow);
-        for (int row = 0; row < rows; ++row)
-            toWords(&pixels[std::size_t(row) * pixelRow], to.width, to.depth,
-                    picture + std::size_t(y + row) * to.rowBytes());
+    if (to.depth != 16) {
+        vtmReadSurfaceAs(drawing, VG_sARGB_8888_PRE, 0, 0, to.width, to.height, picture, to.rowBytes());
+        return;
+    }
+    std::vector<std::uint8_t> pixels(std::size_t(to.width) * 4);
+    for (int y = 0; y < to.height; ++y) {
+        vtmReadSurfacePart(drawing, 0, to.height - 1 - y, to.width, 1, pixels.data(), pixels.size());
+        toSmallWords(pixels.data(), to.width, picture + std::size_t(y) * to.rowBytes());
     }
 }
 
 }  // namespace
+
+std::uintptr_t platformDrawable(const Display& display, const void* native) {
+    // The address of an XID: those are unsigned long.
+    return native && display.native && hasVisuals(display) ? *static_cast<const unsigned long*>(native) : 0;
+}
 
 XPicture::XPicture(const Display& display)
     : server_(display.systemRuns ? XServer::named(nameOf(display)) : nullptr) {}

@@ -13,6 +13,9 @@
 
 namespace vtm::egl {
 
+/// The window or pixmap that a function of EGL_EXT_platform_base was given; 0: no X server has it.
+std::uintptr_t platformDrawable(const Display& display, const void* native);
+
 /// Puts one drawing after the other, from memory that is kept.
 class XPicture {
 public:

@@ -1,5 +1,8 @@
 #include "api/egl/system/gl_functions.hpp"
 
+#include <vtm/vg_gl.h>
+
+#include "api/egl/state/configs.hpp"
 #include "api/system_egl/system.hpp"
 
 namespace vtm::egl {
@@ -11,6 +14,8 @@ const Gl& gl() {
     found.name = reinterpret_cast<decltype(found.name)>(systemEgl()->GetProcAddress("gl" #name));
         VTM_EGL_GL(VTM_EGL_GL_FIND)
 #undef VTM_EGL_GL_FIND
+        found.EGLImageTargetTexture2DOES = reinterpret_cast<PFNGLEGLIMAGETARGETTEXTURE2DOESPROC>(
+            systemEgl()->GetProcAddress("glEGLImageTargetTexture2DOES"));
         return found;
     }();
     return functions;
@@ -31,6 +36,25 @@ EGLContext newGlContext(const Display& display, EGLConfig config, EGLContext sha
     system.BindAPI(api);
     require(context != EGL_NO_CONTEXT, error);
     return context;
+}
+
+EGLContext newSharingContext(const Display& display, EGLConfig config) {
+    VtmGlContext its{};
+    if (!vtmGetGlContext(&its) || its.display != display.handle)
+        return EGL_NO_CONTEXT;
+    try {
+        return newGlContext(display, config, its.context, its.attributes);
+    } catch (const Error&) {
+        return EGL_NO_CONTEXT;
+    }
+}
+
+EGLConfig pbufferConfig(const Display& display) {
+    for (const EGLConfig config : systemConfigs(display))
+        if (systemConfigAttribute(display, config, EGL_RENDERABLE_TYPE) & EGL_OPENGL_ES2_BIT &&
+            systemConfigAttribute(display, config, EGL_SURFACE_TYPE) & EGL_PBUFFER_BIT)
+            return config;
+    throw Error{EGL_BAD_MATCH};
 }
 
 }  // namespace vtm::egl

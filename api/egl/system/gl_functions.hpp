@@ -3,25 +3,29 @@
 #pragma once
 
 #include <EGL/egl.h>
-#include <GLES3/gl3.h>
+#include <GLES3/gl31.h>
+// After its header.
+#include <GLES2/gl2ext.h>
 
 #include "api/egl/state/thread.hpp"
 
 namespace vtm::egl {
 
 /// Its functions, named without their prefix, as far as they are called here. Null where the system has none;
-/// those of fences are OpenGL ES 3's.
+/// those of fences are OpenGL ES 3's, GetTexLevelParameteriv is OpenGL ES 3.1's.
 struct Gl {
-#define VTM_EGL_GL(f)                                                                                    \
-    f(ActiveTexture) f(AttachShader) f(BindAttribLocation) f(BindFramebuffer) f(BindTexture)             \
-        f(CompileShader) f(CreateProgram) f(CreateShader) f(DeleteSync) f(Disable) f(DrawArrays)         \
-            f(EnableVertexAttribArray) f(FenceSync) f(Finish) f(FramebufferTexture2D) f(GenFramebuffers) \
-                f(GenTextures) f(GetError) f(GetProgramiv) f(LinkProgram) f(ReadPixels) f(ShaderSource)  \
-                    f(TexImage2D) f(TexParameteri) f(TexSubImage2D) f(UseProgram) f(VertexAttribPointer) \
-                        f(Viewport) f(WaitSync)
+#define VTM_EGL_GL(f)                                                                                        \
+    f(ActiveTexture) f(AttachShader) f(BindAttribLocation) f(BindFramebuffer) f(BindTexture)                 \
+        f(CheckFramebufferStatus) f(CompileShader) f(CreateProgram) f(CreateShader) f(DeleteSync)            \
+            f(DeleteTextures) f(Disable) f(DrawArrays) f(EnableVertexAttribArray) f(FenceSync) f(Finish)     \
+                f(FramebufferTexture2D) f(GenFramebuffers) f(GenTextures) f(GetError) f(GetProgramiv)        \
+                    f(GetTexLevelParameteriv) f(LinkProgram) f(PixelStorei) f(ReadPixels) f(ShaderSource)    \
+                        f(TexImage2D) f(TexParameteri) f(TexSubImage2D) f(UseProgram) f(VertexAttribPointer) \
+                            f(Viewport) f(WaitSync)
 #define VTM_EGL_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
     VTM_EGL_GL(VTM_EGL_GL_MEMBER)
 #undef VTM_EGL_GL_MEMBER
+    PFNGLEGLIMAGETARGETTEXTURE2DOESPROC EGLImageTargetTexture2DOES = nullptr;
 };
 
 /// Asked for once, when first called. There must be a system's library.
@@ -30,6 +34,12 @@ const Gl& gl();
 /// Of OpenGL ES 2, sharing nothing; or with other attributes, sharing with a context. Throws Error.
 EGLContext newGlContext(const Display& display, EGLConfig config);
 EGLContext newGlContext(const Display& display, EGLConfig config, EGLContext share, const EGLint* attributes);
+
+/// Shares with the compositor of GPUs; EGL_NO_CONTEXT where none can.
+EGLContext newSharingContext(const Display& display, EGLConfig config);
+
+/// By which OpenGL ES 2 draws into pbuffers. Throws Error.
+EGLConfig pbufferConfig(const Display& display);
 
 /// Makes a context current in the system for as long as this lives, and then again what was.
 class GlCurrent {

@@ -15,6 +15,11 @@ namespace {
 struct Adopted {
     std::mutex mutex;
     std::map<EGLSurface, std::shared_ptr<Surface>> all;
+    struct Window {
+        EGLDisplay display;
+        std::uintptr_t native;
+    };
+    std::map<EGLSurface, Window> windows;  ///< that the system has surfaces on
 };
 
 Adopted& adopted() {
@@ -42,6 +47,13 @@ EGLint querySystem(const Display& display, EGLSurface handle, EGLint name) {
     return value;
 }
 
+/// 0: it is on none.
+std::uintptr_t windowOf(EGLSurface handle) {
+    const std::lock_guard lock(adopted().mutex);
+    const auto it = adopted().windows.find(handle);
+    return it == adopted().windows.end() ? 0 : it->second.native;
+}
+
 std::shared_ptr<Surface> adopt(Display& display, EGLSurface handle) {
     const EGLint list[] = {EGL_CONFIG_ID, querySystem(display, handle, EGL_CONFIG_ID), EGL_NONE};
     EGLConfig systems = nullptr;
@@ -56,6 +68,7 @@ std::shared_ptr<Surface> adopt(Display& display, EGLSurface handle) {
     surface->isAdopted = true;
     surface->handle = surface->target = handle;
     surface->targetConfig = systems;
+    surface->native = windowOf(handle);
     for (const EGLint name : {EGL_VG_COLORSPACE, EGL_VG_ALPHA_FORMAT})
         setDrawingAttribute(*surface, name, querySystem(display, handle, name));
     createDrawing(*surface, querySystem(display, handle, EGL_WIDTH),
@@ -94,14 +107,24 @@ std::shared_ptr<Surface> adoptedSurface(Display& display, EGLSurface handle) {
     return surface;
 }
 
+void noteWindow(EGLDisplay display, EGLSurface handle, std::uintptr_t window) {
+    if (handle == EGL_NO_SURFACE)
+        return;
+    const std::lock_guard lock(adopted().mutex);
+    adopted().windows.insert_or_assign(handle, Adopted::Window{display, window});
+}
+
 void forgetAdopted(EGLSurface handle) {
     const std::lock_guard lock(adopted().mutex);
     adopted().all.erase(handle);
+    adopted().windows.erase(handle);
 }
 
 void forgetAllAdopted(const Display& display) {
     const std::lock_guard lock(adopted().mutex);
     std::erase_if(adopted().all, [&](const auto& entry) { return &entry.second->display == &display; });
+    std::erase_if(adopted().windows,
+                  [&](const auto& entry) { return entry.second.display == display.handle; });
 }
 
 bool isAdoptedCurrent(EGLSurface handle) {

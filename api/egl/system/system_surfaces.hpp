@@ -17,6 +17,9 @@ std::shared_ptr<const Config> configForVg(Display& display, EGLConfig handle);
 /// A drawing beside a surface of the system's, the same one until that is destroyed. Throws Error.
 std::shared_ptr<Surface> adoptedSurface(Display& display, EGLSurface handle);
 
+/// The system has made a surface on this window; nothing to note for EGL_NO_SURFACE.
+void noteWindow(EGLDisplay display, EGLSurface handle, std::uintptr_t window);
+
 /// The system's surface is destroyed, or all of the display's are.
 void forgetAdopted(EGLSurface handle);
 void forgetAllAdopted(const Display& display);

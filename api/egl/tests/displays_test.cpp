@@ -33,7 +33,7 @@ TEST_F(Displays, OpenVgIsAmongTheClientApis) {
 TEST_F(Displays, TheVersionStringBeginsWithTheVersion) {
     EGLint major = 0, minor = 0;
     ASSERT_EGL(eglInitialize(display, &major, &minor));
-    const std::string begin = std::to_string(major) + "." + std::to_string(minor);
+    const std::string begin = std::to_string(major) + "." + std::to_string(minor) + " ";
     EXPECT_EQ(std::string(eglQueryString(display, EGL_VERSION)).substr(0, begin.size()), begin);
     EXPECT_GE(major * 10 + minor, 14);
 }

@@ -220,6 +220,10 @@ TEST_F(EglImagesInGl, HaveTheSamePixelsInEitherApi) {
     glFill(0, 0, 1, 1);
     EXPECT_TRUE(eglWaitGL());
     EXPECT_EQ(texel(image), 0x0000ffffu);
+    // So is what OpenVG itself has.
+    set(image, 0, 1, 0x11223344);
+    function<decltype(::vgFinish)>("vgFinish")();
+    EXPECT_EQ(glTexel(0, 1), 0x11223344u);
 }
 
 TEST_F(EglImagesInGl, OutliveTheirSource) {
@@ -257,22 +261,6 @@ TEST_F(EglImagesInGl, KeepTheBitsOfPixelsThatOpenGlLeavesAlone) {
     EXPECT_EQ(after[1], 0x07e0);
     EXPECT_EQ(after[2], pixels[2]);
     EXPECT_EQ(after[3], pixels[3]);
-}
-
-TEST_F(EglImagesInGl, OfTexturesAreTheSystemsAlone) {
-    GLuint name = 0;
-    function<decltype(::glGenTextures)>("glGenTextures")(1, &name);
-    function<decltype(::glBindTexture)>("glBindTexture")(GL_TEXTURE_2D, name);
-    function<decltype(::glTexImage2D)>("glTexImage2D")(GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA,
-                                                       GL_UNSIGNED_BYTE, nullptr);
-    const auto createKhr = function<std::remove_pointer_t<PFNEGLCREATEIMAGEKHRPROC>>("eglCreateImageKHR");
-    const auto destroyKhr = function<std::remove_pointer_t<PFNEGLDESTROYIMAGEKHRPROC>>("eglDestroyImageKHR");
-    const EGLImage made =
-        createKhr(display, gl, EGL_GL_TEXTURE_2D_KHR, EGLClientBuffer(std::uintptr_t(name)), nullptr);
-    ASSERT_NE(made, EGL_NO_IMAGE) << std::hex << eglGetError();
-    EXPECT_EQ(createTarget(made), VG_INVALID_HANDLE);
-    EXPECT_EQ(vgGetError(), VG_ILLEGAL_ARGUMENT_ERROR);
-    EXPECT_TRUE(destroyKhr(display, made));
 }
 
 TEST_F(EglImages, GoWithTheDisplay) {

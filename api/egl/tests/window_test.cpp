@@ -326,26 +326,97 @@ TEST_F(Windows, AreDrawnIntoByBothApisInTurn) {
     EXPECT_EQ(x.pixel(window, 5, 5), green);
 }
 
-TEST_F(Windows, OfTheSystemsConfigsAreDrawnInto) {
-    const EGLint colours[] = {EGL_RED_SIZE,   8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8,
-                              EGL_ALPHA_SIZE, 8, EGL_NONE};
+/// Of a config of the system's.
+class SystemsWindows : public Windows {
+protected:
+    void SetUp() override {
+        Windows::SetUp();
+        if (IsSkipped())
+            return;
+        const EGLint colours[] = {EGL_RED_SIZE,   8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8,
+                                  EGL_ALPHA_SIZE, 8, EGL_NONE};
+        EGLint count = 0;
+        ASSERT_EGL(eglChooseConfig(display, colours, &config, 1, &count));
+        context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
+        ASSERT_NE(context, EGL_NO_CONTEXT) << std::hex << eglGetError();
+        window = x.window(10, 10);
+    }
+    void useVg(EGLSurface s) const {
+        ASSERT_TRUE(eglBindAPI(EGL_OPENVG_API));
+        ASSERT_EGL(eglMakeCurrent(display, s, s, context));
+    }
+
     EGLConfig config = nullptr;
-    EGLint count = 0;
-    ASSERT_EGL(eglChooseConfig(display, colours, &config, 1, &count));
-    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
-    ASSERT_NE(context, EGL_NO_CONTEXT) << std::hex << eglGetError();
-    const unsigned long window = x.window(10, 10);
+    EGLContext context = EGL_NO_CONTEXT;
+    unsigned long window = 0;
+};
+
+TEST_F(SystemsWindows, AreDrawnInto) {
+    for (const bool isPlatforms : {false, true}) {
+        SCOPED_TRACE(isPlatforms);
+        const EGLSurface s = isPlatforms ? eglCreatePlatformWindowSurface(display, config, &window, nullptr)
+                                         : eglCreateWindowSurface(display, config, window, nullptr);
+        ASSERT_NE(s, EGL_NO_SURFACE);
+        useVg(s);
+        vg.fill(10, 10, {0, 1, 0, 1});
+        ASSERT_EGL(eglSwapBuffers(display, s));
+        EXPECT_EQ(x.pixel(window, 5, 5), green);
+        x.resize(window, 20, 15);
+        EXPECT_EQ(query(s, EGL_WIDTH), 20);
+        vg.fill(20, 15, {0, 0, 1, 1});
+        ASSERT_EGL(eglSwapBuffers(display, s));
+        EXPECT_EQ(x.pixel(window, 19, 0), blue);
+        x.resize(window, 10, 10);
+        ASSERT_TRUE(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT));
+        EXPECT_TRUE(eglDestroySurface(display, s));
+    }
+}
+
+TEST_F(SystemsWindows, KeepWhatIsDrawnWhenMadeCurrentAgain) {
     const EGLSurface s = eglCreateWindowSurface(display, config, window, nullptr);
-    ASSERT_NE(s, EGL_NO_SURFACE);
-    ASSERT_EGL(eglMakeCurrent(display, s, s, context));
-    vg.fill(10, 10, {0, 1, 0, 1});
+    useVg(s);
+    vg.fill(10, 10, {1, 0, 0, 1});
+    useVg(s);
+    vg.fill(5, 5, {0, 1, 0, 1});
+    useVg(s);
     ASSERT_EGL(eglSwapBuffers(display, s));
-    EXPECT_EQ(x.pixel(window, 5, 5), green);
-    x.resize(window, 20, 15);
-    EXPECT_EQ(query(s, EGL_WIDTH), 20);
-    vg.fill(20, 15, {0, 0, 1, 1});
-    ASSERT_EGL(eglSwapBuffers(display, s));
-    EXPECT_EQ(x.pixel(window, 19, 0), blue);
+    EXPECT_EQ(x.pixel(window, 7, 2), red);
+    EXPECT_EQ(x.pixel(window, 2, 7), green);
+}
+
+TEST_F(SystemsWindows, AreOneBufferForBothApis) {
+    const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
+    const EGLSurface s = eglCreateWindowSurface(display, config, window, nullptr);
+    ASSERT_TRUE(eglBindAPI(EGL_OPENGL_ES_API));
+    const EGLContext gl = eglCreateContext(display, config, EGL_NO_CONTEXT, version);
+    const auto clear = [](float r, float g, float b) {
+        function<decltype(::glClearColor)>("glClearColor")(r, g, b, 1);
+        function<decltype(::glClear)>("glClear")(GL_COLOR_BUFFER_BIT);
+    };
+    const auto useGl = [&] {
+        ASSERT_TRUE(eglBindAPI(EGL_OPENGL_ES_API));
+        ASSERT_EGL(eglMakeCurrent(display, s, s, gl));
+    };
+    // Neither is released before the other is made current.
+    for (int turn = 0; turn < 3; ++turn) {
+        useGl();
+        clear(0, 0, 1);
+        useVg(s);
+        vg.fill(5, 10, {1, 0, 0, 1});
+        ASSERT_EGL(eglSwapBuffers(display, s));
+        EXPECT_EQ(x.pixel(window, 2, 5), red) << turn;
+        EXPECT_EQ(x.pixel(window, 7, 5), blue) << turn;
+        useVg(s);
+        vg.fill(10, 10, {0, 1, 0, 1});
+        useGl();
+        function<decltype(::glEnable)>("glEnable")(GL_SCISSOR_TEST);
+        function<decltype(::glScissor)>("glScissor")(0, 0, 5, 5);
+        clear(0, 0, 1);
+        function<decltype(::glDisable)>("glDisable")(GL_SCISSOR_TEST);
+        ASSERT_EGL(eglSwapBuffers(display, s));
+        EXPECT_EQ(x.pixel(window, 2, 7), blue) << turn;
+        EXPECT_EQ(x.pixel(window, 7, 2), green) << turn;
+    }
 }
 
 TEST_F(Windows, ArePlatformWindowsToo) {

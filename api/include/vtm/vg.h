@@ -89,6 +89,13 @@ VG_API_CALL void VG_API_ENTRY vtmReadSurface(VtmSurface *surface, void *pixels, 
 VG_API_CALL void VG_API_ENTRY vtmReadSurfacePart(VtmSurface *surface, VGint x, VGint y, VGint width, VGint height,
                                                  void *pixels, size_t rowBytes) VG_API_EXIT;
 
+/* The same in any format of images of eight bits or more a pixel. Words are native: VG_sARGB_8888_PRE gives bytes blue,
+ * green, red, alpha on little-endian machines, as X servers and other window systems take them. VG_FALSE: there is no
+ * such format. */
+VG_API_CALL VGboolean VG_API_ENTRY vtmReadSurfaceAs(VtmSurface *surface, VGImageFormat format, VGint x, VGint y,
+                                                    VGint width, VGint height, void *pixels,
+                                                    size_t rowBytes) VG_API_EXIT;
+
 /* The inverse of vtmReadSurface: sets all pixels. */
 VG_API_CALL void VG_API_ENTRY vtmWriteSurface(VtmSurface *surface, const void *pixels, size_t rowBytes) VG_API_EXIT;
 

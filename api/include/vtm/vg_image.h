@@ -56,6 +56,50 @@ VG_API_CALL VtmPixels VG_API_ENTRY vtmTakeSharedPixels(VtmSharedImage *image, vo
  * pixels were taken for the first time. */
 VG_API_CALL void VG_API_ENTRY vtmPutSharedPixels(VtmSharedImage *image, const void *pixels) VG_API_EXIT;
 
+/* A function that vgFinish calls, in the thread that called it, so that what was drawn can be given to other APIs. It must
+ * not call OpenVG. NULL: none. */
+VG_API_CALL void VG_API_ENTRY vtmSetFinishFunction(void (*function)(void)) VG_API_EXIT;
+
+/*
+ * Pixels that another API keeps, as images of OpenVG: our libEGL makes the system's EGLImages known by these.
+ *
+ * vgCreateEGLImageTargetKHR opens them by their name, and makes images of format VG_sABGR_8888, or VG_sXBGR_8888 where
+ * there is no alpha: bytes red, green, blue, alpha, rows from the bottom without padding. Pixels are fetched when OpenVG
+ * first needs them after the other API may have changed them. All functions may be called in any thread.
+ */
+typedef struct {
+    void *pixels; /* given to the functions below */
+    VGint width, height;
+    VGboolean hasAlpha;
+    /* A texture with the pixels, in a context that shares with the compositor's (vtm/vg_gl.h). It is drawn from and into
+     * without a copy, and deleted with the last image. 0: there is none. */
+    unsigned texture;
+} VtmForeignPixels;
+
+typedef struct {
+    /* Fills `opened`. `texture` shall be set if possible where `onGpu` is VG_TRUE, and only there. VG_FALSE: images
+     * cannot have such pixels. */
+    VGboolean (*open)(void *owner, VGeglImageKHR name, VGboolean onGpu, VtmForeignPixels *opened);
+    /* All pixels; leave things as they are where that fails. Not called where there is a texture. */
+    void (*read)(void *pixels, void *bytes);
+    void (*write)(void *pixels, const void *bytes);
+    /* The last image is destroyed, or the pixels were detached. */
+    void (*close)(void *pixels);
+} VtmForeignFunctions;
+
+/* Names pixels, whatever had the name before. VG_FALSE: there is no memory. Forgetting a name leaves its images,
+ * and names of other owners. */
+VG_API_CALL VGboolean VG_API_ENTRY vtmNameForeignPixels(VGeglImageKHR name, const VtmForeignFunctions *functions,
+                                                        void *owner) VG_API_EXIT;
+VG_API_CALL void VG_API_ENTRY vtmForgetForeignPixels(VGeglImageKHR name, void *owner) VG_API_EXIT;
+
+/* Gives what OpenVG has changed to those who keep the pixels, as vgFinish does. `mayChange`: from here on they may have
+ * changed what OpenVG did not. */
+VG_API_CALL void VG_API_ENTRY vtmFinishForeignPixels(VGboolean mayChange) VG_API_EXIT;
+
+/* Forgets the names of an owner; what its images show is OpenVG's alone from now on. */
+VG_API_CALL void VG_API_ENTRY vtmDetachForeignPixels(void *owner) VG_API_EXIT;
+
 #ifdef __cplusplus
 }
 #endif

@@ -120,6 +120,10 @@ TexturePointer Device::makeTexture(GLenum format, int width, int height) {
     return texture;
 }
 
+TexturePointer Device::adoptTexture(GLenum format, GLuint name, int width, int height) {
+    return std::make_shared<const Texture>(discarded_, name, width, height, format);
+}
+
 void Device::upload(TexturePointer texture, const Rectangle& part, std::vector<std::uint8_t> bytes) {
     const std::lock_guard lock(mutex_);
     if (isLost())

@@ -32,6 +32,8 @@ public:
 
     /// Null where there is no memory for it.
     TexturePointer makeTexture(GLenum format, int width, int height);
+    /// Of a context that shares with this one: GL_RGB or GL_RGBA, in eight bits. Deleted here.
+    TexturePointer adoptTexture(GLenum format, GLuint name, int width, int height);
     void upload(TexturePointer texture, const Rectangle& part, std::vector<std::uint8_t> bytes);
     /// False if the context is gone.
     bool download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes);

@@ -23,6 +23,14 @@ bool hasExtension(const Functions& gl, std::string_view name) {
     return false;
 }
 
+/// Three bytes of every four.
+std::vector<std::uint8_t> withoutAlpha(const std::uint8_t* bytes, std::size_t count) {
+    std::vector<std::uint8_t> colors(3 * count);
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(&colors[3 * i], bytes + 4 * i, 3);
+    return colors;
+}
+
 GLint limitOf(const Functions& gl, GLenum name) {
     GLint value = 0;
     gl.GetIntegerv(name, &value);
@@ -93,7 +101,8 @@ TexturePointer Painter::makeTexture(GLenum format, int width, int height) {
     check();
     GLuint name = 0;
     gl_.GenTextures(1, &name);
-    auto texture = std::make_shared<const Texture>(discarded_, name, width, height, format == GL_R8);
+    auto texture =
+        std::make_shared<const Texture>(discarded_, name, width, height, format == GL_R8 ? GL_RED : GL_RGBA);
     bind(Unit::source, name);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -102,9 +111,15 @@ TexturePointer Painter::makeTexture(GLenum format, int width, int height) {
 }
 
 void Painter::upload(const Texture& texture, const Rectangle& part, const std::uint8_t* bytes) {
+    const int width = part.x1 - part.x0, height = part.y1 - part.y0;
+    std::vector<std::uint8_t> opaque;
+    if (texture.format() == GL_RGB) {
+        opaque = withoutAlpha(bytes, std::size_t(width) * std::size_t(height));
+        bytes = opaque.data();
+    }
     bind(Unit::source, texture.name());
-    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0,
-                      texture.isMask() ? GL_RED : GL_RGBA, GL_UNSIGNED_BYTE, bytes);
+    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, part.x0, part.y0, width, height, texture.format(), GL_UNSIGNED_BYTE,
+                      bytes);
 }
 
 void Painter::target(const Texture& texture) {

@@ -31,7 +31,8 @@ public:
 
     /// RGBA8 or R8. Null where there is no memory for it.
     TexturePointer makeTexture(GLenum format, int width, int height);
-    /// Rows of bytes from the lowest one on, without gaps: four a pixel, or one.
+    /// Rows of bytes from the lowest one on, without gaps: four a pixel,
+    /// or one.
     void upload(const Texture& texture, const Rectangle& part, const std::uint8_t* bytes);
     void download(const Texture& texture, const Rectangle& part, std::uint8_t* bytes);
     void draw(const Batch& batch);

@@ -30,8 +30,9 @@ private:
 
 class Texture {
 public:
-    Texture(std::shared_ptr<Discarded> discarded, GLuint name, int width, int height, bool isMask)
-        : discarded_(std::move(discarded)), name_(name), width_(width), height_(height), isMask_(isMask) {}
+    /// `format`: GL_RED, GL_RGB or GL_RGBA, in eight bits.
+    Texture(std::shared_ptr<Discarded> discarded, GLuint name, int width, int height, GLenum format)
+        : discarded_(std::move(discarded)), name_(name), width_(width), height_(height), format_(format) {}
     ~Texture() { discarded_->add(name_); }
     Texture(const Texture&) = delete;
     Texture& operator=(const Texture&) = delete;
@@ -39,13 +40,13 @@ public:
     GLuint name() const { return name_; }
     int width() const { return width_; }
     int height() const { return height_; }
-    bool isMask() const { return isMask_; }  ///< one byte a pixel, not four
+    GLenum format() const { return format_; }
 
 private:
     std::shared_ptr<Discarded> discarded_;
     GLuint name_;
     int width_, height_;
-    bool isMask_;
+    GLenum format_;
 };
 
 using TexturePointer = std::shared_ptr<const Texture>;

@@ -29,24 +29,23 @@ class TextureCopy final : public PixelCopy {
 public:
     TextureCopy(Device& device, TexturePointer texture) : device_(device), texture_(std::move(texture)) {}
 
-    const TexturePointer& texture() const { return texture_; }
-
     void take(const Pixels& from) override { device_.upload(texture_, wholeOf(*texture_), texelsOf(from)); }
-
     void give(Pixels& to) override { download(device_, *texture_, wholeOf(*texture_), to); }
+    void finish() override { device_.finish(); }
+    TexturePointer texture() const override { return texture_; }
 
 private:
     Device& device_;
     TexturePointer texture_;
 };
 
-/// False where there is no room.
+/// False where there is no room, or a copy that is not a texture of the device's.
 bool ensureCopy(Device& device, StoredPixels& pixels) {
     // Images of several share groups may have the same pixels.
     static auto& mutex = *new std::mutex;
     const std::lock_guard lock(mutex);
     if (pixels.copy())
-        return true;
+        return pixels.copy()->texture() != nullptr;
     TexturePointer texture = device.makeTexture(GL_RGBA8, pixels.width(), pixels.height());
     if (!texture)
         return false;
@@ -56,16 +55,20 @@ bool ensureCopy(Device& device, StoredPixels& pixels) {
 
 }  // namespace
 
+std::unique_ptr<PixelCopy> copyIn(Device& device, GLenum format, GLuint texture, int width, int height) {
+    return std::make_unique<TextureCopy>(device, device.adoptTexture(format, texture, width, height));
+}
+
 TexturePointer readTexture(Device& device, const StoredPixels& pixels) {
     if (!ensureCopy(device, const_cast<StoredPixels&>(pixels)))
         return nullptr;
-    return static_cast<TextureCopy&>(pixels.readCopy()).texture();
+    return pixels.readCopy().texture();
 }
 
 TexturePointer writeTexture(Device& device, StoredPixels& pixels) {
     if (!ensureCopy(device, pixels))
         return nullptr;
-    return static_cast<TextureCopy&>(pixels.writeCopy()).texture();
+    return pixels.writeCopy().texture();
 }
 
 void readPart(Device& device, const StoredPixels& pixels, const Rectangle& part, Pixels& to) {

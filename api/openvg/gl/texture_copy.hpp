@@ -8,7 +8,11 @@
 
 namespace vtm::openvg::gl {
 
-/// Up to date, to be read or to be drawn into. Null where there is no room for it.
+/// In a texture of a context that shares with the device's, which is the device's from now on.
+std::unique_ptr<PixelCopy> copyIn(Device& device, GLenum format, GLuint texture, int width, int height);
+
+/// Up to date, to be read or to be drawn into. Null where there is no room for it, or
+/// where others have the pixels in a place of their own.
 TexturePointer readTexture(Device& device, const StoredPixels& pixels);
 TexturePointer writeTexture(Device& device, StoredPixels& pixels);
 

@@ -154,7 +154,10 @@ void clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alpha
 }
 
 void premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {
-    return alphaByte == 0 ? premultiply<0>(from, to, count) : premultiply<3>(from, to, count);
+    const int done = wide::premultiplyBytes(from, to, count, alphaByte);
+    from += 4 * std::ptrdiff_t(done);
+    to += 4 * std::ptrdiff_t(done);
+    return alphaByte == 0 ? premultiply<0>(from, to, count - done) : premultiply<3>(from, to, count - done);
 }
 
 bool isOpaque(const std::uint8_t* pixels, int count, int alphaByte) {

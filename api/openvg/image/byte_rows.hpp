@@ -32,6 +32,26 @@ int overBytes(std::uint8_t* pixels, int count, const std::uint16_t (&added)[4],
               const std::uint16_t (&kept)[4]);
 int overBytes(std::uint8_t* pixels, const std::uint8_t* sources, int count, int alphaByte);
 int clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
+int premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte);
+
+/// Moves each pixel's bytes: the i-th of the result is the given one, or 0 if that is negative, or'ed with
+/// `added`.
+int moveBytes(const std::uint8_t* from, std::uint8_t* to, int count, const int (&places)[4],
+              std::uint32_t added);
+
+/// A table of 256 bytes for the three colours of pixels of four bytes, in 16 parts: their exclusive or with
+/// the part before, in either half by itself.
+struct ByteTable {
+    ByteTable(const std::uint8_t* values, int fromAlpha);
+
+    std::uint8_t steps[16][16];
+    int alphaByte;
+};
+
+/// Replaces the colours by the table, and moves bytes as above. `opaqueOnly`: stops at eight pixels that are
+/// not all opaque.
+int lookUpBytes(const std::uint8_t* from, std::uint8_t* to, int count, const ByteTable& table,
+                const int (&places)[4], std::uint32_t added, bool opaqueOnly);
 
 }  // namespace wide
 

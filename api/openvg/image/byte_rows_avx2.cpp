@@ -70,6 +70,79 @@ __attribute__((target("avx2"))) void clampPixels(const std::uint8_t* from, std::
     }
 }
 
+/// By the formula of byte_rows.cpp.
+__attribute__((target("avx2"))) __m256i premultiplied(__m256i words, __m256i alphas) {
+    const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(words, alphas), _mm256_set1_epi16(128));
+    return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
+}
+
+__attribute__((target("avx2"))) void premultiplyPixels(const std::uint8_t* from, std::uint8_t* to, int count,
+                                                       int alphaByte) {
+    const __m256i zero = _mm256_setzero_si256(), shuffle = alphaShuffle(alphaByte),
+                  alphaIsKept = _mm256_set1_epi32(int(255u << 8 * alphaByte));
+    const auto* f = reinterpret_cast<const __m256i*>(from);
+    for (auto* t = reinterpret_cast<__m256i*>(to); count > 0; count -= pixelsAtOnce, ++t, ++f) {
+        const __m256i given = _mm256_loadu_si256(f),
+                      alphas = _mm256_or_si256(_mm256_shuffle_epi8(given, shuffle), alphaIsKept);
+        _mm256_storeu_si256(
+            t, _mm256_packus_epi16(
+                   premultiplied(_mm256_unpacklo_epi8(given, zero), _mm256_unpacklo_epi8(alphas, zero)),
+                   premultiplied(_mm256_unpackhi_epi8(given, zero), _mm256_unpackhi_epi8(alphas, zero))));
+    }
+}
+
+/// A negative place gives 0, and stays negative in all pixels of a half.
+__attribute__((target("avx2"))) __m256i placeShuffle(const int (&places)[4]) {
+    std::uint32_t first = 0;
+    for (int i = 0; i < 4; ++i)
+        first |= std::uint32_t(std::uint8_t(places[i] < 0 ? 0x80 : places[i])) << 8 * i;
+    const auto pixel = [&](std::uint32_t i) { return int(first + i * 0x04040404); };
+    return _mm256_setr_epi32(pixel(0), pixel(1), pixel(2), pixel(3), pixel(0), pixel(1), pixel(2), pixel(3));
+}
+
+__attribute__((target("avx2"))) void movePixels(const std::uint8_t* from, std::uint8_t* to, int count,
+                                                const int (&places)[4], std::uint32_t added) {
+    const __m256i shuffle = placeShuffle(places), add = _mm256_set1_epi32(int(added));
+    const auto* f = reinterpret_cast<const __m256i*>(from);
+    for (auto* t = reinterpret_cast<__m256i*>(to); count > 0; count -= pixelsAtOnce, ++t, ++f)
+        _mm256_storeu_si256(t, _mm256_or_si256(_mm256_shuffle_epi8(_mm256_loadu_si256(f), shuffle), add));
+}
+
+/// Values of a half of the table. What is left of a byte after 16 were taken from it k times is not negative
+/// where the k-th part, or one after it, is its own: the exclusive or of the steps so far is its value.
+template <int first>
+__attribute__((target("avx2"))) __m256i halfLookedUp(__m256i bytes, const ByteTable& table) {
+    const __m256i sixteen = _mm256_set1_epi8(16);
+    __m256i values = _mm256_setzero_si256();
+    for (int k = first; k < first + 8; ++k) {
+        const auto* const step = reinterpret_cast<const __m128i*>(table.steps[k]);
+        const __m256i part = _mm256_broadcastsi128_si256(_mm_loadu_si128(step));
+        values = _mm256_xor_si256(values, _mm256_shuffle_epi8(part, bytes));
+        bytes = _mm256_subs_epi8(bytes, sixteen);
+    }
+    return values;
+}
+
+__attribute__((target("avx2"))) int lookUpPixels(const std::uint8_t* from, std::uint8_t* to, int count,
+                                                 const ByteTable& table, const int (&places)[4],
+                                                 std::uint32_t added, bool opaqueOnly) {
+    const __m256i shuffle = placeShuffle(places), add = _mm256_set1_epi32(int(added)),
+                  alphas = _mm256_set1_epi32(int(255u << 8 * table.alphaByte)),
+                  upper = _mm256_set1_epi8(char(0x80));
+    const auto* f = reinterpret_cast<const __m256i*>(from);
+    auto* t = reinterpret_cast<__m256i*>(to);
+    for (int done = 0; done < count; done += pixelsAtOnce, ++t, ++f) {
+        const __m256i given = _mm256_loadu_si256(f);
+        if (opaqueOnly && !_mm256_testc_si256(given, alphas))
+            return done;
+        const __m256i values = _mm256_xor_si256(halfLookedUp<0>(given, table),
+                                                halfLookedUp<8>(_mm256_xor_si256(given, upper), table)),
+                      pixels = _mm256_blendv_epi8(values, given, alphas);
+        _mm256_storeu_si256(t, _mm256_or_si256(_mm256_shuffle_epi8(pixels, shuffle), add));
+    }
+    return count;
+}
+
 std::uint64_t joined(const std::uint16_t (&words)[4]) {
     return std::uint64_t(words[0]) | std::uint64_t(words[1]) << 16 | std::uint64_t(words[2]) << 32 |
            std::uint64_t(words[3]) << 48;
@@ -99,12 +172,45 @@ int clampBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaB
     return whole;
 }
 
+int premultiplyBytes(const std::uint8_t* from, std::uint8_t* to, int count, int alphaByte) {
+    const int whole = wholeOnes(count);
+    if (whole > 0)
+        premultiplyPixels(from, to, whole, alphaByte);
+    return whole;
+}
+
+int moveBytes(const std::uint8_t* from, std::uint8_t* to, int count, const int (&places)[4],
+              std::uint32_t added) {
+    const int whole = wholeOnes(count);
+    if (whole > 0)
+        movePixels(from, to, whole, places, added);
+    return whole;
+}
+
+int lookUpBytes(const std::uint8_t* from, std::uint8_t* to, int count, const ByteTable& table,
+                const int (&places)[4], std::uint32_t added, bool opaqueOnly) {
+    const int whole = wholeOnes(count);
+    return whole > 0 ? lookUpPixels(from, to, whole, table, places, added, opaqueOnly) : 0;
+}
+
 #else
 
 int overBytes(std::uint8_t*, int, const std::uint16_t (&)[4], const std::uint16_t (&)[4]) { return 0; }
 int overBytes(std::uint8_t*, const std::uint8_t*, int, int) { return 0; }
 int clampBytes(const std::uint8_t*, std::uint8_t*, int, int) { return 0; }
+int premultiplyBytes(const std::uint8_t*, std::uint8_t*, int, int) { return 0; }
+int moveBytes(const std::uint8_t*, std::uint8_t*, int, const int (&)[4], std::uint32_t) { return 0; }
+
+int lookUpBytes(const std::uint8_t*, std::uint8_t*, int, const ByteTable&, const int (&)[4], std::uint32_t,
+                bool) {
+    return 0;
+}
 
 #endif
+
+ByteTable::ByteTable(const std::uint8_t* values, int fromAlpha) : alphaByte(fromAlpha) {
+    for (int i = 0; i < 256; ++i)
+        steps[i / 16][i % 16] = std::uint8_t(values[i] ^ (i % 128 < 16 ? 0 : values[i - 16]));
+}
 
 }  // namespace vtm::openvg::wide

@@ -1,7 +1,10 @@
 #include "api/openvg/image/conversion_table.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
+#include <numeric>
+#include <ranges>
 
 namespace vtm::openvg {
 
@@ -80,6 +83,8 @@ void ConversionTable::addChannels(const PixelFormat& from, const PixelFormat& to
         for (int value = 0; value < 256; ++value)
             channels_[std::size_t(256 * alpha + value)] = converted[std::size_t(4 * value + toOrder_.red)];
     }
+    placeOpaque();
+    widen();
 }
 
 void ConversionTable::apply(const std::uint8_t* from, std::uint8_t* to, int count) const {
@@ -109,10 +114,69 @@ void ConversionTable::convertWords(const std::uint8_t* from, std::uint8_t* to, i
         each(std::uint8_t());
 }
 
+void ConversionTable::placeOpaque() {
+    const auto place = [&](int from, int to, const std::uint8_t* bytes) {
+        for (std::size_t value = 0; value < 256; ++value) {
+            std::array<std::uint8_t, 4> pixel{};
+            pixel[std::size_t(to)] = bytes[value];
+            std::memcpy(&placed_[std::size_t(from)][value], pixel.data(), 4);
+        }
+    };
+    const std::uint8_t* const row = &channels_[std::size_t(alphaMask_) * 256];
+    place(fromOrder_.red, toOrder_.red, row);
+    place(fromOrder_.green, toOrder_.green, row);
+    place(fromOrder_.blue, toOrder_.blue, row);
+    place(fromOrder_.alpha, toOrder_.alpha, alphas_.data());
+    const auto isZero = [](std::uint8_t byte) { return byte == 0; };
+    isClearZero_ =
+        alphaMask_ != 0 && alphas_[0] == 0 && std::ranges::all_of(channels_ | std::views::take(256), isZero);
+}
+
+void ConversionTable::widen() {
+    std::array<std::uint8_t, 256> same;
+    std::iota(same.begin(), same.end(), std::uint8_t(0));
+    const bool isKept = alphas_ == same,
+               isConstant = std::ranges::count(alphas_, alphas_[0]) == std::ptrdiff_t(alphas_.size());
+    if (!isKept && !isConstant)
+        return;
+    places_[toOrder_.red] = fromOrder_.red;
+    places_[toOrder_.green] = fromOrder_.green;
+    places_[toOrder_.blue] = fromOrder_.blue;
+    places_[toOrder_.alpha] = isKept ? fromOrder_.alpha : -1;
+    added_ = isKept ? 0 : placed_[std::size_t(fromOrder_.alpha)][0];
+    colors_.emplace(&channels_[std::size_t(alphaMask_) * 256], fromOrder_.alpha);
+}
+
 void ConversionTable::convertChannels(const std::uint8_t* from, std::uint8_t* to, int count) const {
+    while (count > 0) {
+        const int done =
+            colors_ ? wide::lookUpBytes(from, to, count, *colors_, places_, added_, alphaMask_ != 0) : 0;
+        from += 4 * std::ptrdiff_t(done);
+        to += 4 * std::ptrdiff_t(done);
+        count -= done;
+        // Those that are not all opaque, or too few.
+        const int single = std::min(count, 64);
+        convertSingle(from, to, single);
+        from += 4 * std::ptrdiff_t(single);
+        to += 4 * std::ptrdiff_t(single);
+        count -= single;
+    }
+}
+
+void ConversionTable::convertSingle(const std::uint8_t* from, std::uint8_t* to, int count) const {
     for (int i = 0; i < count; ++i, from += 4, to += 4) {
         const std::uint8_t alpha = from[fromOrder_.alpha];
-        const std::uint8_t* const row = &channels_[std::size_t(alpha & alphaMask_) * 256];
+        if ((alpha & alphaMask_) == alphaMask_) {
+            const std::uint32_t pixel =
+                placed_[0][from[0]] | placed_[1][from[1]] | placed_[2][from[2]] | placed_[3][from[3]];
+            std::memcpy(to, &pixel, 4);
+            continue;
+        }
+        if (alpha == 0 && isClearZero_) {
+            std::memset(to, 0, 4);
+            continue;
+        }
+        const std::uint8_t* const row = &channels_[std::size_t(alpha) * 256];
         to[toOrder_.red] = row[from[fromOrder_.red]];
         to[toOrder_.green] = row[from[fromOrder_.green]];
         to[toOrder_.blue] = row[from[fromOrder_.blue]];

@@ -1,6 +1,9 @@
 // VG_KHR_iterative_average_blur.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <VG/vgext.h>
@@ -11,51 +14,96 @@ using namespace vtm::openvg;
 
 namespace {
 
-/// A mean over a window, taken again and again, of lines of colours.
+/// A mean over a window, taken again and again, along lines of places with `width` numbers each.
+template <std::size_t width>
 class Averages {
 public:
+    using Line = std::vector<std::array<double, width>>;
+
     /// A window of a pixel or less changes nothing.
-    Averages(double window, unsigned passes) : window_(window), passes_(window > 1 ? int(passes) : 0) {
+    Averages(double window, unsigned passes) : scale_(1 / window), passes_(window > 1 ? int(passes) : 0) {
         const double radius = (window - 1) / 2;
         reach_ = int(1 + radius);
         edge_ = radius - std::floor(radius);
     }
 
-    /// What of the line's other pixels counts, to either side.
+    /// What of the line's other places counts, to either side.
     int margin() const { return passes_ * reach_; }
 
-    /// Takes a line with its margins, gives it without.
-    const std::vector<glm::dvec4>& of(std::vector<glm::dvec4>& line) {
+    /// Takes a line with its margins, leaves it without.
+    void apply(Line& line) {
         for (int i = 0; i < passes_; ++i)
             pass(line);
-        return line;
     }
 
 private:
-    /// All pixels less than reach_ away count in full, those at reach_ by edge_: the sum rolls from pixel to
-    /// pixel.
-    void pass(std::vector<glm::dvec4>& line) {
-        const auto reach = std::size_t(reach_);
-        means_.clear();
-        glm::dvec4 sum = edge_ * line[0];
+    /// All places less than reach_ away count in full, those at reach_ by edge_: the sum rolls from place to
+    /// place.
+    void pass(Line& line) {
+        const auto reach = std::size_t(reach_), count = line.size() - 2 * reach;
+        const double inner = 1 - edge_, edge = edge_, scale = scale_;
+        means_.resize(count);
+        std::array<double, width> sum;
+        for (std::size_t c = 0; c < width; ++c)
+            sum[c] = edge * (line[0][c] + line[2 * reach][c]);
         for (std::size_t i = 1; i < 2 * reach; ++i)
-            sum += line[i];
-        sum += edge_ * line[2 * reach];
-        for (std::size_t x = reach;; ++x) {
-            means_.push_back(sum / window_);
-            if (x + reach + 1 == line.size())
+            for (std::size_t c = 0; c < width; ++c)
+                sum[c] += line[i][c];
+        for (std::size_t x = 0;; ++x) {
+            for (std::size_t c = 0; c < width; ++c)
+                means_[x][c] = sum[c] * scale;
+            if (x + 1 == count)
                 break;
-            sum += (1 - edge_) * (line[x + reach] - line[x - reach + 1]) +
-                   edge_ * (line[x + reach + 1] - line[x - reach]);
+            const auto *outOf = &line[x], *in = &line[x + 2 * reach];
+            for (std::size_t c = 0; c < width; ++c)
+                sum[c] += inner * (in[0][c] - outOf[1][c]) + edge * (in[1][c] - outOf[0][c]);
         }
         line.swap(means_);
     }
 
-    double window_;
+    double scale_;
     int passes_, reach_;
     double edge_;
-    std::vector<glm::dvec4> means_;
+    Line means_;
 };
+
+/// Along rows, and along columns, four at a time: what is read of a row is in one place.
+constexpr std::size_t colorChannels = 4, columnsAtOnce = 4;
+using AveragesAcross = Averages<colorChannels>;
+using AveragesUp = Averages<columnsAtOnce * colorChannels>;
+
+void averageRow(AveragesAcross& across, std::span<const Color> row, const std::vector<int>& places,
+                Color fill, std::span<Color> means) {
+    thread_local AveragesAcross::Line line;
+    line.resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Color color = places[i] < 0 ? fill : row[std::size_t(places[i])];
+        line[i] = {color.r, color.g, color.b, color.a};
+    }
+    across.apply(line);
+    for (std::size_t x = 0; x < means.size(); ++x)
+        means[x] = Color(line[x][0], line[x][1], line[x][2], line[x][3]);
+}
+
+/// Columns from `first` on, or as many as there are.
+void averageColumns(AveragesUp& up, const Raster& rows, const std::vector<int>& places, Color fill, int first,
+                    Raster& means) {
+    thread_local AveragesUp::Line line;
+    line.resize(places.size());
+    const int count = std::min(int(columnsAtOnce), rows.width - first);
+    const auto value = [](auto& place, int column, std::size_t channel) -> double& {
+        return place[std::size_t(column) * colorChannels + channel];
+    };
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (int x = 0; x < count; ++x)
+            for (std::size_t c = 0; c < colorChannels; ++c)
+                value(line[i], x, c) = (places[i] < 0 ? fill : rows.at(first + x, places[i]))[int(c)];
+    up.apply(line);
+    for (int y = 0; y < means.height; ++y)
+        for (int x = 0; x < count; ++x)
+            for (std::size_t c = 0; c < colorChannels; ++c)
+                means.at(first + x, y)[int(c)] = float(value(line[std::size_t(y)], x, c));
+}
 
 bool isWindow(VGfloat size) { return size >= 0 && size <= VGfloat(maxAverageBlurDimension); }
 
@@ -68,34 +116,21 @@ void vgIterativeAverageBlurKHR(VGImage dst, VGImage src, VGfloat dimX, VGfloat d
         require(isTiling(tilingMode));
         require(isWindow(dimX) && isWindow(dimY) && iterative <= VGuint(maxAverageBlurIterations));
         const ColorSpace space = filterSpace(context.state);
-        const Raster source = normalized(*images.src, space);
+        Raster source = normalized(*images.src, space);
         const Color fill = tileFillColor(context.state, space);
-        Averages across(double(dimX), iterative), up(double(dimY), iterative);
-        std::vector<glm::dvec4> line;
-
-        Raster rows(images.width(), source.height);
-        for (int y = 0; y < rows.height; ++y) {
-            line.clear();
-            for (int x = -across.margin(); x < rows.width + across.margin(); ++x) {
-                const int i = tiled(x, source.width, tilingMode);
-                line.emplace_back(i < 0 ? fill : source.at(i, y));
-            }
-            const std::vector<glm::dvec4>& means = across.of(line);
-            for (int x = 0; x < rows.width; ++x)
-                rows.at(x, y) = Color(means[std::size_t(x)]);
-        }
         const int height = images.height();
-        Raster result(rows.width, height);
-        for (int x = 0; x < rows.width; ++x) {
-            line.clear();
-            for (int y = -up.margin(); y < height + up.margin(); ++y) {
-                const int j = tiled(y, source.height, tilingMode);
-                line.emplace_back(j < 0 ? fill : rows.at(x, j));  // rows of the fill colour have it as mean
-            }
-            const std::vector<glm::dvec4>& means = up.of(line);
-            for (int y = 0; y < height; ++y)
-                result.at(x, y) = Color(means[std::size_t(y)]);
-        }
+        AveragesAcross across(double(dimX), iterative);
+        AveragesUp up(double(dimY), iterative);
+        Raster rows(images.width(), source.height), result(rows.width, height);
+        const std::vector<int> columns = tiledPlaces(-across.margin(), rows.width + across.margin(),
+                                                     source.width, tilingMode),
+                               lines =
+                                   tiledPlaces(-up.margin(), height + up.margin(), source.height, tilingMode);
+        for (int y = 0; y < rows.height; ++y)
+            averageRow(across, source.row(y), columns, fill, rows.row(y));
+        // Rows of the fill colour have it as mean.
+        for (int x = 0; x < rows.width; x += int(columnsAtOnce))
+            averageColumns(up, rows, lines, fill, x, result);
         for (int y = 0; y < height; ++y)
             writeFilteredRow(context.state, *images.dst, y, result.row(y), space);
     });

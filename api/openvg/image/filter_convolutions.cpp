@@ -1,79 +1,93 @@
 // Section 12.4: convolutions with kernels that programs give.
 
 #include <algorithm>
-#include <array>
-#include <numeric>
+#include <vector>
 
 #include "api/openvg/image/filter_images.hpp"
+#include "api/openvg/image/weighted_sums.hpp"
 
 using namespace vtm::openvg;
 
 namespace {
 
-/// Weights of the source pixels at x + offset, x + offset + 1, ….
-struct Kernel {
-    std::vector<double> weights;
-    int offset = 0;
-
-    Kernel(const VGshort* values, VGint count, VGint shift)
-        : weights(std::size_t(count)), offset(-std::clamp(shift, -(1 << 28), 1 << 28)) {
-        // Index count - i - 1: the kernel is turned round.
-        for (VGint i = 0; i < count; ++i)
-            weights[std::size_t(i)] = double(values[count - i - 1]);
-    }
-    std::vector<int> places(int count, int size, VGTilingMode mode) const {
-        return tiledPlaces(offset, offset + count + int(weights.size()) - 1, size, mode);
-    }
-};
-
-/// In doubles: kernels may cancel what they magnify.
-using Sum = glm::dvec4;
-
-/// sums[i] = Σ weights[k] * taps[k][i].
-void weightedSums(std::span<const Sum* const> taps, std::span<const double> weights, std::span<Sum> sums) {
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        Sum sum(0);
-        for (std::size_t k = 0; k < taps.size(); ++k)
-            sum += weights[k] * taps[k][i];
-        sums[i] = sum;
-    }
+/// What a kernel's taps fall on: columns or rows of the tiled source.
+std::vector<int> placesOf(int kernelSize, int shift, int count, int size, VGTilingMode mode) {
+    const int offset = -std::clamp(shift, -(1 << 28), 1 << 28);
+    return tiledPlaces(offset, offset + count + kernelSize - 1, size, mode);
 }
 
-/// One dimension after the other, only what is written.
-void separable(Context& context, const FilterImages& images, const Kernel& across, const Kernel& up,
-               double scale, double bias, VGTilingMode mode) {
-    const ColorSpace space = filterSpace(context.state);
-    const Color fill = tileFillColor(context.state, space);
-    const int width = images.width(), height = images.height(), sourceHeight = images.src->height();
-    const std::vector<int> columns = across.places(width, images.src->width(), mode),
-                           lines = up.places(height, sourceHeight, mode);
-    // Sums across: of all rows of the source, and of one of nothing but the fill colour.
-    const auto size = std::size_t(width);
-    std::vector<Sum> rows(size * std::size_t(sourceHeight)), fillRow(size), line(columns.size());
-    std::fill(fillRow.begin(), fillRow.end(),
-              Sum(fill) * std::accumulate(across.weights.begin(), across.weights.end(), 0.0));
-    std::vector<const Sum*> taps;
-    for (std::size_t k = 0; k < across.weights.size(); ++k)
-        taps.push_back(line.data() + k);
-    std::vector<Color> colors(std::size_t(images.src->width()));
-    for (int y = 0; y < sourceHeight; ++y) {
-        normalizedRow(*images.src, y, space, colors);
-        for (std::size_t i = 0; i < line.size(); ++i)
-            line[i] = Sum(columns[i] < 0 ? fill : colors[std::size_t(columns[i])]);
-        weightedSums(taps, across.weights, std::span(rows).subspan(size * std::size_t(y), size));
+/// Kernels are turned round: the first weight is that of the first place.
+std::vector<double> reversedWeights(const VGshort* values, VGint count) {
+    return {std::reverse_iterator(values + count), std::reverse_iterator(values)};
+}
+
+/// Rows of the tiled source as numbers, the last ones of them that were asked for.
+class SourceLines {
+public:
+    /// `across`: weights of a row's pixels from each one on, whose sums the rows are then; none: the pixels.
+    SourceLines(const Image& image, const State& state, int count, std::vector<int> columns,
+                std::vector<int> rows, std::vector<double> across = {})
+        : image_(image),
+          space_(filterSpace(state)),
+          fill_(tileFillColor(state, space_)),
+          columns_(std::move(columns)),
+          rows_(std::move(rows)),
+          across_(std::move(across)),
+          colors_(std::size_t(image.width())),
+          pixels_(columns_.size()),
+          lines_(std::size_t(count)) {}
+
+    /// Of the i-th place. Stays until as many others after it were asked for.
+    const Sum* line(int i) {
+        for (; made_ <= i; ++made_)
+            make(rows_[std::size_t(made_)], kept(made_));
+        return kept(i).data();
     }
-    std::vector<Sum> sums(size);
-    colors.resize(size);
-    for (int y = 0; y < height; ++y) {
-        taps.clear();
-        for (std::size_t k = 0; k < up.weights.size(); ++k) {
-            const int j = lines[std::size_t(y) + k];
-            taps.push_back(j < 0 ? fillRow.data() : rows.data() + size * std::size_t(j));
+
+private:
+    std::vector<Sum>& kept(int i) { return lines_[std::size_t(i) % lines_.size()]; }
+
+    void make(int row, std::vector<Sum>& line) {
+        if (row >= 0)
+            normalizedRow(image_, row, space_, colors_);
+        for (std::size_t i = 0; i < pixels_.size(); ++i)
+            pixels_[i] = Sum(row < 0 || columns_[i] < 0 ? fill_ : colors_[std::size_t(columns_[i])]);
+        if (across_.empty()) {
+            line = pixels_;
+            return;
         }
-        weightedSums(taps, up.weights, sums);
-        for (std::size_t x = 0; x < size; ++x)
+        line.resize(pixels_.size() - across_.size() + 1);
+        std::vector<const Sum*> taps;
+        for (std::size_t k = 0; k < across_.size(); ++k)
+            taps.push_back(pixels_.data() + k);
+        weightedSums(taps, across_, line);
+    }
+
+    const Image& image_;
+    const ColorSpace space_;
+    const Color fill_;
+    const std::vector<int> columns_, rows_;
+    const std::vector<double> across_;
+    std::vector<Color> colors_;
+    std::vector<Sum> pixels_;
+    std::vector<std::vector<Sum>> lines_;
+    int made_ = 0;
+};
+
+/// Writes sums of `columns` places in each of as many lines as that takes for all weights.
+void writeSums(const State& state, const FilterImages& images, SourceLines& source,
+               std::span<const double> weights, int columns, double scale, double bias) {
+    const ColorSpace space = filterSpace(state);
+    std::vector<Sum> sums(std::size_t(images.width()));
+    std::vector<Color> colors(sums.size());
+    std::vector<const Sum*> taps(weights.size());
+    for (int y = 0; y < images.height(); ++y) {
+        for (int k = 0; k < int(weights.size()); ++k)
+            taps[std::size_t(k)] = source.line(y + k / columns) + k % columns;
+        weightedSums(taps, weights, sums);
+        for (std::size_t x = 0; x < sums.size(); ++x)
             colors[x] = Color(sums[x] * scale + bias);
-        writeFilteredRow(context.state, *images.dst, y, colors, space);
+        writeFilteredRow(state, *images.dst, y, colors, space);
     }
 }
 
@@ -86,31 +100,14 @@ void vgConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kernelHeight,
         require(kernelWidth > 0 && kernelHeight > 0 && kernelWidth <= maxKernelSize &&
                 kernelHeight <= maxKernelSize);
         require(kernel != nullptr && isAligned(kernel) && isTiling(tilingMode));
-        const ColorSpace space = filterSpace(context.state);
-        const Raster source = normalized(*images.src, space);
-        const Color fill = tileFillColor(context.state, space);
-        const int left = -std::clamp(shiftX, -(1 << 28), 1 << 28),
-                  low = -std::clamp(shiftY, -(1 << 28), 1 << 28), width = images.width();
-        const std::vector<int> columns =
-            tiledPlaces(left, left + width + kernelWidth - 1, source.width, tilingMode);
-        std::vector<Color> colors(std::size_t(width), Color(0));
-        for (int y = 0; y < images.height(); ++y) {
-            const std::vector<int> rows =
-                tiledPlaces(y + low, y + low + kernelHeight, source.height, tilingMode);
-            for (int x = 0; x < width; ++x) {
-                Sum sum(0);
-                for (int i = 0; i < kernelWidth; ++i) {
-                    const int u = columns[std::size_t(x + i)];
-                    for (int j = 0; j < kernelHeight; ++j) {
-                        const int v = rows[std::size_t(j)];
-                        const double k = kernel[(kernelWidth - i - 1) * kernelHeight + kernelHeight - j - 1];
-                        sum += k * Sum(u < 0 || v < 0 ? fill : source.at(u, v));
-                    }
-                }
-                colors[std::size_t(x)] = Color(sum * double(scale) + double(bias));
-            }
-            writeFilteredRow(context.state, *images.dst, y, colors, space);
-        }
+        SourceLines source(*images.src, context.state, kernelHeight,
+                           placesOf(kernelWidth, shiftX, images.width(), images.src->width(), tilingMode),
+                           placesOf(kernelHeight, shiftY, images.height(), images.src->height(), tilingMode));
+        std::vector<double> weights;  // row by row; the program's are column by column
+        for (int j = kernelHeight - 1; j >= 0; --j)
+            for (int i = kernelWidth - 1; i >= 0; --i)
+                weights.push_back(double(kernel[i * kernelHeight + j]));
+        writeSums(context.state, images, source, weights, kernelWidth, double(scale), double(bias));
     });
 }
 
@@ -123,7 +120,11 @@ void vgSeparableConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kern
                 kernelHeight <= maxSeparableKernelSize);
         require(kernelX != nullptr && isAligned(kernelX) && kernelY != nullptr && isAligned(kernelY));
         require(isTiling(tilingMode));
-        separable(context, images, Kernel(kernelX, kernelWidth, shiftX),
-                  Kernel(kernelY, kernelHeight, shiftY), double(scale), double(bias), tilingMode);
+        SourceLines source(*images.src, context.state, kernelHeight,
+                           placesOf(kernelWidth, shiftX, images.width(), images.src->width(), tilingMode),
+                           placesOf(kernelHeight, shiftY, images.height(), images.src->height(), tilingMode),
+                           reversedWeights(kernelX, kernelWidth));
+        writeSums(context.state, images, source, reversedWeights(kernelY, kernelHeight), 1, double(scale),
+                  double(bias));
     });
 }

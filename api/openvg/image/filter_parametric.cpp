@@ -52,43 +52,46 @@ private:
     std::optional<ColorRamp> ramp_;
 };
 
-/// An image's alpha between pixels, its border pixels going on outside.
-class Alphas {
+/// Between two pixels of a line.
+struct Between {
+    int low, high;
+    float share;
+
+    /// Whole numbers are pixels. max first: it makes 0 of NaN.
+    Between(double v, int size) {
+        const double inside = std::min(std::max(0.0, v), size - 1.0);
+        low = int(inside);
+        high = std::min(low + 1, size - 1);
+        share = float(inside - low);
+    }
+    float mix(float a, float b) const { return a + share * (b - a); }
+};
+
+/// An image's alpha, moved by an offset and interpolated, its border pixels going on outside.
+class MovedAlphas {
 public:
-    explicit Alphas(const Image& image) : width_(image.width()), height_(image.height()) {
-        values_.reserve(std::size_t(width_) * std::size_t(height_));
-        for (int y = 0; y < height_; ++y)
-            for (int x = 0; x < width_; ++x)
-                values_.push_back(image.color(x, y).a);
+    MovedAlphas(const Raster& image, double dx, double dy, int width)
+        : image_(image), dy_(dy), line_(std::size_t(image.width)), row_(std::size_t(width)) {
+        for (int x = 0; x < width; ++x)
+            places_.emplace_back(x + dx, image.width);
     }
 
-    /// Whole numbers are pixels.
-    float at(double x, double y) const {
-        const Place u(x, width_), v(y, height_);
-        return u.mix(v.mix(at(u.low, v.low), at(u.low, v.high)),
-                     v.mix(at(u.high, v.low), at(u.high, v.high)));
+    const std::vector<float>& row(int y) {
+        const Between v(y + dy_, image_.height);
+        for (int x = 0; x < image_.width; ++x)
+            line_[std::size_t(x)] = v.mix(image_.at(x, v.low).a, image_.at(x, v.high).a);
+        for (std::size_t x = 0; x < row_.size(); ++x) {
+            const Between& u = places_[x];
+            row_[x] = u.mix(line_[std::size_t(u.low)], line_[std::size_t(u.high)]);
+        }
+        return row_;
     }
 
 private:
-    /// Between two pixels of a line.
-    struct Place {
-        int low, high;
-        float share;
-
-        /// max first: it makes 0 of what is no number.
-        Place(double v, int size) {
-            const double inside = std::min(std::max(0.0, v), size - 1.0);
-            low = int(inside);
-            high = std::min(low + 1, size - 1);
-            share = float(inside - low);
-        }
-        float mix(float a, float b) const { return a + share * (b - a); }
-    };
-
-    float at(int x, int y) const { return values_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
-
-    int width_, height_;
-    std::vector<float> values_;
+    const Raster& image_;
+    const double dy_;
+    std::vector<Between> places_;
+    std::vector<float> line_, row_;
 };
 
 Color sum(Color a, Color b) { return glm::min(a + b, 1.0f); }
@@ -111,16 +114,20 @@ void vgParametricFilterKHR(VGImage dst, VGImage src, VGImage blur, VGfloat stren
         const bool isInner = filterFlags & VG_PF_INNER_FLAG_KHR, isOuter = filterFlags & VG_PF_OUTER_FLAG_KHR,
                    knocksOut = filterFlags & VG_PF_KNOCKOUT_FLAG_KHR,
                    isVisible = filterFlags & VG_PF_OBJECT_VISIBLE_FLAG_KHR;
-        const Alphas alphas(*blurred.src);
+        Raster blurs(blurred.src->width(), blurred.src->height());
+        for (int y = 0; y < blurs.height; ++y)
+            decodeRow(blurred.src->format(), blurred.src->at(0, y), blurs.row(y));
+        const double dx = double(offsetX), dy = double(offsetY);
+        MovedAlphas towards(blurs, dx, dy, images.width()), away(blurs, -dx, -dy, images.width());
         std::vector<Color> row(std::size_t(images.src->width()));
         const std::span<Color> colors = std::span(row).first(std::size_t(images.width()));
         for (int y = 0; y < images.height(); ++y) {
             normalizedRow(*images.src, y, space, row);
+            const std::vector<float>&ahead = towards.row(y), &behind = away.row(y);
             for (int x = 0; x < images.width(); ++x) {
                 // A paint that is not there has no light to take from the other's: glows and drop shadows.
-                const double dx = double(offsetX), dy = double(offsetY);
-                const float lit = highlight.exists() ? alphas.at(x + dx, y + dy) : 0,
-                            shaded = shadow.exists() ? alphas.at(x - dx, y - dy) : 0;
+                const float lit = highlight.exists() ? ahead[std::size_t(x)] : 0,
+                            shaded = shadow.exists() ? behind[std::size_t(x)] : 0;
                 const Color outer =
                     sum(highlight(std::max(lit - shaded, 0.0f)), shadow(std::max(shaded - lit, 0.0f)));
                 const Color inner = highlight.exists() ? outer : shadow(1 - std::max(shaded - lit, 0.0f));

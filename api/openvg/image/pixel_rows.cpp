@@ -76,7 +76,16 @@ void reorderBytes(const std::uint8_t* from, const PixelFormat& f, std::uint8_t* 
                    toAlpha = t.alpha.shift;
     const std::uint32_t kept = f.alpha.bits != 0 && t.alpha.bits != 0 ? 255 : 0,
                         added = f.alpha.bits == 0 && t.alpha.bits != 0 ? 255u << toAlpha : 0;
-    for (int i = 0; i < count; ++i, from += 4, to += 4) {
+    int places[4];
+    const ByteOrder order = *byteOrder(f), toOrder = *byteOrder(t);
+    places[toOrder.red] = order.red;
+    places[toOrder.green] = order.green;
+    places[toOrder.blue] = order.blue;
+    places[toOrder.alpha] = kept != 0 ? order.alpha : -1;
+    const int done = wide::moveBytes(from, to, count, places, added);
+    from += 4 * std::size_t(done);
+    to += 4 * std::size_t(done);
+    for (int i = done; i < count; ++i, from += 4, to += 4) {
         std::uint32_t w;
         std::memcpy(&w, from, 4);
         w = (w >> red & 255) << toRed | (w >> green & 255) << toGreen | (w >> blue & 255) << toBlue |

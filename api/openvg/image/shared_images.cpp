@@ -9,20 +9,8 @@
 
 #include <vtm/vg_image.h>
 #include "api/openvg/image/images.hpp"
+#include "api/openvg/image/shared_pixels.hpp"
 #include "api/openvg/state/objects.hpp"
-
-namespace vtm::openvg {
-
-/// Lives as long as its siblings can grow in number, or are more than the one that was shared: an image is a
-/// sibling while its storage knows of one of these.
-struct SharedPixels {
-    std::shared_ptr<ImageStorage> storage;
-    Rectangle area;
-    VGint formatName = 0;
-    VGbitfield allowedQuality = 0;
-};
-
-}  // namespace vtm::openvg
 
 struct VtmSharedImage {
     explicit VtmSharedImage(std::shared_ptr<const vtm::openvg::SharedPixels> shared)
@@ -172,7 +160,9 @@ void vtmPutSharedPixels(VtmSharedImage* image, const void* from) {
 
 VGImage vgCreateEGLImageTargetKHR(VGeglImageKHR name) {
     return callOr(VG_INVALID_HANDLE, [&](Context& context) {
-        const std::shared_ptr<const SharedPixels> pixels = pixelsOf(name);
+        std::shared_ptr<const SharedPixels> pixels = pixelsOf(name);
+        if (!pixels)
+            pixels = foreignPixels(context, name);
         require(pixels != nullptr);
         auto image = std::make_shared<Image>(pixels->storage, pixels->area);
         image->formatName = pixels->formatName;

@@ -24,6 +24,21 @@ void StoredPixels::setCopy(std::unique_ptr<PixelCopy> copy) {
     isMemoryNewer_ = copy_ != nullptr;
 }
 
+void StoredPixels::share(std::unique_ptr<PixelCopy> copy) {
+    const std::lock_guard lock(mutex_);
+    copy_ = std::move(copy);
+    isCopyNewer_ = true;
+    isMemoryNewer_ = false;
+}
+
+void StoredPixels::handOver(bool mayChange) {
+    if (!copy_)
+        return;
+    readCopy().finish();
+    if (mayChange)
+        isCopyNewer_ = true;
+}
+
 PixelCopy& StoredPixels::readCopy() const {
     const std::lock_guard lock(mutex_);
     if (isMemoryNewer_) {

@@ -10,6 +10,10 @@
 
 namespace vtm::openvg {
 
+namespace gl {
+class Texture;
+}
+
 /// Pixels outside of memory.
 class PixelCopy {
 public:
@@ -17,6 +21,10 @@ public:
     /// Takes pixels from memory, or brings them there. Both have the size and the format of the copy.
     virtual void take(const Pixels& from) = 0;
     virtual void give(Pixels& to) = 0;
+    /// Ends what was begun for it: other APIs may use it then.
+    virtual void finish() = 0;
+    /// What the compositor of GPUs draws from and into; null: it cannot.
+    virtual std::shared_ptr<const gl::Texture> texture() const = 0;
 };
 
 /// One thread changes pixels at a time; any number may read them.
@@ -50,6 +58,10 @@ public:
     PixelCopy* copy() const { return copy_.get(); }
     /// Keeps a copy from now on, which has no pixels yet.
     void setCopy(std::unique_ptr<PixelCopy> copy);
+    /// Keeps a copy from now on that has the pixels, and that others change too.
+    void share(std::unique_ptr<PixelCopy> copy);
+    /// What was changed goes into the copy. `mayChange`: then the others have it.
+    void handOver(bool mayChange);
     /// Brings the copy up to date, to be read.
     PixelCopy& readCopy() const;
     /// The same, to be changed.

@@ -9,6 +9,7 @@
 
 #include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/image/pixel_rows.hpp"
+#include "api/openvg/image/shared_pixels.hpp"
 
 namespace vtm::openvg {
 
@@ -93,6 +94,17 @@ std::optional<PixelFormat> surfaceFormat(const VtmSurfaceFormat& f) {
         return format;
     }
     return std::nullopt;
+}
+
+/// Rows from the highest one on.
+void readFromTop(const Surface& surface, const PixelFormat& format, const Rectangle& part, void* to,
+                 std::size_t rowBytes) {
+    const Pixels& pixels = surface.pixels().read();
+    const auto stride = std::ptrdiff_t(rowBytes);
+    const int width = part.x1 - part.x0, height = part.y1 - part.y0;
+    convertRows({pixels.at(part.x0, part.y0), pixels.stride()}, pixels.format(),
+                {static_cast<std::uint8_t*>(to) + (height - 1) * stride, -stride}, format, width, height,
+                convertRow);
 }
 
 bool isSide(VGint side) { return side >= 1 && side <= maxSurfaceSide; }
@@ -207,11 +219,15 @@ void vtmReadSurface(VtmSurface* surface, void* bytes, size_t rowBytes) {
 
 void vtmReadSurfacePart(VtmSurface* surface, VGint x0, VGint y0, VGint width, VGint height, void* bytes,
                         size_t rowBytes) {
-    const Pixels& pixels = surface->pixels().read();
-    const auto stride = std::ptrdiff_t(rowBytes);
-    convertRows({pixels.at(x0, y0), pixels.stride()}, pixels.format(),
-                {static_cast<std::uint8_t*>(bytes) + (height - 1) * stride, -stride}, bytesFormat(), width,
-                height, convertRow);
+    readFromTop(*surface, bytesFormat(), {x0, y0, x0 + width, y0 + height}, bytes, rowBytes);
+}
+VGboolean vtmReadSurfaceAs(VtmSurface* surface, VGImageFormat name, VGint x0, VGint y0, VGint width,
+                           VGint height, void* pixels, size_t rowBytes) {
+    const std::optional<PixelFormat> format = imageFormat(VGint(name));
+    if (!format || format->bits < 8)
+        return VG_FALSE;
+    readFromTop(*surface, *format, {x0, y0, x0 + width, y0 + height}, pixels, rowBytes);
+    return VG_TRUE;
 }
 
 void vtmWriteSurface(VtmSurface* surface, const void* bytes, size_t rowBytes) {
@@ -304,5 +320,8 @@ void vgFlush(void) {
     call([](Context& context) { compositorOf(context).flush(); });
 }
 void vgFinish(void) {
-    call([](Context& context) { compositorOf(context).finish(); });
+    call([](Context& context) {
+        compositorOf(context).finish();
+        handOverPixels();
+    });
 }

@@ -70,5 +70,36 @@ TEST_F(ByteRowsTest, Clamped) {
         }
 }
 
+TEST_F(ByteRowsTest, Premultiplied) {
+    for (int count = 0; count < 70; ++count)
+        for (const int alpha : {0, 3}) {
+            const Row given = row(count);
+            Row taken(given.size());
+            premultiplyBytes(given.data(), taken.data(), count, alpha);
+            for (std::size_t i = 0; i < given.size(); ++i) {
+                const int a = given[i / 4 * 4 + std::size_t(alpha)];
+                const bool isAlpha = int(i % 4) == alpha;
+                ASSERT_EQ(taken[i], isAlpha ? a : (2 * given[i] * a + 255) / 510)
+                    << int(given[i]) << ' ' << a;
+            }
+        }
+}
+
+TEST_F(ByteRowsTest, Moved) {
+    constexpr int ways[][4] = {{0, 1, 2, 3}, {2, 1, 0, 3}, {3, 2, 1, -1}, {1, 2, 3, 0}, {-1, 0, 3, 1}};
+    for (const auto& places : ways) {
+        const Row given = row(64);
+        Row taken = given;
+        // Also in place.
+        const int done = wide::moveBytes(taken.data(), taken.data(), 61, places, 0x30000001);
+        ASSERT_TRUE(done == 0 || done == 56);
+        for (int i = 0; i < 4 * done; ++i) {
+            const int place = places[i % 4], added = i % 4 == 0 ? 1 : i % 4 == 3 ? 0x30 : 0;
+            ASSERT_EQ(taken[std::size_t(i)], (place < 0 ? 0 : given[std::size_t(i / 4 * 4 + place)]) | added);
+        }
+        EXPECT_TRUE(std::equal(taken.begin() + 4 * done, taken.end(), given.begin() + 4 * done));
+    }
+}
+
 }  // namespace
 }  // namespace vtm::openvg::testing

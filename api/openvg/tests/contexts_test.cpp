@@ -1,6 +1,7 @@
 // Sections 3.6, 4, 9, 14 and 15: handles, sharing, what objects keep alive, threads, queries.
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <string>
@@ -149,6 +150,23 @@ TEST_F(ContextsTest, Queries) {
     vgFlush();
     vgFinish();
     EXPECT_EQ(vgGetError(), VG_NO_ERROR);
+}
+
+TEST_F(ContextsTest, SurfacesAreReadInAnyFormat) {
+    const VGfloat halfRed[] = {1, 0, 0, 0.5f}, blue[] = {0, 0, 1, 1};
+    vgSetfv(VG_CLEAR_COLOR, 4, halfRed);
+    vgClear(0, 0, 16, 16);
+    vgSetfv(VG_CLEAR_COLOR, 4, blue);
+    vgClear(1, 1, 1, 1);
+    // From the top, and (0, 1) of the surface first.
+    std::array<std::uint32_t, 4> words{};
+    ASSERT_TRUE(vtmReadSurfaceAs(surface, VG_sARGB_8888_PRE, 0, 0, 2, 2, words.data(), 8));
+    EXPECT_EQ(words, (std::array<std::uint32_t, 4>{0x80800000, 0xff0000ff, 0x80800000, 0x80800000}));
+    std::array<std::uint16_t, 4> small{};
+    ASSERT_TRUE(vtmReadSurfaceAs(surface, VG_sRGB_565, 0, 0, 2, 2, small.data(), 4));
+    EXPECT_EQ(small, (std::array<std::uint16_t, 4>{0xf800, 0x001f, 0xf800, 0xf800}));
+    EXPECT_FALSE(vtmReadSurfaceAs(surface, VG_BW_1, 0, 0, 1, 1, small.data(), 4));
+    EXPECT_FALSE(vtmReadSurfaceAs(surface, VGImageFormat(12345), 0, 0, 1, 1, small.data(), 4));
 }
 
 // ---- Threads --------------------------------------------------------------------------------------

@@ -67,29 +67,34 @@ TEST_F(RowsTest, EveryFormatBecomesEveryOther) {
 
 /// Many pixels are converted by tables, few one by one.
 TEST_F(RowsTest, ManyPixelsBecomeWhatFewDo) {
-    constexpr int side = 256, strip = 32;
-    // Each byte beside each alpha, wherever that is.
-    std::vector<std::uint8_t> bytes(side * side * 4);
-    for (std::size_t y = 0; y < side; ++y)
+    constexpr int side = 256, rows = side + 64, strip = 32;
+    // Each byte beside each alpha, wherever that is; above, rows that are mostly opaque.
+    std::vector<std::uint8_t> bytes(side * rows * 4);
+    for (std::size_t y = 0; y < rows; ++y)
         for (std::size_t x = 0; x < side; ++x)
-            for (std::size_t i = 0; i < 4; ++i)
-                bytes[(y * side + x) * 4 + i] = std::uint8_t(i == 0 ? y : i == 3 ? x + y : x);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const bool isOpaque = y >= side && (x + y) % 23 > 2, isFirst = i == 0, isLast = i == 3;
+                bytes[(y * side + x) * 4 + i] = std::uint8_t(isOpaque && (isFirst || isLast) ? 255
+                                                             : isFirst                       ? y
+                                                             : isLast                        ? x + y
+                                                                                             : x);
+            }
     const auto bytesOf = [](VGImage image, VGImageFormat format) {
-        std::vector<std::uint8_t> result(side * side * 4);
-        vgGetImageSubData(image, result.data(), side * 4, format, 0, 0, side, side);
+        std::vector<std::uint8_t> result(side * rows * 4);
+        vgGetImageSubData(image, result.data(), side * 4, format, 0, 0, side, rows);
         return result;
     };
     for (const VGImageFormat from : formats) {
-        const VGImage image = newImage(from, side, side);
-        vgImageSubData(image, bytes.data(), side * 4, from, 0, 0, side, side);
+        const VGImage image = newImage(from, side, rows);
+        vgImageSubData(image, bytes.data(), side * 4, from, 0, 0, side, rows);
         for (const VGImageFormat to : formats) {
-            const VGImage whole = newImage(to, side, side), inStrips = newImage(to, side, side);
-            vgCopyImage(whole, 0, 0, image, 0, 0, side, side, VG_FALSE);
-            for (int y = 0; y < side; y += strip)
+            const VGImage whole = newImage(to, side, rows), inStrips = newImage(to, side, rows);
+            vgCopyImage(whole, 0, 0, image, 0, 0, side, rows, VG_FALSE);
+            for (int y = 0; y < rows; y += strip)
                 vgCopyImage(inStrips, 0, y, image, 0, y, side, strip, VG_FALSE);
             EXPECT_EQ(bytesOf(whole, to), bytesOf(inStrips, to)) << std::hex << from << " to " << to;
-            vgImageSubData(whole, bytes.data(), side * 4, from, 0, 0, side, side);
-            for (int y = 0; y < side; y += strip)
+            vgImageSubData(whole, bytes.data(), side * 4, from, 0, 0, side, rows);
+            for (int y = 0; y < rows; y += strip)
                 vgImageSubData(inStrips, &bytes[std::size_t(y) * side * 4], side * 4, from, 0, y, side,
                                strip);
             EXPECT_EQ(bytesOf(whole, to), bytesOf(inStrips, to)) << std::hex << from << " into " << to;
