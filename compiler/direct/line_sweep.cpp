@@ -44,6 +44,14 @@ double meanCutOf(const ViewChains& chains) {
 /// Edges that are misplaced in a step may cover more than there is of a pixel: then their shares of it.
 glm::vec4 withinAPixel(const glm::vec4& color) { return color.a > 1 ? color / color.a : color; }
 
+/// Whether each is where its number says.
+bool isInOrder(std::span<const Placed> order) {
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        if (order[i].number != i)
+            return false;
+    return true;
+}
+
 template <class T>
 void arrange(const std::vector<T>& items, std::span<const Placed> order, std::vector<T>& arranged) {
     arranged.clear();
@@ -63,8 +71,12 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
                     std::vector<asset::Chord>& chords) {
-    if (meanCut_ == 0)
+    if (meanCut_ == 0) {
         meanCut_ = meanCutOf(chains_);
+        isOneLayer_ = std::ranges::all_of(chains_.all(), [&](const DownChain& chain) {
+            return chain.layer == chains_.all().begin()->layer;
+        });
+    }
     chords_ = &chords;
     cuts_.clear();
     toCome_ = numbers;
@@ -80,6 +92,7 @@ void LineSweep::row(float top, float bottom) {
     std::erase_if(cuts_, [&](const Cut& cut) { return cut.bottom <= top; });
     take(top, bottom);
     hides_ = mayHide();
+    isArranged_ = false;
     order_.clear();
     findPieces(top, bottom);
     const double ends = double(changes_.size()) / double(cuts_.size() + 1);
@@ -185,17 +198,25 @@ void LineSweep::take(float top, float bottom) {
         const DownChain& chain = chains_[toCome_[begun]];
         if (chain.bottom <= top)
             continue;
-        cuts_.push_back({chain.first, chain.end - 1, chain.top, chain.bottom, chain.layer, chain.winding});
+        cuts_.push_back({chain.first, chain.end - 1, chain.top, chain.bottom, chain.layer, chain.winding,
+                         vertices_[chain.first].x});
     }
     toCome_ = toCome_.subspan(begun);
-    const auto isAbove = [](const Cut& a, const Cut& b) { return a.layer > b.layer; };
-    std::stable_sort(cuts_.begin() + before, cuts_.end(), isAbove);
-    std::inplace_merge(cuts_.begin(), cuts_.begin() + before, cuts_.end(), isAbove);
+    const auto arrangeNew = [&](auto isBefore) {
+        std::stable_sort(cuts_.begin() + before, cuts_.end(), isBefore);
+        std::inplace_merge(cuts_.begin(), cuts_.begin() + before, cuts_.end(), isBefore);
+    };
+    if (isOneLayer_)
+        arrangeNew([](const Cut& a, const Cut& b) { return a.x < b.x; });
+    else
+        arrangeNew([](const Cut& a, const Cut& b) { return a.layer > b.layer; });
 }
 
-LineSweep::Seen LineSweep::look(std::size_t number, const Step& step) {
+void LineSweep::look(std::size_t number, const Step& step, Seen& seen) {
     Cut& cut = cuts_[number];
-    Seen seen{std::uint32_t(number), cut.layer, cut.winding};
+    seen.cut = std::uint32_t(number);
+    seen.layer = cut.layer;
+    seen.winding = cut.winding;
     seen.isAtMiddle = cut.isAt(step.middle());
     seen.hasEnd = cut.top > step.top || cut.bottom < step.bottom;
     const auto findEdge = [&] {
@@ -220,7 +241,7 @@ LineSweep::Seen LineSweep::look(std::size_t number, const Step& step) {
     }
     seen.isSpecial =
         cut.top < step.bottom && cut.bottom > step.top && (seen.hasEnd || seen.right - seen.left > mostReach);
-    return seen;
+    cut.x = seen.x;
 }
 
 /// Where it has a vertex.
@@ -267,10 +288,10 @@ void LineSweep::fetchAhead(std::size_t number, const Step& step) const {
 }
 
 void LineSweep::lookAtAll(const Step& step) {
-    seen_.clear();
+    seen_.resize(cuts_.size());
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
         fetchAhead(i, step);
-        seen_.push_back(look(i, step));
+        look(i, step, seen_[i]);
     }
     if (order_.size() == seen_.size()) {  // as in the step before, and nearly in order
         for (Placed& p : order_)
@@ -290,7 +311,7 @@ void LineSweep::lookForShown(const Step& step) {
         const std::size_t before = seen_.size();
         for (const std::uint32_t layer = cuts_[i].layer; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
             fetchAhead(i, step);
-            seen_.push_back(look(i, step));
+            look(i, step, seen_.emplace_back());
         }
         if (!isShown(std::span(seen_).subspan(before)))
             seen_.erase(seen_.begin() + std::ptrdiff_t(before), seen_.end());
@@ -326,6 +347,19 @@ bool LineSweep::isShown(std::span<const Seen> ofLayer) {
 
 // ---- Drawing --------------------------------------------------------------------------------------
 
+/// Brings the chains of one layer into their order, so that steps go through memory once.
+void LineSweep::arrangeCuts() {
+    isArranged_ = true;
+    if (isInOrder(order_))
+        return;
+    arrange(cuts_, order_, arranged_);
+    cuts_.swap(arranged_);
+    arrange(seen_, order_, sorted_);
+    seen_.swap(sorted_);
+    for (std::uint32_t i = 0; i < order_.size(); ++i)
+        seen_[i].cut = order_[i].number = i;
+}
+
 void LineSweep::draw(const Step& step) {
     limits::check();
     if (hides_)
@@ -333,7 +367,12 @@ void LineSweep::draw(const Step& step) {
     else
         lookAtAll(step);
     sortPlaces(order_, spare_);
-    arrange(seen_, order_, sorted_);
+    if (isOneLayer_ && !isArranged_)
+        arrangeCuts();
+    if (isInOrder(order_))
+        sorted_.swap(seen_);
+    else
+        arrange(seen_, order_, sorted_);
     if (smallSteps_ > 0 && std::ranges::any_of(sorted_, &Seen::isSpecial))
         drawByParts(step);
     else
@@ -391,7 +430,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
         const Step small{step.top + float(i) * height, step.top + float(i + 1) * height,
                          step.height / float(count)};
         for (Placed& p : partOrder_) {
-            part_[p.number] = look(part_[p.number].cut, small);
+            look(part_[p.number].cut, small, part_[p.number]);
             p.x = part_[p.number].x;
         }
         sortPlaces(partOrder_, spare_);

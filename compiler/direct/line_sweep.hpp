@@ -50,6 +50,7 @@ private:
         float top, bottom;   ///< of the chain
         std::uint32_t layer;
         std::int32_t winding;
+        float x;         ///< in the middle of the last step, or where the chain begins
         glm::vec2 a{0};  ///< of an edge that the row cuts, the upper end
         float slope = 0;
         float edgeBottom = -1;  ///< where it ends; none at first
@@ -84,13 +85,14 @@ private:
     void findPieces(float top, float bottom);
     bool placeByContent(float top, float bottom, std::size_t most);
     void take(float top, float bottom);
-    Seen look(std::size_t number, const Step& step);
+    void look(std::size_t number, const Step& step, Seen& seen);
     void lookAround(const Cut& cut, const Step& step, Seen& seen) const;
     bool mayHide() const;
     void fetchAhead(std::size_t number, const Step& step) const;
     void lookAtAll(const Step& step);
     void lookForShown(const Step& step);
     bool isShown(std::span<const Seen> ofLayer);
+    void arrangeCuts();
     void draw(const Step& step);
     void drawByParts(const Step& step);
     void drawInSteps(std::span<const Seen> chains, const Step& step, Region& left);
@@ -105,7 +107,10 @@ private:
     const int width_;
     double meanCut_ = 0;  ///< chains that meet a row, in the mean; 0 until it is asked for
     std::vector<asset::Chord>* chords_ = nullptr;
-    std::vector<Cut> cuts_;      ///< from the topmost layer down
+    bool isOneLayer_ = false;    ///< all chains are of one
+    bool isArranged_ = false;    ///< in the row
+    std::vector<Cut> cuts_;      ///< from the topmost layer down; of one layer from left to right
+    std::vector<Cut> arranged_;  ///< spare
     std::vector<Seen> seen_;     ///< those of them that may show in the step
     std::vector<Placed> order_;  ///< of these, from left to right
     std::vector<Seen> sorted_;   ///< in this order

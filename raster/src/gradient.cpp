@@ -1,7 +1,10 @@
 #include "raster/src/gradient.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -54,17 +57,29 @@ struct Spot {
 /// Eight pixels from the tip it moves u by less than a 380th of what a pixel does.
 constexpr float farFromTip = 64;
 
+/// `above`: D², `all`: T, `radial`: R.
+struct Cone {
+    float higher;    ///< the mean of u over the pixel is so much more than in its middle
+    float narrower;  ///< what sides change u by, times that, has the variance
+
+    /// Without a branch, so that rows of them are made four at once.
+    Cone(float above, float all, float radial) {
+        constexpr float least = std::numeric_limits<float>::min();
+        const float isNear = float(int(radial > 0) & int(above <= farFromTip * all));
+        const float near = 1 / (1 + 6.6f * above / std::max(all, least)), tip = 0.0315f * all * near * near;
+        const float squared = above + std::max(all - radial, 0.0f) / 12 + tip;
+        const float rest = 1 - isNear * std::min(12 * tip / std::max(radial, least), 1.0f);
+        higher = isNear * (std::sqrt(squared) - std::sqrt(above));
+        narrower = std::sqrt(rest);
+    }
+};
+
 Spot conePixel(const Root& root, vec2 d, const glm::mat2& sides) {
     const vec2 along = root.slope * sides;
-    const float steep = glm::dot(root.slope, root.slope), above = steep * glm::dot(d, d);
-    const float all = steep * (glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]));
-    const float radial = glm::dot(along, along);
-    if (!(radial > 0) || above > farFromTip * all)
-        return {root.u, along};
-    const float near = 1 / (1 + 6.6f * above / all), tip = 0.0315f * all * near * near;
-    const float squared = above + std::max(all - radial, 0.0f) / 12 + tip;
-    return {root.u + std::sqrt(squared) - std::sqrt(above),
-            along * std::sqrt(std::max(0.0f, 1 - 12 * tip / radial))};
+    const float steep = glm::dot(root.slope, root.slope);
+    const float allSides = glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]);
+    const Cone cone(steep * glm::dot(d, d), steep * allSides, glm::dot(along, along));
+    return {root.u + cone.higher, along * cone.narrower};
 }
 
 /// Where the middle of a pixel is nearer to the focus than this share of its side, it is put there: at the
@@ -139,18 +154,67 @@ struct RadialRow : RadialPixels {
 /// single precision has them, without care for what cancels.
 constexpr float minGap = 0.1f;
 
-/// u in such circles: u = b + sqrt(b² + c), each of radialOffset()'s divided by a. Along the row b and the
-/// discriminant are polynomials of the step.
-void nestedOffsets(const RadialRow& row, std::span<float> offsets) {
-    const vec2 f = row.focus, d = row.first, change = row.change;
-    const float fr = row.fr, grow = 1 - fr, a = grow * grow - glm::dot(f, f), inverse = 1 / a;
-    const float b0 = (glm::dot(d, f) - fr * grow) * inverse, b1 = glm::dot(change, f) * inverse;
-    const float c0 = (glm::dot(d, d) - fr * fr) * inverse, c1 = glm::dot(d, change) * inverse,
-                c2 = glm::dot(change, change) * inverse;
+using Numbers = std::array<float, longestRow>;
+
+/// Middles of pixels, from the focus. Each number has an array of its own, so that the compiler takes four
+/// pixels at once.
+struct Middles {
+    Numbers x, y;
+    std::size_t count;
+};
+
+/// radialOffset() in circles that lie within each other: u = b + sqrt(b² + c), each of its numbers divided
+/// by a.
+struct NestedCircles {
+    vec2 f;
+    float fr, a, inverse;
+
+    explicit NestedCircles(const RadialPixels& pixels)
+        : f(pixels.focus), fr(pixels.fr), a((1 - fr) * (1 - fr) - glm::dot(f, f)), inverse(1 / a) {}
+
+    float b(float x, float y) const { return (x * f.x + y * f.y - fr * (1 - fr)) * inverse; }
+    float root(float b, float squared) const {
+        return std::sqrt(std::max(b * b + (squared - fr * fr) * inverse, 0.0f));
+    }
+};
+
+/// Along the row b and the discriminant are polynomials of the step.
+void nestedOffsets(const NestedCircles& circles, const RadialRow& row, std::span<float> offsets) {
+    const vec2 d = row.first, change = row.change;
+    const float b0 = circles.b(d.x, d.y), b1 = glm::dot(change, circles.f) * circles.inverse;
+    const float c0 = (glm::dot(d, d) - circles.fr * circles.fr) * circles.inverse,
+                c1 = glm::dot(d, change) * circles.inverse, c2 = glm::dot(change, change) * circles.inverse;
     const float s0 = b0 * b0 + c0, s1 = 2 * (b0 * b1 + c1), s2 = b1 * b1 + c2;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         const float t = float(int(i));
         offsets[i] = b0 + t * b1 + std::sqrt(std::max(s0 + t * (s1 + t * s2), 0.0f));
+    }
+}
+
+/// As RadialPixels::color() sees pixels: u, and what the sides change it by.
+struct Spots {
+    Numbers u, first, second;
+};
+
+void nestedSpots(const NestedCircles& circles, const RadialPixels& pixels, const Middles& middles,
+                 Spots& spots) {
+    const vec2 f = circles.f, one = pixels.sides[0], other = pixels.sides[1];
+    const float allSides = glm::dot(one, one) + glm::dot(other, other);
+    const vec2 beside = besideFocus * one;
+    const float atFocus = glm::dot(beside, beside);
+    for (std::size_t i = 0; i < middles.count; ++i) {
+        const float fromX = middles.x[i], fromY = middles.y[i];
+        const bool isAtFocus = fromX * fromX + fromY * fromY < atFocus;
+        const float x = isAtFocus ? beside.x : fromX, y = isAtFocus ? beside.y : fromY;
+        const float squared = x * x + y * y, b = circles.b(x, y), root = circles.root(b, squared);
+        const float u = b + root, steepness = 1 / std::max(circles.a * root, 1e-6f);
+        const float slopeX = (u * f.x + x) * steepness, slopeY = (u * f.y + y) * steepness;
+        const float along = slopeX * one.x + slopeY * one.y, across = slopeX * other.x + slopeY * other.y;
+        const float steep = slopeX * slopeX + slopeY * slopeY;
+        const Cone cone(steep * squared, steep * allSides, along * along + across * across);
+        spots.u[i] = u + cone.higher;
+        spots.first[i] = along * cone.narrower;
+        spots.second[i] = across * cone.narrower;
     }
 }
 
@@ -160,35 +224,19 @@ void spreadOffsets(Spread spread, std::span<float> offsets) {
             u = spreadOffset(spread, u);
 }
 
-/// Anywhere; whether all are far from the tip.
-bool nestedOffsets(const RadialPixels& pixels, const std::array<float, 6>& m, std::span<const vec2> points,
-                   std::span<float> offsets) {
-    const vec2 f = pixels.focus, origin = vec2(m[4], m[5]) - f;
-    const float fr = pixels.fr, grow = 1 - fr, inverse = 1 / (grow * grow - glm::dot(f, f));
-    const float far = pixels.farSquared();
-    int near = 0;  // counted without a branch
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const float x = m[0] * points[i].x + m[2] * points[i].y + origin.x;
-        const float y = m[1] * points[i].x + m[3] * points[i].y + origin.y;
-        const float squared = x * x + y * y, b = (x * f.x + y * f.y - fr * grow) * inverse;
-        offsets[i] = b + std::sqrt(std::max(b * b + (squared - fr * fr) * inverse, 0.0f));
-        near += int(squared <= far);
-    }
-    return near == 0;
-}
-
 /// `places`: before they are spread.
-void fillLinear(const GradientView& view, std::span<float> places, vec2 sides, std::span<Float4> colors) {
+std::optional<Float4> fillLinear(const GradientView& view, std::span<float> places, vec2 sides,
+                                 std::span<Float4> colors) {
     spreadOffsets(view.gradient().spread, places);
     Ramp ramp(view);
     const float reach = 0.5f * (std::abs(sides.x) + std::abs(sides.y));
-    ramp.over(places, reach, colors, [&](std::size_t i) { return ramp.over(places[i], sides); });
+    return ramp.over(places, reach, colors, [&](std::size_t i) { return ramp.over(places[i], sides); });
 }
 
 }  // namespace
 
-void linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
-                  std::span<Float4> colors) {
+std::optional<Float4> linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
+                                   std::span<Float4> colors) {
     const std::array<float, 6>& m = view.gradient().matrix;
     const vec2 row(m[0], m[2]);
     const float first = applyMatrix(m, point).x, change = glm::dot(row, step);
@@ -196,62 +244,120 @@ void linearColors(const GradientView& view, vec2 point, vec2 step, const glm::ma
     const std::span<float> places = std::span(offsets).first(colors.size());
     for (std::size_t i = 0; i < places.size(); ++i)
         places[i] = first + float(int(i)) * change;
-    fillLinear(view, places, row * pixel, colors);
+    return fillLinear(view, places, row * pixel, colors);
 }
 
-void linearColors(const GradientView& view, std::span<const vec2> points, const glm::mat2& pixel,
-                  std::span<Float4> colors) {
+std::optional<Float4> linearColors(const GradientView& view, std::span<const vec2> points,
+                                   const glm::mat2& pixel, std::span<Float4> colors) {
     const std::array<float, 6>& m = view.gradient().matrix;
     std::array<float, longestRow> offsets;
     const std::span<float> places = std::span(offsets).first(colors.size());
     for (std::size_t i = 0; i < places.size(); ++i)
         places[i] = applyMatrix(m, points[i]).x;
-    fillLinear(view, places, vec2(m[0], m[2]) * pixel, colors);
+    return fillLinear(view, places, vec2(m[0], m[2]) * pixel, colors);
 }
 
-void radialColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
-                  std::span<Float4> colors) {
-    const Gradient& gradient = view.gradient();
-    const RadialRow row(gradient, point, step, pixel);
-    Ramp ramp(view);
-    const std::size_t count = colors.size();
-    const float gap = 1 - gradient.fr - glm::length(row.focus);
-    const PixelRange near = gap < minGap ? PixelRange{0, count} : row.nearTip(count);
-    for (std::size_t i = near.first; i < near.end; ++i)
-        colors[i] = row.color(row.fromFocus(i), gradient.spread, ramp);
-    if (near.first == 0 && near.end == count)
-        return;
-    std::array<float, longestRow> offsets;
-    const std::span<float> places = std::span(offsets).first(count);
-    nestedOffsets(row, places);
-    spreadOffsets(gradient.spread, places);
-    const float reach = row.reach(gap);
-    const auto fill = [&](std::size_t first, std::size_t end) {
-        ramp.over(places.subspan(first, end - first), reach, colors.subspan(first, end - first),
-                  [&](std::size_t i) { return row.color(row.fromFocus(first + i), gradient.spread, ramp); });
-    };
-    fill(0, near.first);
-    fill(near.end, count);
-}
+namespace {
 
-void radialColors(const GradientView& view, std::span<const vec2> points, const glm::mat2& pixel,
-                  std::span<Float4> colors) {
-    const Gradient& gradient = view.gradient();
-    const RadialPixels pixels(gradient, pixel);
-    Ramp ramp(view);
-    const auto colorAt = [&](std::size_t i) {
-        return pixels.color(applyMatrix(gradient.matrix, points[i]) - pixels.focus, gradient.spread, ramp);
-    };
-    std::array<float, longestRow> offsets;
-    const std::span<float> places = std::span(offsets).first(colors.size());
-    const float gap = 1 - gradient.fr - glm::length(pixels.focus);
-    if (gap < minGap || !nestedOffsets(pixels, gradient.matrix, points, places)) {
-        for (std::size_t i = 0; i < colors.size(); ++i)
-            colors[i] = colorAt(i);
-        return;
+/// Pixels of a radial gradient, with what they share.
+class RadialFill {
+public:
+    RadialFill(const GradientView& view, const RadialPixels& pixels)
+        : pixels_(pixels),
+          spread_(view.gradient().spread),
+          gap_(1 - pixels.fr - glm::length(pixels.focus)),
+          circles_(pixels),
+          ramp_(view) {}
+
+    bool isNested() const { return gap_ >= minGap; }
+    const NestedCircles& circles() const { return circles_; }
+
+    /// One by one; `d`: from the focus.
+    Float4 color(vec2 d) { return pixels_.color(d, spread_, ramp_); }
+    /// Far from the tip, in nested circles. `offsets`: before they are spread; colorAt(i): of one of them.
+    template <class ColorAt>
+    std::optional<Float4> fillFar(std::span<float> offsets, std::span<Float4> colors, ColorAt&& colorAt) {
+        spreadOffsets(spread_, offsets);
+        return ramp_.over(offsets, pixels_.reach(gap_), colors, colorAt);
     }
-    spreadOffsets(gradient.spread, places);
-    ramp.over(places, pixels.reach(gap), colors, colorAt);
+    /// Anywhere, in nested circles.
+    std::optional<Float4> fill(const Middles& middles, std::span<Float4> colors) {
+        Spots spots;
+        nestedSpots(circles_, pixels_, middles, spots);
+        return fillFar(std::span(spots.u).first(middles.count), colors, [&](std::size_t i) {
+            return ramp_.over(spots.u[i], {spots.first[i], spots.second[i]});
+        });
+    }
+
+private:
+    const RadialPixels& pixels_;
+    const Spread spread_;
+    const float gap_;
+    const NestedCircles circles_;
+    Ramp ramp_;
+};
+
+}  // namespace
+
+std::optional<Float4> radialColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
+                                   std::span<Float4> colors) {
+    const RadialRow row(view.gradient(), point, step, pixel);
+    RadialFill fill(view, row);
+    const std::size_t count = colors.size();
+    if (!fill.isNested()) {
+        for (std::size_t i = 0; i < count; ++i)
+            colors[i] = fill.color(row.fromFocus(i));
+        return {};
+    }
+    const PixelRange near = row.nearTip(count);
+    Numbers offsets;
+    const std::span<float> places = std::span(offsets).first(count);
+    const auto fillFar = [&](std::size_t first, std::size_t end) {
+        return fill.fillFar(places.subspan(first, end - first), colors.subspan(first, end - first),
+                            [&](std::size_t i) { return fill.color(row.fromFocus(first + i)); });
+    };
+    const auto put = [&](std::size_t first, std::size_t end, const std::optional<Float4>& color) {
+        if (color)
+            std::ranges::fill(colors.subspan(first, end - first), *color);
+    };
+    if (near.first < near.end) {
+        Middles middles;
+        middles.count = near.end - near.first;
+        for (std::size_t i = 0; i < middles.count; ++i) {
+            const vec2 d = row.fromFocus(near.first + i);
+            middles.x[i] = d.x;
+            middles.y[i] = d.y;
+        }
+        const auto color = fill.fill(middles, colors.subspan(near.first, middles.count));
+        if (middles.count == count)
+            return color;
+        put(near.first, near.end, color);
+    }
+    nestedOffsets(fill.circles(), row, places);
+    if (near.first == near.end)
+        return fillFar(0, count);
+    put(0, near.first, fillFar(0, near.first));
+    put(near.end, count, fillFar(near.end, count));
+    return {};
+}
+
+std::optional<Float4> radialColors(const GradientView& view, std::span<const vec2> points,
+                                   const glm::mat2& pixel, std::span<Float4> colors) {
+    const std::array<float, 6>& m = view.gradient().matrix;
+    const RadialPixels pixels(view.gradient(), pixel);
+    const vec2 origin = vec2(m[4], m[5]) - pixels.focus;
+    Middles middles;
+    middles.count = colors.size();
+    for (std::size_t i = 0; i < middles.count; ++i) {
+        middles.x[i] = m[0] * points[i].x + m[2] * points[i].y + origin.x;
+        middles.y[i] = m[1] * points[i].x + m[3] * points[i].y + origin.y;
+    }
+    RadialFill fill(view, pixels);
+    if (fill.isNested())
+        return fill.fill(middles, colors);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        colors[i] = fill.color({middles.x[i], middles.y[i]});
+    return {};
 }
 
 }  // namespace vtm::asset

@@ -2,6 +2,7 @@
 /// Gradients of paint programs; twin of backend_gl/shaders/shared/gradient.glsl.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include <glm/mat2x2.hpp>
@@ -23,14 +24,15 @@ inline constexpr std::size_t longestRow = 64;
 /// Premultiplied mean colours over up to longestRow pixels, one after the other: the middle of the first one
 /// is a picture point, a step leads to the next one's, and their sides are `pixel`; 0: the colours at the
 /// points. Exact for linear gradients and pixels along their axis (docs/coverage.md).
-void linearColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
-                  std::span<Float4> colors);
-void radialColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step, const glm::mat2& pixel,
-                  std::span<Float4> colors);
+/// Returns the colour instead where it is seen to be the same everywhere.
+std::optional<Float4> linearColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step,
+                                   const glm::mat2& pixel, std::span<Float4> colors);
+std::optional<Float4> radialColors(const GradientView& gradient, glm::vec2 point, glm::vec2 step,
+                                   const glm::mat2& pixel, std::span<Float4> colors);
 /// The same over pixels whose middles are anywhere.
-void linearColors(const GradientView& gradient, std::span<const glm::vec2> points, const glm::mat2& pixel,
-                  std::span<Float4> colors);
-void radialColors(const GradientView& gradient, std::span<const glm::vec2> points, const glm::mat2& pixel,
-                  std::span<Float4> colors);
+std::optional<Float4> linearColors(const GradientView& gradient, std::span<const glm::vec2> points,
+                                   const glm::mat2& pixel, std::span<Float4> colors);
+std::optional<Float4> radialColors(const GradientView& gradient, std::span<const glm::vec2> points,
+                                   const glm::mat2& pixel, std::span<Float4> colors);
 
 }  // namespace vtm::asset

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 
 #include <glm/common.hpp>
 
@@ -43,11 +44,11 @@ struct Row {
     }
 };
 
-void linear(const GradientView& gradient, const Row& row, std::span<Float4> colors) {
-    linearColors(gradient, row.first.point, row.step, row.first.pixel, colors);
+std::optional<Float4> linear(const GradientView& gradient, const Row& row, std::span<Float4> colors) {
+    return linearColors(gradient, row.first.point, row.step, row.first.pixel, colors);
 }
-void radial(const GradientView& gradient, const Row& row, std::span<Float4> colors) {
-    radialColors(gradient, row.first.point, row.step, row.first.pixel, colors);
+std::optional<Float4> radial(const GradientView& gradient, const Row& row, std::span<Float4> colors) {
+    return radialColors(gradient, row.first.point, row.step, row.first.pixel, colors);
 }
 
 /// Places anywhere.
@@ -60,21 +61,24 @@ struct Scattered {
     Scattered part(std::size_t from, std::size_t count) const { return {points.subspan(from, count), sides}; }
 };
 
-void linear(const GradientView& gradient, const Scattered& places, std::span<Float4> colors) {
-    linearColors(gradient, places.points, places.sides, colors);
+std::optional<Float4> linear(const GradientView& gradient, const Scattered& places,
+                             std::span<Float4> colors) {
+    return linearColors(gradient, places.points, places.sides, colors);
 }
-void radial(const GradientView& gradient, const Scattered& places, std::span<Float4> colors) {
-    radialColors(gradient, places.points, places.sides, colors);
+std::optional<Float4> radial(const GradientView& gradient, const Scattered& places,
+                             std::span<Float4> colors) {
+    return radialColors(gradient, places.points, places.sides, colors);
 }
 
-/// Of a layer that is not solid.
+/// Of a layer that is not solid; one colour instead where it is seen to be the same everywhere.
 template <class Places>
-void layerColors(const Paints& paints, const Instruction& in, const Places& places,
-                 const MaterialFunction& materials, std::span<Float4> colors) {
+std::optional<Float4> layerColors(const Paints& paints, const Instruction& in, const Places& places,
+                                  const MaterialFunction& materials, std::span<Float4> colors) {
     const std::span<const Texel> data = paints.asset().data;
     const auto each = [&](auto&& color) {
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = float4(color(places.point(i)));
+        return std::optional<Float4>();
     };
     switch (in.op) {
         case Op::Image: {
@@ -139,7 +143,7 @@ void pop(const Instruction& in, Stack& stack) {
 void drawSolid(Float4 source, Stack& stack) {
     if (stack.isOneColor[stack.top])
         stack.color[stack.top] = over(source, stack.color[stack.top]);
-    else
+    else if (!isTransparent(source))
         for (Float4& below : stack.row(stack.top))
             below = over(source, below);
 }
@@ -152,7 +156,8 @@ void drawLayer(const Paints& paints, const Instruction& in, const Places& places
     const std::span<Float4> below = stack.row(stack.top);
     const float opacity = in.opacity;
     if (stack.isOneColor[stack.top]) {
-        layerColors(paints, in, places, materials, below);
+        if (const auto color = layerColors(paints, in, places, materials, below))
+            return drawSolid(*color * opacity, stack);
         stack.isOneColor[stack.top] = false;
         const Float4 ground = stack.color[stack.top];
         if (opacity != 1 || !isTransparent(ground))
@@ -162,7 +167,8 @@ void drawLayer(const Paints& paints, const Instruction& in, const Places& places
     }
     std::array<Float4, longestRow> layer;
     const std::span<Float4> source = std::span(layer).first(below.size());
-    layerColors(paints, in, places, materials, source);
+    if (const auto color = layerColors(paints, in, places, materials, source))
+        return drawSolid(*color * opacity, stack);
     for (std::size_t i = 0; i < below.size(); ++i)
         below[i] = over(source[i] * opacity, below[i]);
 }

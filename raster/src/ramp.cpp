@@ -1,5 +1,6 @@
 #include "raster/src/ramp.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,96 +25,138 @@ std::size_t stopsUpTo(const GradientView& gradient, float u) {
     return low;
 }
 
-/// Between two stops. Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
-Float4 colorBetween(const GradientView& gradient, std::size_t before, std::size_t after, float u) {
-    const float start = gradient.offset(before), gap = gradient.offset(after) - start;
-    const Float4 from = float4(gradient.color(before)), to = float4(gradient.color(after));
-    return premultiplied(from + (gap > 0 ? (u - start) / gap : 0.0f) * (to - from));
-}
-
 // ---- Means over pixels ------------------------------------------------------------------------------
 
-/// How much of a pixel has u at a distance d from that in its middle, u being the sum of two that are even
-/// over their boxes: it rises, is flat and falls again.
-struct PixelWeight {
-    float reach, flat;  ///< |d| is at most `reach`; up to `flat` all are alike
+/// A stretch of a ramp as it is passed. Between stops straight colours are interpolated, then premultiplied
+/// (SVG 2 section 14.2.4), so with t from 0 to 1 along it the colour is from + t (to - from) - t (1 - t)
+/// bend.
+struct Passed {
+    float length;
+    Float4 from, to, bend;
 
-    PixelWeight(float longer, float shorter)
-        : reach(0.5f * (longer + shorter)), flat(0.5f * (longer - shorter)) {}
-
-    float at(float d) const {
-        const float rest = reach - std::abs(d), slope = reach - flat;
-        return rest < slope ? rest / slope : 1;
+    Float4 at(float t) const { return from + t * (to - from - (1 - t) * bend); }
+    /// What is left from t on.
+    Passed rest(float t) const {
+        const float left = 1 - t;
+        return {left * length, at(t), to, left * left * bend};
     }
-    /// Where it bends next.
-    float bendAfter(float d) const {
-        return d < -flat ? -flat : d < flat ? flat : std::numeric_limits<float>::infinity();
+    /// The integral from the stretch's start over x, and the integral of that.
+    Float4 once(float x) const {
+        const float t = x / length;
+        return x * (from + t * (0.5f * (to - from - bend) + t * (1.0f / 3) * bend));
+    }
+    Float4 twice(float x) const {
+        const float t = x / length;
+        return x * x * (0.5f * from + t * ((1.0f / 6) * (to - from - bend) + t * (1.0f / 12) * bend));
     }
 };
 
-/// A mean that grows. Differences from one colour are added, so that colours that are all alike stay what
-/// they are: blend modes may jump there.
-class WeighedMean {
+/// Goes along a ramp from a place on, in the direction of growing u: stretch after stretch.
+class RampWalk {
 public:
-    explicit WeighedMean(Float4 base) : base_(base) {}
-
-    void add(float weight, Float4 color) {
-        sum_ += weight * (color - base_);
-        weights_ += weight;
+    /// `base` is taken from all colours.
+    RampWalk(const GradientView& gradient, float place, Float4 base) : gradient_(gradient), base_(base) {
+        if (spread() == Spread::Pad) {
+            enter(place);
+            return;
+        }
+        const float period = std::floor(place);
+        isBackwards_ = spread() == Spread::Reflect && std::fmod(period, 2.0f) != 0;
+        enter(isBackwards_ ? period + 1 - place : place - period);
     }
-    Float4 mean() const { return weights_ > 0 ? base_ + sum_ / weights_ : base_; }
+
+    /// The stretch, or what is left of the first one.
+    const Passed& here() const { return here_; }
+    void goOn() {
+        if (isBackwards_ ? number_ > 0 : number_ < gradient_.size())
+            number_ += isBackwards_ ? -1 : 1;
+        else if (spread() == Spread::Reflect)
+            isBackwards_ = !isBackwards_;
+        else
+            number_ = 0;
+        here_ = passed();
+    }
 
 private:
-    Float4 base_, sum_{};
-    float weights_ = 0;
-};
+    static constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Adds the padded ramp at middle + d for d from `from` to `last`. Between stops and bends it is a quadratic
-/// times a straight line, which Simpson's rule integrates exactly; at the same time that serves what lies
-/// before the first stop and behind the last.
-void add(const GradientView& gradient, float middle, float from, float last, const PixelWeight& weight,
-         WeighedMean& mean) {
-    std::size_t next = stopsUpTo(gradient, middle + from);
-    while (from < last) {
-        const std::size_t before = next == 0 ? 0 : next - 1, after = std::min(next, gradient.size() - 1);
-        const float end = next == gradient.size() ? last : std::min(last, gradient.offset(after) - middle);
-        const float to = std::min(end, weight.bendAfter(from)), sixth = (to - from) / 6;
-        const auto addAt = [&](float d, float times) {
-            mean.add(times * sixth * weight.at(d), colorBetween(gradient, before, after, middle + d));
-        };
-        if (from < to) {
-            addAt(from, 1);
-            addAt(0.5f * (from + to), 4);
-            addAt(to, 1);
-            from = to;
-        }
-        next += to == end;
+    Spread spread() const { return gradient_.gradient().spread; }
+    /// Of a stretch; the first one and the last lie beyond the stops.
+    float start() const {
+        return number_ == 0 ? (spread() == Spread::Pad ? -infinity : 0) : gradient_.offset(number_ - 1);
     }
-}
+    float end() const {
+        return number_ == gradient_.size() ? (spread() == Spread::Pad ? infinity : 1)
+                                           : gradient_.offset(number_);
+    }
+
+    void enter(float place) {
+        number_ = stopsUpTo(gradient_, place);
+        here_ = passed();
+        const float passedBy = isBackwards_ ? end() - place : place - start();
+        if (!std::isfinite(here_.length))
+            here_.length = number_ == 0 ? end() - place : infinity;
+        else if (here_.length > 0)
+            here_ = here_.rest(std::min(passedBy / here_.length, 1.0f));
+    }
+
+    Passed passed() const {
+        const float length = end() - start();
+        if (number_ == 0 || number_ == gradient_.size()) {
+            const Float4 color =
+                premultiplied(float4(gradient_.color(number_ == 0 ? 0 : number_ - 1))) - base_;
+            return {length, color, color, Float4{}};
+        }
+        const Float4 from = float4(gradient_.color(number_ - 1)), to = float4(gradient_.color(number_));
+        const Float4 change = to - from, bend = change * Float4{change[3], change[3], change[3], 0};
+        const Float4 start = premultiplied(from) - base_, end = premultiplied(to) - base_;
+        return isBackwards_ ? Passed{length, end, start, bend} : Passed{length, start, end, bend};
+    }
+
+    const GradientView& gradient_;
+    Float4 base_;
+    std::size_t number_ = 0;  ///< of the stop at which the stretch ends
+    bool isBackwards_ = false;
+    Passed here_{};
+};
 
 /// A reflected ramp repeats after two, so no mean is over more; a padded one is all but two colours beyond.
 constexpr float widestPeriodic = 2, widestPadded = 1024;
 
+/// The shorter side is taken for no shorter than that share of the longer one: a jump at a pixel's side is
+/// off by an eighth of it, 1/16000, and single precision has so much of a difference of integrals.
+constexpr float thinnest = 1.0f / 2048;
+
 /// The mean over a pixel whose sides change u by `longer` > 0 and `shorter`, and in whose middle `color` is.
+/// u is the sum of two numbers that are even over the sides' intervals, so the mean is a second difference
+/// of the ramp's second integral I, over longer times shorter: with r and f half of the sum and of the
+/// difference of the sides, I(u + r) - I(u + f) - I(u - f) + I(u - r). I is 0 at u - r, where the walk
+/// begins. Differences from one colour are added, so that colours that are all alike stay what they are:
+/// blend modes may jump there.
 Float4 meanOver(const GradientView& gradient, float u, float longer, float shorter, Float4 color) {
-    const Spread spread = gradient.gradient().spread;
-    const float widest = spread == Spread::Pad ? widestPadded : widestPeriodic;
-    const PixelWeight weight(std::min(longer, widest), std::min(shorter, widest));
-    WeighedMean mean(color);
-    if (spread == Spread::Pad) {
-        add(gradient, u, -weight.reach, weight.reach, weight, mean);
-    } else {
-        u -= 2 * std::floor(0.5f * u);
-        for (float n = std::floor(u - weight.reach); n < u + weight.reach; ++n) {
-            const float a = std::max(-weight.reach, n - u), b = std::min(weight.reach, n + 1 - u);
-            const bool isMirrored = spread == Spread::Reflect && std::fmod(n, 2.0f) != 0;
-            if (isMirrored)
-                add(gradient, n + 1 - u, -b, -a, weight, mean);
-            else
-                add(gradient, u - n, a, b, weight, mean);
+    const float widest = gradient.gradient().spread == Spread::Pad ? widestPadded : widestPeriodic;
+    longer = std::min(longer, widest);
+    shorter = std::clamp(shorter, thinnest * longer, longer);
+    const float reach = 0.5f * (longer + shorter);
+    const std::array<float, 3> corners{shorter, longer, 2 * reach};  // from u - r
+    const std::array<float, 3> signs{-1, -1, 1};
+    Float4 once{}, twice{}, sum{};
+    float done = 0;
+    RampWalk walk(gradient, u - reach, color);
+    for (std::size_t next = 0; next < corners.size();) {
+        const Passed& here = walk.here();
+        if (here.length > 0) {
+            for (; next < corners.size() && !(corners[next] - done > here.length); ++next) {
+                const float x = corners[next] - done;
+                sum += signs[next] * (twice + x * once + here.twice(x));
+            }
+            twice += here.length * once + here.twice(here.length);
+            once += here.once(here.length);
+            done += here.length;
         }
+        walk.goOn();
     }
-    return mean.mean();
+    return color + sum / (longer * shorter);
 }
 
 /// Ramps narrower than this in a pixel are as good as straight there, but for stops: what interpolating
@@ -137,7 +180,7 @@ float spreadOffset(Spread spread, float u) {
 Float4 Ramp::over(float place, vec2 sides) {
     sides = glm::min(glm::abs(sides), vec2(widestPadded));
     const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y);
-    if (finds(place, 0.5f * (longer + shorter)))
+    if (finds(place, 0.5f * (longer + shorter)) || !(longer > 0))
         return at(place);
     return meanOver(gradient_, place, longer, shorter, at(place));
 }

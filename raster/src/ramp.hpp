@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include <glm/vec2.hpp>
@@ -26,9 +27,11 @@ public:
     /// little of one stretch, it is the colour in the middle.
     Float4 over(float place, glm::vec2 sides);
 
-    /// Over pixels none of which reaches further to either side; otherwise(i) where that is too far.
+    /// Over pixels none of which reaches further to either side; otherwise(i) where that is too far. Returns
+    /// the colour instead if all lie where the ramp has one.
     template <class Otherwise>
-    void over(std::span<const float> places, float reach, std::span<Float4> colors, Otherwise&& otherwise) {
+    std::optional<Float4> over(std::span<const float> places, float reach, std::span<Float4> colors,
+                               Otherwise&& otherwise) {
         for (std::size_t i = 0; i < places.size();) {
             if (!finds(places[i], reach)) {
                 colors[i] = otherwise(i);
@@ -37,9 +40,12 @@ public:
             }
             const std::size_t count =
                 countWithin(places.subspan(i), low_ + reach, std::min(next_, high_ - reach));
+            if (count == places.size() && largest(slope_) == 0)
+                return color_;
             fill(places.subspan(i, count), &colors[i]);
             i += count;
         }
+        return {};
     }
 
 private:
