@@ -39,18 +39,15 @@ private:
     TexturePointer texture_;
 };
 
-/// False where there is no room, or a copy that is not a texture of the device's.
-bool ensureCopy(Device& device, StoredPixels& pixels) {
+/// Where there is room.
+void ensureCopy(Device& device, StoredPixels& pixels) {
     // Images of several share groups may have the same pixels.
     static auto& mutex = *new std::mutex;
     const std::lock_guard lock(mutex);
-    if (pixels.copy())
-        return pixels.copy()->texture() != nullptr;
-    TexturePointer texture = device.makeTexture(GL_RGBA8, pixels.width(), pixels.height());
-    if (!texture)
-        return false;
-    pixels.setCopy(std::make_unique<TextureCopy>(device, std::move(texture)));
-    return true;
+    if (pixels.hasCopy())
+        return;
+    if (TexturePointer texture = device.makeTexture(GL_RGBA8, pixels.width(), pixels.height()))
+        pixels.setCopy(std::make_unique<TextureCopy>(device, std::move(texture)));
 }
 
 }  // namespace
@@ -60,15 +57,13 @@ std::unique_ptr<PixelCopy> copyIn(Device& device, GLenum format, GLuint texture,
 }
 
 TexturePointer readTexture(Device& device, const StoredPixels& pixels) {
-    if (!ensureCopy(device, const_cast<StoredPixels&>(pixels)))
-        return nullptr;
-    return pixels.readCopy().texture();
+    ensureCopy(device, const_cast<StoredPixels&>(pixels));
+    return pixels.readTexture();
 }
 
 TexturePointer writeTexture(Device& device, StoredPixels& pixels) {
-    if (!ensureCopy(device, pixels))
-        return nullptr;
-    return pixels.writeCopy().texture();
+    ensureCopy(device, pixels);
+    return pixels.writeTexture();
 }
 
 void readPart(Device& device, const StoredPixels& pixels, const Rectangle& part, Pixels& to) {

@@ -32,26 +32,35 @@ void StoredPixels::share(std::unique_ptr<PixelCopy> copy) {
 }
 
 void StoredPixels::handOver(bool mayChange) {
+    const std::lock_guard lock(mutex_);
     if (!copy_)
         return;
-    readCopy().finish();
+    takeMemory();
+    copy_->finish();
     if (mayChange)
         isCopyNewer_ = true;
 }
 
-PixelCopy& StoredPixels::readCopy() const {
+std::shared_ptr<const gl::Texture> StoredPixels::readTexture() const {
     const std::lock_guard lock(mutex_);
-    if (isMemoryNewer_) {
-        copy_->take(pixels_);
-        isMemoryNewer_ = false;
-    }
-    return *copy_;
+    std::shared_ptr<const gl::Texture> texture = copy_ ? copy_->texture() : nullptr;
+    if (texture)
+        takeMemory();
+    return texture;
 }
 
-PixelCopy& StoredPixels::writeCopy() {
-    readCopy();
-    isCopyNewer_ = true;
-    return *copy_;
+std::shared_ptr<const gl::Texture> StoredPixels::writeTexture() {
+    std::shared_ptr<const gl::Texture> texture = readTexture();
+    if (texture)
+        isCopyNewer_ = true;
+    return texture;
+}
+
+/// With the lock held.
+void StoredPixels::takeMemory() const {
+    if (isMemoryNewer_)
+        copy_->take(pixels_);
+    isMemoryNewer_ = false;
 }
 
 }  // namespace vtm::openvg

@@ -54,21 +54,21 @@ public:
     /// Other pixels, of any size.
     void replace(Pixels pixels);
 
-    /// Null: there is none.
-    PixelCopy* copy() const { return copy_.get(); }
+    bool hasCopy() const { return copy_ != nullptr; }
     /// Keeps a copy from now on, which has no pixels yet.
     void setCopy(std::unique_ptr<PixelCopy> copy);
     /// Keeps a copy from now on that has the pixels, and that others change too.
     void share(std::unique_ptr<PixelCopy> copy);
     /// What was changed goes into the copy. `mayChange`: then the others have it.
     void handOver(bool mayChange);
-    /// Brings the copy up to date, to be read.
-    PixelCopy& readCopy() const;
+    /// The copy's texture, up to date, to be read; null: there is none.
+    std::shared_ptr<const gl::Texture> readTexture() const;
     /// The same, to be changed.
-    PixelCopy& writeCopy();
+    std::shared_ptr<const gl::Texture> writeTexture();
 
 private:
     void bringBack() const;
+    void takeMemory() const;
 
     mutable std::mutex mutex_;
     mutable Pixels pixels_;
