@@ -8,6 +8,7 @@
 #include <vtm/asset/asset.hpp>
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/tiles/tile.hpp"
+#include "backend_gl/upload/plain_paints.hpp"
 #include "raster/coverage.hpp"
 #include "raster/filter_tables.hpp"
 
@@ -43,7 +44,9 @@ std::string tiles() {
     return constant("leftOfChordBit", leftOfChordBit) + constant("leftOfCurveBit", leftOfCurveBit) +
            constant("crowdedBit", crowdedBit) + constant("lengthShift", lengthShift) +
            constant("lowLengthBits", lowLengthBits) + constant("firstTexelBits", firstTexelBits) +
-           constant("gridShift", gridShift) +
+           constant("gridShift", gridShift) + constant("plainTexelBits", plainTexelBits) +
+           constant("segmentBits", segmentBits) + constant("reflectedBit", reflectedBit) +
+           constant("radialBit", radialBit) + constant("plainTag", plainTag) +
            fmt::format("const float tileStep = {:.17g};\nconst float tileSlopeScale = {:.1f};\n",
                        std::ldexp(1.0, -int(tileStepLog2)), tileSlopeScale) +
            fmt::format("const vec2 referenceShift = vec2({}, {});\n", referenceShiftX, referenceShiftY);

@@ -44,7 +44,8 @@ std::string Features::defines() const {
                                      {Groups, "GROUPS"},
                                      {Mixing, "MIXING"},
                                      {Material, "MATERIAL"},
-                                     {LongRamps, "LONG_RAMPS"}})
+                                     {LongRamps, "LONG_RAMPS"},
+                                     {RampPoints, "RAMP_POINTS"}})
         text += fmt::format("#define {} {}\n", name, (flags_ & flag) != 0 ? 1 : 0);
     return text;
 }

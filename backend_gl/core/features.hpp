@@ -19,9 +19,10 @@ public:
         Groups = 8,
         Mixing = 16,
         Material = 32,
-        LongRamps = 64  ///< gradients with many stops (backend_gl/upload/asset_texels.hpp)
+        LongRamps = 64,   ///< gradients with many stops (backend_gl/upload/asset_texels.hpp)
+        RampPoints = 128  ///< of plain paints' programs: means of several points (backend_gl/tiles/tile.hpp)
     };
-    static constexpr unsigned combinations = 128;
+    static constexpr unsigned combinations = 128;  ///< of paint programs
 
     Features() = default;
     explicit Features(unsigned flags) : flags_(flags) {}

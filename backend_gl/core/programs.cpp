@@ -69,8 +69,14 @@ const Program& Programs::leaf(LeafProgram program) {
 }
 
 const Program& Programs::flat(Finish finish) { return get(Kind::Flat, {}, 0, finish); }
+const Program& Programs::plainFlat(Features features, bool isBent, Finish finish) {
+    return get(Kind::PlainFlat, plainOf(features, isBent), 0, finish);
+}
 const Program& Programs::tile(Features features, unsigned materialSet, Finish finish, bool crowded) {
     return get(crowded ? Kind::CrowdedTile : Kind::Tile, features, materialSet, finish);
+}
+const Program& Programs::plainTile(Features features, bool isBent, Finish finish, bool crowded) {
+    return get(crowded ? Kind::CrowdedPlainTile : Kind::PlainTile, plainOf(features, isBent), 0, finish);
 }
 const Program& Programs::fill(Features features, unsigned materialSet) {
     return get(Kind::Fill, features, materialSet);
@@ -87,6 +93,12 @@ const Program& Programs::filter(FilterProgram program) {
         bindUnits(found->second);
     }
     return found->second;
+}
+
+/// What plain paints differ by.
+Features Programs::plainOf(Features features, bool isBent) {
+    return Features((features.has(Features::Radial) ? unsigned(Features::Radial) : 0) |
+                    (isBent ? unsigned(Features::RampPoints) : 0));
 }
 
 Programs::Key Programs::keyOf(Kind kind, Features features, unsigned materialSet, Finish finish) {
@@ -140,8 +152,13 @@ bool Programs::warmUp(const std::vector<Key>& keys) {
 }
 
 bool Programs::warmUpPicture(Features features, unsigned materialSet, Finish finish) {
-    return warmUp({keyOf(Kind::Flat, {}, 0, finish), keyOf(Kind::Tile, {}, 0, finish),
-                   keyOf(Kind::Tile, features, materialSet, finish)});
+    std::vector<Key> keys{keyOf(Kind::Flat, {}, 0, finish), keyOf(Kind::Tile, {}, 0, finish),
+                          keyOf(Kind::Tile, features, materialSet, finish)};
+    if (features.has(Features::Linear) || features.has(Features::Radial))
+        for (const Kind kind : {Kind::PlainFlat, Kind::PlainTile})
+            for (const bool isBent : {false, true})
+                keys.push_back(keyOf(kind, plainOf(features, isBent), 0, finish));
+    return warmUp(keys);
 }
 
 bool Programs::warmUpLayers(Features features, unsigned materialSet) {
@@ -155,8 +172,9 @@ bool Programs::warmUpCompose(Finish finish) { return warmUp({keyOf(Kind::Compose
 ProgramSource Programs::source(Kind kind, Features features, Finish finish, std::string_view materials) {
     using namespace shaders;
     const std::string defines = features.defines(), finishes = finish.defines();
-    const std::string_view crowded =
-        kind == Kind::CrowdedTile ? "#define CROWDED 1\n" : "#define CROWDED 0\n";
+    const std::string_view crowded = kind == Kind::CrowdedTile || kind == Kind::CrowdedPlainTile
+                                         ? "#define CROWDED 1\n"
+                                         : "#define CROWDED 0\n";
     const std::string_view finishBlend = finish.flags() == 0 ? std::string_view("") : shaders::blend;
     switch (kind) {
         case Kind::Solid:
@@ -170,11 +188,22 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
             if (features.flags() == 0)
                 return {"tile",
                         {tile_vertex},
-                        {crowded, finishes, fetch, shadow, cell, finishBlend, output, tile_fragment}};
+                        {crowded, finishes, fetch, place, shadow, cell, finishBlend, output, tile_fragment}};
             return {"tile with programs",
                     {tile_vertex},
-                    {crowded, defines, finishes, fetch, shadow, cell, shaders::blend, gradient, image, paint,
-                     output, tile_programs_fragment, materials}};
+                    {crowded, defines, finishes, fetch, place, shadow, cell, shares, shaders::blend, gradient,
+                     image, paint, output, tile_programs_fragment, materials}};
+        case Kind::PlainFlat:
+            return {
+                "plain flat",
+                {tile_vertex},
+                {defines, finishes, fetch, place, shaders::blend, plain_paint, output, plain_flat_fragment}};
+        case Kind::PlainTile:
+        case Kind::CrowdedPlainTile:
+            return {"plain tile",
+                    {tile_vertex},
+                    {crowded, defines, finishes, fetch, place, shadow, cell, shares, shaders::blend,
+                     plain_paint, output, tile_plain_fragment}};
         case Kind::Fill:
             return {"fill",
                     {box_vertex},
@@ -264,6 +293,10 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Tile, allFeatures, finish);
         add(Kind::CrowdedTile, 0, finish);
         add(Kind::CrowdedTile, allFeatures, finish);
+        for (const Kind kind : {Kind::PlainFlat, Kind::PlainTile, Kind::CrowdedPlainTile})
+            for (const unsigned features : {0u, unsigned(Features::Radial)})
+                for (const unsigned points : {0u, unsigned(Features::RampPoints)})
+                    add(kind, features | points, finish);
     }
     return sources;
 }

@@ -67,8 +67,12 @@ public:
     const Program& leaf(LeafProgram program);
     /// Of a picture: tiles of one colour, and others.
     const Program& flat(Finish finish);
+    /// Of one plain paint (backend_gl/upload/plain_paints.hpp).
+    const Program& plainFlat(Features features, bool isBent, Finish finish);
     /// `crowded`: some cells' pixels come from a texture.
     const Program& tile(Features features, unsigned materialSet, Finish finish, bool crowded = false);
+    /// Of plain paints that change little over a pixel. `isBent`: their means are those of several points.
+    const Program& plainTile(Features features, bool isBent, Finish finish, bool crowded = false);
     const Program& fill(Features features, unsigned materialSet = 0);
     const Program& layer();
     const Program& blend();
@@ -90,7 +94,21 @@ public:
     static std::vector<ProgramSource> everySource();
 
 private:
-    enum class Kind : unsigned { Solid, Pieces, Flat, Tile, CrowdedTile, Fill, Layer, Blend, Compose };
+    enum class Kind : unsigned {
+        Solid,
+        Pieces,
+        Flat,
+        PlainFlat,
+        Tile,
+        CrowdedTile,
+        PlainTile,
+        CrowdedPlainTile,
+        Fill,
+        Layer,
+        Blend,
+        Compose
+    };
+    static Features plainOf(Features features, bool isBent);
     using Key = std::tuple<Kind, unsigned, unsigned, unsigned>;  ///< features, material set, finish
     static Key keyOf(Kind kind, Features features, unsigned materialSet, Finish finish);
     const Program& get(Kind kind, Features features, unsigned materialSet = 0, Finish finish = {});

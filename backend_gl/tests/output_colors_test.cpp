@@ -39,6 +39,7 @@ Asset shallowRamp() {
     };
     asset::Gradient gradient;
     gradient.matrix = {float(1 / mapSide), 0, 0, 0, 0, 0};
+    gradient.stopCount = 2;
     const std::uint32_t at = addGradient(data, gradient, {stop(0, 20000), stop(1, 26000)});
     return programAsset({{asset::Op::Linear, {}, 1, at}}, data);
 }

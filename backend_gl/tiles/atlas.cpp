@@ -46,7 +46,8 @@ void copyTrees(const asset::AssetView& from, asset::Asset& to) {
     copy(from.pieces, to.pieces);
 }
 
-void copyPaints(const asset::AssetView& from, KeptAsset& to) {
+void copyPaints(const asset::AssetView& from, PlainPaints plain, KeptAsset& to) {
+    to.plain = std::move(plain);
     copy(from.paints, to.asset.paints);
     copy(from.data, to.asset.data);
     to.programTurns = programTurns(from);
@@ -55,10 +56,10 @@ void copyPaints(const asset::AssetView& from, KeptAsset& to) {
 
 }  // namespace
 
-KeptAsset keptOf(const asset::AssetView& asset) {
+KeptAsset keptOf(const asset::AssetView& asset, PlainPaints plain) {
     KeptAsset kept;
     copyTrees(asset, kept.asset);
-    copyPaints(asset, kept);
+    copyPaints(asset, std::move(plain), kept);
     copy(asset.images, kept.asset.images);
     copy(asset.materials, kept.asset.materials);
     copy(asset.instanceTrees, kept.asset.instanceTrees);
@@ -68,7 +69,8 @@ KeptAsset keptOf(const asset::AssetView& asset) {
     return kept;
 }
 
-PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::Difference& difference) {
+PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, PlainPaints plain,
+                   const asset::Difference& difference) {
     if (!difference.squares.empty())
         copyTrees(asset, kept.asset);
     if (!difference.paints)
@@ -76,13 +78,15 @@ PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::
     const std::vector<asset::Paint> before = kept.asset.paints;
     const std::vector<std::uint32_t> turns = kept.programTurns;
     const std::vector<asset::PaintChange> changes = kept.changes;
-    copyPaints(asset, kept);
+    const PlainPaints plainBefore = kept.plain;
+    copyPaints(asset, std::move(plain), kept);
     PaintUpdate update;
     update.isChanged.resize(asset.paints.size(), 1);
     for (std::size_t i = 0; i < std::min(before.size(), asset.paints.size()); ++i) {
-        update.isChanged[i] = before[i] != asset.paints[i];
+        update.isChanged[i] = before[i] != asset.paints[i] || plainBefore.words[i] != kept.plain.words[i];
         update.kinds |= asset::isProgram(before[i]) != asset::isProgram(asset.paints[i]);
-        update.programs |= turns[i] != kept.programTurns[i] || changes[i] != kept.changes[i];
+        update.programs |= turns[i] != kept.programTurns[i] || changes[i] != kept.changes[i] ||
+                           !isSame(plainBefore, kept.plain, i);
     }
     return update;
 }
@@ -221,12 +225,12 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::Plan
 Atlas::Placed Atlas::place(Tile tile) {
     if (tile.texels.empty())
         return {.flat = true,
-                .programs = tile.programs,
+                .paints = tile.paints,
                 .paint = tile.paint,
                 .grid = {},
                 .crowded = {},
                 .used = picture_};
-    Placed placed{.programs = tile.programs,
+    Placed placed{.paints = tile.paints,
                   .firstTexel = std::uint32_t(texels_.size()),
                   .pairs = tile.pairs,
                   .firstCell = tile.firstCell,
@@ -249,7 +253,7 @@ std::size_t Atlas::update(const asset::Difference& difference, const PaintUpdate
     if (paints.kinds)
         placed_.clear();
     else if (paints.programs)
-        std::erase_if(placed_, [](const auto& tile) { return tile.second.programs; });
+        std::erase_if(placed_, [](const auto& tile) { return tile.second.paints != TilePaints::Solid; });
     return paints.isChanged.empty() ? 0 : recolorAll(paints);
 }
 
@@ -272,13 +276,12 @@ void Atlas::forget(std::span<const asset::Cell> squares) {
 /// Returns the bytes sent.
 std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
     const std::span isChanged = std::span(changed.isChanged).subspan(firstPaint_);
-    const std::span<const asset::Paint> paints = withPaints().paints;
     std::size_t sent = 0;
     for (const auto& [at, tile] : placed_) {
         if (tile.texelCount == 0)
             continue;
         const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
-        if (!recolor(texels, tile.pairs, tile.firstCell, paints, isChanged) || tile.firstTexel >= uploaded_)
+        if (!recolor(texels, tile.pairs, tile.firstCell, words(), isChanged) || tile.firstTexel >= uploaded_)
             continue;
         updateTexels(texture_.get(), tile.firstTexel, texels);
         sent += texels.size_bytes();
@@ -318,7 +321,7 @@ void Atlas::makeRoom() {
 const Atlas::Placed& Atlas::prepareCrowded() {
     makeRoom();
     if (!crowded_)
-        crowded_ = place(crowdedTile(withPaints().paints));
+        crowded_ = place(crowdedTile(words()));
     upload();
     return *crowded_;
 }
@@ -390,6 +393,8 @@ void Atlas::make(const Region& region, std::size_t most) {
                                 *pieces_,
                                 std::span(asset_->programTurns).subspan(firstPaint_),
                                 std::span(asset_->changes).subspan(firstPaint_),
+                                words(),
+                                asset_->plain.texels,
                                 maxTurns_};
         return buildTile(source, at, tileMargin(), nearIt);
     };
@@ -408,7 +413,7 @@ void Atlas::make(const Region& region, std::size_t most) {
     texels_.reserve(texels_.size() + added);
     for (Missing& made : missing) {
         const bool fits = texels_.size() + made.tile.texels.size() <= maxOfPicture;
-        placed_.emplace(made.at, place(fits ? std::move(made.tile) : crowdedTile(withPaints().paints)));
+        placed_.emplace(made.at, place(fits ? std::move(made.tile) : crowdedTile(words())));
     }
 }
 

@@ -24,8 +24,9 @@ struct KeptAsset {
     asset::Asset asset;                       ///< without commands, filters and prefilter
     std::vector<std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::vector<asset::PaintChange> changes;  ///< by paint
+    PlainPaints plain;
 };
-KeptAsset keptOf(const asset::AssetView& asset);
+KeptAsset keptOf(const asset::AssetView& asset, PlainPaints plain);
 
 /// What an update changed of paints that were there before.
 struct PaintUpdate {
@@ -34,7 +35,9 @@ struct PaintUpdate {
     bool kinds = false;                   ///< solid ones became programs, or programs solid ones
 };
 /// Brings it to the next asset, that differs from the one before by squares and paints alone.
-PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::Difference& difference);
+/// `plain`: where paints changed.
+PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, PlainPaints plain,
+                   const asset::Difference& difference);
 
 /// Of one map and those in it, for one view after the other.
 class ScannedPixels {
@@ -87,8 +90,8 @@ public:
 
     /// What is kept of a Tile.
     struct Placed {
-        bool flat = false;        ///< one paint, no texels
-        bool programs = false;    ///< of its paints one is a program
+        bool flat = false;  ///< one paint, no texels
+        TilePaints paints = TilePaints::Solid;
         std::uint32_t paint = 0;  ///< of the map
         std::uint32_t firstTexel = 0, pairs = 0, firstCell = 0, texelCount = 0;
         CellGrid grid;
@@ -126,6 +129,7 @@ private:
     void make(const Region& region, std::size_t most);
     Placed place(Tile tile);
     asset::AssetView withPaints() const;
+    std::span<const PaintWords> words() const { return std::span(asset_->plain.words).subspan(firstPaint_); }
     void forget(std::span<const asset::Cell> squares);
     std::size_t recolorAll(const PaintUpdate& changed);
     void makeRoom();

@@ -1,5 +1,6 @@
 #include "backend_gl/tiles/picture.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -126,7 +127,18 @@ void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at
 struct Geometry {
     std::vector<FlatVertex> flat;
     std::vector<TileVertex> solid, programs;
-    PixelBox crowded;  ///< holds the pixels of crowded cells
+    struct Plain {
+        std::vector<TileVertex> flat, others;
+    };
+    std::array<Plain, rampPoints.size()> plain;  ///< beside rampPoints
+    PixelBox crowded;                            ///< holds the pixels of crowded cells
+
+    std::vector<TileVertex>& of(const Placed& tile) {
+        if (tile.paints == TilePaints::Solid || tile.paints == TilePaints::Any)
+            return tile.paints == TilePaints::Any ? programs : solid;
+        Plain& tiles = plain[std::size_t(tile.paints) - std::size_t(TilePaints::Plain)];
+        return tile.flat ? tiles.flat : tiles.others;
+    }
 };
 
 FlatVertex flatVertex(const asset::Paint& paint) {
@@ -136,11 +148,15 @@ FlatVertex flatVertex(const asset::Paint& paint) {
     return vertex;
 }
 
-TileVertex tileVertex(const Squares& squares, const Placed& tile, std::int64_t x, std::int64_t y) {
+/// `words`: of a flat tile's paint.
+TileVertex tileVertex(const Squares& squares, const Placed& tile, const PaintWords& words, std::int64_t x,
+                      std::int64_t y) {
     const dvec2 origin = squares.pixel(x, y), picture = squares.picture(x, y);
+    const std::uint32_t cells = tile.firstCell | tile.grid.log2 << gridShift;
     return {{0, 0},
             {float(origin.x), float(origin.y)},
-            {tile.firstTexel, tile.firstCell | tile.grid.log2 << gridShift, tile.flat ? 1 + tile.paint : 0},
+            {tile.flat ? words[0] : tile.firstTexel, tile.flat ? words[1] : cells,
+             tile.flat ? 1 + tile.paint : 0},
             {float(picture.x), float(picture.y), float(squares.side()), float(tile.grid.cellSize())}};
 }
 
@@ -157,9 +173,9 @@ Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const 
                 continue;
             for (const std::uint16_t cell : tile.crowded)
                 geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, tile.grid, cell));
-            if (!tile.flat || tile.programs)
-                addSquare(tile.programs ? geometry.programs : geometry.solid, squares, {x, y},
-                          tileVertex(squares, tile, x, y));
+            if (!tile.flat || tile.paints != TilePaints::Solid)
+                addSquare(geometry.of(tile), squares, {x, y},
+                          tileVertex(squares, tile, asset.kept.plain.words[firstPaint + tile.paint], x, y));
             else if (tile.paint != 0)
                 addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[firstPaint + tile.paint]));
         }
@@ -173,7 +189,7 @@ Geometry scannedGeometry(Atlas& atlas, const Squares& map) {
     if (geometry.crowded.empty())
         return geometry;
     const Placed& tile = atlas.prepareCrowded();
-    const TileVertex vertex = tileVertex(map, tile, 0, 0);
+    const TileVertex vertex = tileVertex(map, tile, {}, 0, 0);
     addTriangles(geometry.solid, vertex, [&](i64vec2 c) {
         const PixelBox& box = geometry.crowded;
         return dvec2(box.min) + dvec2(c) * dvec2(box.size());
@@ -214,19 +230,20 @@ void setMatrix(GLint uniform, const glm::dmat2& m) {
     glUniform4f(uniform, float(m[0].x), float(m[0].y), float(m[1].x), float(m[1].y));
 }
 
-void use(const Program& program, const UploadedAsset& asset, std::uint32_t firstPaint,
-         const asset::View& view, double side) {
-    const Sections& s = asset.sections;
+void use(const Program& program, const Sections& s, std::uint32_t firstPaint, const asset::View& view,
+         double side) {
     const glm::dmat2 toPixels(view.toPixels[0] * side, view.toPixels[1] * side);
     program.use();
     glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
     glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints + firstPaint, s.data);
+    glUniform1ui(program.uniform("plainTexels"), s.plainTexels);
     glUniform1ui(program.uniform("imageSection"), s.images);
     glUniform1ui(program.uniform("rampSums"), s.rampSums);
     const bool mirrored = glm::determinant(toPixels) < 0;
     setMatrix(program.uniform("tileToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
     setMatrix(program.uniform("pixelToTile"), glm::inverse(toPixels));
     const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+    setMatrix(program.uniform("pixelSides"), pixel);
     glUniform1f(program.uniform("minSteepness"), asset::minSteepness(pixel));
 }
 
@@ -269,9 +286,10 @@ void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& a
     bindTexture(Unit::Texels, asset.records.texture());
     bindTexture(Unit::Images, asset.images);
     bindTexture(Unit::Tiles, atlas.texture());
+    const Sections& sections = asset.sections;
     const auto drawAll = [&](const Program& program, const VertexArrayHandle& array,
                              const BufferHandle& buffer, const auto& vertices) {
-        use(program, asset, atlas.firstPaint(), view, squares.side());
+        use(program, sections, atlas.firstPaint(), view, squares.side());
         glUniform1i(program.uniform("markOverruns"), markOverruns);
         glUniform2i(program.uniform("scannedCorner"), geometry.crowded.min.x, geometry.crowded.min.y);
         draw(array, buffer, vertices);
@@ -279,11 +297,26 @@ void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& a
     const bool crowded = !geometry.crowded.empty();
     if (!geometry.flat.empty())
         drawAll(programs.flat(finish), buffers.flatArray, buffers.flat, geometry.flat);
+    const auto drawTiles = [&](const Program& program, const std::vector<TileVertex>& vertices) {
+        drawAll(program, buffers.tileArray, buffers.tile, vertices);
+    };
     if (!geometry.solid.empty())
-        drawAll(programs.tile({}, 0, finish, crowded), buffers.tileArray, buffers.tile, geometry.solid);
+        drawTiles(programs.tile({}, 0, finish, crowded), geometry.solid);
+    for (std::size_t i = 0; i < geometry.plain.size(); ++i) {
+        const auto& [flat, others] = geometry.plain[i];
+        const bool isBent = rampPoints[i].count > 1;
+        const auto drawPlain = [&](const Program& program, const std::vector<TileVertex>& vertices) {
+            program.use();
+            glUniform1ui(program.uniform("rampPoints"), rampPoints[i].count);
+            drawTiles(program, vertices);
+        };
+        if (!flat.empty())
+            drawPlain(programs.plainFlat(asset.features, isBent, finish), flat);
+        if (!others.empty())
+            drawPlain(programs.plainTile(asset.features, isBent, finish, crowded), others);
+    }
     if (!geometry.programs.empty())
-        drawAll(programs.tile(asset.features, asset.materialSet, finish, crowded), buffers.tileArray,
-                buffers.tile, geometry.programs);
+        drawTiles(programs.tile(asset.features, asset.materialSet, finish, crowded), geometry.programs);
 }
 
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,

@@ -175,18 +175,12 @@ private:
 
 /// With those between the same two paints one after the other, where shaders gain from it: what asks paint
 /// programs for colours keeps the last two (tile_programs_fragment.glsl).
-std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, bool programs) {
-    if (programs)
+std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, TilePaints paints) {
+    if (paints != TilePaints::Solid)
         std::ranges::stable_sort(pieces, {}, [](const PlanarPiece& p) {
             return std::minmax({p.left, p.right});
         });
     return pieces;
-}
-
-bool hasPrograms(const asset::AssetView& asset, std::span<const PlanarPiece* const> near) {
-    const auto isProgram = [&](std::uint32_t paint) { return asset::isProgram(asset.paints[paint]); };
-    return std::ranges::any_of(
-        near, [&](const PlanarPiece* p) { return isProgram(p->left) || isProgram(p->right); });
 }
 
 /// A tile's cells, in the picture.
@@ -200,6 +194,10 @@ public:
     /// Corners of a pixel are no further from its centre than the margin, so it stretches what it maps by no
     /// more than twice that.
     double stretch() const { return 2 * margin_; }
+    /// All pixels of the tile.
+    asset::PixelsNear pixels() const {
+        return {corner_ + 0.5 * side_ * dvec2(1), std::sqrt(0.5) * side_, stretch()};
+    }
     /// The pixels with centres in a cell.
     asset::PixelsNear pixels(const CellGrid& grid, int column, int row) const {
         const double cell = grid.cellSize() * side_;
@@ -212,14 +210,43 @@ private:
     double margin_;
 };
 
+TilePaints tilePaints(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
+    if (!asset::isProgram(source.asset.paints[paint]))
+        return TilePaints::Solid;
+    if (!isPlainProgram(source.words[paint]))
+        return TilePaints::Any;
+    const asset::PixelsNear pixels = places.pixels();
+    if (double(source.changes[paint].steepness) * pixels.pixel > maxPlainChange &&
+        double(asset::changeNear(source.asset, paint, pixels).sum) > maxPlainChange)
+        return TilePaints::Any;
+    const double bend = bendNear(source.plainTexels, source.words[paint], pixels) * pixels.pixel;
+    for (std::size_t i = 0; i < rampPoints.size(); ++i)
+        if (rampPoints[i].error * bend <= maxPlainError)
+            return TilePaints(std::size_t(TilePaints::Plain) + i);
+    return TilePaints::Any;
+}
+
+TilePaints tilePaints(const TileSource& source, const CellPlaces& places,
+                      std::span<const PlanarPiece* const> near) {
+    std::vector<std::uint32_t> beside;
+    for (const PlanarPiece* piece : near)
+        beside.insert(beside.end(), {piece->left, piece->right});
+    std::ranges::sort(beside);
+    const auto [end, last] = std::ranges::unique(beside);
+    TilePaints paints = TilePaints::Solid;
+    for (auto paint = beside.begin(); paint != end && paints != TilePaints::Any; ++paint)
+        paints = std::max(paints, tilePaints(source, places, *paint));
+    return paints;
+}
+
 /// Which cells shaders do not draw: they would take too many turns, or not be exact.
 class HandedOver {
 public:
-    HandedOver(const TileSource& source, const CellPlaces& places, bool programs)
+    HandedOver(const TileSource& source, const CellPlaces& places, TilePaints paints)
         : maxTurns_(source.asset.materials.empty() ? source.maxTurns : source.maxTurns * materialFactor),
-          programs_(programs),
+          programs_(paints != TilePaints::Solid),
           costs_{source.programTurns, source.changes, asset::minSteepness(glm::dmat2(places.stretch()))} {
-        if (programs && source.asset.materials.empty())
+        if (paints == TilePaints::Any && source.asset.materials.empty())
             rough_ = RoughCells(source.asset, source.changes);
     }
 
@@ -245,12 +272,12 @@ private:
 Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
     Tile tile;
     tile.paint = paint;
-    tile.programs = asset::isProgram(source.asset.paints[paint]);
-    if (!tile.programs)
+    tile.paints = tilePaints(source, places, paint);
+    if (tile.paints != TilePaints::Any)
         return tile;
     const std::vector<PlanarPiece> none;
-    const HandedOver isHandedOver(source, places, true);
-    CellWriter writer(source.asset.paints, none, tile.texels);
+    const HandedOver isHandedOver(source, places, tile.paints);
+    CellWriter writer(source.words, none, tile.texels);
     std::vector<Texel> cells;
     const int side = tile.grid.cellsPerSide();
     for (int cell = 0; cell < side * side; ++cell) {
@@ -283,29 +310,29 @@ std::optional<Reference> startOf(const TileSource& source, const LocalPieces& lo
 }  // namespace
 
 bool recolor(std::span<Texel> texels, std::uint32_t pairs, std::uint32_t firstCell,
-             std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged) {
+             std::span<const PaintWords> words, std::span<const std::uint8_t> isChanged) {
     bool changed = false;
     for (std::uint32_t i = 0; i < pairs; ++i) {
         const std::uint32_t pair = texels[2 * i + 1][0], left = pair & 0xFFFF, right = pair >> 16;
         if ((isChanged[left] | isChanged[right]) == 0)
             continue;
-        texels[2 * i] = colorTexel(paints[left], paints[right]);
+        texels[2 * i] = colorTexel(words[left], words[right]);
         changed = true;
     }
     for (Texel& cell : texels.subspan(firstCell)) {
         const std::uint32_t paint = cell[0] & 0xFFFF;
         if (isChanged[paint] == 0)
             continue;
-        cell = withColor(cell, paints[paint]);
+        cell = withColor(cell, words[paint]);
         changed = true;
     }
     return changed;
 }
 
-Tile crowdedTile(std::span<const asset::Paint> paints) {
+Tile crowdedTile(std::span<const PaintWords> words) {
     Tile tile;
     const std::vector<PlanarPiece> none;
-    const CellWriter writer(paints, none, tile.texels);
+    const CellWriter writer(words, none, tile.texels);
     for (int cell = 0; cell < 1 << 2 * tile.grid.log2; ++cell)
         tile.crowded.push_back(std::uint16_t(cell));
     tile.texels.assign(tile.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
@@ -316,17 +343,17 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                std::span<const PlanarPiece* const> near) {
     const LocalPieces local(source.pieces.map().extent, place, margin, near);
     const CellPlaces places(source, place, margin);
-    const bool programs = hasPrograms(source.asset, near);
-    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs);
+    const TilePaints paints = tilePaints(source, places, near);
+    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), paints);
     const Lists coarse = listsOf(CellGrid(), pieces, margin);
     const std::optional<Reference> start = startOf(source, local, coarse.numbers.empty(), near);
     if (!start)
-        return crowdedTile(source.asset.paints);
+        return crowdedTile(source.words);
     if (coarse.numbers.empty())
         return flatTile(source, places, start->paint);
-    const HandedOver isHandedOver(source, places, programs);
+    const HandedOver isHandedOver(source, places, paints);
     Tile tile;
-    tile.programs = programs;
+    tile.paints = paints;
     tile.grid = gridFor(coarse);
     std::optional<Lists> fine;
     if (tile.grid.log2 != CellGrid().log2)
@@ -334,7 +361,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     const Lists& lists = fine ? *fine : coarse;
     const int cellCount = tile.grid.cellsPerSide();
     std::vector<Texel> cells;
-    CellWriter writer(source.asset.paints, pieces, tile.texels);
+    CellWriter writer(source.words, pieces, tile.texels);
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)

@@ -9,12 +9,14 @@
 /// away needs no thought, and every pixel is drawn once, by one cell.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
 #include "backend_gl/core/turns.hpp"
+#include "backend_gl/upload/plain_paints.hpp"
 #include "raster/planar_map.hpp"
 #include "raster/steepness.hpp"
 
@@ -63,17 +65,35 @@ inline constexpr std::uint32_t crowdedBit = 1u << 31;
 /// list's first texel and, above, the rest of the length.
 inline constexpr unsigned lengthShift = 20, lowLengthBits = 11, firstTexelBits = 23;
 
+/// Those near a tile: nothing but colours; plain ones (backend_gl/upload/plain_paints.hpp) that change little
+/// over a pixel, whose means over it are those of one, two or four points; or others among them.
+enum class TilePaints : std::uint8_t { Solid, Plain, PlainOfTwo, PlainOfFour, Any };
+/// By TilePaints, from Plain on: points, and how far their mean may be off, by the difference between slopes
+/// times the diagonal of a pixel. That is where a ramp is bent in a pixel's middle or between two points,
+/// which are evenly apart and have the pixel's variance.
+struct RampPoints {
+    unsigned count;
+    double error;
+};
+inline constexpr std::array<RampPoints, 3> rampPoints{{{1, 0.125}, {2, 0.022}, {4, 0.009}}};
+
+/// What plain paints change by at most over a pixel as wide as the diagonal of the tile's largest: no view of
+/// the tile has pixels in which they are steep.
+inline constexpr double maxPlainChange = 16.0 / 255;
+/// What the mean of points may be off by.
+inline constexpr double maxPlainError = 0.25 / 255;
+
 /// `texels` holds the pairs of paints beside pieces, the lists of pieces and, from `firstCell`, the cells row
 /// by row; nothing if the tile has one paint. A piece stands in the list of every cell that it matters to, so
 /// that a pixel reads its pieces one after the other. Fields are packed from the lowest bit of the first word
 /// on.
 ///
-/// - Pair, two texels. First: the colours on the left and on the right, premultiplied 16-bit unorm red,
-///   green, blue, alpha, of solid paints. Second: left | right << 16.
+/// - Pair, two texels. First: the paints on the left and on the right as PaintWords. Second: left | right <<
+///   16.
 /// - Piece, one texel: a.x, a.y, b.x, b.y (18 bits each), slopes at a and b (12 bits each, signed); texel of
 ///   its pair << 2 | leftOfCurveBit | leftOfChordBit, as the cell's reference point lies.
 /// - Cell, one texel: paint at the reference point | place of that point << 16 | length of the list (lower
-///   bits) << lengthShift | crowdedBit; the paint's colour as in a pair; first texel of the list | length >>
+///   bits) << lengthShift | crowdedBit; the paint as in a pair; first texel of the list | length >>
 ///   lowLengthBits << firstTexelBits. With crowdedBit the list is empty: it would take more turns of loops
 ///   than a pixel may, or more texels than a tile.
 struct Tile {
@@ -81,7 +101,7 @@ struct Tile {
     std::vector<asset::Texel> texels;
     std::uint32_t pairs = 0, firstCell = 0;
     CellGrid grid;
-    bool programs = false;               ///< of the paints near it one is a program
+    TilePaints paints = TilePaints::Solid;
     std::vector<std::uint16_t> crowded;  ///< numbers of such cells, ascending
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
@@ -95,6 +115,8 @@ struct TileSource {
     const asset::PlanarIndex& exact;              ///< the same without less detail
     std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::span<const asset::PaintChange> changes;  ///< by paint
+    std::span<const PaintWords> words;            ///< by paint
+    std::span<const asset::Texel> plainTexels;    ///< of PlainPaints
     std::uint32_t maxTurns = turnsPerPixel;
 
     bool hasLessDetail() const { return &pieces != &exact; }
@@ -103,10 +125,10 @@ struct TileSource {
 /// Writes the colours of paints that changed into a tile's texels, of which the first are so many pairs.
 /// `isChanged`: by paint. Returns whether there are some.
 bool recolor(std::span<asset::Texel> texels, std::uint32_t pairs, std::uint32_t firstCell,
-             std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged);
+             std::span<const PaintWords> words, std::span<const std::uint8_t> isChanged);
 
 /// All cells of which are crowded.
-Tile crowdedTile(std::span<const asset::Paint> paints);
+Tile crowdedTile(std::span<const PaintWords> words);
 
 /// `margin`: the largest distance from a pixel's centre to its corners, in tile sides, at most 1/4. `near`:
 /// at least all pieces that come nearer than that to the tile.

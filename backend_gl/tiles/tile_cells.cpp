@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -25,7 +24,7 @@ std::uint32_t steps(double coordinate) {
 class Packer {
 public:
     void add(std::uint32_t value, unsigned bits) {
-        const std::uint64_t shifted = std::uint64_t(value & ((1u << bits) - 1)) << (used_ % 32);
+        const std::uint64_t shifted = (value & ((std::uint64_t(1) << bits) - 1)) << (used_ % 32);
         words_[used_ / 32] |= std::uint32_t(shifted);
         if (used_ % 32 + bits > 32)
             words_[used_ / 32 + 1] |= std::uint32_t(shifted >> 32);
@@ -38,31 +37,13 @@ private:
     unsigned used_ = 0;
 };
 
-/// Two words of a texel: 16-bit channels, nothing for programs.
-void addColor(Packer& packer, const asset::Paint& paint) {
-    for (const std::uint32_t channel : paint)
-        packer.add(
-            asset::isProgram(paint) ? 0 : std::uint32_t(std::lround(std::bit_cast<float>(channel) * 65535)),
-            16);
-}
-
 }  // namespace
 
-Texel colorTexel(const asset::Paint& left, const asset::Paint& right) {
-    Packer packer;
-    addColor(packer, left);
-    addColor(packer, right);
-    return packer.words();
+Texel colorTexel(const PaintWords& left, const PaintWords& right) {
+    return {left[0], left[1], right[0], right[1]};
 }
 
-Texel withColor(Texel cell, const asset::Paint& paint) {
-    Packer packer;
-    packer.add(0, 32);
-    addColor(packer, paint);
-    cell[1] = packer.words()[1];
-    cell[2] = packer.words()[2];
-    return cell;
-}
+Texel withColor(Texel cell, const PaintWords& paint) { return {cell[0], paint[0], paint[1], cell[3]}; }
 
 namespace {
 
@@ -83,15 +64,15 @@ std::uint32_t sidesOf(const PlanarPiece& piece, glm::dvec2 point) {
 
 }  // namespace
 
-CellWriter::CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
+CellWriter::CellWriter(std::span<const PaintWords> words, const std::vector<PlanarPiece>& pieces,
                        std::vector<Texel>& texels)
-    : paints_(paints), pieces_(pieces), texels_(texels) {
+    : words_(words), pieces_(pieces), texels_(texels) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;  // texels
     for (const PlanarPiece& piece : pieces) {
         limits::check();
         const auto [found, isNew] = pairs.try_emplace({piece.left, piece.right}, texels.size());
         if (isNew) {
-            texels.push_back(colorTexel(paints[piece.left], paints[piece.right]));
+            texels.push_back(colorTexel(words[piece.left], words[piece.right]));
             texels.push_back({piece.left | piece.right << 16, 0, 0, 0});
         }
         geometry_.push_back(geometryTexel(piece, found->second));
@@ -119,11 +100,7 @@ Texel CellWriter::writeCrowded(const Reference& reference) const {
 }
 
 Texel CellWriter::withoutList(const Reference& reference) const {
-    Packer packer;
-    packer.add(reference.paint, 16);
-    packer.add(reference.place, 16);
-    addColor(packer, paints_[reference.paint]);
-    return packer.words();
+    return withColor({reference.paint | reference.place << 16, 0, 0, 0}, words_[reference.paint]);
 }
 
 namespace {

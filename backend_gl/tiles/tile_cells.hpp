@@ -20,9 +20,9 @@ namespace vtm::gl {
 using asset::Texel;
 
 /// The first texel of a pair of paints.
-Texel colorTexel(const asset::Paint& left, const asset::Paint& right);
-/// A cell's texel with another colour of its paint.
-Texel withColor(Texel cell, const asset::Paint& paint);
+Texel colorTexel(const PaintWords& left, const PaintWords& right);
+/// A cell's texel with another paint.
+Texel withColor(Texel cell, const PaintWords& paint);
 
 /// A cell's point with a known paint; `place` numbers it on the grid of such points, row by row.
 struct Reference {
@@ -35,7 +35,7 @@ struct Reference {
 class CellWriter {
 public:
     /// `pieces`, whose numbers are rounded already, and `texels`, which are empty, must outlive it.
-    CellWriter(std::span<const asset::Paint> paints, const std::vector<PlanarPiece>& pieces,
+    CellWriter(std::span<const PaintWords> words, const std::vector<PlanarPiece>& pieces,
                std::vector<Texel>& texels);
 
     std::uint32_t pairs() const { return pairs_; }
@@ -48,7 +48,7 @@ public:
 private:
     Texel withoutList(const Reference& reference) const;
 
-    std::span<const asset::Paint> paints_;
+    std::span<const PaintWords> words_;
     const std::vector<PlanarPiece>& pieces_;
     std::vector<Texel> geometry_;  ///< by piece: its texel, with the pair, but not how a point lies
     std::uint32_t pairs_ = 0;

@@ -1,35 +1,19 @@
 // The cell that a pixel's centre lies in, and its pieces. The only branches are loops: some drivers run both sides of
 // every other, fetches and all.
-// Requires: fetch.glsl, shadow.glsl; tile_vertex.glsl's outputs; constants of backend_gl/tiles/tile.hpp; CROWDED defined as 1 where the
-// tile has crowded cells, else 0.
-// Exports: tileOrigin, tileTexels, tilePicture, Cell, tilePoint, isFlatTile, cellAt, List, listOf, nextPiece, tileTexel,
-// unpackColor, finishedSum.
+// Requires: fetch.glsl, place.glsl; constants of backend_gl/tiles/tile.hpp; CROWDED defined as 1 where the tile has
+// crowded cells, else 0.
+// Exports: Cell, isFlatTile, cellAt, List, listOf, nextPiece, tileTexel, finishedSum.
 
 uniform usampler2D tiles;
-uniform vec4 pixelToTile;  // distances, by columns
-
-flat in vec2 tileOrigin;
-flat in uvec3 tileTexels;
-flat in vec4 tilePicture;
-
 uint lowBits(uint word, uint count) { return word & ((1u << count) - 1u); }
 
 uvec4 tileTexel(uint index) { return texelFetch(tiles, texelPlace(tileTexels.x + index), 0); }
-
-// Times 65535.
-vec4 unpackColor(uvec2 words) { return vec4(words.xxyy >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu); }
 
 struct Cell {
     uvec4 texel;
     vec2 o;    // the pixel's centre, tile sides
     vec2 way;  // from the reference point to it
 };
-
-// Off the steps on which end points lie, and off the diagonals and axes through them, so that O is no end point,
-// which has no direction to itself, and lies on few chords of upright views.
-vec2 tilePoint(vec2 pixel) {
-    return (floor(times(pixelToTile, pixel - tileOrigin) / tileStep) + vec2(0.25, 0.625)) * tileStep;
-}
 
 bool isFlatTile() { return tileTexels.z != 0u; }
 
@@ -74,7 +58,7 @@ uniform bool markOverruns;
 // What a pixel shows: the sum over its cell's pieces; where the cell is crowded, which has none, the scanned pixel; and
 // where the driver ended the loops before the last piece, magenta, or the colour at the reference point, made opaque.
 vec4 finishedSum(Cell cell, vec4 sum, bool complete) {
-    vec4 near = unpackColor(cell.texel.yz) / 65535.0;
+    vec4 near = cell.texel.z == plainTag ? vec4(0.0) : unpackColor(cell.texel.yz) / 65535.0;
     vec4 overrun = markOverruns ? vec4(1.0, 0.0, 1.0, 1.0) : vec4(near.rgb + 0.5 * (1.0 - near.a), 1.0);
 #if CROWDED
     if ((cell.texel.x & crowdedBit) != 0u)

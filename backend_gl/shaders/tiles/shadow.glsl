@@ -1,12 +1,11 @@
 // What one piece changes in a pixel: the crossings on the way from a cell's reference point R to the pixel's
 // centre O, and the piece's shadow, seen from O, in the pixel's box (docs/coverage.md).
-// Requires: constants tileStep, tileSlopeScale, leftOfChordBit, leftOfCurveBit.
-// Exports: times, TilePiece, tilePiece, mayMeetPixel, pieceWeight, sidesOf.
+// Requires: place.glsl; constants tileStep, tileSlopeScale, leftOfChordBit, leftOfCurveBit.
+// Exports: TilePiece, tilePiece, mayMeetPixel, pieceWeight, sidesOf.
 
 // Tile to pixel distances, by columns, mirrored if need be so that areas keep their sign; the box does not care.
 uniform vec4 tileToBox;
 
-vec2 times(vec4 matrix, vec2 v) { return matrix.xy * v.x + matrix.zw * v.y; }
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 // A piece of backend_gl/tiles/tile.hpp relative to O, in tile sides.

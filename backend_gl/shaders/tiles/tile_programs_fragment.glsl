@@ -1,4 +1,4 @@
-// A tile with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl, output.glsl.
+// A tile with paint programs. Requires: cell.glsl, fetch.glsl, paint.glsl, output.glsl, shadow.glsl, shares.glsl.
 
 uniform float minSteepness;  // paints above it are evaluated in the quarters of pixels, too
 
@@ -6,9 +6,10 @@ out vec4 color;
 
 bool isSteep(uint paint) { return isSteep(paint, minSteepness); }
 
-// Smaller weights are rounding errors. A piece whose weight is not an integer cuts the pixel.
-const float minWeight = 1e-5;
+// Unless its paint is steep, a share is not shaded in quarters.
+bool isShaded(uint paint, uint part) { return part == 0u || isSteep(paint); }
 
+// A piece whose weight is not an integer cuts the pixel.
 bool isFraction(float weight) { return abs(weight - floor(weight + 0.5)) > minWeight; }
 
 // ---- The pixel and its quarters -------------------------------------------------------------------
@@ -34,59 +35,11 @@ float weightIn(uint part, TilePiece piece, uvec4 bits, Cell cell) {
     return 0.25 * (pieceWeight(tilePiece(bits.xyz, centre), centre - cell.o, sides, 2.0 * tileToBox) - weight);
 }
 
-// ---- Weights by paint -----------------------------------------------------------------------------
-
-// A paint, and the sum of the weights of pieces that have it on their left, less those that have it on their right.
-struct Share {
-    uint paint;
-    float weight;
-};
-
-const uint noPaint = 0xFFFFFFFFu;
-const Share noShare = Share(noPaint, 0.0);
-
-// The shares of the last two paints, mostly the two sides of a chain of pieces, are kept and added to. Another paint
-// evicts the older one; evicted shares wait to be shaded: two at most, since pieces are added while none waits.
-struct Shares {
-    Share newer, older;
-    Share waiting, last;
-};
-
-// An evicted share is shaded unless its weight is zero, and in quarters unless its paint is not steep.
-void evict(inout Shares shares, Share share, uint part) {
-    if (abs(share.weight) <= minWeight || part != 0u && !isSteep(share.paint))
-        return;
-    if (shares.waiting.paint == noPaint)
-        shares.waiting = share;
-    else
-        shares.last = share;
-}
-
-void add(inout Shares shares, Share term, uint part) {
-    if (term.paint == shares.newer.paint) {
-        shares.newer.weight += term.weight;
-        return;
-    }
-    Share older = shares.older;
-    shares.older = shares.newer;
-    shares.newer = term;
-    if (term.paint == older.paint)
-        shares.newer.weight += older.weight;
-    else
-        evict(shares, older, part);
-}
-
-void evictAll(inout Shares shares, uint part) {
-    evict(shares, shares.older, part);
-    evict(shares, shares.newer, part);
-    shares.older = shares.newer = noShare;
-}
-
 // What a share adds to the sum.
 vec4 valueOf(Share share, uint part) {
     if (share.paint == noPaint)
         return vec4(0.0);
-    vec2 point = tilePicture.xy + tilePicture.z * centreOf(part);
+    vec2 point = picturePoint(centreOf(part));
     vec4 sides = (part == 0u ? 1.0 : 0.5) * tilePicture.z * pixelToTile;
     return share.weight * regionValue(paintColor(share.paint, point, mat3x2(sides.xy, sides.zw, point)));
 }

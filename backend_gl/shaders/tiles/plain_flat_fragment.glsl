@@ -1,0 +1,7 @@
+// Tiles of one plain paint. Requires: place.glsl, plain_paint.glsl, output.glsl.
+
+out vec4 color;
+
+void main() {
+    color = outputColor(regionValue(plainColor(tileTexels.x, picturePoint(tilePoint(gl_FragCoord.xy)))));
+}
