@@ -4,6 +4,9 @@
 /// (docs/coverage.md).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/mat2x2.hpp>
@@ -51,6 +54,33 @@ struct NearChange {
 };
 /// Hard stops count where they are. Solid paints and programs with images: 0; with materials: infinity.
 NearChange changeNear(const AssetView& asset, std::uint32_t paint, const PixelsNear& pixels);
+
+/// What an asset's paints change by, anywhere and near places. The asset must outlive it.
+class PaintChanges {
+public:
+    explicit PaintChanges(const AssetView& asset);
+
+    /// As changesOf().
+    std::span<const PaintChange> byPaint() const { return byPaint_; }
+    /// Within such pixels. No more than anywhere: of a gradient only those stretches count that lie there.
+    PaintChange near(std::uint32_t paint, const PixelsNear& pixels) const;
+
+private:
+    struct GradientChange {
+        Gradient gradient;
+        double slope, all;                  ///< of the ramp, anywhere (RampChange in steepness.cpp)
+        double linearOffset, radialOffset;  ///< what u changes by over a unit of the picture, at most
+    };
+    const GradientChange& gradientAt(std::uint32_t texel);
+    PaintChange of(const Paint& paint);
+
+    std::span<const Paint> paints_;
+    std::span<const Texel> data_;
+    std::vector<PaintChange> byPaint_;
+    std::vector<std::uint32_t> numbers_;  ///< in gradients_ and 1, by texel: many programs may use one
+    std::vector<GradientChange> gradients_;
+    std::vector<float> changes_;  ///< by texel of a stop: what the ramp changes by up to the next one
+};
 
 /// Two layers that each change by c over a pixel are off by c² / 12 at most, some 2/255 here.
 inline constexpr double minRoughChange = 80.0 / 255;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -239,7 +240,9 @@ vec4 quartersOf(const Drawn& drawn, Entry entry, const PlacedLeaf& placed, const
 /// Whether a pixel with a part of this steep paint wants to be drawn finer.
 bool isRough(const Drawn& drawn, std::uint32_t paint, bool isCut, const PlacedLeaf& placed,
              const LeafFrame& frame) {
-    const PaintChange& change = drawn.paints.changes()[paint];
+    const PaintPlace pixel = placeOf(placed, frame, vec2(0.5f), 1);
+    const PaintChange change = drawn.paints.changeNear(
+        paint, {dvec2(pixel.point), 0, std::numbers::sqrt2 * double(drawn.rough.pixel)});
     const auto colorAt = [&](vec2 point, float size) {
         return float4(drawn.paints.color(paint, placeOf(placed, frame, point, size), drawn.materials));
     };
@@ -247,7 +250,7 @@ bool isRough(const Drawn& drawn, std::uint32_t paint, bool isCut, const PlacedLe
                                          colorAt({0.25f, 0.75f}, 0.5f), colorAt({0.75f, 0.75f}, 0.5f)};
     if (isCut && drawn.rough.isRoughCut(change, quarters))
         return true;
-    if (!drawn.mayBeRough(paint))
+    if (!drawn.rough.mayBeRoughNear(change))
         return false;
     const Float4 color = colorAt(vec2(0.5f), 1);
     if (drawn.rough.isRoughWhole(change, quarters, color))

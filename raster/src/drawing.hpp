@@ -88,11 +88,11 @@ private:
 class Drawing {
 public:
     Drawing(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
-            int finerLevels, float roughness = 1)
+            int finerLevels, float roughness = 1, const FinerPixels* wanted = nullptr)
         : of_(of),
           view_(view),
           scratch_(scratch),
-          programs_(programView(of, view_, materials, roughness, finerLevels > 0)),
+          programs_(programView(of, view_, materials, roughness, finerLevels > 0, wanted)),
           finerLevels_(finerLevels) {
         scratch_.bands.clear(view.height);
         scratch_.colors.resize(view.width);
@@ -213,8 +213,10 @@ private:
         std::vector<std::pair<BandPixel, Float4>> colors;
         auto next = rough.begin();
         for (const BandBox& box : boxesAround(rough)) {
-            MeanStore means = drawBox(band, box);
-            for (; next != rough.end() && next->x < box.end; ++next)
+            const auto last =
+                std::ranges::find_if(next, rough.end(), [&](const BandPixel& p) { return p.x >= box.end; });
+            MeanStore means = drawBox(band, box, {next, last});
+            for (; next != last; ++next)
                 colors.emplace_back(*next, means.at(*next));
         }
         std::ranges::sort(colors, {}, [](const auto& c) { return c.first; });
@@ -224,8 +226,12 @@ private:
             scratch_.programs.pixels().replace(pixel.row, pixel.x, color);
     }
 
-    /// Chords are within chordTolerance of a pixel of their curves here, and finer pixels need no finer ones.
-    MeanStore drawBox(int band, const BandBox& box) {
+    /// The means of some pixels of the box. Chords are within chordTolerance of a pixel of their curves here,
+    /// and finer pixels need no finer ones.
+    MeanStore drawBox(int band, const BandBox& box, std::span<const BandPixel> pixels) {
+        FinerPixels wanted(box.width(), box.height());
+        for (const BandPixel& p : pixels)
+            wanted.add(p.x - box.first, p.row - box.top);
         const glm::dvec2 corner(box.first, band * bandRows + box.top);
         View finer{box.width() * finerSide, box.height() * finerSide, view_.toPixels};
         finer.toPixels[2] -= corner;
@@ -234,7 +240,7 @@ private:
         if (!scratch_.finer)
             scratch_.finer = std::make_unique<RowScratch>();
         Drawing drawing(of_, finer, programs_.materials, *scratch_.finer, finerLevels_ - 1,
-                        finerTolerance * programs_.rough.times);
+                        finerTolerance * programs_.rough.times, &wanted);
         for (const Chord& c : scratch_.bands.of(band))
             drawing.addChord({float(finerSide) * (c.a - glm::vec2(corner)),
                               float(finerSide) * (c.b - glm::vec2(corner)), c.left, c.right});
@@ -244,11 +250,11 @@ private:
     }
 
     static ProgramView programView(const Scanned& of, const View& view, const MaterialFunction& materials,
-                                   float roughness, bool findsRough) {
+                                   float roughness, bool findsRough, const FinerPixels* wanted) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
         const float minSteep = minSteepness(inverse);
-        return {of.paints, of.sums, view, inverse, minSteep, materials, roughBounds(minSteep, roughness),
-                findsRough};
+        return {of.paints,  of.sums, view, inverse, minSteep, materials, roughBounds(minSteep, roughness),
+                findsRough, wanted};
     }
 
     const Scanned& of_;

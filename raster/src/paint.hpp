@@ -48,7 +48,10 @@ public:
     const Images& images() const { return *made_->images; }
     const std::shared_ptr<const Images>& sharedImages() const { return made_->images; }
     /// By paint (raster/steepness.hpp).
-    std::span<const PaintChange> changes() const { return std::span(made_->changes).subspan(first_); }
+    std::span<const PaintChange> changes() const { return made_->changes.byPaint().subspan(first_); }
+    PaintChange changeNear(std::uint32_t paint, const PixelsNear& pixels) const {
+        return made_->changes.near(std::uint32_t(first_) + paint, pixels);
+    }
     /// Of gradients: by texel of the asset's data, straight, where a stop stands.
     std::span<const glm::vec4> stopColors() const { return made_->stopColors; }
 
@@ -59,10 +62,10 @@ private:
 
     struct Made {
         Made(const AssetView& asset, std::shared_ptr<const Images> imagesOf)
-            : images(std::move(imagesOf)), changes(changesOf(asset)) {}
+            : images(std::move(imagesOf)), changes(asset) {}
 
         std::shared_ptr<const Images> images;
-        std::vector<PaintChange> changes;
+        PaintChanges changes;
         std::vector<glm::vec4> stopColors;
     };
 

@@ -72,6 +72,11 @@ struct RoughBounds {
     bool mayBeRough(const PaintChange& paint) const {
         return paint.roughness * pixel > float(minRoughChange);
     }
+    /// By what it changes by near them. Two layers with stops at one place, of which each changes by half of
+    /// this, are off by a fourth of the product: 0.4/255.
+    bool mayBeRoughNear(const PaintChange& near) const {
+        return near.roughness * pixel > 0.5f * float(minRoughChange);
+    }
     bool isRoughCut(const PaintChange& paint, QuarterColors q) const {
         return paint.variation * pixel > times * maxCutVariation || rangeOf(q) > times * maxQuarterRange;
     }

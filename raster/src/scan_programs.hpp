@@ -8,6 +8,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,28 @@
 
 namespace vtm::asset {
 
+/// Those pixels of a finer picture that are asked for: all of a coarser picture's rough ones.
+class FinerPixels {
+public:
+    FinerPixels(int width, int height) : width_(width), isWanted_(std::size_t(width) * std::size_t(height)) {}
+
+    /// A coarser pixel.
+    void add(int x, int y) { isWanted_[at(x, y)] = true; }
+    /// Calls visit(first, end) for those of the finer pixels first to end - 1 of a row.
+    template <class Visit>
+    void forEachRun(int row, int first, int end, Visit&& visit) const {
+        for (int x = first / finerSide; x * finerSide < end; ++x)
+            if (isWanted_[at(x, row / finerSide)])
+                visit(std::max(first, x * finerSide), std::min(end, (x + 1) * finerSide));
+    }
+
+private:
+    std::size_t at(int x, int y) const { return std::size_t(y) * std::size_t(width_) + std::size_t(x); }
+
+    int width_;
+    std::vector<std::uint8_t> isWanted_;
+};
+
 /// What programs are drawn for.
 struct ProgramView {
     const Paints& paints;
@@ -33,9 +56,25 @@ struct ProgramView {
     float minSteep;      ///< of raster/steepness.hpp
     const MaterialFunction& materials;
     RoughBounds rough;
-    bool findsRough;  ///< whether rough pixels are looked for
+    bool findsRough;            ///< whether rough pixels are looked for
+    const FinerPixels* wanted;  ///< null: all
 
     glm::vec2 point(glm::dvec2 pixel) const { return {inverse * (pixel - view.toPixels[2])}; }
+    /// What a paint changes by in the pixels first to end - 1 of a row, anywhere in them.
+    PaintChange changeNear(std::uint32_t paint, int row, int first, int end) const {
+        const glm::dvec2 middle(0.5 * (first + end), row + 0.5);
+        const double side = rough.pixel;
+        return paints.changeNear(paint, {inverse * (middle - view.toPixels[2]),
+                                         0.5 * (end - first - 1) * side, std::numbers::sqrt2 * side});
+    }
+    /// Calls visit(first, end) for those of the pixels first to end - 1 of a row that are to be drawn.
+    template <class Visit>
+    void forEachWanted(int row, int first, int end, Visit&& visit) const {
+        if (wanted)
+            wanted->forEachRun(row, first, end, visit);
+        else
+            visit(first, end);
+    }
 };
 
 /// A pixel of a band.
@@ -102,13 +141,37 @@ private:
         int end;
         float share;
     };
+    /// Neighbours in a row in which a program has shares.
+    struct Run {
+        int row, first, end;
+        std::size_t firstShare;
+
+        bool isLong() const { return end - first >= minLong; }
+    };
+    static constexpr int minLong = 10;  ///< a row of so many pays for itself
     /// A pixel and what its quarters add to a fourth of the program's share of the whole.
     struct Cut {
         int row, x;
         Float4 more;  ///< zero where no edge cuts it
 
         bool isCut() const { return largest(more) > 0; }
+        /// Of the first moment of the program's part about the pixel's middle.
+        float squaredMoment() const {
+            const float right = more[1] + more[3] - more[0] - more[2],
+                        down = more[2] + more[3] - more[0] - more[1];
+            return (right * right + down * down) / 16;
+        }
     };
+    /// What the program changes by in a pixel, or some neighbours.
+    struct Near {
+        PaintChange change;
+        float minSquaredMoment;
+        bool mayBeRough;  ///< where no edge cuts it
+
+        bool matters(const Cut& cut) const { return mayBeRough || cut.squaredMoment() > minSquaredMoment; }
+    };
+    /// So many neighbours, at most, are looked at together; of uncut ones that many more at first.
+    static constexpr int maxNeighbours = 8, maxUncut = 64;
 
     /// Each pixel by the mean colour over it, times shareOf(row, first column, end, what was summed).
     template <class Grid, class ShareOf>
@@ -116,38 +179,71 @@ private:
                     const ShareOf& shareOf) {
         for (const Side& side : sides_[paint])
             coverage.add(*side.chord, float(top_), rows_, side.change);
-        for (int row = 0; row < rows_; ++row) {
-            int begin = 0;
-            coverage.resolve(std::size_t(row), [&](int first, int end, auto sum) {
-                const float share = shareOf(row, first, end, sum);
-                if (std::abs(share) < minShare)
-                    return addShares(of, paint, row, begin);
-                if (shares_.empty())
-                    begin = first;
-                shares_.push_back({end, share});
+        for (int row = 0; row < rows_; ++row)
+            coverage.resolve(std::size_t(row), [&](int from, int to, auto sum) {
+                if (isNothing(sum))
+                    return;
+                of.forEachWanted(top_ + row, from, to, [&](int first, int end) {
+                    if (const float share = shareOf(row, first, end, sum); std::abs(share) >= minShare)
+                        addShare(row, first, end, share);
+                });
             });
-            addShares(of, paint, row, begin);
-        }
+        addRuns(of, paint);
     }
 
-    /// In the pixels of a row from `first` on.
-    void addShares(const ProgramView& of, std::uint32_t paint, int row, int first) {
-        if (shares_.empty())
-            return;
-        const int end = shares_.back().end;
-        colors_.resize(std::size_t(end - first));
+    void addShare(int row, int first, int end, float share) {
+        if (runs_.empty() || runs_.back().row != row || runs_.back().end != first)
+            runs_.push_back({row, first, first, shares_.size()});
+        runs_.back().end = end;
+        shares_.push_back({end, share});
+    }
+
+    /// Short ones together, as pixels anywhere.
+    void addRuns(const ProgramView& of, std::uint32_t paint) {
         const glm::mat2 pixel(of.inverse);
-        of.paints.colors(paint, {of.point({first + 0.5, top_ + row + 0.5}), pixel}, pixel[0], colors_,
-                         of.materials);
-        toSums(of, colors_);
-        Float4* pixels = pixels_.use(row, first, end);
-        std::size_t i = 0;
-        for (const auto& [shareEnd, share] : shares_)
-            for (const auto last = std::size_t(shareEnd - first); i < last; ++i)
-                pixels[i] += share * colors_[i];
+        points_.clear();
+        for (const Run& run : runs_)
+            if (!run.isLong())
+                for (int x = run.first; x < run.end; ++x)
+                    points_.push_back(of.point({x + 0.5, top_ + run.row + 0.5}));
+        evaluate(of, paint, points_, pixel, colors_);
+        const Float4* next = colors_.data();
+        for (const Run& run : runs_)
+            if (!run.isLong()) {
+                addColors(run, next);
+                next += run.end - run.first;
+            } else {
+                const std::span<Float4> colors = firstOf(wholes_, std::size_t(run.end - run.first));
+                of.paints.colors(paint, {of.point({run.first + 0.5, top_ + run.row + 0.5}), pixel}, pixel[0],
+                                 colors, of.materials);
+                toSums(of, colors);
+                addColors(run, wholes_.data());
+            }
+        runs_.clear();
         shares_.clear();
     }
 
+    void addColors(const Run& run, const Float4* colors) {
+        Float4* pixels = pixels_.use(run.row, run.first, run.end);
+        const Share* share = &shares_[run.firstShare];
+        for (int x = run.first; x < run.end; ++share)
+            for (; x < share->end; ++x)
+                *pixels++ += share->share * *colors++;
+    }
+
+    /// The first of a vector that never shrinks.
+    static std::span<Float4> firstOf(std::vector<Float4>& colors, std::size_t count) {
+        if (colors.size() < count)
+            colors.resize(count);
+        return std::span(colors).first(count);
+    }
+    /// The colours of pixels, as they are summed, become the first of `colors`.
+    static void evaluate(const ProgramView& of, std::uint32_t paint, std::span<const glm::vec2> points,
+                         const glm::mat2& pixel, std::vector<Float4>& colors) {
+        const std::span<Float4> those = firstOf(colors, points.size());
+        of.paints.colors(paint, points, pixel, those, of.materials);
+        toSums(of, those);
+    }
     static void toSums(const ProgramView& of, std::span<Float4> colors) {
         if (of.sums == Sums::Light)
             for (Float4& color : colors)
@@ -155,25 +251,74 @@ private:
     }
 
     void drawSteep(const ProgramView& of, std::uint32_t paint) {
-        // The first moment of the program's part, times what the colour changes by over a pixel, is about
-        // what the quarters make better.
-        const float change = float(minSteepChange) / of.minSteep * of.paints.changes()[paint].steepness;
-        const float minMoment = std::max(minPart / change, minShare);
-        const bool mayBeRough = of.findsRough && of.rough.mayBeRough(of.paints.changes()[paint]);
+        const PaintChange& change = of.paints.changes()[paint];
+        const float minMoment = minMomentOf(of, change);
+        const bool mayBeRough = of.findsRough && of.rough.mayBeRough(change);
         drawWholes(of, paint, quarters_, [&](int row, int first, int end, Float4 q) {
             const float share = 0.25f * (q[0] + q[1] + q[2] + q[3]);
-            const float momentX = (q[1] + q[3] - q[0] - q[2]) / 16,
-                        momentY = (q[2] + q[3] - q[0] - q[1]) / 16;
-            const bool isCut = momentX * momentX + momentY * momentY > minMoment * minMoment;
-            if (isCut || (mayBeRough && std::abs(share) > minShare))
-                for (int x = first; x < end; ++x)
-                    cuts_.push_back({row, x, isCut ? 0.25f * (q - share) : Float4{}});
+            const Cut cut{row, first, 0.25f * (q - share)};
+            if (cut.squaredMoment() > minMoment * minMoment)
+                addPixels(cut, end);
+            else if (mayBeRough && std::abs(share) > minShare)
+                addUncut(of, paint, row, first, end);
             return share;
         });
-        addCuts(of, paint, mayBeRough);
+        keepSteep(of, paint);
+        addCuts(of, paint);
     }
 
-    void addCuts(const ProgramView& of, std::uint32_t paint, bool mayBeRough) {
+    /// The first moment of the program's part, times what the colour changes by over a pixel, is about what
+    /// the quarters make better.
+    static float minMomentOf(const ProgramView& of, const PaintChange& change) {
+        const float overPixel = of.rough.pixel * change.steepness;
+        return std::max(of.rough.times * minPart / overPixel, minShare);
+    }
+
+    void addPixels(Cut cut, int end) {
+        for (; cut.x < end; ++cut.x)
+            cuts_.push_back(cut);
+    }
+    /// Those that may be rough.
+    void addUncut(const ProgramView& of, std::uint32_t paint, int row, int first, int end) {
+        for (; first < end; first += maxUncut) {
+            const int to = std::min(first + maxUncut, end);
+            if (to - first <= maxNeighbours ||
+                of.rough.mayBeRoughNear(of.changeNear(paint, top_ + row, first, to)))
+                addPixels({row, first, Float4{}}, to);
+        }
+    }
+    Near nearOf(const ProgramView& of, std::uint32_t paint, int row, int first, int end) const {
+        const PaintChange change = of.changeNear(paint, top_ + row, first, end);
+        const float minMoment = minMomentOf(of, change);
+        return {change, minMoment * minMoment, of.findsRough && of.rough.mayBeRoughNear(change)};
+    }
+    /// Leaves those of cuts_ in which the paint changes enough to matter. Most neighbours are dropped
+    /// together.
+    void keepSteep(const ProgramView& of, std::uint32_t paint) {
+        nears_.clear();
+        std::size_t kept = 0;
+        for (std::size_t i = 0, end; i < cuts_.size(); i = end) {
+            for (end = i + 1; end < cuts_.size() && cuts_[end].row == cuts_[i].row &&
+                              cuts_[end].x < cuts_[i].x + maxNeighbours;)
+                ++end;
+            const Near all = nearOf(of, paint, cuts_[i].row, cuts_[i].x, cuts_[end - 1].x + 1);
+            for (std::size_t k = i; k < end; ++k) {
+                const Cut cut = cuts_[k];
+                if (!all.matters(cut))
+                    continue;
+                const Near near = end == i + 1 ? all : nearOf(of, paint, cut.row, cut.x, cut.x + 1);
+                if (near.matters(cut)) {
+                    cuts_[kept++] = cut;
+                    nears_.push_back(near);
+                }
+            }
+        }
+        cuts_.resize(kept);
+    }
+
+    void addCuts(const ProgramView& of, std::uint32_t paint) {
+        if (cuts_.empty())
+            return;
         const glm::mat2 quarter(0.5 * of.inverse);
         const glm::vec2 right = 0.5f * quarter[0], down = 0.5f * quarter[1];
         points_.clear();
@@ -182,47 +327,56 @@ private:
             for (const glm::vec2 way : {-right - down, right - down, down - right, right + down})
                 points_.push_back(middle + way);
         }
-        colors_.resize(points_.size());
-        of.paints.colors(paint, points_, quarter, colors_, of.materials);
-        toSums(of, colors_);
+        evaluate(of, paint, points_, quarter, colors_);
         for (std::size_t i = 0; i < cuts_.size(); ++i) {
             Float4& pixel = *pixels_.use(cuts_[i].row, cuts_[i].x, cuts_[i].x + 1);
             for (std::size_t k = 0; k < 4; ++k)
                 pixel += cuts_[i].more[k] * colors_[4 * i + k];
-            if (of.findsRough && cuts_[i].isCut() &&
-                of.rough.isRoughCut(of.paints.changes()[paint], quartersAt(i)))
+            if (of.findsRough && cuts_[i].isCut() && of.rough.isRoughCut(nears_[i].change, quartersAt(i)))
                 rough_.push_back({cuts_[i].row, cuts_[i].x});
         }
-        if (mayBeRough)
-            findUncutRough(of, paint);
+        findUncutRough(of, paint);
         cuts_.clear();
     }
 
     /// colors_ are those of the cuts' quarters.
     void findUncutRough(const ProgramView& of, std::uint32_t paint) {
         points_.clear();
-        for (const Cut& cut : cuts_)
-            points_.push_back(middleOf(of, cut));
-        wholes_.resize(points_.size());
-        of.paints.colors(paint, points_, glm::mat2(of.inverse), wholes_, of.materials);
-        toSums(of, wholes_);
         for (std::size_t i = 0; i < cuts_.size(); ++i)
-            if (of.rough.isRoughWhole(of.paints.changes()[paint], quartersAt(i), wholes_[i]))
+            if (nears_[i].mayBeRough)
+                points_.push_back(middleOf(of, cuts_[i]));
+        if (points_.empty())
+            return;
+        evaluate(of, paint, points_, glm::mat2(of.inverse), wholes_);
+        std::size_t whole = 0, jumping = 0;  // of wholes_, and of those that may jump
+        for (std::size_t i = 0; i < cuts_.size(); ++i) {
+            if (!nears_[i].mayBeRough)
+                continue;
+            const Float4 color = wholes_[whole];
+            if (of.rough.isRoughWhole(nears_[i].change, quartersAt(i), color))
                 rough_.push_back({cuts_[i].row, cuts_[i].x});
-        if (of.paints.changes()[paint].mayJump)
-            findRoughCorners(of, paint);
+            if (nears_[i].change.mayJump) {
+                cuts_[jumping] = cuts_[i];
+                points_[jumping] = points_[whole];
+                wholes_[jumping++] = color;
+            }
+            ++whole;
+        }
+        cuts_.resize(jumping);
+        points_.resize(jumping);
+        findRoughCorners(of, paint);
     }
 
     /// points_ are the cuts' middles, wholes_ their colours.
     void findRoughCorners(const ProgramView& of, std::uint32_t paint) {
+        if (cuts_.empty())
+            return;
         const glm::vec2 right = 0.5f * glm::mat2(of.inverse)[0], down = 0.5f * glm::mat2(of.inverse)[1];
-        colors_.resize(points_.size());
         for (const glm::vec2 way : {-right - down, right - down, down - right, right + down}) {
             corners_ = points_;
             for (glm::vec2& corner : corners_)
                 corner += way;
-            of.paints.colors(paint, corners_, glm::mat2(0), colors_, of.materials);
-            toSums(of, colors_);
+            evaluate(of, paint, corners_, glm::mat2(0), colors_);
             for (std::size_t i = 0; i < cuts_.size(); ++i)
                 if (of.rough.isRoughCorner(colors_[i], wholes_[i]))
                     rough_.push_back({cuts_[i].row, cuts_[i].x});
@@ -241,7 +395,9 @@ private:
     Accumulator<Wholes<float>> coverage_;
     Accumulator<Quarters> quarters_;
     std::vector<Share> shares_;
+    std::vector<Run> runs_;
     std::vector<Cut> cuts_;
+    std::vector<Near> nears_;  ///< of cuts_
     std::vector<BandPixel> rough_;
     std::vector<glm::vec2> points_, corners_;
     std::vector<Float4> colors_, wholes_;

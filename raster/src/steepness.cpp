@@ -1,9 +1,9 @@
 #include "raster/steepness.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -25,7 +25,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double minRange = 8.0 / 255;
 
 /// Circles nearer to touching than this have no useful bound: as in gradient.cpp.
-constexpr double minGap = 0.1;
+constexpr double minCircleGap = 0.1;
 
 /// The largest singular value.
 double stretchOf(const glm::dmat2& m) {
@@ -46,36 +46,38 @@ double changeBetween(const vec4& a, const vec4& b) {
 constexpr std::uint32_t maxStops = 256;
 
 /// What premultiplied channels change by, at most, along a gradient's ramp.
-struct Ramp {
+struct RampChange {
     double slope = 0;  ///< while u grows by 1, where it is steepest
     double all = 0;    ///< from the first stop to the last, all changes added
-};
 
-/// Calls add(change, first offset, last offset) for every stretch between stops, and where the ramp jumps
-/// back.
-template <class Add>
-void forEachStretch(const AssetView& asset, const Gradient& gradient, std::uint32_t firstStop, Add&& add) {
-    const auto stop = [&](std::uint32_t i) { return recordAt<GradientStop>(asset.data, firstStop + i); };
-    const auto color = [&](std::uint32_t i) {
-        const GradientStop s = stop(i);
-        return vec4(s.rgba[0], s.rgba[1], s.rgba[2], s.rgba[3]) / 65535.0f;
-    };
-    for (std::uint32_t i = 0; i + 1 < gradient.stopCount; ++i)
-        add(changeBetween(color(i), color(i + 1)), double(stop(i).offset), double(stop(i + 1).offset));
-    if (gradient.spread == Spread::Repeat)
-        add(changeBetween(color(gradient.stopCount - 1), color(0)), 1, 1);
-}
-
-Ramp rampOf(const AssetView& asset, const Gradient& gradient, std::uint32_t firstStop) {
-    if (gradient.stopCount > maxStops)
-        return {infinity, infinity};
-    double slope = 0, all = 0;
-    forEachStretch(asset, gradient, firstStop, [&](double change, double from, double to) {
+    void add(double change, double from, double to) {
         all += change;
         if (change > 0)
             slope = std::max(slope, to > from ? change / (to - from) : infinity);
-    });
-    return all < minRange ? Ramp{} : Ramp{slope, all};
+    }
+};
+
+double changeBetween(std::span<const Texel> data, std::uint32_t one, std::uint32_t other) {
+    const auto color = [&](std::uint32_t texel) {
+        const auto stop = recordAt<GradientStop>(data, texel);
+        return vec4(stop.rgba[0], stop.rgba[1], stop.rgba[2], stop.rgba[3]) / 65535.0f;
+    };
+    return changeBetween(color(one), color(other));
+}
+
+constexpr auto headTexels = std::uint32_t(GradientView::headTexels);
+
+/// Calls add(change, first offset, last offset) for every stretch between stops, and where the ramp jumps
+/// back; changeFrom(texel): from the stop there to the next one.
+template <class ChangeFrom, class Add>
+void forEachStretch(std::span<const Texel> data, const Gradient& gradient, std::uint32_t texel,
+                    ChangeFrom&& changeFrom, Add&& add) {
+    const std::uint32_t first = texel + headTexels, last = first + gradient.stopCount - 1;
+    const auto offset = [&](std::uint32_t stop) { return double(std::bit_cast<float>(data[stop][0])); };
+    for (std::uint32_t stop = first; stop < last; ++stop)
+        add(changeFrom(stop), offset(stop), offset(stop + 1));
+    if (gradient.spread == Spread::Repeat)
+        add(changeBetween(data, last, first), 1, 1);
 }
 
 /// What u changes by, at most, over a unit of the picture.
@@ -84,81 +86,58 @@ double offsetSlope(const Gradient& gradient, bool isRadial) {
     if (!isRadial)
         return glm::length(dvec2(m[0], m[2]));
     const double gap = 1 - gradient.fr - glm::length(dvec2(gradient.fx, gradient.fy));
-    return gap < minGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
+    return gap < minCircleGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
 }
 
 /// Of one paint, in doubles.
 struct Slopes {
     double slope = 0, variation = 0, roughness = 0;  ///< PaintChange
     bool mayJump = false;
+
+    PaintChange change() const { return {float(slope), float(variation), float(roughness), mayJump}; }
 };
+
+/// Modes may make anything of a change, but not of none.
+Slopes mixedSlopes(const Slopes& below) {
+    return below.slope > 0 ? Slopes{infinity, 0, infinity, true} : Slopes{};
+}
+
+Slopes ofGradient(const RampChange& ramp, double offset, float opacity, bool isRadial) {
+    if (ramp.slope == 0 || offset == 0)
+        return {};
+    const double variation = opacity * ramp.all * offset;
+    return {opacity * ramp.slope * offset, variation, isRadial ? variation : 0, false};
+}
 
 /// Layers over each other change by no more than their changes' sum, and so do those under masks. Filters of
 /// images are those of whole pixels, by definition: programs with images are not asked for quarters.
-class SlopesOf {
-public:
-    explicit SlopesOf(const AssetView& asset) : asset_(asset) {}
-
-    Slopes ofProgram(const Paint& paint) {
-        Slopes all;
-        int layers = 0;
-        for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
-            limits::check();
-            const auto in = recordAt<Instruction>(asset_.data, i);
-            if (in.op == Op::Image && in.opacity > 0)
-                return {};
-            const bool isMixed =
-                in.op == Op::PopMaskLinear || (in.op == Op::Pop && in.blend != Blend::Normal);
-            const Slopes layer = isMixed ? mixed(all) : ofLayer(in);
-            layers += layer.slope > 0;
-            all.slope += layer.slope;
-            all.variation += layer.variation;
-            all.roughness += layer.roughness;
-            all.mayJump |= layer.mayJump;
-        }
-        if (layers > 1)
-            all.roughness = all.slope;
-        return all;
-    }
-
-private:
-    /// Modes may make anything of a change, but not of none.
-    static Slopes mixed(const Slopes& below) {
-        return below.slope > 0 ? Slopes{infinity, 0, infinity, true} : Slopes{};
-    }
-    Slopes ofLayer(const Instruction& in) {
-        if (in.opacity <= 0)
+/// gradientOf(instruction): the Slopes of a gradient.
+template <class GradientOf>
+Slopes ofProgram(std::span<const Texel> data, const Paint& paint, GradientOf&& gradientOf) {
+    Slopes all;
+    int layers = 0;
+    for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
+        limits::check();
+        const auto in = recordAt<Instruction>(data, i);
+        if (in.op == Op::Image && in.opacity > 0)
             return {};
-        switch (in.op) {
-            case Op::Linear:
-            case Op::Radial: {
-                const auto gradient = recordAt<Gradient>(asset_.data, in.argument);
-                const Ramp ramp = ofRamp(gradient, in.argument);
-                const double offset = offsetSlope(gradient, in.op == Op::Radial);
-                if (ramp.slope == 0 || offset == 0)
-                    return {};
-                const double variation = in.opacity * ramp.all * offset;
-                return {in.opacity * ramp.slope * offset, variation, in.op == Op::Radial ? variation : 0,
-                        false};
-            }
-            case Op::Material:
-                return {infinity, 0, 0, false};
-            default:
-                return {};
-        }
+        Slopes layer;
+        if (in.op == Op::PopMaskLinear || (in.op == Op::Pop && in.blend != Blend::Normal))
+            layer = mixedSlopes(all);
+        else if (in.op == Op::Material && in.opacity > 0)
+            layer.slope = infinity;
+        else if ((in.op == Op::Linear || in.op == Op::Radial) && in.opacity > 0)
+            layer = gradientOf(in);
+        layers += layer.slope > 0;
+        all.slope += layer.slope;
+        all.variation += layer.variation;
+        all.roughness += layer.roughness;
+        all.mayJump |= layer.mayJump;
     }
-    Ramp ofRamp(const Gradient& gradient, std::uint32_t texel) {
-        if (ramps_.empty())
-            ramps_.resize(asset_.data.size());
-        std::optional<Ramp>& ramp = ramps_[texel];
-        if (!ramp)
-            ramp = rampOf(asset_, gradient, texel + std::uint32_t(GradientView::headTexels));
-        return *ramp;
-    }
-
-    const AssetView& asset_;
-    std::vector<std::optional<Ramp>> ramps_;  ///< by texel: many programs may use one
-};
+    if (layers > 1)
+        all.roughness = all.slope;
+    return all;
+}
 
 // ---- Near a place ---------------------------------------------------------------------------------
 
@@ -198,18 +177,23 @@ double radialOffset(const Gradient& gradient, dvec2 p) {
     return b + std::sqrt(std::max(b * b + (glm::dot(d, d) - fr * fr) / a, 0.0));
 }
 
+/// Those over the pixels. `slope`: what u changes by over a unit of the picture, at most.
+Offsets offsetsNear(const Gradient& gradient, bool isRadial, double slope, const PixelsNear& pixels) {
+    const std::array<float, 6>& m = gradient.matrix;
+    const dvec2 p(m[0] * pixels.middle.x + m[2] * pixels.middle.y + m[4],
+                  m[1] * pixels.middle.x + m[3] * pixels.middle.y + m[5]);
+    const double u = isRadial && std::isfinite(slope) ? radialOffset(gradient, p) : p.x;
+    const double reach = slope * (pixels.radius + 0.5 * pixels.pixel);
+    return {u - reach, u + reach, gradient.spread};
+}
+
 /// What a gradient's ramp changes by over one of the pixels.
 double changeNear(const AssetView& asset, std::uint32_t texel, bool isRadial, const PixelsNear& pixels) {
     const auto gradient = recordAt<Gradient>(asset.data, texel);
     if (gradient.stopCount > maxStops)
         return infinity;
-    const std::array<float, 6>& m = gradient.matrix;
-    const dvec2 p(m[0] * pixels.middle.x + m[2] * pixels.middle.y + m[4],
-                  m[1] * pixels.middle.x + m[3] * pixels.middle.y + m[5]);
     const double slope = offsetSlope(gradient, isRadial), width = slope * pixels.pixel;
-    const double u = isRadial && std::isfinite(slope) ? radialOffset(gradient, p) : p.x;
-    const double reach = slope * pixels.radius + 0.5 * width;
-    const Offsets offsets(u - reach, u + reach, gradient.spread);
+    const Offsets offsets = offsetsNear(gradient, isRadial, slope, pixels);
     double steepest = 0, sum = 0;
     const auto add = [&](double change, double from, double to) {
         if (!offsets.meet(from, to))
@@ -218,7 +202,8 @@ double changeNear(const AssetView& asset, std::uint32_t texel, bool isRadial, co
         sum += maximum;
         steepest = std::max(steepest, to > from ? change / (to - from) * width : change > 0 ? infinity : 0);
     };
-    forEachStretch(asset, gradient, texel + std::uint32_t(GradientView::headTexels), add);
+    const auto changeFrom = [&](std::uint32_t stop) { return changeBetween(asset.data, stop, stop + 1); };
+    forEachStretch(asset.data, gradient, texel, changeFrom, add);
     return std::min(sum, steepest);
 }
 
@@ -248,15 +233,72 @@ NearChange changeNear(const AssetView& asset, std::uint32_t paint, const PixelsN
     return {float(sum), float(joint)};
 }
 
-std::vector<PaintChange> changesOf(const AssetView& asset) {
-    SlopesOf changes(asset);
-    std::vector<PaintChange> byPaint;
-    for (const Paint& paint : asset.paints) {
-        const Slopes change = isProgram(paint) ? changes.ofProgram(paint) : Slopes{};
-        byPaint.push_back(
-            {float(change.slope), float(change.variation), float(change.roughness), change.mayJump});
+PaintChanges::PaintChanges(const AssetView& asset) : paints_(asset.paints), data_(asset.data) {
+    for (const Paint& paint : paints_)
+        byPaint_.push_back(isProgram(paint) ? of(paint) : PaintChange{});
+}
+
+PaintChange PaintChanges::of(const Paint& paint) {
+    const auto gradientOf = [&](const Instruction& in) {
+        const GradientChange& gradient = gradientAt(in.argument);
+        const bool isRadial = in.op == Op::Radial;
+        return ofGradient({gradient.slope, gradient.all},
+                          isRadial ? gradient.radialOffset : gradient.linearOffset, in.opacity, isRadial);
+    };
+    return ofProgram(data_, paint, gradientOf).change();
+}
+
+const PaintChanges::GradientChange& PaintChanges::gradientAt(std::uint32_t texel) {
+    if (numbers_.empty()) {
+        numbers_.resize(data_.size());
+        changes_.resize(data_.size());
     }
-    return byPaint;
+    if (numbers_[texel] == 0) {
+        const auto gradient = recordAt<Gradient>(data_, texel);
+        RampChange ramp{infinity, infinity};
+        if (gradient.stopCount <= maxStops) {
+            const auto changeFrom = [&](std::uint32_t stop) {
+                return changes_[stop] = float(changeBetween(data_, stop, stop + 1));
+            };
+            ramp = {};
+            forEachStretch(data_, gradient, texel, changeFrom,
+                           [&](double change, double from, double to) { ramp.add(change, from, to); });
+            if (ramp.all < minRange)
+                ramp = {};
+        }
+        gradients_.push_back(
+            {gradient, ramp.slope, ramp.all, offsetSlope(gradient, false), offsetSlope(gradient, true)});
+        numbers_[texel] = std::uint32_t(gradients_.size());
+    }
+    return gradients_[numbers_[texel] - 1];
+}
+
+PaintChange PaintChanges::near(std::uint32_t paint, const PixelsNear& pixels) const {
+    if (byPaint_[paint].steepness == 0)
+        return {};
+    const auto gradientOf = [&](const Instruction& in) {
+        const GradientChange& gradient = gradients_[numbers_[in.argument] - 1];
+        const bool isRadial = in.op == Op::Radial;
+        const double offset = isRadial ? gradient.radialOffset : gradient.linearOffset;
+        RampChange ramp{gradient.slope, gradient.all};
+        if (std::isfinite(ramp.all) && std::isfinite(offset) && ramp.slope > 0) {
+            ramp = {};
+            const Offsets offsets = offsetsNear(gradient.gradient, isRadial, offset, pixels);
+            forEachStretch(
+                data_, gradient.gradient, in.argument, [&](std::uint32_t stop) { return changes_[stop]; },
+                [&](double change, double from, double to) {
+                    if (offsets.meet(from, to))
+                        ramp.add(change, from, to);
+                });
+        }
+        return ofGradient(ramp, offset, in.opacity, isRadial);
+    };
+    return ofProgram(data_, paints_[paint], gradientOf).change();
+}
+
+std::vector<PaintChange> changesOf(const AssetView& asset) {
+    const PaintChanges changes(asset);
+    return {changes.byPaint().begin(), changes.byPaint().end()};
 }
 
 std::vector<float> steepnessOf(const AssetView& asset) {

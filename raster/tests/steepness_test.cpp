@@ -3,6 +3,7 @@
 #include "raster/steepness.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -224,6 +225,77 @@ TEST(NearChange, BoundsGradients) {
                 ASSERT_LE(std::abs(change[c]), maximum + 1e-4f) << i;
         }
     }
+}
+
+// ---- Of paints near a place -----------------------------------------------------------------------
+
+PaintChange changeOf(const std::vector<Instruction>& program, const std::vector<Texel>& data,
+                     const PixelsNear& pixels) {
+    const Asset asset = programAsset(program, data);
+    return PaintChanges(asset).near(asset.maps[0].root.payload(), pixels);
+}
+
+TEST(PaintChanges, OnlyStretchesNearbyCount) {
+    std::vector<Texel> data;
+    Gradient g = gradient(Spread::Pad, 0.1f);  // a jump at x = 5, a slope of 0.1 from 8 to 10
+    g.stopCount = 5;
+    const std::uint32_t ramp =
+        addGradient(data, g, {grey(0, 0), grey(0.5f, 0), grey(0.5f, 0.8f), grey(0.8f, 0.8f), grey(1, 1)});
+    const std::vector<Instruction> program{{Op::Linear, Blend::Normal, 1, ramp}};
+    const auto at = [&](double x) { return changeOf(program, data, {{x, 0}, 0.5, 0.1}); };
+    EXPECT_EQ(at(4), PaintChange{});
+    EXPECT_EQ(at(4.5).steepness, infinity);
+    EXPECT_FLOAT_EQ(at(4.5).variation, 0.08f);
+    EXPECT_EQ(at(6), PaintChange{});
+    EXPECT_NEAR(at(9).steepness, 0.1f, 1e-5f);
+    EXPECT_EQ(at(11), PaintChange{});
+}
+
+TEST(PaintChanges, ModesJumpWhereWhatIsBelowChanges) {
+    std::vector<Texel> data;
+    Gradient g = gradient(Spread::Pad, 0.1f);
+    g.stopCount = 4;
+    const std::uint32_t ramp = addGradient(data, g, jumpAtHalf), color = std::uint32_t(data.size());
+    data.push_back(std::bit_cast<Texel>(glm::vec4(0, 0, 1, 1)));
+    const std::vector<Instruction> program{{Op::Linear, Blend::Normal, 1, ramp},
+                                           {Op::Push, Blend::Normal, 1, 0},
+                                           {Op::Solid, Blend::Normal, 1, color},
+                                           {Op::Pop, Blend::Screen, 1, 0}};
+    EXPECT_EQ(changeOf(program, data, {{3, 0}, 0.5, 0.1}), PaintChange{});
+    EXPECT_TRUE(changeOf(program, data, {{5, 0}, 0.5, 0.1}).mayJump);
+}
+
+/// No two points in the pixels differ by more, and nowhere by more than anywhere.
+TEST(PaintChanges, BoundColorsNearby) {
+    const Asset asset = everyPaint();
+    const Paints paints(asset);
+    const PaintChanges changes(asset);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> unit(0, 1);
+    int lower = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const auto paint = std::uint32_t(random() % asset.paints.size());
+        const float anywhere = changes.byPaint()[paint].steepness;
+        if (anywhere == 0)
+            continue;  // programs with images do, too
+        const vec2 middle = 80.0f * vec2(unit(random), unit(random)) - 8.0f;
+        const float radius = 4 * unit(random), pixel = 2 * unit(random);
+        const float maximum = changes.near(paint, {middle, radius, pixel}).steepness;
+        ASSERT_LE(maximum, anywhere);
+        lower += maximum < anywhere;
+        const auto inDisc = [&](float r) {
+            const float angle = 6.2831853f * unit(random);
+            return r * std::sqrt(unit(random)) * vec2(std::cos(angle), std::sin(angle));
+        };
+        for (int k = 0; k < 20; ++k) {
+            const vec2 centre = middle + inDisc(radius), p = centre + inDisc(0.5f * pixel),
+                       q = centre + inDisc(0.5f * pixel);
+            const glm::vec4 change = paints.color(paint, {p}) - paints.color(paint, {q});
+            for (int c = 0; c < 4; ++c)
+                ASSERT_LE(std::abs(change[c]), maximum * glm::length(p - q) + 1e-4f) << paint;
+        }
+    }
+    EXPECT_GT(lower, 500);
 }
 
 TEST(Steepness, LeastIsThatOfAPixelsLongestStep) {
