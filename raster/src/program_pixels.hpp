@@ -14,6 +14,7 @@
 namespace vtm::asset {
 
 inline bool isNothing(Float4 color) { return largest(color) < minShare; }
+inline bool isNothing(float share) { return std::abs(share) < minShare; }
 
 /// What programs have in a band. Pixels are in blocks; all of those that no program touches are zero.
 class ProgramPixels {
