@@ -148,11 +148,7 @@ private:
 
         bool isLong() const { return end - first >= minLong; }
     };
-<<<<<<< HEAD
-    static constexpr int minLong = 24;
-=======
     static constexpr int minLong = 10;  ///< a row of so many pays for itself
->>>>>>> grad
     /// A pixel and what its quarters add to a fourth of the program's share of the whole.
     struct Cut {
         int row, x;
@@ -185,11 +181,8 @@ private:
             coverage.add(*side.chord, float(top_), rows_, side.change);
         for (int row = 0; row < rows_; ++row)
             coverage.resolve(std::size_t(row), [&](int from, int to, auto sum) {
-<<<<<<< HEAD
-=======
                 if (isNothing(sum))
                     return;
->>>>>>> grad
                 of.forEachWanted(top_ + row, from, to, [&](int first, int end) {
                     if (const float share = shareOf(row, first, end, sum); std::abs(share) >= minShare)
                         addShare(row, first, end, share);
