@@ -95,16 +95,15 @@ void main() {
     Side side, other = Side(0u, paperNone, 0.0);
     addPending(rootNode, 1.0);
     // A paint a turn: drivers that run all of a loop's body for every pixel of a block do not paint at each node.
-    while (true) {
-        bool found = false;
-        while (!found) {
+    bool found = true;
+    while (found) {
+        found = false;
+        while (!found && (other.share > 0.0 || pendingCount > 0)) {
             if (other.share > 0.0) {
                 side = other;
                 other.share = 0.0;
-            } else if (pendingCount > 0) {
-                visit(point, side, other);
             } else {
-                break;
+                visit(point, side, other);
             }
             discards = discards || side.paint == paperNone;
             shows = shows || side.paint != paperNone;
@@ -112,12 +111,12 @@ void main() {
             if (side.paint == 0u && side.rest != paperNone)
                 addPending(side.rest, side.share);
         }
-        if (!found)
-            break;
-        vec4 shade = paintColor(side.paint, point, mat3x2(pixelToPicture, point));
-        sum += side.share * shade;
-        if (side.rest != paperNone && shade.a < 1.0)
-            addPending(side.rest, side.share * (1.0 - shade.a));
+        if (found) {
+            vec4 shade = paintColor(side.paint, point, mat3x2(pixelToPicture, point));
+            sum += side.share * shade;
+            if (side.rest != paperNone && shade.a < 1.0)
+                addPending(side.rest, side.share * (1.0 - shade.a));
+        }
     }
     if (discards && !shows)
         discard;
