@@ -5,7 +5,9 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <vector>
 
+#include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/session.hpp>
 #include <vtm/gl/renderer.hpp>
 #include "backend_gl/tests/gl_fixture.hpp"
@@ -132,6 +134,53 @@ TEST_F(Gl, RecolouringSendsLittle) {
     EXPECT_EQ(largestDifference(renderer->render(texture, view(900, 14, 0)),
                                 renderer->render(fresh, view(900, 14, 0))),
               0);
+}
+
+// ---- Zooms, whose next tiles are made on a thread -------------------------------------------------------
+
+/// A zoom in and out again, over three levels, by 9 frames an octave.
+std::vector<View> zoom() {
+    std::vector<View> views;
+    for (int frame = 0; frame <= 54; ++frame)
+        views.push_back(view(90, 1.1 * std::exp2((27 - std::abs(27 - frame)) / 9.0), 0.2));
+    return views;
+}
+
+TEST_F(Gl, FramesOfAZoomAreThoseOfNewTextures) {
+    const asset::Asset asset = compiler::compile(squares(200)).asset;
+    Texture zoomed = renderer->upload(asset);
+    for (const View& v : zoom())
+        ASSERT_EQ(renderer->render(zoomed, v).rgba, renderer->render(renderer->upload(asset), v).rgba)
+            << v.toPixels[0].x;
+}
+
+TEST_F(Gl, ZoomsGoOnThroughEdits) {
+    Editor editor(7, 200);
+    Session session(editor.scene);
+    Texture texture = renderer->upload(session.result().asset);
+    int frame = 0;
+    for (const View& v : zoom()) {
+        const image::Raster drawn = renderer->render(texture, v);
+        if (frame++ % 3 != 0)
+            continue;
+        EXPECT_LE(largestDifference(drawn, renderer->render(renderer->upload(session.result().asset), v)),
+                  apart)
+            << frame;
+        editor.edit();
+        session.update(editor.scene);
+        texture.update(session.result().asset, session.difference());
+    }
+}
+
+/// Whatever its thread is at.
+TEST_F(Gl, TexturesMayGoAmidAZoom) {
+    const asset::Asset asset = compiler::compile(squares(200)).asset;
+    const std::vector<View> views = zoom();
+    for (std::size_t frames = 1; frames < views.size(); ++frames) {
+        const Texture texture = renderer->upload(asset);
+        for (std::size_t i = frames > 12 ? frames - 12 : 0; i < frames; ++i)
+            renderer->render(texture, views[i]);
+    }
 }
 
 }  // namespace

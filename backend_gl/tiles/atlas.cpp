@@ -1,9 +1,11 @@
 #include "backend_gl/tiles/atlas.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
+#include <iterator>
+#include <system_error>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -138,6 +140,8 @@ constexpr double cellsPerRadius = 2.83;
 constexpr double longPiece = 1;
 /// Of the pieces, that are left.
 constexpr double fewer = 0.9;
+/// What was made ahead is added by so many pictures.
+constexpr std::size_t picturesToAdd = 8;
 /// What is kept at most, 64 MiB, beside what the last picture used; and the most that every driver has room
 /// for: tiles beyond are crowded.
 constexpr std::size_t maxTexels = std::size_t(1) << 22, maxOfPicture = std::size_t(1) << 24;
@@ -176,32 +180,26 @@ Atlas::Atlas(const KeptAsset& asset, std::uint32_t map, std::uint32_t firstPaint
       maxTurns_(maxTurns),
       scanned_(asset.asset, map, firstPaint) {}
 
-asset::AssetView Atlas::withPaints() const { return withPaintsFrom(asset_->asset, firstPaint_); }
-
-/// What tiles of a level are cut from.
-const asset::PlanarIndex& Atlas::piecesFor(int level) {
-    if (!pieces_) {
-        pieces_.emplace(flatPlanarMap(asset_->asset, map_));
-        double length = 0;
-        for (const PlanarPiece& piece : pieces_->map().pieces)
-            length += glm::distance(piece.a, piece.b);
-        meanLength_ = length / double(std::max<std::size_t>(pieces_->map().pieces.size(), 1));
-    }
-    const double pixel = std::ldexp(pieces_->map().extent, -level) / tilePixels;
-    if (meanLength_ > longPiece * pixel || map_.instances != 0)
-        return *pieces_;
-    const auto [found, isNew] = levels_.try_emplace(level);
-    if (isNew) {
-        asset::PlanarMap map = mapForPixels(asset_->asset, map_, pixel);
-        if (double(map.pieces.size()) < fewer * double(pieces_->map().pieces.size()))
-            found->second.emplace(std::move(map));
-    }
-    return found->second ? *found->second : *pieces_;
+/// What tiles of a level are cut from: all pieces where less detail has hardly fewer.
+Atlas::Pieces Atlas::lessDetailed(const Work& work) {
+    const std::vector<PlanarPiece>& all = work.pieces->map().pieces;
+    double length = 0;
+    for (const PlanarPiece& piece : all)
+        length += glm::distance(piece.a, piece.b);
+    const double pixel = std::ldexp(work.pieces->map().extent, -work.region.level) / tilePixels;
+    if (length > longPiece * pixel * double(all.size()) || work.map.instances != 0)
+        return work.pieces;
+    asset::PlanarMap map = mapForPixels(work.asset->asset, work.map, pixel);
+    if (double(map.pieces.size()) >= fewer * double(all.size()))
+        return work.pieces;
+    return std::make_shared<const asset::PlanarIndex>(std::move(map));
 }
 
+namespace {
+
 /// By square, row by row.
-std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::PlanarMap& map,
-                                                               const Region& region) {
+std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& map,
+                                                        const Atlas::Region& region) {
     const auto& [level, min, max] = region;
     const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
     std::vector<std::vector<const PlanarPiece*>> near(columns * rows);
@@ -221,6 +219,12 @@ std::vector<std::vector<const PlanarPiece*>> Atlas::piecesNear(const asset::Plan
     }
     return near;
 }
+
+bool isCrowdedAllOver(const Tile& tile) {
+    return !tile.crowded.empty() && tile.crowded.size() == tile.texels.size();
+}
+
+}  // namespace
 
 Atlas::Placed Atlas::place(Tile tile) {
     if (tile.texels.empty())
@@ -329,7 +333,9 @@ const Atlas::Placed& Atlas::prepareCrowded() {
 std::vector<const Atlas::Placed*> Atlas::prepare(const Region& region) {
     makeRoom();
     ++picture_;
-    make(region, std::numeric_limits<std::size_t>::max());
+    addAhead(region.level);
+    if (const Work work = workOn(region); !work.places.empty())
+        add(region.level, makeTiles(work));
     texelsOfPicture_ = 0;
     std::vector<const Placed*> tiles;
     for (std::int64_t y = region.min.y; y < region.max.y; ++y)
@@ -343,77 +349,115 @@ std::vector<const Atlas::Placed*> Atlas::prepare(const Region& region) {
     return tiles;
 }
 
-Atlas::Zoom Atlas::zoomTo(const asset::View& view) {
+std::optional<Atlas::Zoom> Atlas::zoomTo(const asset::View& view) {
     // Less is no zoom, more a jump.
     constexpr double least = 1 + 1e-3, most = 2;
     const double radius = footprintRadius(map_, view), last = std::exchange(lastRadius_, radius);
     const double larger = radius / last, smaller = last / radius;
     const double octaves = octavesOf(radius), inOctave = octaves - std::floor(octaves);
     if (smaller > least && smaller < most && inOctave > 0.5)
-        return Zoom::In;
-    return larger > least && larger < most && inOctave < 0.5 ? Zoom::Out : Zoom::None;
+        return Zoom{1, std::exp2(1 - inOctave)};
+    if (larger > least && larger < most && inOctave < 0.5)
+        return Zoom{-1, std::exp2(-inOctave)};
+    return std::nullopt;
 }
 
 void Atlas::prepareAhead(const Region& region) {
-    const glm::i64vec2 size = region.max - region.min;
-    if (size.x > 0 && size.y > 0 && region.level <= maxTileLevel && texels_.size() <= maxTexels)
-        make(region, std::size_t(size.x * size.y) / 8 + 1);
-}
-
-namespace {
-
-bool isCrowdedAllOver(const Tile& tile) {
-    return !tile.crowded.empty() && tile.crowded.size() == tile.texels.size();
-}
-
-}  // namespace
-
-/// Tiles that are missing, so many at most. Where levels of detail do not serve, as where hundreds of pieces
-/// meet, they are cut from all pieces.
-void Atlas::make(const Region& region, std::size_t most) {
-    struct Missing {
-        TilePlace at;
-        std::size_t number;
-        Tile tile = {};
-    };
-    std::vector<Missing> missing;
-    std::size_t number = 0;
-    for (std::int64_t y = region.min.y; y < region.max.y; ++y)
-        for (std::int64_t x = region.min.x; x < region.max.x; ++x, ++number)
-            if (missing.size() < most && !placed_.contains({region.level, x, y}))
-                missing.push_back({{region.level, x, y}, number});
-    if (missing.empty())
+    if (ahead_ || region.level > maxTileLevel || texels_.size() > maxTexels)
         return;
-    const asset::PlanarIndex& pieces = piecesFor(region.level);
-    const std::vector<std::vector<const PlanarPiece*>> near = piecesNear(pieces.map(), region);
+    Work work = workOn(region);
+    if (work.places.empty())
+        return;
+    try {
+        ahead_ = {region.level,
+                  std::async(std::launch::async, [work = std::move(work)] { return makeTiles(work); })};
+    } catch (const std::system_error&) {
+        // There is no thread; it is made when it is needed.
+    }
+}
+
+void Atlas::addAhead(int level) {
+    if (!ahead_)
+        return;
+    const bool isNeeded = ahead_->level == level;
+    if (ahead_->thread.valid()) {
+        if (!isNeeded && ahead_->thread.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+            return;
+        try {
+            ahead_->made = ahead_->thread.get();
+        } catch (const std::exception&) {
+            // What fails is tried again when it is needed, and says so then.
+            ahead_.reset();
+            return;
+        }
+        ahead_->perPicture = ahead_->made.tiles.size() / picturesToAdd + 1;
+    }
+    std::vector<std::pair<TilePlace, Tile>>& tiles = ahead_->made.tiles;
+    const auto first =
+        isNeeded ? tiles.begin() : tiles.end() - std::ptrdiff_t(std::min(tiles.size(), ahead_->perPicture));
+    Made some{ahead_->made.level, {std::move_iterator(first), std::move_iterator(tiles.end())}};
+    tiles.erase(first, tiles.end());
+    add(ahead_->level, std::move(some));
+    if (tiles.empty())
+        ahead_.reset();
+}
+
+Atlas::Work Atlas::workOn(const Region& region) {
+    Work work{asset_, map_, firstPaint_, maxTurns_, {}, {}, region, {}};
+    for (std::int64_t y = region.min.y; y < region.max.y; ++y)
+        for (std::int64_t x = region.min.x; x < region.max.x; ++x)
+            if (const TilePlace at{region.level, x, y}; !placed_.contains(at))
+                work.places.push_back(at);
+    if (work.places.empty())
+        return work;
+    if (!pieces_)
+        pieces_ = std::make_shared<const asset::PlanarIndex>(flatPlanarMap(asset_->asset, map_));
+    work.pieces = pieces_;
+    if (const auto found = levels_.find(region.level); found != levels_.end())
+        work.level = found->second;
+    return work;
+}
+
+/// On all processors. Where levels of detail do not serve, as where hundreds of pieces meet, tiles are cut
+/// from all pieces.
+Atlas::Made Atlas::makeTiles(const Work& work) {
+    Made made{work.level ? work.level : lessDetailed(work), {}};
+    made.tiles.resize(work.places.size());
+    const auto& [level, min, max] = work.region;
+    const auto near = piecesNear(made.level->map(), work.region);
     const auto build = [&](const asset::PlanarIndex& of, const TilePlace& at,
                            std::span<const PlanarPiece* const> nearIt) {
-        const TileSource source{withPaints(),
+        const KeptAsset& asset = *work.asset;
+        const TileSource source{withPaintsFrom(asset.asset, work.firstPaint),
                                 of,
-                                *pieces_,
-                                std::span(asset_->programTurns).subspan(firstPaint_),
-                                std::span(asset_->changes).subspan(firstPaint_),
-                                words(),
-                                asset_->plain.texels,
-                                maxTurns_};
+                                *work.pieces,
+                                std::span(asset.programTurns).subspan(work.firstPaint),
+                                std::span(asset.changes).subspan(work.firstPaint),
+                                std::span(asset.plain.words).subspan(work.firstPaint),
+                                asset.plain.texels,
+                                work.maxTurns};
         return buildTile(source, at, tileMargin(), nearIt);
     };
-    tbb::parallel_for(std::size_t{0}, missing.size(), [&, holding = limits::current()](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, work.places.size(), [&, holding = limits::current()](std::size_t i) {
         const limits::Scope scope(holding);
-        Missing& made = missing[i];
-        made.tile = build(pieces, made.at, near[made.number]);
-        if (&pieces == &*pieces_ || (made.tile.isConsistent && !isCrowdedAllOver(made.tile)))
-            return;
-        const Region alone{made.at.level, {made.at.x, made.at.y}, {made.at.x + 1, made.at.y + 1}};
-        made.tile = build(*pieces_, made.at, piecesNear(pieces_->map(), alone)[0]);
+        const TilePlace at = work.places[i];
+        const auto number = std::size_t((at.y - min.y) * (max.x - min.x) + at.x - min.x);
+        Tile tile = build(*made.level, at, near[number]);
+        if (made.level != work.pieces && (!tile.isConsistent || isCrowdedAllOver(tile)))
+            tile = build(*work.pieces, at,
+                         piecesNear(work.pieces->map(), {at.level, {at.x, at.y}, {at.x + 1, at.y + 1}})[0]);
+        made.tiles[i] = {at, std::move(tile)};
     });
-    std::size_t added = 0;
-    for (const Missing& made : missing)
-        added += made.tile.texels.size();
-    texels_.reserve(texels_.size() + added);
-    for (Missing& made : missing) {
-        const bool fits = texels_.size() + made.tile.texels.size() <= maxOfPicture;
-        placed_.emplace(made.at, place(fits ? std::move(made.tile) : crowdedTile(words())));
+    return made;
+}
+
+void Atlas::add(int level, Made made) {
+    levels_.emplace(level, std::move(made.level));
+    for (auto& [at, tile] : made.tiles) {
+        if (placed_.contains(at))
+            continue;
+        const bool fits = texels_.size() + tile.texels.size() <= maxOfPicture;
+        placed_.emplace(at, place(fits ? std::move(tile) : crowdedTile(words())));
     }
 }
 
@@ -437,7 +481,7 @@ void Atlas::upload() {
         return;
     if (texture_.get() == 0 || texels_.size() > capacity_) {
         const std::size_t rows =
-            std::clamp(rowsOf(texels_.size() + texels_.size() / 2), std::size_t(1), maxOfPicture / columns);
+            std::clamp(rowsOf(2 * texels_.size()), std::size_t(1), maxOfPicture / columns);
         texture_ = makeTexture(GL_RGBA32UI, int(columns), int(rows));
         capacity_ = rows * columns;
         uploaded_ = 0;

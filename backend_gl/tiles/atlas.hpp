@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <future>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -107,11 +109,17 @@ public:
     std::size_t update(const asset::Difference& difference, const PaintUpdate& paints);
     /// For one picture. Makes what is missing, on all processors. May move the texture.
     std::vector<const Placed*> prepare(const Region& region);
-    /// How a view's scale goes on from the one that was told last, if it comes near the next level so.
-    enum class Zoom { None, In, Out };
-    Zoom zoomTo(const asset::View& view);
-    /// A part of what is missing, for pictures to come: an eighth of the region at most. After prepare().
+    /// How a view's scale goes on from the one that was told last, if it comes near another level so.
+    struct Zoom {
+        int levels;    ///< 1 or -1
+        double scale;  ///< that the picture will have there, by the view's
+    };
+    std::optional<Zoom> zoomTo(const asset::View& view);
+    /// For pictures to come, after prepare(): begins to make what is missing on a thread of its own. A later
+    /// prepare() takes it.
     void prepareAhead(const Region& region);
+    /// Waits for that thread and drops what it made: before the asset changes.
+    void stopAhead() { ahead_.reset(); }
     /// One that is crowded all over. May move the texture.
     const Placed& prepareCrowded();
     /// Whether tiles do not suffice for a view. They do where the scanner lacks the colours of materials.
@@ -125,27 +133,42 @@ public:
     ScannedPixels& scanned() { return scanned_; }
 
 private:
-    const asset::PlanarIndex& piecesFor(int level);
-    void make(const Region& region, std::size_t most);
+    using Pieces = std::shared_ptr<const asset::PlanarIndex>;
+    /// What tiles are made of. It does not change meanwhile.
+    struct Work {
+        const KeptAsset* asset;
+        asset::Map map;
+        std::uint32_t firstPaint, maxTurns;
+        Pieces pieces;
+        Pieces level;  ///< what tiles are cut from; null: to be made
+        Region region;
+        std::vector<TilePlace> places;
+    };
+    struct Made {
+        Pieces level;
+        std::vector<std::pair<TilePlace, Tile>> tiles;
+    };
+    static Made makeTiles(const Work& work);
+    static Pieces lessDetailed(const Work& work);
+    /// Of a region what is missing.
+    Work workOn(const Region& region);
+    void add(int level, Made made);
+    /// Some of what was made ahead, so that no picture takes long; all of it if that is for this level.
+    void addAhead(int level);
     Placed place(Tile tile);
-    asset::AssetView withPaints() const;
     std::span<const PaintWords> words() const { return std::span(asset_->plain.words).subspan(firstPaint_); }
     void forget(std::span<const asset::Cell> squares);
     std::size_t recolorAll(const PaintUpdate& changed);
     void makeRoom();
-    static std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& map,
-                                                                   const Region& region);
     void upload();
 
     std::uint32_t number_;  ///< of the map
     asset::Map map_;
     const KeptAsset* asset_;
     std::uint32_t firstPaint_, maxTurns_;
-    ScannedPixels scanned_;                     ///< of crowded cells
-    std::optional<asset::PlanarIndex> pieces_;  ///< once a view has asked
-    double meanLength_ = 0;                     ///< of these, lattice steps
-    /// By level, with less detail; nothing where that has hardly fewer pieces.
-    std::map<int, std::optional<asset::PlanarIndex>> levels_;
+    ScannedPixels scanned_;         ///< of crowded cells
+    Pieces pieces_;                 ///< once a view has asked
+    std::map<int, Pieces> levels_;  ///< with less detail; pieces_ where that has hardly fewer pieces
 
     std::map<TilePlace, Placed> placed_;
     std::uint64_t picture_ = 0;        ///< how many were prepared
@@ -155,6 +178,15 @@ private:
     std::vector<asset::Texel> texels_;
     std::size_t uploaded_ = 0, capacity_ = 0;
     TextureHandle texture_;
+
+    /// A thread that makes tiles, whose end waits for it; then what it made and is not added yet.
+    struct Ahead {
+        int level;
+        std::future<Made> thread;
+        std::size_t perPicture = 0;
+        Made made = {};
+    };
+    std::optional<Ahead> ahead_;
 };
 
 }  // namespace vtm::gl

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -197,21 +198,19 @@ Geometry scannedGeometry(Atlas& atlas, const Squares& map) {
     return geometry;
 }
 
-/// What a zoom that goes on as from the last view to this one will show when it comes to the next level: half
-/// or twice as much, about the same middle.
-PixelBox boxAhead(const PixelBox& box, Atlas::Zoom zoom) {
-    const glm::ivec2 size = box.size(), quarter = size / 4, half = size / 2;
-    return zoom == Atlas::Zoom::In ? PixelBox{box.min + quarter, box.max - quarter}
-                                   : PixelBox{box.min - half, box.max + half};
+/// What a box will show when the picture is so much larger about the same middle.
+PixelBox boxAhead(const PixelBox& box, double scale) {
+    const dvec2 middle = 0.5 * dvec2(box.min + box.max), reach = 0.5 * dvec2(box.size()) / scale;
+    return {glm::ivec2(glm::floor(middle - reach)), glm::ivec2(glm::ceil(middle + reach))};
 }
 
 Geometry preparedGeometry(const UploadedAsset& asset, Atlas& atlas, const Squares& squares, int level,
                           const asset::View& view, const PixelBox& box) {
     const Geometry geometry =
         geometryOf(asset, atlas.firstPaint(), squares, atlas.prepare({level, squares.min, squares.max}));
-    if (const Atlas::Zoom zoom = atlas.zoomTo(view); zoom != Atlas::Zoom::None) {
-        const int next = level + (zoom == Atlas::Zoom::In ? 1 : -1);
-        const Squares ahead(atlas.map(), view, boxAhead(box, zoom), next);
+    if (const std::optional<Atlas::Zoom> zoom = atlas.zoomTo(view)) {
+        const int next = level + zoom->levels;
+        const Squares ahead(atlas.map(), view, boxAhead(box, zoom->scale), next);
         atlas.prepareAhead({next, ahead.min, ahead.max});
     }
     return geometry;

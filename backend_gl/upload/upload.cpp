@@ -104,6 +104,7 @@ bool UploadedAsset::canUpdate(const AssetView& asset, const asset::Difference& d
 }
 
 std::size_t UploadedAsset::update(const AssetView& asset, const asset::Difference& difference) {
+    atlases[0].stopAhead();  // which reads what is kept
     maps.assign(asset.maps.begin(), asset.maps.end());
     finestPixel = asset.finestPixel;
     if (scanner)
