@@ -107,9 +107,10 @@ def draw_micro(micro):
 
 
 def draw_texture(texture):
-    views = list(dict.fromkeys(row["view"] for row in texture["rows"]))
-    rows = [(view, [(row["texture / picture"], row["file"]) for row in texture["rows"] if row["view"] == view]) for view in views]
-    yield plot.strips("Pictures as textures", "times as long as drawing the picture itself with shaders",
+    bitmaps = [row for row in texture["rows"] if row["as"].startswith("bitmap")]
+    views = list(dict.fromkeys(row["view"] for row in bitmaps))
+    rows = [(view, [(1 / row["ratio"], f"{row['file']}, {row['as']}") for row in bitmaps if row["view"] == view]) for view in views]
+    yield plot.strips("Pictures as textures", "times as long as mip-mapped bitmaps",
                       [(view, dots, statistics.median(v for v, _ in dots), plot.COLOURS[2]) for view, dots in rows], mark=1)
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page and the README's table from a real run of two reports: page_test.py VTM_BENCH"""
+"""The page and the README's table from a real run of some reports: page_test.py VTM_BENCH"""
 import html.parser
 import pathlib
 import re
@@ -33,7 +33,7 @@ class Nesting(html.parser.HTMLParser):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        subprocess.run([sys.argv[1], "drawing", "error", "--quick", "--examples", "--only", "tree",
+        subprocess.run([sys.argv[1], "drawing", "error", "texture", "--quick", "--examples", "--only", "tree",
                         "--output", name], check=True, stdout=subprocess.DEVNULL)
         readme = folder / "README.md"
         readme.write_text(f"before\n{page.START}\noutdated\n{page.END}\nafter\n")

@@ -101,9 +101,16 @@ private:
         report_.rows.push_back({{"file", file_.name},
                                 {"view", view},
                                 {"as", way},
-                                {"ms", fmt::format("{:.3g} ({:.3g})", time.second, time.ratio)},
+                                {"ms", time.second},
+                                {"ratio", time.ratio},
                                 {"rms, max", error},
                                 {"MB", megabytes}});
+        report_.summary.push_back({{"file", file_.name},
+                                   {"view", view},
+                                   {"as", way},
+                                   {"ms", fmt::format("{:.3g} ({:.3g})", time.second, time.ratio)},
+                                   {"rms, max", error},
+                                   {"MB", megabytes}});
     }
 
     const File& file_;
