@@ -488,7 +488,7 @@ void Atlas::upload() {
     }
     const std::size_t first = uploaded_ / columns, whole = texels_.size() / columns;
     glBindTexture(GL_TEXTURE_2D, texture_.get());
-    sendRows(first, whole - first, columns, &texels_[first * columns]);
+    sendRows(first, whole - first, columns, texels_.data() + first * columns);
     sendRows(whole, 1, texels_.size() % columns, texels_.data() + whole * columns);
     checkErrors("tiles");
     uploaded_ = texels_.size();

@@ -91,18 +91,26 @@ __attribute__((target("avx2"))) void premultiplyPixels(const std::uint8_t* from,
     }
 }
 
-/// A negative place gives 0, and stays negative in all pixels of a half.
-__attribute__((target("avx2"))) __m256i placeShuffle(const int (&places)[4]) {
-    std::uint32_t first = 0;
-    for (int i = 0; i < 4; ++i)
-        first |= std::uint32_t(std::uint8_t(places[i] < 0 ? 0x80 : places[i])) << 8 * i;
-    const auto pixel = [&](std::uint32_t i) { return int(first + i * 0x04040404); };
-    return _mm256_setr_epi32(pixel(0), pixel(1), pixel(2), pixel(3), pixel(0), pixel(1), pixel(2), pixel(3));
+/// Of the first pixel. A negative place gives 0.
+std::uint32_t shuffleOf(const int (&places)[4]) {
+    std::uint32_t shuffle = 0;
+    for (int i = 3; i >= 0; --i) {
+        const int place = places[i];
+        shuffle = shuffle << 8 | std::uint32_t(place < 0 ? 0x80 : place);
+    }
+    return shuffle;
+}
+
+/// Negative places stay so in all pixels of a half.
+__attribute__((target("avx2"))) __m256i ofEveryPixel(std::uint32_t shuffle) {
+    constexpr int next = 0x04040404;
+    const __m256i steps = _mm256_setr_epi32(0, next, 2 * next, 3 * next, 0, next, 2 * next, 3 * next);
+    return _mm256_add_epi32(_mm256_set1_epi32(int(shuffle)), steps);
 }
 
 __attribute__((target("avx2"))) void movePixels(const std::uint8_t* from, std::uint8_t* to, int count,
-                                                const int (&places)[4], std::uint32_t added) {
-    const __m256i shuffle = placeShuffle(places), add = _mm256_set1_epi32(int(added));
+                                                std::uint32_t moved, std::uint32_t added) {
+    const __m256i shuffle = ofEveryPixel(moved), add = _mm256_set1_epi32(int(added));
     const auto* f = reinterpret_cast<const __m256i*>(from);
     for (auto* t = reinterpret_cast<__m256i*>(to); count > 0; count -= pixelsAtOnce, ++t, ++f)
         _mm256_storeu_si256(t, _mm256_or_si256(_mm256_shuffle_epi8(_mm256_loadu_si256(f), shuffle), add));
@@ -124,9 +132,9 @@ __attribute__((target("avx2"))) __m256i halfLookedUp(__m256i bytes, const ByteTa
 }
 
 __attribute__((target("avx2"))) int lookUpPixels(const std::uint8_t* from, std::uint8_t* to, int count,
-                                                 const ByteTable& table, const int (&places)[4],
+                                                 const ByteTable& table, std::uint32_t moved,
                                                  std::uint32_t added, bool opaqueOnly) {
-    const __m256i shuffle = placeShuffle(places), add = _mm256_set1_epi32(int(added)),
+    const __m256i shuffle = ofEveryPixel(moved), add = _mm256_set1_epi32(int(added)),
                   alphas = _mm256_set1_epi32(int(255u << 8 * table.alphaByte)),
                   upper = _mm256_set1_epi8(char(0x80));
     const auto* f = reinterpret_cast<const __m256i*>(from);
@@ -183,14 +191,14 @@ int moveBytes(const std::uint8_t* from, std::uint8_t* to, int count, const int (
               std::uint32_t added) {
     const int whole = wholeOnes(count);
     if (whole > 0)
-        movePixels(from, to, whole, places, added);
+        movePixels(from, to, whole, shuffleOf(places), added);
     return whole;
 }
 
 int lookUpBytes(const std::uint8_t* from, std::uint8_t* to, int count, const ByteTable& table,
                 const int (&places)[4], std::uint32_t added, bool opaqueOnly) {
     const int whole = wholeOnes(count);
-    return whole > 0 ? lookUpPixels(from, to, whole, table, places, added, opaqueOnly) : 0;
+    return whole > 0 ? lookUpPixels(from, to, whole, table, shuffleOf(places), added, opaqueOnly) : 0;
 }
 
 #else
