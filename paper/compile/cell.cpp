@@ -150,10 +150,14 @@ CellDecision solidByMajority(const Outline& outline, const CellTask& task, bool 
 }  // namespace
 
 ClippedChord clip(const Chord& chord, const CellFrame& frame) {
+    return clip(chord, frame.min, frame.min + frame.side);
+}
+
+ClippedChord clip(const Chord& chord, Point min, Point max) {
     ClippedChord cut{0, 1};
     const Point d = chord.b - chord.a;
     for (int axis = 0; axis < 2; ++axis) {
-        const double low = frame.min[axis] - chord.a[axis], high = low + frame.side;
+        const double low = min[axis] - chord.a[axis], high = max[axis] - chord.a[axis];
         if (d[axis] == 0) {
             if (low > 0 || high < 0)
                 return {};

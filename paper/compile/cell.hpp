@@ -34,6 +34,8 @@ struct ClippedChord {
     bool empty() const { return !(from < to); }
 };
 ClippedChord clip(const Chord& chord, const CellFrame& frame);
+/// The same within a box.
+ClippedChord clip(const Chord& chord, Point min, Point max);
 
 struct CellDecision {
     enum class Kind { Solid, Cell, Split };

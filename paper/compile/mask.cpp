@@ -86,28 +86,11 @@ private:
     MaskResult& result_;
 };
 
-/// Whether a chord has more than an end in the open box, within which the winding number may then change.
-bool meets(const Chord& chord, Point min, Point max) {
-    Point from = chord.a, to = chord.b;
-    for (int axis = 0; axis < 2; ++axis) {
-        if (from[axis] > to[axis])
-            std::swap(from, to);
-        if (to[axis] <= min[axis] || from[axis] >= max[axis])
-            return false;
-        const Point d = (to - from) / (to[axis] - from[axis]);
-        if (from[axis] < min[axis])
-            from += (min[axis] - from[axis]) * d;
-        if (to[axis] > max[axis])
-            to += (max[axis] - to[axis]) * d;
-    }
-    return true;
-}
-
-/// Up to `margin`, of the mask's side, at the picture's border.
+/// Whether all of the picture is inside, up to `margin`, of the mask's side, at its border.
 bool covers(const Outline& outline, const Placement& placement, Point pictureSize, double margin) {
     const Point min = -placement.min / placement.side + margin,
                 max = (pictureSize - placement.min) / placement.side - margin;
-    return std::ranges::none_of(outline.chords, [&](const Chord& c) { return meets(c, min, max); }) &&
+    return std::ranges::none_of(outline.chords, [&](const Chord& c) { return !clip(c, min, max).empty(); }) &&
            outline.isInside(windingAt(outline, 0.5 * (min + max)));
 }
 

@@ -142,26 +142,12 @@ TEST_F(EglImages, AreDestroyedOnce) {
 }
 
 /// Seen by OpenGL ES as textures.
-class EglImagesInGl : public EglImages {
+class EglImagesInGl : public WithGl<EglImages> {
 protected:
     void SetUp() override {
-        EglImages::SetUp();
-        if (isAlone())
-            GTEST_SKIP() << "there is no OpenGL ES";
-        eglBindAPI(EGL_OPENGL_ES_API);
-        const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
-        gl = eglCreateContext(display, c, EGL_NO_CONTEXT, version);
-        ASSERT_NE(gl, EGL_NO_CONTEXT) << std::hex << eglGetError();
-        glSurface = pbuffer(c);
-        useGl();
-    }
-    void useGl() const {
-        eglBindAPI(EGL_OPENGL_ES_API);
-        ASSERT_EGL(eglMakeCurrent(display, glSurface, glSurface, gl));
-    }
-    void useVg() const {
-        eglBindAPI(EGL_OPENVG_API);
-        ASSERT_EGL(eglMakeCurrent(display, surface, surface, ctx));
+        WithGl::SetUp();
+        if (!IsSkipped())
+            useGl();
     }
     /// A texture of the EGLImage, bound, and drawn into by the framebuffer that is bound.
     void bindTexture(EGLImage made) const {
@@ -176,12 +162,6 @@ protected:
             GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, name, 0);
         EXPECT_EQ(function<decltype(::glGetError)>("glGetError")(), GLenum(GL_NO_ERROR));
     }
-    /// Red, green, blue, alpha from the highest to the lowest byte.
-    static VGuint glTexel(GLint x, GLint y) {
-        std::array<GLubyte, 4> b{};
-        function<decltype(::glReadPixels)>("glReadPixels")(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, b.data());
-        return VGuint(b[0]) << 24 | VGuint(b[1]) << 16 | VGuint(b[2]) << 8 | b[3];
-    }
     static void glFill(float r, float g, float b, float a) {
         function<decltype(::glClearColor)>("glClearColor")(r, g, b, a);
         function<decltype(::glClear)>("glClear")(GL_COLOR_BUFFER_BIT);
@@ -189,9 +169,6 @@ protected:
     void set(VGImage of, VGint x, VGint y, VGuint pixel) const {
         imageSubData(of, &pixel, 4, VG_sRGBA_8888, x, y, 1, 1);
     }
-
-    EGLContext gl = EGL_NO_CONTEXT;
-    EGLSurface glSurface = EGL_NO_SURFACE;
 };
 
 TEST_F(EglImagesInGl, HaveTheSamePixelsInEitherApi) {

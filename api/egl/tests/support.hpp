@@ -2,12 +2,14 @@
 /// What the tests of EGL begin with: an initialised display, and OpenVG's functions by name.
 #pragma once
 
+#include <array>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
 #include <VG/openvg.h>
@@ -107,6 +109,40 @@ protected:
     EGLConfig c = nullptr;
     EGLSurface surface = EGL_NO_SURFACE;
     EGLContext ctx = EGL_NO_CONTEXT;
+};
+
+/// Beside what Base makes there is a context of OpenGL ES 2, with a pbuffer of its own. Skipped without
+/// OpenGL ES.
+template <class Base>
+class WithGl : public Base {
+protected:
+    void SetUp() override {
+        Base::SetUp();
+        if (isAlone())
+            GTEST_SKIP() << "there is no OpenGL ES";
+        eglBindAPI(EGL_OPENGL_ES_API);
+        const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
+        gl = eglCreateContext(this->display, this->c, EGL_NO_CONTEXT, version);
+        ASSERT_NE(gl, EGL_NO_CONTEXT) << std::hex << eglGetError();
+        glSurface = this->pbuffer(this->c);
+    }
+    void useGl() const {
+        eglBindAPI(EGL_OPENGL_ES_API);
+        ASSERT_EGL(eglMakeCurrent(this->display, glSurface, glSurface, gl));
+    }
+    void useVg() const {
+        eglBindAPI(EGL_OPENVG_API);
+        ASSERT_EGL(eglMakeCurrent(this->display, this->surface, this->surface, this->ctx));
+    }
+    /// Of what OpenGL draws into: red, green, blue, alpha from the highest to the lowest byte.
+    static VGuint glTexel(GLint x, GLint y) {
+        std::array<GLubyte, 4> b{};
+        function<decltype(::glReadPixels)>("glReadPixels")(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, b.data());
+        return VGuint(b[0]) << 24 | VGuint(b[1]) << 16 | VGuint(b[2]) << 8 | b[3];
+    }
+
+    EGLContext gl = EGL_NO_CONTEXT;
+    EGLSurface glSurface = EGL_NO_SURFACE;
 };
 
 /// OpenVG's, as far as the tests draw.

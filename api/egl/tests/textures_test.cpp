@@ -20,17 +20,12 @@ namespace {
 constexpr VGuint red = 0xff0000ff, green = 0x00ff00ff, blue = 0x0000ffff;
 
 /// By both compositors.
-class EglTextures : public ContextTest, public ::testing::WithParamInterface<EGLint> {
+class EglTextures : public WithGl<ContextTest>, public ::testing::WithParamInterface<EGLint> {
 protected:
     void SetUp() override {
-        if (isAlone())
-            GTEST_SKIP() << "there is no OpenGL ES";
-        ContextTest::SetUp();
-        eglBindAPI(EGL_OPENGL_ES_API);
-        const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
-        gl = eglCreateContext(display, c, EGL_NO_CONTEXT, version);
-        ASSERT_NE(gl, EGL_NO_CONTEXT) << std::hex << eglGetError();
-        glSurface = pbuffer(c);
+        WithGl::SetUp();
+        if (IsSkipped())
+            return;
         const auto drawn = choose({EGL_RENDERABLE_TYPE, EGL_OPENVG_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
                                    EGL_ALPHA_SIZE, 8, EGL_RED_SIZE, 8, EGL_COMPOSITOR_VTM, GetParam()});
         ASSERT_FALSE(drawn.empty());
@@ -39,15 +34,6 @@ protected:
         // Both are current, as is legal.
         useVg();
         useGl();
-    }
-
-    void useGl() const {
-        eglBindAPI(EGL_OPENGL_ES_API);
-        ASSERT_EGL(eglMakeCurrent(display, glSurface, glSurface, gl));
-    }
-    void useVg() const {
-        eglBindAPI(EGL_OPENVG_API);
-        ASSERT_EGL(eglMakeCurrent(display, surface, surface, ctx));
     }
 
     /// Bound, of texels that count from 1 on: of `width` x `height` in the given format.
@@ -84,11 +70,6 @@ protected:
          float(color & 255) / 255);
         GL(Clear)(GL_COLOR_BUFFER_BIT);
     }
-    static VGuint glTexel(GLint x, GLint y) {
-        std::array<GLubyte, 4> b{};
-        GL(ReadPixels)(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, b.data());
-        return VGuint(b[0]) << 24 | VGuint(b[1]) << 16 | VGuint(b[2]) << 8 | b[3];
-    }
 
     VGuint texel(VGImage of, VGint x, VGint y) const {
         VGuint pixel = 0;
@@ -122,8 +103,6 @@ protected:
     decltype(&::vgGetParameteri) parameter = function<decltype(::vgGetParameteri)>("vgGetParameteri");
     decltype(&::vgFinish) finish = function<decltype(::vgFinish)>("vgFinish");
     decltype(&::vgGetPixels) getPixels = function<decltype(::vgGetPixels)>("vgGetPixels");
-    EGLContext gl = EGL_NO_CONTEXT;
-    EGLSurface glSurface = EGL_NO_SURFACE;
 };
 
 TEST_P(EglTextures, AreImages) {
