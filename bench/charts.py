@@ -5,8 +5,10 @@ import statistics
 import plot
 
 OTHER_PICTURE = 2.5  # rms from ours, as in bench/reports/drawing.cpp: who draws something else is in no median
-NAMES = {"scan": "VTM, CPU", "gl": "VTM, as it is", "shaders": "VTM, shaders", "blend2d": "Blend2D", "thorvg": "ThorVG"}
-ORDER = ("scan", "gl", "shaders", "cairo", "librsvg", "resvg", "skia", "qt-raster", "qt-gl", "qt-gl-4", "blend2d", "thorvg")
+NAMES = {"scan": "VTM, CPU", "gl": "VTM, as it is", "shaders": "VTM, shaders", "blend2d": "Blend2D", "thorvg": "ThorVG",
+         "thorvg-gl": "ThorVG GL", "nanovg": "NanoVG"}
+ORDER = ("scan", "gl", "shaders", "cairo", "librsvg", "resvg", "skia", "qt-raster", "qt-gl", "qt-gl-4", "blend2d", "thorvg",
+         "thorvg-gl", "nanovg")
 VIEWS = ("cold", "unchanged", "turning", "turning at 8x", "zoom path", "minified")
 
 

@@ -5,7 +5,7 @@ import math
 WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 640, 400, 70, 50, 30, 20
 INK, FAINT, GROUND = "var(--ink, #222)", "var(--faint, #ddd)", "var(--ground, #fff)"
 COLOURS = [f"var(--c{i}, {colour})" for i, colour in enumerate(
-    ("#c00", "#e07000", "#06c", "#080", "#808", "#088", "#963", "#666", "#36a2eb", "#b0508c", "#7a7a00", "#444"))]
+    ("#c00", "#e07000", "#06c", "#080", "#808", "#088", "#963", "#666", "#36a2eb", "#b0508c", "#7a7a00", "#444", "#5a4", "#c49"))]
 
 
 def text(x, y, words, anchor="start", size=12):

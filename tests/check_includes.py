@@ -95,7 +95,7 @@ LIBRARIES = {
     r"immintrin\.h": {"api/openvg"},
     r"CLI/.*": {"tools", "conformance/runner"},
     r"nlohmann/.*": {"tools", "web", "bench", "conformance/cases", "conformance/runner"},
-    r"benchmark/.*|librsvg/.*|cairo\.h|blend2d/.*|thorvg\.h": {"bench"},
+    r"benchmark/.*|librsvg/.*|cairo\.h|blend2d/.*|nanovg(_gl)?\.h|thorvg\.h": {"bench"},
     r"ft2build\.h": {"text", "bench", "examples"},
     r"X11/.*": {"examples", "bench"},
     r"Q[A-Z]\w+": {"bench"},

@@ -66,10 +66,17 @@ std::vector<std::string> builtCommands([[maybe_unused]] std::vector<std::string>
 #else
     notes.push_back("blend2d: missing, no folder VTM_BENCH_PEERS with it was named at configuring.");
 #endif
+#ifdef VTM_BENCH_NANOVG
+    commands.emplace_back("exec '" VTM_BENCH_NANOVG "'");
+#else
+    notes.push_back("nanovg: missing, no folder VTM_BENCH_PEERS with it was named at configuring.");
+#endif
 #ifdef VTM_BENCH_THORVG
     commands.emplace_back("exec '" VTM_BENCH_THORVG "'");
+    commands.emplace_back("exec '" VTM_BENCH_THORVG "' gl");
 #else
-    notes.push_back("thorvg: missing, no folder VTM_BENCH_PEERS with it was named at configuring.");
+    notes.push_back(
+        "thorvg, thorvg-gl: missing, no folder VTM_BENCH_PEERS with it was named at configuring.");
 #endif
     return commands;
 }
@@ -83,7 +90,6 @@ std::vector<std::string> peerCommands(const Options& options, std::vector<std::s
         for (const std::string name : {"skia", "resvg"})
             commands.push_back("exec node '" VTM_SOURCE_DIR "/bench/peers.mjs' '" + options.nodeModules +
                                "' " + name);
-    notes.push_back("nanovg: missing, Debian 12 has no package of it.");
     std::ranges::copy(options.peers, std::back_inserter(commands));
     return commands;
 }
@@ -91,7 +97,7 @@ std::vector<std::string> peerCommands(const Options& options, std::vector<std::s
 }  // namespace
 
 Patience patienceOf(const Options& options) {
-    return options.quick ? Patience{500, 5, 15, 1000} : Patience{4000, 5, 41, 5000};
+    return options.quick ? Patience{500, 5, 15, 1000} : Patience{4000, 5, 41, 1000};
 }
 
 asset::View viewOf(const scene::Scene& scene, int side, const Kind& kind, int step) {

@@ -1,5 +1,3 @@
-#include <stdexcept>
-
 #include "bench/engines/engine.hpp"
 #include "bench/engines/peer_cairo.hpp"
 #include "bench/engines/peer_rsvg.hpp"
@@ -8,25 +6,6 @@
 namespace vtm::bench {
 
 namespace {
-
-/// Throws where a group or a paint is more than paths of one colour over each other.
-void collect(const scene::Group& group, std::vector<Shape>& shapes) {
-    if (group.opacity != 1 || group.blend != scene::BlendMode::Normal || group.clip || group.mask ||
-        group.filter)
-        throw std::runtime_error("it is given paths alone, and no groups that are composited");
-    for (const scene::Node& node : group.children) {
-        if (const auto* inner = std::get_if<scene::Group>(&node.value)) {
-            collect(*inner, shapes);
-            continue;
-        }
-        const auto* item = std::get_if<scene::Item>(&node.value);
-        const auto* color = item ? std::get_if<scene::Color>(&item->paint) : nullptr;
-        if (!color)
-            throw std::runtime_error("it is given colours alone, and neither gradients nor images");
-        shapes.push_back({*item->path, item->transform, item->geometry, *color});
-        shapes.back().color.a *= item->opacity;
-    }
-}
 
 class CairoEngine : public Engine {
 public:
@@ -52,12 +31,6 @@ public:
     }
 
 private:
-    static std::vector<Shape> shapesOf(const scene::Scene& scene) {
-        std::vector<Shape> shapes;
-        collect(scene.root, shapes);
-        return shapes;
-    }
-
     void prepareTarget(const asset::View& view) {
         if (!canvas_ || canvas_->width() != view.width || canvas_->height() != view.height)
             canvas_.emplace(view.width, view.height);

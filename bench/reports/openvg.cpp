@@ -65,7 +65,7 @@ void collect(const scene::Group& group, const Affine& fit, std::vector<Shape>& s
                 geometry = scene::StrokeStyle{
                     .width = stroke->width, .miterLimit = stroke->miterLimit, .dashes = {}};
             const auto* color = std::get_if<scene::Color>(&item->paint);
-            Shape shape{*item->path, scene::compose(fit, item->transform), geometry,
+            Shape shape{withoutArcs(*item->path), scene::compose(fit, item->transform), geometry,
                         color ? *color : scene::Color{0.5f, 0.5f, 0.5f, 1}};
             shape.color.a *= item->opacity;
             shapes.push_back(std::move(shape));
