@@ -17,6 +17,8 @@
 #include "compiler/instances/boundary.hpp"
 #include "compiler/instances/group_placements.hpp"
 #include "compiler/instances/layers_at.hpp"
+#include "compiler/instances/outline_box.hpp"
+#include "compiler/instances/own_clips.hpp"
 #include "compiler/instances/repeats.hpp"
 #include "compiler/paint/painters.hpp"
 
@@ -91,6 +93,7 @@ public:
           tolerance_(options.tolerance * std::max(size.x, size.y)),
           palette_(palette),
           painter_(picture),
+          ownClips_(picture),
           inside_(picture.layers.size()),
           isTile_(picture.layers.size()) {
         for (const TileFill& fill : fills)
@@ -196,13 +199,16 @@ private:
         return box;
     }
 
-    /// An occurrence that the picture's border does not cut, and its box.
+    /// An occurrence of which no part lies outside of the picture, and its box.
     std::optional<std::pair<std::size_t, Box>> referenceOf(const Repeat& repeat) const {
         const dvec2 step(2 / lattice_.stepsPerUnit());
         for (std::size_t i = 0; i < repeat.occurrences.size(); ++i) {
-            const Box box = boxOf(repeat.occurrences[i].first, repeat.count);
-            if (Box{step, size_ - step}.contains(box))
-                return std::pair(i, box);
+            const auto run = origins_.subspan(repeat.occurrences[i].first, repeat.count);
+            const bool isWhole = std::ranges::all_of(run, [&](const LayerOrigin& origin) {
+                return Box{step, size_ - step}.contains(outlineBox(origin));
+            });
+            if (isWhole)
+                return std::pair(i, boxOf(repeat.occurrences[i].first, repeat.count));
         }
         return std::nullopt;
     }
@@ -282,9 +288,9 @@ private:
         std::optional<SymbolMap> bySets = maker.bySets(sets);
         if (!bySets)
             return;
-        const SymbolBoundary all(planarMap(bySets->asset, bySets->asset.maps[0]));
+        auto boundary = std::make_unique<SymbolBoundary>(planarMap(bySets->asset, bySets->asset.maps[0]));
         const std::optional<dvec2> inner =
-            repeat.count == 1 ? firstOf(all.pointsInside()) : innermost(all, sets);
+            repeat.count == 1 ? firstOf(boundary->pointsInside()) : innermost(*boundary, sets);
         if (!inner)
             return;
         for (Candidate& candidate : candidates)
@@ -295,7 +301,12 @@ private:
             repeat.count == 1 && classes.back() == 1 ? std::move(bySets) : maker.byClasses(sets, classes);
         if (!map)
             return;
-        auto boundary = std::make_unique<SymbolBoundary>(planarMap(map->asset, map->asset.maps[0]));
+        if (hasClips(candidates, repeat.count)) {
+            const auto visible = maker.byClasses(sets, visibleClassesOf(candidates, repeat.count, sets));
+            if (!visible)
+                return;
+            boundary = std::make_unique<SymbolBoundary>(planarMap(visible->asset, visible->asset.maps[0]));
+        }
         const std::vector<dvec2> points = boundary->pointsInside();
         constexpr std::size_t maxParts = 256;
         if (points.empty() || points.size() > maxParts)
@@ -384,6 +395,29 @@ private:
                 paints.push_back(candidate.paints[set]);
             classOf.push_back(
                 classes.try_emplace(std::move(paints), std::uint32_t(classes.size())).first->second);
+        }
+        return classOf;
+    }
+
+    bool hasClips(std::span<const Candidate> candidates, std::uint32_t count) const {
+        return std::ranges::any_of(candidates, [&](const Candidate& candidate) {
+            return ownClips_.areIn({candidate.firstLayer, count});
+        });
+    }
+
+    /// Sets of which the same may be seen, wherever the symbol stands and whatever lies around it, are one
+    /// class. Other outlines must keep away from lines between these, too, which may show nothing here but
+    /// clip or be clipped elsewhere.
+    std::vector<std::uint32_t> visibleClassesOf(std::span<const Candidate> candidates, std::uint32_t count,
+                                                const LayerSets& sets) const {
+        std::map<std::vector<std::vector<std::uint32_t>>, std::uint32_t> classes;
+        std::vector<std::uint32_t> classOf;
+        for (std::size_t set = 0; set < sets.size(); ++set) {
+            std::vector<std::vector<std::uint32_t>> visible;
+            for (const Candidate& candidate : candidates)
+                visible.push_back(ownClips_.visible({candidate.firstLayer, count}, sets[set]));
+            classOf.push_back(
+                classes.try_emplace(std::move(visible), std::uint32_t(classes.size())).first->second);
         }
         return classOf;
     }
@@ -701,6 +735,7 @@ private:
     limits::Place place_;     ///< of what is being looked at, for messages
     Palette& palette_;
     PicturePainter painter_;
+    const OwnClips ownClips_;
     std::vector<std::uint8_t> inside_;  ///< by layer
     std::vector<bool> isTile_;          ///< by layer: of a tile that blocks are made of
     PlacedSymbols placed_;              ///< patterns

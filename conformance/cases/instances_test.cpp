@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -22,6 +23,7 @@
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/prefilter.hpp>
 #include <vtm/raster/scan.hpp>
+#include <vtm/svg/load.hpp>
 #include "asset/instances.hpp"
 #include "backend_gl/testing.hpp"
 #include "conformance/cases/support.hpp"
@@ -85,6 +87,38 @@ public:
                 forEachItem(instance, [&](Item& item) { item.paint = color(); });
             if (pick(8) == 0)
                 instance.opacity = 0.5f;
+            scene.root.children.push_back({std::move(instance)});
+        }
+        return scene;
+    }
+
+    /// Groups that are cut by clips of their own and lie across each other and the picture's borders.
+    Scene cut() {
+        Scene scene = ground();
+        const double step = 20 + uniform(30);
+        Group group;
+        const int shapes = 2 + pick(2);
+        for (int i = 0; i < shapes; ++i)
+            group.children.push_back(
+                {item(blob((0.1 + uniform(0.3)) * step), at(uniform(step), uniform(step)))});
+        auto clip = std::make_shared<scene::Clip>();
+        clip->shapes.push_back({pick(2) == 0 ? std::make_shared<const Path>(scene::rectangle(
+                                                   {0, 0}, {step, (0.5 + uniform(0.5)) * step}))
+                                             : blob((0.3 + uniform(0.5)) * step),
+                                scene::identity, scene::FillRule::NonZero, nullptr});
+        if (pick(4) != 0)
+            group.clip = clip;
+        const double jitter = pick(2) * uniform(step);
+        for (int i = 0; i < 64; ++i) {
+            const Affine to = at(step * (i % 8) - 0.7 * step + uniform(jitter),
+                                 step * (i / 8) - 0.6 * step + uniform(jitter));
+            Group instance = group;
+            transform(instance, to);
+            if (group.clip) {
+                auto own = std::make_shared<scene::Clip>(*clip);
+                own->shapes.front().transform = to;
+                instance.clip = own;
+            }
             scene.root.children.push_back({std::move(instance)});
         }
         return scene;
@@ -392,7 +426,7 @@ TEST(Instances, GroupsThatRepeatAreMapsOfMaps) {
 
 /// A pattern of many tiles, turned and skewed, that fills a shape over a background and below another shape;
 /// now and then two of them across each other.
-Scene patterned(unsigned seed) {
+Scene patterned(unsigned seed, double smallest, double largest) {
     std::mt19937 random(seed);
     const auto uniform = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(random);
@@ -402,7 +436,7 @@ Scene patterned(unsigned seed) {
     for (int i = 0; i < patterns; ++i) {
         scene::Pattern pattern;
         pattern.min = {uniform(-3, 3), uniform(-3, 3)};
-        pattern.max = pattern.min + Point(uniform(1.5, 5), uniform(1.5, 5));
+        pattern.max = pattern.min + Point(uniform(smallest, largest), uniform(smallest, largest));
         pattern.content = std::make_shared<const Group>(Repeats(seed + 77).tile(pattern.min, pattern.max));
         if (seed % 2 == 1) {
             const double angle = uniform(0, 3);
@@ -481,7 +515,7 @@ TEST(Instances, PatternsArePlaced) {
     std::size_t nested = 0;
     double worst = 0;
     for (unsigned seed = 0; seed < scenes() / 8; ++seed) {
-        const Scene scene = patterned(seed);
+        const Scene scene = patterned(seed, 1.5, 5);
         const asset::Asset placed = compiler::compile(scene).asset;
         nested += innerMaps(placed) > 1;
         const asset::Scanner scanner(placed);
@@ -505,6 +539,49 @@ TEST(Instances, PatternsArePlaced) {
     fmt::print("{} of {} scenes have maps in maps; largest difference {:.2f}/255\n", nested, scenes() / 8,
                worst);
     EXPECT_GT(nested, scenes() / 32);
+}
+
+/// Also tiles of patterns that are few. What a clip cuts must not appear, and what lies outside of the
+/// picture at one place must at the others.
+TEST(Instances, ClipsAndBordersCutThem) {
+    std::size_t withInstances = 0;
+    double worst = 0;
+    for (unsigned seed = 0; seed < scenes() / 2; ++seed) {
+        const Scene scene = seed % 2 == 0 ? Repeats(seed).cut() : patterned(seed, 12, 40);
+        const asset::Asset placed = compiler::compile(scene).asset;
+        withInstances += !placed.instances.empty();
+        const asset::View view = viewOf(seed, 160, 1);
+        const double difference =
+            compare::compare(asset::Scanner(placed).draw(view), referenceOf(scene, view)).max;
+        EXPECT_LE(difference, referenceMax) << "scene " << seed;
+        worst = std::max(worst, difference);
+    }
+    fmt::print("{} of {} scenes have instances; largest difference {:.2f}/255\n", withInstances, scenes() / 2,
+               worst);
+    EXPECT_GT(withInstances, scenes() / 16);
+}
+
+/// Two that were wrong: a tile's clip was taken for a part of the tile before, and of a shape that lies
+/// outside of the picture at one place nothing was left at the others.
+TEST(Instances, ClipsAndBordersCutTheseToo) {
+    for (
+        const std::string_view text :
+        {R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><pattern id="p" width="27.85"
+             height="25.89" viewBox="0 0 40 40" patternUnits="userSpaceOnUse"><rect width="6.86"
+             height="9.45"/><circle cy="15" r="3.53"/></pattern><circle r="40.51"/><path fill="url(#p)"
+             d="M136.34 157.54 13.62 28.54 148.78 29.16z"/></svg>)svg",
+         R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><defs><g id="s"><ellipse cy="26.57"
+             ry="2.63"/><path d="M-4 2c2.63-13 13-9 17.5 0s-9 12.25-17.5 0z"/></g></defs><use href="#s"
+             transform="translate(40 4) scale(.93)"/><use href="#s" transform="translate(75-11) scale(.83)"/><use
+             href="#s" transform="translate(150 150) scale(.88)"/></svg>)svg"}) {
+        const Scene scene =
+            svg::load({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}).scene;
+        const asset::View view{200, 200, scene::identity};
+        EXPECT_LE(compare::compare(asset::Scanner(compiler::compile(scene).asset).draw(view),
+                                   referenceOf(scene, view))
+                      .max,
+                  referenceMax);
+    }
 }
 
 TEST(Instances, FourThousandShapesInGroupsOfGroupsAreAFewKilobytes) {
