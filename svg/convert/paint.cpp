@@ -300,11 +300,13 @@ Rect tileOf(const TemplateChain& chain, bool boxUnits, const Viewport& viewport,
 
 }  // namespace
 
+/// One that paints nothing, as without tiles or content, is invalid: browsers and the W3C's test
+/// pservers-pattern-03-f take the fallback then.
 Converter::ServerResult Converter::pattern(const Element& server, const Scope& scope, const Box& box) {
     const TemplateChain chain = templateChain(server);
     const Element* owner = contentOwner(chain);
     if (!owner)
-        return Nothing{};
+        return Invalid{};
     const auto viewBox = parseViewBox(inherited(chain, "viewBox"));
     const bool boxUnits = trim(inherited(chain, "patternUnits")) != "userSpaceOnUse";
     const bool boxContent = !viewBox && trim(inherited(chain, "patternContentUnits")) == "objectBoundingBox";
@@ -313,7 +315,7 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
     const Style& style = styleOf(server);
     const Rect tile = tileOf(chain, boxUnits, scope.viewport, unitsFor(style), box);
     if (!(tile.width > 0 && tile.height > 0) || isEmptyViewBox(inherited(chain, "viewBox")))
-        return Nothing{};
+        return Invalid{};
     // Without a viewBox the content's origin is the tile's corner.
     const scene::Affine scale = boxContent ? scene::scaling(box.width(), box.height()) : scene::identity;
     const scene::Affine toTile =
@@ -323,11 +325,11 @@ Converter::ServerResult Converter::pattern(const Element& server, const Scope& s
         scene::compose(transformFrom(templateTransform(chain), style, scope.viewport), toTile);
     const auto toContent = scene::inverse(toTile);
     if (!scene::inverse(transform) || !toContent)
-        return Nothing{};
+        return Invalid{};
     const Viewport inner = viewBox ? Viewport{viewBox->width, viewBox->height} : rootSize_;
     const Box period = geometry::mapped(toBox(tile), *toContent);
     if (!(period.width() > 0 && period.height() > 0) || !isWithinReach(period))
-        return Nothing{};
+        return Invalid{};
     auto content = patternContent(*owner, inner);
     if (!content)
         return Invalid{};

@@ -50,6 +50,18 @@ TEST(Paint, MissingServersFallBack) {
     EXPECT_EQ(count("<rect width='9' height='9' fill='url(#no) none'/>"), 0u);
     EXPECT_EQ(count("<rect width='9' height='9' fill='url(#no)'/>"), 0u);
 }
+TEST(Paint, PatternsThatPaintNothingFallBack) {
+    const std::string content = "<rect width='9' height='9' fill='red'/>";
+    for (const std::string& pattern :
+         {"<pattern id='p'>" + content + "</pattern>",
+          "<pattern id='p' width='0' height='5' patternUnits='userSpaceOnUse'>" + content + "</pattern>",
+          std::string("<pattern id='p' width='5' height='5' patternUnits='userSpaceOnUse'/>"),
+          "<pattern id='p' width='1' height='1' viewBox='0 0 0 9'>" + content + "</pattern>",
+          "<pattern id='p' width='1' height='1' patternTransform='scale(0)'>" + content + "</pattern>"}) {
+        EXPECT_EQ(fillOf(pattern + "<rect width='9' height='9' fill='url(#p) lime'/>"), 0x00ff00) << pattern;
+        EXPECT_EQ(count(pattern + "<rect width='9' height='9' fill='url(#p)'/>"), 0u) << pattern;
+    }
+}
 TEST(Paint, UrlsMayBeQuoted) {
     EXPECT_TRUE(std::holds_alternative<scene::LinearGradient>(
         paintOf("<linearGradient id='p'>" + std::string(stops) + "</linearGradient>",
