@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "image/pixel_writer.hpp"
 
@@ -17,8 +18,8 @@ void writeRun(const ColorRun& run, const image::PixelWriter& writer, std::span<s
 /// limits::progress(). Throws as Scanner::scan and the sink do.
 void scanRows(const Scanner& scanner, const View& view, const image::PixelWriter& writer,
               const image::RowSink& sink);
-/// The same of what evaluate() draws, which holds the picture.
-void evaluateRows(const AssetView& asset, const View& view, const image::PixelWriter& writer,
-                  const image::RowSink& sink);
+/// The same of an evaluator, which holds the picture.
+void scanRows(const Evaluator& evaluator, const View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink);
 
 }  // namespace vtm::asset

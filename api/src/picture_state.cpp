@@ -10,7 +10,6 @@
 
 #include <vtm/compiler/view.hpp>
 #include <vtm/error.hpp>
-#include <vtm/raster/evaluate.hpp>
 #include "api/gl_entry.hpp"
 #include "raster/scan_rows.hpp"
 
@@ -39,9 +38,11 @@ GlDraw findGlDraw() {
 
 }  // namespace
 
-CpuEngine::CpuEngine(const asset::Asset& asset) : asset_(asset) {
+CpuEngine::CpuEngine(const asset::Asset& asset) {
     if (asset::isSumOfMaps(asset))
         scanner_.emplace(asset);
+    else
+        evaluator_.emplace(asset);
 }
 
 void CpuEngine::draw(const asset::View& view, const image::PixelWriter& writer,
@@ -49,7 +50,7 @@ void CpuEngine::draw(const asset::View& view, const image::PixelWriter& writer,
     if (scanner_)
         asset::scanRows(*scanner_, view, writer, sink);
     else
-        asset::evaluateRows(asset_, view, writer, sink);
+        asset::scanRows(*evaluator_, view, writer, sink);
 }
 
 std::optional<image::Raster> drawWithGl(const asset::Asset& asset, const asset::View& view, bool required) {

@@ -12,6 +12,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/draw_view.hpp>
 #include <vtm/image/bitmap.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
@@ -20,16 +21,17 @@
 
 namespace vtm {
 
-/// The scanner for exact pictures, kept from one drawing to the next; the evaluator for others.
+/// The scanner for exact pictures, the evaluator for others.
 class CpuEngine {
 public:
+    /// `asset` must outlive it.
     explicit CpuEngine(const asset::Asset& asset);
     /// Row by row.
     void draw(const asset::View& view, const image::PixelWriter& writer, const image::RowSink& sink) const;
 
 private:
-    const asset::Asset& asset_;
     std::optional<asset::Scanner> scanner_;
+    std::optional<asset::Evaluator> evaluator_;
 };
 
 /// Shaders, in a context of the library's own; the caller's stays current. Nothing where the CPU is faster,

@@ -218,9 +218,8 @@ struct Renderer::Impl {
 
     /// Filters read beyond the box, so it is not divided.
     void drawFiltered(const UploadedAsset& asset, const Destination& d, const PixelBox& box) {
-        const image::Raster drawn = asset::evaluate(*asset.filtered, viewOf(d.view, box));
-        std::ranges::transform(drawn.rgba, bytePixels.room(box.size()),
-                               [](float v) { return std::uint8_t(v * 255 + 0.5f); });
+        const asset::View view = viewOf(d.view, box);
+        asset.filtered->evaluator.draw(view, {bytePixels.room(box.size()), std::size_t(view.width) * 4});
         bytePixels.draw(resources, d, box);
     }
 
@@ -335,7 +334,7 @@ bool Renderer::warmUp(const Texture& texture, const Output& output) {
 image::Raster Renderer::render(const Texture& texture, const asset::View& view) {
     asset::validate(view);
     if (const auto& filtered = texture.impl_->filtered)
-        return asset::evaluate(*filtered, view);
+        return filtered->evaluator.draw(view);
     image::Raster raster(view.width, view.height);
     impl_->call([&](const StateGuard&) {
         impl_->paintParts(

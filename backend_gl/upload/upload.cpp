@@ -74,7 +74,7 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::ui
       finestPixel(asset.finestPixel),
       isSumOfMaps(asset::isSumOfMaps(asset)) {
     if (!asset.filters.empty() && filterEngine == FilterEngine::Cpu) {
-        filtered = toAsset(asset);
+        filtered.emplace(asset);
         return;
     }
     filters.mode = asset.mode;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <vtm/gl/renderer.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "backend_gl/core/features.hpp"
 #include "backend_gl/core/gl.hpp"
@@ -27,6 +28,16 @@ struct Sections {
 /// Who computes pictures with filters.
 enum class FilterEngine { Gpu, Cpu };
 
+/// With filters that the CPU computes.
+struct FilteredAsset {
+    explicit FilteredAsset(const asset::AssetView& of) : asset(asset::toAsset(of)), evaluator(asset) {}
+    FilteredAsset(const FilteredAsset&) = delete;  // the evaluator points into it
+    FilteredAsset& operator=(const FilteredAsset&) = delete;
+
+    const asset::Asset asset;
+    const asset::Evaluator evaluator;
+};
+
 struct UploadedAsset {
     /// `maxTurns`: of a pixel (turns.hpp).
     UploadedAsset(const asset::AssetView& asset, unsigned materialSet, std::uint32_t maxTurns = turnsPerPixel,
@@ -46,7 +57,7 @@ struct UploadedAsset {
     std::vector<asset::Paint> paints;
     std::optional<double> finestPixel;
     std::optional<asset::Scanner> scanner;  ///< where pictures are scanned
-    std::optional<asset::Asset> filtered;   ///< with filters that the CPU computes: nothing of it is uploaded
+    std::optional<FilteredAsset> filtered;  ///< nothing of it is uploaded
     asset::Asset filters;                   ///< the mode, and filters that the GPU computes
     bool isSumOfMaps;                       ///< else its commands are executed one by one
     KeptAsset kept;                         ///< where it has atlases

@@ -1,7 +1,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/draw_view.hpp>
 #include <vtm/gl/renderer.hpp>
-#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "bench/engines/engine.hpp"
 #include "bench/measure/measure.hpp"
@@ -64,27 +64,29 @@ private:
 };
 
 /// The CPU alone, into bytes.
-/// What has filters is no sum of maps: asset::evaluate draws it.
+/// What has filters is no sum of maps: asset::Evaluator draws it.
 class ScanEngine : public Engine {
 public:
-    ScanEngine() : Engine("scan", "asset::Scanner, no GL; asset::evaluate where there are filters") {}
+    ScanEngine() : Engine("scan", "asset::Scanner, no GL; asset::Evaluator where there are filters") {}
 
     void load(const CompiledFile& picture) override {
         scanner_.reset();
-        filtered_.reset();
-        if (picture.asset.filters.empty())
+        evaluator_.reset();
+        if (picture.asset.filters.empty()) {
             scanner_.emplace(picture.asset);
-        else
-            filtered_.emplace(picture.asset);
+        } else {
+            filtered_ = picture.asset;
+            evaluator_.emplace(filtered_);
+        }
     }
 
     double draw(const asset::View& view) override {
         prepareTarget(view);
         return spentTime([&] {
-            if (filtered_)
-                draw(*filtered_, view);
+            if (evaluator_)
+                evaluator_->draw(view, target(view));
             else
-                draw(*scanner_, view);
+                scanner_->draw(view, target(view));
         });
     }
 
@@ -95,14 +97,14 @@ public:
                 return;
             const asset::Asset asset = assetOf(picture.file);
             if (asset.filters.empty())
-                draw(asset::Scanner(asset), view);
+                asset::Scanner(asset).draw(view, target(view));
             else
-                draw(asset, view);
+                asset::Evaluator(asset).draw(view, target(view));
         });
     }
 
     image::Bitmap pixels(const asset::View& view) override {
-        return image::toBitmap(filtered_ ? asset::evaluate(*filtered_, view) : scanner_->draw(view));
+        return image::toBitmap(evaluator_ ? evaluator_->draw(view) : scanner_->draw(view));
     }
 
 private:
@@ -110,16 +112,11 @@ private:
         bytes_.resize(std::size_t(view.width) * std::size_t(view.height) * 4);
     }
 
-    void draw(const asset::Scanner& scanner, const asset::View& view) {
-        scanner.draw(view, {bytes_.data(), std::size_t(view.width) * 4});
-    }
-
-    void draw(const asset::Asset& asset, const asset::View& view) {
-        bytes_ = image::toBitmap(asset::evaluate(asset, view)).rgba;
-    }
+    asset::ByteTarget target(const asset::View& view) { return {bytes_.data(), std::size_t(view.width) * 4}; }
 
     std::optional<asset::Scanner> scanner_;
-    std::optional<asset::Asset> filtered_;
+    asset::Asset filtered_;
+    std::optional<asset::Evaluator> evaluator_;  ///< of filtered_
     std::vector<std::uint8_t> bytes_;
 };
 

@@ -17,7 +17,7 @@ constexpr float mostHeight = 4;
 constexpr std::size_t slabSteps = 500;
 
 /// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
-/// would take more.
+/// would take more and cannot be made thinner, or twice as much.
 constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 23;
 /// So does one that begins with more chains, of so many layers that some may hide others: a row could look at
 /// them only a few times. Chains of few layers may not cross at all.
@@ -66,8 +66,16 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         limits::check();
         steps_ = 0;
         thinnest_ = std::max(leastHeight, float(active_.size()) / looksInRow);
-        if (stripSteps_ > mostInStrip + std::size_t(y - stripTop_) * mostInRow || !slab({y, y + height_}))
+        if (stripSteps_ > mostInStrip + std::size_t(y - stripTop_) * mostInRow)
             return goOnLines(chains, y, bottom);
+        if (!slab({y, y + height_})) {
+            // In half of the height it takes a quarter.
+            if (height_ < 2 * thinnest_ || wouldTake_ > 2 * mostInSlab)
+                return goOnLines(chains, y, bottom);
+            height_ *= 0.5f;
+            stripSteps_ += active_.size() + events_.size();
+            continue;
+        }
         stripSteps_ += steps_ + active_.size();
         y += height_;
         const std::size_t looks = active_.size() + slabSteps;
@@ -159,7 +167,8 @@ bool BandSweep::slab(Slab slab) {
     beginning_.assign(toCome_.begin(), toCome_.begin() + std::ptrdiff_t(count));
     look(slab);
     lookAtBeginning(slab);
-    if (!gather() || isTooMuch(slab.bottom))
+    wouldTake_ = gather() ? stepsOfGroups(slab.bottom) : std::numeric_limits<std::size_t>::max();
+    if (wouldTake_ > mostInSlab)
         return false;
     toCome_ = toCome_.subspan(count);
     sweepGroups(slab);
@@ -281,8 +290,8 @@ bool BandSweep::gather() {
     return true;
 }
 
-/// Whether sweeping the groups from vertex to vertex is.
-bool BandSweep::isTooMuch(float bottom) {
+/// Of sweeping the groups from vertex to vertex, about.
+std::size_t BandSweep::stepsOfGroups(float bottom) {
     std::size_t steps = 0;
     for (const Event& group : groups_) {
         const std::size_t members = group.end - group.first + group.bends;
@@ -293,7 +302,7 @@ bool BandSweep::isTooMuch(float bottom) {
             bends = heights(group, bottom);
         steps += bends * members;
     }
-    return steps > mostInSlab;
+    return steps;
 }
 
 /// At how many heights a group has vertices.

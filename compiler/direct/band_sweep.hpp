@@ -112,7 +112,7 @@ private:
     bool isOrdered(const Active& left, const Active& right, float bottom) const;
     void lookAtBeginning(Slab slab);
     bool gather();
-    bool isTooMuch(float bottom);
+    std::size_t stepsOfGroups(float bottom);
     std::size_t heights(const Event& group, float bottom);
     void sweepGroups(Slab slab);
     void pass(std::size_t end, std::size_t& bent, float bottom);
@@ -167,6 +167,7 @@ private:
     std::vector<std::uint32_t> beginning_;   ///< in the slab
     std::vector<Event> events_, groups_;
     std::size_t steps_ = 0;       ///< of sweeps in the slab
+    std::size_t wouldTake_ = 0;   ///< before it was swept
     std::size_t stripSteps_ = 0;  ///< of looks and sweeps since it began anew
     float stripTop_ = 0;
     LineSweep lines_;

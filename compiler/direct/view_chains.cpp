@@ -1,6 +1,7 @@
 #include "compiler/direct/view_chains.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 #include <utility>
 
@@ -214,6 +215,13 @@ private:
 
 namespace {
 
+/// In the order of the numbers.
+std::uint32_t ascending(float value) {
+    constexpr std::uint32_t sign = 0x8000'0000u;
+    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);  // -0 is 0
+    return bits & sign ? ~bits : bits | sign;
+}
+
 /// Layers whose chains are made by one thread at a time: so many points of outlines, unless one has more.
 constexpr std::size_t pointsAtOnce = 1u << 14;
 
@@ -306,7 +314,7 @@ void ViewChains::findBands(int height) {
     const auto bandOf = [&](float y) {
         return std::size_t(std::clamp(int(y) / bandRows, 0, int(bandCount) - 1));
     };
-    const std::vector<std::uint32_t> byTop = sortedByTop(bandCount, bandOf);
+    const std::vector<std::uint64_t> byTop = sortedByTop(bandCount, bandOf);
     firsts_.resize(bandCount + 1);
     for (const DownChain& c : chains_)
         for (std::size_t band = bandOf(c.top); band <= bandOf(c.bottom); ++band)
@@ -315,27 +323,29 @@ void ViewChains::findBands(int height) {
         firsts_[band + 1] += firsts_[band];
     numbers_.resize(firsts_.back());
     std::vector<std::uint32_t> next(firsts_.begin(), firsts_.end() - 1);
-    for (const std::uint32_t c : byTop)
+    for (const std::uint64_t key : byTop) {
+        const auto c = std::uint32_t(key);
         for (std::size_t band = bandOf(chains_[c].top); band <= bandOf(chains_[c].bottom); ++band)
             numbers_[next[band]++] = c;
+    }
 }
 
-/// The numbers of the chains; of those of equal tops the lower ones first.
+/// Below their tops, as integers that ascend with them, the numbers of the chains.
 template <class BandOf>
-std::vector<std::uint32_t> ViewChains::sortedByTop(std::size_t bandCount, const BandOf& bandOf) const {
-    std::vector<std::uint32_t> firsts(bandCount + 1), byTop(chains_.size());
+std::vector<std::uint64_t> ViewChains::sortedByTop(std::size_t bandCount, const BandOf& bandOf) const {
+    std::vector<std::uint32_t> firsts(bandCount + 1);
+    std::vector<std::uint64_t> byTop(chains_.size());
     for (const DownChain& c : chains_)
         ++firsts[bandOf(c.top) + 1];
     for (std::size_t band = 0; band < bandCount; ++band)
         firsts[band + 1] += firsts[band];
     std::vector<std::uint32_t> next(firsts.begin(), firsts.end() - 1);
     for (std::uint32_t c = 0; c < chains_.size(); ++c)
-        byTop[next[bandOf(chains_[c].top)]++] = c;
+        byTop[next[bandOf(chains_[c].top)]++] = std::uint64_t(ascending(chains_[c].top)) << 32 | c;
     constexpr std::size_t bandsAtOnce = 8;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bandCount, bandsAtOnce), [&](const auto& bands) {
         for (std::size_t band = bands.begin(); band < bands.end(); ++band)
-            std::ranges::sort(byTop.begin() + firsts[band], byTop.begin() + firsts[band + 1], {},
-                              [&](std::uint32_t c) { return std::pair(chains_[c].top, c); });
+            std::sort(byTop.begin() + firsts[band], byTop.begin() + firsts[band + 1]);
     });
     return byTop;
 }

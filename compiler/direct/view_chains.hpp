@@ -71,7 +71,7 @@ private:
     void append(const std::vector<ViewChains>& parts);
     void findBands(int height);
     template <class BandOf>
-    std::vector<std::uint32_t> sortedByTop(std::size_t bandCount, const BandOf& bandOf) const;
+    std::vector<std::uint64_t> sortedByTop(std::size_t bandCount, const BandOf& bandOf) const;
 
     std::vector<glm::vec2> vertices_;
     std::vector<DownChain> chains_;

@@ -11,9 +11,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -46,18 +46,18 @@ inline constexpr double endShare = std::numbers::sqrt2 / 2;
 /// How many chords an interval of so many whole ones takes.
 inline int count(double whole) { return 2 + int(std::ceil(std::max(0.0, whole - 2 * endShare))); }
 
-/// Within 1/2000: a guess by the exponent, and a step of Halley's.
-inline double cubeRoot(double v) {
+/// By the exponent.
+inline double roughCubeRoot(double v) {
     constexpr std::uint64_t third = 0x2A9F'7893'0000'0000;
-    std::uint64_t bits;
-    std::memcpy(&bits, &v, sizeof bits);
-    bits = bits / 3 + third;
-    double root;
-    std::memcpy(&root, &bits, sizeof root);
-    const double cubed = root * root * root;
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) / 3 + third);
+}
+inline Pair roughCubeRoot(Pair v) { return Pair{roughCubeRoot(v[0]), roughCubeRoot(v[1])}; }
+/// Within 1/2000: after a step of Halley's.
+template <class Number>
+Number cubeRoot(Number v) {
+    const Number root = roughCubeRoot(v), cubed = root * root * root;
     return root * (cubed + 2 * v) / (2 * cubed + v);
 }
-inline Pair cubeRoot(Pair v) { return Pair{cubeRoot(v[0]), cubeRoot(v[1])}; }
 
 /// Whole chords per unit of a curve's parameter, of which these are the derivatives: ∛κ ds, and more where
 /// the curve turns by radians in a chord, of which what was said is not true. `per`: 1 / (h³ κ).

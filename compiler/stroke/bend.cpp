@@ -74,6 +74,8 @@ bool isMonotone(const Curvature& k) {
     return *steepestFall >= 0 || *steepestRise <= 0;
 }
 
+double cube(double q) { return q > 0 ? q * std::sqrt(q) : 0; }
+
 /// Finds the tight stretches by halving until the bounds of κ decide. |κ|r > 1 is tested as
 /// |c|r > q^(3/2), with c = γ' × γ'' and q = |γ'|².
 ///
@@ -91,13 +93,6 @@ public:
     }
 
 private:
-    static double cube(double q) { return q > 0 ? q * std::sqrt(q) : 0; }
-
-    bool gentle(const Curvature& k) const {
-        const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
-        const double minimum = *std::min_element(k.speedSquared.begin(), k.speedSquared.end());
-        return std::max(-low, high) * o_.radius <= cube(minimum) * o_.slack;
-    }
     bool tight(const Curvature& k) const {
         const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
         const double maximum = *std::max_element(k.speedSquared.begin(), k.speedSquared.end());
@@ -173,7 +168,7 @@ private:
 
     void visit(const CurvePart& piece, double t0, double t1, int depth) {
         const Curvature& k = piece.k;
-        if (gentle(k))
+        if (isSurelyGentle(k, o_.radius, o_.slack))
             return add({t0, t1, Bend::Gentle});
         const bool small = negligible(piece.velocity), atAnEnd = t0 == 0 || t1 == 1;
         if (small && (atAnEnd || !tightInTheMiddle(k)))
@@ -268,6 +263,12 @@ std::vector<Span> cutAt(const Cubic& c, const std::vector<Span>& spans, const St
 }
 
 }  // namespace
+
+bool isSurelyGentle(const Curvature& k, double radius, double slack) {
+    const auto [low, high] = std::minmax({k.cross[0], k.cross[1], k.cross[2]});
+    const double minimum = *std::min_element(k.speedSquared.begin(), k.speedSquared.end());
+    return std::max(-low, high) * radius <= cube(minimum) * slack;
+}
 
 std::vector<Span> bends(const Cubic& c, const BendOptions& options) { return BendSearch(options).run(c); }
 

@@ -24,6 +24,9 @@ struct BendOptions {
     double smallTurn;
 };
 
+/// Whether bounds of its curvature tell that a curve is gentle.
+bool isSurelyGentle(const Curvature& k, double radius, double slack);
+
 /// The whole curve in spans whose bends differ from one to the next.
 std::vector<Span> bends(const Cubic& c, const BendOptions& options);
 

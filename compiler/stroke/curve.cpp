@@ -18,6 +18,11 @@ namespace {
 /// about 1e-16 leave seven digits of a tangent at this length.
 constexpr double vanishingSpeed = 1e-9;
 
+double squaredDistance(Point a, Point b) { return glm::dot(b - a, b - a); }
+double squaredExtent(const Cubic& c) {
+    return std::max({squaredDistance(c.p0, c.p1), squaredDistance(c.p0, c.p2), squaredDistance(c.p0, c.p3)});
+}
+
 auto speedOf(const Cubic& c) {
     return [&c](double t) { return glm::length(c.derivative(t)); };
 }
@@ -28,14 +33,12 @@ Point rotate(Point v, double angle) { return v * std::cos(angle) + perp(v) * std
 
 double angleBetween(Point a, Point b) { return std::atan2(cross(a, b), glm::dot(a, b)); }
 
-double extent(const Cubic& c) {
-    return std::max({glm::distance(c.p0, c.p1), glm::distance(c.p0, c.p2), glm::distance(c.p0, c.p3)});
-}
+double extent(const Cubic& c) { return std::sqrt(squaredExtent(c)); }
 
 Point startTangent(const Cubic& c) {
-    const double tiny = vanishingSpeed * extent(c);
+    const double tiny = vanishingSpeed * vanishingSpeed * squaredExtent(c);
     for (const Point p : {c.p1, c.p2})
-        if (glm::distance(p, c.p0) > tiny)
+        if (squaredDistance(c.p0, p) > tiny)
             return unit(p - c.p0);
     return unit(c.p3 - c.p0);
 }

@@ -77,11 +77,13 @@ namespace {
 /// chopped up by the ripple of their cubics.
 constexpr double tightShare = 0.25;
 
+constexpr Span wholeCurve{0, 1, Bend::Gentle};
+
 /// Where the curve is hardly tighter than the radius and all of its inner offset stays within the tolerance
 /// of a chord, what winds backward there is hidden, too: circles stroked up to their centre.
 bool hidesBackwardOffsets(const Cubic& c, const OffsetOptions& o, const std::vector<Span>& spans) {
     constexpr double hardly = 1.05;  // the offset is a twentieth as long as the curve: samples see all of it
-    const Stretch whole(c, {0, 1, Bend::Gentle});
+    const Stretch whole(c, wholeCurve);
     return std::all_of(spans.begin(), spans.end(),
                        [&](const Span& span) {
                            const double inner = span.bend == Bend::Left ? o.radius : -o.radius;
@@ -104,13 +106,14 @@ bool isFold(const Cubic& c, const Span& span, const OffsetOptions& o) {
            4 * o.straight();
 }
 
+double slackOf(const OffsetOptions& o) { return 1 + tightShare * o.tolerance / o.radius; }
+
 /// The curve in stretches that are gentle, folds, or tight with monotone curvature and little turn.
 std::vector<Span> classify(const Cubic& c, const OffsetOptions& o) {
-    const double slack = 1 + tightShare * o.tolerance / o.radius;
     const double smallTurn = gapShare * o.tolerance / o.radius;
-    std::vector<Span> spans = withoutSmallTurns(c, bends(c, {o.radius, slack, smallTurn}), smallTurn);
+    std::vector<Span> spans = withoutSmallTurns(c, bends(c, {o.radius, slackOf(o), smallTurn}), smallTurn);
     if (isGentle(spans) || hidesBackwardOffsets(c, o, spans))
-        return {{0, 1, Bend::Gentle}};
+        return {wholeCurve};
     for (Span& span : spans)
         span.isFold = span.bend != Bend::Gentle && isFold(c, span, o);
     return cutTight(c, spans, 4 * o.straight() / o.radius);
@@ -138,6 +141,8 @@ public:
         : curve_(curve), o_(options), ribbon_(ribbon) {}
 
     void run() {
+        if (isSurelyGentle(curvature(curve_), o_.radius, slackOf(o_)))  // most are, at once
+            return gentle({curve_, wholeCurve}, wholeCurve);
         for (const Span& span : classify(curve_, o_)) {
             if (span.bend != beyond_.bend)
                 beyond_.close(ribbon_.beyond);

@@ -82,11 +82,16 @@ Evolute::Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, co
       tolerance_(options.tolerance),
       straight_(options.straight()) {}
 
-Point Evolute::at(double u) const { return stretch_.point(u) + normal(u) * centreDistance(u); }
+Point Evolute::at(double u) const {
+    const double t = stretch_.parameter(u);
+    return stretch_.pointAt(t) + normal(t) * centreDistance(t);
+}
 
-bool Evolute::isTighterAtEnd() const { return centreDistance(1) < centreDistance(0); }
+bool Evolute::isTighterAtEnd() const {
+    return centreDistance(stretch_.parameter(1)) < centreDistance(stretch_.parameter(0));
+}
 
-double Evolute::depth() const { return std::abs(radius_) - centreDistance(tightest()); }
+double Evolute::depth() const { return std::abs(radius_) - centreDistance(stretch_.parameter(tightest())); }
 
 void Evolute::append(Side& side) const { append(0, 1, maxFitDepth, side); }
 
@@ -106,10 +111,12 @@ void Evolute::append(double u0, double u1, int depth, Side& side) const {
 /// Of the ends and some places between.
 double Evolute::tightest() const {
     constexpr int places = 4;
-    double best = 0;
-    for (int i = 1; i <= places; ++i)
-        if (const double u = double(i) / places; centreDistance(u) < centreDistance(best))
-            best = u;
+    double best = 0, least = centreDistance(stretch_.parameter(0));
+    for (int i = 1; i <= places; ++i) {
+        const double u = double(i) / places, distance = centreDistance(stretch_.parameter(u));
+        if (distance < least)
+            best = u, least = distance;
+    }
     return best;
 }
 
@@ -117,21 +124,22 @@ double Evolute::tightest() const {
 double Evolute::error(const Parabola& arc, double u0, double u1) const {
     double worst = 0;
     for (const double share : {0.25, 0.5, 0.75}) {
-        const double u = u0 + (u1 - u0) * share;
-        const Point n = normal(u);
+        const double parameter = stretch_.parameter(u0 + (u1 - u0) * share);
+        const Point n = normal(parameter);
         const double a = cross(arc.control - arc.from, n), b = cross(arc.to - arc.control, n);
         const double t = a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0), s = 1 - t;
         const Point on = arc.from * (s * s) + arc.control * (2 * s * t) + arc.to * (t * t);
-        worst = std::max(worst, std::abs(cross(on - at(u), n)));
+        const Point here = stretch_.pointAt(parameter) + n * centreDistance(parameter);
+        worst = std::max(worst, std::abs(cross(on - here, n)));
     }
     return worst;
 }
 
 /// Towards the centre of curvature.
-Point Evolute::normal(double u) const { return perp(stretch_.tangent(u)) * (radius_ < 0 ? -1.0 : 1.0); }
+Point Evolute::normal(double t) const { return perp(stretch_.tangentAt(t)) * (radius_ < 0 ? -1.0 : 1.0); }
 
-double Evolute::centreDistance(double u) const {
-    const double t = stretch_.parameter(u), r = std::abs(radius_);
+double Evolute::centreDistance(double t) const {
+    const double r = std::abs(radius_);
     const double q = std::max(0.0, bernstein(curvature_.speedSquared, t)), cube = q * std::sqrt(q);
     const double bend = std::abs(bernstein(curvature_.cross, t));
     return cube < r * bend ? cube / bend : (cube > 0 ? r : 0);
@@ -139,12 +147,13 @@ double Evolute::centreDistance(double u) const {
 
 /// Where the normals meet, always between curve and offset.
 Point Evolute::meeting(double u0, double u1) const {
-    const Point n0 = normal(u0), n1 = normal(u1), p0 = stretch_.point(u0);
+    const double t0 = stretch_.parameter(u0), t1 = stretch_.parameter(u1);
+    const Point n0 = normal(t0), n1 = normal(t1), p0 = stretch_.pointAt(t0);
     const double sine = cross(n0, n1);
     constexpr double parallel = 1e-9;  // below, rounding moves the crossing by more than the evolute is long
     if (std::abs(sine) < parallel)
         return (at(u0) + at(u1)) / 2.0;
-    const double s = cross(stretch_.point(u1) - p0, n1) / sine;
+    const double s = cross(stretch_.pointAt(t1) - p0, n1) / sine;
     return p0 + n0 * std::clamp(s, 0.0, std::abs(radius_));
 }
 

@@ -18,12 +18,13 @@ namespace vtm::compiler::stroke {
 /// gentle, even in the tangent's angle where it is tight (the offsets' arc length follows the angle there).
 class Stretch {
 public:
-    Stretch(const Cubic& c, const Span& span)
-        : c_(c),
-          powers_(c),
-          span_(span),
-          start_(tangentAt(c, span.t0)),
-          turn_(angleBetween(start_, tangentAt(c, span.t1))) {}
+    Stretch(const Cubic& c, const Span& span) : c_(c), powers_(c), span_(span) {
+        if (span.bend == Bend::Gentle)
+            return;
+        start_ = tangentAt(span.t0);
+        turn_ = angleBetween(start_, tangentAt(span.t1));
+        velocity_ = velocityOver(c, span.t0, span.t1);
+    }
 
     double parameter(double u) const {
         if (u <= 0 || u >= 1)
@@ -37,14 +38,16 @@ public:
         return glm::distance(piece.p0, piece.p1) + glm::distance(piece.p1, piece.p2) +
                glm::distance(piece.p2, piece.p3);
     }
-    Point point(double u) const { return c_.at(parameter(u)); }
-    Point tangent(double u) const { return tangentAt(c_, parameter(u)); }
+    Point point(double u) const { return pointAt(parameter(u)); }
+    /// By the curve's parameter.
+    Point pointAt(double t) const { return c_.at(t); }
+    Point tangentAt(double t) const { return stroke::tangentAt(c_, t); }
     Sample offset(double u, double distance) const {
         const double t = parameter(u);
         const Point velocity = powers_.velocity(t);
         const bool isInside = t > 0 && t < 1 && velocity != Point{0, 0};
-        const Point along = isInside ? unit(velocity) : tangentAt(c_, t);
-        const Point at = isInside ? powers_.at(t) : c_.at(t);
+        const Point along = isInside ? unit(velocity) : tangentAt(t);
+        const Point at = isInside ? powers_.at(t) : pointAt(t);
         return {at + perp(along) * distance, along};
     }
 
@@ -52,10 +55,9 @@ private:
     /// γ' × direction is quadratic and changes its sign once: with Bernstein coefficients a, b, c over
     /// the stretch, x = t / (1 - t) is the positive root of c x² + 2b x + a.
     double whereTangent(Point direction) const {
-        const auto velocity = velocityOver(c_, span_.t0, span_.t1);
         const double sign = turn_ > 0 ? -1 : 1;  // so that a < 0 < c
-        const double a = sign * cross(velocity[0], direction), b = sign * cross(velocity[1], direction),
-                     c = sign * cross(velocity[2], direction);
+        const double a = sign * cross(velocity_[0], direction), b = sign * cross(velocity_[1], direction),
+                     c = sign * cross(velocity_[2], direction);
         const double root = std::sqrt(std::max(0.0, b * b - a * c));
         const double share = b > 0 ? -a / (-a + b + root) : (root - b) / (root - b + c);
         return span_.t0 + (span_.t1 - span_.t0) * std::clamp(share, 0.0, 1.0);
@@ -64,8 +66,10 @@ private:
     const Cubic& c_;
     const PowerForm powers_;
     Span span_;
-    Point start_;
-    double turn_;
+    // Of tight ones.
+    Point start_{0, 0};  ///< tangent
+    double turn_ = 0;
+    std::array<Point, 3> velocity_{};
 };
 
 /// The offset at `distance` to the left, run through along the curve, or against it where the curve is
@@ -114,8 +118,9 @@ private:
     void append(double u0, double u1, int depth, Side& side) const;
     double tightest() const;
     double error(const Parabola& arc, double u0, double u1) const;
-    Point normal(double u) const;
-    double centreDistance(double u) const;
+    /// By the curve's parameter.
+    Point normal(double t) const;
+    double centreDistance(double t) const;
     Point meeting(double u0, double u1) const;
 
     Curvature curvature_;

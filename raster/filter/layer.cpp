@@ -14,9 +14,16 @@ Float4 bilinear(const Layer& layer, float x, float y) {
         return Float4{};
     const float u = x - 0.5f - left, v = y - 0.5f - top;
     const int ix = int(left), iy = int(top);
-    const Float4 above = (1 - u) * layer.at(ix, iy) + u * layer.at(ix + 1, iy);
-    const Float4 below = (1 - u) * layer.at(ix, iy + 1) + u * layer.at(ix + 1, iy + 1);
-    return (1 - v) * above + v * below;
+    const PixelBox& box = layer.box;
+    const auto mean = [&](Float4 a, Float4 b, Float4 c, Float4 d) {
+        return (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
+    };
+    if (box.contains(ix, iy) && box.contains(ix + 1, iy + 1)) {
+        const Float4* const above = layer.row(iy) + (ix - box.min.x);
+        const Float4* const below = above + box.width();
+        return mean(above[0], above[1], below[0], below[1]);
+    }
+    return mean(layer.at(ix, iy), layer.at(ix + 1, iy), layer.at(ix, iy + 1), layer.at(ix + 1, iy + 1));
 }
 
 Layer cropped(const Layer& layer, const PixelBox& box) {

@@ -177,6 +177,23 @@ private:
     std::vector<Result> results_;
 };
 
+/// Those pixels of `whole` in a row whose places, `start` + x · `step`, are in a box or near it.
+PixelRun runIn(const PixelBox& box, glm::dvec2 start, glm::dvec2 step, PixelRun whole) {
+    for (int axis = 0; axis < 2; ++axis) {
+        const double low = box.min[axis] - 1 - start[axis], high = box.max[axis] + 1 - start[axis];
+        const double a = low / step[axis], b = high / step[axis];
+        if (std::isfinite(a) && std::isfinite(b)) {
+            const auto pixel = [&](double x) {
+                return int(std::clamp(x, double(whole.first), double(whole.end)));
+            };
+            whole = {pixel(std::floor(std::min(a, b))), pixel(std::ceil(std::max(a, b)))};
+        } else if (!(low <= 0 && high >= 0)) {
+            return {};
+        }
+    }
+    return whole;
+}
+
 }  // namespace
 
 Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace& place,
@@ -192,17 +209,24 @@ Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace
         return {below, box, std::move(result.pixels)};
     }
     const glm::dmat2 back = glm::inverse(glm::dmat2(place.toBelow[0], place.toBelow[1]));
-    PixelMemory pixels;
-    pixels.reserve(box.area());
+    const auto placeOf = [&](int x, int y) {
+        return back * (glm::dvec2(x + 0.5, y + 0.5) - place.toBelow[2]);
+    };
+    Canvas canvas(below);
+    canvas.reserve(box);
     for (int y = box.min.y; y < box.max.y; ++y) {
         limits::check();
-        for (int x = box.min.x; x < box.max.x; ++x) {
-            const glm::dvec2 at = back * (glm::dvec2(x + 0.5, y + 0.5) - place.toBelow[2]);
-            pixels.push_back(place.isSampled ? bilinear(result, float(at.x), float(at.y))
-                                             : result.at(int(std::floor(at.x)), int(std::floor(at.y))));
+        const PixelRun run = runIn(result.box, placeOf(0, y), back[0], {box.min.x, box.max.x});
+        if (run.empty())
+            continue;
+        Float4* pixel = canvas.extend(y, run);
+        for (int x = run.first; x < run.end; ++x) {
+            const glm::dvec2 at = placeOf(x, y);
+            *pixel++ = place.isSampled ? bilinear(result, float(at.x), float(at.y))
+                                       : result.at(int(std::floor(at.x)), int(std::floor(at.y)));
         }
     }
-    return {below, box, std::move(pixels)};
+    return canvas;
 }
 
 }  // namespace vtm::asset

@@ -1,9 +1,10 @@
 #include "raster/src/canvas.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <vector>
+
+#include "raster/src/scan_stores.hpp"
 
 namespace vtm::asset {
 
@@ -77,18 +78,29 @@ image::Raster Canvas::toRaster() const {
     return raster;
 }
 
-void Canvas::giveRows(const image::PixelWriter& writer, const image::RowSink& sink) const {
-    const auto columns = std::size_t(view_.width);
-    std::vector<Float4> pixels(columns);
-    std::vector<std::uint8_t> bytes(columns * writer.pixelBytes());
+void Canvas::toBytes(const ByteTarget& target) const {
+    const ByteStore store(target, view_.width);
+    for (int y = 0; y < view_.height; ++y) {
+        const PixelRun drawn = run(y);
+        if (drawn.empty()) {
+            store(y, 0, view_.width, Float4{});
+            continue;
+        }
+        store(y, 0, drawn.first, Float4{});
+        store(y, drawn.first, {at(y, drawn.first), at(y, drawn.end)});
+        store(y, drawn.end, view_.width, Float4{});
+    }
+}
+
+void Canvas::giveRows(const std::function<void(std::span<const float>)>& take) const {
+    std::vector<Float4> pixels(std::size_t(view_.width));
     for (int y = 0; y < view_.height; ++y) {
         const PixelRun drawn = run(y);
         std::ranges::fill(pixels, Float4{});
         if (!drawn.empty())
             std::transform(at(y, drawn.first), at(y, drawn.end), pixels.begin() + drawn.first,
                            [](Float4 color) { return unit(color); });
-        image::writePixels(writer, reinterpret_cast<const float*>(pixels.data()), columns, bytes.data());
-        sink(bytes);
+        take({reinterpret_cast<const float*>(pixels.data()), 4 * pixels.size()});
     }
 }
 

@@ -3,13 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/pixel_box.hpp>
+#include <vtm/raster/scan.hpp>
 #include <vtm/raster/view.hpp>
-#include "image/pixel_writer.hpp"
 #include "raster/src/float4.hpp"
 #include "raster/src/pixel_memory.hpp"
 
@@ -79,7 +81,10 @@ public:
     std::pair<PixelBox, PixelMemory> takeBox();
     /// The whole raster, each channel in [0, 1].
     image::Raster toRaster() const;
-    void giveRows(const image::PixelWriter& writer, const image::RowSink& sink) const;
+    /// The same, rounded to nearest.
+    void toBytes(const ByteTarget& target) const;
+    /// The same row by row, four floats a pixel.
+    void giveRows(const std::function<void(std::span<const float> row)>& take) const;
 
 private:
     std::size_t offset(int y, int x) const {

@@ -1,8 +1,10 @@
 #include <vtm/raster/evaluate.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
-#include <set>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/matrix.hpp>
@@ -10,9 +12,9 @@
 #include <glm/vec4.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "raster/filter/run_filter.hpp"
-#include "raster/scan_rows.hpp"
 #include "raster/src/blend.hpp"
 #include "raster/src/canvas.hpp"
 #include "raster/src/draw_map.hpp"
@@ -137,17 +139,35 @@ void applyMask(const Canvas& mask, Op op, Canvas& top) {
 /// The pictures that commands draw into.
 class PictureStack {
 public:
+    /// `scanner`: of maps; without one their leaves are added up.
     PictureStack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
-                 bool scans)
-        : paints_(paints), materials_(materials), levels_(levels), scans_(scans), scanner_(paints) {
-        for (const Command& command : paints.asset().commands)
-            if (command.kind == Command::Kind::DrawMap)
-                firstPaints_.insert(command.paint);
+                 const MapScanner* scanner)
+        : paints_(paints), materials_(materials), levels_(levels), scanner_(scanner) {
         push(view);
     }
 
+    void execute(std::span<const Command> commands) {
+        while (!commands.empty()) {
+            limits::check();
+            const bool lays = scanner_ && laysMap(commands);
+            if (lays)
+                layMap(commands[1], commands[2].opacity);
+            else
+                execute(commands[0]);
+            commands = commands.subspan(lays ? 3 : 1);
+        }
+    }
+    Canvas take() { return std::move(top().canvas); }
+
+private:
+    struct Picture {
+        Canvas canvas;
+        /// Of an input of a filter: where that works, and the input's number.
+        std::shared_ptr<const FilterPlace> place = nullptr;
+        std::uint32_t filter = 0, number = 0;
+    };
+
     void execute(const Command& command) {
-        limits::check();
         switch (command.kind) {
             case Command::Kind::DrawMap:
                 return drawMap(command);
@@ -165,38 +185,44 @@ public:
                 return pop(command);
         }
     }
-    Canvas take() { return std::move(top().canvas); }
-
-private:
-    struct Picture {
-        Canvas canvas;
-        /// Of an input of a filter: where that works, and the input's number.
-        std::shared_ptr<const FilterPlace> place = nullptr;
-        std::uint32_t filter = 0, number = 0;
-    };
-
     Picture& top() { return pictures_.back(); }
     void push(const View& view) { pictures_.push_back({Canvas(view)}); }
 
     // ---- Maps ----
 
-    void drawMap(const Command& command) {
-        const Map& map = paints_.asset().maps[command.map];
+    /// Calls draw(view, pixels) for what of the top picture a map may cover.
+    template <class Draw>
+    void onTop(const Command& command, Draw&& draw) {
         Canvas& canvas = top().canvas;
-        const PixelBox box = pixelsOf(canvas.view(), placeOf(map));
+        const PixelBox box = pixelsOf(canvas.view(), placeOf(paints_.asset().maps[command.map]));
         if (box.empty())
             return;
-        const View view = crop(canvas.view(), box);
         canvas.reserve(box);
-        const PixelsToAddTo pixels = [&](int y, int first, int end) {
+        draw(crop(canvas.view(), box), [&](int y, int first, int end) {
             return reinterpret_cast<float*>(
                 canvas.extend(y + box.min.y, {first + box.min.x, end + box.min.x}));
-        };
-        if (scans_)  // faster where a map is seen once and whole
-            scanner_.add(command.map, command.paint, paintEnd(command.paint) - command.paint, view, pixels,
-                         materials_);
-        else
-            sum(command, view, pixels);
+        });
+    }
+
+    void drawMap(const Command& command) {
+        onTop(command, [&](const View& view, const PixelsToAddTo& pixels) {
+            if (scanner_)
+                scanner_->add(command, view, pixels, materials_);
+            else
+                sum(command, view, pixels);
+        });
+    }
+
+    /// Whether what comes is a map on a picture of its own, which needs none.
+    static bool laysMap(std::span<const Command> commands) {
+        return commands.size() >= 3 && commands[0].kind == Command::Kind::Push &&
+               commands[1].kind == Command::Kind::DrawMap && commands[2].kind == Command::Kind::Pop &&
+               commands[2].blend == Blend::Normal;
+    }
+    void layMap(const Command& command, float opacity) {
+        onTop(command, [&](const View& view, const PixelsToAddTo& pixels) {
+            scanner_->layOver(command, opacity, view, pixels, materials_);
+        });
     }
 
     void sum(const Command& command, const View& view, const PixelsToAddTo& pixels) {
@@ -209,12 +235,6 @@ private:
             for (int i = 0; i < 4 * view.width; ++i)
                 to[i] += from[i];
         }
-    }
-
-    /// Where the paints of the next map begin.
-    std::size_t paintEnd(std::uint32_t first) const {
-        const auto next = firstPaints_.upper_bound(first);
-        return next == firstPaints_.end() ? paints_.asset().paints.size() : *next;
     }
 
     // ---- Groups and filters ----
@@ -257,46 +277,61 @@ private:
     const Paints& paints_;
     const MaterialFunction& materials_;
     const int levels_;
-    const bool scans_;                     ///< maps, instead of adding up their leaves
-    std::set<std::uint32_t> firstPaints_;  ///< of the maps that are drawn
+    const MapScanner* const scanner_;
     std::vector<Picture> pictures_;
-    MapScanner scanner_;
 };
 
 /// Rough pixels so many levels finer.
 Canvas drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
-             bool scans) {
+             const MapScanner* scanner = nullptr) {
     validate(view);
     const KeptBlocks blocks;
-    PictureStack stack(paints, view, materials, levels, scans);
-    for (const Command& command : paints.asset().commands)
-        stack.execute(command);
+    PictureStack stack(paints, view, materials, levels, scanner);
+    stack.execute(paints.asset().commands);
     return stack.take();
-}
-
-/// Where there are filters, maps are scanned.
-Canvas evaluated(const Paints& paints, const View& view, const MaterialFunction& materials) {
-    const bool scans = !paints.asset().filters.empty();
-    return drawn(paints, view, materials, finerLevels(paints.asset(), view), scans);
 }
 
 }  // namespace
 
 Raster evaluate(const AssetView& asset, const View& view, const MaterialFunction& materials) {
-    return evaluate(Paints(asset), view, materials);
+    return Evaluator(asset).draw(view, materials);
 }
 
 Raster evaluateAsShaders(const AssetView& asset, const View& view, const MaterialFunction& materials) {
-    return drawn(Paints(asset), view, materials, 0, false).toRaster();
+    return drawn(Paints(asset), view, materials, 0).toRaster();
 }
 
-Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials) {
-    return evaluated(paints, view, materials).toRaster();
+struct Evaluator::Impl {
+    explicit Impl(const AssetView& asset) : paints(asset) {
+        // Faster where maps are seen whole.
+        if (!asset.filters.empty())
+            scanner.emplace(paints);
+    }
+    Canvas draw(const View& view, const MaterialFunction& materials) const {
+        return drawn(paints, view, materials, finerLevels(paints.asset(), view),
+                     scanner ? &*scanner : nullptr);
+    }
+
+    const Paints paints;
+    std::optional<MapScanner> scanner;  ///< where there are filters
+};
+
+Evaluator::Evaluator(const AssetView& asset) : impl_(std::make_unique<Impl>(asset)) {}
+Evaluator::~Evaluator() = default;
+Evaluator::Evaluator(Evaluator&&) noexcept = default;
+Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
+
+Raster Evaluator::draw(const View& view, const MaterialFunction& materials) const {
+    return impl_->draw(view, materials).toRaster();
 }
 
-void evaluateRows(const AssetView& asset, const View& view, const image::PixelWriter& writer,
-                  const image::RowSink& sink) {
-    evaluated(Paints(asset), view, {}).giveRows(writer, sink);
+void Evaluator::draw(const View& view, const ByteTarget& target, const MaterialFunction& materials) const {
+    impl_->draw(view, materials).toBytes(target);
+}
+
+void Evaluator::scan(const View& view, const std::function<void(std::span<const float>)>& take,
+                     const MaterialFunction& materials) const {
+    impl_->draw(view, materials).giveRows(take);
 }
 
 }  // namespace vtm::asset

@@ -1,9 +1,7 @@
 /// \file
-/// Scanning maps of one asset, one after the other.
+/// Scanning the maps that an asset's commands draw, each by itself.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 
 #include <vtm/raster/scan.hpp>
@@ -11,16 +9,22 @@
 
 namespace vtm::asset {
 
-/// What maps share is made once. As Scanner, for one thread.
+/// The boundaries of a map are made when it is first drawn, and kept. Safe to use from several threads at
+/// once.
 class MapScanner {
 public:
-    /// Must outlive it, and their asset too.
+    /// The asset of the paints must outlive it.
     explicit MapScanner(const Paints& paints);
     ~MapScanner();
+    MapScanner(MapScanner&&) noexcept;
+    MapScanner& operator=(MapScanner&&) noexcept;
 
-    /// Adds a map (its number) whose paints are so many, from `firstPaint` on.
-    void add(std::uint32_t map, std::uint32_t firstPaint, std::size_t paintCount, const View& view,
-             const PixelsToAddTo& pixels, const MaterialFunction& materials);
+    /// Adds what a command of the asset draws, one of the kind DrawMap.
+    void add(const Command& command, const View& view, const PixelsToAddTo& pixels,
+             const MaterialFunction& materials) const;
+    /// Lays that over the pixels.
+    void layOver(const Command& command, float opacity, const View& view, const PixelsToAddTo& pixels,
+                 const MaterialFunction& materials) const;
 
 private:
     struct Impl;

@@ -74,7 +74,4 @@ private:
     std::shared_ptr<const Made> made_;
 };
 
-/// As evaluate(asset, view, materials), for drawing several views.
-image::Raster evaluate(const Paints& paints, const View& view, const MaterialFunction& materials = {});
-
 }  // namespace vtm::asset

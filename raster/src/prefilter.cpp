@@ -12,11 +12,10 @@
 #include <glm/vec2.hpp>
 
 #include <vtm/limits/limits.hpp>
-#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include "asset/instances.hpp"
 #include "asset/records.hpp"
 #include "asset/walk.hpp"
-#include "raster/src/paint.hpp"
 
 namespace vtm::asset {
 
@@ -197,11 +196,11 @@ void addMeans(const image::Raster& raster, std::uint32_t grid, std::uint32_t row
         }
 }
 
-image::Raster evaluateRows(const Paints& paints, PyramidSize size, std::uint32_t grid, std::uint32_t row,
-                           std::uint32_t rows) {
-    const double x = size.width * grid / paints.asset().width, y = size.height * grid / paints.asset().height;
-    return evaluate(
-        paints, {int(size.width * grid), int(rows * grid), glm::dmat3x2(x, 0, 0, y, 0, -double(row) * grid)});
+/// Rows `row` on, so many.
+View viewOfRows(const AssetView& asset, PyramidSize size, std::uint32_t grid, std::uint32_t row,
+                std::uint32_t rows) {
+    const double x = size.width * grid / asset.width, y = size.height * grid / asset.height;
+    return {int(size.width * grid), int(rows * grid), glm::dmat3x2(x, 0, 0, y, 0, -double(row) * grid)};
 }
 
 /// Runs work(i) for all i below `count`, on up to `threads` threads; rethrows what one of them threw.
@@ -236,10 +235,10 @@ Means baseMeans(const AssetView& asset, PyramidSize size, unsigned threads) {
     const std::uint32_t grid = std::ranges::any_of(asset.paints, isProgram) ? finerGrid : 1;
     const std::uint32_t band = bandRows / grid;
     Means means{size, std::vector<double>(size.texels() * 4)};
-    const Paints paints(asset);
+    const Evaluator evaluator(asset);
     inParallel((size.height + band - 1) / band, threads, [&](std::uint32_t i) {
         const std::uint32_t row = i * band, rows = std::min(band, size.height - row);
-        addMeans(evaluateRows(paints, size, grid, row, rows), grid, row, means);
+        addMeans(evaluator.draw(viewOfRows(asset, size, grid, row, rows)), grid, row, means);
     });
     return means;
 }

@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -202,27 +204,72 @@ image::Raster Scanner::draw(const View& view, const MaterialFunction& materials)
 }
 
 struct MapScanner::Impl {
-    const Paints& paints;
-    std::shared_ptr<const PlacedMaps> placed = nullptr;
-    RowScratch scratch;
+    explicit Impl(const Paints& of) : paints(of), maps(of.asset().commands.size()) {
+        for (const Command& command : of.asset().commands)
+            if (command.kind == Command::Kind::DrawMap)
+                firstPaints.insert(command.paint);
+    }
+
+    template <class Store>
+    void draw(const Command& command, const View& view, const MaterialFunction& materials,
+              const Store& store) {
+        // An exception loses the scratch, whose sums may be half done.
+        std::unique_ptr<RowScratch> scratch = pool.take();
+        drawScanned(scannedOf(command), view, materials, *scratch, store);
+        pool.giveBack(std::move(scratch));
+    }
+
+private:
+    /// Of a command.
+    const Scanned& scannedOf(const Command& command) {
+        Kept& kept = maps[std::size_t(&command - paints.asset().commands.data())];
+        std::call_once(kept.isMade, [&] { make(command, kept.scanned); });
+        return *kept.scanned;
+    }
+
+    struct Kept {
+        std::once_flag isMade;
+        std::optional<Scanned> scanned;
+    };
+
+    void make(const Command& command, std::optional<Scanned>& scanned) {
+        const AssetView& asset = paints.asset();
+        const Map& map = asset.maps[command.map];
+        scanned.emplace(paints.from(command.paint), paintEnd(command.paint) - command.paint, Sums::Encoded);
+        scanned->drawn.push_back({ScannedMap(asset, map)});
+        if (map.instances == 0)
+            return;
+        std::call_once(arePlacedMade, [&] { placed = std::make_shared<const PlacedMaps>(asset); });
+        scanned->drawn.back().map = command.map;
+        scanned->placed = placed;
+    }
+    /// Where the paints of the next map begin.
+    std::size_t paintEnd(std::uint32_t first) const {
+        const auto next = firstPaints.upper_bound(first);
+        return next == firstPaints.end() ? paints.asset().paints.size() : *next;
+    }
+
+    ScratchPool pool;
+    const Paints paints;
+    std::set<std::uint32_t> firstPaints;  ///< of the maps that are drawn
+    std::vector<Kept> maps;               ///< by command
+    std::once_flag arePlacedMade;
+    std::shared_ptr<const PlacedMaps> placed;
 };
 
-MapScanner::MapScanner(const Paints& paints) : impl_(new Impl{.paints = paints, .scratch = {}}) {}
+MapScanner::MapScanner(const Paints& paints) : impl_(std::make_unique<Impl>(paints)) {}
 MapScanner::~MapScanner() = default;
+MapScanner::MapScanner(MapScanner&&) noexcept = default;
+MapScanner& MapScanner::operator=(MapScanner&&) noexcept = default;
 
-void MapScanner::add(std::uint32_t index, std::uint32_t firstPaint, std::size_t paintCount, const View& view,
-                     const PixelsToAddTo& pixels, const MaterialFunction& materials) {
-    const AssetView& asset = impl_->paints.asset();
-    const Map& map = asset.maps[index];
-    Scanned scanned(impl_->paints.from(firstPaint), paintCount, Sums::Encoded);
-    scanned.drawn.push_back({ScannedMap(asset, map)});
-    if (map.instances != 0) {
-        if (!impl_->placed)
-            impl_->placed = std::make_shared<const PlacedMaps>(asset);
-        scanned.drawn.back().map = index;
-        scanned.placed = impl_->placed;
-    }
-    drawScanned(scanned, view, materials, impl_->scratch, AddStore(pixels));
+void MapScanner::add(const Command& command, const View& view, const PixelsToAddTo& pixels,
+                     const MaterialFunction& materials) const {
+    impl_->draw(command, view, materials, AddStore(pixels));
+}
+
+void MapScanner::layOver(const Command& command, float opacity, const View& view, const PixelsToAddTo& pixels,
+                         const MaterialFunction& materials) const {
+    impl_->draw(command, view, materials, OverStore(pixels, opacity));
 }
 
 std::shared_ptr<const Images> imagesOf(const AssetView& asset) {

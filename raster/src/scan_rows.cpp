@@ -46,4 +46,13 @@ void scanRows(const Scanner& scanner, const View& view, const image::PixelWriter
     });
 }
 
+void scanRows(const Evaluator& evaluator, const View& view, const image::PixelWriter& writer,
+              const image::RowSink& sink) {
+    std::vector<std::uint8_t> row(std::size_t(std::max(view.width, 0)) * writer.pixelBytes());
+    evaluator.scan(view, [&](std::span<const float> colors) {
+        image::writePixels(writer, colors.data(), colors.size() / 4, row.data());
+        sink(row);
+    });
+}
+
 }  // namespace vtm::asset

@@ -132,6 +132,40 @@ private:
     const PixelsToAddTo& pixels_;
 };
 
+/// Lays colours times an opacity over pixels.
+class OverStore {
+public:
+    OverStore(const PixelsToAddTo& pixels, float opacity) : pixels_(pixels), opacity_(opacity) {}
+
+    void operator()(int row, int first, int end, Float4 color) const {
+        const Float4 source = opacity_ * unit(color);
+        if (largest(source) == 0)
+            return;
+        float* at = pixels_(row, first, end);
+        for (; first < end; ++first, at += 4)
+            lay(source, at);
+    }
+
+    void operator()(int row, int first, std::span<const Float4> colors) const {
+        float* at = pixels_(row, first, first + int(colors.size()));
+        for (const Float4& color : colors) {
+            lay(opacity_ * unit(color), at);
+            at += 4;
+        }
+    }
+
+private:
+    static void lay(Float4 source, float* to) {
+        Float4 backdrop;
+        std::memcpy(&backdrop, to, sizeof backdrop);
+        const Float4 both = over(source, backdrop);
+        std::memcpy(to, &both, sizeof both);
+    }
+
+    const PixelsToAddTo& pixels_;
+    float opacity_;
+};
+
 /// Calls pixels(row, first, end, colour), for single pixels too.
 template <class Run>
 class RunStore {

@@ -6,6 +6,7 @@
 #include <vtm/gl/renderer.hpp>
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "compiler/draw_rows.hpp"
 #include "conformance/reference/reference.hpp"
@@ -104,7 +105,7 @@ void CpuEngine::draw(Source& source, const asset::View& view, const image::Pixel
         else if (scanner)
             asset::scanRows(*scanner, view, writer, timedSink);
         else
-            asset::evaluateRows(*source.asset, view, writer, timedSink);
+            asset::scanRows(asset::Evaluator(*source.asset), view, writer, timedSink);
     });
     source.stages.emplace_back("render", all - sinking);
 }

@@ -1,0 +1,43 @@
+/// \file
+/// Drawing one asset several times on the CPU, whatever its commands do.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include <vtm/asset/asset.hpp>
+#include <vtm/raster/evaluate.hpp>
+#include <vtm/raster/scan.hpp>
+#include <vtm/raster/view.hpp>
+
+#pragma GCC visibility push(default)
+
+namespace vtm::asset {
+
+/// Draws what evaluate() draws, and keeps what drawings share: paints, and of pictures with filters the
+/// boundaries of their maps. Safe to use from several threads at once.
+class Evaluator {
+public:
+    /// `asset` must be valid (asset::validate) and outlive it.
+    explicit Evaluator(const AssetView& asset);
+    ~Evaluator();
+    Evaluator(Evaluator&&) noexcept;
+    Evaluator& operator=(Evaluator&&) noexcept;
+
+    /// Throws std::length_error if the view exceeds the limits in vtm/raster/view.hpp, as all below.
+    image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
+    /// Replaces every pixel, rounded to nearest.
+    void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
+    /// Gives the rows from the top, four floats a pixel.
+    void scan(const View& view, const std::function<void(std::span<const float> row)>& take,
+              const MaterialFunction& materials = {}) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vtm::asset
+
+#pragma GCC visibility pop
