@@ -35,29 +35,30 @@ enum class EdgeRule { linear, opaque, translucent };
 /// One colour, as a surface takes it, prepared for many edges.
 struct EdgeColor {
     EdgeColor() = default;
-    EdgeColor(Color color, bool isLinear, bool hasAlpha)
-        : rule(isLinear       ? EdgeRule::linear
+    EdgeColor(Color color, ColorSpace space, bool hasAlpha)
+        : rule(space.linear   ? EdgeRule::linear
                : color.a == 1 ? EdgeRule::opaque
                               : EdgeRule::translucent),
           kept(1 - color.a),
-          groundHasAlpha(hasAlpha) {
+          groundHasAlpha(hasAlpha),
+          groundIsPremultiplied(space.premultiplied) {
         for (int c = 0; c < 3; ++c)
             source[std::size_t(c)] = rule == EdgeRule::opaque ? byteGamma().decode(color[c]) : color[c];
         isGrey = source[0] == source[1] && source[1] == source[2];
     }
 
     EdgeRule rule = EdgeRule::linear;
-    std::array<float, 3> source{};  ///< of an opaque one in linear light
+    std::array<float, 3> source{};  ///< premultiplied; of an opaque one in linear light
     float kept = 0;                 ///< of what is below a translucent one
     bool isGrey = false;
     bool groundHasAlpha = false;  ///< in the fourth byte
+    bool groundIsPremultiplied = false;
 };
 
 namespace wide {
-/// Mixes pixels of four bytes on processors with AVX2: returns how many of the first, none on others. Stops
-/// at eight that are not all opaque.
-std::size_t mixEdges(std::uint8_t* corner, std::ptrdiff_t stride, std::span<const EdgePixel> edges,
-                     const EdgeColor& color);
+/// Mixes pixels of four bytes on processors with AVX2; false on others.
+bool mixEdges(std::uint8_t* corner, std::ptrdiff_t stride, std::span<const EdgePixel> edges,
+              const EdgeColor& color);
 }  // namespace wide
 
 /// On surfaces of linear light.

@@ -54,15 +54,21 @@ __attribute__((target("avx2,fma"))) inline __m256 mixed(__m256 before, __m256 sh
     return encoded(light + share * (after - light));
 }
 
+__attribute__((target("avx2,fma"))) inline __m256 byteOf(__m256i pixels, int c) {
+    return _mm256_cvtepi32_ps(_mm256_and_si256(_mm256_srli_epi32(pixels, 8 * c), _mm256_set1_epi32(255)));
+}
+/// A number from 0 to 255, rounded, in its place in a pixel.
+__attribute__((target("avx2,fma"))) inline __m256i placed(__m256 value, int c) {
+    return _mm256_slli_epi32(_mm256_cvttps_epi32(value + all(0.5f)), 8 * c);
+}
+
 template <EdgeRule rule>
 __attribute__((target("avx2,fma"))) inline __m256i channel(__m256i pixels, int c, __m256 share,
                                                            const EdgeColor& color) {
-    const __m256i byte = _mm256_and_si256(_mm256_srli_epi32(pixels, 8 * c), _mm256_set1_epi32(255));
-    const __m256 result =
-        mixed<rule>(_mm256_cvtepi32_ps(byte), share, color.source[std::size_t(c)], color.kept);
-    return _mm256_slli_epi32(_mm256_cvttps_epi32(result + all(0.5f)), 8 * c);
+    return placed(mixed<rule>(byteOf(pixels, c), share, color.source[std::size_t(c)], color.kept), c);
 }
 
+/// On opaque grounds.
 template <EdgeRule rule>
 __attribute__((target("avx2,fma"))) inline __m256i mixedPixels(__m256i pixels, __m256 share,
                                                                const EdgeColor& color) {
@@ -76,6 +82,53 @@ __attribute__((target("avx2,fma"))) inline __m256i mixedPixels(__m256i pixels, _
                   either(channel<rule>(pixels, 1, share, color), channel<rule>(pixels, 2, share, color)));
 }
 
+/// On any grounds: alpha of what is below, of all of a pixel under the colour, and of the result.
+struct Alphas {
+    __m256 below, above, mixed;
+};
+
+/// Where there is no alpha, there is nothing to divide.
+__attribute__((target("avx2,fma"))) inline __m256 inverse(__m256 alpha) {
+    return all(1) / _mm256_max_ps(alpha, all(1e-6f));
+}
+
+/// One channel: the light of both, multiplied by alpha, is mixed.
+template <EdgeRule rule, bool isPremultiplied>
+__attribute__((target("avx2,fma"))) inline __m256 mixedOver(__m256 before, __m256 share, const Alphas& alphas,
+                                                            float source, float kept) {
+    const __m256 below = isPremultiplied ? before : before * alphas.below;
+    if constexpr (rule == EdgeRule::linear) {
+        const __m256 sum = mixed<rule>(below, share, source, kept);
+        return isPremultiplied ? sum : sum * inverse(alphas.mixed);
+    }
+    __m256 light = share * all(source);
+    if constexpr (rule == EdgeRule::translucent) {
+        const __m256 after = (all(255 * source) + below * all(kept)) * inverse(alphas.above);
+        light = share * alphas.above * decoded(_mm256_min_ps(after, all(255)));
+    }
+    const __m256 straight = isPremultiplied ? before * inverse(alphas.below) : before;
+    light = light + (all(1) - share) * alphas.below * decoded(straight);
+    const __m256 result = encoded(_mm256_min_ps(light * inverse(alphas.mixed), all(1)));
+    return isPremultiplied ? result * alphas.mixed : result;
+}
+
+template <EdgeRule rule, bool isPremultiplied>
+__attribute__((target("avx2,fma"))) inline __m256i mixedPixelsOver(__m256i pixels, __m256 share,
+                                                                   const EdgeColor& color) {
+    Alphas alphas;
+    alphas.below = byteOf(pixels, 3) * all(1.0f / 255);
+    alphas.above = all(1 - color.kept) + all(color.kept) * alphas.below;
+    alphas.mixed = alphas.below + share * (alphas.above - alphas.below);
+    const __m256 most = all(255) * (isPremultiplied ? alphas.mixed : all(1));
+    __m256i result = placed(all(255) * alphas.mixed, 3);
+    for (int c = 0; c < 3; ++c) {
+        const __m256 value = mixedOver<rule, isPremultiplied>(byteOf(pixels, c), share, alphas,
+                                                              color.source[std::size_t(c)], color.kept);
+        result = either(result, placed(_mm256_min_ps(value, most), c));
+    }
+    return result;
+}
+
 __attribute__((target("avx2,fma"))) inline __m128i twoPixels(std::uint8_t* const* p) {
     return _mm_unpacklo_epi32(_mm_loadu_si32(p[0]), _mm_loadu_si32(p[1]));
 }
@@ -84,10 +137,9 @@ __attribute__((target("avx2,fma"))) inline __m256i eightPixels(std::uint8_t* con
                             _mm_unpacklo_epi64(twoPixels(p), twoPixels(p + 2)));
 }
 
-template <EdgeRule rule>
-__attribute__((target("avx2,fma"))) std::size_t mixAll(std::uint8_t* corner, std::ptrdiff_t stride,
-                                                       std::span<const EdgePixel> edges,
-                                                       const EdgeColor& color) {
+template <EdgeRule rule, bool isPremultiplied>
+__attribute__((target("avx2,fma"))) void mixAll(std::uint8_t* corner, std::ptrdiff_t stride,
+                                                std::span<const EdgePixel> edges, const EdgeColor& color) {
     const __m256i opaque = _mm256_set1_epi32(color.groundHasAlpha ? int(0xff000000) : 0);
     std::uint32_t unused = ~0u;
     for (std::size_t i = 0; i < edges.size(); i += atOnce) {
@@ -103,37 +155,45 @@ __attribute__((target("avx2,fma"))) std::size_t mixAll(std::uint8_t* corner, std
         for (std::size_t k = count; k < atOnce; ++k)
             p[k] = reinterpret_cast<std::uint8_t*>(&unused);
         const __m256i pixels = eightPixels(p);
-        if (!_mm256_testc_si256(pixels, opaque))
-            return i;
         const __m256i shares = _mm256_srli_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(e)), 16);
+        const __m256 share = _mm256_cvtepi32_ps(shares) * all(1.0f / wholeShare);
         alignas(32) std::uint32_t words[atOnce];
-        _mm256_store_si256(
-            reinterpret_cast<__m256i*>(words),
-            mixedPixels<rule>(pixels, _mm256_cvtepi32_ps(shares) * all(1.0f / wholeShare), color));
+        _mm256_store_si256(reinterpret_cast<__m256i*>(words),
+                           _mm256_testc_si256(pixels, opaque)
+                               ? mixedPixels<rule>(pixels, share, color)
+                               : mixedPixelsOver<rule, isPremultiplied>(pixels, share, color));
 #pragma GCC unroll 8
         for (std::size_t k = 0; k < atOnce; ++k)
             std::memcpy(p[k], &words[k], 4);
     }
-    return edges.size();
+}
+
+template <EdgeRule rule>
+void mixBy(std::uint8_t* corner, std::ptrdiff_t stride, std::span<const EdgePixel> edges,
+           const EdgeColor& color) {
+    return color.groundIsPremultiplied ? mixAll<rule, true>(corner, stride, edges, color)
+                                       : mixAll<rule, false>(corner, stride, edges, color);
 }
 
 }  // namespace
 
-std::size_t mixEdges(std::uint8_t* corner, std::ptrdiff_t stride, std::span<const EdgePixel> edges,
-                     const EdgeColor& color) {
+bool mixEdges(std::uint8_t* corner, std::ptrdiff_t stride, std::span<const EdgePixel> edges,
+              const EdgeColor& color) {
     static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (!has)
-        return 0;
-    return color.rule == EdgeRule::linear   ? mixAll<EdgeRule::linear>(corner, stride, edges, color)
-           : color.rule == EdgeRule::opaque ? mixAll<EdgeRule::opaque>(corner, stride, edges, color)
-                                            : mixAll<EdgeRule::translucent>(corner, stride, edges, color);
+        return false;
+    if (color.rule == EdgeRule::linear)
+        mixBy<EdgeRule::linear>(corner, stride, edges, color);
+    else if (color.rule == EdgeRule::opaque)
+        mixBy<EdgeRule::opaque>(corner, stride, edges, color);
+    else
+        mixBy<EdgeRule::translucent>(corner, stride, edges, color);
+    return true;
 }
 
 #else
 
-std::size_t mixEdges(std::uint8_t*, std::ptrdiff_t, std::span<const EdgePixel>, const EdgeColor&) {
-    return 0;
-}
+bool mixEdges(std::uint8_t*, std::ptrdiff_t, std::span<const EdgePixel>, const EdgeColor&) { return false; }
 
 #endif
 

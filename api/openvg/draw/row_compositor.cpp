@@ -57,7 +57,7 @@ void RowCompositor::use(Color color) {
     if (!drawsBytes_)
         return;
     word_ = format_.encode(color);
-    edgeColor_ = EdgeColor(color, format_.space.linear, format_.alpha.bits != 0);
+    edgeColor_ = EdgeColor(color, format_.space, format_.alpha.bits != 0);
 }
 
 RowCompositor::RowCompositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
@@ -111,7 +111,7 @@ void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
             std::uint8_t* p = pixels_.at(first, y);
             for (int x = first; x < end; ++x, p += 4)
                 if (!mixed(p, fixedShare(share)))
-                    drawRow(x, y, std::span(&share, 1));
+                    drawEdge(x, y, fixedShare(share));
         });
     });
 }
@@ -140,6 +140,14 @@ bool RowCompositor::drawBytes(int y, int first, int end) {
     return true;
 }
 
+void RowCompositor::drawEdge(int x, int y, unsigned share) {
+    const EdgePixel edge{0, 0, std::uint16_t(std::min(share, wholeShare - 1))};
+    if (wide::mixEdges(pixels_.at(x, y), 0, std::span(&edge, 1), edgeColor_))
+        return;
+    const float part = float(share) / wholeShare;
+    drawRow(x, y, std::span(&part, 1));
+}
+
 template <class Mixer>
 void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom, FlatGround& grounds,
                                    const Mixer& mixed) {
@@ -158,16 +166,11 @@ void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int 
     if (edges.empty())
         return;
     const auto mix = [&](std::span<const EdgePixel> some) {
-        while (!some.empty()) {
-            some = some.subspan(wide::mixEdges(corner, stride, some, edgeColor_));
-            const std::size_t single = std::min(some.size(), std::size_t(8));
-            for (const EdgePixel& edge : some.first(single)) {
-                const float share = float(edge.share) / wholeShare;
-                if (!mixed(edge.in(corner, stride), edge.share))
-                    drawRow(left + edge.x, bottom + edge.y, std::span(&share, 1));
-            }
-            some = some.subspan(single);
-        }
+        if (wide::mixEdges(corner, stride, some, edgeColor_))
+            return;
+        for (const EdgePixel& edge : some)
+            if (!mixed(edge.in(corner, stride), edge.share))
+                drawEdge(left + edge.x, bottom + edge.y, edge.share);
     };
     const std::uint8_t* const first = edges[0].in(corner, stride);
     if (edgeColor_.rule != EdgeRule::opaque || (edgeColor_.groundHasAlpha && first[3] != 255))

@@ -39,11 +39,13 @@ private:
     void drawPart(int y, int first, int end, float share);
     /// One colour over bytes, all of each pixel. False for what drawRow() must do.
     bool drawBytes(int y, int first, int end);
+    /// A pixel of bytes that no mixer takes.
+    void drawEdge(int x, int y, unsigned share);
     template <class Mixer>
     void drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom, FlatGround& grounds,
                         const Mixer& mixed);
     /// Calls f with what mixes the one colour into a pixel of bytes by its share; f(p, share) returns false
-    /// for a pixel that drawRow() must mix.
+    /// for a pixel that drawEdge() must mix.
     template <class Function>
     void withMixer(Function&& f) const;
     /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
