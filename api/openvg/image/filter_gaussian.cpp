@@ -86,7 +86,7 @@ private:
 using Rows = std::vector<const Color*>;
 
 /// sums[i] = Σ weights[|k|] * taps[middle + k][i].
-struct Sums {
+struct SymmetricSums {
     std::span<const Color* const> taps;
     std::span<const float> weights;
     Color* sums;
@@ -95,7 +95,7 @@ struct Sums {
 /// As many vectors of colours as registers hold, each tap of all of them after the other, with whatever
 /// instructions the caller is compiled for.
 template <class Vector, std::size_t count>
-__attribute__((always_inline)) inline void sumSome(const Sums& s, std::size_t first) {
+__attribute__((always_inline)) inline void symmetricSome(const SymmetricSums& s, std::size_t first) {
     constexpr std::size_t colors = sizeof(Vector) / sizeof(Color);
     const std::size_t middle = s.weights.size() - 1;
     Vector total[count], before, after;
@@ -115,29 +115,31 @@ __attribute__((always_inline)) inline void sumSome(const Sums& s, std::size_t fi
 }
 
 template <class Vector>
-__attribute__((always_inline)) inline void sumAll(const Sums& s, std::size_t first, std::size_t end) {
+__attribute__((always_inline)) inline void symmetricAll(const SymmetricSums& s, std::size_t first,
+                                                        std::size_t end) {
     constexpr std::size_t count = 8, atOnce = count * sizeof(Vector) / sizeof(Color);
     for (; first + atOnce <= end; first += atOnce)
-        sumSome<Vector, count>(s, first);
+        symmetricSome<Vector, count>(s, first);
     for (; first < end; ++first)
-        sumSome<Float4, 1>(s, first);
+        symmetricSome<Float4, 1>(s, first);
 }
 
 #ifdef __x86_64__
-__attribute__((target("avx2"))) void sumWide(const Sums& s, std::size_t first, std::size_t end) {
+__attribute__((target("avx2"))) void symmetricWide(const SymmetricSums& s, std::size_t first,
+                                                   std::size_t end) {
     using Float8 = float __attribute__((vector_size(32)));
-    sumAll<Float8>(s, first, end);
+    symmetricAll<Float8>(s, first, end);
 }
 #endif
 
 /// From `first` to `end` - 1. Results are the same on all processors.
-void symmetricSums(const Sums& s, std::size_t first, std::size_t end) {
+void symmetricSums(const SymmetricSums& s, std::size_t first, std::size_t end) {
 #ifdef __x86_64__
     static const bool isWide = __builtin_cpu_supports("avx2");
     if (isWide)
-        return sumWide(s, first, end);
+        return symmetricWide(s, first, end);
 #endif
-    sumAll<Float4>(s, first, end);
+    symmetricAll<Float4>(s, first, end);
 }
 
 /// Between the second and the third of four.
