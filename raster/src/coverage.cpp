@@ -124,7 +124,8 @@ struct Scratch {
     bool isWhole = true;  ///< false while sums may be half done
 };
 
-Scratch& scratchOfThread() {
+/// Not inlined: a shared library would ask for the thread's address at every use.
+[[gnu::noinline]] Scratch& scratchOfThread() {
     thread_local Scratch scratch;
     if (!scratch.isWhole)
         scratch = {};

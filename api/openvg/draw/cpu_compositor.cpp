@@ -37,9 +37,7 @@ public:
 
     void drawGlyphs(Context& context, const PixelSource& color,
                     std::span<const PlacedGlyph> glyphs) override {
-        RowCompositor rows(context, color);
-        for (const PlacedGlyph& glyph : glyphs)
-            rows.draw(glyph);
+        RowCompositor(context, color).draw(glyphs);
     }
 
     void clear(Context& context, const CopyArea& area, std::uint32_t word) override {

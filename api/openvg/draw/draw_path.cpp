@@ -79,9 +79,10 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
     };
     const std::vector<ClipLine> lines = clipLines(state);
     if (lines.empty() && !isProjective(toSurface)) {
-        PlacedGlyph glyph;
-        if (cache && antialiased && cache->place(mask, toSurface, clip, glyph)) {
-            glyph.play(clip, row);
+        std::vector<PlacedGlyph> placed;
+        if (cache && antialiased && cache->place(mask, toSurface, clip, placed)) {
+            for (const PlacedGlyph& glyph : placed)
+                glyph.play(clip, row);
             return cache->trim();
         }
         return scan(mask, toSurface);

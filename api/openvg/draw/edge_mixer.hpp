@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "api/openvg/paint/color.hpp"
 
@@ -15,6 +16,50 @@ namespace vtm::openvg {
 /// A share of a pixel in fixed point.
 inline constexpr unsigned wholeShare = 65536;
 inline unsigned fixedShare(float share) { return unsigned(int(share * float(wholeShare) + 0.5f)); }
+
+/// A pixel that is covered in part, counted from a corner.
+struct EdgePixel {
+    std::uint8_t x, y;
+    std::uint16_t share;  ///< in 65536ths, not 0
+
+    /// Of four bytes a pixel.
+    std::uint8_t* in(std::uint8_t* corner, std::ptrdiff_t stride) const {
+        return corner + y * stride + 4 * std::ptrdiff_t(x);
+    }
+};
+
+/// On surfaces of linear light; an opaque colour on sRGB surfaces; a translucent one there, which is blended
+/// in their space, with the edge mixed in linear light.
+enum class EdgeRule { linear, opaque, translucent };
+
+/// One colour, as a surface takes it, prepared for many edges.
+struct EdgeColor {
+    EdgeColor() = default;
+    EdgeColor(Color color, ColorSpace space, bool hasAlpha)
+        : rule(space.linear   ? EdgeRule::linear
+               : color.a == 1 ? EdgeRule::opaque
+                              : EdgeRule::translucent),
+          kept(1 - color.a),
+          groundHasAlpha(hasAlpha),
+          groundIsPremultiplied(space.premultiplied) {
+        for (int c = 0; c < 3; ++c)
+            source[std::size_t(c)] = rule == EdgeRule::opaque ? byteGamma().decode(color[c]) : color[c];
+        isGrey = source[0] == source[1] && source[1] == source[2];
+    }
+
+    EdgeRule rule = EdgeRule::linear;
+    std::array<float, 3> source{};  ///< premultiplied; of an opaque one in linear light
+    float kept = 0;                 ///< of what is below a translucent one
+    bool isGrey = false;
+    bool groundHasAlpha = false;  ///< in the fourth byte
+    bool groundIsPremultiplied = false;
+};
+
+namespace wide {
+/// Mixes pixels of four bytes on processors with AVX2; false on others.
+bool mixEdges(std::uint8_t* corner, std::ptrdiff_t stride, std::span<const EdgePixel> edges,
+              const EdgeColor& color);
+}  // namespace wide
 
 /// On surfaces of linear light.
 class LinearMixer {
@@ -61,46 +106,6 @@ private:
     const ByteGamma& gamma_ = byteGamma();
     std::array<unsigned, 3> light_;  ///< 32768 is 1
     bool isGrey_;
-};
-
-/// What an OpaqueMixer makes of one pixel, a word, for 4096 shares: in the middle of each step, so the share
-/// is off by 2^-13, 0.4 of a byte at most, where white is drawn on black.
-class FlatGround {
-public:
-    /// The words by share for this colour on a ground of that word; null if there are none.
-    const std::uint32_t* words(const Color& color, std::uint32_t ground) const {
-        return color == color_ && ground == ground_ ? words_.data() : nullptr;
-    }
-    static std::size_t indexOf(unsigned share) { return share >> stepBits; }
-    /// Counts what is mixed on a ground, and makes the table when it pays.
-    void count(const Color& color, std::uint32_t ground, std::size_t pixels) {
-        if (color != nextColor_ || ground != nextGround_)
-            mixed_ = 0;
-        nextColor_ = color;
-        nextGround_ = ground;
-        mixed_ += pixels;
-        if (mixed_ > words_.size())
-            make();
-    }
-
-private:
-    static constexpr int stepBits = 4;
-
-    void make() {
-        const OpaqueMixer mixer(nextColor_);
-        for (std::size_t i = 0; i < words_.size(); ++i) {
-            words_[i] = nextGround_;
-            mixer(reinterpret_cast<std::uint8_t*>(&words_[i]), unsigned(i << stepBits) + (1 << stepBits) / 2);
-        }
-        color_ = nextColor_;
-        ground_ = nextGround_;
-        mixed_ = 0;
-    }
-
-    std::array<std::uint32_t, (wholeShare >> stepBits)> words_;
-    Color color_{-1}, nextColor_{-1};  ///< no colour at first
-    std::uint32_t ground_ = 0, nextGround_ = 0;
-    std::size_t mixed_ = 0;
 };
 
 /// A translucent colour on sRGB surfaces: it is blended in their space, and the edge is mixed in linear

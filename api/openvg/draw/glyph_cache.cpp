@@ -6,8 +6,6 @@
 #include <functional>
 #include <iterator>
 
-#include "api/openvg/draw/edge_mixer.hpp"
-
 namespace vtm::openvg {
 
 namespace {
@@ -99,7 +97,7 @@ std::uint64_t GlyphCache::hash(const Key& key) {
     return h ^ h >> 32;
 }
 
-GlyphCache::Entry* GlyphCache::find(const Key& key, std::uint64_t hash) {
+GlyphCache::Entry* GlyphCache::find(const Key& key, std::uint64_t hash) const {
     if (slots_.empty())
         return nullptr;
     for (std::size_t i = hash;; ++i) {
@@ -107,6 +105,14 @@ GlyphCache::Entry* GlyphCache::find(const Key& key, std::uint64_t hash) {
         if (!slot.entry || (slot.hash == hash && slot.entry->key == key))
             return slot.entry;
     }
+}
+
+PlacedGlyph GlyphCache::use(Entry& entry, int left, int bottom) {
+    entry.used = ++clock_;
+    if (last_)
+        last_->next = &entry;
+    last_ = &entry;
+    return {&entry.coverage, left, bottom};
 }
 
 void GlyphCache::insert(std::uint64_t hash, Entry& entry) {
@@ -123,7 +129,7 @@ void GlyphCache::rehash() {
 }
 
 bool GlyphCache::place(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip,
-                       PlacedGlyph& glyph) {
+                       std::vector<PlacedGlyph>& placed) {
     const glm::vec3 place = toSurface[2];
     if (!(std::abs(place.x) < maxPlace && std::abs(place.y) < maxPlace))
         return false;
@@ -133,11 +139,14 @@ bool GlyphCache::place(PathMask& mask, const glm::mat3& toSurface, const Rectang
         return std::bit_cast<std::uint64_t>(std::array{toSurface[column].x, toSurface[column].y});
     };
     const Key key{mask.id(), {bits(0), bits(1)}, phase(x) << phaseBits | phase(y)};
-    glyph = {nullptr, x >> phaseBits, y >> phaseBits};
+    const int left = x >> phaseBits, bottom = y >> phaseBits;
+    if (last_ && last_->next && last_->next->key == key) {
+        placed.push_back(use(*last_->next, left, bottom));
+        return true;
+    }
     const std::uint64_t hashed = hash(key);
     if (Entry* const found = find(key, hashed)) {
-        found->used = ++clock_;
-        glyph.coverage = &found->coverage;
+        placed.push_back(use(*found, left, bottom));
         return true;
     }
     if (mask.bounds(toSurface, clip).empty())
@@ -147,14 +156,13 @@ bool GlyphCache::place(PathMask& mask, const glm::mat3& toSurface, const Rectang
     const Rectangle box = mask.bounds(toPixel, everywhere);
     if (box.x1 - box.x0 > GlyphCoverage::maxSide || box.y1 - box.y0 > GlyphCoverage::maxSide)
         return false;
-    entries_.push_back({key, {mask, toPixel, box}, ++clock_});
-    const GlyphCoverage& coverage = entries_.back().coverage;
-    bytes_ += coverage.bytes() + entryBytes;
+    Entry& entry = entries_.emplace_back(Entry{key, {mask, toPixel, box}, 0});
+    bytes_ += entry.coverage.bytes() + entryBytes;
     if (slots_.size() < 2 * entries_.size())
         rehash();
     else
-        insert(hashed, entries_.back());
-    glyph.coverage = &coverage;
+        insert(hashed, entry);
+    placed.push_back(use(entry, left, bottom));
     return true;
 }
 
@@ -165,6 +173,7 @@ void GlyphCache::trim() {
                            std::make_move_iterator(entries_.end()));
     std::ranges::sort(all, std::greater(), &Entry::used);
     entries_.clear();
+    last_ = nullptr;
     bytes_ = 0;
     // More goes than must: this takes a while.
     constexpr std::size_t left = maxBytes / 4 * 3;
@@ -173,6 +182,7 @@ void GlyphCache::trim() {
         if (bytes_ > left)
             break;
         entries_.push_back(std::move(entry));
+        entries_.back().next = nullptr;
     }
     rehash();
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "api/openvg/draw/edge_mixer.hpp"
 #include "api/openvg/draw/path_mask.hpp"
 
 namespace vtm::openvg {
@@ -19,11 +20,6 @@ public:
     /// The most that a box has along a side.
     static constexpr int maxSide = 64;
 
-    /// A pixel that is covered in part.
-    struct Edge {
-        std::uint8_t x, y;
-        std::uint16_t share;  ///< in 65536ths, not 0
-    };
     /// Pixels that are all covered.
     struct Run {
         std::uint8_t first, end, y;
@@ -34,36 +30,37 @@ public:
     /// Around all of it, from the pixel on in which the glyph's origin is.
     const Rectangle& box() const { return box_; }
     /// Row by row, from left to right.
-    std::span<const Edge> edges() const { return edges_; }
+    std::span<const EdgePixel> edges() const { return edges_; }
     std::span<const Run> runs() const { return runs_; }
-    std::size_t bytes() const { return sizeof(Edge) * edges_.capacity() + sizeof(Run) * runs_.capacity(); }
+    std::size_t bytes() const {
+        return sizeof(EdgePixel) * edges_.capacity() + sizeof(Run) * runs_.capacity();
+    }
 
     /// Gives the rows as PathMask::scan() does, moved by whole pixels.
     void play(int left, int bottom, const Rectangle& clip, const RowSink& row) const;
 
 private:
     Rectangle box_;
-    std::vector<Edge> edges_;
+    std::vector<EdgePixel> edges_;
     std::vector<Run> runs_;
 };
 
 /// A glyph on a surface: the pixel that its origin is in.
 struct PlacedGlyph {
-    const GlyphCoverage* coverage = nullptr;  ///< null: nothing is seen of it
-    int left = 0, bottom = 0;
+    const GlyphCoverage* coverage;
+    int left, bottom;
 
     /// On the surface, within `clip`.
-    void play(const Rectangle& clip, const RowSink& row) const {
-        if (coverage)
-            coverage->play(left, bottom, clip, row);
-    }
+    void play(const Rectangle& clip, const RowSink& row) const { coverage->play(left, bottom, clip, row); }
 };
 
 class GlyphCache {
 public:
-    /// Finds or keeps a glyph's coverage, good until trim(). Places are rounded to 1/1024 of a pixel: no
-    /// coverage is off by more than half of that along each axis. False for those that are not kept.
-    bool place(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip, PlacedGlyph& glyph);
+    /// Finds or keeps a glyph's coverage, good until trim(), and adds it to others. Places are rounded to
+    /// 1/1024 of a pixel: no coverage is off by more than half of that along each axis. False for those that
+    /// are not kept.
+    bool place(PathMask& mask, const glm::mat3& toSurface, const Rectangle& clip,
+               std::vector<PlacedGlyph>& placed);
     /// Forgets what was not drawn longest, if it is too much.
     void trim();
 
@@ -82,6 +79,7 @@ private:
         Key key;
         GlyphCoverage coverage;
         std::uint64_t used;
+        Entry* next = nullptr;  ///< what was placed after it: text mostly is drawn as before
     };
     /// Of a table with open addressing.
     struct Slot {
@@ -90,12 +88,14 @@ private:
     };
 
     static std::uint64_t hash(const Key& key);
-    Entry* find(const Key& key, std::uint64_t hash);
+    Entry* find(const Key& key, std::uint64_t hash) const;
+    PlacedGlyph use(Entry& entry, int left, int bottom);
     void insert(std::uint64_t hash, Entry& entry);
     void rehash();
 
     std::deque<Entry> entries_;
     std::vector<Slot> slots_;  ///< a power of two, at least twice as many as there are entries
+    Entry* last_ = nullptr;    ///< placed
     std::size_t bytes_ = 0;
     std::uint64_t clock_ = 0;  ///< counts what is drawn
 };

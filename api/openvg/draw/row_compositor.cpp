@@ -54,8 +54,10 @@ void RowCompositor::use(Color color) {
     prepare(std::span(&color, 1));
     constant_ = color;
     drawsBytes_ = isOver_ && !mask_ && order_ == ByteOrder{0, 1, 2, 3};
-    if (drawsBytes_)
-        word_ = format_.encode(color);
+    if (!drawsBytes_)
+        return;
+    word_ = format_.encode(color);
+    edgeColor_ = EdgeColor(color, format_.space, format_.alpha.bits != 0);
 }
 
 RowCompositor::RowCompositor(Context& context, const PixelSource& paint, const PixelSource& stencil)
@@ -109,7 +111,7 @@ void RowCompositor::operator()(int y, std::span<const CoverageRun> runs) {
             std::uint8_t* p = pixels_.at(first, y);
             for (int x = first; x < end; ++x, p += 4)
                 if (!mixed(p, fixedShare(share)))
-                    drawRow(x, y, std::span(&share, 1));
+                    drawEdge(x, y, fixedShare(share));
         });
     });
 }
@@ -138,7 +140,17 @@ bool RowCompositor::drawBytes(int y, int first, int end) {
     return true;
 }
 
-void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom) {
+void RowCompositor::drawEdge(int x, int y, unsigned share) {
+    const EdgePixel edge{0, 0, std::uint16_t(std::min(share, wholeShare - 1))};
+    if (wide::mixEdges(pixels_.at(x, y), 0, std::span(&edge, 1), edgeColor_))
+        return;
+    const float part = float(share) / wholeShare;
+    drawRow(x, y, std::span(&part, 1));
+}
+
+template <class Mixer>
+void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom, FlatGround& grounds,
+                                   const Mixer& mixed) {
     std::uint8_t* const corner = pixels_.at(left, bottom);
     const std::ptrdiff_t stride = pixels_.stride();
     for (const GlyphCoverage::Run& run : coverage.runs()) {
@@ -150,45 +162,50 @@ void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int 
         for (int x = run.first; x < run.end; ++x, p += 4)
             std::memcpy(p, &word_, 4);
     }
-    const std::span<const GlyphCoverage::Edge> edges = coverage.edges();
-    const auto at = [&](const GlyphCoverage::Edge& edge) {
-        return corner + edge.y * stride + 4 * std::ptrdiff_t(edge.x);
+    std::span<const EdgePixel> edges = coverage.edges();
+    if (edges.empty())
+        return;
+    const auto mix = [&](std::span<const EdgePixel> some) {
+        if (wide::mixEdges(corner, stride, some, edgeColor_))
+            return;
+        for (const EdgePixel& edge : some)
+            if (!mixed(edge.in(corner, stride), edge.share))
+                drawEdge(left + edge.x, bottom + edge.y, edge.share);
     };
-    std::uint32_t ground = 0;
-    const std::uint32_t* flat = nullptr;
-    if (!edges.empty() && constant_->a == 1 && !format_.space.linear &&
-        (format_.alpha.bits == 0 || at(edges[0])[3] == 255)) {
-        // Of the thread: a line of text alone is worth no table.
-        static thread_local FlatGround grounds;
-        ground = wordAt(at(edges[0]), 4);
-        flat = grounds.words(*constant_, ground);
-        if (!flat)
-            grounds.count(*constant_, ground, edges.size());
+    const std::uint8_t* const first = edges[0].in(corner, stride);
+    if (edgeColor_.rule != EdgeRule::opaque || (edgeColor_.groundHasAlpha && first[3] != 255))
+        return mix(edges);
+    if (!grounds.isFor(*constant_, wordAt(first, 4))) {
+        grounds.count(*constant_, wordAt(first, 4), edges.size());
+        return mix(edges);
     }
-    withMixer([&](auto&& mixed) {
-        for (const GlyphCoverage::Edge& edge : edges) {
-            std::uint8_t* const p = at(edge);
-            if (flat && wordAt(p, 4) == ground) {
-                setWordAt(p, 4, flat[FlatGround::indexOf(edge.share)]);
-            } else if (!mixed(p, edge.share)) {
-                const float share = float(edge.share) / wholeShare;
-                drawRow(left + edge.x, bottom + edge.y, std::span(&share, 1));
-            }
-        }
-    });
+    std::array<EdgePixel, FlatGround::atOnce> others;
+    for (; !edges.empty(); edges = edges.subspan(std::min(edges.size(), others.size()))) {
+        const std::span<const EdgePixel> some = edges.first(std::min(edges.size(), others.size()));
+        mix(std::span(others).first(grounds.draw(corner, stride, some, others.data())));
+    }
 }
 
-void RowCompositor::draw(const PlacedGlyph& glyph) {
-    if (!glyph.coverage)
+void RowCompositor::draw(std::span<const PlacedGlyph> glyphs) {
+    const Rectangle& bounds = clip_.bounds();
+    if (!drawsBytes_ || !clip_.isBox()) {
+        for (const PlacedGlyph& glyph : glyphs)
+            glyph.play(bounds, std::ref(*this));
         return;
-    const Rectangle &box = glyph.coverage->box(), &bounds = clip_.bounds();
-    const Rectangle at{box.x0 + glyph.left, box.y0 + glyph.bottom, box.x1 + glyph.left,
-                       box.y1 + glyph.bottom};
-    const bool isWithin =
-        at.x0 >= bounds.x0 && at.y0 >= bounds.y0 && at.x1 <= bounds.x1 && at.y1 <= bounds.y1;
-    if (drawsBytes_ && clip_.isBox() && isWithin)
-        return drawGlyphBytes(*glyph.coverage, at.x0, at.y0);
-    glyph.play(bounds, std::ref(*this));
+    }
+    // Of the thread: a line of text alone is worth no table.
+    static thread_local FlatGround flat;
+    withMixer([&, &grounds = flat](const auto& mixed) {
+        for (const PlacedGlyph& glyph : glyphs) {
+            const Rectangle& box = glyph.coverage->box();
+            const Rectangle at{box.x0 + glyph.left, box.y0 + glyph.bottom, box.x1 + glyph.left,
+                               box.y1 + glyph.bottom};
+            if (at.x0 >= bounds.x0 && at.y0 >= bounds.y0 && at.x1 <= bounds.x1 && at.y1 <= bounds.y1)
+                drawGlyphBytes(*glyph.coverage, at.x0, at.y0, grounds, mixed);
+            else
+                glyph.play(bounds, std::ref(*this));
+        }
+    });
 }
 
 bool RowCompositor::drawStored(int y, int first, int end) {

@@ -7,6 +7,7 @@
 #include "api/openvg/draw/blend.hpp"
 #include "api/openvg/draw/clip.hpp"
 #include "api/openvg/draw/edge_mixer.hpp"
+#include "api/openvg/draw/flat_ground.hpp"
 #include "api/openvg/draw/glyph_cache.hpp"
 #include "api/openvg/draw/path_mask.hpp"
 #include "api/openvg/draw/pixel_source.hpp"
@@ -31,16 +32,20 @@ public:
     /// The one colour of what comes next, in place of the source's: in its space, premultiplied.
     void use(Color color);
     void operator()(int y, std::span<const CoverageRun> runs);
-    void draw(const PlacedGlyph& glyph);
+    void draw(std::span<const PlacedGlyph> glyphs);
 
 private:
     /// Where drawsBytes_, all of each pixel only.
     void drawPart(int y, int first, int end, float share);
     /// One colour over bytes, all of each pixel. False for what drawRow() must do.
     bool drawBytes(int y, int first, int end);
-    void drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom);
+    /// A pixel of bytes that no mixer takes.
+    void drawEdge(int x, int y, unsigned share);
+    template <class Mixer>
+    void drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom, FlatGround& grounds,
+                        const Mixer& mixed);
     /// Calls f with what mixes the one colour into a pixel of bytes by its share; f(p, share) returns false
-    /// for a pixel that drawRow() must mix.
+    /// for a pixel that drawEdge() must mix.
     template <class Function>
     void withMixer(Function&& f) const;
     /// Pixels of an image that go into the surface as they are stored. False for what drawRow() must do.
@@ -77,6 +82,7 @@ private:
     std::optional<Color> constant_;          ///< prepared
     bool drawsBytes_ = false;                ///< `constant_` over bytes by a rule that drawBytes() knows
     std::uint32_t word_ = 0;                 ///< `constant_` as a pixel
+    EdgeColor edgeColor_;                    ///< `constant_` for edges
 };
 
 }  // namespace vtm::openvg

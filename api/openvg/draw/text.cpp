@@ -35,6 +35,7 @@ public:
           state_(context.state),
           modes_(modes),
           matrix_(state_.matrix(VG_MATRIX_GLYPH_USER_TO_SURFACE)),
+          toSurface_(matrix_),
           clip_(context) {
         if (modes == VG_FILL_PATH || modes == VG_STROKE_PATH)
             setColor(VGPaintMode(modes));
@@ -45,10 +46,10 @@ public:
     void draw(const Glyph& glyph, glm::vec2 adjustment) {
         std::array<VGfloat, 2>& origin = context_.state.glyphOrigin;
         if (modes_ != 0) {
-            glm::mat3 toSurface = matrix_;
-            toSurface[2] +=
-                toSurface[0] * (origin[0] - glyph.origin.x) + toSurface[1] * (origin[1] - glyph.origin.y);
-            draw(glyph, toSurface);
+            const VGfloat x = origin[0] - glyph.origin.x, y = origin[1] - glyph.origin.y;
+            for (int i = 0; i < 3; ++i)
+                toSurface_[2][i] = matrix_[2][i] + (matrix_[0][i] * x + matrix_[1][i] * y);
+            draw(glyph, toSurface_);
         }
         origin[0] += glyph.escapement.x + adjustment.x;
         origin[1] += glyph.escapement.y + adjustment.y;
@@ -88,12 +89,9 @@ private:
         constexpr std::size_t maxPlaced = 256;  // nothing is forgotten meanwhile
         if (path.data.commands().empty())
             return true;
-        PlacedGlyph glyph;
         PathMask& mask = maskOf(state_, path, VGPaintMode(modes_));
-        if (!context_.objects->glyphs.place(mask, toSurface, clip_.bounds(), glyph))
+        if (!context_.objects->glyphs.place(mask, toSurface, clip_.bounds(), placed_))
             return false;
-        if (glyph.coverage)
-            placed_.push_back(glyph);
         if (placed_.size() == maxPlaced)
             finish();
         return true;
@@ -103,6 +101,7 @@ private:
     const State& state_;
     const VGbitfield modes_;
     const glm::mat3 matrix_;
+    glm::mat3 toSurface_;  ///< the glyph's
     const Clip clip_;
     std::unique_ptr<PixelSource> color_;  ///< null: each glyph is drawn by itself
     std::vector<PlacedGlyph> placed_;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "api/openvg/image/filter_images.hpp"
@@ -84,30 +85,61 @@ private:
 
 using Rows = std::vector<const Color*>;
 
-/// sums[i] = Σ weights[|k|] * taps[middle + k][i] for i from `first` to `end` - 1.
-void symmetricSums(std::span<const Color* const> taps, std::span<const float> weights, Color* sums,
-                   std::size_t first, std::size_t end) {
-    const std::size_t middle = weights.size() - 1;
-    // As many at a time as registers hold, each column's taps one after the other.
-    const auto sum = [&](std::size_t i, auto count) {
-        Float4 total[count.value];
-        for (std::size_t j = 0; j < count.value; ++j)
-            total[j] = loaded(taps[middle][i + j]) * splat(weights[0]);
-        for (std::size_t k = 1; k <= middle; ++k) {
-            const Color *const before = taps[middle - k] + i, *const after = taps[middle + k] + i;
-            const Float4 weight = splat(weights[k]);
-            for (std::size_t j = 0; j < count.value; ++j)
-                total[j] += (loaded(before[j]) + loaded(after[j])) * weight;
+/// sums[i] = Σ weights[|k|] * taps[middle + k][i].
+struct SymmetricSums {
+    std::span<const Color* const> taps;
+    std::span<const float> weights;
+    Color* sums;
+};
+
+/// As many vectors of colours as registers hold, each tap of all of them after the other, with whatever
+/// instructions the caller is compiled for.
+template <class Vector, std::size_t count>
+__attribute__((always_inline)) inline void symmetricSome(const SymmetricSums& s, std::size_t first) {
+    constexpr std::size_t colors = sizeof(Vector) / sizeof(Color);
+    const std::size_t middle = s.weights.size() - 1;
+    Vector total[count], before, after;
+    for (std::size_t j = 0; j < count; ++j) {
+        std::memcpy(&before, &s.taps[middle][first + j * colors], sizeof before);
+        total[j] = before * s.weights[0];
+    }
+    for (std::size_t k = 1; k <= middle; ++k) {
+        const Color *const a = s.taps[middle - k] + first, *const b = s.taps[middle + k] + first;
+        for (std::size_t j = 0; j < count; ++j) {
+            std::memcpy(&before, a + j * colors, sizeof before);
+            std::memcpy(&after, b + j * colors, sizeof after);
+            total[j] += (before + after) * s.weights[k];
         }
-        for (std::size_t j = 0; j < count.value; ++j)
-            assign(sums[i + j], total[j]);
-    };
-    constexpr std::size_t block = 8;
-    std::size_t i = first;
-    for (; i + block <= end; i += block)
-        sum(i, std::integral_constant<std::size_t, block>());
-    for (; i < end; ++i)
-        sum(i, std::integral_constant<std::size_t, 1>());
+    }
+    std::memcpy(&s.sums[first], total, sizeof total);
+}
+
+template <class Vector>
+__attribute__((always_inline)) inline void symmetricAll(const SymmetricSums& s, std::size_t first,
+                                                        std::size_t end) {
+    constexpr std::size_t count = 8, atOnce = count * sizeof(Vector) / sizeof(Color);
+    for (; first + atOnce <= end; first += atOnce)
+        symmetricSome<Vector, count>(s, first);
+    for (; first < end; ++first)
+        symmetricSome<Float4, 1>(s, first);
+}
+
+#ifdef __x86_64__
+__attribute__((target("avx2"))) void symmetricWide(const SymmetricSums& s, std::size_t first,
+                                                   std::size_t end) {
+    using Float8 = float __attribute__((vector_size(32)));
+    symmetricAll<Float8>(s, first, end);
+}
+#endif
+
+/// From `first` to `end` - 1. Results are the same on all processors.
+void symmetricSums(const SymmetricSums& s, std::size_t first, std::size_t end) {
+#ifdef __x86_64__
+    static const bool isWide = __builtin_cpu_supports("avx2");
+    if (isWide)
+        return symmetricWide(s, first, end);
+#endif
+    symmetricAll<Float4>(s, first, end);
 }
 
 /// Between the second and the third of four.
@@ -118,12 +150,17 @@ Color between(const Color* a, std::ptrdiff_t next, std::span<const float> weight
     return result;
 }
 
+/// From row to row, in colours: an odd number of lines of a cache, where rows below each other would share a
+/// few places.
+std::size_t strideOf(std::size_t width) { return 4 * ((width + 3) / 4 | 1); }
+
 /// The samples of every row of the source, and of a row of the fill colour.
 class SampledRows {
 public:
     SampledRows(const LineBlur& blur, const Image& source, ColorSpace space, Color fill)
         : width_(std::size_t(blur.samples())),
-          samples_(width_ * std::size_t(source.height())),
+          stride_(strideOf(width_)),
+          samples_(stride_ * std::size_t(source.height())),
           fill_(width_, fill) {
         std::vector<Color> colors(std::size_t(source.width())), line(blur.places().size()),
             gathered(blur.step() > 1 ? std::size_t(blur.gathered()) : 0);
@@ -136,13 +173,15 @@ public:
             for (std::size_t i = 0; i < line.size(); ++i)
                 line[i] = blur.places()[i] < 0 ? fill : colors[std::size_t(blur.places()[i])];
             gather(blur, line, gathered);
-            symmetricSums(taps, blur.weights(), samples_.data() + width_ * std::size_t(y), 0, width_);
+            symmetricSums({taps, blur.weights(), samples_.data() + stride_ * std::size_t(y)}, 0, width_);
         }
     }
 
     std::size_t width() const { return width_; }
     /// -1: of the fill colour.
-    const Color* row(int y) const { return y < 0 ? fill_.data() : samples_.data() + width_ * std::size_t(y); }
+    const Color* row(int y) const {
+        return y < 0 ? fill_.data() : samples_.data() + stride_ * std::size_t(y);
+    }
 
 private:
     static void gather(const LineBlur& blur, std::span<const Color> line, std::span<Color> gathered) {
@@ -158,19 +197,20 @@ private:
         }
     }
 
-    std::size_t width_;
+    std::size_t width_, stride_;
     std::vector<Color> samples_, fill_;
 };
 
 /// Rows of samples, blurred up and down.
 class BlurredRows {
 public:
-    BlurredRows(const LineBlur& blur, const SampledRows& source) : blur_(blur), width_(source.width()) {
+    BlurredRows(const LineBlur& blur, const SampledRows& source)
+        : blur_(blur), width_(source.width()), stride_(strideOf(width_)) {
         for (const int y : blur.places())
             places_.push_back(source.row(y));
         if (blur.step() > 1)
             gather();
-        samples_.resize(width_ * std::size_t(blur.step() > 1 ? blur.samples() : maxGroup));
+        samples_.resize(stride_ * std::size_t(blur.step() > 1 ? blur.samples() : maxGroup));
         row_.resize(width_);
         if (blur.step() > 1)
             sample(0, blur.samples());
@@ -181,11 +221,11 @@ public:
         if (blur_.step() == 1) {
             if (y % maxGroup == 0)
                 sample(y, std::min(maxGroup, blur_.samples() - y));
-            return std::span(samples_).subspan(width_ * std::size_t(y % maxGroup), width_);
+            return std::span(samples_).subspan(stride_ * std::size_t(y % maxGroup), width_);
         }
-        const Color* const samples = samples_.data() + width_ * std::size_t(y / blur_.step());
+        const Color* const samples = samples_.data() + stride_ * std::size_t(y / blur_.step());
         for (std::size_t i = 0; i < width_; ++i)
-            row_[i] = between(samples + i, std::ptrdiff_t(width_), blur_.between(y));
+            row_[i] = between(samples + i, std::ptrdiff_t(stride_), blur_.between(y));
         return row_;
     }
 
@@ -198,11 +238,11 @@ private:
     void gather() {
         const auto step = std::size_t(blur_.step()), gathered = std::size_t(blur_.gathered()),
                    taps = 2 * blur_.gathering().size() - 1;
-        gathered_.resize(width_ * gathered);
+        gathered_.resize(stride_ * gathered);
         Rows rows;
         for (std::size_t k = 0; k < gathered; ++k) {
-            Color* const row = gathered_.data() + width_ * k;
-            symmetricSums(std::span(places_).subspan(step * k, taps), blur_.gathering(), row, 0, width_);
+            Color* const row = gathered_.data() + stride_ * k;
+            symmetricSums({std::span(places_).subspan(step * k, taps), blur_.gathering(), row}, 0, width_);
             rows.push_back(row);
         }
         places_ = std::move(rows);
@@ -212,13 +252,13 @@ private:
     void sample(int k, int count) {
         for (std::size_t first = 0; first < width_; first += strip)
             for (int i = 0; i < count; ++i)
-                symmetricSums(std::span(places_).subspan(std::size_t(k + i), std::size_t(blur_.taps())),
-                              blur_.weights(), samples_.data() + width_ * std::size_t(i), first,
-                              std::min(first + strip, width_));
+                symmetricSums({std::span(places_).subspan(std::size_t(k + i), std::size_t(blur_.taps())),
+                               blur_.weights(), samples_.data() + stride_ * std::size_t(i)},
+                              first, std::min(first + strip, width_));
     }
 
     const LineBlur& blur_;
-    std::size_t width_;
+    std::size_t width_, stride_;
     Rows places_;
     std::vector<Color> gathered_, samples_, row_;
 };
