@@ -86,7 +86,7 @@ compiler::ViewResult compileSeen(const scene::Scene& scene, const asset::View& v
     compiler::Options options;
     constexpr double finest = 0x1p-26;  // of Options::tolerance
     options.tolerance =
-        std::clamp(asset::finestShare * pixel / std::max(size.x, size.y), finest, options.tolerance);
+        std::clamp(compiler::viewShare * pixel / std::max(size.x, size.y), finest, options.tolerance);
     // The raster is of the view's bounds, which are larger than the view and may be beyond the limits; the
     // tolerance decides.
     constexpr double maxSide = 8192;

@@ -70,7 +70,7 @@ double roundedScale(double pixelsPerUnit) { return std::exp2(std::round(std::log
 
 /// The tolerance for a picture of that size. Finer ones than there are may be asked for.
 double needed(double width, double height, double pixel) {
-    return asset::finestShare * pixel / std::max(width, height);
+    return viewShare * pixel / std::max(width, height);
 }
 
 Options withTolerance(const Options& options, double tolerance) {

@@ -40,7 +40,7 @@ compiler::ViewResult compileInTime(const Source& source, const scene::Frame& fra
     compiler::ViewResult result = compile();
     warn(
         fmt::format("{}: warning: compiling took too long, so it is drawn less exactly: edges may be off by "
-                    "up to 1/16 pixel",
+                    "up to 1/64 pixel",
                     source.name));
     return result;
 }

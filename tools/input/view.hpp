@@ -16,7 +16,7 @@ enum class Preparation {
 };
 
 /// The view of a source that is parsed. An asset of an SVG is compiled so that boundaries are within a
-/// sixteenth of a pixel: the part that is seen if need be, and then the view is one of that part. A tolerance
+/// 64th of a pixel: the part that is seen if need be, and then the view is one of that part. A tolerance
 /// that the user gave is taken as it is. Warns where the asset, from a file or made, is not as fine as that.
 asset::View prepareView(Source& source, const SourceOptions& options, const scene::Framing& framing,
                         Preparation preparation);

@@ -187,7 +187,10 @@ std::string policy() {
 
 std::string page(const Source& source) {
     Chunks chunks;
-    const gl::ShaderData picture = gl::sampledData(source.picture);
+    // A page is downloaded: bytes count for more than time.
+    asset::PrefilterOptions coarse;
+    coarse.squaresPerFootprint = 8;
+    const gl::ShaderData picture = gl::sampledData(source.picture, coarse);
     Json manifest = {{"version", version},
                      {"title", source.title},
                      {"width", source.picture.width},

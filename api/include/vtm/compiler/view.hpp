@@ -32,8 +32,12 @@ struct ViewResult {
     scene::Affine fromScene = scene::identity;
 };
 
+/// Max distance between the boundaries of a compiled view and the scene's, in pixels: along a straight edge a
+/// pixel is off by at most 4/255.
+inline constexpr double viewShare = 1.0 / 64;
+
 /// Compiles the asset for a frame (scene::frame). Options::tolerance is the coarsest tolerance used; it is
-/// reduced to a sixteenth of a pixel's shorter side where it is larger than that. Asset::finestPixel says
+/// reduced to viewShare of a pixel's shorter side where it is larger than that. Asset::finestPixel says
 /// what was reached. result.warnings says if the goal was missed, which happens beyond a magnification of
 /// about 10^11, where the rounding of the scene's own doubles shows. Images with ImageFilter::Nearest and
 /// materials are drawn in single precision and do not become finer. Throws as compile does, std::length_error
