@@ -69,8 +69,8 @@ Pixel pixelOf(const scene::Frame& frame) {
 double roundedScale(double pixelsPerUnit) { return std::exp2(std::round(std::log2(pixelsPerUnit))); }
 
 /// The tolerance for a picture of that size. Finer ones than there are may be asked for.
-double needed(double width, double height, double pixel) {
-    return viewShare * pixel / std::max(width, height);
+double needed(double width, double height, double pixel, double share) {
+    return share * pixel / std::max(width, height);
 }
 
 Options withTolerance(const Options& options, double tolerance) {
@@ -105,8 +105,8 @@ std::optional<std::string> warningOfNothing(const scene::Scene& scene, const sce
     return "nothing is drawn: double precision cannot tell the sides of the view apart";
 }
 
-std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& frame,
-                                 const Options& options) {
+std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& frame, const Options& options,
+                                 double share) {
     check(frame);
     checkOptions(options);
     scene::validate(scene);
@@ -115,7 +115,7 @@ std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& 
     const Pixel pixel = pixelOf(frame);
     const Span x = seen(part.x, part.width, pixel.width, scene.width),
                y = seen(part.y, part.height, pixel.height, scene.height);
-    const double whole = needed(scene.width, scene.height, pixel.shorter());
+    const double whole = needed(scene.width, scene.height, pixel.shorter(), share);
     if (whole >= options.tolerance || (x.size() == scene.width && y.size() == scene.height)) {
         plan.options = withTolerance(options, whole);
         plan.view.toPixels = frame.toPixels({0, 0}, {1, 1});
@@ -132,15 +132,16 @@ std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& 
                     y.size() * scale.y,
                     true};
     plan.pixel = std::min(pixel.width * scale.x, pixel.height * scale.y);
-    plan.options = withTolerance(options, needed(plan.excerpt.width, plan.excerpt.height, plan.pixel));
+    plan.options = withTolerance(options, needed(plan.excerpt.width, plan.excerpt.height, plan.pixel, share));
     plan.view.toPixels = frame.toPixels({x.from, y.from}, scale);
     constexpr double rounding = 0x1p-53;
     plan.off = roundings * rounding * std::max(x.to * scale.x, y.to * scale.y);
     return plan;
 }
 
-ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options) {
-    const std::optional<ViewPlan> plan = planView(scene, frame, options);
+ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options,
+                       double share) {
+    const std::optional<ViewPlan> plan = planView(scene, frame, options, share);
     if (!plan) {
         ViewResult made = nothing(rasterOf(frame), options);
         if (auto warning = warningOfNothing(scene, frame))

@@ -27,8 +27,8 @@ struct ViewPlan {
 };
 
 /// As compileView() compiles it; nothing where nothing of the scene is seen. Throws as that does.
-std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& frame,
-                                 const Options& options);
+std::optional<ViewPlan> planView(const scene::Scene& scene, const scene::Frame& frame, const Options& options,
+                                 double share = viewShare);
 /// Where nothing is seen: a warning, unless the view lies beside the scene.
 std::optional<std::string> warningOfNothing(const scene::Scene& scene, const scene::Frame& frame);
 

@@ -171,8 +171,6 @@ double imagePixels(const AssetView& asset) {
     return finest * std::max(asset.width, asset.height);
 }
 
-}  // namespace
-
 /// What pieces and programs take of a sampler's time, in squares (docs/prefilter.md). A picture of 128 pixels
 /// is drawn from the tree whatever they take: bases beyond 256 texels need as many squares.
 Costs costsFor(std::uint32_t side) {
@@ -188,6 +186,8 @@ bool isDrawnFromTree(const AssetView& asset, std::uint32_t base, const Prefilter
     return squaresPerFootprint(asset, sizeWith(asset, sideAtMost(base / 2.0)), costs) <=
            shareFor(costs) * options.squaresPerFootprint;
 }
+
+}  // namespace
 
 PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& options) {
     if (!(options.squaresPerFootprint >= 1) || options.largestSide < 1 ||

@@ -20,7 +20,8 @@ namespace {
 /// shows.
 compiler::ViewResult compileInTime(const Source& source, const scene::Frame& frame,
                                    compiler::Options options) {
-    const auto compile = [&] { return compiler::compileView(*source.scene, frame, options); };
+    double share = compiler::viewShare;
+    const auto compile = [&] { return compiler::compileView(*source.scene, frame, options, share); };
     const double seconds = secondsForFirstTry();
     if (seconds <= 0)
         return compile();
@@ -37,10 +38,11 @@ compiler::ViewResult compileInTime(const Source& source, const scene::Frame& fra
     }
     constexpr double coarsest = 0x1p-6;  // compiler::Options::tolerance; a raster wants a finer one
     options.tolerance = coarsest;
+    share = asset::finestShare;
     compiler::ViewResult result = compile();
     warn(
         fmt::format("{}: warning: compiling took too long, so it is drawn less exactly: edges may be off by "
-                    "up to 1/64 pixel",
+                    "up to 1/16 pixel",
                     source.name));
     return result;
 }

@@ -32,18 +32,19 @@ struct ViewResult {
     scene::Affine fromScene = scene::identity;
 };
 
-/// Max distance between the boundaries of a compiled view and the scene's, in pixels: along a straight edge a
-/// pixel is off by at most 4/255.
+/// Max distance between the boundaries of a compiled view and the scene's, in pixels, unless a program asks
+/// for another: along a straight edge a pixel is off by at most 4/255.
 inline constexpr double viewShare = 1.0 / 64;
 
 /// Compiles the asset for a frame (scene::frame). Options::tolerance is the coarsest tolerance used; it is
-/// reduced to viewShare of a pixel's shorter side where it is larger than that. Asset::finestPixel says
+/// reduced to `share` of a pixel's shorter side where it is larger than that. Asset::finestPixel says
 /// what was reached. result.warnings says if the goal was missed, which happens beyond a magnification of
 /// about 10^11, where the rounding of the scene's own doubles shows. Images with ImageFilter::Nearest and
 /// materials are drawn in single precision and do not become finer. Throws as compile does, std::length_error
 /// if the raster exceeds asset::maxViewSide or maxViewPixels, and std::invalid_argument if a number of the
 /// frame is not finite or a pixel's size is not above 0.
-ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options = {});
+ViewResult compileView(const scene::Scene& scene, const scene::Frame& frame, const Options& options = {},
+                       double share = viewShare);
 
 /// The same for a raster of `width` by `height` pixels that `part` fills. Also throws std::invalid_argument
 /// if the raster is empty or `part` violates the ranges above.
