@@ -6,6 +6,7 @@
 #include <string>
 
 #include <vtm/compiler/compile.hpp>
+#include <vtm/compiler/view.hpp>
 #include <vtm/raster/view.hpp>
 #include <vtm/scene/affine.hpp>
 #include <vtm/scene/fit.hpp>
