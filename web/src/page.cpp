@@ -187,10 +187,7 @@ std::string policy() {
 
 std::string page(const Source& source) {
     Chunks chunks;
-    // A page is downloaded: bytes count for more than time.
-    asset::PrefilterOptions coarse;
-    coarse.squaresPerFootprint = 8;
-    const gl::ShaderData picture = gl::sampledData(source.picture, coarse);
+    const gl::ShaderData picture = gl::sampledData(source.picture);
     Json manifest = {{"version", version},
                      {"title", source.title},
                      {"width", source.picture.width},
