@@ -34,17 +34,16 @@ public:
           height_(int(size.height) + 1),
           scale_(size.width / asset.width, size.height / asset.height) {}
 
-    /// A square of a layer, as `cost` squares. Layers over layers (compat mode) are no finer than the finest
-    /// of them, so each is counted for itself.
-    void add(std::uint32_t layer, dvec2 corner, dvec2 size, double cost, bool hasPieces) {
+    /// A square of a layer. Layers over layers (compat mode) are no finer than the finest of them, so each
+    /// is counted for itself.
+    void add(std::uint32_t layer, dvec2 corner, dvec2 size, bool hasPieces) {
         const ivec2 from = cellOf(corner), to = cellOf(corner + size);
         for (int y = from.y; y <= to.y; ++y)
             for (int x = from.x; x <= to.x; ++x) {
                 Count& count = counts_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
-                count.ofLayer = count.layer == layer ? count.ofLayer + cost : cost;
+                count.ofLayer = count.layer == layer ? count.ofLayer + 1 : 1;
                 count.layer = layer;
                 count.squares = std::max(count.squares, count.ofLayer);
-                ++count.met;
                 count.hasPieces |= hasPieces;
             }
     }
@@ -53,7 +52,7 @@ public:
     double mean() const {
         double squares = 0, footprints = 0;
         for (const Count& count : counts_)
-            if (count.hasPieces || count.met > 1) {
+            if (count.hasPieces || count.squares > 1) {
                 squares += count.squares;
                 ++footprints;
             }
@@ -62,10 +61,8 @@ public:
 
 private:
     struct Count {
-        double squares = 0;       ///< of the layer that has most
-        std::uint32_t layer = 0;  ///< the layer that is being counted
-        double ofLayer = 0;
-        std::uint32_t met = 0;  ///< squares of all layers, each as one
+        std::uint32_t squares = 0;             ///< of the layer that has most
+        std::uint32_t layer = 0, ofLayer = 0;  ///< the layer that is being counted
         bool hasPieces = false;
     };
 
@@ -84,27 +81,8 @@ bool drawsMap(Command::Kind kind) {
            kind == Command::Kind::ClipMask;
 }
 
-/// What a piece, and colours of paint programs, count beside a square.
-struct Costs {
-    double piece = 0, program = 0;
-};
-
-/// Of a square, in such of one colour.
-double costOf(const AssetView& asset, const PlacedMap& placed, Entry entry, const Costs& costs) {
-    const auto programCost = [&](std::uint32_t number) {
-        return isProgram(asset.paints[placed.paints(number)]) ? costs.program : 0;
-    };
-    if (entry.kind() == Entry::Kind::Solid)
-        return 1 + programCost(entry.payload());
-    const Leaf& leaf = asset.leaves[entry.payload()];
-    double programs = 0;
-    for (const std::uint16_t corner : leaf.corners)
-        programs = std::max(programs, programCost(corner));
-    return 1 + costs.piece * leaf.pieceCount + programs;
-}
-
 /// Boxes around them, where the map is turned.
-void addSquares(const AssetView& asset, const PlacedMap& placed, std::uint32_t layer, const Costs& costs,
+void addSquares(const AssetView& asset, const PlacedMap& placed, std::uint32_t layer,
                 Footprints& footprints) {
     const glm::dmat2& linear = placed.toPicture.linear;
     const dvec2 size = glm::abs(linear[0]) + glm::abs(linear[1]);
@@ -114,18 +92,17 @@ void addSquares(const AssetView& asset, const PlacedMap& placed, std::uint32_t l
             return;
         const double side = std::ldexp(1.0, -2 * int(cell.level));
         const dvec2 centre = placed.toPicture((dvec2(cell.x, cell.y) + 0.5) * side);
-        footprints.add(layer, centre - 0.5 * side * size, side * size, costOf(asset, placed, entry, costs),
-                       !isSolid);
+        footprints.add(layer, centre - 0.5 * side * size, side * size, !isSolid);
     });
 }
 
-double squaresPerFootprint(const AssetView& asset, PyramidSize size, const Costs& costs) {
+double squaresPerFootprint(const AssetView& asset, PyramidSize size) {
     Footprints footprints(asset, size);
     for (std::uint32_t layer = 0; layer < asset.commands.size(); ++layer) {
         if (!drawsMap(asset.commands[layer].kind))
             continue;
         forEachMap(asset, asset.maps[asset.commands[layer].map], [&](const PlacedMap& placed) {
-            addSquares(asset, placed, layer, costs, footprints);
+            addSquares(asset, placed, layer, footprints);
             return true;
         });
     }
@@ -171,22 +148,6 @@ double imagePixels(const AssetView& asset) {
     return finest * std::max(asset.width, asset.height);
 }
 
-/// What pieces and programs take of a sampler's time, in squares (docs/prefilter.md). A picture of 128 pixels
-/// is drawn from the tree whatever they take: bases beyond 256 texels need as many squares.
-Costs costsFor(std::uint32_t side) {
-    constexpr std::uint32_t finest = 256;
-    return side > finest ? Costs{} : Costs{0.4, 1};
-}
-/// Of the limit: for squares alone somewhat fewer than the 2 × 2 leaves that a footprint as large as a leaf
-/// may meet.
-double shareFor(const Costs& costs) { return costs.piece > 0 ? 1 : 0.8; }
-
-bool isDrawnFromTree(const AssetView& asset, std::uint32_t base, const PrefilterOptions& options) {
-    const Costs costs = costsFor(base);
-    return squaresPerFootprint(asset, sizeWith(asset, sideAtMost(base / 2.0)), costs) <=
-           shareFor(costs) * options.squaresPerFootprint;
-}
-
 }  // namespace
 
 PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& options) {
@@ -197,7 +158,8 @@ PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& option
     // Footprints grow until they meet too much; a base texel is half as wide as these.
     const double images = imagePixels(asset);
     std::uint32_t side = sideAtMost(options.largestSide);
-    while (side > 1 && side > images && isDrawnFromTree(asset, side, options))
+    while (side > 1 && side > images &&
+           squaresPerFootprint(asset, sizeWith(asset, sideAtMost(side / 2.0))) <= options.squaresPerFootprint)
         side = sideAtMost(side - 1);
     return sizeWith(asset, side);
 }

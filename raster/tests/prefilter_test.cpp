@@ -263,12 +263,12 @@ TEST(SamplePrefilter, TakesAnyNumbers) {
         }
 }
 
-TEST(PrefilterShare, RisesFromTheTreesFootprintsToTheFilters) {
+TEST(PrefilterShare, FadesOverOneOctave) {
     const Asset asset = withPrefilter(halfPlane(), {64, 64});
     EXPECT_EQ(prefilterShare(asset, mat2(1.0f / 64)), 0);
-    EXPECT_EQ(prefilterShare(asset, mat2(fadeFrom / 64)), 0);
-    EXPECT_NEAR(prefilterShare(asset, mat2(std::sqrt(fadeFrom * fadeTo) / 64)), 0.5, 1e-6);
-    EXPECT_EQ(prefilterShare(asset, mat2(fadeTo / 64)), 1);
+    EXPECT_EQ(prefilterShare(asset, mat2(2.0f / 64)), 0);
+    EXPECT_NEAR(prefilterShare(asset, mat2(std::sqrt(8.0f) / 64)), 0.5, 1e-6);
+    EXPECT_EQ(prefilterShare(asset, mat2(4.0f / 64)), 1);
     EXPECT_EQ(prefilterShare(asset, mat2(100)), 1);
 }
 
