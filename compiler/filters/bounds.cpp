@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/stroke_reach.hpp"
+
 namespace vtm::compiler {
 namespace {
 
@@ -36,19 +38,14 @@ void addControls(const scene::Path& path, Box& box) {
             command);
 }
 
-double strokeReach(const scene::StrokeStyle& stroke) {
-    const bool isMiter = stroke.join == scene::Join::Miter || stroke.join == scene::Join::MiterClip;
-    return stroke.width / 2 * std::max(isMiter ? stroke.miterLimit : 1.0, std::sqrt(2.0));
-}
-
 Box boundsOfItem(const scene::Item& item, const Affine& toPicture) {
     Box box;
     addControls(*item.path, box);
     if (box.empty())
         return box;
     if (const auto* stroke = std::get_if<scene::StrokeStyle>(&item.geometry)) {
-        box.min -= strokeReach(*stroke);
-        box.max += strokeReach(*stroke);
+        box.min -= scene::strokeReach(*stroke);
+        box.max += scene::strokeReach(*stroke);
     }
     return geometry::mapped(box, scene::compose(toPicture, item.transform));
 }

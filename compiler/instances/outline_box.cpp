@@ -1,11 +1,10 @@
 #include "compiler/instances/outline_box.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "geometry/cubic.hpp"
 #include "scene/center_form.hpp"
+#include "scene/stroke_reach.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -36,12 +35,6 @@ Box pathBox(const scene::Path& path, const scene::Affine& transform) {
     return box;
 }
 
-/// How far a stroke reaches from its path at most.
-double reachOf(const scene::StrokeStyle& stroke) {
-    const bool isMiter = stroke.join == scene::Join::Miter || stroke.join == scene::Join::MiterClip;
-    return stroke.width / 2 * std::max(isMiter ? stroke.miterLimit : 1.0, std::numbers::sqrt2);
-}
-
 }  // namespace
 
 Box outlineBox(const LayerOrigin& origin) {
@@ -49,8 +42,8 @@ Box outlineBox(const LayerOrigin& origin) {
     if (origin.stroke && !box.empty()) {
         // What a disc of radius 1 becomes reaches as far along each axis.
         const scene::Affine& m = origin.transform;
-        const Point reach =
-            reachOf(*origin.stroke) * Point(std::hypot(m[0].x, m[1].x), std::hypot(m[0].y, m[1].y));
+        const Point reach = scene::strokeReach(*origin.stroke) *
+                            Point(std::hypot(m[0].x, m[1].x), std::hypot(m[0].y, m[1].y));
         box.min -= reach;
         box.max += reach;
     }

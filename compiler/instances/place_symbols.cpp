@@ -93,7 +93,6 @@ public:
           tolerance_(options.tolerance * std::max(size.x, size.y)),
           palette_(palette),
           painter_(picture),
-          ownClips_(picture),
           inside_(picture.layers.size()),
           isTile_(picture.layers.size()) {
         for (const TileFill& fill : fills)
@@ -399,9 +398,11 @@ private:
         return classOf;
     }
 
-    bool hasClips(std::span<const Candidate> candidates, std::uint32_t count) const {
+    bool hasClips(std::span<const Candidate> candidates, std::uint32_t count) {
+        if (!ownClips_)
+            ownClips_.emplace(picture_);
         return std::ranges::any_of(candidates, [&](const Candidate& candidate) {
-            return ownClips_.areIn({candidate.firstLayer, count});
+            return ownClips_->areIn({candidate.firstLayer, count});
         });
     }
 
@@ -415,7 +416,7 @@ private:
         for (std::size_t set = 0; set < sets.size(); ++set) {
             std::vector<std::vector<std::uint32_t>> visible;
             for (const Candidate& candidate : candidates)
-                visible.push_back(ownClips_.visible({candidate.firstLayer, count}, sets[set]));
+                visible.push_back(ownClips_->visible({candidate.firstLayer, count}, sets[set]));
             classOf.push_back(
                 classes.try_emplace(std::move(visible), std::uint32_t(classes.size())).first->second);
         }
@@ -735,7 +736,7 @@ private:
     limits::Place place_;     ///< of what is being looked at, for messages
     Palette& palette_;
     PicturePainter painter_;
-    const OwnClips ownClips_;
+    std::optional<OwnClips> ownClips_;
     std::vector<std::uint8_t> inside_;  ///< by layer
     std::vector<bool> isTile_;          ///< by layer: of a tile that blocks are made of
     PlacedSymbols placed_;              ///< patterns

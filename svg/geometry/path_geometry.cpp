@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <vtm/limits/limits.hpp>
+#include "scene/stroke_reach.hpp"
 
 namespace vtm::svg {
 
@@ -219,18 +220,12 @@ namespace {
 /// an 8-bit pixel of the largest target shows, above the noise of decimal path data.
 constexpr double tolerance = 1e-6;
 
-/// How far a stroke reaches from its path at most, times half its width.
-double reach(const scene::StrokeStyle& stroke) {
-    const bool miter = stroke.join == scene::Join::Miter || stroke.join == scene::Join::MiterClip;
-    return std::max(miter ? stroke.miterLimit : 1.0, std::numbers::sqrt2);
-}
-
 Box itemBox(const scene::Item& item, const scene::Affine& transform) {
     const scene::Affine map = scene::compose(transform, item.transform);
     Box box = boundingBox(*item.path, map);
     if (const auto* stroke = std::get_if<scene::StrokeStyle>(&item.geometry)) {
         const scene::Point growth =
-            0.5 * stroke->width * reach(*stroke) *
+            scene::strokeReach(*stroke) *
             scene::Point(std::hypot(map[0].x, map[1].x), std::hypot(map[0].y, map[1].y));
         box.min -= growth;
         box.max += growth;
