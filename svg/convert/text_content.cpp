@@ -74,6 +74,7 @@ public:
             if (at(extent.element).element->tag == Tag::FlowPara)
                 paragraphs.push_back({index[extent.first], extent.element});
         }
+        keepMarksWithTheirBases();
         if (!content_.characters.empty())
             makeSmallCaps(content_, converter_.fonts());
         return std::move(content_);
@@ -251,6 +252,23 @@ private:
             character.dy = i < dy.size() ? dy[i] : character.dy;
             if (!rotate.empty())
                 character.rotate = rotate[std::min(i, rotate.size() - 1)];
+        }
+    }
+
+    /// The absolute position of a mark is the next character's, unless that has one. Source: SVG 2 section
+    /// 11.5, "Adjust positions: x, y".
+    void keepMarksWithTheirBases() {
+        std::vector<TextCharacter>& characters = content_.characters;
+        for (std::size_t i = 1; i < characters.size(); ++i) {
+            TextCharacter& mark = characters[i];
+            if (!text::isMark(mark.code))
+                continue;
+            if (i + 1 < characters.size()) {
+                TextCharacter& next = characters[i + 1];
+                next.x = next.x ? next.x : mark.x;
+                next.y = next.y ? next.y : mark.y;
+            }
+            mark.x = mark.y = std::nullopt;
         }
     }
 

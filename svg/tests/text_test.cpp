@@ -52,6 +52,24 @@ TEST_F(Text, IsAnchored) {
     expectNear(starts("<text x='50' text-anchor='middle'>i</text>"), {50 - advanceOfI / 200});
     expectNear(starts("<text direction='rtl' x='50'>i</text>"), {50 - advanceOfI / 100});
 }
+TEST_F(Text, GoesOnWhereTheLastChunkEnded) {
+    const double alef = starts("<text>\u05d0\u05d0</text>")[1], bet = starts("<text>\u05d1\u05d1</text>")[1],
+                 gimel = starts("<text>\u05d2\u05d2</text>")[1];
+    // In a line to the right the second chunk begins with its leftmost letter, which is its last.
+    expectNear(starts("<text x='50' y='5 20'>\u05d0\u05d1\u05d2</text>"), {50, 50 + alef, 50 + alef + gimel});
+    expectNear(starts("<text x='50' y='5 20' dx='0 0 3'>\u05d0\u05d1\u05d2</text>"),
+               {50, 53 + alef, 50 + alef + gimel});
+    // In a line to the left chunks go on to the left.
+    expectNear(starts("<text x='50' y='5 20' direction='rtl'>\u05d0\u05d1\u05d2</text>"),
+               {50 - alef, 50 - alef - bet - gimel, 50 - alef - bet});
+    expectNear(
+        starts("<text x='50' y='5 20' direction='rtl'>HiH</text>"),
+        {50 - advanceOfH / 100, 50 - 2 * advanceOfH / 100 - advanceOfI / 100, 50 - 2 * advanceOfH / 100});
+}
+TEST_F(Text, LeavesMarksWithTheirBases) {
+    expectNear(starts("<text x='5 50'>i\u0301H</text>"), starts("<text x='5 50'>\u00edH</text>"));
+    expectNear(starts("<text x='5 50 70'>i\u0301H</text>"), starts("<text x='5 70'>\u00edH</text>"));
+}
 TEST_F(Text, SharesTheOutlinesOfItsGlyphs) {
     const auto found = items("<text>ii</text><text font-size='40'>i</text>");
     ASSERT_EQ(found.size(), 3u);

@@ -138,7 +138,7 @@ bool startsChunk(const TextContent& content, std::size_t index) {
     const auto path = [&](std::size_t i) {
         return content.elements[static_cast<std::size_t>(content.characters[i].element)].path;
     };
-    return path(index) != path(index - 1) || ((character.x || character.y) && !text::isMark(character.code));
+    return path(index) != path(index - 1) || character.x || character.y;
 }
 
 bool isWordSeparator(char32_t code) { return code == ' ' || code == 0xa0; }

@@ -56,7 +56,7 @@ private:
             shifts.push_back(sum += shiftAt(i));
         double pen = 0;
         for (ShapedCluster& cluster : clusters_) {
-            cluster.at = (vertical_ ? glm::dvec2(0, pen) : glm::dvec2(pen, 0)) + shifts[cluster.first];
+            cluster.at = alongBy(pen) + shifts[cluster.first];
             pen += cluster.advance + cluster.trailing;
         }
     }
@@ -66,10 +66,12 @@ private:
         return vertical_ ? glm::dvec2(0, distance) : glm::dvec2(distance, 0);
     }
 
-    /// x and y: every chunk to where its first character shall stand, and what follows with it; then what
-    /// `text-anchor` says.
+    /// x and y: every chunk to where its first character shall stand, and what follows goes on from its end;
+    /// then what `text-anchor` says.
     void placeChunks() {
+        const bool toLeft = !vertical_ && content_.elements.front().scope.style.rightToLeft;
         glm::dvec2 shift(0), pathEnd(0);
+        double chunkEnd = 0;  // on the line
         int path = -1;
         for (std::size_t first = 0, end = 0; first < clusters_.size(); first = end) {
             while (end < clusters_.size() && clusters_[end].chunk == clusters_[first].chunk)
@@ -77,20 +79,32 @@ private:
             const ShapedCluster& start = firstInText(first, end);
             const TextCharacter& character = content_.characters[start.first];
             const glm::dvec2 moved = shiftAt(start.first);
+            const glm::dvec2 begin = beginOf(first, end, start, toLeft);
+            if (toLeft)
+                shift += alongBy(chunkEnd - along(begin) + along(moved));
             const int before = std::exchange(path, elementOf(start).path);
             if (path != before)
-                shift = (path < 0 ? pathEnd : glm::dvec2(0)) + moved - start.at;
+                shift = (path < 0 ? pathEnd : glm::dvec2(0)) + moved - begin;
             // On a path there is no place across the line.
             if (character.x && !(path >= 0 && vertical_))
-                shift.x = *character.x + moved.x - start.at.x;
+                shift.x = *character.x + moved.x - begin.x;
             if (character.y && !(path >= 0 && !vertical_))
-                shift.y = *character.y + moved.y - start.at.y;
+                shift.y = *character.y + moved.y - begin.y;
+            chunkEnd = along(clusters_[first].at);
             for (std::size_t i = first; i < end; ++i)
                 clusters_[i].at += shift;
-            anchor(first, end);
+            anchor(first, end, elementOf(start).scope.style, along(begin + shift));
             if (path >= 0)
                 pathEnd = endOf(content_.paths[static_cast<std::size_t>(path)]).value_or(pathEnd);
         }
+    }
+
+    /// Where a chunk begins on the line: at its left end whatever its letters' direction, in lines from right
+    /// to left at its right end. Across the line its first character counts.
+    glm::dvec2 beginOf(std::size_t first, std::size_t end, const ShapedCluster& start, bool toLeft) const {
+        const double place =
+            toLeft ? along(clusters_[end - 1].at) + clusters_[end - 1].advance : along(clusters_[first].at);
+        return start.at + alongBy(place - along(start.at));
     }
 
     const ShapedCluster& firstInText(std::size_t first, std::size_t end) const {
@@ -110,20 +124,17 @@ private:
         return (style.anchor == TextAnchor::Start) == style.rightToLeft;
     }
 
-    void anchor(std::size_t first, std::size_t end) {
+    void anchor(std::size_t first, std::size_t end, const Style& style, double begin) {
         double from = std::numeric_limits<double>::infinity(), to = -from;
         for (std::size_t i = first; i < end; ++i) {
             from = std::min(from, along(clusters_[i].at));
             to = std::max(to, along(clusters_[i].at) + clusters_[i].advance);
         }
-        const ShapedCluster& start = firstInText(first, end);
-        const Style& style = elementOf(start).scope.style;
         double place = (from + to) / 2;
         if (style.anchor != TextAnchor::Middle)
             place = startsAtRight(style) ? to : from;
-        const glm::dvec2 shift = alongBy(along(start.at) - place);
         for (std::size_t i = first; i < end; ++i)
-            clusters_[i].at += shift;
+            clusters_[i].at += alongBy(begin - place);
     }
 
     /// The frame of a cluster on the straight line: at its element's baseline, turned by `rotate`.
