@@ -54,8 +54,26 @@ std::optional<ColorValue> parseColorValue(std::string_view text, const Units&) {
 
 std::optional<scene::Color> parsePlainColor(std::string_view text, const Units&) { return parseColor(text); }
 
-std::optional<std::optional<scene::Color>> parseBackground(std::string_view text, const Units&) {
+std::optional<std::optional<scene::Color>> parseBackgroundColor(std::string_view text, const Units&) {
     return valid(parseColor(text));
+}
+
+std::optional<std::optional<scene::Color>> parseBackground(std::string_view text, const Units&) {
+    while (extentOf(text, ",") < text.size())
+        text.remove_prefix(extentOf(text, ",") + 1);
+    std::optional<scene::Color> color;
+    bool known = false;
+    while (!(text = trim(text)).empty()) {
+        const std::string_view part = text.substr(0, extentOf(text, " \t\n\r\f"));
+        text.remove_prefix(part.size());
+        const auto parsed = parseColor(part);
+        color = parsed ? parsed : color;
+        // Of an image only the name of its function is looked at: none is drawn.
+        known = known || parsed || equalsIgnoringCase(part, "none") || part.find('(') != part.npos;
+    }
+    if (!known)
+        return std::nullopt;
+    return std::optional<std::optional<scene::Color>>(std::in_place, color);
 }
 
 std::optional<double> parseOpacity(std::string_view text, const Units&) {

@@ -45,6 +45,9 @@ using Dashes = std::shared_ptr<const std::vector<Length>>;
 std::optional<PaintValue> parsePaint(std::string_view text, const Units&);
 std::optional<ColorValue> parseColorValue(std::string_view text, const Units&);
 std::optional<scene::Color> parsePlainColor(std::string_view text, const Units&);
+std::optional<std::optional<scene::Color>> parseBackgroundColor(std::string_view text, const Units&);
+/// The shorthand `background`: the colour of its last layer, transparent where there is none. Nothing where
+/// the layer holds neither a colour nor an image nor `none`. Source: CSS Backgrounds 3 section 2.10.
 std::optional<std::optional<scene::Color>> parseBackground(std::string_view text, const Units&);
 /// Clamped to [0, 1].
 std::optional<double> parseOpacity(std::string_view text, const Units&);

@@ -59,6 +59,21 @@ TEST(Root, BackgroundCoversTheViewport) {
     ASSERT_EQ(items.size(), 1u);
     expectNear(boxOf(items[0]).max, {10, 10});
 }
+TEST(Root, BackgroundIsAShorthand) {
+    const auto backgrounds = [](const std::string& value) {
+        return itemsOf(loadText(std::string(xmlns) + "viewBox='0 0 9 9' style='background:" + value + "'/>"));
+    };
+    const scene::Color red{1, 0, 0, 1};
+    for (const char* value : {"red", "no-repeat red 0 0 / 5px", "none red", "rgb(255 0 0)", "url(#a), red"}) {
+        const auto items = backgrounds(value);
+        ASSERT_EQ(items.size(), 1u) << value;
+        EXPECT_EQ(std::get<scene::Color>(items[0].paint), red) << value;
+    }
+    for (const char* value : {"none", "red, none", "transparent", "nonsense", "url(#a)"})
+        EXPECT_TRUE(backgrounds(value).empty()) << value;
+    EXPECT_EQ(backgrounds("red; background: nonsense").size(), 1u);
+    EXPECT_TRUE(backgrounds("red; background: none").empty());
+}
 
 TEST(NestedSvg, ClipsWhatStandsOver) {
     EXPECT_TRUE(groupOf("<svg x='5' y='5' width='10' height='10'><rect width='20' height='5'/></svg>").clip);
