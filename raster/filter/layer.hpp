@@ -42,6 +42,15 @@ struct Layer {
 
 /// Interpolated between the centres of four pixels; (x, y) is a point of the raster.
 Float4 bilinear(const Layer& layer, float x, float y);
+/// The same between the centres of its pixels, (x, y) being counted from that of its first one.
+inline Float4 bilinearInside(const Layer& layer, double x, double y) {
+    const int left = int(x), top = int(y);
+    const float u = float(x - left), v = float(y - top);
+    const Float4* const above = layer.pixels.data() + std::ptrdiff_t(top) * layer.width() + left;
+    const Float4* const below = above + layer.width();
+    const Float4 upper = above[0] + u * (above[1] - above[0]), lower = below[0] + u * (below[1] - below[0]);
+    return upper + v * (lower - upper);
+}
 
 /// What a layer has of the columns of a box, transparent beyond it, row by row.
 class LayerRows {

@@ -24,6 +24,30 @@ Layer madeOf(const FilterStep& step, const PixelBox& box, Read read) {
     return result;
 }
 
+/// Each pixel of a box as it is in the input at the place of its centre plus `by`.
+Layer betweenPixels(const Layer& input, glm::dvec2 by, const PixelBox& box, const FilterStep& step) {
+    Layer result = Layer::unwritten(box.intersection(step.box), step.linear);
+    const glm::dvec2 whole = glm::floor(by);
+    const glm::vec2 part(by - whole);
+    PixelBox read = result.box.moved(glm::ivec2(whole));
+    read.max += 1;
+    LayerRows uppers(input, read), lowers(input, read);
+    for (int y = result.box.min.y; y < result.box.max.y && !result.empty(); ++y) {
+        limits::check();
+        const Float4* const upper = uppers(y + int(whole.y));
+        const Float4* const lower = lowers(y + int(whole.y) + 1);
+        const auto between = [&](int i) { return upper[i] + part.y * (lower[i] - upper[i]); };
+        Float4* const row = result.row(y);
+        Float4 left = between(0);
+        for (int i = 0; i < result.width(); ++i) {
+            const Float4 right = between(i + 1);
+            row[i] = left + part.x * (right - left);
+            left = right;
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 Layer offset(const FilterStep& step) {
@@ -41,10 +65,7 @@ Layer offset(const FilterStep& step) {
         result.box = moved;
         return result;
     }
-    const glm::ivec2 around(1);
-    return madeOf(step, input.box.moved(glm::ivec2(whole)).grown(around), [&](int x, int y) {
-        return bilinear(input, float(x + 0.5 - by.x), float(y + 0.5 - by.y));
-    });
+    return betweenPixels(input, -by, input.box.moved(glm::ivec2(whole)).grown(glm::ivec2(1)), step);
 }
 
 Layer displace(const FilterStep& step) {

@@ -177,10 +177,11 @@ private:
     std::vector<Result> results_;
 };
 
-/// Those pixels of `whole` in a row whose places, `start` + x · `step`, are in a box or near it.
-PixelRun runIn(const PixelBox& box, glm::dvec2 start, glm::dvec2 step, PixelRun whole) {
+/// Those pixels of `whole` in a row whose places, `start` + x · `step`, lie between two corners, and up to
+/// one more on each side.
+PixelRun runBetween(glm::dvec2 min, glm::dvec2 max, glm::dvec2 start, glm::dvec2 step, PixelRun whole) {
     for (int axis = 0; axis < 2; ++axis) {
-        const double low = box.min[axis] - 1 - start[axis], high = box.max[axis] + 1 - start[axis];
+        const double low = min[axis] - start[axis], high = max[axis] - start[axis];
         const double a = low / step[axis], b = high / step[axis];
         if (std::isfinite(a) && std::isfinite(b)) {
             const auto pixel = [&](double x) {
@@ -188,11 +189,61 @@ PixelRun runIn(const PixelBox& box, glm::dvec2 start, glm::dvec2 step, PixelRun 
             };
             whole = {pixel(std::floor(std::min(a, b))), pixel(std::ceil(std::max(a, b)))};
         } else if (!(low <= 0 && high >= 0)) {
-            return {};
+            return {whole.first, whole.first};
         }
     }
     return whole;
 }
+
+/// A filter's result, seen by the picture below.
+class ResultRows {
+public:
+    ResultRows(const Layer& result, const FilterPlace& place)
+        : result_(result),
+          isSampled_(place.isSampled),
+          back_(glm::inverse(glm::dmat2(place.toBelow[0], place.toBelow[1]))),
+          origin_(place.toBelow[2]) {}
+
+    /// Those pixels of a row below that may show some of it.
+    PixelRun seen(int y, const PixelRun& row) const {
+        return runBetween(glm::dvec2(result_.box.min) - 1.0, glm::dvec2(result_.box.max) + 1.0, placeOf(0, y),
+                          back_[0], row);
+    }
+    void read(int y, const PixelRun& run, Float4* pixel) const {
+        const PixelRun inside = isSampled_ ? insideOf(y, run) : PixelRun{run.end, run.end};
+        for (int x = run.first; x < inside.first; ++x)
+            *pixel++ = at(x, y);
+        const glm::dvec2 start = placeOf(0, y) - glm::dvec2(result_.box.min) - 0.5;
+        for (int x = inside.first; x < inside.end; ++x) {
+            const glm::dvec2 from = start + double(x) * back_[0];
+            *pixel++ = bilinearInside(result_, from.x, from.y);
+        }
+        for (int x = inside.end; x < run.end; ++x)
+            *pixel++ = at(x, y);
+    }
+
+private:
+    glm::dvec2 placeOf(int x, int y) const { return back_ * (glm::dvec2(x + 0.5, y + 0.5) - origin_); }
+    /// Those that are surely between centres of the result's pixels.
+    PixelRun insideOf(int y, const PixelRun& run) const {
+        constexpr double room =
+            0.5 + 1e-6;  // places have an error of 2^-24 (largestPixel in filter_place.cpp)
+        const PixelRun inside = runBetween(glm::dvec2(result_.box.min) + room,
+                                           glm::dvec2(result_.box.max) - room, placeOf(0, y), back_[0], run);
+        const int first = std::min(inside.first + 1, run.end);
+        return {first, std::max(first, inside.end - 1)};
+    }
+    Float4 at(int x, int y) const {
+        const glm::dvec2 from = placeOf(x, y);
+        return isSampled_ ? bilinear(result_, float(from.x), float(from.y))
+                          : result_.at(int(std::floor(from.x)), int(std::floor(from.y)));
+    }
+
+    const Layer& result_;
+    const bool isSampled_;
+    const glm::dmat2 back_;
+    const glm::dvec2 origin_;
+};
 
 }  // namespace
 
@@ -208,23 +259,13 @@ Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace
         result = cropped(std::move(result), box.moved(-glm::ivec2(place.toBelow[2])));
         return {below, box, std::move(result.pixels)};
     }
-    const glm::dmat2 back = glm::inverse(glm::dmat2(place.toBelow[0], place.toBelow[1]));
-    const auto placeOf = [&](int x, int y) {
-        return back * (glm::dvec2(x + 0.5, y + 0.5) - place.toBelow[2]);
-    };
+    const ResultRows rows(result, place);
     Canvas canvas(below);
     canvas.reserve(box);
     for (int y = box.min.y; y < box.max.y; ++y) {
         limits::check();
-        const PixelRun run = runIn(result.box, placeOf(0, y), back[0], {box.min.x, box.max.x});
-        if (run.empty())
-            continue;
-        Float4* pixel = canvas.extend(y, run);
-        for (int x = run.first; x < run.end; ++x) {
-            const glm::dvec2 at = placeOf(x, y);
-            *pixel++ = place.isSampled ? bilinear(result, float(at.x), float(at.y))
-                                       : result.at(int(std::floor(at.x)), int(std::floor(at.y)));
-        }
+        if (const PixelRun run = rows.seen(y, {box.min.x, box.max.x}); !run.empty())
+            rows.read(y, run, canvas.begin(y, run));
     }
     return canvas;
 }

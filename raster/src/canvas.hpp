@@ -62,6 +62,12 @@ public:
         return at(y, run.first);
     }
 
+    /// Makes `run` that of row y, in what was reserved; its first pixel. None of them has a value yet.
+    Float4* begin(int y, const PixelRun& run) {
+        runs_[std::size_t(y - box_.min.y)] = run;
+        return at(y, run.first);
+    }
+
     /// Of a row of the raster.
     PixelRun run(int y) const {
         return y >= box_.min.y && y < box_.max.y ? runs_[std::size_t(y - box_.min.y)] : PixelRun{};
