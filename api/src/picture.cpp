@@ -68,7 +68,7 @@ Picture::Picture(scene::Scene scene) : state_(std::make_shared<State>()) {
 Picture::Picture(asset::Asset asset) : state_(std::make_shared<State>()) {
     state_->width = asset.width;
     state_->height = asset.height;
-    state_->whole_ = std::make_shared<const Compiled>(std::move(asset));
+    state_->compiled_[0] = std::make_shared<const Compiled>(std::move(asset));
 }
 
 Picture Picture::load(const std::string& path, const LoadOptions& options) {

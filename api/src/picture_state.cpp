@@ -76,6 +76,8 @@ double pixelOf(const scene::Affine& toPixels) {
     return 1 / std::max(glm::length(toPixels[0]), glm::length(toPixels[1]));
 }
 
+double toleranceOf(std::size_t level) { return std::ldexp(compiler::Options().tolerance, -2 * int(level)); }
+
 /// What a matrix shows, as compileView takes it: in pixels that are no coarser than the matrix's.
 compiler::ViewResult compileSeen(const scene::Scene& scene, const asset::View& view) {
     const scene::Affine fromPixels = *scene::inverse(view.toPixels);
@@ -100,29 +102,39 @@ compiler::ViewResult compileSeen(const scene::Scene& scene, const asset::View& v
 
 }  // namespace
 
-std::shared_ptr<const Compiled> Picture::State::whole() {
+std::shared_ptr<const Compiled> Picture::State::atLevel(std::size_t level) {
     const std::lock_guard lock(compiling_);
-    if (!whole_)
-        whole_ = take(compiler::compile(*scene));
-    isCompiled_ = true;
-    return whole_;
+    std::shared_ptr<const Compiled>& made = compiled_[level];
+    if (!made) {
+        compiler::Options options;
+        options.tolerance = toleranceOf(level);
+        made = take(compiler::compile(*scene, options));
+    }
+    isCompiled_[level] = true;
+    return made;
 }
 
-bool Picture::State::isWholeFineFor(const Shot& shot) const {
-    const double needed = asset::finestShare * pixelOf(shot.view.toPixels) / std::max(width, height);
-    return needed >= compiler::Options().tolerance || !scene::inverse(shot.view.toPixels);
+std::size_t Picture::State::levelFor(const Shot& shot) const {
+    if (!scene || !scene::inverse(shot.view.toPixels))
+        return 0;
+    const double needed = compiler::viewShare * pixelOf(shot.view.toPixels) / std::max(width, height);
+    std::size_t level = 0;
+    while (level < levels && needed < toleranceOf(level))
+        ++level;
+    return level;
 }
 
 Drawing Picture::State::drawingFor(const Shot& shot) {
     if (!scene)
         return nullptr;
-    const bool isFine = isWholeFineFor(shot);
-    if (isFine) {
-        const bool isFirst = !isDrawn_.exchange(true);
-        if (isCompiled_ || !(isFirst || isCompiling_))
+    const std::size_t level = levelFor(shot);
+    if (level == finerThanAll) {
+        if (!shot.frame)
             return nullptr;
-    } else if (!shot.frame) {
-        return nullptr;
+    } else {
+        const bool isFirst = !isDrawn_[level].exchange(true);
+        if (isCompiled_[level] || !(isFirst || (level == 0 && isCompiling_)))
+            return nullptr;
     }
     Drawing drawing = shot.frame ? compiler::ViewDrawing::make(*scene, *shot.frame)
                                  : compiler::ViewDrawing::make(*scene, shot.view);
@@ -134,7 +146,7 @@ Drawing Picture::State::drawingFor(const Shot& shot) {
 
 void Picture::State::compileInBackground() {
     const std::lock_guard lock(background_.mutex);
-    if (isCompiled_ || background_.compiling.valid())
+    if (isCompiled_[0] || background_.compiling.valid())
         return;
     isCompiling_ = true;
     background_.compiling = std::async(std::launch::async, [this] {
@@ -147,8 +159,8 @@ void Picture::State::compileInBackground() {
 }
 
 Seen Picture::State::compileFor(const Shot& shot) {
-    if (!scene || isWholeFineFor(shot))
-        return {whole(), shot.view};
+    if (const std::size_t level = levelFor(shot); level != finerThanAll)
+        return {atLevel(level), shot.view};
     compiler::ViewResult made =
         shot.frame ? compiler::compileView(*scene, *shot.frame) : compileSeen(*scene, shot.view);
     return {take(std::move(made.result)), made.view};

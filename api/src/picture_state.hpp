@@ -2,7 +2,9 @@
 /// What a Picture holds, and how it compiles for a view.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -68,9 +70,9 @@ struct Picture::State {
     double width = 0, height = 0;
     std::optional<scene::Scene> scene;  ///< not where the picture was loaded compiled
 
-    std::shared_ptr<const Compiled> whole();
-    /// Of a shot that is drawn without an asset: the first, each while the asset is compiled in the
-    /// background, and each that is finer than the asset. Null: it is drawn from the asset.
+    std::shared_ptr<const Compiled> whole() { return atLevel(0); }
+    /// Of a shot that is drawn without an asset: the first of its level, each while the asset is compiled in
+    /// the background, and each that is finer than all levels. Null: it is drawn from an asset.
     Drawing drawingFor(const Shot& shot);
     void compileInBackground();
     /// Fine enough, if the scene is there.
@@ -81,12 +83,17 @@ struct Picture::State {
 
 private:
     friend class Picture;
-    bool isWholeFineFor(const Shot& shot) const;
+    /// Assets of the whole picture, each four times finer than the one before: up to 1024 pixels along the
+    /// longer side, 4096 and 16 384 all edges are where they are compiled to be for a view of their own.
+    static constexpr std::size_t levels = 3;
+    static constexpr std::size_t finerThanAll = levels;
+    std::size_t levelFor(const Shot& shot) const;
+    std::shared_ptr<const Compiled> atLevel(std::size_t level);
     std::shared_ptr<const Compiled> take(compiler::Result result);
     std::mutex compiling_, warning_;
-    std::shared_ptr<const Compiled> whole_;
-    std::atomic<bool> isCompiled_ = false, isDrawn_ = false;
-    std::atomic<bool> isCompiling_ = false;  ///< in the background
+    std::array<std::shared_ptr<const Compiled>, levels> compiled_;
+    std::array<std::atomic<bool>, levels> isCompiled_{}, isDrawn_{};
+    std::atomic<bool> isCompiling_ = false;  ///< level 0, in the background
     std::vector<std::string> warnings_;
     /// The last member, since it uses the others.
     struct {

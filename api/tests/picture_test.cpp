@@ -1,5 +1,7 @@
 // The facade, through libvtm as users link it.
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -124,6 +126,28 @@ TEST(Picture, DeepZoomsAreSharp) {
     for (const Image& image : {byView, byMatrix}) {
         EXPECT_EQ(row(image, 0), "red red mixed none none");
         EXPECT_NEAR(image.rgba[2 * 4 + 3], 128, 16);
+    }
+}
+
+/// Between the sizes that the usual tolerance suffices for and deep zooms.
+TEST(Picture, LargeViewsAreAsExactWhenTheyAreDrawnAgain) {
+    std::string petals;
+    for (int i = 0; i < 90; ++i)
+        petals += "<ellipse rx='" + std::to_string(49 - 0.5 * i) + "' ry='" +
+                  std::to_string(31.7 - 0.33 * i) + "' transform='translate(50 50) rotate(" +
+                  std::to_string(11 * i) + ")'/>";
+    for (const double scale : {8.0, 38.0, 150.0}) {  // 800, 3800 and 15 000 pixels
+        const Picture picture =
+            svg(R"(width="100" height="100" fill="none" stroke="#000" stroke-width=".1")", petals);
+        const RenderOptions options{.width = 400,
+                                    .height = 400,
+                                    .matrix = {{scale, 0, 0, scale, -40 * scale, -31 * scale}},
+                                    .engine = Engine::Cpu};
+        const Image first = picture.render(options), again = picture.render(options);
+        int largest = 0;
+        for (std::size_t i = 0; i < first.rgba.size(); ++i)
+            largest = std::max(largest, std::abs(first.rgba[i] - again.rgba[i]));
+        EXPECT_LE(largest, 3) << scale;
     }
 }
 

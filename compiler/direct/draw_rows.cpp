@@ -14,7 +14,7 @@ namespace vtm::compiler {
 namespace {
 
 /// Of rows that are drawn at once, by all processors.
-constexpr std::size_t bytesAtOnce = 32u << 20;
+constexpr std::size_t bytesAtOnce = 16u << 20;
 
 }  // namespace
 
