@@ -44,6 +44,12 @@ public:
     /// The same, as Scanner::scan gives it.
     void scan(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
               const std::function<void(int y, const ColorRun& run)>& take);
+    /// The same, as Scanner::add gives it.
+    void add(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+             const PixelsToAddTo& pixels);
+    /// Lays it over the pixels.
+    void layOver(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints, float opacity,
+                 const PixelsToAddTo& pixels);
 
 private:
     struct Impl;

@@ -7,6 +7,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/direct/band_sweep.hpp"
+#include "compiler/direct/view_drawing.hpp"
 #include "raster/chord.hpp"
 #include "raster/scan_rows.hpp"
 
@@ -20,6 +21,13 @@ constexpr std::size_t bytesAtOnce = 16u << 20;
 
 void drawRows(const ViewDrawing& drawing, const image::PixelWriter& writer, const image::RowSink& sink) {
     const std::size_t rowBytes = std::size_t(drawing.width()) * writer.pixelBytes();
+    if (const asset::CommandPicture* drawn = DrawnPixels::of(drawing)) {
+        const auto row = std::make_unique_for_overwrite<std::uint8_t[]>(rowBytes);
+        return drawn->giveRows(0, drawing.height(), [&](std::span<const float> colors) {
+            image::writePixels(writer, colors.data(), colors.size() / 4, row.get());
+            sink({row.get(), rowBytes});
+        });
+    }
     constexpr int stripRows = stripBands * asset::bandRows;
     const auto strips = int(bytesAtOnce / std::max<std::size_t>(rowBytes * stripRows, 1));
     const int rows = std::min(std::max(strips, 1) * stripRows, drawing.height());

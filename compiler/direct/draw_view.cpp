@@ -1,245 +1,27 @@
 #include <vtm/compiler/draw_view.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
-#include <span>
+#include <utility>
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/compile/settings.hpp"
 #include "compiler/compile/view_plan.hpp"
-#include "compiler/direct/band_sweep.hpp"
-#include "compiler/direct/hidden_layers.hpp"
-#include "compiler/direct/region_state.hpp"
-#include "compiler/direct/view_chains.hpp"
+#include "compiler/direct/view_drawing.hpp"
 #include "compiler/filters/compile_filtered.hpp"
-#include "compiler/lower/lower.hpp"
-#include "compiler/patterns/pattern_images.hpp"
-#include "raster/chord_scanner.hpp"
 
 namespace vtm::compiler {
 namespace {
-
-using asset::bandRows;
-using BandChords = std::vector<asset::Chord>;
-
-/// So many chords are made before they are drawn: their paints are told to the scanner once, and they are
-/// still in the cache.
-constexpr std::size_t chordsAtOnce = 1u << 15;
-/// After so many of a strip its paints are forgotten.
-constexpr std::size_t mostStripChords = 1u << 19;
-/// And so many paints are remembered.
-constexpr std::size_t paintsAtOnce = 1u << 18;
-/// Fewer are kept.
-constexpr std::size_t keptPaints = 1u << 12;
-
-/// A picture of more chords than that is drawn with a coarser tolerance: edges that lie so close hide most of
-/// each other, and what chords miss on both sides of curves cancels.
-constexpr std::size_t manyChords = 1u << 24;
-constexpr double coarserChords = 8;
-constexpr double coarsestTolerance = 0x1p-6;  // of Options::tolerance
-
-/// What one thread uses again.
-struct ThreadState {
-    ThreadState(const LoweredScene& picture, const ViewChains& chains, const asset::View& view)
-        : state(picture), sweep(chains, state, picture.layers.size(), view.width), scanner(view) {}
-
-    RegionState state;
-    BandSweep sweep;
-    asset::ChordScanner scanner;
-    std::vector<BandChords> bands;  ///< keep their memory
-    std::size_t swept = 0;          ///< of them: those with chords that are to be drawn
-    bool mustBegin = true;          ///< the sweep, since the paints that it knows are forgotten
-};
-
-/// The images, with what the picture's fills read of them.
-std::shared_ptr<const asset::Images> fillsOf(const LoweredScene& picture,
-                                             std::span<const image::Bitmap> bitmaps) {
-    asset::Asset fills;
-    fills.data = picture.data;
-    for (const Source& source : picture.sources)
-        if (source.op == asset::Op::Image)
-            fills.paints.push_back(
-                encodePaint({{{source.op, asset::Blend::Normal, 1, source.data}, {}}}, fills.data));
-    asset::AssetView view(fills);
-    view.images = bitmaps;
-    return asset::imagesOf(view);
-}
-
-/// Where many chains meet strips and a large part of them is hidden, these are not swept. Strips begin anew.
-void leaveOutHidden(const LoweredScene& picture, ViewChains& chains, const asset::View& view) {
-    constexpr std::size_t many = 1u << 15, share = 4, fewLayers = 64;
-    if (chains.inBands() < many || picture.layers.size() < fewLayers)
-        return;
-    const HiddenLayers hidden(picture, chains, view.width, view.height, stripBands * bandRows);
-    const auto isHidden = [&](const DownChain& chain, int band) {
-        return hidden.isHidden(chain.layer, band / stripBands);
-    };
-    std::size_t count = 0;
-    for (int band = 0; band < chains.bands(); ++band)
-        count += std::size_t(
-            std::ranges::count_if(chains.inBand(band), [&](auto c) { return isHidden(chains[c], band); }));
-    if (count >= chains.inBands() / share)
-        chains.leaveOut(isHidden);
-}
-
-/// A raster shows no finer tolerance than this share of a pixel: single chords are within a quarter of it.
-constexpr double finestShown = 1.0 / 64;
-/// Others misplace this much of a pixel, half a 255th.
-constexpr double misplacedArea = 1.0 / 512;
-
-/// Along the longer side of an excerpt.
-double pixelsAlong(const Excerpt& excerpt, const asset::View& view) {
-    return largestStretch(view.toPixels) * std::max(excerpt.width, excerpt.height);
-}
 
 /// An empty picture.
 scene::Scene emptyScene() {
     scene::Scene scene;
     scene.width = scene.height = 1;
     return scene;
-}
-
-}  // namespace
-
-struct ViewDrawing::Impl {
-    const asset::View view;
-    const LoweredScene picture;
-    const std::vector<image::Bitmap> bitmaps;
-    const std::shared_ptr<const asset::Images> images;
-    const ViewChains chains;
-    std::vector<std::string> warnings;
-
-    /// With coarser chords where there are too many.
-    static std::unique_ptr<Impl> lowered(const scene::Scene& scene, const Excerpt& excerpt,
-                                         const asset::View& view, Options options) {
-        const double pixels = pixelsAlong(excerpt, view) * options.tolerance;
-        const double area = pixels > 0 ? misplacedArea / (pixels * pixels) : 0;
-        if (options.tolerance * coarserChords <= coarsestTolerance) {
-            try {
-                return lowered(scene, excerpt, view, options, area, manyChords);
-            } catch (const LimitError&) {
-                options.tolerance *= coarserChords;
-            }
-        }
-        return lowered(scene, excerpt, view, options, area, maxChords);
-    }
-
-    /// Null if there are patterns of many tiles, or materials. `area`: that of ErrorBudget's chords.
-    static std::unique_ptr<Impl> lowered(const scene::Scene& scene, const Excerpt& excerpt,
-                                         const asset::View& view, const Options& options, double area,
-                                         std::size_t mostChords) {
-        const Lattice lattice(excerpt.width, excerpt.height, latticeBits(options));
-        PatternImages images(options, std::max(excerpt.width, excerpt.height), nullptr);
-        TilePlan tiles;
-        const ErrorBudget budget(options.tolerance, latticeBits(options), mostChords, area);
-        LoweredScene picture = lower(scene, excerpt, lattice, budget, Sharing::OutlinesAndClips, nullptr,
-                                     nullptr, &tiles, &images);
-        if (!tiles.patterns.empty() || !picture.materials.empty())
-            return nullptr;
-        ViewChains chains(picture, lattice, view);
-        leaveOutHidden(picture, chains, view);
-        std::vector<image::Bitmap> bitmaps = bitmapsOf(picture);
-        auto fills = fillsOf(picture, bitmaps);
-        std::vector<std::string> warnings = std::move(picture.warnings);
-        return std::unique_ptr<Impl>(new Impl{view, std::move(picture), std::move(bitmaps), std::move(fills),
-                                              std::move(chains), std::move(warnings)});
-    }
-
-    /// Calls drawBands(scanner, first band, chords of the bands from there on, paints) for bands first to end
-    /// - 1, from several threads.
-    template <class Draw>
-    void draw(int first, int end, const Draw& drawBands) const {
-        const limits::Stage stage("drawing");
-        tbb::enumerable_thread_specific<ThreadState> workers(
-            [&] { return ThreadState(picture, chains, view); });
-        const int threads = tbb::this_task_arena::max_concurrency();
-        const int strips = (end - first + stripBands - 1) / stripBands;
-        const int grain = stripBands * std::max(1, threads == 1 ? strips : strips / (4 * threads));
-        tbb::parallel_for(0, (end - first + grain - 1) / grain, [&, holding = limits::current()](int task) {
-            const limits::Scope scope(holding);
-            const int from = first + task * grain;
-            drawSome(workers.local(), from, std::min(from + grain, end), drawBands);
-        });
-    }
-
-    template <class Draw>
-    void drawSome(ThreadState& worker, int first, int end, const Draw& drawBands) const {
-        // Where a sweep begins anew must not depend on what the thread has drawn before: only on the strip.
-        std::size_t chords = 0, inStrip = 0;
-        worker.swept = 0;
-        for (int band = first; band < end; ++band) {
-            const bool beginsStrip = band % stripBands == 0, endsStrip = (band + 1) % stripBands == 0;
-            if (beginsStrip)
-                inStrip = 0;
-            if (worker.swept == worker.bands.size())
-                worker.bands.emplace_back();
-            BandChords& made = worker.bands[worker.swept++];
-            made.clear();
-            worker.sweep.run(band, beginsStrip || worker.mustBegin, made);
-            worker.mustBegin = false;
-            inStrip += made.size();
-            chords += made.size();
-            const bool isMuch = chords >= chordsAtOnce || worker.state.colors().size() >= paintsAtOnce;
-            const bool forgets = inStrip >= mostStripChords;
-            if (band + 1 < end && !forgets && !(endsStrip && isMuch))
-                continue;
-            drawPainted(worker, first, drawBands);
-            first = band + 1;
-            chords = 0;
-            worker.swept = 0;
-            if (forgets ||
-                (endsStrip && worker.state.colors().size() + worker.state.programs().size() >= keptPaints)) {
-                worker.state.forgetPaints();
-                worker.mustBegin = true;
-                inStrip = 0;
-            }
-        }
-    }
-
-    template <class Draw>
-    void drawPainted(ThreadState& worker, int first, const Draw& drawBands) const {
-        asset::Asset programs;
-        programs.data = picture.data;
-        for (const PaintProgram& program : worker.state.programs())
-            programs.paints.push_back(encodePaint(program, programs.data));
-        asset::AssetView paints(programs);
-        paints.images = bitmaps;
-        const auto programCount = std::uint32_t(programs.paints.size());
-        const auto number = [&](RegionPaint paint) {
-            return (paint & programBit) != 0 ? paint ^ programBit : programCount + paint;
-        };
-        const std::span bands = std::span(worker.bands).first(worker.swept);
-        for (BandChords& chords : bands)
-            for (asset::Chord& chord : chords) {
-                chord.left = number(chord.left);
-                chord.right = number(chord.right);
-            }
-        drawBands(worker.scanner, first, bands, asset::ChordPaints{paints, images, worker.state.colors()});
-    }
-
-    int bands() const { return chains.bands(); }
-};
-
-namespace {
-
-bool canDraw(const scene::Scene& scene, const Options& options) {
-    return options.mode == asset::Mode::Exact && !hasFilters(scene);
-}
-
-Options forPixels(Options options, const Excerpt& excerpt, const asset::View& view) {
-    if (const double pixels = pixelsAlong(excerpt, view); pixels > 0)
-        options.tolerance = std::max(options.tolerance, std::min(coarsestTolerance, finestShown / pixels));
-    return options;
 }
 
 bool isFlat(const asset::View& view) {
@@ -249,6 +31,25 @@ bool isFlat(const asset::View& view) {
 
 }  // namespace
 
+std::unique_ptr<ViewDrawing::Impl> ViewDrawing::Impl::make(const scene::Scene& scene, const Excerpt& excerpt,
+                                                           const asset::View& view, const Options& options) {
+    auto made = std::make_unique<Impl>();
+    made->width = view.width;
+    made->height = view.height;
+    if (hasFilters(scene)) {
+        made->filtered = FilteredDrawing::make(scene, excerpt, view, options);
+        if (!made->filtered)
+            return nullptr;
+        made->warnings = made->filtered->warnings;
+    } else {
+        made->plain = PlainDrawing::make(scene, excerpt, view, options);
+        if (!made->plain)
+            return nullptr;
+        made->warnings = made->plain->warnings();
+    }
+    return made;
+}
+
 ViewDrawing::ViewDrawing(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 ViewDrawing::~ViewDrawing() = default;
 
@@ -256,15 +57,12 @@ std::unique_ptr<const ViewDrawing> ViewDrawing::make(const scene::Scene& scene, 
                                                      const Options& options) {
     const limits::Stage stage("compiling");
     const std::optional<ViewPlan> plan = planView(scene, frame, options);
-    if (!canDraw(scene, options))
+    if (options.mode != asset::Mode::Exact)
         return nullptr;
     const scene::Scene nothing = emptyScene();
-    std::unique_ptr<Impl> impl;
-    if (plan)
-        impl = Impl::lowered(scene, plan->excerpt, plan->view,
-                             forPixels(plan->options, plan->excerpt, plan->view));
-    else
-        impl = Impl::lowered(nothing, wholeOf(nothing), {int(frame.width), int(frame.height)}, options);
+    std::unique_ptr<Impl> impl =
+        plan ? Impl::make(scene, plan->excerpt, plan->view, plan->options)
+             : Impl::make(nothing, wholeOf(nothing), {int(frame.width), int(frame.height)}, options);
     if (!impl)
         return nullptr;
     if (auto warning = plan ? plan->warning() : warningOfNothing(scene, frame))
@@ -278,45 +76,41 @@ std::unique_ptr<const ViewDrawing> ViewDrawing::make(const scene::Scene& scene, 
     checkOptions(options);
     scene::validate(scene);
     asset::validate(view);
-    if (!canDraw(scene, options))
+    if (options.mode != asset::Mode::Exact)
         return nullptr;
     const scene::Scene nothing = emptyScene();
-    const Excerpt whole = wholeOf(scene);
-    auto impl = isFlat(view) ? Impl::lowered(nothing, wholeOf(nothing), {view.width, view.height}, options)
-                             : Impl::lowered(scene, whole, view, forPixels(options, whole, view));
+    auto impl = isFlat(view) ? Impl::make(nothing, wholeOf(nothing), {view.width, view.height}, options)
+                             : Impl::make(scene, wholeOf(scene), view, options);
     return impl ? std::unique_ptr<const ViewDrawing>(new ViewDrawing(std::move(impl))) : nullptr;
 }
 
-int ViewDrawing::width() const { return impl_->view.width; }
-int ViewDrawing::height() const { return impl_->view.height; }
+int ViewDrawing::width() const { return impl_->width; }
+int ViewDrawing::height() const { return impl_->height; }
 const std::vector<std::string>& ViewDrawing::warnings() const { return impl_->warnings; }
 
 void ViewDrawing::draw(const asset::ByteTarget& target) const {
-    impl_->draw(0, impl_->bands(),
-                [&](asset::ChordScanner& scanner, int first, std::span<BandChords> bands,
-                    const asset::ChordPaints& paints) { scanner.draw(first, bands, paints, target); });
+    if (impl_->plain)
+        impl_->plain->draw(target);
+    else
+        impl_->filtered->picture.draw(target);
 }
 
 image::Raster ViewDrawing::draw() const {
-    image::Raster raster(width(), height());
-    scan(0, height(), [&](int y, const asset::ColorRun& run) {
-        for (int x = run.first; x < run.end; ++x)
-            for (int c = 0; c < 4; ++c)
-                raster.pixel(x, y)[c] = run.color[c] > 0 ? std::min(run.color[c], 1.0f) : 0.0f;
-    });
-    return raster;
+    return impl_->plain ? impl_->plain->draw() : impl_->filtered->picture.draw();
 }
 
 void ViewDrawing::scan(int first, int end,
                        const std::function<void(int, const asset::ColorRun&)>& take) const {
-    const auto takeIfWanted = [&](int y, const asset::ColorRun& run) {
-        if (y >= first && y < end)
-            take(y, run);
-    };
-    const int firstBand = first / (bandRows * stripBands) * stripBands;
-    impl_->draw(firstBand, (end + bandRows - 1) / bandRows,
-                [&](asset::ChordScanner& scanner, int at, std::span<BandChords> bands,
-                    const asset::ChordPaints& paints) { scanner.scan(at, bands, paints, takeIfWanted); });
+    if (impl_->plain)
+        return impl_->plain->scan(first, end, take);
+    int y = first;
+    impl_->filtered->picture.giveRows(first, end, [&](std::span<const float> row) {
+        for (int x = 0; x < impl_->width; ++x) {
+            const float* c = &row[4 * std::size_t(x)];
+            take(y, {x, x + 1, {c[0], c[1], c[2], c[3]}});
+        }
+        ++y;
+    });
 }
 
 }  // namespace vtm::compiler

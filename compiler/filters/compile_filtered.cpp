@@ -32,10 +32,12 @@ constexpr double usualBakedPixels = 2048, maxBakedSide = 8192;
 
 class FilteredCompiler {
 public:
-    FilteredCompiler(const Excerpt& excerpt, const Options& options, const CompilePlain& compilePlain)
+    FilteredCompiler(const Excerpt& excerpt, const Options& options, const CompilePlain& compilePlain,
+                     const CompilePlain& makePicture)
         : excerpt_(excerpt),
           options_(options),
           compilePlain_(compilePlain),
+          makePicture_(makePicture),
           frame_{{0, 0}, {excerpt.width, excerpt.height}} {
         asset::Asset& asset = result_.asset;
         asset.width = excerpt.width;
@@ -274,7 +276,7 @@ private:
         options.tolerance =
             std::clamp(options_.tolerance * std::max(excerpt_.width, excerpt_.height) / longer,
                        std::ldexp(1.0, -26), std::ldexp(1.0, -6));
-        Result drawn = compilePlain_(part, excerpt, options);
+        Result drawn = makePicture_(part, excerpt, options);
         take(std::move(drawn), box->min, on);
     }
 
@@ -388,6 +390,7 @@ private:
     const Excerpt& excerpt_;
     const Options& options_;
     const CompilePlain& compilePlain_;
+    const CompilePlain& makePicture_;  ///< of what commands draw
     Result result_;
     FilterFinder finder_;
     const Box frame_;
@@ -400,7 +403,12 @@ bool hasFilters(const scene::Scene& scene) { return FilterFinder().isIn(scene.ro
 
 Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
                        const CompilePlain& compilePlain) {
-    FilteredCompiler compiler(excerpt, options, compilePlain);
+    return compileFiltered(scene, excerpt, options, compilePlain, compilePlain);
+}
+
+Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                       const CompilePlain& compilePlain, const CompilePlain& makePicture) {
+    FilteredCompiler compiler(excerpt, options, compilePlain, makePicture);
     return options.filterPixels > 0 ? compiler.runBaked(scene.root) : compiler.run(scene.root);
 }
 

@@ -23,5 +23,9 @@ using CompilePlain = std::function<Result(const scene::Scene&, const Excerpt&, c
 /// As compile. The scene must be valid. With Options::filterPixels the picture has no filters but images.
 Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
                        const CompilePlain& compilePlain);
+/// The same, with the pictures that commands draw made otherwise: by `makePicture`, whose results have a map
+/// and a command to draw it.
+Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                       const CompilePlain& compilePlain, const CompilePlain& makePicture);
 
 }  // namespace vtm::compiler

@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 
 #include <vtm/compiler/draw_view.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include <vtm/svg/load.hpp>
 #include "conformance/cases/support.hpp"
@@ -255,6 +256,89 @@ TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
                 for (int c = 0; c < 4; ++c)
                     ASSERT_EQ(all.pixel(x, y)[c], std::clamp(run.color[c], 0.0f, 1.0f));
         });
+}
+
+/// Operations that jump where colours nearly vanish are left out: there any two drawings differ.
+constexpr const char* filterOperations[]{
+    "<feGaussianBlur stdDeviation='3 1'/>",
+    "<feDropShadow dx='4.3' dy='2' stdDeviation='2' flood-color='#204080'/>",
+    "<feOffset dx='3.3' dy='-2.7'/><feMerge><feMergeNode/><feMergeNode in='SourceGraphic'/></feMerge>",
+    "<feColorMatrix type='saturate' values='.3'/>",
+    "<feMorphology operator='dilate' radius='2'/>",
+    "<feTurbulence baseFrequency='.05'/><feComposite in2='SourceGraphic' operator='in'/>",
+    "<feFlood flood-color='#fa0' x='20' y='10' width='8' height='6'/><feTile/><feBlend in2='SourceGraphic' "
+    "mode='multiply'/>",
+    "<feImage href='#seen'/><feComposite in2='SourceAlpha' operator='arithmetic' k2='.5' k3='.5'/>",
+};
+
+scene::Scene filteredScene(const std::string& operations) {
+    return sceneOf(fmt::format(
+        "<defs><linearGradient id='g'><stop stop-color='#e33'/><stop offset='1' "
+        "stop-color='#23c'/></linearGradient>"
+        "<circle id='seen' cx='30' cy='25' r='14' fill='url(#g)'/>"
+        "<clipPath id='c'><circle cx='50' cy='50' r='41'/></clipPath>"
+        "<mask id='m'><rect width='100' height='100' fill='url(#g)'/></mask>"
+        "<filter id='f' filterUnits='userSpaceOnUse' x='5' y='5' width='91' height='88'>{}</filter></defs>"
+        "<rect x='8' y='60' width='84' height='30' fill='#f4d58d'/>"
+        "<g filter='url(#f)'><path d='M20,22H50V70H20Z' fill='#2e8b57'/><path d='M50,22H78L70,70H50Z' "
+        "fill='url(#g)'/></g>"
+        "<g clip-path='url(#c)' opacity='.7'><g filter='url(#f)' transform='rotate(20 50 50)'>"
+        "<circle cx='56' cy='52' r='17' fill='#fff' stroke='#30204a' stroke-width='4'/></g><path "
+        "d='M6,94L40,80L94,94Z'/></g>"
+        "<g mask='url(#m)' style='mix-blend-mode:multiply'><g filter='url(#f)'><rect x='60' y='8' width='22' "
+        "height='50' fill='#8a3'/>"
+        "</g></g>",
+        operations));
+}
+
+TEST(DrawnOnce, FilteredScenesLookAsCompiledOnes) {
+    for (const char* operations : filterOperations) {
+        const scene::Scene scene = filteredScene(operations);
+        compiler::Options options;
+        options.tolerance /= 4;
+        const asset::Asset asset = compiler::compile(scene, options).asset;
+        const asset::Evaluator evaluator(asset);
+        for (const Looked& looked : views) {
+            const asset::View view = viewOf(scene, looked);
+            const auto drawing = compiler::ViewDrawing::make(scene, view);
+            ASSERT_TRUE(drawing) << operations;
+            const compare::Difference d = compare::compare(drawing->draw(), evaluator.draw(view));
+            EXPECT_LE(d.max, mostApart)
+                << operations << ", " << looked.name << " at " << d.worstX << ", " << d.worstY;
+            EXPECT_LE(d.rms, rmsApart) << operations << ", " << looked.name;
+        }
+    }
+}
+
+TEST(DrawnOnce, FilteredScenesGiveTheSameRowsEachTime) {
+    const scene::Scene scene = filteredScene(filterOperations[0]);
+    const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 150));
+    ASSERT_TRUE(drawing);
+    const image::Raster all = drawing->draw();
+    int pixels = 0;
+    for (const int first : {0, 70, 30})
+        drawing->scan(first, first + 30, [&](int y, const asset::ColorRun& run) {
+            ASSERT_TRUE(y >= first && y < first + 30);
+            for (int x = run.first; x < run.end; ++x, ++pixels)
+                for (int c = 0; c < 4; ++c)
+                    ASSERT_EQ(all.pixel(x, y)[c], run.color[c]);
+        });
+    EXPECT_EQ(pixels, 3 * 30 * 150);
+}
+
+/// A filter in a pattern is an image; a pattern of many tiles under a filter is compiled.
+TEST(DrawnOnce, FiltersInPatternsAreDrawnAndManyTilesAreNot) {
+    const auto patternOf = [](double side, const char* inside, const char* outside) {
+        return sceneOf(fmt::format(
+            "<filter id='f'><feGaussianBlur stdDeviation='.5'/></filter><pattern id='p' width='{0}' "
+            "height='{0}' patternUnits='userSpaceOnUse'><circle r='{0}' {1}/></pattern>"
+            "<rect width='100' height='100' fill='url(#p)' {2}/>",
+            side, inside, outside));
+    };
+    const scene::Scene inside = patternOf(20, "filter='url(#f)'", ""),
+                       outside = patternOf(0.5, "", "filter='url(#f)'");
+    EXPECT_TRUE(compiler::ViewDrawing::make(inside, wholePicture(inside, 100)));
+    EXPECT_FALSE(compiler::ViewDrawing::make(outside, wholePicture(outside, 100)));
 }
 
 TEST(DrawnOnce, ViewsThatShowNothingAreTransparent) {

@@ -92,9 +92,9 @@ void Canvas::toBytes(const ByteTarget& target) const {
     }
 }
 
-void Canvas::giveRows(const std::function<void(std::span<const float>)>& take) const {
+void Canvas::giveRows(int first, int end, const std::function<void(std::span<const float>)>& take) const {
     std::vector<Float4> pixels(std::size_t(view_.width));
-    for (int y = 0; y < view_.height; ++y) {
+    for (int y = first; y < end; ++y) {
         const PixelRun drawn = run(y);
         std::ranges::fill(pixels, Float4{});
         if (!drawn.empty())

@@ -89,8 +89,8 @@ public:
     image::Raster toRaster() const;
     /// The same, rounded to nearest.
     void toBytes(const ByteTarget& target) const;
-    /// The same row by row, four floats a pixel.
-    void giveRows(const std::function<void(std::span<const float> row)>& take) const;
+    /// Of rows first to end - 1 the same, four floats a pixel.
+    void giveRows(int first, int end, const std::function<void(std::span<const float> row)>& take) const;
 
 private:
     std::size_t offset(int y, int x) const {

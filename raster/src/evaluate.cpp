@@ -139,17 +139,17 @@ void applyMask(const Canvas& mask, Op op, Canvas& top) {
 /// The pictures that commands draw into.
 class PictureStack {
 public:
-    /// `scanner`: of maps; without one their leaves are added up.
+    /// `maps`: draws them; without it their leaves are added up.
     PictureStack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
-                 const MapScanner* scanner)
-        : paints_(paints), materials_(materials), levels_(levels), scanner_(scanner) {
+                 const MapDrawer* maps)
+        : paints_(paints), materials_(materials), levels_(levels), maps_(maps) {
         push(view);
     }
 
     void execute(std::span<const Command> commands) {
         while (!commands.empty()) {
             limits::check();
-            const bool lays = scanner_ && laysMap(commands);
+            const bool lays = maps_ && laysMap(commands);
             if (lays)
                 layMap(commands[1], commands[2].opacity);
             else
@@ -206,8 +206,8 @@ private:
 
     void drawMap(const Command& command) {
         onTop(command, [&](const View& view, const PixelsToAddTo& pixels) {
-            if (scanner_)
-                scanner_->add(command, view, pixels, materials_);
+            if (maps_)
+                maps_->add(command, view, pixels, materials_);
             else
                 sum(command, view, pixels);
         });
@@ -221,7 +221,7 @@ private:
     }
     void layMap(const Command& command, float opacity) {
         onTop(command, [&](const View& view, const PixelsToAddTo& pixels) {
-            scanner_->layOver(command, opacity, view, pixels, materials_);
+            maps_->layOver(command, opacity, view, pixels, materials_);
         });
     }
 
@@ -277,16 +277,16 @@ private:
     const Paints& paints_;
     const MaterialFunction& materials_;
     const int levels_;
-    const MapScanner* const scanner_;
+    const MapDrawer* const maps_;
     std::vector<Picture> pictures_;
 };
 
 /// Rough pixels so many levels finer.
 Canvas drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
-             const MapScanner* scanner = nullptr) {
+             const MapDrawer* maps = nullptr) {
     validate(view);
     const KeptBlocks blocks;
-    PictureStack stack(paints, view, materials, levels, scanner);
+    PictureStack stack(paints, view, materials, levels, maps);
     stack.execute(paints.asset().commands);
     return stack.take();
 }
@@ -331,7 +331,26 @@ void Evaluator::draw(const View& view, const ByteTarget& target, const MaterialF
 
 void Evaluator::scan(const View& view, const std::function<void(std::span<const float>)>& take,
                      const MaterialFunction& materials) const {
-    impl_->draw(view, materials).giveRows(take);
+    impl_->draw(view, materials).giveRows(0, view.height, take);
+}
+
+struct CommandPicture::Impl {
+    const Canvas canvas;
+};
+
+CommandPicture::CommandPicture(const AssetView& asset, const View& view, const MapDrawer& maps)
+    : impl_(new Impl{drawn(Paints(asset), view, {}, finerLevels(asset, view), &maps)}) {}
+CommandPicture::~CommandPicture() = default;
+CommandPicture::CommandPicture(CommandPicture&&) noexcept = default;
+CommandPicture& CommandPicture::operator=(CommandPicture&&) noexcept = default;
+
+void CommandPicture::draw(const ByteTarget& target) const { impl_->canvas.toBytes(target); }
+
+Raster CommandPicture::draw() const { return impl_->canvas.toRaster(); }
+
+void CommandPicture::giveRows(int first, int end,
+                              const std::function<void(std::span<const float>)>& take) const {
+    impl_->canvas.giveRows(first, end, take);
 }
 
 }  // namespace vtm::asset

@@ -5,26 +5,25 @@
 #include <memory>
 
 #include <vtm/raster/scan.hpp>
+#include "raster/command_picture.hpp"
 #include "raster/src/paint.hpp"
 
 namespace vtm::asset {
 
 /// The boundaries of a map are made when it is first drawn, and kept. Safe to use from several threads at
 /// once.
-class MapScanner {
+class MapScanner : public MapDrawer {
 public:
     /// The asset of the paints must outlive it.
     explicit MapScanner(const Paints& paints);
-    ~MapScanner();
+    ~MapScanner() override;
     MapScanner(MapScanner&&) noexcept;
     MapScanner& operator=(MapScanner&&) noexcept;
 
-    /// Adds what a command of the asset draws, one of the kind DrawMap.
     void add(const Command& command, const View& view, const PixelsToAddTo& pixels,
-             const MaterialFunction& materials) const;
-    /// Lays that over the pixels.
+             const MaterialFunction& materials) const override;
     void layOver(const Command& command, float opacity, const View& view, const PixelsToAddTo& pixels,
-                 const MaterialFunction& materials) const;
+                 const MaterialFunction& materials) const override;
 
 private:
     struct Impl;

@@ -307,4 +307,14 @@ void ChordScanner::scan(int first, std::span<std::vector<Chord>> bands, const Ch
                 }));
 }
 
+void ChordScanner::add(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+                       const PixelsToAddTo& pixels) {
+    impl_->draw(first, bands, paints, AddStore(pixels));
+}
+
+void ChordScanner::layOver(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+                           float opacity, const PixelsToAddTo& pixels) {
+    impl_->draw(first, bands, paints, OverStore(pixels, opacity));
+}
+
 }  // namespace vtm::asset

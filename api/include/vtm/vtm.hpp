@@ -93,10 +93,10 @@ public:
 
 /// A picture: an SVG file, a text of VTMs (.vtmtree), a compiled .vtm file or a scene. On the CPU the first
 /// view is drawn from the scene itself; the second one compiles the picture, from which all others are drawn
-/// fast. Views that show the whole picture in more than 1024 pixels have assets of their own, made in the same
-/// way, up to 4096 and 16 384 pixels; views that need finer outlines are drawn from the scene each time. With
-/// shaders it is compiled on first use. Copies share its data. All functions may be called in several threads
-/// at once.
+/// fast. Views that show the whole picture in more than 1024 pixels have assets of their own, made in the
+/// same way, up to 4096 and 16 384 pixels; views that need finer outlines are drawn from the scene each time.
+/// With shaders it is compiled on first use. Copies share its data. All functions may be called in several
+/// threads at once.
 class Picture {
 public:
     /// Loads an SVG file, gzip-compressed or not, a .vtmtree file (vtm/vtmtree.hpp) or a .vtm file; the bytes

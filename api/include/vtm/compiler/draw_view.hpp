@@ -25,10 +25,10 @@ namespace vtm::compiler {
 /// A scene that is ready to be drawn for one view. Safe to use from several threads at once.
 class ViewDrawing {
 public:
-    /// Null where compiling is the way to draw: scenes with filters, with materials, and with patterns of
-    /// many tiles, which assets place. Boundaries are as exact as compileView() makes them; of `options` the
-    /// tolerance counts, and the mode must be Exact. The scene is not needed afterwards. Throws as
-    /// compileView() does.
+    /// Null where compiling is the way to draw: scenes with materials, and with patterns of many tiles, which
+    /// assets place. What has filters in it is drawn at once, and held as pixels. Boundaries are as exact as
+    /// compileView() makes them; of `options` the tolerance counts, and the mode must be Exact. The scene is
+    /// not needed afterwards. Throws as compileView() does.
     static std::unique_ptr<const ViewDrawing> make(const scene::Scene& scene, const scene::Frame& frame,
                                                    const Options& options = {});
     /// The same for any affine view of the whole scene. Throws as compile() does, and std::length_error if
@@ -55,6 +55,7 @@ public:
     void scan(int first, int end, const std::function<void(int y, const asset::ColorRun& run)>& take) const;
 
 private:
+    friend struct DrawnPixels;  // of the library
     struct Impl;
     explicit ViewDrawing(std::unique_ptr<const Impl> impl);
     std::unique_ptr<const Impl> impl_;

@@ -1,0 +1,107 @@
+#include "compiler/direct/filtered_drawing.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "compiler/compile/settings.hpp"
+#include "compiler/direct/plain_drawing.hpp"
+#include "compiler/filters/compile_filtered.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+/// Stands for a map until it is drawn.
+struct Part {
+    scene::Scene scene;
+    Excerpt excerpt;
+    Options options;
+};
+
+/// An asset of one map that holds nothing.
+Result standIn(const Excerpt& excerpt) {
+    Result result;
+    asset::Asset& asset = result.asset;
+    asset.width = excerpt.width;
+    asset.height = excerpt.height;
+    asset.paints.emplace_back();
+    asset.maps.push_back({0, 0, std::max(excerpt.width, excerpt.height), {}});
+    asset.commands.emplace_back().kind = asset::Command::Kind::DrawMap;
+    asset.finestPixel = 0;
+    return result;
+}
+
+/// Draws parts where commands of `asset` draw their maps.
+class PartDrawer : public asset::MapDrawer {
+public:
+    PartDrawer(std::vector<Part> parts, const asset::Asset& asset)
+        : parts_(std::move(parts)), asset_(asset) {}
+
+    void add(const asset::Command& command, const asset::View& view, const asset::PixelsToAddTo& pixels,
+             const asset::MaterialFunction&) const override {
+        if (const auto drawing = drawingOf(command, view))
+            drawing->add(pixels);
+    }
+    void layOver(const asset::Command& command, float opacity, const asset::View& view,
+                 const asset::PixelsToAddTo& pixels, const asset::MaterialFunction&) const override {
+        if (const auto drawing = drawingOf(command, view))
+            drawing->layOver(opacity, pixels);
+    }
+
+    /// Whether all parts could be drawn.
+    bool isComplete() const { return isComplete_; }
+    std::vector<std::string> takeWarnings() { return std::move(warnings_); }
+
+private:
+    std::unique_ptr<const PlainDrawing> drawingOf(const asset::Command& command,
+                                                  const asset::View& view) const {
+        if (!isComplete_)
+            return nullptr;
+        const Part& part = parts_[command.map];
+        const asset::Map& map = asset_.maps[command.map];
+        const asset::View ofPart{view.width, view.height,
+                                 scene::compose(view.toPixels, scene::translation(map.x, map.y))};
+        auto drawing = PlainDrawing::make(part.scene, part.excerpt, ofPart, part.options);
+        isComplete_ = drawing != nullptr;
+        if (drawing)
+            for (const std::string& warning : drawing->warnings())
+                if (std::ranges::find(warnings_, warning) == warnings_.end())
+                    warnings_.push_back(warning);
+        return drawing;
+    }
+
+    const std::vector<Part> parts_;  ///< by map
+    const asset::Asset& asset_;
+    // Commands are drawn one after the other.
+    mutable bool isComplete_ = true;
+    mutable std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::unique_ptr<const FilteredDrawing> FilteredDrawing::make(const scene::Scene& scene,
+                                                             const Excerpt& excerpt, const asset::View& view,
+                                                             Options options) {
+    options.filterPixels = 0;
+    std::vector<Part> parts;
+    const auto compiled = [](const scene::Scene& part, const Excerpt& of, const Options& how) {
+        return compileExcerpt(part, of, how);
+    };
+    const auto kept = [&](const scene::Scene& part, const Excerpt& of, const Options& how) {
+        parts.push_back({part, of, how});
+        return standIn(of);
+    };
+    Result commands = compileFiltered(scene, excerpt, options, compiled, kept);
+    PartDrawer drawer(std::move(parts), commands.asset);
+    asset::CommandPicture picture(commands.asset, view, drawer);
+    if (!drawer.isComplete())
+        return nullptr;
+    std::vector<std::string> warnings = std::move(commands.warnings);
+    for (std::string& warning : drawer.takeWarnings())
+        if (std::ranges::find(warnings, warning) == warnings.end())
+            warnings.push_back(std::move(warning));
+    return std::unique_ptr<const FilteredDrawing>(
+        new FilteredDrawing{std::move(picture), std::move(warnings)});
+}
+
+}  // namespace vtm::compiler
