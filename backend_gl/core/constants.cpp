@@ -8,7 +8,7 @@
 #include <vtm/asset/asset.hpp>
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/tiles/tile.hpp"
-#include "backend_gl/upload/plain_paints.hpp"
+#include "backend_gl/tiles/plain_paints.hpp"
 #include "raster/coverage.hpp"
 #include "raster/filter_tables.hpp"
 
@@ -45,7 +45,6 @@ std::string tiles() {
            constant("crowdedBit", crowdedBit) + constant("lengthShift", lengthShift) +
            constant("lowLengthBits", lowLengthBits) + constant("firstTexelBits", firstTexelBits) +
            constant("gridShift", gridShift) + constant("plainTexelBits", plainTexelBits) +
-           constant("segmentBits", segmentBits) + constant("reflectedBit", reflectedBit) +
            constant("radialBit", radialBit) + constant("plainTag", plainTag) +
            fmt::format("const float tileStep = {:.17g};\nconst float tileSlopeScale = {:.1f};\n",
                        std::ldexp(1.0, -int(tileStepLog2)), tileSlopeScale) +

@@ -1,8 +1,9 @@
-#include "backend_gl/upload/plain_paints.hpp"
+#include "backend_gl/tiles/plain_paints.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -44,23 +45,37 @@ Asset ofGradient(Op op, const Gradient& gradient, const std::vector<GradientStop
     return programAsset({{op, {}, 1, at}}, data);
 }
 
-PaintWords wordsOf(const Asset& asset) { return plainPaints(asset).words.back(); }
-std::uint32_t layersOf(const Asset& asset) { return wordsOf(asset)[0] >> plainTexelBits; }
+/// The map in one tile, with pixels of a 64th.
+TileFrame wholeMap() { return {{0, 0}, mapSide, 1.0 / 64}; }
+/// A square of it.
+TileFrame square(double x, double y, double side) { return {{x, y}, side, 1 / side}; }
 
-TEST(PlainPaints, HardStopsAreNotPlain) {
+std::optional<PlainPaint> lastPaint(const Asset& asset, const TileFrame& frame = wholeMap()) {
+    return plainPaint(asset, std::uint32_t(asset.paints.size() - 1), frame);
+}
+std::uint32_t layersOf(const Asset& asset) { return lastPaint(asset).value().layers; }
+
+TEST(PlainPaints, HardStopsAreNotPlainWhereTheyAre) {
     const auto isPlain = [](Op op, const Gradient& gradient, const std::vector<GradientStop>& stops) {
-        return isPlainProgram(wordsOf(ofGradient(op, gradient, stops)));
+        return lastPaint(ofGradient(op, gradient, stops)).has_value();
     };
     EXPECT_TRUE(isPlain(Op::Linear, across(2), {gray(0, 0), gray(1, 65535)}));
     EXPECT_TRUE(isPlain(Op::Radial, across(3), {gray(0, 0), gray(0.3f, 65535, 100), gray(1, 0)}));
-    EXPECT_FALSE(
-        isPlain(Op::Linear, across(4), {gray(0, 0), gray(0.5f, 0), gray(0.5f, 65535), gray(1, 65535)}));
     EXPECT_FALSE(isPlain(Op::Linear, across(3), {gray(0, 0), gray(0, 65535), gray(1, 0)}));
-    EXPECT_FALSE(isPlain(Op::Linear, across(2, Spread::Repeat), {gray(0, 0), gray(1, 65535)}));
     // Circles that nearly touch.
     Gradient cone = across(2);
     cone.fx = 0.95f;
     EXPECT_FALSE(isPlain(Op::Radial, cone, {gray(0, 0), gray(1, 65535)}));
+
+    const Asset halves =
+        ofGradient(Op::Linear, across(4), {gray(0, 0), gray(0.5f, 0), gray(0.5f, 32768), gray(1, 65535)});
+    EXPECT_FALSE(lastPaint(halves));
+    EXPECT_FALSE(lastPaint(halves, square(mapSide / 2, 3, 8)));  // which is in pixels there
+    EXPECT_EQ(lastPaint(halves, square(mapSide / 2 - 9, 3, 8)).value().layers, 0u);
+    EXPECT_EQ(lastPaint(halves, square(mapSide / 2 + 1, 3, 8)).value().layers, 1u);
+    const Asset repeated = ofGradient(Op::Linear, across(2, Spread::Repeat), {gray(0, 0), gray(1, 65535)});
+    EXPECT_FALSE(lastPaint(repeated, square(mapSide - 4, 3, 8)));
+    EXPECT_EQ(lastPaint(repeated, square(mapSide + 1, 3, 8)).value().layers, 1u);
 }
 
 TEST(PlainPaints, ColoursAreMixedIntoTablesAndWhatIsHiddenLeftOut) {
@@ -68,6 +83,7 @@ TEST(PlainPaints, ColoursAreMixedIntoTablesAndWhatIsHiddenLeftOut) {
     const std::uint32_t opaque = addGradient(data, across(2), {gray(0, 0), gray(1, 65535)});
     const std::uint32_t glass = addGradient(data, across(2), {gray(0, 0, 30000), gray(1, 65535, 40000)});
     const std::uint32_t haze = addColor(data, {0.1f, 0.1f, 0.2f, 0.5f});
+    const std::uint32_t wall = addColor(data, {0.1f, 0.1f, 0.2f, 1});
     const auto layer = [](Op op, std::uint32_t at) { return Instruction{op, {}, 1, at}; };
     const Instruction solid = layer(Op::Solid, haze);
     EXPECT_EQ(layersOf(programAsset({solid, layer(Op::Linear, glass), solid, solid}, data)), 1u);
@@ -76,62 +92,79 @@ TEST(PlainPaints, ColoursAreMixedIntoTablesAndWhatIsHiddenLeftOut) {
     EXPECT_EQ(layersOf(programAsset(
                   {layer(Op::Radial, glass), layer(Op::Linear, opaque), layer(Op::Radial, glass)}, data)),
               2u);
-    // Groups are not plain.
-    const Asset group =
-        programAsset({layer(Op::Push, 0), layer(Op::Linear, glass), {Op::Pop, {}, 0.5f, 0}}, data);
-    EXPECT_FALSE(isPlainProgram(wordsOf(group)));
+    EXPECT_EQ(layersOf(programAsset({layer(Op::Radial, glass), layer(Op::Solid, wall), solid}, data)), 0u);
+}
+
+TEST(PlainPaints, GroupsAreMixedIntoTablesWhereOneSideHasOneColour) {
+    std::vector<Texel> data;
+    const std::uint32_t ramp = addGradient(data, across(2), {gray(0, 0), gray(1, 65535, 40000)});
+    const std::uint32_t haze = addColor(data, {0.1f, 0.1f, 0.2f, 0.5f});
+    const Instruction linear{Op::Linear, {}, 1, ramp}, radial{Op::Radial, {}, 1, ramp},
+        solid{Op::Solid, {}, 1, haze}, push{Op::Push, {}, 1, 0}, pop{Op::Pop, {}, 1, 0},
+        half{Op::Pop, {}, 0.5f, 0}, screen{Op::Pop, asset::Blend::Screen, 1, 0},
+        mask{Op::PopMaskLuminance, {}, 1, 0};
+    const auto layers = [&](const std::vector<Instruction>& program) {
+        const std::optional<PlainPaint> paint = lastPaint(programAsset(program, data));
+        return paint ? int(paint->layers) : -1;
+    };
+    EXPECT_EQ(layers({linear, push, solid, half, push, solid, screen}), 1);
+    EXPECT_EQ(layers({solid, push, linear, screen, push, radial, half}), 2);
+    EXPECT_EQ(layers({push, linear, radial, pop}), 2);
+    EXPECT_EQ(layers({push, linear, radial, half}), -1);
+    EXPECT_EQ(layers({linear, push, radial, screen}), -1);
+    EXPECT_EQ(layers({solid, push, solid, half, push, solid, screen, push, solid, mask}), 0);
+    EXPECT_EQ(layers({linear, push, solid, push, radial, mask, pop}), 2);
+    EXPECT_EQ(layers({linear, push, solid, mask}), 1);
+    EXPECT_EQ(layers({linear, push, radial, mask}), -1);
+    EXPECT_EQ(layers({linear, push, mask}), 0);
 }
 
 TEST(PlainPaints, RampsBendAtTheirStops) {
     const Asset asset = ofGradient(Op::Linear, across(3), {gray(0, 0), gray(0.5f, 65535), gray(1, 65535)});
-    const PlainPaints plain = plainPaints(asset);
-    const auto bendAt = [&](double x) { return bendNear(plain.texels, plain.words.back(), {{x, 7}, 2, 1}); };
-    const double slope = 2 / mapSide;
+    const auto bendAt = [&](double x) { return lastPaint(asset, square(x - 2, 7, 4)).value().bend; };
+    const double slope = 2 / mapSide;  // by pixels of a unit
     EXPECT_NEAR(bendAt(16), 0, 1e-6);
     EXPECT_NEAR(bendAt(32), slope, 1e-6);
-    EXPECT_NEAR(bendAt(34.4), slope, 1e-6);
+    EXPECT_NEAR(bendAt(34.4), slope, 0.25 * slope);  // a segment has its stop within
     EXPECT_NEAR(bendAt(48), 0, 1e-6);
     EXPECT_NEAR(bendAt(1), slope, 1e-6);
     EXPECT_NEAR(bendAt(70), 0, 1e-6);
+    EXPECT_NEAR(lastPaint(asset, square(10, 7, 4)).value().change, slope, 1e-6);
     // Folds, and the tip of a cone that is not round.
     const Asset folded = ofGradient(Op::Linear, across(2, Spread::Reflect), {gray(0, 0), gray(1, 65535)});
-    const PlainPaints folds = plainPaints(folded);
-    EXPECT_NEAR(bendNear(folds.texels, folds.words.back(), {{mapSide, 7}, 2, 1}), slope, 1e-6);
-    EXPECT_NEAR(bendNear(folds.texels, folds.words.back(), {{1.5 * mapSide, 7}, 2, 1}), 0, 1e-6);
+    EXPECT_NEAR(lastPaint(folded, square(mapSide - 2, 7, 4)).value().bend, slope, 1e-6);
+    EXPECT_NEAR(lastPaint(folded, square(1.5 * mapSide, 7, 4)).value().bend, 0, 1e-6);
     Gradient oval = across(2);
     oval.matrix[3] *= 2;
     const Asset ovals = ofGradient(Op::Radial, oval, {gray(0, 0), gray(1, 65535)});
-    const PlainPaints tip = plainPaints(ovals);
-    EXPECT_NEAR(bendNear(tip.texels, tip.words.back(), {{0, 0}, 2, 1}), 2 * slope, 1e-6);
+    EXPECT_NEAR(lastPaint(ovals, square(-2, -2, 4)).value().bend, 2 * slope, 1e-6);
 }
 
-TEST(PlainPaints, ProgramsAreTheSameWhereverTheyStand) {
-    const auto radial = [](float middle) {
-        return ofGradient(Op::Radial, across(3), {gray(0, 0), gray(middle, 65535, 40000), gray(1, 0)});
-    };
-    Asset twice = radial(0.5f);
-    twice.paints[1] = twice.paints.back();  // whose layers come first
-    const PlainPaints one = plainPaints(radial(0.5f)), moved = plainPaints(twice),
-                      other = plainPaints(radial(0.51f));
-    const std::size_t paint = one.words.size() - 1;
-    EXPECT_NE(one.words[paint], moved.words[paint]);
-    EXPECT_TRUE(isSame(one, moved, paint));
-    EXPECT_FALSE(isSame(one, moved, 1));
-    EXPECT_FALSE(isSame(one, other, paint));
-    EXPECT_TRUE(isSame(one, other, 1));
+/// A paint is put behind what a tile has.
+TEST(PlainPaints, LayersFindTheirTablesWhereverTheyStand) {
+    const Asset asset = ofGradient(Op::Radial, across(3), {gray(0, 0), gray(0.3f, 65535, 100), gray(1, 0)});
+    const PlainPaint paint = lastPaint(asset).value();
+    std::vector<Texel> alone, behind(7);
+    const PaintWords first = append(paint, alone), second = append(paint, behind);
+    EXPECT_EQ(second[0] - first[0], 7u);
+    EXPECT_EQ(behind[7][3] - alone[0][3], 7u);
+    EXPECT_TRUE(std::equal(alone.begin() + 1, alone.end(), behind.begin() + 8));
 }
 
 /// Some layers that lie anywhere on the map, in a leaf's two regions.
 class RandomPrograms {
 public:
-    explicit RandomPrograms(unsigned seed) : random_(seed) {}
+    RandomPrograms(unsigned seed, bool groups) : random_(seed), groups_(groups) {}
 
     Asset halves() {
         Asset asset = oneLeaf({5, 6, 6, 5}, {line({20000, 0}, {50000, 65535}, 5, 6)});
         for (int side = 0; side < 2; ++side) {
             std::vector<Instruction> program;
-            for (int i = 0; i < 1 + int(random_() % 3); ++i)
+            for (int i = 0; i < 1 + int(random_() % 3); ++i) {
                 program.push_back(layer(asset.data));
+                if (groups_ && random_() % 2 == 0)
+                    addGroup(program, asset.data);
+            }
             const auto first = std::uint32_t(asset.data.size());
             for (const Instruction& in : program)
                 asset.data.push_back(std::bit_cast<Texel>(in));
@@ -166,30 +199,61 @@ private:
                 addGradient(data, g, stops)};
     }
 
+    /// Blended or masking what is below.
+    void addGroup(std::vector<Instruction>& program, std::vector<Texel>& data) {
+        program.push_back({Op::Push, {}, 1, 0});
+        for (int i = 0; i < 1 + int(random_() % 2); ++i)
+            program.push_back(layer(data));
+        if (const unsigned kind = unsigned(random_() % 6); kind < 3)
+            program.push_back({Op(unsigned(Op::PopMaskLuminance) + kind), {}, 1, 0});
+        else
+            program.push_back({Op::Pop, asset::Blend(random_() % (unsigned(asset::Blend::Luminosity) + 1)),
+                               random_() % 2 == 0 ? 1 : share(), 0});
+    }
+
     std::mt19937 random_;
+    const bool groups_;
 };
 
 /// Whether tables serve or not, as close to the evaluator as all other paints (renderer_test.cpp).
-TEST_F(Gl, PlainPaintsAreThoseOfTheEvaluator) {
-    int plain = 0;
-    for (unsigned seed = 0; seed < 120; ++seed) {
-        SCOPED_TRACE(seed);
-        const Asset drawing = RandomPrograms(seed).halves();
-        ASSERT_NO_THROW(asset::validate(drawing));
-        plain += isPlainProgram(wordsOf(drawing)) ? 1 : 0;
+class PlainPictures : public Gl {
+protected:
+    /// Returns the largest difference.
+    double worstOf(const Asset& drawing, unsigned seed) {
+        EXPECT_NO_THROW(asset::validate(drawing));
         const Texture texture = renderer->upload(drawing);
         std::mt19937 random(seed);
+        double worst = 0;
         for (int i = 0; i < 4; ++i) {
             const asset::View view = randomView(random);
             const image::Raster drawn = renderer->render(texture, view),
                                 exact = asset::evaluateAsShaders(drawing, view);
             const image::Raster scanned = asset::Scanner(drawing).draw(view);  // cells that are handed over
-            double worst = 0;
             for (std::size_t k = 0; k < drawn.rgba.size(); ++k)
                 worst = std::max(worst, std::min(std::abs(double(drawn.rgba[k]) - double(exact.rgba[k])),
                                                  std::abs(double(drawn.rgba[k]) - double(scanned.rgba[k]))));
-            EXPECT_LE(worst, 0.4 / 255) << "view " << i;
         }
+        return worst;
+    }
+};
+
+TEST_F(PlainPictures, AreThoseOfTheEvaluator) {
+    int plain = 0;
+    for (unsigned seed = 0; seed < 120; ++seed) {
+        const Asset drawing = RandomPrograms(seed, false).halves();
+        plain += lastPaint(drawing, square(0, 0, mapSide / 16)) ? 1 : 0;
+        EXPECT_LE(worstOf(drawing, seed), 0.4 / 255) << seed;
+    }
+    EXPECT_GT(plain, 80);
+}
+
+/// A table holds blended colours and so their means, the evaluator blends means of ramps.
+TEST_F(PlainPictures, OfGroupsAreThoseOfTheEvaluator) {
+    int plain = 0;
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        const Asset drawing = RandomPrograms(seed, true).halves();
+        plain += lastPaint(drawing, square(0, 0, mapSide / 16)) ? 1 : 0;
+        EXPECT_LE(worstOf(drawing, seed), 1.0 / 255) << seed;
     }
     EXPECT_GT(plain, 80);
 }

@@ -15,6 +15,7 @@
 #include <glm/matrix.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include "asset/records.hpp"
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/turns.hpp"
 #include "backend_gl/debug.hpp"
@@ -48,20 +49,56 @@ void copyTrees(const asset::AssetView& from, asset::Asset& to) {
     copy(from.pieces, to.pieces);
 }
 
-void copyPaints(const asset::AssetView& from, PlainPaints plain, KeptAsset& to) {
-    to.plain = std::move(plain);
+void copyPaints(const asset::AssetView& from, KeptAsset& to) {
     copy(from.paints, to.asset.paints);
     copy(from.data, to.asset.data);
     to.programTurns = programTurns(from);
     to.changes = asset::changesOf(from);
 }
 
+bool hasSameTexels(const asset::AssetView& a, std::size_t i, const asset::AssetView& b, std::size_t j,
+                   std::size_t count) {
+    return std::ranges::equal(a.data.subspan(i, count), b.data.subspan(j, count));
+}
+
+/// Whether both do the same; of images and materials that is not asked.
+bool isSame(const asset::AssetView& a, const asset::Instruction& one, const asset::AssetView& b,
+            const asset::Instruction& other) {
+    using asset::Op;
+    if (one.op != other.op || one.blend != other.blend || one.opacity != other.opacity)
+        return false;
+    constexpr std::size_t head = asset::GradientView::headTexels;
+    switch (one.op) {
+        case Op::Solid:
+            return hasSameTexels(a, one.argument, b, other.argument, 1);
+        case Op::Linear:
+        case Op::Radial:
+            return hasSameTexels(a, one.argument, b, other.argument, head) &&
+                   hasSameTexels(a, one.argument + head, b, other.argument + head,
+                                 asset::recordAt<asset::Gradient>(a.data, one.argument).stopCount);
+        default:
+            return one.op != Op::Image && one.op != Op::Material;
+    }
+}
+
+/// Whether two paints are the same program, wherever it stands, or both are none.
+bool isSameProgram(const asset::AssetView& a, const asset::Paint& one, const asset::AssetView& b,
+                   const asset::Paint& other) {
+    if (!asset::isProgram(one) || !asset::isProgram(other))
+        return asset::isProgram(one) == asset::isProgram(other);
+    bool same = one[1] == other[1];
+    for (std::uint32_t i = 0; same && i < one[1]; ++i)
+        same = isSame(a, asset::recordAt<asset::Instruction>(a.data, one[0] + i), b,
+                      asset::recordAt<asset::Instruction>(b.data, other[0] + i));
+    return same;
+}
+
 }  // namespace
 
-KeptAsset keptOf(const asset::AssetView& asset, PlainPaints plain) {
+KeptAsset keptOf(const asset::AssetView& asset) {
     KeptAsset kept;
     copyTrees(asset, kept.asset);
-    copyPaints(asset, std::move(plain), kept);
+    copyPaints(asset, kept);
     copy(asset.images, kept.asset.images);
     copy(asset.materials, kept.asset.materials);
     copy(asset.instanceTrees, kept.asset.instanceTrees);
@@ -71,24 +108,22 @@ KeptAsset keptOf(const asset::AssetView& asset, PlainPaints plain) {
     return kept;
 }
 
-PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, PlainPaints plain,
-                   const asset::Difference& difference) {
+PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::Difference& difference) {
     if (!difference.squares.empty())
         copyTrees(asset, kept.asset);
     if (!difference.paints)
         return {};
-    const std::vector<asset::Paint> before = kept.asset.paints;
-    const std::vector<std::uint32_t> turns = kept.programTurns;
-    const std::vector<asset::PaintChange> changes = kept.changes;
-    const PlainPaints plainBefore = kept.plain;
-    copyPaints(asset, std::move(plain), kept);
+    asset::Asset before;
+    before.paints = std::move(kept.asset.paints);
+    before.data = std::move(kept.asset.data);
+    copyPaints(asset, kept);
     PaintUpdate update;
     update.isChanged.resize(asset.paints.size(), 1);
-    for (std::size_t i = 0; i < std::min(before.size(), asset.paints.size()); ++i) {
-        update.isChanged[i] = before[i] != asset.paints[i] || plainBefore.words[i] != kept.plain.words[i];
-        update.kinds |= asset::isProgram(before[i]) != asset::isProgram(asset.paints[i]);
-        update.programs |= turns[i] != kept.programTurns[i] || changes[i] != kept.changes[i] ||
-                           !isSame(plainBefore, kept.plain, i);
+    for (std::size_t i = 0; i < std::min(before.paints.size(), asset.paints.size()); ++i) {
+        const asset::Paint &one = before.paints[i], &other = asset.paints[i];
+        update.isChanged[i] = one != other;
+        update.kinds |= asset::isProgram(one) != asset::isProgram(other);
+        update.programs |= !isSameProgram(before, one, asset, other);
     }
     return update;
 }
@@ -227,15 +262,14 @@ bool isCrowdedAllOver(const Tile& tile) {
 }  // namespace
 
 Atlas::Placed Atlas::place(Tile tile) {
-    if (tile.texels.empty())
-        return {.flat = true,
-                .paints = tile.paints,
-                .paint = tile.paint,
-                .grid = {},
-                .crowded = {},
-                .used = picture_};
-    Placed placed{.paints = tile.paints,
+    Placed placed{.flat = tile.isFlat,
+                  .paints = tile.paints,
+                  .programs = tile.programs,
+                  .steepness = tile.steepness,
+                  .paint = tile.paint,
+                  .words = tile.words,
                   .firstTexel = std::uint32_t(texels_.size()),
+                  .firstPair = tile.firstPair,
                   .pairs = tile.pairs,
                   .firstCell = tile.firstCell,
                   .texelCount = std::uint32_t(tile.texels.size()),
@@ -257,7 +291,7 @@ std::size_t Atlas::update(const asset::Difference& difference, const PaintUpdate
     if (paints.kinds)
         placed_.clear();
     else if (paints.programs)
-        std::erase_if(placed_, [](const auto& tile) { return tile.second.paints != TilePaints::Solid; });
+        std::erase_if(placed_, [](const auto& tile) { return tile.second.programs; });
     return paints.isChanged.empty() ? 0 : recolorAll(paints);
 }
 
@@ -282,10 +316,11 @@ std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
     const std::span isChanged = std::span(changed.isChanged).subspan(firstPaint_);
     std::size_t sent = 0;
     for (const auto& [at, tile] : placed_) {
-        if (tile.texelCount == 0)
+        if (tile.flat)
             continue;
         const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
-        if (!recolor(texels, tile.pairs, tile.firstCell, words(), isChanged) || tile.firstTexel >= uploaded_)
+        if (!recolor(texels, tile.firstPair, tile.pairs, tile.firstCell, paints(), isChanged) ||
+            tile.firstTexel >= uploaded_)
             continue;
         updateTexels(texture_.get(), tile.firstTexel, texels);
         sent += texels.size_bytes();
@@ -325,7 +360,7 @@ void Atlas::makeRoom() {
 const Atlas::Placed& Atlas::prepareCrowded() {
     makeRoom();
     if (!crowded_)
-        crowded_ = place(crowdedTile(words()));
+        crowded_ = place(crowdedTile(paints()));
     upload();
     return *crowded_;
 }
@@ -433,8 +468,6 @@ Atlas::Made Atlas::makeTiles(const Work& work) {
                                 *work.pieces,
                                 std::span(asset.programTurns).subspan(work.firstPaint),
                                 std::span(asset.changes).subspan(work.firstPaint),
-                                std::span(asset.plain.words).subspan(work.firstPaint),
-                                asset.plain.texels,
                                 work.maxTurns};
         return buildTile(source, at, tileMargin(), nearIt);
     };
@@ -457,7 +490,7 @@ void Atlas::add(int level, Made made) {
         if (placed_.contains(at))
             continue;
         const bool fits = texels_.size() + tile.texels.size() <= maxOfPicture;
-        placed_.emplace(at, place(fits ? std::move(tile) : crowdedTile(words())));
+        placed_.emplace(at, place(fits ? std::move(tile) : crowdedTile(paints())));
     }
 }
 

@@ -26,20 +26,17 @@ struct KeptAsset {
     asset::Asset asset;                       ///< without commands, filters and prefilter
     std::vector<std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::vector<asset::PaintChange> changes;  ///< by paint
-    PlainPaints plain;
 };
-KeptAsset keptOf(const asset::AssetView& asset, PlainPaints plain);
+KeptAsset keptOf(const asset::AssetView& asset);
 
 /// What an update changed of paints that were there before.
 struct PaintUpdate {
     std::vector<std::uint8_t> isChanged;  ///< by paint; none where nothing is
-    bool programs = false;                ///< what programs cost, or how their colours change
+    bool programs = false;                ///< programs are other ones
     bool kinds = false;                   ///< solid ones became programs, or programs solid ones
 };
 /// Brings it to the next asset, that differs from the one before by squares and paints alone.
-/// `plain`: where paints changed.
-PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, PlainPaints plain,
-                   const asset::Difference& difference);
+PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::Difference& difference);
 
 /// Of one map and those in it, for one view after the other.
 class ScannedPixels {
@@ -92,10 +89,13 @@ public:
 
     /// What is kept of a Tile.
     struct Placed {
-        bool flat = false;  ///< one paint, no texels
+        bool flat = false;  ///< one paint, no cells
         TilePaints paints = TilePaints::Solid;
-        std::uint32_t paint = 0;  ///< of the map
-        std::uint32_t firstTexel = 0, pairs = 0, firstCell = 0, texelCount = 0;
+        bool programs = false;  ///< those of programs among them
+        float steepness = 0;
+        std::uint32_t paint = 0;  ///< of a flat one, of the map
+        PaintWords words{};       ///< of that paint
+        std::uint32_t firstTexel = 0, firstPair = 0, pairs = 0, firstCell = 0, texelCount = 0;
         CellGrid grid;
         std::vector<std::uint16_t> crowded;  ///< cells whose pixels are scanned
         std::uint64_t used = 0;              ///< by which picture, the last time
@@ -156,7 +156,9 @@ private:
     /// Some of what was made ahead, so that no picture takes long; all of it if that is for this level.
     void addAhead(int level);
     Placed place(Tile tile);
-    std::span<const PaintWords> words() const { return std::span(asset_->plain.words).subspan(firstPaint_); }
+    std::span<const asset::Paint> paints() const {
+        return std::span(asset_->asset.paints).subspan(firstPaint_);
+    }
     void forget(std::span<const asset::Cell> squares);
     std::size_t recolorAll(const PaintUpdate& changed);
     void makeRoom();

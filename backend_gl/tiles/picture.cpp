@@ -47,6 +47,7 @@ public:
     Squares(const asset::Map& map, const asset::View& view, const PixelBox& box, int level)
         : side_(std::ldexp(map.side, -level)), corner_(map.x, map.y), view_(view), box_(box) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+        minSteepness_ = asset::minSteepness(inverse);
         dvec2 minimum(HUGE_VAL), maximum(-HUGE_VAL);
         for (const dvec2 pixel :
              {dvec2(box.min), dvec2(box.max.x, box.min.y), dvec2(box.min.x, box.max.y), dvec2(box.max)}) {
@@ -65,6 +66,7 @@ public:
         return view_.toPixels * glm::dvec3(picture(x, y), 1);
     }
     double side() const { return side_; }
+    float minSteepness() const { return minSteepness_; }
 
     /// Whether a square can show.
     bool visible(i64vec2 at) const {
@@ -106,6 +108,7 @@ private:
     dvec2 corner_;
     const asset::View& view_;
     PixelBox box_;
+    float minSteepness_;
 };
 
 /// Two triangles; where(corner) is a pixel.
@@ -134,30 +137,31 @@ struct Geometry {
     std::array<Plain, rampPoints.size()> plain;  ///< beside rampPoints
     PixelBox crowded;                            ///< holds the pixels of crowded cells
 
-    std::vector<TileVertex>& of(const Placed& tile) {
-        if (tile.paints == TilePaints::Solid || tile.paints == TilePaints::Any)
-            return tile.paints == TilePaints::Any ? programs : solid;
+    /// `minSteepness`: from which on paints are steep.
+    std::vector<TileVertex>& of(const Placed& tile, float minSteepness) {
+        if (tile.paints == TilePaints::Solid)
+            return solid;
+        if (tile.paints == TilePaints::Any || (!tile.flat && tile.steepness > minSteepness))
+            return programs;
         Plain& tiles = plain[std::size_t(tile.paints) - std::size_t(TilePaints::Plain)];
         return tile.flat ? tiles.flat : tiles.others;
     }
 };
 
-FlatVertex flatVertex(const asset::Paint& paint) {
+FlatVertex flatVertex(const asset::Paint& paint, const PaintWords& words) {
     FlatVertex vertex{};
     for (unsigned c = 0; c < 4; ++c)
-        vertex.color[c] = std::bit_cast<float>(paint[c]);
+        vertex.color[c] = asset::isProgram(paint) ? float(words[c / 2] >> c % 2 * 16 & 0xFFFF) / 65535
+                                                  : std::bit_cast<float>(paint[c]);
     return vertex;
 }
 
-/// `words`: of a flat tile's paint.
-TileVertex tileVertex(const Squares& squares, const Placed& tile, const PaintWords& words, std::int64_t x,
-                      std::int64_t y) {
+TileVertex tileVertex(const Squares& squares, const Placed& tile, std::int64_t x, std::int64_t y) {
     const dvec2 origin = squares.pixel(x, y), picture = squares.picture(x, y);
     const std::uint32_t cells = tile.firstCell | tile.grid.log2 << gridShift;
     return {{0, 0},
             {float(origin.x), float(origin.y)},
-            {tile.flat ? words[0] : tile.firstTexel, tile.flat ? words[1] : cells,
-             tile.flat ? 1 + tile.paint : 0},
+            {tile.firstTexel, tile.flat ? tile.words[0] : cells, tile.flat ? 1 + tile.paint : 0},
             {float(picture.x), float(picture.y), float(squares.side()), float(tile.grid.cellSize())}};
 }
 
@@ -175,10 +179,11 @@ Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const 
             for (const std::uint16_t cell : tile.crowded)
                 geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, tile.grid, cell));
             if (!tile.flat || tile.paints != TilePaints::Solid)
-                addSquare(geometry.of(tile), squares, {x, y},
-                          tileVertex(squares, tile, asset.kept.plain.words[firstPaint + tile.paint], x, y));
+                addSquare(geometry.of(tile, squares.minSteepness()), squares, {x, y},
+                          tileVertex(squares, tile, x, y));
             else if (tile.paint != 0)
-                addSquare(geometry.flat, squares, {x, y}, flatVertex(asset.paints[firstPaint + tile.paint]));
+                addSquare(geometry.flat, squares, {x, y},
+                          flatVertex(asset.paints[firstPaint + tile.paint], tile.words));
         }
     return geometry;
 }
@@ -190,7 +195,7 @@ Geometry scannedGeometry(Atlas& atlas, const Squares& map) {
     if (geometry.crowded.empty())
         return geometry;
     const Placed& tile = atlas.prepareCrowded();
-    const TileVertex vertex = tileVertex(map, tile, {}, 0, 0);
+    const TileVertex vertex = tileVertex(map, tile, 0, 0);
     addTriangles(geometry.solid, vertex, [&](i64vec2 c) {
         const PixelBox& box = geometry.crowded;
         return dvec2(box.min) + dvec2(c) * dvec2(box.size());
@@ -235,14 +240,12 @@ void use(const Program& program, const Sections& s, std::uint32_t firstPaint, co
     program.use();
     glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
     glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints + firstPaint, s.data);
-    glUniform1ui(program.uniform("plainTexels"), s.plainTexels);
     glUniform1ui(program.uniform("imageSection"), s.images);
     glUniform1ui(program.uniform("rampSums"), s.rampSums);
     const bool mirrored = glm::determinant(toPixels) < 0;
     setMatrix(program.uniform("tileToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
     setMatrix(program.uniform("pixelToTile"), glm::inverse(toPixels));
     const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    setMatrix(program.uniform("pixelSides"), pixel);
     glUniform1f(program.uniform("minSteepness"), asset::minSteepness(pixel));
 }
 

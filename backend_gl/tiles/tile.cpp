@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -194,10 +195,7 @@ public:
     /// Corners of a pixel are no further from its centre than the margin, so it stretches what it maps by no
     /// more than twice that.
     double stretch() const { return 2 * margin_; }
-    /// All pixels of the tile.
-    asset::PixelsNear pixels() const {
-        return {corner_ + 0.5 * side_ * dvec2(1), std::sqrt(0.5) * side_, stretch()};
-    }
+    TileFrame frame() const { return {corner_, side_, stretch() / side_}; }
     /// The pixels with centres in a cell.
     asset::PixelsNear pixels(const CellGrid& grid, int column, int row) const {
         const double cell = grid.cellSize() * side_;
@@ -210,43 +208,84 @@ private:
     double margin_;
 };
 
-TilePaints tilePaints(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
-    if (!asset::isProgram(source.asset.paints[paint]))
+/// Paints near a tile.
+struct PaintsNear {
+    TilePaints kind = TilePaints::Solid;
+    std::vector<std::pair<std::uint32_t, PlainPaint>> programs;  ///< all, unless some are not plain
+    double change = 0;                                           ///< the largest of those
+
+    /// Whether programs may be run.
+    bool mayRun() const { return kind == TilePaints::Any || change > asset::minSteepChange; }
+    bool arePlain() const { return kind != TilePaints::Any; }
+};
+
+/// Texels of all layers and tables of a tile. With more, programs are run.
+constexpr std::size_t maxPlainTexels = 1u << 14;
+
+TilePaints kindOf(const PlainPaint& paint) {
+    if (paint.layers == 0)
         return TilePaints::Solid;
-    if (!isPlainProgram(source.words[paint]))
+    if (paint.change > maxPlainChange)
         return TilePaints::Any;
-    const asset::PixelsNear pixels = places.pixels();
-    if (double(source.changes[paint].steepness) * pixels.pixel > maxPlainChange &&
-        double(asset::changeNear(source.asset, paint, pixels).sum) > maxPlainChange)
-        return TilePaints::Any;
-    const double bend = bendNear(source.plainTexels, source.words[paint], pixels) * pixels.pixel;
     for (std::size_t i = 0; i < rampPoints.size(); ++i)
-        if (rampPoints[i].error * bend <= maxPlainError)
+        if (rampPoints[i].error * paint.bend <= maxPlainError)
             return TilePaints(std::size_t(TilePaints::Plain) + i);
     return TilePaints::Any;
 }
 
-TilePaints tilePaints(const TileSource& source, const CellPlaces& places,
-                      std::span<const PlanarPiece* const> near) {
-    std::vector<std::uint32_t> beside;
-    for (const PlanarPiece* piece : near)
-        beside.insert(beside.end(), {piece->left, piece->right});
-    std::ranges::sort(beside);
-    const auto [end, last] = std::ranges::unique(beside);
-    TilePaints paints = TilePaints::Solid;
-    for (auto paint = beside.begin(); paint != end && paints != TilePaints::Any; ++paint)
-        paints = std::max(paints, tilePaints(source, places, *paint));
+/// `paints`: ascending.
+PaintsNear paintsNear(const TileSource& source, const CellPlaces& places,
+                      std::span<const std::uint32_t> paints) {
+    PaintsNear near;
+    std::size_t texels = 0;
+    for (const std::uint32_t paint : paints) {
+        if (!asset::isProgram(source.asset.paints[paint]))
+            continue;
+        std::optional<PlainPaint> plain;
+        if (near.arePlain())
+            plain = plainPaint(source.asset, paint, places.frame());
+        near.kind = plain ? std::max(near.kind, kindOf(*plain)) : TilePaints::Any;
+        near.programs.emplace_back(paint, plain.value_or(PlainPaint()));
+        near.change = std::max(near.change, near.programs.back().second.change);
+        texels += near.programs.back().second.texels.size();
+        if (texels > maxPlainTexels)
+            near.kind = TilePaints::Any;
+    }
+    return near;
+}
+
+std::vector<std::uint32_t> paintsBeside(std::span<const PlanarPiece* const> pieces) {
+    std::vector<std::uint32_t> paints;
+    for (const PlanarPiece* piece : pieces)
+        paints.insert(paints.end(), {piece->left, piece->right});
+    std::ranges::sort(paints);
+    const auto [end, last] = std::ranges::unique(paints);
+    paints.erase(end, last);
     return paints;
+}
+
+/// Their layers and tables are the tile's first texels.
+TileWords putPaints(const TileSource& source, const CellPlaces& places, const PaintsNear& paints,
+                    Tile& tile) {
+    tile.paints = paints.kind;
+    tile.steepness = float(paints.change / places.stretch());
+    tile.programs = !paints.programs.empty();
+    TileWords words(source.asset.paints);
+    if (paints.arePlain())
+        for (const auto& [paint, plain] : paints.programs)
+            words.put(paint, append(plain, tile.texels));
+    tile.firstPair = std::uint32_t(tile.texels.size());
+    return words;
 }
 
 /// Which cells shaders do not draw: they would take too many turns, or not be exact.
 class HandedOver {
 public:
-    HandedOver(const TileSource& source, const CellPlaces& places, TilePaints paints)
+    HandedOver(const TileSource& source, const CellPlaces& places, const PaintsNear& paints)
         : maxTurns_(source.asset.materials.empty() ? source.maxTurns : source.maxTurns * materialFactor),
-          programs_(paints != TilePaints::Solid),
+          programs_(paints.kind != TilePaints::Solid),
           costs_{source.programTurns, source.changes, asset::minSteepness(glm::dmat2(places.stretch()))} {
-        if (paints == TilePaints::Any && source.asset.materials.empty())
+        if (paints.mayRun() && source.asset.materials.empty())
             rough_ = RoughCells(source.asset, source.changes);
     }
 
@@ -268,16 +307,19 @@ private:
     RoughCells rough_;
 };
 
-/// Of one paint: nothing but that, unless there are cells that shaders do not draw.
+/// Of one paint, without cells, unless there are some that shaders do not draw.
 Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
     Tile tile;
     tile.paint = paint;
-    tile.paints = tilePaints(source, places, paint);
+    const PaintsNear paints = paintsNear(source, places, {&paint, 1});
+    const TileWords words = putPaints(source, places, paints, tile);
+    tile.words = words.of(paint);
+    tile.isFlat = true;
     if (tile.paints != TilePaints::Any)
         return tile;
     const std::vector<PlanarPiece> none;
-    const HandedOver isHandedOver(source, places, tile.paints);
-    CellWriter writer(source.words, none, tile.texels);
+    const HandedOver isHandedOver(source, places, paints);
+    CellWriter writer(words, none, tile.texels);
     std::vector<Texel> cells;
     const int side = tile.grid.cellsPerSide();
     for (int cell = 0; cell < side * side; ++cell) {
@@ -288,7 +330,8 @@ Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t 
         if (crowded)
             tile.crowded.push_back(std::uint16_t(cell));
     }
-    if (!tile.crowded.empty())
+    tile.isFlat = tile.crowded.empty();
+    if (!tile.isFlat)
         tile.texels = std::move(cells);
     return tile;
 }
@@ -309,27 +352,30 @@ std::optional<Reference> startOf(const TileSource& source, const LocalPieces& lo
 
 }  // namespace
 
-bool recolor(std::span<Texel> texels, std::uint32_t pairs, std::uint32_t firstCell,
-             std::span<const PaintWords> words, std::span<const std::uint8_t> isChanged) {
+bool recolor(std::span<Texel> texels, std::uint32_t firstPair, std::uint32_t pairs, std::uint32_t firstCell,
+             std::span<const asset::Paint> paints, std::span<const std::uint8_t> isChanged) {
     bool changed = false;
+    const auto put = [&](std::uint32_t paint, std::uint32_t& first, std::uint32_t& second) {
+        if (isChanged[paint] == 0 || asset::isProgram(paints[paint]))
+            return;
+        const PaintWords words = solidWords(paints[paint]);
+        first = words[0];
+        second = words[1];
+        changed = true;
+    };
     for (std::uint32_t i = 0; i < pairs; ++i) {
-        const std::uint32_t pair = texels[2 * i + 1][0], left = pair & 0xFFFF, right = pair >> 16;
-        if ((isChanged[left] | isChanged[right]) == 0)
-            continue;
-        texels[2 * i] = colorTexel(words[left], words[right]);
-        changed = true;
+        Texel& colors = texels[firstPair + 2 * i];
+        const std::uint32_t pair = texels[firstPair + 2 * i + 1][0];
+        put(pair & 0xFFFF, colors[0], colors[1]);
+        put(pair >> 16, colors[2], colors[3]);
     }
-    for (Texel& cell : texels.subspan(firstCell)) {
-        const std::uint32_t paint = cell[0] & 0xFFFF;
-        if (isChanged[paint] == 0)
-            continue;
-        cell = withColor(cell, words[paint]);
-        changed = true;
-    }
+    for (Texel& cell : texels.subspan(firstCell))
+        put(cell[0] & 0xFFFF, cell[1], cell[2]);
     return changed;
 }
 
-Tile crowdedTile(std::span<const PaintWords> words) {
+Tile crowdedTile(std::span<const asset::Paint> paints) {
+    const TileWords words(paints);
     Tile tile;
     const std::vector<PlanarPiece> none;
     const CellWriter writer(words, none, tile.texels);
@@ -343,17 +389,17 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                std::span<const PlanarPiece* const> near) {
     const LocalPieces local(source.pieces.map().extent, place, margin, near);
     const CellPlaces places(source, place, margin);
-    const TilePaints paints = tilePaints(source, places, near);
-    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), paints);
+    const PaintsNear paints = paintsNear(source, places, paintsBeside(near));
+    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), paints.kind);
     const Lists coarse = listsOf(CellGrid(), pieces, margin);
     const std::optional<Reference> start = startOf(source, local, coarse.numbers.empty(), near);
     if (!start)
-        return crowdedTile(source.words);
+        return crowdedTile(source.asset.paints);
     if (coarse.numbers.empty())
         return flatTile(source, places, start->paint);
     const HandedOver isHandedOver(source, places, paints);
     Tile tile;
-    tile.paints = paints;
+    const TileWords words = putPaints(source, places, paints, tile);
     tile.grid = gridFor(coarse);
     std::optional<Lists> fine;
     if (tile.grid.log2 != CellGrid().log2)
@@ -361,7 +407,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     const Lists& lists = fine ? *fine : coarse;
     const int cellCount = tile.grid.cellsPerSide();
     std::vector<Texel> cells;
-    CellWriter writer(source.words, pieces, tile.texels);
+    CellWriter writer(words, pieces, tile.texels);
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)

@@ -16,7 +16,7 @@
 
 #include <vtm/asset/asset.hpp>
 #include "backend_gl/core/turns.hpp"
-#include "backend_gl/upload/plain_paints.hpp"
+#include "backend_gl/tiles/plain_paints.hpp"
 #include "raster/planar_map.hpp"
 #include "raster/steepness.hpp"
 
@@ -65,8 +65,9 @@ inline constexpr std::uint32_t crowdedBit = 1u << 31;
 /// list's first texel and, above, the rest of the length.
 inline constexpr unsigned lengthShift = 20, lowLengthBits = 11, firstTexelBits = 23;
 
-/// Those near a tile: nothing but colours; plain ones (backend_gl/upload/plain_paints.hpp) that change little
-/// over a pixel, whose means over it are those of one, two or four points; or others among them.
+/// Those near a tile, as they are there (backend_gl/tiles/plain_paints.hpp): nothing but colours; plain ones
+/// that change little over a pixel, whose means over it are those of one, two or four points; or others among
+/// them.
 enum class TilePaints : std::uint8_t { Solid, Plain, PlainOfTwo, PlainOfFour, Any };
 /// By TilePaints, from Plain on: points, and how far their mean may be off, by the difference between slopes
 /// times the diagonal of a pixel. That is where a ramp is bent in a pixel's middle or between two points,
@@ -77,16 +78,16 @@ struct RampPoints {
 };
 inline constexpr std::array<RampPoints, 3> rampPoints{{{1, 0.125}, {2, 0.022}, {4, 0.009}}};
 
-/// What plain paints change by at most over a pixel as wide as the diagonal of the tile's largest: no view of
-/// the tile has pixels in which they are steep.
-inline constexpr double maxPlainChange = 16.0 / 255;
+/// What plain paints change by at most over a pixel as wide as the diagonal of the tile's largest. Sides of
+/// pixels are a √2th to a √8th of that: with more, such paints are steep in all views of the tile.
+inline constexpr double maxPlainChange = asset::minSteepChange * 2.83;
 /// What the mean of points may be off by.
 inline constexpr double maxPlainError = 0.25 / 255;
 
-/// `texels` holds the pairs of paints beside pieces, the lists of pieces and, from `firstCell`, the cells row
-/// by row; nothing if the tile has one paint. A piece stands in the list of every cell that it matters to, so
-/// that a pixel reads its pieces one after the other. Fields are packed from the lowest bit of the first word
-/// on.
+/// `texels` holds the layers and tables of plain paints, from `firstPair` the pairs of paints beside pieces,
+/// the lists of pieces and, from `firstCell`, the cells row by row; the first alone if the tile has one
+/// paint. A piece stands in the list of every cell that it matters to, so that a pixel reads its pieces one
+/// after the other. Fields are packed from the lowest bit of the first word on.
 ///
 /// - Pair, two texels. First: the paints on the left and on the right as PaintWords. Second: left | right <<
 ///   16.
@@ -97,11 +98,17 @@ inline constexpr double maxPlainError = 0.25 / 255;
 ///   lowLengthBits << firstTexelBits. With crowdedBit the list is empty: it would take more turns of loops
 ///   than a pixel may, or more texels than a tile.
 struct Tile {
-    std::uint32_t paint = 0;  ///< of a tile without texels
+    bool isFlat = false;      ///< one paint, no cells
+    std::uint32_t paint = 0;  ///< of a flat tile
+    PaintWords words{};       ///< of that paint
     std::vector<asset::Texel> texels;
-    std::uint32_t pairs = 0, firstCell = 0;
+    std::uint32_t firstPair = 0, pairs = 0, firstCell = 0;
     CellGrid grid;
     TilePaints paints = TilePaints::Solid;
+    bool programs = false;  ///< whether paints are programs, whatever they are there
+    /// Of plain paints: what a picture unit changes a channel by, at most. In views in which that is steep
+    /// programs are run.
+    float steepness = 0;
     std::vector<std::uint16_t> crowded;  ///< numbers of such cells, ascending
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
@@ -115,20 +122,19 @@ struct TileSource {
     const asset::PlanarIndex& exact;              ///< the same without less detail
     std::span<const std::uint32_t> programTurns;  ///< by paint (turns.hpp)
     std::span<const asset::PaintChange> changes;  ///< by paint
-    std::span<const PaintWords> words;            ///< by paint
-    std::span<const asset::Texel> plainTexels;    ///< of PlainPaints
     std::uint32_t maxTurns = turnsPerPixel;
 
     bool hasLessDetail() const { return &pieces != &exact; }
 };
 
-/// Writes the colours of paints that changed into a tile's texels, of which the first are so many pairs.
-/// `isChanged`: by paint. Returns whether there are some.
-bool recolor(std::span<asset::Texel> texels, std::uint32_t pairs, std::uint32_t firstCell,
-             std::span<const PaintWords> words, std::span<const std::uint8_t> isChanged);
+/// Writes the colours of solid paints that changed into a tile's texels. `isChanged`: by paint. Returns
+/// whether there are some.
+bool recolor(std::span<asset::Texel> texels, std::uint32_t firstPair, std::uint32_t pairs,
+             std::uint32_t firstCell, std::span<const asset::Paint> paints,
+             std::span<const std::uint8_t> isChanged);
 
 /// All cells of which are crowded.
-Tile crowdedTile(std::span<const PaintWords> words);
+Tile crowdedTile(std::span<const asset::Paint> paints);
 
 /// `margin`: the largest distance from a pixel's centre to its corners, in tile sides, at most 1/4. `near`:
 /// at least all pieces that come nearer than that to the tile.

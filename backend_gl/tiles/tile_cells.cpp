@@ -64,7 +64,7 @@ std::uint32_t sidesOf(const PlanarPiece& piece, glm::dvec2 point) {
 
 }  // namespace
 
-CellWriter::CellWriter(std::span<const PaintWords> words, const std::vector<PlanarPiece>& pieces,
+CellWriter::CellWriter(const TileWords& words, const std::vector<PlanarPiece>& pieces,
                        std::vector<Texel>& texels)
     : words_(words), pieces_(pieces), texels_(texels) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;  // texels
@@ -72,7 +72,7 @@ CellWriter::CellWriter(std::span<const PaintWords> words, const std::vector<Plan
         limits::check();
         const auto [found, isNew] = pairs.try_emplace({piece.left, piece.right}, texels.size());
         if (isNew) {
-            texels.push_back(colorTexel(words[piece.left], words[piece.right]));
+            texels.push_back(colorTexel(words.of(piece.left), words.of(piece.right)));
             texels.push_back({piece.left | piece.right << 16, 0, 0, 0});
         }
         geometry_.push_back(geometryTexel(piece, found->second));
@@ -100,7 +100,7 @@ Texel CellWriter::writeCrowded(const Reference& reference) const {
 }
 
 Texel CellWriter::withoutList(const Reference& reference) const {
-    return withColor({reference.paint | reference.place << 16, 0, 0, 0}, words_[reference.paint]);
+    return withColor({reference.paint | reference.place << 16, 0, 0, 0}, words_.of(reference.paint));
 }
 
 namespace {

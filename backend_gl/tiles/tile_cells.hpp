@@ -34,9 +34,9 @@ struct Reference {
 /// Writes cells, and before them the pairs of paints and the lists.
 class CellWriter {
 public:
-    /// `pieces`, whose numbers are rounded already, and `texels`, which are empty, must outlive it.
-    CellWriter(std::span<const PaintWords> words, const std::vector<PlanarPiece>& pieces,
-               std::vector<Texel>& texels);
+    /// `pieces`, whose numbers are rounded already, `words` and `texels`, which hold what stands before the
+    /// pairs, must outlive it.
+    CellWriter(const TileWords& words, const std::vector<PlanarPiece>& pieces, std::vector<Texel>& texels);
 
     std::uint32_t pairs() const { return pairs_; }
     bool hasRoomFor(std::span<const std::uint32_t> list) const {
@@ -48,7 +48,7 @@ public:
 private:
     Texel withoutList(const Reference& reference) const;
 
-    std::span<const PaintWords> words_;
+    const TileWords& words_;
     const std::vector<PlanarPiece>& pieces_;
     std::vector<Texel> geometry_;  ///< by piece: its texel, with the pair, but not how a point lies
     std::uint32_t pairs_ = 0;

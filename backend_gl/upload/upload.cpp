@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "backend_gl/core/constants.hpp"
-#include "backend_gl/upload/plain_paints.hpp"
 #include "raster/steepness.hpp"
 
 namespace vtm::gl {
@@ -36,8 +35,7 @@ std::vector<asset::Paint> paintTexels(const AssetView& asset, std::span<const fl
 
 /// The trees themselves stay behind: instances stand for them, and tiles for the leaves of sums of maps.
 std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> steepness,
-                                const PlainPaints& plain, std::span<const Texel> imageList,
-                                Sections& sections) {
+                                std::span<const Texel> imageList, Sections& sections) {
     std::vector<Texel> texels;
     if (!isSumOfMaps(asset)) {
         sections.leaves = appendTexels(texels, asset.leaves);
@@ -47,7 +45,6 @@ std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> s
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList);
     sections.rampSums = appendTexels<Texel>(texels, rampSums(asset));
-    sections.plainTexels = appendTexels<Texel>(texels, plain.texels);
     sections.filterWords = appendTexels(texels, asset.filterWords);
     return texels;
 }
@@ -82,14 +79,14 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::ui
     filters.filterPrimitives.assign(asset.filterPrimitives.begin(), asset.filterPrimitives.end());
     filters.filterWords.assign(asset.filterWords.begin(), asset.filterWords.end());
     if (asset.mode == asset::Mode::Exact) {
-        kept = keptOf(asset, plainPaints(asset));
+        kept = keptOf(asset);
         for (const asset::Command& command : asset.commands)
             if (command.kind == asset::Command::Kind::DrawMap)
                 atlases.emplace_back(kept, command.map, command.paint, maxTurns);
     }
     ImageTexels pictures = imageTexels(asset);
     const std::vector<float> steepness = finiteSteepness(asset);
-    records = RecordTexture(joinedTexels(asset, steepness, kept.plain, pictures.list, sections));
+    records = RecordTexture(joinedTexels(asset, steepness, pictures.list, sections));
     images = imageTexture(std::move(pictures.rgba));
     instances = uploadInstances(list.instances);
     list.instances = {};
@@ -110,14 +107,12 @@ std::size_t UploadedAsset::update(const AssetView& asset, const asset::Differenc
     if (scanner)
         scanner->update(asset, difference);
     std::size_t sent = 0;
-    PlainPaints plain;
     if (difference.paints) {
-        plain = plainPaints(asset);
         features = featuresOf(asset);
         paints.assign(asset.paints.begin(), asset.paints.end());
-        sent += records.update(joinedTexels(asset, finiteSteepness(asset), plain, {}, sections));
+        sent += records.update(joinedTexels(asset, finiteSteepness(asset), {}, sections));
     }
-    const PaintUpdate changed = vtm::gl::update(kept, asset, std::move(plain), difference);
+    const PaintUpdate changed = vtm::gl::update(kept, asset, difference);
     return sent + atlases[0].update(difference, changed);
 }
 

@@ -19,9 +19,8 @@ namespace vtm::gl {
 /// First texels of the parts of the one texture that holds them all.
 struct Sections {
     GLuint leaves = 0, pieces = 0, paints = 0, data = 0;
-    GLuint images = 0;       ///< a texel a picture: first pixel, width, height
-    GLuint rampSums = 0;     ///< beside the data (asset_texels.hpp)
-    GLuint plainTexels = 0;  ///< plain_paints.hpp
+    GLuint images = 0;    ///< a texel a picture: first pixel, width, height
+    GLuint rampSums = 0;  ///< beside the data (asset_texels.hpp)
     GLuint filterWords = 0;
 };
 

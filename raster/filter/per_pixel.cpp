@@ -7,7 +7,7 @@
 #include "raster/filter/curves.hpp"
 #include "raster/filter/operations.hpp"
 #include "raster/filter_tables.hpp"
-#include "raster/src/blend.hpp"
+#include "raster/blend.hpp"
 
 namespace vtm::asset {
 

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 
 #include <vtm/limits/limits.hpp>
-#include "raster/src/blend.hpp"
+#include "raster/blend.hpp"
 #include "raster/src/gradient.hpp"
 
 namespace vtm::asset {

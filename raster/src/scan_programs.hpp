@@ -16,7 +16,7 @@
 #include <glm/vec2.hpp>
 
 #include <vtm/raster/scan.hpp>
-#include "raster/src/blend.hpp"
+#include "raster/blend.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/program_pixels.hpp"
 #include "raster/src/rough.hpp"

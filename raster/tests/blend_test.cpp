@@ -1,4 +1,4 @@
-#include "raster/src/blend.hpp"
+#include "raster/blend.hpp"
 
 #include <cmath>
 

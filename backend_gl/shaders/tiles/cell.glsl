@@ -2,12 +2,9 @@
 // every other, fetches and all.
 // Requires: fetch.glsl, place.glsl; constants of backend_gl/tiles/tile.hpp; CROWDED defined as 1 where the tile has
 // crowded cells, else 0.
-// Exports: Cell, isFlatTile, cellAt, List, listOf, nextPiece, tileTexel, finishedSum.
+// Exports: Cell, isFlatTile, cellAt, List, listOf, nextPiece, finishedSum.
 
-uniform usampler2D tiles;
 uint lowBits(uint word, uint count) { return word & ((1u << count) - 1u); }
-
-uvec4 tileTexel(uint index) { return texelFetch(tiles, texelPlace(tileTexels.x + index), 0); }
 
 struct Cell {
     uvec4 texel;

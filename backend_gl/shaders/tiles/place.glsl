@@ -1,7 +1,8 @@
-// Where a pixel lies in its tile, and in the picture.
-// Requires: tile_vertex.glsl's outputs; constant tileStep.
-// Exports: tileOrigin, tileTexels, tilePicture, pixelToTile, times, tilePoint, picturePoint, unpackColor.
+// Where a pixel lies in its tile, and in the picture; the tile's texels.
+// Requires: fetch.glsl; tile_vertex.glsl's outputs; constant tileStep.
+// Exports: tileOrigin, tileTexels, tilePicture, pixelToTile, times, tilePoint, picturePoint, tileTexel, unpackColor.
 
+uniform usampler2D tiles;
 uniform vec4 pixelToTile;  // distances, by columns
 
 flat in vec2 tileOrigin;
@@ -17,6 +18,8 @@ vec2 tilePoint(vec2 pixel) {
 }
 
 vec2 picturePoint(vec2 tilePoint) { return tilePicture.xy + tilePicture.z * tilePoint; }
+
+uvec4 tileTexel(uint index) { return texelFetch(tiles, texelPlace(tileTexels.x + index), 0); }
 
 // Times 65535.
 vec4 unpackColor(uvec2 words) { return vec4(words.xxyy >> uvec4(0u, 16u, 0u, 16u) & 0xFFFFu); }

@@ -3,5 +3,5 @@
 out vec4 color;
 
 void main() {
-    color = outputColor(regionValue(plainColor(tileTexels.x, picturePoint(tilePoint(gl_FragCoord.xy)))));
+    color = outputColor(regionValue(plainColor(tileTexels.y, tilePoint(gl_FragCoord.xy))));
 }

@@ -1,15 +1,12 @@
-// Plain paints: layers of ramps that are tables (backend_gl/upload/plain_paints.hpp).
-// Requires: fetch.glsl, place.glsl, blend.glsl; constants plainTexelBits, plainTag, segmentBits, reflectedBit, radialBit; RADIAL,
-// RAMP_POINTS defined as 1 or 0.
+// Plain paints: layers of ramps that are tables (backend_gl/tiles/plain_paints.hpp).
+// Requires: place.glsl, blend.glsl; constants plainTexelBits, plainTag, radialBit; RADIAL, RAMP_POINTS defined as 1 or 0.
 // Exports: plainColor.
 
-uniform uint plainTexels;  // the first of them
-uniform vec4 pixelSides;  // picture units
 #if RAMP_POINTS
 uniform uint rampPoints;  // whose mean is that over a pixel
 #endif
 
-uint plainTexel(uint word) { return plainTexels + (word & ((1u << plainTexelBits) - 1u)); }
+uint plainTexel(uint word) { return word & ((1u << plainTexelBits) - 1u); }
 
 // A ramp over a pixel: t in its middle, and 12 times the variance.
 struct RampPixel {
@@ -23,9 +20,9 @@ RampPixel rampPixel(uvec4 layer, vec2 point, inout uint next) {
     float t = dot(row.xy, point) + row.z;
     vec2 slope = row.xy;
 #if RADIAL
-    vec4 other = uintBitsToFloat(texelAt(next));
+    vec4 other = uintBitsToFloat(tileTexel(next));
     float across = dot(other.xy, point) + other.z, squared = t * t + across * across;
-    float area = abs(pixelSides.x * pixelSides.w - pixelSides.y * pixelSides.z);
+    float area = abs(pixelToTile.x * pixelToTile.w - pixelToTile.y * pixelToTile.z);
     float spread = max(abs(row.x * other.y - row.y * other.x) * area / 12.0, 1e-30);
     float near = 1.0 / (1.0 + 0.275 * squared / spread);
     float cone = sqrt(squared + spread * (1.0 + 0.756 * near * near));
@@ -35,23 +32,21 @@ RampPixel rampPixel(uvec4 layer, vec2 point, inout uint next) {
         ++next;
     }
 #endif
-    vec2 sides = vec2(dot(slope, pixelSides.xy), dot(slope, pixelSides.zw));
+    vec2 sides = vec2(dot(slope, pixelToTile.xy), dot(slope, pixelToTile.zw));
     return RampPixel(t, dot(sides, sides));
 }
 
 // Times 65535.
 vec4 rampColor(uvec4 layer, float t) {
-    float segments = float(1u << (layer.w >> plainTexelBits & ((1u << segmentBits) - 1u)));
-    float u = (layer.w & reflectedBit) != 0u ? 1.0 - abs(1.0 - (t - 2.0 * floor(0.5 * t))) : clamp(t, 0.0, 1.0);
-    float place = u * segments, segment = min(floor(place), segments - 1.0);
-    uvec4 ends = texelAt(plainTexel(layer.w) + uint(segment));
-    return mix(unpackColor(ends.xy), unpackColor(ends.zw), place - segment);
+    float segment = floor(t);
+    uvec4 ends = tileTexel(plainTexel(layer.w + uint(int(segment))));
+    return mix(unpackColor(ends.xy), unpackColor(ends.zw), t - segment);
 }
 
 // The next layer's premultiplied colour, the mean over a pixel. n points that are evenly apart by d have a variance of
 // d² (n² - 1) / 12.
 vec4 layerColor(inout uint next, vec2 point) {
-    uvec4 layer = texelAt(next++);
+    uvec4 layer = tileTexel(next++);
     RampPixel ramp = rampPixel(layer, point, next);
 #if RAMP_POINTS
     float count = float(rampPoints), apart = sqrt(ramp.squaredWidth / (count * count - 1.0));
@@ -68,8 +63,8 @@ vec4 layerColor(inout uint next, vec2 point) {
 #endif
 }
 
-// Of a plain program's first word, at a picture point. Some drivers run a loop's body once more to find that it has ended, unless the condition stands at
-// the bottom.
+// Of a paint's first word, at a point in tile sides. Some drivers run a loop's body once more to find that it has ended,
+// unless the condition stands at the bottom.
 vec4 plainColor(uint paint, vec2 point) {
     uint next = plainTexel(paint), left = paint >> plainTexelBits;
     vec4 color = vec4(0.0);

@@ -17,7 +17,6 @@ void addPaint(inout Shares shares, inout vec4 sum, uvec2 paint, float weight) {
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     List list = listOf(cell);
-    vec2 point = picturePoint(cell.o);
     // Each turn but the last shades a share: at most two of a piece, and the two that are kept at the end.
     uint turns = 2u * list.left + 2u;
     Shares shares = Shares(noShare, noShare, noShare, noShare);
@@ -38,7 +37,7 @@ void main() {
         if (shares.waiting.paint == noPaint)
             evictAll(shares, 0u);
         if (shares.waiting.paint != noPaint)
-            sum += shares.waiting.weight * regionValue(plainColor(shares.waiting.paint, point));
+            sum += shares.waiting.weight * regionValue(plainColor(shares.waiting.paint, cell.o));
         shares.waiting = shares.last;
         shares.last = noShare;
         complete = list.left == 0u && shares.waiting.paint == noPaint && shares.newer.paint == noPaint;

@@ -3,8 +3,8 @@
 
 layout(location = 0) in vec2 position;  // pixels
 layout(location = 1) in vec2 origin;    // the tile's least corner, pixels
-// First texel; first cell | log2 of the cells a side << gridShift; 0. Of a tile without texels: its paint as PaintWords
-// (backend_gl/upload/plain_paints.hpp) and 1 + its number.
+// First texel; first cell | log2 of the cells a side << gridShift; 0. Of a tile of one paint: that paint's first word
+// (backend_gl/tiles/plain_paints.hpp) and 1 + its number instead.
 layout(location = 2) in uvec3 texelsOf;
 // The least corner in picture coordinates; picture units a tile; tiles a cell.
 layout(location = 3) in vec4 picture;
