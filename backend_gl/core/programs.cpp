@@ -86,10 +86,11 @@ const Program& Programs::blend() { return get(Kind::Blend, {}); }
 
 const Program& Programs::compose(Finish finish) { return get(Kind::Compose, {}, 0, finish); }
 
-const Program& Programs::filter(FilterProgram program) {
-    auto found = filters_.find(program);
+const Program& Programs::filter(FilterProgram program, FilterVariant variant) {
+    const std::pair key(program, variant);
+    auto found = filters_.find(key);
     if (found == filters_.end()) {
-        found = filters_.emplace(program, Program(filterSource(program), cache_)).first;
+        found = filters_.emplace(key, Program(filterSource(program, variant), cache_)).first;
         bindUnits(found->second);
     }
     return found->second;
@@ -217,9 +218,9 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
     }
 }
 
-ProgramSource Programs::filterSource(FilterProgram program) {
+ProgramSource Programs::filterSource(FilterProgram program, FilterVariant variant) {
     using namespace shaders;
-    const std::string constants = filterConstants();
+    const std::string constants = filterConstants() + fmt::format("const uint variant = {}u;\n", variant);
     switch (program) {
         case FilterProgram::Source:
             return {"filter source",
@@ -259,6 +260,30 @@ ProgramSource Programs::filterSource(FilterProgram program) {
     }
 }
 
+namespace {
+
+std::vector<std::pair<FilterProgram, FilterVariant>> everyFilter() {
+    using asset::FilterOp;
+    std::vector<std::pair<FilterProgram, FilterVariant>> all;
+    for (const FilterProgram program :
+         {FilterProgram::Source, FilterProgram::Extreme, FilterProgram::Convolve, FilterProgram::Light,
+          FilterProgram::Turbulence})
+        all.emplace_back(program, 0);
+    for (const FilterOp op :
+         {FilterOp::Picture, FilterOp::Blend, FilterOp::ColorMatrix, FilterOp::ComponentTransfer,
+          FilterOp::Composite, FilterOp::Flood, FilterOp::DropShadow, FilterOp::Merge})
+        all.emplace_back(FilterProgram::PerPixel, FilterVariant(op));
+    for (const FilterOp op : {FilterOp::Offset, FilterOp::Tile, FilterOp::DisplacementMap})
+        all.emplace_back(FilterProgram::Move, FilterVariant(op));
+    for (const BlurAction action : {BlurAction::Reduce, BlurAction::Kernel, BlurAction::Enlarge})
+        all.emplace_back(FilterProgram::Blur, FilterVariant(action));
+    for (const FilterVariant interpolates : {0u, 1u})
+        all.emplace_back(FilterProgram::Result, interpolates);
+    return all;
+}
+
+}  // namespace
+
 ProgramSource idsSource() {
     using namespace shaders;
     return {"ids", {screen_vertex}, {fetch, id_fragment}};
@@ -284,8 +309,8 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Tile, features, allFinishes);
     }
     sources.push_back(idsSource());
-    for (unsigned program = 0; program < filterProgramCount; ++program)
-        sources.push_back(filterSource(FilterProgram(program)));
+    for (const auto& [program, variant] : everyFilter())
+        sources.push_back(filterSource(program, variant));
     for (unsigned finish = 0; finish <= allFinishes; ++finish) {
         add(Kind::Flat, 0, finish);
         add(Kind::Compose, 0, finish);

@@ -47,7 +47,9 @@ enum class FilterProgram : unsigned {
     Turbulence,
     Result  ///< a layer in a picture
 };
-inline constexpr unsigned filterProgramCount = 9;
+/// Which of the programs: of PerPixel and Move by FilterOp, of Blur by BlurAction, of Result 1 where it
+/// interpolates. Others have one.
+using FilterVariant = unsigned;
 
 /// Texture units, the same in every program.
 enum class Unit : int { Texels, Images, Placements, Layer, Backdrop, Tiles };
@@ -78,7 +80,7 @@ public:
     const Program& blend();
     /// A finished picture into a user's framebuffer.
     const Program& compose(Finish finish);
-    const Program& filter(FilterProgram program);
+    const Program& filter(FilterProgram program, FilterVariant variant = 0);
 
     /// Begin to compile, before anything is drawn: the programs of a picture with these paints, of its
     /// layers, of what puts them into a framebuffer. Where the driver compiles on threads of its own, false
@@ -117,7 +119,7 @@ private:
     bool warmUp(const std::vector<Key>& keys);
     static ProgramSource source(Kind kind, Features features, Finish finish, std::string_view materials);
 
-    static ProgramSource filterSource(FilterProgram program);
+    static ProgramSource filterSource(FilterProgram program, FilterVariant variant);
 
     struct MaterialSet {
         std::vector<asset::Material> materials;
@@ -126,7 +128,7 @@ private:
     ProgramCache cache_;
     std::vector<MaterialSet> materialSets_{{{}, materialsSource({})}};
     std::map<Key, Program> programs_;
-    std::map<FilterProgram, Program> filters_;
+    std::map<std::pair<FilterProgram, FilterVariant>, Program> filters_;
 };
 
 }  // namespace vtm::gl

@@ -79,9 +79,8 @@ private:
             return;
         FilterLayer next = layers_.make(box, last_->linear);
         if (!next.empty()) {
-            Pass pass = layers_.pass(FilterProgram::Blur, next);
+            Pass pass = layers_.pass(FilterProgram::Blur, next, FilterVariant(action));
             pass.first(*last_);
-            glUniform1ui(pass.uniform("action"), GLuint(action));
             glUniform2i(pass.uniform("along"), axis == 0 ? 1 : 0, axis == 0 ? 0 : 1);
             set(pass, box);
             pass.draw();

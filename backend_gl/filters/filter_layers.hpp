@@ -55,8 +55,8 @@ public:
         const FilterLayer* result_;
     };
     /// `result` is not empty.
-    Pass pass(FilterProgram program, const FilterLayer& result) {
-        return {programs_.filter(program), asset_, result};
+    Pass pass(FilterProgram program, const FilterLayer& result, FilterVariant variant = 0) {
+        return {programs_.filter(program, variant), asset_, result};
     }
 
     Programs& programs() { return programs_; }

@@ -19,11 +19,10 @@ const asset::PixelRect everything{glm::dvec2(-1e9), glm::dvec2(1e9)};
 
 void drawPerPixel(FilterLayers& layers, FilterOp op, const FilterStep& step, const asset::PixelRect& cut,
                   const FilterLayer& first, const FilterLayer* second, const FilterLayer& result) {
-    FilterLayers::Pass pass = layers.pass(FilterProgram::PerPixel, result);
+    FilterLayers::Pass pass = layers.pass(FilterProgram::PerPixel, result, FilterVariant(op));
     pass.first(first).numbers(step.primitive).cut(cut);
     if (second)
         pass.second(*second);
-    glUniform1ui(pass.uniform("primitive"), GLuint(op));
     glUniform1i(pass.uniform("isLight"), result.linear);
     pass.draw();
 }
@@ -50,9 +49,8 @@ void drawOffset(FilterLayers& layers, const FilterLayer& input, glm::dvec2 by, b
     constexpr double far = 1e8;  // pixels
     const FilterLayer none;
     const bool isNear = std::abs(by.x) < far && std::abs(by.y) < far;
-    FilterLayers::Pass pass = layers.pass(FilterProgram::Move, result);
+    FilterLayers::Pass pass = layers.pass(FilterProgram::Move, result, FilterVariant(FilterOp::Offset));
     pass.first(isNear ? input : none).cut(cut);
-    glUniform1ui(pass.uniform("primitive"), GLuint(FilterOp::Offset));
     glUniform2f(pass.uniform("by"), isNear ? float(by.x) : 0, isNear ? float(by.y) : 0);
     pass.draw();
 }
@@ -73,9 +71,9 @@ void drawShadow(FilterLayers& layers, const FilterStep& step, const FilterLayer&
 
 void drawDisplaced(FilterLayers& layers, const FilterStep& step, const FilterLayer& result) {
     const asset::FilterParameters& p = step.parameters;
-    FilterLayers::Pass pass = layers.pass(FilterProgram::Move, result);
+    FilterLayers::Pass pass =
+        layers.pass(FilterProgram::Move, result, FilterVariant(FilterOp::DisplacementMap));
     pass.first(*step.inputs[0]).second(*step.inputs[1]).cut(step.own);
-    glUniform1ui(pass.uniform("primitive"), GLuint(FilterOp::DisplacementMap));
     const glm::dvec2 by = double(p[0]) * step.place.scale;
     glUniform2f(pass.uniform("by"), float(by.x), float(by.y));
     const auto setChannel = [&](const char* name, float channel) {
@@ -92,9 +90,8 @@ void drawTiles(FilterLayers& layers, const FilterStep& step, const FilterLayer& 
     constexpr double least = 1.0 / 64;  // of a pixel: below, a tile shows nothing
     const bool shows = size.x >= least && size.y >= least;
     const FilterLayer none;
-    FilterLayers::Pass pass = layers.pass(FilterProgram::Move, result);
+    FilterLayers::Pass pass = layers.pass(FilterProgram::Move, result, FilterVariant(FilterOp::Tile));
     pass.first(shows ? *step.inputs[0] : none).cut(step.own);
-    glUniform1ui(pass.uniform("primitive"), GLuint(FilterOp::Tile));
     const glm::dvec2 corner = region.min - first, sides = shows ? size : glm::dvec2(1);
     const glm::dvec2 phase = -corner - sides * glm::floor(-corner / sides);
     glUniform4f(pass.uniform("tile"), float(corner.x), float(corner.y), float(sides.x), float(sides.y));
@@ -165,8 +162,11 @@ void drawStep(FilterLayers& layers, const FilterStep& step, const FilterLayer& r
         default: {
             const FilterLayer none;
             const std::size_t count = step.inputs.size();
-            return drawPerPixel(layers, step.primitive.op, step, step.own, count > 0 ? *step.inputs[0] : none,
-                                count > 1 ? step.inputs[1] : nullptr, result);
+            const bool isOver =
+                step.primitive.op == FilterOp::Blend && asset::Blend(p[0]) == asset::Blend::Normal;
+            return drawPerPixel(layers, isOver ? FilterOp::Merge : step.primitive.op, step, step.own,
+                                count > 0 ? *step.inputs[0] : none, count > 1 ? step.inputs[1] : nullptr,
+                                result);
         }
     }
 }

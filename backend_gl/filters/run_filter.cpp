@@ -17,6 +17,15 @@ namespace {
 using asset::FilterOp;
 using asset::FilterPrimitive;
 
+FilterLayer converted(FilterLayers& layers, const FilterLayer& layer, bool linear) {
+    FilterLayer result = layers.make(layer.box, linear);
+    FilterLayers::Pass pass = layers.pass(FilterProgram::PerPixel, result, FilterVariant(FilterOp::Picture));
+    pass.first(layer);
+    glUniform1i(pass.uniform("isLight"), linear);
+    pass.draw();
+    return result;
+}
+
 class FilterRun {
 public:
     FilterRun(FilterLayers& layers, const asset::AssetView& asset, const asset::Filter& filter,
@@ -114,12 +123,7 @@ private:
         input.layer = &layer;
         if (layer.linear == linear || layer.empty())
             return;
-        input.own = layers_.make(layer.box, linear);
-        FilterLayers::Pass pass = layers_.pass(FilterProgram::PerPixel, input.own);
-        pass.first(layer);
-        glUniform1ui(pass.uniform("primitive"), GLuint(FilterOp::Picture));
-        glUniform1i(pass.uniform("isLight"), linear);
-        pass.draw();
+        input.own = converted(layers_, layer, linear);
         input.layer = &input.own;
     }
 
@@ -150,7 +154,7 @@ private:
 /// A filter's result on the raster of the picture below.
 void show(FilterLayers& layers, const FilterLayer& result, const asset::FilterPlace& place,
           const PixelBox& box, Target& below) {
-    const Program& program = layers.programs().filter(FilterProgram::Result);
+    const Program& program = layers.programs().filter(FilterProgram::Result, place.isSampled ? 1 : 0);
     below.bind();
     below.touch(box);
     glViewport(0, 0, below.size.x, below.size.y);
@@ -165,7 +169,6 @@ void show(FilterLayers& layers, const FilterLayer& result, const asset::FilterPl
     glUniform4f(program.uniform("toLayer"), float(back[0].x), float(back[0].y), float(back[1].x),
                 float(back[1].y));
     glUniform2f(program.uniform("layerOrigin"), float(origin.x), float(origin.y));
-    glUniform1i(program.uniform("interpolates"), place.isSampled);
     glUniform1i(program.uniform("isLight"), result.linear);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_SCISSOR_TEST);
@@ -181,8 +184,14 @@ void drawFilter(FilterLayers& layers, const asset::AssetView& asset, const asset
     const PixelBox box = asset::mapped(result.box, place.toBelow)
                              .grown(glm::ivec2(place.isSampled ? 1 : 0))
                              .intersection({{0, 0}, below.size});
-    if (!result.empty() && !box.empty())
-        show(layers, result, place, box, below);
+    if (!result.empty() && !box.empty()) {
+        // Encoded once instead of at four pixels.
+        FilterLayer own;
+        if (place.isSampled && result.linear)
+            own = converted(layers, result, false);
+        show(layers, own.empty() ? result : own, place, box, below);
+        layers.giveBack(std::move(own));
+    }
     glEnable(GL_BLEND);
 }
 

@@ -152,9 +152,9 @@ void LayerRenderer::drawMap(Atlas& atlas) {
         return;
     const PixelBox whole{{0, 0}, top().target.size};
     top().target.bind();
-    top().target.touch(whole);
     glBlendFunc(GL_ONE, GL_ONE);
-    gl::drawMap(resources_.programs, resources_.picture, asset_, atlas, top().view, whole, {}, markOverruns_);
+    top().target.touch(gl::drawMap(resources_.programs, resources_.picture, asset_, atlas, top().view, whole,
+                                   {}, markOverruns_));
     enterTop();
 }
 

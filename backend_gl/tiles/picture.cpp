@@ -80,8 +80,8 @@ public:
         const dvec2 place(cell % grid.cellsPerSide(), cell / grid.cellsPerSide());
         return pixelsOf(dvec2(at) + place * grid.cellSize(), grid.cellSize());
     }
-    /// ... and the first square.
-    PixelBox pixelsOfFirst() const { return pixelsOf({0, 0}, 1); }
+    /// ... and a square.
+    PixelBox pixelsOf(i64vec2 at) const { return pixelsOf(dvec2(at), 1); }
 
     i64vec2 min, max;
 
@@ -136,6 +136,7 @@ struct Geometry {
     };
     std::array<Plain, rampPoints.size()> plain;  ///< beside rampPoints
     PixelBox crowded;                            ///< holds the pixels of crowded cells
+    PixelBox drawn;                              ///< holds what may not be transparent
 
     /// `minSteepness`: from which on paints are steep.
     std::vector<TileVertex>& of(const Placed& tile, float minSteepness) {
@@ -174,14 +175,15 @@ Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const 
     for (std::int64_t y = squares.min.y; y < squares.max.y; ++y)
         for (std::int64_t x = squares.min.x; x < squares.max.x; ++x) {
             const Placed& tile = **next++;
-            if (!squares.visible({x, y}))
+            if (!squares.visible({x, y}) || (tile.flat && tile.paint == 0))
                 continue;
+            geometry.drawn = geometry.drawn.joined(squares.pixelsOf(i64vec2(x, y)));
             for (const std::uint16_t cell : tile.crowded)
                 geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, tile.grid, cell));
             if (!tile.flat || tile.paints != TilePaints::Solid)
                 addSquare(geometry.of(tile, squares.minSteepness()), squares, {x, y},
                           tileVertex(squares, tile, x, y));
-            else if (tile.paint != 0)
+            else
                 addSquare(geometry.flat, squares, {x, y},
                           flatVertex(asset.paints[firstPaint + tile.paint], tile.words));
         }
@@ -191,7 +193,7 @@ Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const 
 /// All of the map's pixels from the scanner, as crowded ones.
 Geometry scannedGeometry(Atlas& atlas, const Squares& map) {
     Geometry geometry;
-    geometry.crowded = map.pixelsOfFirst();
+    geometry.drawn = geometry.crowded = map.pixelsOf(i64vec2(0));
     if (geometry.crowded.empty())
         return geometry;
     const Placed& tile = atlas.prepareCrowded();
@@ -273,8 +275,8 @@ PictureBuffers::PictureBuffers()
     glBindVertexArray(0);
 }
 
-void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& asset, Atlas& atlas,
-             const asset::View& view, const PixelBox& box, Finish finish, bool markOverruns) {
+PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& asset, Atlas& atlas,
+                 const asset::View& view, const PixelBox& box, Finish finish, bool markOverruns) {
     const bool scanned = atlas.isScanned(view);
     const int level = scanned ? 0 : tileLevelFor(atlas.map(), view);
     const Squares squares(atlas.map(), view, box, level);
@@ -319,6 +321,7 @@ void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& a
     }
     if (!geometry.programs.empty())
         drawTiles(programs.tile(asset.features, asset.materialSet, finish, crowded), geometry.programs);
+    return geometry.drawn;
 }
 
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,

@@ -22,8 +22,8 @@ struct PictureBuffers {
 /// `markOverruns`: of RendererOptions.
 void drawPicture(Programs& programs, PictureBuffers& buffers, UploadedAsset& asset, const asset::View& view,
                  const PixelBox& box, Finish finish, bool markOverruns);
-/// The same of one map.
-void drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& asset, Atlas& atlas,
-             const asset::View& view, const PixelBox& box, Finish finish, bool markOverruns);
+/// The same of one map. Returns a box that holds all it changed.
+PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& asset, Atlas& atlas,
+                 const asset::View& view, const PixelBox& box, Finish finish, bool markOverruns);
 
 }  // namespace vtm::gl

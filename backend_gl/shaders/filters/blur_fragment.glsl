@@ -1,7 +1,7 @@
 // One axis of a blur: means over coarse pixels, a kernel, cubic B-splines back to pixels.
-// Requires: layer.glsl, store.glsl; constants blur*, maxBlurKernel. Twin of: raster/filter/blur.cpp, which has the method.
+// Requires: layer.glsl, store.glsl; constants variant, the action,
+// blur*, maxBlurKernel. Twin of: raster/filter/blur.cpp, which has the method.
 
-uniform uint action;
 uniform ivec2 along;                  // the axis: (1, 0) or (0, 1)
 uniform int coarse;                   // pixels of a coarse one
 uniform int phase;                    // blurReduce: the input's pixel where the result's first begins;
@@ -37,5 +37,5 @@ vec4 enlarged(ivec2 p) {
 
 void main() {
     ivec2 p = pixel();
-    store(action == blurReduce ? mean(p) : action == blurKernel ? convolved(p) : enlarged(p));
+    store(variant == blurReduce ? mean(p) : variant == blurKernel ? convolved(p) : enlarged(p));
 }

@@ -1,7 +1,7 @@
-// Primitives that show their input elsewhere. Requires: layer.glsl, store.glsl, colors.glsl; constants primitive*.
+// Primitives that show their input elsewhere. Requires: layer.glsl, store.glsl, colors.glsl; constants variant, the
+// primitive, primitive*.
 // Twin of: raster/filter/move.cpp.
 
-uniform uint primitive;
 uniform vec2 by;                  // Offset: pixels; DisplacementMap: pixels for a colour of 1 less than one of 0
 uniform vec4 channelX, channelY;  // DisplacementMap: 1 in the one that is read
 uniform vec4 tile;                // its corner, from the result's first pixel's; its size
@@ -19,6 +19,6 @@ vec4 tiled(ivec2 p) {
 
 void main() {
     ivec2 p = pixel();
-    store(primitive == primitiveOffset ? firstBetween(vec2(p) + 0.5 - by)
-                                       : primitive == primitiveTile ? tiled(p) : displaced(p));
+    store(variant == primitiveOffset ? firstBetween(vec2(p) + 0.5 - by)
+                                       : variant == primitiveTile ? tiled(p) : displaced(p));
 }

@@ -1,10 +1,9 @@
 // Primitives that compute each pixel from the same pixel of their inputs.
-// Requires: layer.glsl, store.glsl, colors.glsl, numbers.glsl; constants primitive*, composite*, transfer*.
+// Requires: layer.glsl, store.glsl, colors.glsl, numbers.glsl; constants variant, the primitive, primitive*, composite*,
+// transfer*.
 // Twin of: raster/filter/per_pixel.cpp.
 
-uniform uint primitive;  // Picture: the first input, converted; DropShadow: the second input's alpha in the
-                         // parameters' colour, below the first
-uniform bool isLight;    // the result's colour space
+uniform bool isLight;  // the result's colour space
 
 // Straight numbers in the parameters, from `index` on.
 vec4 colorFrom(uint index) {
@@ -69,7 +68,7 @@ vec4 composited(vec4 a, vec4 b) {
 
 void main() {
     vec4 a = firstAt(pixel()), b = secondAt(pixel());
-    switch (primitive) {
+    switch (variant) {
         case primitivePicture: a = isLight ? inLight(a) : encoded(a); break;
         case primitiveBlend: a = blend(uint(number(0u)), a, b); break;
         case primitiveColorMatrix: a = premultiplied(clamp(matrixTimes(straightened(a)), 0.0, 1.0)); break;
@@ -78,6 +77,7 @@ void main() {
             break;
         case primitiveComposite: a = composited(a, b); break;
         case primitiveFlood: a = colorFrom(0u); break;
+        // The second input's alpha in the parameters' colour, below the first.
         case primitiveDropShadow: a = over(a, colorFrom(4u) * b.a); break;
         default: a = over(a, b); break;
     }
