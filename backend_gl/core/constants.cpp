@@ -7,8 +7,8 @@
 
 #include <vtm/asset/asset.hpp>
 #include "backend_gl/core/turns.hpp"
-#include "backend_gl/tiles/tile.hpp"
 #include "backend_gl/tiles/plain_paints.hpp"
+#include "backend_gl/tiles/tile.hpp"
 #include "raster/coverage.hpp"
 #include "raster/filter_tables.hpp"
 

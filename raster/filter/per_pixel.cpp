@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 
+#include "raster/blend.hpp"
 #include "raster/filter/curves.hpp"
 #include "raster/filter/operations.hpp"
 #include "raster/filter_tables.hpp"
-#include "raster/blend.hpp"
 
 namespace vtm::asset {
 

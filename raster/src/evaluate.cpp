@@ -14,8 +14,8 @@
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
-#include "raster/filter/run_filter.hpp"
 #include "raster/blend.hpp"
+#include "raster/filter/run_filter.hpp"
 #include "raster/src/canvas.hpp"
 #include "raster/src/draw_map.hpp"
 #include "raster/src/map_scanner.hpp"

@@ -14,8 +14,8 @@
 #include <vtm/asset/asset.hpp>
 #include <vtm/raster/scan.hpp>
 #include "asset/instances.hpp"
-#include "raster/chord_scanner.hpp"
 #include "raster/blend.hpp"
+#include "raster/chord_scanner.hpp"
 #include "raster/src/float4.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/scanned_map.hpp"
