@@ -127,7 +127,9 @@ public:
         if (std::max(a.y, b.y) + bulge <= 0 || std::min(a.y, b.y) - bulge >= height_ ||
             std::min(a.x, b.x) - bulge >= width_)
             return;
-        if (boundary.bend * stretch_ <= chordTolerance)
+        // What is left of the picture changes a row as much as its height there, whatever its shape.
+        const bool isLeft = std::max(a.x, b.x) + bulge <= 0;
+        if (isLeft || boundary.bend * stretch_ <= chordTolerance)
             return addChord(glm::vec2(a), glm::vec2(b), piece);
         // The first and the last one are as long as √2 whole ones.
         const double others = boundary.steps * areaRoot_ - std::numbers::sqrt2;
@@ -241,6 +243,8 @@ public:
         float y = std::max(a.y, 0.0f);
         if (!(y < end))
             return;
+        if (std::max(a.x, b.x) <= 0) [[unlikely]]
+            return addLeft(y, end, change);
         const float slope = (b.x - a.x) / (b.y - a.y);
         float x = y > a.y ? a.x + (y - a.y) * slope : a.x;
         auto row = std::size_t(y);
@@ -294,6 +298,17 @@ private:
         touched[first / 64 + 1] |= bits >> 1 >> (63 - shift);
     }
 
+    /// What is left of the picture, from y to end, changes its first column. Not inlined: what is inside
+    /// would pay.
+    [[gnu::noinline]] void addLeft(float y, float end, Amount change) {
+        for (auto row = std::size_t(y); y < end; ++row) {
+            const float nextY = std::min(float(row + 1), end);
+            touched_[row / perSide * words_] |= 1;
+            Grid::add(&changes_[row / perSide * stride()], unsigned(row % perSide), 0, change * (nextY - y));
+            y = nextY;
+        }
+    }
+
     /// A straight line from x0 to x1 >= x0; `amount`: the change times the height.
     void addInRow(std::size_t row, float x0, float x1, Amount amount) {
         if (x0 >= 0 && x1 <= float(perSide) * float(width_))
@@ -302,7 +317,7 @@ private:
             addCut(row, x0, x1, amount);
     }
 
-    /// What is left of the picture changes its first column, what is right nothing.
+    /// What is right of the picture changes nothing.
     void addCut(std::size_t row, float x0, float x1, Amount amount) {
         const auto right = float(perSide) * float(width_);
         if (x0 >= right)

@@ -133,6 +133,8 @@ void PathMask::scan(const glm::mat3& toSurface, const Rectangle& clip, const Row
     view.height = seen.y1 - seen.y0;
     std::vector<CoverageRun> moved;
     const auto onSurface = [&](int y, std::span<const CoverageRun> runs) {
+        if (seen.x0 == 0)
+            return row(y + seen.y0, runs);
         moved.assign(runs.begin(), runs.end());
         for (CoverageRun& run : moved) {
             run.first += seen.x0;
