@@ -12,10 +12,9 @@
 
 namespace vtm::bench {
 
-/// The side of the area that is drawn into, and of the square images that are moved and copied.
+/// The side of the surface that is drawn into, and from which a corner is read back, and of the square images
+/// that are moved and copied.
 inline constexpr int workSide = 800, movedSide = 256, copiedSide = 512;
-/// That of the surface from which a corner is read back.
-inline constexpr int drawnSide = 1024;
 
 /// Glyphs in lines, about 14 pixels high; the same in every frame.
 inline constexpr int textLines = 40, lineGlyphs = 43;

@@ -80,7 +80,7 @@ struct Canvas {
     std::vector<std::uint32_t> moved = premultipliedPixels(movedSide),
                                copied = premultipliedPixels(copiedSide);
     Surface target{workSide}, image{moved, movedSide}, memory{copied, copiedSide}, large{copiedSide},
-        drawn{drawnSide};
+        drawn{workSide};
 
     Canvas() {
         // Of an empty surface cairo would copy nothing.

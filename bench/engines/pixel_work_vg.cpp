@@ -76,7 +76,7 @@ struct Canvas : VgCanvas {
             translucent = vgCreatePaint(), ink = vgCreatePaint();
     VGFont font = sheetFont();
 
-    explicit Canvas(VtmCompositor compositor) : VgCanvas(compositor) {
+    explicit Canvas(VtmCompositor compositor) : VgCanvas(compositor, workSide) {
         vgSetColor(translucent, 0xe6661a4d);
         vgSeti(VG_FILTER_FORMAT_PREMULTIPLIED, VG_TRUE);
     }

@@ -18,9 +18,9 @@ class VgCanvas {
 public:
     static constexpr int side = 1024;
 
-    explicit VgCanvas(VtmCompositor compositor = VTM_COMPOSITOR_CPU) {
+    explicit VgCanvas(VtmCompositor compositor = VTM_COMPOSITOR_CPU, int surfaceSide = side) {
         const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
-        surface_ = vtmCreateSurface(side, side, &format);
+        surface_ = vtmCreateSurface(surfaceSide, surfaceSide, &format);
         vtmChooseCompositor(surface_, compositor);
         context_ = vtmCreateContext(nullptr);
         vtmMakeCurrent(context_, surface_);
