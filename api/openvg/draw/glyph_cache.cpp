@@ -10,8 +10,8 @@ namespace vtm::openvg {
 
 namespace {
 
-/// Of what is kept: about 20 000 glyphs of 14 pixels.
-constexpr std::size_t maxBytes = 8 << 20;
+/// Of what is kept: about 13 000 glyphs of 14 pixels.
+constexpr std::size_t maxBytes = 16 << 20;
 constexpr int phaseBits = 10, phases = 1 << phaseBits;
 /// Beyond, floats have no 1024ths.
 constexpr float maxPlace = 1 << 13;
@@ -26,7 +26,7 @@ int inPhases(float place) {
 }
 
 /// What an entry takes besides its coverage.
-constexpr std::size_t entryBytes = 160;
+constexpr std::size_t entryBytes = 256;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ GlyphCoverage::GlyphCoverage(PathMask& mask, const glm::mat3& toPixel, const Rec
         for (const CoverageRun& run : runs) {
             const unsigned share = fixedShare(run.share);
             const auto first = std::uint8_t(run.first - box.x0), end = std::uint8_t(run.end - box.x0);
-            if (share == wholeShare)
+            if (share >= FlatGround::whole)  // so that it means the same there as here
                 runs_.push_back({first, end, y});
             else if (share > 0)
                 for (std::uint8_t x = first; x < end; ++x)
@@ -47,6 +47,14 @@ GlyphCoverage::GlyphCoverage(PathMask& mask, const glm::mat3& toPixel, const Rec
     });
     edges_.shrink_to_fit();
     runs_.shrink_to_fit();
+    forEachRow([&](int, std::span<const std::uint16_t> shares) {
+        FlatGround::forEachPair(shares, [&](std::size_t) { ++pairCount_; });
+    });
+}
+
+std::size_t GlyphCoverage::bytes() const {
+    return sizeof(EdgePixel) * edges_.size() + sizeof(Run) * runs_.size() +
+           FlatGround::pairBytes * pairCount_;
 }
 
 void GlyphCoverage::play(int left, int bottom, const Rectangle& clip, const RowSink& row) const {

@@ -2,6 +2,7 @@
 /// Coverage of glyphs that are drawn again: by mask, matrix and place within a pixel.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "api/openvg/draw/edge_mixer.hpp"
+#include "api/openvg/draw/flat_ground.hpp"
 #include "api/openvg/draw/path_mask.hpp"
 
 namespace vtm::openvg {
@@ -32,9 +34,14 @@ public:
     /// Row by row, from left to right.
     std::span<const EdgePixel> edges() const { return edges_; }
     std::span<const Run> runs() const { return runs_; }
-    std::size_t bytes() const {
-        return sizeof(EdgePixel) * edges_.capacity() + sizeof(Run) * runs_.capacity();
-    }
+    /// What comes out on a ground of one colour. Its pairs may stand out of the box by a pixel on the right.
+    FlatGround& ground() { return ground_; }
+    /// Calls row(y, shares) for the rows in which something is covered: the shares of all pixels, as a
+    /// FlatGround takes them.
+    template <class Row>
+    void forEachRow(Row&& row) const;
+    /// The most that it may take.
+    std::size_t bytes() const;
 
     /// Gives the rows as PathMask::scan() does, moved by whole pixels.
     void play(int left, int bottom, const Rectangle& clip, const RowSink& row) const;
@@ -43,11 +50,24 @@ private:
     Rectangle box_;
     std::vector<EdgePixel> edges_;
     std::vector<Run> runs_;
+    FlatGround ground_;
+    std::size_t pairCount_ = 0;  ///< that ground_ may have
 };
+
+template <class Row>
+void GlyphCoverage::forEachRow(Row&& row) const {
+    play(-box_.x0, -box_.y0, {0, 0, maxSide, maxSide}, [&](int y, std::span<const CoverageRun> runs) {
+        std::array<std::uint16_t, maxSide + 1> shares{};
+        for (const CoverageRun& run : runs)
+            std::fill(shares.begin() + run.first, shares.begin() + run.end,
+                      std::uint16_t(std::min(fixedShare(run.share), unsigned(FlatGround::whole))));
+        row(y, std::span<const std::uint16_t>(shares));
+    });
+}
 
 /// A glyph on a surface: the pixel that its origin is in.
 struct PlacedGlyph {
-    const GlyphCoverage* coverage;
+    GlyphCoverage* coverage;
     int left, bottom;
 
     /// On the surface, within `clip`.

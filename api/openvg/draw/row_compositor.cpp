@@ -149,10 +149,32 @@ void RowCompositor::drawEdge(int x, int y, unsigned share) {
 }
 
 template <class Mixer>
-void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom, FlatGround& grounds,
-                                   const Mixer& mixed) {
+void RowCompositor::drawGlyphBytes(GlyphCoverage& coverage, int left, int bottom, const Mixer& mixed) {
     std::uint8_t* const corner = pixels_.at(left, bottom);
     const std::ptrdiff_t stride = pixels_.stride();
+    const auto mix = [&](std::uint8_t* from, std::ptrdiff_t rowBytes, std::span<const EdgePixel> edges) {
+        if (wide::mixEdges(from, rowBytes, edges, edgeColor_))
+            return;
+        for (const EdgePixel& edge : edges)
+            // True for what is kept of flat grounds, which are opaque.
+            if (!mixed(edge.in(from, rowBytes), edge.share))
+                drawEdge(left + edge.x, bottom + edge.y, edge.share);
+    };
+    const std::span<const EdgePixel> edges = coverage.edges();
+    const std::uint8_t* const first = edges.empty() ? nullptr : edges[0].in(corner, stride);
+    const bool mayBeFlat =
+        first && edgeColor_.rule == EdgeRule::opaque && (!edgeColor_.groundHasAlpha || first[3] == 255);
+    const std::uint32_t ground = mayBeFlat ? wordAt(first, 4) : 0;
+    const auto isOnGround = [&](const EdgePixel& edge) {
+        return wordAt(edge.in(corner, stride), 4) == ground;
+    };
+    FlatGround& flat = coverage.ground();
+    if (mayBeFlat && flat.serves({*constant_, word_, ground, stride}) &&
+        (flat.isMade() || std::ranges::all_of(edges, isOnGround))) {
+        if (!flat.isMade())
+            flat.make([&](const auto& row) { coverage.forEachRow(row); }, mix);
+        return flat.draw(corner, mix);
+    }
     for (const GlyphCoverage::Run& run : coverage.runs()) {
         if (constant_->a != 1) {
             drawPart(bottom + run.y, left + run.first, left + run.end, 1);
@@ -162,28 +184,7 @@ void RowCompositor::drawGlyphBytes(const GlyphCoverage& coverage, int left, int 
         for (int x = run.first; x < run.end; ++x, p += 4)
             std::memcpy(p, &word_, 4);
     }
-    std::span<const EdgePixel> edges = coverage.edges();
-    if (edges.empty())
-        return;
-    const auto mix = [&](std::span<const EdgePixel> some) {
-        if (wide::mixEdges(corner, stride, some, edgeColor_))
-            return;
-        for (const EdgePixel& edge : some)
-            if (!mixed(edge.in(corner, stride), edge.share))
-                drawEdge(left + edge.x, bottom + edge.y, edge.share);
-    };
-    const std::uint8_t* const first = edges[0].in(corner, stride);
-    if (edgeColor_.rule != EdgeRule::opaque || (edgeColor_.groundHasAlpha && first[3] != 255))
-        return mix(edges);
-    if (!grounds.isFor(*constant_, wordAt(first, 4))) {
-        grounds.count(*constant_, wordAt(first, 4), edges.size());
-        return mix(edges);
-    }
-    std::array<EdgePixel, FlatGround::atOnce> others;
-    for (; !edges.empty(); edges = edges.subspan(std::min(edges.size(), others.size()))) {
-        const std::span<const EdgePixel> some = edges.first(std::min(edges.size(), others.size()));
-        mix(std::span(others).first(grounds.draw(corner, stride, some, others.data())));
-    }
+    mix(corner, stride, edges);
 }
 
 void RowCompositor::draw(std::span<const PlacedGlyph> glyphs) {
@@ -193,15 +194,14 @@ void RowCompositor::draw(std::span<const PlacedGlyph> glyphs) {
             glyph.play(bounds, std::ref(*this));
         return;
     }
-    // Of the thread: a line of text alone is worth no table.
-    static thread_local FlatGround flat;
-    withMixer([&, &grounds = flat](const auto& mixed) {
+    withMixer([&](const auto& mixed) {
         for (const PlacedGlyph& glyph : glyphs) {
             const Rectangle& box = glyph.coverage->box();
-            const Rectangle at{box.x0 + glyph.left, box.y0 + glyph.bottom, box.x1 + glyph.left,
+            // A pair of pixels may stand out on the right.
+            const Rectangle at{box.x0 + glyph.left, box.y0 + glyph.bottom, box.x1 + glyph.left + 1,
                                box.y1 + glyph.bottom};
             if (at.x0 >= bounds.x0 && at.y0 >= bounds.y0 && at.x1 <= bounds.x1 && at.y1 <= bounds.y1)
-                drawGlyphBytes(*glyph.coverage, at.x0, at.y0, grounds, mixed);
+                drawGlyphBytes(*glyph.coverage, at.x0, at.y0, mixed);
             else
                 glyph.play(bounds, std::ref(*this));
         }

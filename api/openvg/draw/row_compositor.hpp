@@ -7,7 +7,6 @@
 #include "api/openvg/draw/blend.hpp"
 #include "api/openvg/draw/clip.hpp"
 #include "api/openvg/draw/edge_mixer.hpp"
-#include "api/openvg/draw/flat_ground.hpp"
 #include "api/openvg/draw/glyph_cache.hpp"
 #include "api/openvg/draw/path_mask.hpp"
 #include "api/openvg/draw/pixel_source.hpp"
@@ -42,8 +41,7 @@ private:
     /// A pixel of bytes that no mixer takes.
     void drawEdge(int x, int y, unsigned share);
     template <class Mixer>
-    void drawGlyphBytes(const GlyphCoverage& coverage, int left, int bottom, FlatGround& grounds,
-                        const Mixer& mixed);
+    void drawGlyphBytes(GlyphCoverage& coverage, int left, int bottom, const Mixer& mixed);
     /// Calls f with what mixes the one colour into a pixel of bytes by its share; f(p, share) returns false
     /// for a pixel that drawEdge() must mix.
     template <class Function>

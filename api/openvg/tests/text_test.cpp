@@ -255,7 +255,7 @@ TEST_F(GlyphLine, InEveryState) {
     expectSameEverywhere("not antialiased");
 }
 
-// On one ground again and again: by a table at last.
+// On one ground again and again: what came out before.
 TEST_F(GlyphLine, OnAFlatGround) {
     for (const VGint alpha : {0, 8})
         for (const std::array<VGfloat, 4>& ink :
@@ -268,6 +268,35 @@ TEST_F(GlyphLine, OnAFlatGround) {
                     expectSame(format, ground, VG_FILL_PATH, 2.5f,
                                "ink " + std::to_string(ink[0]) + ", ground " + std::to_string(ground[0]));
             }
+}
+
+// Also where another ground begins within glyphs, and where they overlap.
+TEST_F(GlyphLine, DrawnAgainIsTheSame) {
+    const std::array<VGuint, 7> text{100, 103, 101, 104, 102, 100, 103};
+    for (const VGint alpha : {0, 8})
+        for (const std::array<VGfloat, 4>& ink : {std::array<VGfloat, 4>{0, 0, 0, 1}, {0.9f, 0.1f, 0.4f, 1}})
+            for (const int column : {0, 5, 20, 47, 48})
+                for (const VGfloat closer : {0.0f, -6.0f}) {
+                    vgSetPaint(newPaint(ink), VG_FILL_PATH | VG_STROKE_PATH);
+                    useSurface(width, height, {8, 8, 8, alpha, 0, 0, VG_FALSE, VG_TRUE});
+                    loadMatrix(VG_MATRIX_GLYPH_USER_TO_SURFACE, 2.5f, 3.5f);
+                    std::array<VGfloat, 7> adjustments;
+                    adjustments.fill(closer);
+                    const auto drawn = [&] {
+                        return pixels({8, 8, 8, alpha, 0, 0, VG_FALSE, VG_TRUE}, {1, 1, 1, 1}, [&] {
+                            const std::array<VGfloat, 4> other{0.2f, 0.9f, 0.4f, 1};
+                            vgSetfv(VG_CLEAR_COLOR, 4, other.data());
+                            vgClear(0, 0, column, height);
+                            moveTo(0, 0);
+                            vgDrawGlyphs(font, 7, text.data(), adjustments.data(), nullptr, VG_FILL_PATH,
+                                         VG_FALSE);
+                        });
+                    };
+                    const auto first = drawn();
+                    for (int again = 0; again < 4; ++again)
+                        EXPECT_EQ(drawn(), first)
+                            << "ink " << ink[0] << ", column " << column << ", " << closer;
+                }
 }
 
 // More than is kept: what was forgotten is covered anew.
