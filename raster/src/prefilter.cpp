@@ -299,8 +299,10 @@ bool isFullOfDetail(const AssetView& asset, std::uint32_t side, unsigned threads
     return meanDifference(fine) > full * meanDifference(coarser(fine));
 }
 
-/// The finest base that saves time, and that so many bytes of the tree's allow; 0: none.
+/// The finest base that saves time, and that so many bytes of the tree's allow; 0: none. A picture of 128
+/// pixels is drawn from the tree whatever that takes.
 std::uint32_t fastestSide(const AssetView& asset, const PrefilterOptions& options) {
+    constexpr std::uint32_t finest = 256;
     /// In squares of one colour: about twice the filter's time.
     constexpr double worthwhile = 4.5;
     const double most = options.timesTree * double(summarize(asset).bytes) / sizeof(Rgba8);
@@ -309,7 +311,7 @@ std::uint32_t fastestSide(const AssetView& asset, const PrefilterOptions& option
         return double(size.texelsBefore(size.levels())) <= most &&
                workPerFootprint(asset, sizeWith(asset, sideAtMost(side / 2.0))).time > worthwhile;
     };
-    std::uint32_t side = sideAtMost(options.largestSide);
+    std::uint32_t side = sideAtMost(std::min(options.largestSide, finest));
     while (side > 0 && !pays(side))
         side = side > 1 ? sideAtMost(side - 1) : 0;
     return side;

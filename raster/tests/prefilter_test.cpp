@@ -103,7 +103,7 @@ TEST(PrefilterSize, IsFinerWhereThatSavesTimeAndBytesAllowIt) {
         EXPECT_LE(bytes, most);
         EXPECT_GT(bytes, most / 3);  // allowed sides are a third or a half apart
     }
-    EXPECT_EQ(prefilterSize(asset, {.timesTree = 1e9}).width, 512u);
+    EXPECT_EQ(prefilterSize(asset, {.timesTree = 1e9}).width, 256u);
     EXPECT_THROW(prefilterSize(asset, {.timesTree = NAN}), std::invalid_argument);
 }
 
