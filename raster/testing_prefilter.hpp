@@ -16,9 +16,8 @@ enum class Minification {
     Taps4       ///< 4 × 4 taps, texels a quarter as large
 };
 
-/// How much of a footprint's colour the prefilter should give, in [0, 1]: rising over the octave from
-/// fadeFrom to fadeTo, at whose end the 4 × 4 taps find texels as fine as they want. The rest is drawn from
-/// the tree.
+/// How much of a footprint's colour the prefilter should give, in [0, 1]: rising from fadeFrom to fadeTo.
+/// The rest is drawn from the tree.
 float prefilterShare(const AssetView& asset, const glm::mat2& footprint);
 
 /// The most sub-footprints side by side along the longer axis of a footprint.

@@ -24,6 +24,12 @@ namespace {
 using glm::dvec2;
 using glm::ivec2;
 
+/// What drawing a footprint from the tree takes.
+struct Work {
+    double squares = 0;
+    double time = 0;  ///< in squares of one colour
+};
+
 /// Footprints of one size, side by side over the picture. They are shifted by a third of one, since
 /// footprints whose borders are those of the tree's squares meet fewer squares than others.
 class Footprints {
@@ -35,34 +41,41 @@ public:
           scale_(size.width / asset.width, size.height / asset.height) {}
 
     /// A square of a layer. Layers over layers (compat mode) are no finer than the finest of them, so each
-    /// is counted for itself.
-    void add(std::uint32_t layer, dvec2 corner, dvec2 size, bool hasPieces) {
+    /// is counted for itself. `time`: what it takes, in squares of one colour.
+    void add(std::uint32_t layer, dvec2 corner, dvec2 size, double time, bool hasPieces) {
         const ivec2 from = cellOf(corner), to = cellOf(corner + size);
         for (int y = from.y; y <= to.y; ++y)
             for (int x = from.x; x <= to.x; ++x) {
                 Count& count = counts_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
-                count.ofLayer = count.layer == layer ? count.ofLayer + 1 : 1;
+                if (count.layer != layer)
+                    count.ofLayer = {};
                 count.layer = layer;
-                count.squares = std::max(count.squares, count.ofLayer);
+                ++count.ofLayer.squares;
+                count.ofLayer.time += time;
+                count.most.squares = std::max(count.most.squares, count.ofLayer.squares);
+                count.most.time = std::max(count.most.time, count.ofLayer.time);
                 count.hasPieces |= hasPieces;
             }
     }
 
-    /// Squares that a footprint meets, averaged over those that meet more than one of a single colour.
-    double mean() const {
-        double squares = 0, footprints = 0;
+    /// What a footprint meets, averaged over those that meet more than one square of a single colour.
+    Work mean() const {
+        Work sum;
+        double footprints = 0;
         for (const Count& count : counts_)
-            if (count.hasPieces || count.squares > 1) {
-                squares += count.squares;
+            if (count.hasPieces || count.most.squares > 1) {
+                sum.squares += count.most.squares;
+                sum.time += count.most.time;
                 ++footprints;
             }
-        return footprints > 0 ? squares / footprints : 0;
+        return footprints > 0 ? Work{sum.squares / footprints, sum.time / footprints} : Work{};
     }
 
 private:
     struct Count {
-        std::uint32_t squares = 0;             ///< of the layer that has most
-        std::uint32_t layer = 0, ofLayer = 0;  ///< the layer that is being counted
+        Work most;                ///< of the layer that has most
+        std::uint32_t layer = 0;  ///< the layer that is being counted
+        Work ofLayer;
         bool hasPieces = false;
     };
 
@@ -81,6 +94,21 @@ bool drawsMap(Command::Kind kind) {
            kind == Command::Kind::ClipMask;
 }
 
+/// What a square takes of a sampler's time, in squares of one colour; measured (docs/prefilter.md).
+double timeOf(const AssetView& asset, const PlacedMap& placed, Entry entry) {
+    constexpr double piece = 0.4, program = 4;
+    const auto paintTime = [&](std::uint32_t number) {
+        return isProgram(asset.paints[placed.paints(number)]) ? program : 0;
+    };
+    if (entry.kind() == Entry::Kind::Solid)
+        return 1 + paintTime(entry.payload());
+    const Leaf& leaf = asset.leaves[entry.payload()];
+    double paints = 0;
+    for (const std::uint16_t corner : leaf.corners)
+        paints = std::max(paints, paintTime(corner));
+    return 1 + piece * leaf.pieceCount + paints;
+}
+
 /// Boxes around them, where the map is turned.
 void addSquares(const AssetView& asset, const PlacedMap& placed, std::uint32_t layer,
                 Footprints& footprints) {
@@ -92,11 +120,12 @@ void addSquares(const AssetView& asset, const PlacedMap& placed, std::uint32_t l
             return;
         const double side = std::ldexp(1.0, -2 * int(cell.level));
         const dvec2 centre = placed.toPicture((dvec2(cell.x, cell.y) + 0.5) * side);
-        footprints.add(layer, centre - 0.5 * side * size, side * size, !isSolid);
+        footprints.add(layer, centre - 0.5 * side * size, side * size, timeOf(asset, placed, entry),
+                       !isSolid);
     });
 }
 
-double squaresPerFootprint(const AssetView& asset, PyramidSize size) {
+Work workPerFootprint(const AssetView& asset, PyramidSize size) {
     Footprints footprints(asset, size);
     for (std::uint32_t layer = 0; layer < asset.commands.size(); ++layer) {
         if (!drawsMap(asset.commands[layer].kind))
@@ -148,23 +177,7 @@ double imagePixels(const AssetView& asset) {
     return finest * std::max(asset.width, asset.height);
 }
 
-}  // namespace
-
-PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& options) {
-    if (!(options.squaresPerFootprint >= 1) || options.largestSide < 1 ||
-        options.largestSide > maxPyramidSide)
-        throw std::invalid_argument(
-            "prefilter: squaresPerFootprint must be >= 1 and largestSide in [1, 4096]");
-    // Footprints grow until they meet too much; a base texel is half as wide as these.
-    const double images = imagePixels(asset);
-    std::uint32_t side = sideAtMost(options.largestSide);
-    while (side > 1 && side > images &&
-           squaresPerFootprint(asset, sizeWith(asset, sideAtMost(side / 2.0))) <= options.squaresPerFootprint)
-        side = sideAtMost(side - 1);
-    return sizeWith(asset, side);
-}
-
-namespace {
+// ---- Means ----------------------------------------------------------------------------------------
 
 /// Means before they are rounded: four doubles a texel.
 struct Means {
@@ -255,6 +268,78 @@ Means coarser(const Means& fine) {
                 means.at(x / columns, y / rows)[c] += share * fine.at(x, y)[c];
     return means;
 }
+
+// ---- How fine -------------------------------------------------------------------------------------
+
+/// Of neighbouring texels.
+double meanDifference(const Means& means) {
+    const PyramidSize size = means.size;
+    double sum = 0, pairs = 0;
+    const auto add = [&](const double* a, const double* b) {
+        for (int c = 0; c < 4; ++c)
+            sum += std::abs(a[c] - b[c]);
+        ++pairs;
+    };
+    for (std::uint32_t y = 0; y < size.height; ++y)
+        for (std::uint32_t x = 0; x < size.width; ++x) {
+            if (x + 1 < size.width)
+                add(means.at(x, y), means.at(x + 1, y));
+            if (y + 1 < size.height)
+                add(means.at(x, y), means.at(x, y + 1));
+        }
+    return pairs > 0 ? sum / pairs : 0;
+}
+
+/// Whether details are hardly larger than a texel, as in small print. Between areas of one colour texels half
+/// as large differ half as much on average; there they differ about as much, and taps blur too much of it.
+bool isFullOfDetail(const AssetView& asset, std::uint32_t side, unsigned threads) {
+    constexpr std::uint32_t fewest = 64;  // of which a mean says something
+    constexpr double full = 0.8;          // 0.5 to 0.73 in drawings, 0.84 to 1.2 in pages
+    const Means fine = baseMeans(asset, sizeWith(asset, std::max(side, fewest)), threads);
+    return meanDifference(fine) > full * meanDifference(coarser(fine));
+}
+
+/// The finest base that saves time, and that so many bytes of the tree's allow; 0: none. A picture of 128
+/// pixels is drawn from the tree whatever that takes.
+std::uint32_t fastestSide(const AssetView& asset, const PrefilterOptions& options) {
+    constexpr std::uint32_t finest = 256;
+    /// In squares of one colour: about twice the filter's time.
+    constexpr double worthwhile = 4.5;
+    const double most = options.timesTree * double(summarize(asset).bytes) / sizeof(Rgba8);
+    const auto pays = [&](std::uint32_t side) {
+        const PyramidSize size = sizeWith(asset, side);
+        return double(size.texelsBefore(size.levels())) <= most &&
+               workPerFootprint(asset, sizeWith(asset, sideAtMost(side / 2.0))).time > worthwhile;
+    };
+    std::uint32_t side = sideAtMost(std::min(options.largestSide, finest));
+    while (side > 0 && !pays(side))
+        side = side > 1 ? sideAtMost(side - 1) : 0;
+    return side;
+}
+
+}  // namespace
+
+PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& options) {
+    if (!(options.squaresPerFootprint >= 1) || !(options.timesTree >= 0) || options.largestSide < 1 ||
+        options.largestSide > maxPyramidSide)
+        throw std::invalid_argument(
+            "prefilter: squaresPerFootprint must be >= 1, timesTree >= 0 and largestSide in [1, 4096]");
+    // Footprints grow until they meet too much; a base texel is half as wide as these.
+    const double images = imagePixels(asset);
+    std::uint32_t side = sideAtMost(options.largestSide);
+    while (side > 1 && side > images &&
+           workPerFootprint(asset, sizeWith(asset, sideAtMost(side / 2.0))).squares <=
+               options.squaresPerFootprint)
+        side = sideAtMost(side - 1);
+    // An image is itself down to its own pixels, which means would blur; how fine a material is we do not
+    // know.
+    if (images > 0 || !asset.materials.empty())
+        return sizeWith(asset, side);
+    const std::uint32_t fastest = fastestSide(asset, options);
+    return sizeWith(asset, fastest > side && !isFullOfDetail(asset, side, options.threads) ? fastest : side);
+}
+
+namespace {
 
 /// NaN becomes 0.
 std::uint8_t rounded(double mean) {

@@ -119,7 +119,8 @@ vec4 samplePrefilter(const AssetView& asset, vec2 st, const glm::mat2& footprint
     const Pyramid pyramid(asset.prefilter, wrap);
     const Footprint texels(footprint, asset.prefilter.size);
     const int nu = tapsOf(filter) * texels.across, nv = tapsOf(filter) * texels.down;
-    const float lod = std::max(0.0f, std::log2(texels.side() / float(tapsOf(filter))));
+    const float level = std::max(0.0f, std::log2(texels.side() / float(tapsOf(filter))));
+    const float lod = filter == Minification::Trilinear ? level : std::floor(level + 0.2f);
     const Taps across = tapsOver(texels.u, nu, std::exp2(lod)), down = tapsOver(texels.v, nv, std::exp2(lod));
     vec4 sum(0);
     for (int j = 0; j < nv; ++j)

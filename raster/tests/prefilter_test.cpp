@@ -82,6 +82,49 @@ TEST(PrefilterSize, FollowsTheTree) {
     EXPECT_EQ(prefilterSize(manyLeaves(5)), (PyramidSize{512, 512}));
 }
 
+/// One leaf with an edge of so many pieces: no footprint meets more squares.
+Asset manyPieces(int count, Asset asset = emptyAsset()) {
+    std::vector<Piece> pieces;
+    const auto at = [&](int i) { return std::uint16_t(65535 * i / count); };
+    for (int i = 0; i < count; ++i)
+        pieces.push_back(line({30001, at(i)}, {30001, at(i + 1)}, 1, 2));
+    asset.maps[0].root = addLeaf(asset, {1, 2, 2, 1}, pieces);
+    return asset;
+}
+
+TEST(PrefilterSize, IsFinerWhereThatSavesTimeAndBytesAllowIt) {
+    const Asset asset = manyPieces(100);
+    EXPECT_EQ(prefilterSize(manyPieces(3)), (PyramidSize{1, 1}));
+    EXPECT_EQ(prefilterSize(asset, {.timesTree = 0}), (PyramidSize{1, 1}));
+    for (const double times : {2.0, 6.0, 20.0}) {
+        const PyramidSize size = prefilterSize(asset, {.timesTree = times});
+        const double bytes = double(size.texelsBefore(size.levels()) * sizeof(Rgba8)),
+                     most = times * double(summarize(asset).bytes);
+        EXPECT_LE(bytes, most);
+        EXPECT_GT(bytes, most / 3);  // allowed sides are a third or a half apart
+    }
+    EXPECT_EQ(prefilterSize(asset, {.timesTree = 1e9}).width, 256u);
+    EXPECT_THROW(prefilterSize(asset, {.timesTree = NAN}), std::invalid_argument);
+}
+
+/// Print, hatching: there means would blur what the tree shows.
+TEST(PrefilterSize, IsNoFinerWhereThePictureIsFullOfDetail) {
+    const Asset asset = manyLeaves(3);  // stripes, a hundred bytes
+    EXPECT_EQ(prefilterSize(asset, {.timesTree = 1e9}), (PyramidSize{128, 128}));
+}
+
+/// A mean over more than an image's pixel is not what drawing shows, and of a material we know nothing.
+TEST(PrefilterSize, IsNoFinerThanImagesAndMaterialsWant) {
+    Asset asset = manyPieces(100);
+    ASSERT_GT(prefilterSize(asset).width, 8u);
+    asset.materials.push_back({"grain", "vec4 grain(vec2 p) { return vec4(1.0); }"});
+    EXPECT_EQ(prefilterSize(asset), (PyramidSize{1, 1}));
+    std::vector<Texel> data;
+    addImage(data, {{0.1f, 0, 0, 0.1f, 0, 0}, 0, ImageFilter::Bilinear});
+    EXPECT_LE(prefilterSize(manyPieces(100, programAsset({{Op::Image, Blend::Normal, 1, 0}}, data))).width,
+              8u);
+}
+
 TEST(PrefilterSize, FollowsTheOptions) {
     PrefilterOptions options;
     options.largestSide = 100;
@@ -263,12 +306,12 @@ TEST(SamplePrefilter, TakesAnyNumbers) {
         }
 }
 
-TEST(PrefilterShare, FadesOverOneOctave) {
+TEST(PrefilterShare, RisesFromTheTreesFootprintsToTheFilters) {
     const Asset asset = withPrefilter(halfPlane(), {64, 64});
     EXPECT_EQ(prefilterShare(asset, mat2(1.0f / 64)), 0);
-    EXPECT_EQ(prefilterShare(asset, mat2(2.0f / 64)), 0);
-    EXPECT_NEAR(prefilterShare(asset, mat2(std::sqrt(8.0f) / 64)), 0.5, 1e-6);
-    EXPECT_EQ(prefilterShare(asset, mat2(4.0f / 64)), 1);
+    EXPECT_EQ(prefilterShare(asset, mat2(fadeFrom / 64)), 0);
+    EXPECT_NEAR(prefilterShare(asset, mat2(std::sqrt(fadeFrom * fadeTo) / 64)), 0.5, 1e-6);
+    EXPECT_EQ(prefilterShare(asset, mat2(fadeTo / 64)), 1);
     EXPECT_EQ(prefilterShare(asset, mat2(100)), 1);
 }
 

@@ -187,7 +187,8 @@ std::string policy() {
 
 std::string page(const Source& source) {
     Chunks chunks;
-    const gl::ShaderData picture = gl::sampledData(source.picture);
+    // A page is downloaded: bytes count for more than time.
+    const gl::ShaderData picture = gl::sampledData(source.picture, {.timesTree = 0});
     Json manifest = {{"version", version},
                      {"title", source.title},
                      {"width", source.picture.width},

@@ -65,7 +65,7 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
     return Footprint(st, sides, axes.x, axes.y, wide);
 }
 
-// How much of the colour the prefilter gives, rising over an octave.
+// How much of the colour the prefilter gives, rising with the footprint.
 float prefilterShare(Footprint footprint) {
     return footprint.wide ? 1.0 : clamp(log2(footprint.shorter / fadeFrom) / log2(fadeTo / fadeFrom), 0.0, 1.0);
 }
@@ -95,7 +95,8 @@ vec4 prefiltered(Vtm vtm, Footprint footprint) {
     float parts = clamp(round(lengths.x / lengths.y), 1.0, maxAnisotropy);
     // 64 in all at most; where texels a fifth as large exist, a few more.
     float taps = parts > 7.0 ? 2.0 : parts > 4.0 ? 3.0 : parts > 1.0 || lengths.y < 5.0 ? 4.0 : 5.0;
-    float lod = max(0.0, log2(max(lengths.x / parts, lengths.y) / taps));
+    // A whole level, of texels that taps are 0.87 to 1.74 apart: two levels blur more, and take software drivers longer.
+    float lod = floor(max(0.0, log2(max(lengths.x / parts, lengths.y) / taps)) + 0.2);
     vec2 count = vec2(taps * parts, taps), levelTexels = max(vtm.prefilterTexels * exp2(-lod), 1.0);
     vec2 spacing = vec2(tapSpacing(lengths.x, count.x, exp2(lod)), tapSpacing(lengths.y, count.y, exp2(lod)));
     vec4 sum = vec4(0.0);

@@ -19,6 +19,10 @@ struct PrefilterOptions {
     /// since leaves have many pieces. 2.4 makes small textured pictures up to 28 times as fast, for two to
     /// seven times the texels, and less exact where the filter then takes over (docs/prefilter.md).
     double squaresPerFootprint = 3.6;
+    /// Where footprints meet few squares but take long (many pieces, paint programs), a finer base saves
+    /// time. It takes at most so many times the bytes of the tree; 0: none. Pictures with images or materials
+    /// have none.
+    double timesTree = 6;
     /// Upper limit of a side, texels; at most maxPyramidSide.
     std::uint32_t largestSide = 512;
     /// Number of threads; 0: one per core. The result does not depend on it.
@@ -46,9 +50,9 @@ enum class Wrap {
 };
 
 /// Base texels that a footprint is wide where the tree alone draws, and where the prefilter alone does.
-/// Between them the prefilter's share rises with the logarithm: 4 × 4 taps find texels as fine as they want
-/// at its end.
-inline constexpr float fadeFrom = 2, fadeTo = 4;
+/// Between them the prefilter's share rises with the logarithm; at its end 4 × 4 taps find texels nearly as
+/// fine as they want.
+inline constexpr float fadeFrom = 2.75f, fadeTo = 3.75f;
 
 }  // namespace vtm::asset
 
