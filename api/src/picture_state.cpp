@@ -136,8 +136,10 @@ Drawing Picture::State::drawingFor(const Shot& shot) {
         if (isCompiled_[level] || !(isFirst || (level == 0 && isCompiling_)))
             return nullptr;
     }
+    compiler::Options options;
+    options.tolerance = toleranceOf(std::min(level, levels - 1));
     Drawing drawing = shot.frame ? compiler::ViewDrawing::make(*scene, *shot.frame)
-                                 : compiler::ViewDrawing::make(*scene, shot.view);
+                                 : compiler::ViewDrawing::make(*scene, shot.view, options);
     if (drawing)
         for (const std::string& warning : drawing->warnings())
             warn(warning);

@@ -1,18 +1,12 @@
 #include "compiler/direct/plain_drawing.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
 #include <span>
+#include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <glm/geometric.hpp>
-#include <glm/mat2x2.hpp>
-#include <glm/matrix.hpp>
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/compile/settings.hpp"
