@@ -12,7 +12,7 @@ namespace vtm::compiler {
 namespace {
 
 /// Stands for a map until it is drawn.
-struct Part {
+struct KeptPart {
     scene::Scene scene;
     Excerpt excerpt;
     Options options;
@@ -34,7 +34,7 @@ Result standIn(const Excerpt& excerpt) {
 /// Draws parts where commands of `asset` draw their maps.
 class PartDrawer : public asset::MapDrawer {
 public:
-    PartDrawer(std::vector<Part> parts, const asset::Asset& asset)
+    PartDrawer(std::vector<KeptPart> parts, const asset::Asset& asset)
         : parts_(std::move(parts)), asset_(asset) {}
 
     void add(const asset::Command& command, const asset::View& view, const asset::PixelsToAddTo& pixels,
@@ -57,7 +57,7 @@ private:
                                                   const asset::View& view) const {
         if (!isComplete_)
             return nullptr;
-        const Part& part = parts_[command.map];
+        const KeptPart& part = parts_[command.map];
         const asset::Map& map = asset_.maps[command.map];
         const asset::View ofPart{view.width, view.height,
                                  scene::compose(view.toPixels, scene::translation(map.x, map.y))};
@@ -70,7 +70,7 @@ private:
         return drawing;
     }
 
-    const std::vector<Part> parts_;  ///< by map
+    const std::vector<KeptPart> parts_;  ///< by map
     const asset::Asset& asset_;
     // Commands are drawn one after the other.
     mutable bool isComplete_ = true;
@@ -83,7 +83,7 @@ std::unique_ptr<const FilteredDrawing> FilteredDrawing::make(const scene::Scene&
                                                              const Excerpt& excerpt, const asset::View& view,
                                                              Options options) {
     options.filterPixels = 0;
-    std::vector<Part> parts;
+    std::vector<KeptPart> parts;
     const auto compiled = [](const scene::Scene& part, const Excerpt& of, const Options& how) {
         return compileExcerpt(part, of, how);
     };
