@@ -1,7 +1,6 @@
 #include "compiler/direct/filtered_drawing.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "compiler/compile/settings.hpp"
@@ -34,8 +33,9 @@ Result standIn(const Excerpt& excerpt) {
 /// Draws parts where commands of `asset` draw their maps.
 class PartDrawer : public asset::MapDrawer {
 public:
-    PartDrawer(std::vector<KeptPart> parts, const asset::Asset& asset)
-        : parts_(std::move(parts)), asset_(asset) {}
+    /// `commands` must outlive it.
+    PartDrawer(std::vector<KeptPart> parts, const Result& commands)
+        : parts_(std::move(parts)), asset_(commands.asset), warnings_(commands.warnings) {}
 
     void add(const asset::Command& command, const asset::View& view, const asset::PixelsToAddTo& pixels,
              const asset::MaterialFunction&) const override {
@@ -50,6 +50,7 @@ public:
 
     /// Whether all parts could be drawn.
     bool isComplete() const { return isComplete_; }
+    /// Of the commands and of all parts that were drawn.
     std::vector<std::string> takeWarnings() { return std::move(warnings_); }
 
 private:
@@ -91,17 +92,13 @@ std::unique_ptr<const FilteredDrawing> FilteredDrawing::make(const scene::Scene&
         parts.push_back({part, of, how});
         return standIn(of);
     };
-    Result commands = compileFiltered(scene, excerpt, options, compiled, kept);
-    PartDrawer drawer(std::move(parts), commands.asset);
+    const Result commands = compileFiltered(scene, excerpt, options, compiled, kept);
+    PartDrawer drawer(std::move(parts), commands);
     asset::CommandPicture picture(commands.asset, view, drawer);
     if (!drawer.isComplete())
         return nullptr;
-    std::vector<std::string> warnings = std::move(commands.warnings);
-    for (std::string& warning : drawer.takeWarnings())
-        if (std::ranges::find(warnings, warning) == warnings.end())
-            warnings.push_back(std::move(warning));
     return std::unique_ptr<const FilteredDrawing>(
-        new FilteredDrawing{std::move(picture), std::move(warnings)});
+        new FilteredDrawing{std::move(picture), drawer.takeWarnings()});
 }
 
 }  // namespace vtm::compiler

@@ -265,7 +265,7 @@ Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace
     for (int y = box.min.y; y < box.max.y; ++y) {
         limits::check();
         if (const PixelRun run = rows.seen(y, {box.min.x, box.max.x}); !run.empty())
-            rows.read(y, run, canvas.begin(y, run));
+            rows.read(y, run, canvas.beginRun(y, run));
     }
     return canvas;
 }

@@ -63,7 +63,7 @@ public:
     }
 
     /// Makes `run` that of row y, in what was reserved; its first pixel. None of them has a value yet.
-    Float4* begin(int y, const PixelRun& run) {
+    Float4* beginRun(int y, const PixelRun& run) {
         runs_[std::size_t(y - box_.min.y)] = run;
         return at(y, run.first);
     }
