@@ -48,13 +48,13 @@ GlyphCoverage::GlyphCoverage(PathMask& mask, const glm::mat3& toPixel, const Rec
     edges_.shrink_to_fit();
     runs_.shrink_to_fit();
     forEachRow([&](int, std::span<const std::uint16_t> shares) {
-        FlatGround::forEachPair(shares, [&](std::size_t) { ++pairCount_; });
+        FlatGround::forEachGroup(shares, [&](std::size_t) { ++groupCount_; });
     });
 }
 
 std::size_t GlyphCoverage::bytes() const {
     return sizeof(EdgePixel) * edges_.size() + sizeof(Run) * runs_.size() +
-           FlatGround::pairBytes * pairCount_;
+           FlatGround::groupBytes * groupCount_;
 }
 
 void GlyphCoverage::play(int left, int bottom, const Rectangle& clip, const RowSink& row) const {

@@ -21,6 +21,7 @@ class GlyphCoverage {
 public:
     /// The most that a box has along a side.
     static constexpr int maxSide = 64;
+    static_assert(maxSide * maxSide <= int(FlatGround::maxGroups * FlatGround::groupPixels));
 
     /// Pixels that are all covered.
     struct Run {
@@ -34,7 +35,7 @@ public:
     /// Row by row, from left to right.
     std::span<const EdgePixel> edges() const { return edges_; }
     std::span<const Run> runs() const { return runs_; }
-    /// What comes out on a ground of one colour. Its pairs may stand out of the box by a pixel on the right.
+    /// What comes out on a ground of one colour.
     FlatGround& ground() { return ground_; }
     /// Calls row(y, shares) for the rows in which something is covered: the shares of all pixels, as a
     /// FlatGround takes them.
@@ -51,13 +52,13 @@ private:
     std::vector<EdgePixel> edges_;
     std::vector<Run> runs_;
     FlatGround ground_;
-    std::size_t pairCount_ = 0;  ///< that ground_ may have
+    std::size_t groupCount_ = 0;  ///< that ground_ may have
 };
 
 template <class Row>
 void GlyphCoverage::forEachRow(Row&& row) const {
     play(-box_.x0, -box_.y0, {0, 0, maxSide, maxSide}, [&](int y, std::span<const CoverageRun> runs) {
-        std::array<std::uint16_t, maxSide + 1> shares{};
+        std::array<std::uint16_t, maxSide + FlatGround::groupPixels> shares{};
         for (const CoverageRun& run : runs)
             std::fill(shares.begin() + run.first, shares.begin() + run.end,
                       std::uint16_t(std::min(fixedShare(run.share), unsigned(FlatGround::whole))));

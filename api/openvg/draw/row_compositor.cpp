@@ -161,19 +161,23 @@ void RowCompositor::drawGlyphBytes(GlyphCoverage& coverage, int left, int bottom
                 drawEdge(left + edge.x, bottom + edge.y, edge.share);
     };
     const std::span<const EdgePixel> edges = coverage.edges();
-    const std::uint8_t* const first = edges.empty() ? nullptr : edges[0].in(corner, stride);
+    // Far from its neighbours, which may touch it.
+    const std::uint8_t* const middle = edges.empty() ? nullptr : edges[edges.size() / 2].in(corner, stride);
     const bool mayBeFlat =
-        first && edgeColor_.rule == EdgeRule::opaque && (!edgeColor_.groundHasAlpha || first[3] == 255);
-    const std::uint32_t ground = mayBeFlat ? wordAt(first, 4) : 0;
-    const auto isOnGround = [&](const EdgePixel& edge) {
-        return wordAt(edge.in(corner, stride), 4) == ground;
+        middle && edgeColor_.rule == EdgeRule::opaque && (!edgeColor_.groundHasAlpha || middle[3] == 255);
+    const std::uint32_t ground = mayBeFlat ? wordAt(middle, 4) : 0;
+    const auto isMostlyFlat = [&] {
+        const auto isElsewhere = [&](const EdgePixel& edge) {
+            return wordAt(edge.in(corner, stride), 4) != ground;
+        };
+        return FlatGround::isWorth(std::size_t(std::ranges::count_if(edges, isElsewhere)), edges.size());
     };
     FlatGround& flat = coverage.ground();
-    if (mayBeFlat && flat.serves({*constant_, word_, ground, stride}) &&
-        (flat.isMade() || std::ranges::all_of(edges, isOnGround))) {
+    if (mayBeFlat && flat.serves({*constant_, word_, ground, stride}) && (flat.isMade() || isMostlyFlat())) {
         if (!flat.isMade())
             flat.make([&](const auto& row) { coverage.forEachRow(row); }, mix);
-        return flat.draw(corner, mix);
+        if (flat.draw(corner, pixels_.end(), mix))
+            return;
     }
     for (const GlyphCoverage::Run& run : coverage.runs()) {
         if (constant_->a != 1) {
@@ -197,8 +201,7 @@ void RowCompositor::draw(std::span<const PlacedGlyph> glyphs) {
     withMixer([&](const auto& mixed) {
         for (const PlacedGlyph& glyph : glyphs) {
             const Rectangle& box = glyph.coverage->box();
-            // A pair of pixels may stand out on the right.
-            const Rectangle at{box.x0 + glyph.left, box.y0 + glyph.bottom, box.x1 + glyph.left + 1,
+            const Rectangle at{box.x0 + glyph.left, box.y0 + glyph.bottom, box.x1 + glyph.left,
                                box.y1 + glyph.bottom};
             if (at.x0 >= bounds.x0 && at.y0 >= bounds.y0 && at.x1 <= bounds.x1 && at.y1 <= bounds.y1)
                 drawGlyphBytes(*glyph.coverage, at.x0, at.y0, mixed);

@@ -100,6 +100,8 @@ public:
     std::uint8_t* at(int x, int y) {
         return bytes_.data() + (std::size_t(y) * std::size_t(width_) + std::size_t(x)) * pixelBytes_;
     }
+    /// After the last pixel.
+    const std::uint8_t* end() const { return bytes_.data() + bytes_.size(); }
     const std::uint8_t* at(int x, int y) const { return const_cast<Pixels*>(this)->at(x, y); }
 
     std::uint32_t word(int x, int y) const { return wordAt(at(x, y), pixelBytes_); }

@@ -299,6 +299,26 @@ TEST_F(GlyphLine, DrawnAgainIsTheSame) {
                 }
 }
 
+// Up to the last pixel of a surface's memory.
+TEST_F(GlyphLine, DrawnAgainAtTheEnd) {
+    const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
+    useSurface(width, height, format);
+    vgSetPaint(newPaint({0, 0, 0, 1}), VG_FILL_PATH);
+    for (const VGuint glyph : {100u, 101u, 102u, 103u, 104u})
+        for (int back = 0; back < 24; ++back) {
+            loadMatrix(VG_MATRIX_GLYPH_USER_TO_SURFACE, VGfloat(width - back), VGfloat(height - back));
+            const auto drawn = [&] {
+                return pixels(format, {1, 1, 1, 1}, [&] {
+                    moveTo(0, 0);
+                    vgDrawGlyph(font, glyph, VG_FILL_PATH, VG_FALSE);
+                });
+            };
+            const auto first = drawn();
+            for (int again = 0; again < 3; ++again)
+                EXPECT_EQ(drawn(), first) << glyph << ", " << back;
+        }
+}
+
 // More than is kept: what was forgotten is covered anew.
 TEST_F(GlyphLine, ManyPlaces) {
     const VtmSurfaceFormat format{8, 8, 8, 8, 0, 0, VG_FALSE, VG_TRUE};
