@@ -1,12 +1,13 @@
 /// \file
-/// What changes a drawing surface's pixels, on the CPU or on a GPU. Arguments are legal and areas within the
-/// surface by then; scissoring, masking, blending and colours are those of the context's state.
+/// What changes pixels of drawing surfaces and images, on the CPU or on a GPU. Arguments are legal and areas
+/// within the surface by then; scissoring, masking, blending and colours are those of the context's state.
 #pragma once
 
 #include <functional>
 
 #include "api/openvg/draw/path_mask.hpp"
 #include "api/openvg/draw/pixel_source.hpp"
+#include "api/openvg/image/image_filter.hpp"
 #include "api/openvg/state/context.hpp"
 
 namespace vtm::openvg {
@@ -42,6 +43,13 @@ public:
     virtual void readPixels(Context& context, const MemoryPixels& to, const CopyArea& area) = 0;
     /// vgCopyPixels. The two parts may overlap.
     virtual void copyPixels(Context& context, const CopyArea& area) = 0;
+    /// vgClearImage, vgCopyImage, vgImageSubData, vgGetImageSubData and filters, of images whose pixels are
+    /// not in memory. False for what is to be done there.
+    virtual bool clearImage(Image&, const CopyArea&, std::uint32_t) { return false; }
+    virtual bool copyImage(Image&, const Image&, const CopyArea&) { return false; }
+    virtual bool writeImage(Image&, const MemoryPixels&, const CopyArea&) { return false; }
+    virtual bool readImage(const Image&, const MemoryPixels&, const CopyArea&) { return false; }
+    virtual bool filterImage(Image&, const Image&, const ImageFilter&) { return false; }
     /// vgFlush and vgFinish: begins, or ends, what was asked for.
     virtual void flush() = 0;
     virtual void finish() = 0;

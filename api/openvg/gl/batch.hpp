@@ -23,12 +23,20 @@ struct ProgramKey {
     enum class Task : std::uint8_t {
         layer,  ///< paints, blends and mixes
         store,  ///< writes the tiles' colour as it is
-        copy    ///< converts texels to the target's format, pixel for pixel
+        copy,   ///< converts texels to the target's format, pixel for pixel
+        filter  ///< converts, filters and converts them again
     };
+    /// What filters do: the fragment shader's macros FILTER_….
+    enum class Filter : std::uint8_t { matrix, tables, table, sums };
     Task task = Task::layer;
+    Filter filter = Filter::matrix;
+    bool readsSums = false, writesSums = false;  ///< floats of a filter, in place of an image's pixels
     SourceKind source = SourceKind::solid;
-    bool transforms = false, multiplies = false, isStencil = false, isMasked = false;
-    int blendMode = 0;  ///< VGBlendMode
+    bool transforms = false, multiplies = false, isStencil = false;
+    bool isMasked = false;  ///< of a filter: some channels of the target stay
+    int blendMode = 0;      ///< VGBlendMode
+
+    bool mayReadTarget() const { return task == Task::layer || (task == Task::filter && isMasked); }
 
     friend auto operator<=>(const ProgramKey&, const ProgramKey&) = default;
 };
@@ -53,7 +61,7 @@ struct LayerBlock {
     TexelBlock texels[2];
     glm::vec4 matrix[4]{};
     glm::vec4 added{0};
-    glm::ivec4 transform{0};  ///< linear; what it takes: linear, luminance
+    glm::ivec4 transform{0};  ///< linear; what it takes: linear, luminance; of filters: filter_fragment.glsl
 };
 static_assert(sizeof(TexelBlock) == 8 * 16 && sizeof(LayerBlock) == (11 + 16 + 6) * 16);
 

@@ -8,6 +8,7 @@
 #include "api/openvg/draw/row_compositor.hpp"
 #include "api/openvg/draw/source_description.hpp"
 #include "api/openvg/gl/device.hpp"
+#include "api/openvg/gl/filters.hpp"
 #include "api/openvg/gl/layer_blocks.hpp"
 #include "api/openvg/gl/texture_copy.hpp"
 #include "api/openvg/image/images.hpp"
@@ -271,10 +272,64 @@ public:
              pixels, scissored(context, targetOf(area)), source);
     }
 
+    bool clearImage(Image& to, const CopyArea& area, std::uint32_t word) override {
+        if (!isInTexture(to))
+            return false;
+        device_.draw(drawInto(to.storage->pixels, ProgramKey::Task::store),
+                     gl::oneTile(moved(targetOf(area), to)), to.format().decode(word));
+        return true;
+    }
+
+    bool copyImage(Image& to, const Image& from, const CopyArea& area) override {
+        if (!isInTexture(to) && !isInTexture(from))
+            return false;
+        const TexturePointer source = gl::readTexture(device_, from.storage->pixels);
+        if (!source || !gl::readTexture(device_, to.storage->pixels))
+            return false;
+        const Rectangle box = moved(targetOf(area), to),
+                        read = moved({area.sx, area.sy, area.sx + area.width, area.sy + area.height}, from);
+        copy(source, from.format(), {read.x0 - box.x0, read.y0 - box.y0}, to.storage->pixels,
+             gl::oneTile(box), read);
+        return true;
+    }
+
+    bool writeImage(Image& to, const MemoryPixels& from, const CopyArea& area) override {
+        if (!isInTexture(to))
+            return false;
+        Pixels pixels(area.width, area.height, to.format());
+        openvg::copyPixels(from, pixels, {0, 0, area.sx, area.sy, area.width, area.height});
+        gl::writePart(device_, to.storage->pixels, moved(targetOf(area), to), pixels);
+        return true;
+    }
+
+    bool readImage(const Image& from, const MemoryPixels& to, const CopyArea& area) override {
+        if (from.storage->pixels.areInMemory() || !isInTexture(from))
+            return false;
+        Pixels pixels(area.width, area.height, from.format());
+        gl::readPart(device_, from.storage->pixels,
+                     moved({area.sx, area.sy, area.sx + area.width, area.sy + area.height}, from), pixels);
+        openvg::copyPixels(std::as_const(pixels), to, {area.dx, area.dy, 0, 0, area.width, area.height});
+        return true;
+    }
+
+    bool filterImage(Image& to, const Image& from, const ImageFilter& filter) override {
+        return isInTexture(from) && gl::filterImage(device_, to, from, filter);
+    }
+
     void flush() override { device_.flush(); }
     void finish() override { device_.finish(); }
 
 private:
+    bool isInTexture(const Image& image) const {
+        return !device_.isLost() && image.storage->pixels.areInTexture();
+    }
+
+    /// A part of an image in its storage.
+    static Rectangle moved(const Rectangle& part, const Image& image) {
+        const int x = image.area.x0, y = image.area.y0;
+        return {part.x0 + x, part.y0 + y, part.x1 + x, part.y1 + y};
+    }
+
     /// False: the CPU draws on this surface, now or from now on.
     bool isReady(Context& context) {
         Surface& surface = *context.surface;

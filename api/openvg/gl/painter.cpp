@@ -43,6 +43,7 @@ Painter::Painter(std::shared_ptr<Discarded> discarded, bool mayFetch)
     : gl_(currentFunctions()), discarded_(std::move(discarded)) {
     abilities_.renderer = reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER));
     abilities_.fetches = mayFetch && hasExtension(gl_, "GL_EXT_shader_framebuffer_fetch");
+    abilities_.drawsFloats = hasExtension(gl_, "GL_EXT_color_buffer_float");
     abilities_.maxSide = limitOf(gl_, GL_MAX_TEXTURE_SIZE);
     programs_ = std::make_unique<Programs>(gl_, abilities_.fetches);
     makeBuffers();

@@ -16,7 +16,8 @@ namespace vtm::openvg::gl {
 /// What the driver can do.
 struct Abilities {
     std::string renderer;
-    bool fetches = false;  ///< GL_EXT_shader_framebuffer_fetch
+    bool fetches = false;      ///< GL_EXT_shader_framebuffer_fetch
+    bool drawsFloats = false;  ///< GL_EXT_color_buffer_float
     int maxSide = 0;
 };
 
@@ -29,7 +30,8 @@ public:
     const Abilities& abilities() const { return abilities_; }
     const gles_context::Context& context() const { return context_.made(); }
 
-    /// RGBA8 or R8. Null where there is no memory for it.
+    /// GL_RGBA8, GL_R8 or, to be drawn into where drivers can, GL_RGBA32F. Null where there is no memory for
+    /// it.
     TexturePointer makeTexture(GLenum format, int width, int height);
     /// Rows of bytes from the lowest one on, without gaps: four a pixel,
     /// or one.

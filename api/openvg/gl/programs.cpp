@@ -46,13 +46,17 @@ const char* blendName(int mode) {
 }
 
 std::string macrosOf(const ProgramKey& key, bool fetches) {
-    constexpr std::array sources{"SOLID", "LINEAR", "RADIAL", "TEXELS"};
-    std::string text = fmt::format("#define SOURCE_{}\n#define BLEND {}\n", sources[std::size_t(key.source)],
+    constexpr std::array sources{"SOLID", "LINEAR", "RADIAL", "TEXELS"},
+        filters{"MATRIX", "TABLES", "TABLE", "SUMS"};
+    std::string text = fmt::format("#define SOURCE_{}\n#define FILTER_{}\n#define BLEND {}\n",
+                                   sources[std::size_t(key.source)], filters[std::size_t(key.filter)],
                                    blendName(key.blendMode));
     const std::pair<bool, const char*> flags[]{{key.transforms, "TRANSFORMS"},
                                                {key.multiplies, "MULTIPLIES"},
                                                {key.isStencil, "STENCIL"},
                                                {key.isMasked, "MASKED"},
+                                               {key.readsSums, "READS_SUMS"},
+                                               {key.writesSums, "WRITES_SUMS"},
                                                {fetches, "FETCHES"}};
     for (const auto& [isSet, name] : flags)
         if (isSet)
@@ -63,9 +67,8 @@ std::string macrosOf(const ProgramKey& key, bool fetches) {
 }  // namespace
 
 ProgramText programText(const ProgramKey& key, bool fetches) {
-    const bool isLayer = key.task == ProgramKey::Task::layer;
-    // What is not blended is not fetched either.
-    std::string head = "#version 300 es\n" + macrosOf(key, fetches && isLayer);
+    // What does not depend on the target is not fetched.
+    std::string head = "#version 300 es\n" + macrosOf(key, fetches && key.mayReadTarget());
     head += shaders::layer_prelude;
     ProgramText text{head, head};
     text.vertex += shaders::cover_vertex;
@@ -78,8 +81,10 @@ ProgramText programText(const ProgramKey& key, bool fetches) {
         add({shaders::store_fragment});
     else if (key.task == ProgramKey::Task::copy)
         add({shaders::copy_fragment});
+    else if (key.task == ProgramKey::Task::filter)
+        add({shaders::tiling, shaders::filter_fragment});
     else {
-        add({shaders::blend_modes, shaders::texel_field});
+        add({shaders::blend_modes, shaders::tiling, shaders::texel_field});
         if (key.source == SourceKind::linear || key.source == SourceKind::radial)
             add({shaders::gradient_field});
         add({shaders::layer_fragment});

@@ -6,7 +6,7 @@
 
 namespace vtm::openvg::gl::shaders {
 
-extern const std::string_view layer_prelude, cover_vertex, spaces, blend_modes, texel_field, gradient_field,
-    surface_pixel, layer_fragment, store_fragment, copy_fragment;
+extern const std::string_view layer_prelude, cover_vertex, spaces, blend_modes, tiling, texel_field,
+    gradient_field, surface_pixel, layer_fragment, store_fragment, copy_fragment, filter_fragment;
 
 }  // namespace vtm::openvg::gl::shaders

@@ -10,9 +10,11 @@ using namespace vtm::openvg;
 
 namespace {
 
+/// Of a kernel's first tap from the pixel.
+int offsetOf(int shift) { return -std::clamp(shift, -(1 << 28), 1 << 28); }
+
 /// What a kernel's taps fall on: columns or rows of the tiled source.
-std::vector<int> placesOf(int kernelSize, int shift, int count, int size, VGTilingMode mode) {
-    const int offset = -std::clamp(shift, -(1 << 28), 1 << 28);
+std::vector<int> placesOf(int kernelSize, int offset, int count, int size, VGTilingMode mode) {
     return tiledPlaces(offset, offset + count + kernelSize - 1, size, mode);
 }
 
@@ -100,13 +102,22 @@ void vgConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kernelHeight,
         require(kernelWidth > 0 && kernelHeight > 0 && kernelWidth <= maxKernelSize &&
                 kernelHeight <= maxKernelSize);
         require(kernel != nullptr && isAligned(kernel) && isTiling(tilingMode));
-        SourceLines source(*images.src, context.state, kernelHeight,
-                           placesOf(kernelWidth, shiftX, images.width(), images.src->width(), tilingMode),
-                           placesOf(kernelHeight, shiftY, images.height(), images.src->height(), tilingMode));
         std::vector<double> weights;  // row by row; the program's are column by column
         for (int j = kernelHeight - 1; j >= 0; --j)
             for (int i = kernelWidth - 1; i >= 0; --i)
                 weights.push_back(double(kernel[i * kernelHeight + j]));
+        const ColorSpace space = filterSpace(context.state);
+        const glm::ivec2 first(offsetOf(shiftX), offsetOf(shiftY));
+        if (areFilteredInTextures(
+                context, images, space,
+                SumFilter{{first, tilingMode, tileFillColor(context.state, space), scale, bias},
+                          weights,
+                          kernelWidth}))
+            return;
+        SourceLines source(
+            *images.src, context.state, kernelHeight,
+            placesOf(kernelWidth, first.x, images.width(), images.src->width(), tilingMode),
+            placesOf(kernelHeight, first.y, images.height(), images.src->height(), tilingMode));
         writeSums(context.state, images, source, weights, kernelWidth, double(scale), double(bias));
     });
 }
@@ -120,11 +131,19 @@ void vgSeparableConvolve(VGImage dst, VGImage src, VGint kernelWidth, VGint kern
                 kernelHeight <= maxSeparableKernelSize);
         require(kernelX != nullptr && isAligned(kernelX) && kernelY != nullptr && isAligned(kernelY));
         require(isTiling(tilingMode));
+        const std::vector<double> across = reversedWeights(kernelX, kernelWidth),
+                                  up = reversedWeights(kernelY, kernelHeight);
+        const ColorSpace space = filterSpace(context.state);
+        const glm::ivec2 first(offsetOf(shiftX), offsetOf(shiftY));
+        if (areFilteredInTextures(
+                context, images, space,
+                SeparableFilter{
+                    {first, tilingMode, tileFillColor(context.state, space), scale, bias}, across, up}))
+            return;
         SourceLines source(*images.src, context.state, kernelHeight,
-                           placesOf(kernelWidth, shiftX, images.width(), images.src->width(), tilingMode),
-                           placesOf(kernelHeight, shiftY, images.height(), images.src->height(), tilingMode),
-                           reversedWeights(kernelX, kernelWidth));
-        writeSums(context.state, images, source, reversedWeights(kernelY, kernelHeight), 1, double(scale),
-                  double(bias));
+                           placesOf(kernelWidth, first.x, images.width(), images.src->width(), tilingMode),
+                           placesOf(kernelHeight, first.y, images.height(), images.src->height(), tilingMode),
+                           across);
+        writeSums(context.state, images, source, up, 1, double(scale), double(bias));
     });
 }

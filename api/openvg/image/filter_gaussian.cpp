@@ -42,6 +42,14 @@ std::vector<float> gaussian(double deviation) {
     return weights;
 }
 
+/// From one side to the other.
+std::vector<double> wholeGaussian(double deviation) {
+    const std::vector<float> half = gaussian(deviation);
+    std::vector<double> weights(half.rbegin(), half.rend());
+    weights.insert(weights.end(), half.begin() + 1, half.end());
+    return weights;
+}
+
 /// A blur of a line. Samples are its steps from -1 on; where a step is a pixel, from 0 on.
 class LineBlur {
 public:
@@ -273,6 +281,12 @@ void vgGaussianBlur(VGImage dst, VGImage src, VGfloat stdDeviationX, VGfloat std
             require(deviation > 0 && deviation <= VGfloat(maxGaussianStdDeviation));
         require(isTiling(tilingMode));
         const ColorSpace space = filterSpace(context.state);
+        SeparableFilter filter{{{}, tilingMode, tileFillColor(context.state, space)},
+                               wholeGaussian(double(stdDeviationX)),
+                               wholeGaussian(double(stdDeviationY))};
+        filter.first = {-int(filter.across.size() / 2), -int(filter.up.size() / 2)};
+        if (areFilteredInTextures(context, images, space, std::move(filter)))
+            return;
         const LineBlur across(double(stdDeviationX), images.width(), images.src->width(), tilingMode),
             up(double(stdDeviationY), images.height(), images.src->height(), tilingMode);
         const SampledRows source(across, *images.src, space, tileFillColor(context.state, space));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "api/openvg/draw/compositor.hpp"
 #include "api/openvg/paint/lanes.hpp"
 
 namespace vtm::openvg {
@@ -15,6 +16,13 @@ FilterImages::FilterImages(const Context& context, VGImage dstHandle, VGImage sr
 
 ColorSpace filterSpace(const State& state) {
     return {state.filterFormatLinear, state.filterFormatPremultiplied, false};
+}
+
+bool areFilteredInTextures(const Context& context, const FilterImages& images, ColorSpace output,
+                           decltype(ImageFilter::what) filter) {
+    return compositorOf(context).filterImage(
+        *images.dst, *images.src,
+        {std::move(filter), filterSpace(context.state), output, context.state.filterChannelMask});
 }
 
 void normalizedRow(const Image& image, int y, ColorSpace space, std::span<Color> colors) {
@@ -54,8 +62,7 @@ void keepChannels(VGbitfield mask, std::span<Color> colors, std::span<const Colo
 void writeFilteredRow(const State& state, Image& image, int y, std::span<Color> colors, ColorSpace space) {
     const PixelFormat& format = image.format();
     clampColors(colors, space.premultiplied);
-    constexpr VGbitfield all = VG_RED | VG_GREEN | VG_BLUE | VG_ALPHA;
-    if (format.grey.bits == 0 && (state.filterChannelMask & all) != all) {
+    if (format.grey.bits == 0 && (state.filterChannelMask & allChannels) != allChannels) {
         ColorSpace plain = format.space;
         plain.premultiplied = false;
         std::vector<Color> there(colors.size());

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "api/openvg/image/image_filter.hpp"
 #include "api/openvg/image/images.hpp"
 
 namespace vtm::openvg {
@@ -33,6 +34,11 @@ struct FilterImages {
 
 /// VG_FILTER_FORMAT_LINEAR and VG_FILTER_FORMAT_PREMULTIPLIED.
 ColorSpace filterSpace(const State& state);
+
+/// Filters the images where the source's pixels are in a texture, from filterSpace() to `output`. False: that
+/// is to be done in memory.
+bool areFilteredInTextures(const Context& context, const FilterImages& images, ColorSpace output,
+                           decltype(ImageFilter::what) filter);
 
 /// Section 12.1. Grey is replicated, not converted.
 void normalizedRow(const Image& image, int y, ColorSpace space, std::span<Color> colors);

@@ -50,7 +50,9 @@ void vgColorMatrix(VGImage dst, VGImage src, const VGfloat* matrix) {
             for (int r = 0; r < 4; ++r)
                 m[c][r] = matrix[4 * c + r];
         const Color added(matrix[16], matrix[17], matrix[18], matrix[19]);
-        filterRows(context, images, filterSpace(context.state), [&](Color c) { return m * c + added; });
+        const ColorSpace space = filterSpace(context.state);
+        if (!areFilteredInTextures(context, images, space, MatrixFilter{m, added}))
+            filterRows(context, images, space, [&](Color c) { return m * c + added; });
     });
 }
 
@@ -63,9 +65,15 @@ void vgLookup(VGImage dst, VGImage src, const VGubyte* redLUT, const VGubyte* gr
             require(table != nullptr);
         const ColorSpace output{outputLinear != VG_FALSE, outputPremultiplied != VG_FALSE, false};
         const UnitTable& units = unitBytes();
+        TableFilter table{{}, -1};
+        for (int i = 0; i < 256; ++i)
+            table.entries.emplace_back(units[redLUT[i]], units[greenLUT[i]], units[blueLUT[i]],
+                                       units[alphaLUT[i]]);
+        if (areFilteredInTextures(context, images, output, table))
+            return;
         filterRows(context, images, output, [&](Color c) {
-            return Color(units[redLUT[tableIndex(c.r)]], units[greenLUT[tableIndex(c.g)]],
-                         units[blueLUT[tableIndex(c.b)]], units[alphaLUT[tableIndex(c.a)]]);
+            return Color(table.entries[tableIndex(c.r)].r, table.entries[tableIndex(c.g)].g,
+                         table.entries[tableIndex(c.b)].b, table.entries[tableIndex(c.a)].a);
         });
     });
 }
@@ -89,10 +97,12 @@ void vgLookupSingle(VGImage dst, VGImage src, const VGuint* lookupTable, VGImage
         }
         const ColorSpace output{outputLinear != VG_FALSE, outputPremultiplied != VG_FALSE, false};
         const UnitTable& units = unitBytes();
-        filterRows(context, images, output, [&](Color c) {
-            const VGuint entry = lookupTable[tableIndex(c[channel])];
-            return Color(units[entry >> 24], units[entry >> 16 & 255], units[entry >> 8 & 255],
-                         units[entry & 255]);
-        });
+        TableFilter table{{}, channel};
+        for (const VGuint entry : std::span(lookupTable, 256))
+            table.entries.emplace_back(units[entry >> 24], units[entry >> 16 & 255], units[entry >> 8 & 255],
+                                       units[entry & 255]);
+        if (!areFilteredInTextures(context, images, output, table))
+            filterRows(context, images, output,
+                       [&](Color c) { return table.entries[tableIndex(c[channel])]; });
     });
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "api/openvg/draw/compositor.hpp"
+
 namespace vtm::openvg {
 
 std::shared_ptr<Image> freeImage(const Context& context, VGImage handle) {
@@ -75,6 +77,8 @@ void vgClearImage(VGImage handle, VGint x, VGint y, VGint width, VGint height) {
         const std::uint32_t word = wordOf(context.state.clearColor, image->format());
         const CopyArea area =
             clipped({x, y, 0, 0, width, height}, image->width(), image->height(), width, height);
+        if (area.width == 0 || compositorOf(context).clearImage(*image, area, word))
+            return;
         const int left = image->area.x0 + area.dx;
         for (int j = 0; j < area.height; ++j)
             image->storage->pixels.write().fill(left, left + area.width, image->area.y0 + area.dy + j, word);
@@ -88,7 +92,8 @@ void vgImageSubData(VGImage handle, const void* data, VGint dataStride, VGImageF
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const CopyArea area =
             clipped({x, y, 0, 0, width, height}, image->width(), image->height(), width, height);
-        copyPixels(memory, *image, area);
+        if (area.width > 0 && !compositorOf(context).writeImage(*image, memory, area))
+            copyPixels(memory, *image, area);
     });
 }
 
@@ -99,7 +104,8 @@ void vgGetImageSubData(VGImage handle, void* data, VGint dataStride, VGImageForm
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
         const CopyArea area =
             clipped({0, 0, x, y, width, height}, width, height, image->width(), image->height());
-        copyPixels(*image, memory, area);
+        if (area.width > 0 && !compositorOf(context).readImage(*image, memory, area))
+            copyPixels(std::as_const(*image), memory, area);
     });
 }
 
@@ -135,9 +141,11 @@ void vgCopyImage(VGImage dst, VGint dx, VGint dy, VGImage src, VGint sx, VGint s
         requireSize(width, height);
         const CopyArea area = clipped({dx, dy, sx, sy, width, height}, to->width(), to->height(),
                                       from->width(), from->height());
+        if (area.width == 0 || compositorOf(context).copyImage(*to, *from, area))
+            return;
         if (from->storage == to->storage)
             moveRows(*to, *from, area);
         else
-            copyPixels(*from, *to, area);
+            copyPixels(std::as_const(*from), *to, area);
     });
 }

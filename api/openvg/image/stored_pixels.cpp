@@ -41,6 +41,11 @@ void StoredPixels::handOver(bool mayChange) {
         isCopyNewer_ = true;
 }
 
+bool StoredPixels::areInTexture() const {
+    const std::lock_guard lock(mutex_);
+    return copy_ && !isMemoryNewer_ && copy_->texture();
+}
+
 std::shared_ptr<const gl::Texture> StoredPixels::readTexture() const {
     const std::lock_guard lock(mutex_);
     std::shared_ptr<const gl::Texture> texture = copy_ ? copy_->texture() : nullptr;

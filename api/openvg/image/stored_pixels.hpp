@@ -55,6 +55,9 @@ public:
     void replace(Pixels pixels);
 
     bool hasCopy() const { return copy_ != nullptr; }
+    /// As they are now; they may be in both places.
+    bool areInMemory() const { return !isCopyNewer_; }
+    bool areInTexture() const;
     /// Keeps a copy from now on, which has no pixels yet.
     void setCopy(std::unique_ptr<PixelCopy> copy);
     /// Keeps a copy from now on that has the pixels, and that others change too.

@@ -9,15 +9,9 @@ void main() {
         discard;
     vec4 c = exactly(texelFetch(sourceTexels, place + texels[0].base.xy, 0), texels[0].levels);
     ivec2 from = conversion.xy, to = ivec2(surface.y, surface.x == kindGrey ? 1 : 0);
-    bool isStraight = texels[0].how.z != 0;
-    if (!isStraight)
+    bool isPremultiplied = texels[0].how.z == 0;
+    if (isPremultiplied)
         c.rgb = min(c.rgb, c.a);
-    if (from != to || isStraight != (surface.z == 0)) {
-        if (!isStraight)
-            c = unpremultiplied(c);
-        c = converted(c, from, to);
-        if (surface.z != 0)
-            c = premultiplied(c);
-    }
+    c = respaced(c, from, isPremultiplied, to, surface.z != 0);
     color = storedColor(c);
 }

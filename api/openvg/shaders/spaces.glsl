@@ -1,5 +1,5 @@
 // Colour spaces and premultiplied colours (specification section 3.4). Requires: nothing.
-// Twin of: api/openvg/paint/color.cpp. Exports: exactly, premultiplied, unpremultiplied, encoded, decoded, converted.
+// Twin of: api/openvg/paint/color.cpp. Exports: exactly, premultiplied, unpremultiplied, encoded, decoded, converted, respaced.
 
 // Bytes hold numbers of channels with fewer levels up to a rounding.
 vec4 exactly(vec4 c, vec4 levelsOfChannels) {
@@ -33,4 +33,12 @@ vec4 converted(vec4 c, ivec2 from, ivec2 to) {
     if (toGrey)
         c.rgb = vec3(dot(c.rgb, vec3(0.2126, 0.7152, 0.0722)));
     return isLinear && to.x == 0 ? encoded(c) : c;
+}
+
+// The same, premultiplied or not.
+vec4 respaced(vec4 c, ivec2 from, bool isPremultiplied, ivec2 to, bool toPremultiplied) {
+    if (from == to && isPremultiplied == toPremultiplied)
+        return c;
+    c = converted(isPremultiplied ? unpremultiplied(c) : c, from, to);
+    return toPremultiplied ? premultiplied(c) : c;
 }

@@ -1,22 +1,8 @@
 // An image's colours at pixels: nearest, interpolated, or the mean of interpolated samples over the pixel's
-// footprint; tiled outside. Requires: layer_prelude.glsl, spaces.glsl.
+// footprint; tiled outside. Requires: layer_prelude.glsl, spaces.glsl, tiling.glsl.
 // Twin of: api/openvg/draw/texel_source.cpp. Exports: texelColor.
 
-const int tileFill = 0x1D00, tilePad = 0x1D01, tileRepeat = 0x1D02;  // VGTilingMode
 const int maxSamples = 16;
-
-// A column or a row of the image; -1: the fill colour.
-int inside(int i, int size, int tiling) {
-    if (i >= 0 && i < size)
-        return i;
-    if (tiling == tileFill)
-        return -1;
-    if (tiling == tilePad)
-        return i < 0 ? 0 : size - 1;
-    int tile = i < 0 ? -((size - 1 - i) / size) : i / size;
-    int place = i - size * tile;
-    return tiling == tileRepeat || (tile & 1) == 0 ? place : size - 1 - place;
-}
 
 vec4 texel(sampler2D image, TexelBlock b, ivec2 place) {
     int column = inside(place.x, b.area.z, b.how.x), row = inside(place.y, b.area.w, b.how.x);

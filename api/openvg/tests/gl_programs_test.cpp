@@ -25,6 +25,12 @@ std::vector<ProgramKey> everyKey() {
     const auto add = [&](const ProgramKey& key) { keys.push_back(key); };
     for (const auto task : {ProgramKey::Task::store, ProgramKey::Task::copy})
         add({.task = task});
+    for (const auto filter : {ProgramKey::Filter::matrix, ProgramKey::Filter::tables,
+                              ProgramKey::Filter::table, ProgramKey::Filter::sums})
+        for (const bool isMasked : {false, true})
+            add({.task = ProgramKey::Task::filter, .filter = filter, .isMasked = isMasked});
+    add({.task = ProgramKey::Task::filter, .filter = ProgramKey::Filter::sums, .writesSums = true});
+    add({.task = ProgramKey::Task::filter, .filter = ProgramKey::Filter::sums, .readsSums = true});
     for (int mode = VG_BLEND_SRC; mode <= VG_BLEND_ADDITIVE; ++mode)
         add({.isStencil = mode % 2 == 0, .blendMode = mode});
     for (int mode = VG_BLEND_OVERLAY_KHR; mode <= VG_BLEND_XOR_KHR; ++mode)
@@ -64,10 +70,10 @@ TEST(GlPrograms, AreGlslEs300ByTheReferenceCompiler) {
     fs::remove_all(folder);
 }
 
-TEST(GlPrograms, FetchOnlyWhereTheyBlend) {
+TEST(GlPrograms, FetchOnlyWhereTheyReadTheTarget) {
     for (const ProgramKey& key : everyKey())
         EXPECT_EQ(programText(key, true).fragment.find("#define FETCHES") != std::string::npos,
-                  key.task == ProgramKey::Task::layer);
+                  key.mayReadTarget());
 }
 
 }  // namespace
