@@ -166,7 +166,7 @@ private:
 
 bool filterImage(Device& device, Image& to, const Image& from, const ImageFilter& filter) {
     return std::visit([&](const auto& what) { return FilterDraw(device, to, from, filter).draw(what); },
-                      filter.what);
+                      filter.arithmetic);
 }
 
 }  // namespace vtm::openvg::gl

@@ -19,10 +19,10 @@ ColorSpace filterSpace(const State& state) {
 }
 
 bool areFilteredInTextures(const Context& context, const FilterImages& images, ColorSpace output,
-                           decltype(ImageFilter::what) filter) {
+                           FilterArithmetic arithmetic) {
     return compositorOf(context).filterImage(
         *images.dst, *images.src,
-        {std::move(filter), filterSpace(context.state), output, context.state.filterChannelMask});
+        {std::move(arithmetic), filterSpace(context.state), output, context.state.filterChannelMask});
 }
 
 void normalizedRow(const Image& image, int y, ColorSpace space, std::span<Color> colors) {

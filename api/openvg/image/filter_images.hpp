@@ -38,7 +38,7 @@ ColorSpace filterSpace(const State& state);
 /// Filters the images where the source's pixels are in a texture, from filterSpace() to `output`. False: that
 /// is to be done in memory.
 bool areFilteredInTextures(const Context& context, const FilterImages& images, ColorSpace output,
-                           decltype(ImageFilter::what) filter);
+                           FilterArithmetic arithmetic);
 
 /// Section 12.1. Grey is replicated, not converted.
 void normalizedRow(const Image& image, int y, ColorSpace space, std::span<Color> colors);

@@ -40,8 +40,10 @@ struct SeparableFilter : Weighted {
     std::vector<double> across, up;
 };
 
+using FilterArithmetic = std::variant<MatrixFilter, TableFilter, SumFilter, SeparableFilter>;
+
 struct ImageFilter {
-    std::variant<MatrixFilter, TableFilter, SumFilter, SeparableFilter> what;
+    FilterArithmetic arithmetic;
     ColorSpace input, output;  ///< what is filtered, and what comes out
     VGbitfield channels;       ///< that are written, unless the image is grey
 };
