@@ -43,6 +43,14 @@ float maskValue(const Image& image, int x, int y) {
     return format.alpha.bits != 0 ? color.a : color.r;
 }
 
+MaskValues valuesOf(const Image& image) {
+    MaskValues values(image.width(), image.height());
+    for (int y = 0; y < values.height; ++y)
+        for (int x = 0; x < values.width; ++x)
+            values.row(y)[x] = toByte(maskValue(image, x, y));
+    return values;
+}
+
 /// Fills a part of the mask with 0 or 1.
 void fill(MaskValues& mask, const CopyArea& area, std::uint8_t value) {
     for (int j = 0; j < area.height; ++j)
@@ -74,7 +82,7 @@ void vgMask(VGHandle handle, VGMaskOperation operation, VGint x, VGint y, VGint 
         require(width > 0 && height > 0);
         if (context.recorder) {
             if (image)
-                context.recorder->refuse("a mask made of an image");
+                return context.recorder->mask(valuesOf(*image), operation, {x, y, 0, 0, width, height});
             return context.recorder->mask(layer.get(), operation, {x, y, 0, 0, width, height});
         }
         if (!context.surface->mask)

@@ -8,7 +8,23 @@ using namespace vtm::openvg;
 
 namespace {
 
-/// Recordings have no pixels.
+/// A program's pixels as an image.
+std::shared_ptr<const Image> imageOf(const MemoryPixels& memory, int width, int height) {
+    const auto image =
+        std::make_shared<Image>(std::make_shared<ImageStorage>(Pixels(width, height, memory.format())),
+                                Rectangle{0, 0, width, height});
+    copyPixels(memory, *image, {0, 0, 0, 0, width, height});
+    return image;
+}
+
+/// A part of an image put into a recording, which has no border where it begins and ends.
+void record(Context& context, const Image& image, const CopyArea& area) {
+    const CopyArea part = clipped(area, maxImageSide, maxImageSide, image.width(), image.height());
+    if (part.width > 0)
+        context.recorder->setPixels(context.state, image, part);
+}
+
+/// Recordings have no pixels to be read.
 void requirePixels(const Context& context, const char* function) {
     if (context.recorder)
         context.recorder->refuse(function);
@@ -34,9 +50,10 @@ void vgClear(VGint x, VGint y, VGint width, VGint height) {
 
 void vgSetPixels(VGint dx, VGint dy, VGImage src, VGint sx, VGint sy, VGint width, VGint height) {
     call([&](Context& context) {
-        requirePixels(context, "vgSetPixels");
         const std::shared_ptr<const Image> image = freeImage(context, src);
         require(width > 0 && height > 0);
+        if (context.recorder)
+            return record(context, *image, {dx, dy, sx, sy, width, height});
         compositorOf(context).setPixels(
             context, *image,
             clippedToSurface({dx, dy, sx, sy, width, height}, context, image->width(), image->height()));
@@ -46,8 +63,9 @@ void vgSetPixels(VGint dx, VGint dy, VGImage src, VGint sx, VGint sy, VGint widt
 void vgWritePixels(const void* data, VGint dataStride, VGImageFormat dataFormat, VGint dx, VGint dy,
                    VGint width, VGint height) {
     call([&](Context& context) {
-        requirePixels(context, "vgWritePixels");
         const MemoryPixels memory = memoryPixels(data, dataStride, dataFormat, width, height);
+        if (context.recorder)
+            return record(context, *imageOf(memory, width, height), {dx, dy, 0, 0, width, height});
         compositorOf(context).writePixels(
             context, memory, clippedToSurface({dx, dy, 0, 0, width, height}, context, width, height));
     });

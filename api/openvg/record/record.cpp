@@ -87,13 +87,52 @@ void Recorder::drawPath(const State& state, const Path& path, VGbitfield modes, 
 void Recorder::drawImage(const State& state, const Image& image, const glm::mat3& toSurface) {
     ++calls_;
     refuseClipLines(state);
-    if (state.imageMode != VG_DRAW_IMAGE_NORMAL)
-        refuse(fmt::format("an image in mode 0x{:x}", state.imageMode));
     if (!inverseOf(toSurface))
         return;
-    const scene::Node node = painted(image, toPicture(toSurface), state, bitmaps_);
-    const auto& item = std::get<scene::Item>(node.value);
-    draw(state, node, {item.path, item.transform, item.geometry});
+    const scene::Affine toPicture = this->toPicture(toSurface);
+    const scene::Shape shape{std::make_shared<scene::Path>(rectangleOf(0, 0, image.width(), image.height())),
+                             toPicture, scene::FillRule::NonZero};
+    draw(state, imageNode(state, image, shape), shape);
+}
+
+scene::Node Recorder::imageNode(const State& state, const Image& image, const scene::Shape& shape) {
+    const scene::Affine& toPicture = shape.transform;
+    const Paint& paint = currentPaint(state, VG_FILL_PATH);
+    if (state.imageMode == VG_DRAW_IMAGE_NORMAL)
+        return painted(image, toPicture, state, bitmaps_);
+    if (state.imageMode == VG_DRAW_IMAGE_COLOR_MATRIX_NDS)
+        return transformed(image, paint, toPicture, state, bitmaps_);
+    const bool isProduct = state.imageMode == VG_DRAW_IMAGE_MULTIPLY;
+    if (const std::optional<Color> color = colorOf(paint); color && isProduct)
+        return multiplied(image, *color, toPicture, state, bitmaps_);
+    const glm::mat3& paintToUser = state.matrix(VG_MATRIX_FILL_PAINT_TO_USER);
+    if (isProjective(paintToUser))
+        refuse("paint in perspective");
+    scene::Group group;
+    group.children.push_back(painted(shape, paint, affineOf(paintToUser), state, bitmaps_));
+    if (isProduct) {
+        if (!isOpaque(group.children.front()) || image.format().space.linear || state.colorTransform)
+            refuse(
+                "an image in mode multiply: by a gradient or a pattern that is translucent, in linear light, "
+                "or with a colour transform");
+        scene::Group factor;
+        factor.children.push_back(opaque(image, toPicture, state, bitmaps_));
+        factor.blend = scene::BlendMode::Multiply;
+        group.children.push_back({std::move(factor)});
+    } else if (!isWhite(image)) {
+        refuse("an image in mode stencil that is not white");
+    }
+    group.mask = std::make_shared<scene::Mask>(scene::Mask{
+        openvg::groupOf(alphaOf(image, toPicture, state, bitmaps_)), scene::MaskKind::Alpha, false});
+    return {std::move(group)};
+}
+
+void Recorder::setPixels(const State& state, const Image& image, const CopyArea& area) {
+    ++calls_;
+    const scene::Shape shape = writtenShape(state, area.dx, area.dy, area.width, area.height);
+    if (!shape.path->empty())
+        put({scene::Item{shape.path, shape.transform, shape.geometry, storedPart(image, area, bitmaps_), 1}},
+            shape);
 }
 
 void Recorder::refuseClipLines(const State& state) {
@@ -129,6 +168,28 @@ void Recorder::draw(const State& state, scene::Node node, const scene::Shape& sh
 void Recorder::clear(const State& state, int x, int y, int width, int height) {
     ++calls_;
     const scene::Color color = clearColor(state);
+    const scene::Shape shape = writtenShape(state, x, y, width, height);
+    if (shape.path->empty())
+        return;
+    if (!state.scissoring && x <= 0 && y <= 0 && double(x) + width >= width_ &&
+        double(y) + height >= height_) {
+        root_.children.clear();
+        isPlain_ = true;
+        lastCut_ = {};
+    }
+    put({scene::Item{shape.path, shape.transform, shape.geometry, color, 1}}, shape);
+}
+
+/// In place of what is there.
+void Recorder::put(scene::Node node, const scene::Shape& shape) {
+    if (root_.children.empty() || isOpaque(node))
+        lay(std::move(node), scene::BlendMode::Normal, {});
+    else
+        replace(std::move(node), shape);
+}
+
+/// Pixels that scissoring leaves of a rectangle.
+scene::Shape Recorder::writtenShape(const State& state, int x, int y, int width, int height) const {
     std::vector<VGint> rectangles;
     if (state.scissoring)
         rectangles = rectanglesOf(state);
@@ -148,20 +209,7 @@ void Recorder::clear(const State& state, int x, int y, int width, int height) {
             double(rectangles[i + 1]) + rectangles[i + 3]);
     if (!state.scissoring)
         add(0, 0, width_, height_);
-    if (path.empty())
-        return;
-    const scene::Shape shape{std::make_shared<scene::Path>(std::move(path)), flip_, scene::FillRule::NonZero};
-    if (!state.scissoring && x <= 0 && y <= 0 && double(x) + width >= width_ &&
-        double(y) + height >= height_) {
-        root_.children.clear();
-        isPlain_ = true;
-        lastCut_ = {};
-    }
-    scene::Node node{scene::Item{shape.path, shape.transform, shape.geometry, color, 1}};
-    if (root_.children.empty() || color.a == 1)
-        lay(std::move(node), scene::BlendMode::Normal, {});
-    else
-        replace(std::move(node), shape);
+    return {std::make_shared<scene::Path>(std::move(path)), flip_, scene::FillRule::NonZero};
 }
 
 // ---- Layers ---------------------------------------------------------------------------------------
@@ -200,8 +248,8 @@ void Recorder::lay(scene::Node node, scene::BlendMode blend, const Cut& cut) {
     if (isNormal && cut.isNone()) {
         root_.children.push_back(std::move(node));
         lastCut_ = {};
-    } else if (isNormal && !lastCut_.isNone() && cut == lastCut_) {
-        // Cut together they are what they are cut one by one: at every point a cut is all or nothing.
+    } else if (isNormal && !lastCut_.isNone() && cut == lastCut_ && !cut.mask.isShare) {
+        // Cut together they are what they are cut one by one: at every point the cut is all or nothing.
         std::get<scene::Group>(root_.children.back().value).children.push_back(std::move(node));
     } else {
         scene::Group group = groupOf(std::move(node), cut);
@@ -286,9 +334,12 @@ void Recorder::renderToMask(const State& state, const Path& path, VGbitfield mod
 void Recorder::mask(const MaskLayer* layer, VGMaskOperation operation, const CopyArea& area) {
     ++calls_;
     if (layer) {
+        const auto written = layers_.find(layer->handle);
+        if (written == layers_.end())
+            return combineValues(layer->mask, operation, area);
         if (!covers(area) || !covers({0, 0, 0, 0, layer->mask.width, layer->mask.height}))
             refuse("a part of a mask layer");
-        return combine(operation, maskOfLayer(*layer));
+        return combine(operation, written->second);
     }
     const RecordedMask rectangle =
         maskOf({std::make_shared<scene::Path>(rectangleOf(area.dx, area.dy, area.width, area.height)), flip_,
@@ -299,17 +350,19 @@ void Recorder::mask(const MaskLayer* layer, VGMaskOperation operation, const Cop
         combine(operation == VG_FILL_MASK ? VG_UNION_MASK : VG_SUBTRACT_MASK, rectangle);
 }
 
-RecordedMask Recorder::maskOfLayer(const MaskLayer& layer) {
-    if (const auto written = layers_.find(layer.handle); written != layers_.end())
-        return written->second;
-    const auto isAll = [&](std::uint8_t value) {
-        return std::ranges::all_of(layer.mask.values(), [&](std::uint8_t v) { return v == value; });
-    };
-    if (isAll(255))
-        return {};
-    if (!isAll(0))
-        refuse("a mask layer of pixels from before the recording");
-    return emptyMask();
+void Recorder::mask(const MaskValues& values, VGMaskOperation operation, const CopyArea& area) {
+    ++calls_;
+    combineValues(values, operation, area);
+}
+
+void Recorder::combineValues(const MaskValues& values, VGMaskOperation operation, const CopyArea& area) {
+    const CopyArea part = clipped(area, maxImageSide, maxImageSide, values.width, values.height);
+    if (part.width == 0)
+        return;
+    const auto path = std::make_shared<scene::Path>(rectangleOf(part.dx, part.dy, part.width, part.height));
+    const scene::Item inside{path, flip_, scene::FillRule::NonZero,
+                             storedPart(values, part, operation == VG_SUBTRACT_MASK, bitmaps_)};
+    mask_ = combinedWith(mask_, operation, inside, picture_);
 }
 
 void Recorder::fillMaskLayer(const MaskLayer& layer, const CopyArea& area, float value) {

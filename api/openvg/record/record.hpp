@@ -23,12 +23,16 @@ public:
 
     void drawPath(const State& state, const Path& path, VGbitfield modes, const glm::mat3& toSurface);
     void drawImage(const State& state, const Image& image, const glm::mat3& toSurface);
+    /// vgSetPixels and vgWritePixels: a part of an image.
+    void setPixels(const State& state, const Image& image, const CopyArea& area);
     /// Of surface pixels [x, x + width) × [y, y + height).
     void clear(const State& state, int x, int y, int width, int height);
 
     void renderToMask(const State& state, const Path& path, VGbitfield modes, VGMaskOperation operation);
     /// vgMask: `layer` is null where the operation takes none.
     void mask(const MaskLayer* layer, VGMaskOperation operation, const CopyArea& area);
+    /// vgMask with an image: its values.
+    void mask(const MaskValues& values, VGMaskOperation operation, const CopyArea& area);
     void fillMaskLayer(const MaskLayer& layer, const CopyArea& area, float value);
     void copyMask(const MaskLayer& layer, const CopyArea& area);
 
@@ -53,13 +57,17 @@ private:
     void refuseClipLines(const State& state);
     scene::Affine toPicture(const glm::mat3& toSurface);
     bool covers(const CopyArea& area) const;
+    scene::Shape writtenShape(const State& state, int x, int y, int width, int height) const;
+    /// What an image draws in the state's mode.
+    scene::Node imageNode(const State& state, const Image& image, const scene::Shape& shape);
+    void put(scene::Node node, const scene::Shape& shape);
     void draw(const State& state, scene::Node node, const scene::Shape& shape);
     void lay(scene::Node node, scene::BlendMode blend, const Cut& cut);
     void layBelow(scene::Node node, const Cut& cut);
     /// Puts it in the place of what is there.
     void replace(scene::Node node, const scene::Shape& shape);
     scene::Group groupOf(scene::Node node, const Cut& cut) const;
-    RecordedMask maskOfLayer(const MaskLayer& layer);
+    void combineValues(const MaskValues& values, VGMaskOperation operation, const CopyArea& area);
     void combine(VGMaskOperation operation, const RecordedMask& other);
 
     const double width_, height_;

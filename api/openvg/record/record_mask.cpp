@@ -91,7 +91,7 @@ RecordedMask unionOf(const RecordedMask& a, const RecordedMask& b, const Picture
         scene::Group both;
         both.children.push_back(alphaOf(a, picture));
         both.children.push_back(alphaOf(b, picture));
-        return {nullptr, std::make_shared<scene::Group>(std::move(both))};
+        return {nullptr, std::make_shared<scene::Group>(std::move(both)), a.isShare || b.isShare};
     }
     scene::Clip clip;
     append(clip, a.clip, picture);
@@ -101,6 +101,7 @@ RecordedMask unionOf(const RecordedMask& a, const RecordedMask& b, const Picture
 
 RecordedMask intersectionOf(const RecordedMask& a, const RecordedMask& b, const PicturePath& picture) {
     RecordedMask result = a;
+    result.isShare = a.isShare || b.isShare;
     if (!a.clip) {
         result.clip = b.clip;
     } else if (b.clip) {
@@ -132,7 +133,21 @@ std::optional<RecordedMask> differenceOf(const RecordedMask& a, const RecordedMa
         return std::nullopt;
     const scene::Select outside{
         {shape.path, shape.transform, shape.rule}, nullptr, groupOf(alphaOf({nullptr, a.alpha}, picture))};
-    return RecordedMask{a.clip, groupOf({outside})};
+    return RecordedMask{a.clip, groupOf({outside}), a.isShare};
+}
+
+RecordedMask combinedWith(const RecordedMask& mask, VGMaskOperation operation, const scene::Item& inside,
+                          const PicturePath& picture) {
+    const auto elsewhere = [&](scene::Node outside) {
+        const scene::Shape shape{inside.path, inside.transform, inside.geometry};
+        return RecordedMask{
+            nullptr, groupOf({scene::Select{shape, groupOf({inside}), groupOf(std::move(outside))}}), true};
+    };
+    if (operation == VG_SET_MASK)
+        return elsewhere(alphaOf(mask, picture));
+    if (operation == VG_UNION_MASK)
+        return unionOf(mask, {nullptr, groupOf({inside}), true}, picture);
+    return intersectionOf(mask, elsewhere(white(picture)), picture);
 }
 
 }  // namespace vtm::openvg

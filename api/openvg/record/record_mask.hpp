@@ -29,6 +29,7 @@ scene::Shape shapeOf(const State& state, const Path& path, VGPaintMode mode, con
 struct RecordedMask {
     std::shared_ptr<const scene::Clip> clip;
     std::shared_ptr<const scene::Group> alpha;
+    bool isShare = false;  ///< values may be between 0 and 1
 
     friend bool operator==(const RecordedMask&, const RecordedMask&) = default;
 };
@@ -44,5 +45,10 @@ RecordedMask intersectionOf(const RecordedMask& a, const RecordedMask& b,
 /// Nothing unless b is one shape, all or nothing: scenes have no complement of anything else.
 std::optional<RecordedMask> differenceOf(const RecordedMask& a, const RecordedMask& b,
                                          const std::shared_ptr<const scene::Path>& picture);
+
+/// What one makes of `mask` where `inside` is, which shows only there: by its alpha, or for VG_SUBTRACT_MASK
+/// by the alpha of what is left.
+RecordedMask combinedWith(const RecordedMask& mask, VGMaskOperation operation, const scene::Item& inside,
+                          const std::shared_ptr<const scene::Path>& picture);
 
 }  // namespace vtm::openvg

@@ -138,12 +138,15 @@ image::Bitmap bitmapOf(int width, int height, Texel&& texel) {
     return bitmap;
 }
 
+Color straightColor(const Image& image, int x, int y) {
+    const Color color = image.color(x, y);
+    return image.format().space.premultiplied ? unpremultiplied(color) : color;
+}
+
 /// A pixel as both colour transforms leave it.
 Color texelOf(const Image& image, int x, int y, const ColorTransform& transform, const State& state) {
     ColorSpace space = image.format().space;
-    Color color = image.color(x, y);
-    if (space.premultiplied)
-        color = unpremultiplied(color);
+    Color color = straightColor(image, x, y);
     if (!transform.isIdentity()) {
         color = transform(converted(color, space, transform.space()));
         space = transform.space();
@@ -250,27 +253,99 @@ scene::Color clearColor(const State& state) {
     return sceneColor({c[0], c[1], c[2], c[3]});
 }
 
+std::optional<Color> colorOf(const Paint& paint) {
+    if (paint.type != VG_PAINT_TYPE_COLOR && (paint.type != VG_PAINT_TYPE_PATTERN || paint.pattern))
+        return std::nullopt;
+    const std::array<VGfloat, 4>& c = paint.color;
+    return transformedColor(ColorTransform(paint), {c[0], c[1], c[2], c[3]}, sRGBA);
+}
+
 scene::Node painted(const scene::Shape& shape, const Paint& paint, const scene::Affine& paintToUser,
                     const State& state, Bitmaps& bitmaps) {
-    if (paint.type == VG_PAINT_TYPE_COLOR || (paint.type == VG_PAINT_TYPE_PATTERN && !paint.pattern)) {
-        const std::array<VGfloat, 4>& c = paint.color;
-        const Color color = transformedColor(ColorTransform(paint), {c[0], c[1], c[2], c[3]}, sRGBA);
-        return itemOf(shape, sceneColor(finished(color, sRGBA, state)));
-    }
+    if (const std::optional<Color> color = colorOf(paint))
+        return itemOf(shape, sceneColor(finished(*color, sRGBA, state)));
     if (paint.type == VG_PAINT_TYPE_PATTERN)
         return patternNode(shape, paint, paintToUser, state, bitmaps);
     return itemOf(shape, gradientPaint(paint, paintToUser, state));
 }
 
-scene::Node painted(const Image& image, const scene::Affine& toPicture, const State& state,
-                    Bitmaps& bitmaps) {
-    static const Paint plain;
-    const ColorTransform none(plain);
-    const auto texel = [&](int x, int y) { return texelOf(image, x, y, none, state); };
+namespace {
+
+/// `texel(x, y)`: straight, sRGB.
+template <class Texel>
+scene::Node imageItem(const Image& image, const scene::Affine& toPicture, const State& state,
+                      Bitmaps& bitmaps, Texel&& texel) {
     const scene::Shape shape{rectangle(image.width(), image.height()), toPicture, scene::FillRule::NonZero};
     return itemOf(shape, scene::ImagePaint{bitmaps.add(bitmapOf(image.width(), image.height(), texel)),
                                            isSmooth(image, state) ? scene::ImageFilter::Trilinear
                                                                   : scene::ImageFilter::Nearest});
+}
+
+const Paint& plainPaint() {
+    static const Paint plain;
+    return plain;
+}
+
+scene::Affine placed(const CopyArea& area) { return scene::translation(area.dx, area.dy); }
+
+}  // namespace
+
+scene::Node painted(const Image& image, const scene::Affine& toPicture, const State& state,
+                    Bitmaps& bitmaps) {
+    return transformed(image, plainPaint(), toPicture, state, bitmaps);
+}
+
+scene::Node transformed(const Image& image, const Paint& paint, const scene::Affine& toPicture,
+                        const State& state, Bitmaps& bitmaps) {
+    const ColorTransform transform(paint);
+    return imageItem(image, toPicture, state, bitmaps,
+                     [&](int x, int y) { return texelOf(image, x, y, transform, state); });
+}
+
+scene::Node multiplied(const Image& image, Color color, const scene::Affine& toPicture, const State& state,
+                       Bitmaps& bitmaps) {
+    // The numbers of both, whatever they mean (section 10.8).
+    const ColorSpace space{image.format().space.linear, false, false};
+    return imageItem(image, toPicture, state, bitmaps, [&](int x, int y) {
+        return finished(straightColor(image, x, y) * color, space, state);
+    });
+}
+
+scene::Node alphaOf(const Image& image, const scene::Affine& toPicture, const State& state,
+                    Bitmaps& bitmaps) {
+    return imageItem(image, toPicture, state, bitmaps,
+                     [&](int x, int y) { return Color(1, 1, 1, image.color(x, y).a); });
+}
+
+scene::Node opaque(const Image& image, const scene::Affine& toPicture, const State& state, Bitmaps& bitmaps) {
+    const ColorTransform none(plainPaint());
+    return imageItem(image, toPicture, state, bitmaps,
+                     [&](int x, int y) { return Color(glm::vec3(texelOf(image, x, y, none, state)), 1); });
+}
+
+scene::ImagePaint storedPart(const Image& image, const CopyArea& area, Bitmaps& bitmaps) {
+    ColorSpace space = image.format().space;
+    space.premultiplied = false;
+    const auto texel = [&](int x, int y) {
+        return converted(straightColor(image, area.sx + x, area.sy + y), space, sRGBA);
+    };
+    return {bitmaps.add(bitmapOf(area.width, area.height, texel)), scene::ImageFilter::Nearest, placed(area)};
+}
+
+scene::ImagePaint storedPart(const MaskValues& values, const CopyArea& area, bool isRest, Bitmaps& bitmaps) {
+    const auto texel = [&](int x, int y) {
+        const float value = float(values.row(area.sy + y)[area.sx + x]) / 255;
+        return Color(1, 1, 1, isRest ? 1 - value : value);
+    };
+    return {bitmaps.add(bitmapOf(area.width, area.height, texel)), scene::ImageFilter::Nearest, placed(area)};
+}
+
+bool isWhite(const Image& image) {
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            if (const Color c = straightColor(image, x, y); c.a > 0 && !(c.r == 1 && c.g == 1 && c.b == 1))
+                return false;
+    return true;
 }
 
 bool isOpaque(const scene::Node& node) {

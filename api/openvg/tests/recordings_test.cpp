@@ -131,6 +131,151 @@ TEST_F(Recordings, ImagesAreWhatCallsDraw) {
             << quality;
 }
 
+/// Values of every kind of the mask, rows of them; with `isHard` 0 and 1 alone.
+VGImage maskImage(VGImageFormat format, int width, int height, bool isHard) {
+    const VGImage image =
+        vgCreateImage(format, width, height, VG_IMAGE_QUALITY_NONANTIALIASED | VG_IMAGE_QUALITY_BETTER);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const unsigned value = isHard ? ((x / 3 + y / 5) % 2) * 255u : unsigned(37 * x + 11 * y) & 255;
+            const std::uint32_t word = format == VG_A_8 ? value : value * 0x01010100u | 255;
+            vgImageSubData(image, &word, 4, format == VG_A_8 ? VG_A_8 : VG_sRGBX_8888, x, y, 1, 1);
+        }
+    return image;
+}
+
+TEST_F(Recordings, ImagesInOtherModesAreWhatCallsDraw) {
+    const VGImage image = checks(), alpha = maskImage(VG_A_8, 12, 7, false),
+                  opaque = maskImage(VG_sRGBX_8888, 9, 8, false);
+    const auto drawn = [](VGImageMode mode, VGImage what, VGPaint paint) {
+        vgSeti(VG_IMAGE_MODE, mode);
+        vgSeti(VG_IMAGE_QUALITY, VG_IMAGE_QUALITY_NONANTIALIASED);
+        vgSeti(VG_MATRIX_MODE, VG_MATRIX_FILL_PAINT_TO_USER);
+        vgLoadIdentity();
+        vgSeti(VG_MATRIX_MODE, VG_MATRIX_IMAGE_USER_TO_SURFACE);
+        vgLoadIdentity();
+        vgTranslate(4, 12);
+        vgScale(4, 5);
+        usePaint(paint);
+        vgDrawImage(what);
+        vgSeti(VG_IMAGE_MODE, VG_DRAW_IMAGE_NORMAL);
+    };
+    const VGPaint color = newPaint({0.3f, 0.8f, 0.6f, 0.7f}),
+                  ramp = gradient(VG_PAINT_TYPE_LINEAR_GRADIENT, {0, 0, 12, 7},
+                                  {0, 1, 0, 0.2f, 1, 1, 0.1f, 1, 0.8f, 1}, VG_COLOR_RAMP_SPREAD_PAD);
+    for (const VGImage what : {image, alpha, opaque})
+        EXPECT_LE(difference([&] { drawn(VG_DRAW_IMAGE_MULTIPLY, what, color); }), 1) << what;
+    for (const VGImage what : {image, opaque})
+        EXPECT_LE(difference([&] { drawn(VG_DRAW_IMAGE_MULTIPLY, what, ramp); }), 2) << what;
+    for (const VGPaint paint : {color, ramp})
+        EXPECT_LE(difference([&] { drawn(VG_DRAW_IMAGE_STENCIL, alpha, paint); }), 2) << paint;
+    // Colours for each channel are no scene's.
+    for (const VGImage what : {image, opaque})
+        EXPECT_EQ(faultOf([&] { drawn(VG_DRAW_IMAGE_STENCIL, what, color); }).first,
+                  VTM_NOT_RECORDABLE_ERROR);
+}
+
+TEST_F(Recordings, PixelsReplaceWhatIsThere) {
+    const VGImage image = checks();
+    std::array<std::uint32_t, 20 * 20> words;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = std::uint32_t(i * 2654435761u);
+    EXPECT_LE(difference(
+                  [&] {
+                      useColor({0.2f, 0.3f, 1, 1});
+                      fill(wholeSurface());
+                      vgSetPixels(10, 20, image, 0, 0, 5, 3);
+                      vgSetPixels(-2, 40, image, 1, 1, 5, 3);
+                      const VGint rectangles[] = {30, 30, 8, 9, 35, 36, 20, 4};
+                      vgSetiv(VG_SCISSOR_RECTS, 8, rectangles);
+                      vgSeti(VG_SCISSORING, VG_TRUE);
+                      vgWritePixels(words.data(), 80, VG_sRGBA_8888, 25, 25, 20, 20);
+                      vgSeti(VG_SCISSORING, VG_FALSE);
+                      vgWritePixels(words.data(), 80, VG_lXRGB_8888, 50, 50, 20, 20);
+                      vgWritePixels(words.data(), 4, VG_BW_1, 2, 2, 19, 7);
+                      // A colour transform and blending take no part.
+                      vgSeti(VG_COLOR_TRANSFORM, VG_TRUE);
+                      const VGfloat values[] = {0.5f, 0.5f, 0.5f, 0.5f, 0, 0, 0, 0};
+                      vgSetfv(VG_COLOR_TRANSFORM_VALUES, 8, values);
+                      vgSeti(VG_BLEND_MODE, VG_BLEND_MULTIPLY);
+                      vgSetPixels(30, 5, image, 0, 0, 5, 3);
+                  },
+                  {0, 0, 0, 0}),
+              1);
+}
+
+TEST_F(Recordings, MasksOfImagesCut) {
+    for (const VGImageFormat format : {VG_A_8, VG_sRGBX_8888}) {
+        const VGImage image = maskImage(format, 40, 30, true);
+        for (const VGMaskOperation operation :
+             {VG_SET_MASK, VG_UNION_MASK, VG_INTERSECT_MASK, VG_SUBTRACT_MASK})
+            for (const bool isAll : {false, true})
+                EXPECT_LE(difference([&] {
+                              vgSeti(VG_MASKING, VG_TRUE);
+                              const VGPath first = rectangle(8, 8, 30, 30);
+                              vgRenderToMask(first, VG_FILL_PATH, VG_SET_MASK);
+                              vgDestroyPath(first);
+                              if (isAll)
+                                  vgMask(image, VG_SET_MASK, 0, 0, 64, 64);
+                              vgMask(image, operation, 12, 5, 64, 20);
+                              useColor({0.5f, 0, 0, 0.5f});
+                              fill(wholeSurface());
+                              useColor({0, 0, 0.5f, 1});
+                              fill(rectangle(0, 24, 64, 8));
+                          }),
+                          1)
+                    << operation << " " << isAll;
+    }
+}
+
+// Values between 0 and 1 multiply alpha, as those of an image that is drawn.
+TEST_F(Recordings, SoftMasksAreAlpha) {
+    const VGImage mask = maskImage(VG_A_8, side, side, false),
+                  painted = vgCreateImage(VG_sRGBA_8888, side, side, VG_IMAGE_QUALITY_NONANTIALIASED);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const std::uint32_t word = 0xCC330000 | (unsigned(37 * x + 11 * y) & 255);
+            vgImageSubData(painted, &word, 4, VG_sRGBA_8888, x, y, 1, 1);
+        }
+    const Recording masked = record([&] {
+        resetState();
+        vgSeti(VG_MASKING, VG_TRUE);
+        vgMask(mask, VG_SET_MASK, 0, 0, side, side);
+        useColor({0.8f, 0.2f, 0, 1});
+        fill(wholeSurface());
+        fill(rectangle(0, 0, side, 1));
+    });
+    resetState();
+    clear({1, 1, 1, 1});
+    vgSeti(VG_MATRIX_MODE, VG_MATRIX_IMAGE_USER_TO_SURFACE);
+    vgLoadIdentity();
+    vgDrawImage(painted);
+    const VGint lowest[] = {0, 0, side, 1};
+    vgSetiv(VG_SCISSOR_RECTS, 4, lowest);
+    vgSeti(VG_SCISSORING, VG_TRUE);
+    vgDrawImage(painted);
+    const std::vector<std::uint8_t> direct = pixels();
+    resetState();
+    clear({1, 1, 1, 1});
+    vtmDrawRecording(masked.get());
+    EXPECT_LE(largestDifference(direct, pixels()), 1);
+}
+
+TEST_F(Recordings, MaskLayersFromBefore) {
+    const VGMaskLayer layer = vgCreateMaskLayer(40, 50);
+    ASSERT_NE(layer, VG_INVALID_HANDLE);
+    vgFillMaskLayer(layer, 0, 0, 40, 50, 0);
+    vgFillMaskLayer(layer, 10, 20, 25, 20, 1);
+    EXPECT_LE(difference([&] {
+                  vgSeti(VG_MASKING, VG_TRUE);
+                  vgMask(layer, VG_SET_MASK, 5, -3, 30, 60);
+                  useColor({0.5f, 0, 0, 0.5f});
+                  fill(wholeSurface());
+              }),
+              1);
+    vgDestroyMaskLayer(layer);
+}
+
 TEST_F(Recordings, GlyphsAreWhatCallsDraw) {
     EXPECT_LE(difference([&] {
                   const VGFont font = vgCreateFont(2);
