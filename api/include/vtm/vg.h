@@ -129,9 +129,9 @@ typedef struct VtmRecording VtmRecording;
 /* The error of a call that cannot be recorded. */
 #define VTM_NOT_RECORDABLE_ERROR ((VGErrorCode)0x1F00)
 
-/* Starts a recording. From now on vgClear and the functions that draw paths, glyphs and images on the current context
- * are recorded instead of drawn: what would appear in [0, width] x [0, height] of the surface, whatever the surface's
- * size, on a transparent background. The recording has a mask of its own, which starts at 1; the surface's pixels and
+/* Starts a recording. From now on vgClear, vgSetPixels, vgWritePixels and the functions that draw paths, glyphs and
+ * images on the current context are recorded instead of drawn: what would appear in [0, width] x [0, height] of the
+ * surface, whatever the surface's size, on a transparent background. The recording has a mask of its own, which starts at 1; the surface's pixels and
  * mask do not change. Sets VG_ILLEGAL_ARGUMENT_ERROR if the context is already recording, or a side is not in (0,
  * 1000000].
  *

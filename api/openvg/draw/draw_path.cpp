@@ -89,8 +89,7 @@ void coverPath(const Context& context, Path& path, VGPaintMode mode, const glm::
     }
     if (state.clipMode == VG_CLIPMODE_CULL_NDS && !isWithin(mapped(path.data.segments(), toSurface), lines))
         return;
-    PathMask seen(projectedOutline(mask.outline(), toSurface, lines, clip), mask.rule());
-    scan(seen, glm::mat3(1));
+    scan(mask.seen(toSurface, lines, clip), glm::mat3(1));
 }
 
 void drawPath(Context& context, Path& path, VGbitfield modes, const glm::mat3& toSurface, GlyphCache* cache) {

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "api/openvg/path/flatten.hpp"
+#include "api/openvg/path/projective.hpp"
 #include "api/openvg/state/matrix.hpp"
 #include "compiler/coverage_map.hpp"
 #include "compiler/outline_coverage.hpp"
@@ -218,6 +219,25 @@ void PathMask::scanCenters(const glm::mat3& toSurface, const Rectangle& clip, co
         if (!runs.empty())
             row(int(i) + seen.y0, runs);
     }
+}
+
+// ---- In perspective -------------------------------------------------------------------------------
+
+struct PathMask::Seen {
+    glm::mat3 toSurface;
+    std::vector<ClipLine> lines;
+    Rectangle clip;
+    PathMask mask;
+};
+
+PathMask::~PathMask() = default;
+
+PathMask& PathMask::seen(const glm::mat3& toSurface, const std::vector<glm::dvec3>& lines,
+                         const Rectangle& clip) {
+    if (!seen_ || seen_->toSurface != toSurface || seen_->lines != lines || seen_->clip != clip)
+        seen_.reset(
+            new Seen{toSurface, lines, clip, {projectedOutline(outline(), toSurface, lines, clip), rule_}});
+    return seen_->mask;
 }
 
 }  // namespace vtm::openvg

@@ -12,8 +12,10 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include <vtm/scene/path.hpp>
 #include "api/openvg/image/pixels.hpp"
@@ -28,6 +30,7 @@ using RowSink = std::function<void(int y, std::span<const CoverageRun>)>;
 class PathMask {
 public:
     PathMask(scene::Path outline, scene::FillRule rule);
+    ~PathMask();
 
     const scene::Path& outline() const { return *outline_; }
     scene::FillRule rule() const { return rule_; }
@@ -43,7 +46,14 @@ public:
     /// gives every centre to one of them: each segment is cut into the same lines whichever way it runs.
     void scanCenters(const glm::mat3& toSurface, const Rectangle& clip, const RowSink& row) const;
 
+    /// What is seen through a matrix in perspective, or between clip lines (path/projective.hpp), in surface
+    /// coordinates. The last one is kept.
+    PathMask& seen(const glm::mat3& toSurface, const std::vector<glm::dvec3>& lines, const Rectangle& clip);
+
 private:
+    /// Of one matrix, clip lines and a clip.
+    struct Seen;
+
     const asset::CoverageScanner& scannerFor(double tolerance);
 
     std::uint64_t id_;
@@ -52,6 +62,7 @@ private:
     glm::dvec2 min_{0}, max_{0};                                     ///< a box around the outline
     bool isScanned_ = false;                                         ///< it was drawn before
     std::array<std::optional<asset::CoverageScanner>, 5> scanners_;  ///< from coarse to fine
+    std::unique_ptr<Seen> seen_;                                     ///< null at first
 };
 
 /// The pixels that the image of a box may meet, within `clip`. Empty for NaN.

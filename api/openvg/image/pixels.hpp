@@ -53,6 +53,8 @@ struct Rectangle {
     Rectangle intersected(const Rectangle& o) const {
         return {x0 > o.x0 ? x0 : o.x0, y0 > o.y0 ? y0 : o.y0, x1 < o.x1 ? x1 : o.x1, y1 < o.y1 ? y1 : o.y1};
     }
+
+    friend bool operator==(const Rectangle&, const Rectangle&) = default;
 };
 
 /// A word of one, two or four bytes.

@@ -100,6 +100,38 @@ TEST_F(ProjectiveTransforms, WhatAnAffineMapDrawsKeepsWeights) {
     expectSame(drawn(flat), expected, 2);
 }
 
+// What is kept of a path serves one matrix, one set of clip lines and one state of its data.
+TEST_F(ProjectiveTransforms, WhatIsDrawnAgain) {
+    const VGPath path = everything(), other = everything();
+    Matrix nearer = floorMatrix;
+    nearer[7] += 2;
+    const std::vector<VGfloat> lines{1, 0, -6, 0, -1, 20};
+    load(VG_MATRIX_PATH_USER_TO_SURFACE, floorMatrix);
+    const Bytes far = drawn(other);
+    load(VG_MATRIX_PATH_USER_TO_SURFACE, nearer);
+    const Bytes near = drawn(other);
+    clipBy(lines, VG_CLIPMODE_CLIP_CLOSED_NDS);
+    const Bytes cut = drawn(other);
+    clipBy({}, VG_CLIPMODE_NONE_NDS);
+    EXPECT_NE(far, near);
+    EXPECT_NE(near, cut);
+    for (int round = 0; round < 2; ++round) {
+        for (int again = 0; again < 3; ++again) {
+            load(VG_MATRIX_PATH_USER_TO_SURFACE, floorMatrix);
+            expectSame(drawn(path), far);
+        }
+        load(VG_MATRIX_PATH_USER_TO_SURFACE, nearer);
+        expectSame(drawn(path), near);
+        clipBy(lines, VG_CLIPMODE_CLIP_CLOSED_NDS);
+        expectSame(drawn(path), cut);
+        expectSame(drawn(path), cut);
+        clipBy({}, VG_CLIPMODE_NONE_NDS);
+        expectSame(drawn(path), near);
+    }
+    vgClearPath(path, VG_PATH_CAPABILITY_ALL);
+    EXPECT_EQ(drawn(path), Bytes(far.size(), 0));
+}
+
 TEST_F(ProjectiveTransforms, WhatIsClippedAsAnArea) {
     const VGPath path = everything();
     load(VG_MATRIX_PATH_USER_TO_SURFACE, floorMatrix);
