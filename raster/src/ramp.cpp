@@ -170,13 +170,13 @@ constexpr float straightWidth = 1.0f / 16;
 constexpr float minStretch = 0.25f;
 
 /// A stretch's length, and what its straight colours change by.
-struct Line {
+struct StretchSlope {
     float length;
     Float4 slope;
 };
 
 /// `number`: of the stop at which it ends.
-Line lineOf(const GradientView& gradient, std::size_t number) {
+StretchSlope slopeOf(const GradientView& gradient, std::size_t number) {
     const std::size_t count = gradient.size();
     if (number == 0 || number == count) {
         const bool isPadded = gradient.gradient().spread == Spread::Pad;
@@ -242,8 +242,8 @@ const Ramp::Beyond& Ramp::beyond(bool isAbove) {
         return known;
     if (number_ == (isAbove ? gradient_.size() : 0))
         return known = Beyond{0, Float4{}, Float4{}};  // the ramp's end
-    const Line here = lineOf(gradient_, number_),
-               next = lineOf(gradient_, isAbove ? number_ + 1 : number_ - 1);
+    const StretchSlope here = slopeOf(gradient_, number_),
+                       next = slopeOf(gradient_, isAbove ? number_ + 1 : number_ - 1);
     const Float4 stop = float4(gradient_.color(isAbove ? number_ : number_ - 1));
     const Float4 change = changeOf(stop, next.slope) - changeOf(stop, here.slope);
     return known = Beyond{next.length, isAbove ? change : -change, bendOf(next.slope) - bendOf(here.slope)};
