@@ -253,8 +253,16 @@ private:
                                    float roughness, bool findsRough, const FinerPixels* wanted) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
         const float minSteep = minSteepness(inverse);
-        return {of.paints,  of.sums, view, inverse, minSteep, materials, roughBounds(minSteep, roughness),
-                findsRough, wanted};
+        return {of.paints,
+                of.sums,
+                view,
+                inverse,
+                minSteep,
+                materials,
+                roughBounds(minSteep, roughness),
+                of.drawn.size() <= 1,
+                findsRough,
+                wanted};
     }
 
     const Scanned& of_;

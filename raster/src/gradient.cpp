@@ -196,41 +196,74 @@ struct Spots {
     Numbers u, first, second;
 };
 
-void nestedSpots(const NestedCircles& circles, const RadialPixels& pixels, const Middles& middles,
-                 Spots& spots) {
+/// Of pixels first to end - 1, far from the tip, or anywhere.
+template <bool isFar>
+void someSpots(const NestedCircles& circles, const RadialPixels& pixels, const Middles& middles,
+               std::size_t first, std::size_t end, Spots& spots) {
     const vec2 f = circles.f, one = pixels.sides[0], other = pixels.sides[1];
     const float allSides = glm::dot(one, one) + glm::dot(other, other);
     const vec2 beside = besideFocus * one;
     const float atFocus = glm::dot(beside, beside);
-    for (std::size_t i = 0; i < middles.count; ++i) {
-        const float fromX = middles.x[i], fromY = middles.y[i];
-        const bool isAtFocus = fromX * fromX + fromY * fromY < atFocus;
-        const float x = isAtFocus ? beside.x : fromX, y = isAtFocus ? beside.y : fromY;
+    for (std::size_t i = first; i < end; ++i) {
+        float x = middles.x[i], y = middles.y[i];
+        if constexpr (!isFar) {
+            const bool isAtFocus = x * x + y * y < atFocus;
+            x = isAtFocus ? beside.x : x;
+            y = isAtFocus ? beside.y : y;
+        }
         const float squared = x * x + y * y, b = circles.b(x, y), root = circles.root(b, squared);
         const float u = b + root, steepness = 1 / std::max(circles.a * root, 1e-6f);
         const float slopeX = (u * f.x + x) * steepness, slopeY = (u * f.y + y) * steepness;
         const float along = slopeX * one.x + slopeY * one.y, across = slopeX * other.x + slopeY * other.y;
-        const float steep = slopeX * slopeX + slopeY * slopeY;
-        const Cone cone(steep * squared, steep * allSides, along * along + across * across);
-        spots.u[i] = u + cone.higher;
-        spots.first[i] = along * cone.narrower;
-        spots.second[i] = across * cone.narrower;
+        if constexpr (isFar) {
+            spots.u[i] = u;
+            spots.first[i] = along;
+            spots.second[i] = across;
+        } else {
+            const float steep = slopeX * slopeX + slopeY * slopeY;
+            const Cone cone(steep * squared, steep * allSides, along * along + across * across);
+            spots.u[i] = u + cone.higher;
+            spots.first[i] = along * cone.narrower;
+            spots.second[i] = across * cone.narrower;
+        }
+    }
+}
+
+void nestedSpots(const NestedCircles& circles, const RadialPixels& pixels, const Middles& middles,
+                 Spots& spots) {
+    constexpr std::size_t together = 16;
+    const float farSquared = pixels.farSquared();
+    for (std::size_t i = 0; i < middles.count; i += together) {
+        const std::size_t end = std::min(i + together, middles.count);
+        int near = 0;
+        for (std::size_t k = i; k < end; ++k)
+            near += int(middles.x[k] * middles.x[k] + middles.y[k] * middles.y[k] <= farSquared);
+        if (near == 0)
+            someSpots<true>(circles, pixels, middles, i, end, spots);
+        else
+            someSpots<false>(circles, pixels, middles, i, end, spots);
     }
 }
 
 void spreadOffsets(Spread spread, std::span<float> offsets) {
-    if (spread != Spread::Pad)
+    if (spread == Spread::Reflect)
         for (float& u : offsets)
-            u = spreadOffset(spread, u);
+            u = spreadOffset(Spread::Reflect, u);
+    else if (spread == Spread::Repeat)
+        for (float& u : offsets)
+            u = spreadOffset(Spread::Repeat, u);
 }
+
+/// From a pixel's middle, of what its sides change u by.
+float reachOf(vec2 sides) { return 0.5f * (std::abs(sides.x) + std::abs(sides.y)); }
 
 /// `places`: before they are spread.
 std::optional<Float4> fillLinear(const GradientView& view, std::span<float> places, vec2 sides,
                                  std::span<Float4> colors) {
     spreadOffsets(view.gradient().spread, places);
     Ramp ramp(view);
-    const float reach = 0.5f * (std::abs(sides.x) + std::abs(sides.y));
-    return ramp.over(places, reach, colors, [&](std::size_t i) { return ramp.over(places[i], sides); });
+    return ramp.over(places, reachOf(sides), colors,
+                     [&](std::size_t i) { return ramp.over(places[i], sides); });
 }
 
 }  // namespace
@@ -238,13 +271,18 @@ std::optional<Float4> fillLinear(const GradientView& view, std::span<float> plac
 std::optional<Float4> linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
                                    std::span<Float4> colors) {
     const std::array<float, 6>& m = view.gradient().matrix;
-    const vec2 row(m[0], m[2]);
+    const vec2 row(m[0], m[2]), sides = row * pixel;
     const float first = applyMatrix(m, point).x, change = glm::dot(row, step);
+    if (view.gradient().spread == Spread::Pad) {
+        Ramp ramp(view);
+        return ramp.overRow(first, change, reachOf(sides), colors,
+                            [&](float place) { return ramp.over(place, sides); });
+    }
     std::array<float, longestRow> offsets;
     const std::span<float> places = std::span(offsets).first(colors.size());
     for (std::size_t i = 0; i < places.size(); ++i)
         places[i] = first + float(int(i)) * change;
-    return fillLinear(view, places, row * pixel, colors);
+    return fillLinear(view, places, sides, colors);
 }
 
 std::optional<Float4> linearColors(const GradientView& view, std::span<const vec2> points,

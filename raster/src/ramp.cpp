@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -164,31 +165,96 @@ Float4 meanOver(const GradientView& gradient, float u, float longer, float short
 /// straight.
 constexpr float straightWidth = 1.0f / 16;
 
-}  // namespace
+/// A stretch that is shorter, compared with a pixel's reach, is not followed beyond its ends: what it would
+/// be there is far from any colour.
+constexpr float minStretch = 0.25f;
 
-float spreadOffset(Spread spread, float u) {
-    switch (spread) {
-        case Spread::Reflect:
-            return 1 - std::abs(1 - (u - 2 * std::floor(u / 2)));
-        case Spread::Repeat:
-            return u - std::floor(u);
-        default:
-            return u;
+/// A stretch's length, and what its straight colours change by.
+struct StretchSlope {
+    float length;
+    Float4 slope;
+};
+
+/// `number`: of the stop at which it ends.
+StretchSlope slopeOf(const GradientView& gradient, std::size_t number) {
+    const std::size_t count = gradient.size();
+    if (number == 0 || number == count) {
+        const bool isPadded = gradient.gradient().spread == Spread::Pad;
+        return {isPadded      ? std::numeric_limits<float>::infinity()
+                : number == 0 ? gradient.offset(0)
+                              : 1 - gradient.offset(count - 1),
+                Float4{}};
     }
+    const float length = gradient.offset(number) - gradient.offset(number - 1);
+    const Float4 change = float4(gradient.color(number)) - float4(gradient.color(number - 1));
+    return {length, length > 0 ? change / length : Float4{}};
 }
+
+/// Premultiplied, what straight colours change by from `color` on; and by the square of the distance.
+Float4 changeOf(Float4 color, Float4 slope) {
+    return color * Float4{slope[3], slope[3], slope[3], 0} + slope * Float4{color[3], color[3], color[3], 1};
+}
+Float4 bendOf(Float4 slope) { return slope * Float4{slope[3], slope[3], slope[3], 0}; }
+
+}  // namespace
 
 Float4 Ramp::over(float place, vec2 sides) {
     sides = glm::min(glm::abs(sides), vec2(widestPadded));
     const float longer = std::max(sides.x, sides.y), shorter = std::min(sides.x, sides.y);
     if (finds(place, 0.5f * (longer + shorter)) || !(longer > 0))
         return at(place);
+    if (const auto mean = meanNear(place, {longer, std::max(shorter, thinnest * longer)}))
+        return *mean;
     return meanOver(gradient_, place, longer, shorter, at(place));
+}
+
+/// Colours are quadratic in u, so the mean over the stretch alone is that in the middle and bend times the
+/// variance. Beyond a stop, at a distance d from the middle, the density is (r - x) / (longer shorter) with r
+/// the reach, less (f - x) / (longer shorter) as far as f, half of the sides' difference; to be integrated
+/// are x - d and its square.
+std::optional<Float4> Ramp::meanNear(float place, const Sides& sides) {
+    const float reach = sides.reach(), flat = 0.5f * (sides.longer - sides.shorter);
+    if (!(high_ - low_ >= minStretch * reach))
+        return {};
+    Float4 mean = at(place);
+    if (!isPremultiplied_) {
+        const float variance = (sides.longer * sides.longer + sides.shorter * sides.shorter) / 12;
+        mean += variance * bendOf(slope_);
+    }
+    const float density = 1 / (sides.longer * sides.shorter);
+    for (const bool isAbove : {false, true}) {
+        const float distance = isAbove ? high_ - place : place - low_, x = reach - distance;
+        if (!(x > 0))
+            continue;
+        const Beyond& other = beyond(isAbove);
+        if (!(x <= other.length))
+            return {};
+        const float y = std::max(flat - distance, 0.0f), height = (y > 0 ? sides.shorter : x) * density;
+        mean += height * ((1.0f / 6) * (x * x + x * y + y * y)) * other.change;
+        mean += height * ((1.0f / 12) * (x + y) * (x * x + y * y)) * other.bend;
+    }
+    return mean;
+}
+
+const Ramp::Beyond& Ramp::beyond(bool isAbove) {
+    Beyond& known = beyond_[std::size_t(isAbove)];
+    if (std::exchange(knowsBeyond_[std::size_t(isAbove)], true))
+        return known;
+    if (number_ == (isAbove ? gradient_.size() : 0))
+        return known = Beyond{0, Float4{}, Float4{}};  // the ramp's end
+    const StretchSlope here = slopeOf(gradient_, number_),
+                       next = slopeOf(gradient_, isAbove ? number_ + 1 : number_ - 1);
+    const Float4 stop = float4(gradient_.color(isAbove ? number_ : number_ - 1));
+    const Float4 change = changeOf(stop, next.slope) - changeOf(stop, here.slope);
+    return known = Beyond{next.length, isAbove ? change : -change, bendOf(next.slope) - bendOf(here.slope)};
 }
 
 void Ramp::find(float place) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const std::size_t upTo = stopsUpTo(gradient_, place), count = gradient_.size();
     const bool isBefore = upTo == 0, isBehind = upTo == count;
+    number_ = upTo;
+    knowsBeyond_ = {};
     const std::size_t before = isBefore ? 0 : upTo - 1, after = std::min(upTo, count - 1);
     low_ = isBefore ? (isPadded_ ? -infinity : 0) : gradient_.offset(before);
     high_ = isBehind ? (isPadded_ ? infinity : 1) : gradient_.offset(after);

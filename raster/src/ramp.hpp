@@ -3,6 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -14,7 +17,16 @@
 namespace vtm::asset {
 
 /// Where the ramp is to be asked: within it, but for padded ones, which go on at both ends.
-float spreadOffset(Spread spread, float u);
+inline float spreadOffset(Spread spread, float u) {
+    switch (spread) {
+        case Spread::Reflect:
+            return 1 - std::abs(1 - (u - 2 * std::floor(u / 2)));
+        case Spread::Repeat:
+            return u - std::floor(u);
+        default:
+            return u;
+    }
+}
 
 /// A ramp that is asked for neighbours: it keeps the stretch between two stops that it was asked for last.
 /// Places are what spreadOffset() gives.
@@ -48,6 +60,29 @@ public:
         return {};
     }
 
+    /// The same of a padded ramp, over pixels whose places are `change` apart, of which `first` is the first.
+    template <class Otherwise>
+    std::optional<Float4> overRow(float first, float change, float reach, std::span<Float4> colors,
+                                  Otherwise&& otherwise) {
+        for (std::size_t i = 0; i < colors.size();) {
+            const float place = first + float(int(i)) * change;
+            if (!finds(place, reach)) {
+                colors[i++] = otherwise(place);
+                continue;
+            }
+            // One step less than fit: rounding does not matter.
+            const float end = change > 0 ? std::min(next_, high_ - reach) : low_ + reach;
+            const auto most = int(colors.size() - i);
+            const float steps = change == 0 ? float(most) : (end - place) / change;
+            const auto count = std::size_t(steps < float(most) ? std::max(int(steps), 1) : most);
+            if (count == colors.size() && largest(slope_) == 0)
+                return color_;
+            fillRow(place, change, colors.subspan(i, count));
+            i += count;
+        }
+        return {};
+    }
+
 private:
     /// How many places, the first of them in any case, are from `low` to below `high`, one after the other.
     static std::size_t countWithin(std::span<const float> places, float low, float high) {
@@ -62,12 +97,27 @@ private:
         return count;
     }
 
+    /// What the ramp differs by from the stretch, if that went on: x change + x² bend at a distance x from
+    /// its end, as far as `length`; 0 where it is something else.
+    struct Beyond {
+        float length;
+        Float4 change, bend;
+    };
+    /// The two numbers whose sum u is, less that of the middle, are even over intervals of these lengths.
+    struct Sides {
+        float longer, shorter;
+
+        float reach() const { return 0.5f * (longer + shorter); }
+    };
+
     bool holds(float place, float reach) const {
         return place - reach >= low_ && place + reach <= high_ && place < next_ && reach <= widest_;
     }
     bool finds(float place, float reach) {
         if (holds(place, reach))
             return true;
+        if (place >= low_ && place < next_)
+            return false;
         find(place);
         return holds(place, reach);
     }
@@ -82,7 +132,30 @@ private:
                 *colors++ = premultiplied(lineAt(place));
     }
 
+    void fillRow(float place, float change, std::span<Float4> colors) const {
+        if (isPremultiplied_)
+            fillSteps(lineAt(place), change * slope_, colors, [](Float4 color) { return color; });
+        else
+            fillSteps(lineAt(place), change * slope_, colors, premultiplied);
+    }
+    /// Four at a time, since each sum waits for the one before it.
+    template <class ColorOf>
+    static void fillSteps(Float4 first, Float4 step, std::span<Float4> colors, ColorOf&& colorOf) {
+        std::array<Float4, 4> next{first, first + step, first + 2 * step, first + 3 * step};
+        std::size_t i = 0;
+        for (; i + 4 <= colors.size(); i += 4)
+            for (std::size_t k = 0; k < 4; ++k) {
+                colors[i + k] = colorOf(next[k]);
+                next[k] += 4 * step;
+            }
+        for (std::size_t k = 0; i < colors.size(); ++i, ++k)
+            colors[i] = colorOf(next[k]);
+    }
+
     void find(float place);
+    /// The mean over a pixel in whose reach are this stretch and its neighbours alone.
+    std::optional<Float4> meanNear(float place, const Sides& sides);
+    const Beyond& beyond(bool isAbove);
 
     const GradientView& gradient_;
     bool isPadded_;
@@ -91,6 +164,9 @@ private:
     float low_ = 1, high_ = 0, next_ = 0, widest_ = 0, start_ = 0;
     Float4 color_{}, slope_{};
     bool isPremultiplied_ = true;
+    std::size_t number_ = 0;             ///< of the stop at which it ends
+    std::array<Beyond, 2> beyond_;       ///< below it and above
+    std::array<bool, 2> knowsBeyond_{};  ///< once they have been asked for
 };
 
 }  // namespace vtm::asset

@@ -56,6 +56,7 @@ struct ProgramView {
     float minSteep;      ///< of raster/steepness.hpp
     const MaterialFunction& materials;
     RoughBounds rough;
+    bool areDisjoint;           ///< what has all of a pixel shares it with nothing
     bool findsRough;            ///< whether rough pixels are looked for
     const FinerPixels* wanted;  ///< null: all
 
@@ -213,11 +214,7 @@ private:
                 addColors(run, next);
                 next += run.end - run.first;
             } else {
-                const std::span<Float4> colors = firstOf(wholes_, std::size_t(run.end - run.first));
-                of.paints.colors(paint, {of.point({run.first + 0.5, top_ + run.row + 0.5}), pixel}, pixel[0],
-                                 colors, of.materials);
-                toSums(of, colors);
-                addColors(run, wholes_.data());
+                addLong(of, paint, run);
             }
         runs_.clear();
         shares_.clear();
@@ -229,6 +226,31 @@ private:
         for (int x = run.first; x < run.end; ++share)
             for (; x < share->end; ++x)
                 *pixels++ += share->share * *colors++;
+    }
+
+    /// Colours are made where they are to be. Where the program has all of a pixel, nothing else is there.
+    void addLong(const ProgramView& of, std::uint32_t paint, const Run& run) {
+        const glm::mat2 pixel(of.inverse);
+        const std::span<Float4> pixels(pixels_.use(run.row, run.first, run.end),
+                                       std::size_t(run.end - run.first));
+        before_.clear();
+        forEachPart(of, run, [&](std::size_t i, float) { before_.push_back(pixels[i]); });
+        of.paints.colors(paint, {of.point({run.first + 0.5, top_ + run.row + 0.5}), pixel}, pixel[0], pixels,
+                         of.materials);
+        toSums(of, pixels);
+        const Float4* before = before_.data();
+        forEachPart(of, run, [&](std::size_t i, float share) { pixels[i] = *before++ + share * pixels[i]; });
+    }
+    /// Calls visit(number in the run, share) for those pixels of which the program may have a part.
+    template <class Visit>
+    void forEachPart(const ProgramView& of, const Run& run, Visit&& visit) const {
+        const Share* share = &shares_[run.firstShare];
+        for (int x = run.first; x < run.end; ++share)
+            if (of.areDisjoint && isNothing(share->share - 1))
+                x = share->end;
+            else
+                for (; x < share->end; ++x)
+                    visit(std::size_t(x - run.first), share->share);
     }
 
     /// The first of a vector that never shrinks.
@@ -400,7 +422,7 @@ private:
     std::vector<Near> nears_;  ///< of cuts_
     std::vector<BandPixel> rough_;
     std::vector<glm::vec2> points_, corners_;
-    std::vector<Float4> colors_, wholes_;
+    std::vector<Float4> colors_, wholes_, before_;
     ProgramPixels pixels_;
 };
 

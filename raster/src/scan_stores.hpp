@@ -25,11 +25,10 @@ namespace vtm::asset {
 
 #if defined(__SSE2__)
 
-/// Rounded to nearest.
+/// Rounded to nearest. Packing makes 0 of what is below, and of the least number, which NaN becomes.
 inline __m128i toBytes(Float4 color) {
-    // max first: it makes 0 of what is no number.
-    const __m128 unit = _mm_min_ps(_mm_max_ps(color, _mm_setzero_ps()), _mm_set1_ps(1));
-    return _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(unit, _mm_set1_ps(255)), _mm_set1_ps(0.5f)));
+    const __m128 most = _mm_min_ps(_mm_set1_ps(1), color);  // of NaN it is the second one
+    return _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(most, _mm_set1_ps(255)), _mm_set1_ps(0.5f)));
 }
 
 inline std::uint32_t packed(Float4 color) {

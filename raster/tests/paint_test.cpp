@@ -139,6 +139,40 @@ TEST(Paint, LinearGradientIsItsMeanOverATurnedPixel) {
         }
 }
 
+/// Without jumps, so that few samples tell the mean.
+const std::vector<GradientStop> bent{grey(0.1f, 0.2f, 0.3f), grey(0.4f, 1), grey(0.45f, 0.1f, 0.6f),
+                                     grey(0.95f, 0.9f, 0.1f)};
+
+TEST(Paint, LinearGradientIsItsMeanRoundAStop) {
+    for (const Spread s : {Spread::Pad, Spread::Reflect})
+        for (const float side : {0.07f, 0.15f, 0.3f})
+            for (const float angle : {0.0f, 0.02f, 0.5f, 0.785f})
+                for (const float x : {0.09f, 0.1f, 0.2f, 0.39f, 0.41f, 0.44f, 0.7f, 0.96f}) {
+                    const vec2 along = side * vec2(std::cos(angle), std::sin(angle));
+                    const PaintPlace place{{x, 0}, mat2(along, vec2(-along.y, along.x))};
+                    expectNear(ramp(Op::Linear, spread(s), place, bent),
+                               sampled(Op::Linear, spread(s), place, bent), 1e-4f);
+                }
+}
+
+TEST(Paint, ARowOfALinearGradientIsItsPixels) {
+    Gradient gradient;
+    gradient.stopCount = std::uint32_t(bent.size());
+    std::vector<Texel> data;
+    addGradient(data, gradient, bent);
+    const Asset asset = programAsset({{Op::Linear, Blend::Normal, 1, 0}}, data);
+    const Paints paints(asset);
+    for (const float step : {0.0f, 0.001f, -0.004f, 0.03f, -0.2f})
+        for (const float x : {-0.2f, 0.3f, 0.42f, 1.2f}) {
+            const PaintPlace first{{x, 5}, 0.7f * mat2(step, 0, 0, step)};
+            std::vector<Float4> row(150);
+            paints.colors(asset.maps[0].root.payload(), first, {step, 1}, row);
+            for (std::size_t i = 0; i < row.size(); ++i)
+                expectNear(toVec4(row[i]),
+                           ramp(Op::Linear, {}, {{x + float(i) * step, 5}, first.pixel}, bent));
+        }
+}
+
 TEST(Paint, PeriodicGradientFarAwayIsItsMean) {
     // Over many periods, and far from the first one: 0.5 whatever the phase.
     for (const Spread s : {Spread::Reflect, Spread::Repeat})

@@ -162,9 +162,15 @@ TEST(Scan, NumbersAtTheEndsOfSinglePrecisionMakeColours) {
                     }
         ASSERT_NO_THROW(validate(asset));
         const View view = randomView(random);
-        for (const image::Raster& raster : {evaluate(asset, view), Scanner(asset).draw(view)})
+        const Scanner scanner(asset);
+        const image::Raster scanned = scanner.draw(view);
+        for (const image::Raster& raster : {evaluate(asset, view), scanned})
             for (const float value : raster.rgba)
                 ASSERT_TRUE(value >= 0 && value <= 1) << value << " in picture " << i;
+        std::vector<std::uint8_t> bytes(scanned.rgba.size());
+        scanner.draw(view, {bytes.data(), std::size_t(view.width) * 4});
+        for (std::size_t k = 0; k < bytes.size(); ++k)
+            ASSERT_EQ(int(bytes[k]), int(scanned.rgba[k] * 255.0f + 0.5f)) << k << " in picture " << i;
         buildPrefilter(asset, PyramidSize{4, 4}, 1);
     }
 }
