@@ -48,7 +48,8 @@ struct LeafSum {
 
 LeafSum noLeaf() {
     Share none = Share(noPaint, 0.0);
-    return LeafSum(Square(Frame(mat2(0.0), vec2(0.0)), uvec4(0u), vec2(0.0), 1.0), vec4(0.0), 0.0, 0u, 0u, uvec2(noPaint), none, none);
+    Square square = Square(Frame(mat2(0.0), vec2(0.0)), uvec4(0u), vec2(0.0), 1.0);
+    return LeafSum(square, vec4(0.0), 0.0, 0u, 0u, uvec2(noPaint), none, none);
 }
 
 LeafSum leafOf(Square square) {

@@ -1,5 +1,6 @@
 // What a footprint has of a page of text: glyphs in the cells of a grid, whose maps are a font's. docs/fonts.md.
-// Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl, sample_tree.glsl, sample_maps.glsl; TEXT_PAGES; constant leafExtent.
+// Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl, sample_tree.glsl, sample_maps.glsl; TEXT_PAGES;
+// constant leafExtent.
 // Twin of: page_texels.cpp, which writes the texels. Lengths are in sides of the page's square, floats unless stated:
 //     page      number of layers, first texel of the layers, of the symbols, texels of a symbol (uints)
 //               ground, premultiplied

@@ -39,17 +39,6 @@ uint childAt(Vtm vtm, uint node, ivec2 cell) {
     return texelAt(vtm, vtm.nodes + 4u * node + uint(cell.y & 3))[cell.x & 3];
 }
 
-// The node that holds `cell`, from the root.
-uint nodeAround(Vtm vtm, uint root, ivec2 cell, int level) {
-    uint node = root >> 2;
-    for (int l = 1; l < level && spend(1.0); ++l) {
-        node = childAt(vtm, node, cell >> (2 * (level - l))) >> 2;
-        if (l + 1 == level)
-            break;
-    }
-    return node;
-}
-
 ivec2 firstCell(CopyFootprint part, float side) { return ivec2(floor(part.lower / side)); }
 ivec2 lastCell(CopyFootprint part, float side) { return max(ivec2(ceil(part.upper / side)) - 1, firstCell(part, side)); }
 
@@ -60,16 +49,28 @@ bool meets(CopyFootprint part, ivec2 cell, float side) {
     return all(lessThan(abs(fromCentre), reach));
 }
 
-// Squares in the order of the tree, with neither recursion nor a stack: a place in the tree is a cell, its level and
-// the node that holds it. `top` is the level of the smallest square that holds the whole box, as far as is known.
+// Squares in the order of the tree, without recursion: a place in the tree is a cell, its level and the node that holds it.
+// `top` is the level of the smallest square that holds the whole box, as far as is known.
 struct Walk {
-    uint root, entry, parent;
+    uint entry;
+    uvec4 nodes, deeper, deepest;  // that hold the cells of levels 1 to 4, 5 to 8 and 9 to 12
     ivec2 cell;
     int level, top;
     bool rising;
 };
 
-Walk walkFrom(uint root) { return Walk(root, root, 0u, ivec2(0), 0, 0, false); }
+Walk walkFrom(uint root) { return Walk(root, uvec4(0u), uvec4(0u), uvec4(0u), ivec2(0), 0, 0, false); }
+
+uvec4 withNode(uvec4 nodes, int i, uint node) {
+    return uvec4(i == 0 ? node : nodes.x, i == 1 ? node : nodes.y, i == 2 ? node : nodes.z, i == 3 ? node : nodes.w);
+}
+
+// An index that is known only when the program runs would make some drivers store the lanes of a processor one by one.
+uint nodeAt(Walk walk, int level) {
+    uvec4 nodes = level <= 4 ? walk.nodes : level <= 8 ? walk.deeper : walk.deepest;
+    int i = (level - 1) & 3;
+    return i == 0 ? nodes.x : i == 1 ? nodes.y : i == 2 ? nodes.z : nodes.w;
+}
 
 bool isDone(Walk walk) { return walk.level < walk.top; }
 
@@ -86,20 +87,20 @@ bool advance(Vtm vtm, CopyFootprint part, inout Walk walk, out ivec2 cell, out f
     if (down) {
         ivec2 first = firstCell(part, 0.25 * side);
         walk.top += walk.level == walk.top && first == lastCell(part, 0.25 * side) ? 1 : 0;
-        walk.parent = entry >> 2;
+        walk.nodes = withNode(walk.nodes, walk.level, entry >> 2);
+        walk.deeper = withNode(walk.deeper, walk.level - 4, entry >> 2);
+        walk.deepest = withNode(walk.deepest, walk.level - 8, entry >> 2);
         walk.cell = max(cell * 4, first);
         ++walk.level;
     } else if (onward) {
         walk.cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(part, side).x, cell.x & ~3), cell.y + 1);
-        if (walk.rising)
-            walk.parent = nodeAround(vtm, walk.root, walk.cell, walk.level);
     } else {
         --walk.level;
         walk.cell >>= 2;
     }
     walk.rising = !down && !onward;
     if (!walk.rising)
-        walk.entry = childAt(vtm, walk.parent, walk.cell);
+        walk.entry = childAt(vtm, nodeAt(walk, walk.level), walk.cell);
     return met && !down;
 }
 
