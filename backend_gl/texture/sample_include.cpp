@@ -200,8 +200,8 @@ std::string sampleText(Features features, SampledKinds kinds, std::span<const Ma
     text += glslConstants() + constants();
     const std::string_view images = features.has(Features::Image) ? image : std::string_view();
     for (const std::string_view part :
-         {sample_asset, fetch, coverage, blend, gradient, images, paint, region_color, placed_paints,
-          leaf_integral, sample_prefilter, sample_tree, sample_maps, sample_page, sample})
+         {sample_asset, fetch, coverage, blend, gradient, images, paint, placed_paints, leaf_integral,
+          sample_prefilter, sample_tree, sample_maps, sample_page, sample})
         text += part;
     text = head + prefixed(text);
     if (features.has(Features::Material))

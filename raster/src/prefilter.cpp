@@ -13,6 +13,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/evaluator.hpp>
+#include <vtm/raster/scan.hpp>
 #include "asset/instances.hpp"
 #include "asset/records.hpp"
 #include "asset/walk.hpp"
@@ -244,16 +245,25 @@ void inParallel(std::uint32_t count, unsigned threads, Work&& work) {
         std::rethrow_exception(failure);
 }
 
-Means baseMeans(const AssetView& asset, PyramidSize size, unsigned threads) {
-    const std::uint32_t grid = std::ranges::any_of(asset.paints, isProgram) ? finerGrid : 1;
+template <class Engine>
+Means meansBy(const Engine& engine, const AssetView& asset, PyramidSize size, std::uint32_t grid,
+              unsigned threads) {
     const std::uint32_t band = bandRows / grid;
     Means means{size, std::vector<double>(size.texels() * 4)};
-    const Evaluator evaluator(asset);
     inParallel((size.height + band - 1) / band, threads, [&](std::uint32_t i) {
         const std::uint32_t row = i * band, rows = std::min(band, size.height - row);
-        addMeans(evaluator.draw(viewOfRows(asset, size, grid, row, rows)), grid, row, means);
+        addMeans(engine.draw(viewOfRows(asset, size, grid, row, rows)), grid, row, means);
     });
     return means;
+}
+
+/// Programs take the evaluator twenty times as long as the scanner, which on the finer grid is as good.
+Means baseMeans(const AssetView& asset, PyramidSize size, unsigned threads) {
+    if (std::ranges::none_of(asset.paints, isProgram))
+        return meansBy(Evaluator(asset), asset, size, 1, threads);
+    if (isSumOfMaps(asset))
+        return meansBy(Scanner(asset), asset, size, finerGrid, threads);
+    return meansBy(Evaluator(asset), asset, size, finerGrid, threads);
 }
 
 /// The next level: whole texels of the finer one make one of the coarser.
@@ -271,38 +281,10 @@ Means coarser(const Means& fine) {
 
 // ---- How fine -------------------------------------------------------------------------------------
 
-/// Of neighbouring texels.
-double meanDifference(const Means& means) {
-    const PyramidSize size = means.size;
-    double sum = 0, pairs = 0;
-    const auto add = [&](const double* a, const double* b) {
-        for (int c = 0; c < 4; ++c)
-            sum += std::abs(a[c] - b[c]);
-        ++pairs;
-    };
-    for (std::uint32_t y = 0; y < size.height; ++y)
-        for (std::uint32_t x = 0; x < size.width; ++x) {
-            if (x + 1 < size.width)
-                add(means.at(x, y), means.at(x + 1, y));
-            if (y + 1 < size.height)
-                add(means.at(x, y), means.at(x, y + 1));
-        }
-    return pairs > 0 ? sum / pairs : 0;
-}
-
-/// Whether details are hardly larger than a texel, as in small print. Between areas of one colour texels half
-/// as large differ half as much on average; there they differ about as much, and taps blur too much of it.
-bool isFullOfDetail(const AssetView& asset, std::uint32_t side, unsigned threads) {
-    constexpr std::uint32_t fewest = 64;  // of which a mean says something
-    constexpr double full = 0.8;          // 0.5 to 0.73 in drawings, 0.84 to 1.2 in pages
-    const Means fine = baseMeans(asset, sizeWith(asset, std::max(side, fewest)), threads);
-    return meanDifference(fine) > full * meanDifference(coarser(fine));
-}
-
 /// The finest base that saves time, and that so many bytes of the tree's allow; 0: none. A picture of 128
 /// pixels is drawn from the tree whatever that takes.
 std::uint32_t fastestSide(const AssetView& asset, const PrefilterOptions& options) {
-    constexpr std::uint32_t finest = 256;
+    constexpr std::uint32_t finest = 384;
     /// In squares of one colour: about twice the filter's time.
     constexpr double worthwhile = 4.5;
     const double most = options.timesTree * double(summarize(asset).bytes) / sizeof(Rgba8);
@@ -336,7 +318,7 @@ PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& option
     if (images > 0 || !asset.materials.empty())
         return sizeWith(asset, side);
     const std::uint32_t fastest = fastestSide(asset, options);
-    return sizeWith(asset, fastest > side && !isFullOfDetail(asset, side, options.threads) ? fastest : side);
+    return sizeWith(asset, std::max(side, fastest));
 }
 
 namespace {

@@ -96,21 +96,15 @@ TEST(PrefilterSize, IsFinerWhereThatSavesTimeAndBytesAllowIt) {
     const Asset asset = manyPieces(100);
     EXPECT_EQ(prefilterSize(manyPieces(3)), (PyramidSize{1, 1}));
     EXPECT_EQ(prefilterSize(asset, {.timesTree = 0}), (PyramidSize{1, 1}));
-    for (const double times : {2.0, 6.0, 20.0}) {
+    for (const double times : {2.0, 6.0, 12.0, 20.0}) {
         const PyramidSize size = prefilterSize(asset, {.timesTree = times});
         const double bytes = double(size.texelsBefore(size.levels()) * sizeof(Rgba8)),
                      most = times * double(summarize(asset).bytes);
         EXPECT_LE(bytes, most);
         EXPECT_GT(bytes, most / 3);  // allowed sides are a third or a half apart
     }
-    EXPECT_EQ(prefilterSize(asset, {.timesTree = 1e9}).width, 256u);
+    EXPECT_EQ(prefilterSize(asset, {.timesTree = 1e9}).width, 384u);
     EXPECT_THROW(prefilterSize(asset, {.timesTree = NAN}), std::invalid_argument);
-}
-
-/// Print, hatching: there means would blur what the tree shows.
-TEST(PrefilterSize, IsNoFinerWhereThePictureIsFullOfDetail) {
-    const Asset asset = manyLeaves(3);  // stripes, a hundred bytes
-    EXPECT_EQ(prefilterSize(asset, {.timesTree = 1e9}), (PyramidSize{128, 128}));
 }
 
 /// A mean over more than an image's pixel is not what drawing shows, and of a material we know nothing.

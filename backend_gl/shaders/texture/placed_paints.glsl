@@ -26,11 +26,9 @@ uint paletteAt(Vtm vtm, uint place) {
 }
 
 uint paintOf(Vtm vtm, uint number) {
-    for (int i = innerDepth - 1; i >= 0; --i) {
-        number = number == 0u ? innerGrounds[i] : paletteAt(vtm, innerPalettes[i] + number - 1u);
-        if (i == 0)
-            break;
-    }
+    for (int i = INNER_MAPS - 1; i >= 0; --i)
+        if (i < innerDepth)
+            number = number == 0u ? innerGrounds[i] : paletteAt(vtm, innerPalettes[i] + number - 1u);
     return number;
 }
 

@@ -20,14 +20,18 @@ bool isMirrored(int wrapping, float copy) {
     return wrapping == wrapMirror && abs(copy - 2.0 * floor(copy * 0.5)) > 0.5;
 }
 
-void addPicture(Vtm vtm, CopyFootprint part, inout vec4 sum) {
+void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
 #if TEXT_PAGES
     if (vtm.page != 0u) {
-        addPage(vtm, part, sum);
+        addPage(vtm, part, pixel, sum);
         return;
     }
 #endif
-    addMaps(vtm, part, sum);
+#if INNER_MAPS
+    addMap(vtm, part, pixel, vtm.root, vtm.instances, sum);
+#else
+    addMap(vtm, part, pixel, vtm.root, 0u, sum);
+#endif
 }
 
 // Adds what the maps have of the footprint; gives up where no turns are left.
@@ -49,10 +53,9 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
             lower = clamp(lower * scale + offset, 0.0, lastPlace);
             upper = clamp(upper * scale + offset, 0.0, 1.0);
             CopyFootprint part = CopyFootprint(st * scale + offset, halfBox * scale, lower, upper,
-                             mat2(toBox[0] * turned.x, toBox[1] * turned.y),
-                             mat3x2(footprint.sides[0], footprint.sides[1], picturePoint(vtm, st * scale + offset)), 1.0, 0.0);
-            part.turn = cross2(part.toBox[0], part.toBox[1]) < 0.0 ? -1.0 : 1.0;
-            addPicture(vtm, part, sum);
+                                               mat2(toBox[0] * turned.x, toBox[1] * turned.y), 0.0);
+            mat3x2 pixel = mat3x2(footprint.sides[0], footprint.sides[1], picturePoint(vtm, st * scale + offset));
+            addPicture(vtm, part, pixel, sum);
         }
         copy = copy.x < s.y ? vec2(copy.x + 1.0, copy.y) : vec2(s.x, copy.y + 1.0);
         if (copy.y > t.y)

@@ -1,5 +1,6 @@
 // What a footprint has of a page of text: glyphs in the cells of a grid, whose maps are a font's. docs/fonts.md.
-// Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl, sample_tree.glsl; TEXT_PAGES; constant leafExtent.
+// Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl, sample_tree.glsl, sample_maps.glsl; TEXT_PAGES;
+// constant leafExtent.
 // Twin of: page_texels.cpp, which writes the texels. Lengths are in sides of the page's square, floats unless stated:
 //     page      number of layers, first texel of the layers, of the symbols, texels of a symbol (uints)
 //               ground, premultiplied
@@ -101,29 +102,29 @@ bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout
     return found;
 }
 
-void addLayer(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout vec4 sum) {
+void addLayer(Vtm vtm, CopyFootprint around, mat3x2 pixel, PageLayer layer, uvec4 page, inout vec4 sum) {
     GlyphWalk walk = walkGlyphs(around, layer);
     CopyFootprint part = around;
     uint root = 0u;
     while (spend(1.0) && nextGlyph(vtm, around, layer, page, walk, part, root))
-        addTree(vtm, part, root, sum);
+        addMap(vtm, part, pixel, root, 0u, sum);
 }
 
-void addPage(Vtm vtm, CopyFootprint part, inout vec4 sum) {
+void addPage(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
     uvec4 page = texelAt(vtm, vtm.page);
     pageGround = uintBitsToFloat(texelAt(vtm, vtm.page + 1u));
     if (pageGround.a > 0.0) {
         vec2 extent = vtm.size / vtm.square.z;
         Frame frame = Frame(part.toBox * mat2(extent.x, 0.0, 0.0, extent.y) * (1.0 / float(leafExtent)),
                             part.toBox * -part.centre + 0.5);
-        sum += part.turn * squareArea(frame) * pageGround;
+        sum += abs(squareArea(frame)) * pageGround;
     }
     onPage = true;
     for (uint i = 0u; i < page.x && spend(1.0); ++i) {
         uint at = page.y + 4u * i;
         PageLayer layer = PageLayer(texelAt(vtm, at), texelAt(vtm, at + 3u), uintBitsToFloat(texelAt(vtm, at + 1u)),
                                     uintBitsToFloat(texelAt(vtm, at + 2u)));
-        addLayer(vtm, part, layer, page, sum);
+        addLayer(vtm, part, pixel, layer, page, sum);
         if (i + 1u == page.x)
             break;
     }

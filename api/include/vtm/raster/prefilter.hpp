@@ -22,7 +22,7 @@ struct PrefilterOptions {
     /// Where footprints meet few squares but take long (many pieces, paint programs), a finer base saves
     /// time. It takes at most so many times the bytes of the tree; 0: none. Pictures with images or materials
     /// have none.
-    double timesTree = 6;
+    double timesTree = 12;
     /// Upper limit of a side, texels; at most maxPyramidSide.
     std::uint32_t largestSide = 512;
     /// Number of threads; 0: one per core. The result does not depend on it.
@@ -34,7 +34,7 @@ struct PrefilterOptions {
 PyramidSize prefilterSize(const AssetView& asset, const PrefilterOptions& options = {});
 
 /// Each texel is the mean of the picture over it, rounded once, to the nearest 255th: exact for solid paints,
-/// by the evaluator's rules (on a grid four times finer) for gradients, images and groups. Throws
+/// by the scanner on a grid four times finer for gradients, images and groups. Throws
 /// std::invalid_argument if an option is out of range.
 Prefilter buildPrefilter(const AssetView& asset, const PrefilterOptions& options = {});
 /// Builds a pyramid of the given size. Throws std::invalid_argument if isPyramidSide rejects a side.
@@ -52,7 +52,7 @@ enum class Wrap {
 /// Base texels that a footprint is wide where the tree alone draws, and where the prefilter alone does.
 /// Between them the prefilter's share rises with the logarithm; at its end 4 × 4 taps find texels nearly as
 /// fine as they want.
-inline constexpr float fadeFrom = 2.75f, fadeTo = 3.75f;
+inline constexpr float fadeFrom = 3, fadeTo = 3.75f;
 
 }  // namespace vtm::asset
 
