@@ -22,6 +22,8 @@ constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab =
 /// So does one that begins with more chains, of so many layers that some may hide others: a row could look at
 /// them only a few times. Chains of few layers may not cross at all.
 constexpr std::size_t mostAtOnce = 1u << 17, manyLayers = 64;
+/// And one of more than this, if steps in their first row show that it would take too much.
+constexpr std::size_t manyOfOne = 1u << 15;
 /// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
 /// next strip.
 constexpr std::size_t fewToBegin = 1u << 15;
@@ -53,12 +55,13 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         stripTop_ = top;
         free_.insert(free_.end(), active_.begin(), active_.end());
         active_.clear();
-        if (above > mostAtOnce && windings_.size() >= manyLayers)
+        if ((above > mostAtOnce && windings_.size() >= manyLayers) ||
+            (above > manyOfOne && lines_.isTangled(chains, top)))
             onLines_ = chains.size();
     }
     if (onLines_ > fewToBegin && 2 * chains.size() > onLines_)
         return goOnLines(chains, top, bottom);
-    if (begins || onLines_ > 0)
+    if (begins || onLines_ > 0 || chains_.areLeftOut())
         begin(chains.first(above), top);
     onLines_ = 0;
     toCome_ = chains.subspan(above);

@@ -1,6 +1,7 @@
 #include "compiler/direct/line_sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -31,6 +32,12 @@ constexpr std::size_t manyCuts = 1u << 14, manyLayers = 64;
 constexpr std::size_t ahead = 16;
 /// On a row of squares so many to a pixel.
 constexpr std::int32_t squaresInAPixel = 16;
+
+/// Where so many edges cross others in all columns but an eighth, lines are looked at instead of steps.
+constexpr std::uint32_t manyCrossed = 4;
+constexpr std::ptrdiff_t fewUntangled = 8;
+/// So many chains on the lines of a row, and at least so many lines.
+constexpr std::size_t cutsOnLines = 400'000, leastLines = 4;
 
 /// Chains that meet a row, in the mean.
 double meanCutOf(const ViewChains& chains) {
@@ -67,20 +74,13 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
       state_(state),
       width_(width),
       sums_(std::size_t(width) + 2),
+      shares_(sums_.size()),
       squares_(std::size_t((width + 2) * squaresInAPixel + 2)) {}
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
                     std::vector<asset::Chord>& chords) {
-    if (meanCut_ == 0) {
-        meanCut_ = meanCutOf(chains_);
-        isOneLayer_ = std::ranges::all_of(chains_.all(), [&](const DownChain& chain) {
-            return chain.layer == chains_.all().begin()->layer;
-        });
-    }
     chords_ = &chords;
-    cuts_.clear();
-    toCome_ = numbers;
-    smallInBand_ = smallCutsInBand;
+    begin(numbers);
     while (top < bottom) {
         const float end = std::min(std::floor(top) + 1, bottom);
         row(top, end);
@@ -88,16 +88,50 @@ void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bot
     }
 }
 
-void LineSweep::row(float top, float bottom) {
-    std::erase_if(cuts_, [&](const Cut& cut) { return cut.bottom <= top; });
+bool LineSweep::isTangled(std::span<const std::uint32_t> numbers, float top) {
+    begin(numbers);
+    if (!isOneColor_)
+        return false;
+    const float bottom = std::floor(top) + 1;
     take(top, bottom);
+    findSteps(top, bottom);
+    lookAndSort(steps_.front());
+    judge();
+    return isTangled_;
+}
+
+void LineSweep::begin(std::span<const std::uint32_t> numbers) {
+    if (meanCut_ == 0 && !numbers.empty()) {
+        meanCut_ = meanCutOf(chains_);
+        isOneLayer_ = std::ranges::all_of(chains_.all(), [&](const DownChain& chain) {
+            return chain.layer == chains_.all().begin()->layer;
+        });
+        if (isOneLayer_)
+            lookInside(chains_[numbers[0]]);
+    }
+    cuts_.clear();
+    toCome_ = numbers;
+    smallInBand_ = smallCutsInBand;
+    isJudged_ = isTangled_ = false;
+}
+
+/// Of the only layer, which the chain is of.
+void LineSweep::lookInside(const DownChain& chain) {
+    isEvenOdd_ = state_.isEvenOdd(chain.layer);
+    state_.cross(chain.layer, chain.winding);
+    const RegionPaint paint = state_.region().paint;
+    state_.cross(chain.layer, -chain.winding);
+    isOneColor_ = (paint & programBit) == 0;
+    if (isOneColor_)
+        color_ = state_.colors()[paint];
+}
+
+void LineSweep::row(float top, float bottom) {
+    take(top, bottom);
+    if (isTangled_)
+        return drawLines(top, bottom);
     hides_ = mayHide();
-    isArranged_ = false;
-    order_.clear();
-    findPieces(top, bottom);
-    const double ends = double(changes_.size()) / double(cuts_.size() + 1);
-    const auto count = std::size_t(cutsInRow / (meanCut_ + 1) * (1 + moreForEnds * ends));
-    const bool isByContent = findSteps(top, bottom, std::clamp(count, leastSteps, mostSteps));
+    const bool isByContent = findSteps(top, bottom);
     // A step may take several times its share of what the band may.
     const auto stepsLeft =
         std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
@@ -107,6 +141,8 @@ void LineSweep::row(float top, float bottom) {
         const std::size_t may = isByContent ? 0 : std::min(share, smallInBand_);
         smallSteps_ = may;
         draw(step);
+        if (isTangled_)
+            return drawLines(top, bottom);
         smallInBand_ -= may - smallSteps_;
     }
     finishRow(top, bottom);
@@ -115,7 +151,13 @@ void LineSweep::row(float top, float bottom) {
 // ---- Steps ----------------------------------------------------------------------------------------
 
 /// Whether they are placed by content.
-bool LineSweep::findSteps(float top, float bottom, std::size_t count) {
+bool LineSweep::findSteps(float top, float bottom) {
+    isArranged_ = false;
+    order_.clear();
+    findPieces(top, bottom);
+    const double ends = double(changes_.size()) / double(cuts_.size() + 1);
+    const auto count =
+        std::clamp(std::size_t(cutsInRow / (meanCut_ + 1) * (1 + moreForEnds * ends)), leastSteps, mostSteps);
     steps_.clear();
     if (placeByContent(top, bottom, count))
         return true;
@@ -131,19 +173,23 @@ void LineSweep::findPieces(float top, float bottom) {
     pieces_.clear();
     std::uint64_t content = 0;
     for (const Cut& cut : cuts_) {
-        if (cut.top <= top && cut.bottom >= bottom)
+        if (cut.spans({top, bottom, bottom - top}))
             continue;
-        const auto column = std::int64_t(vertices_[cut.at].x / sameColumn);
+        const bool begins = cut.a.y > top;
+        const float end = vertices_[cut.last].y;
+        if (!begins && end >= bottom)
+            continue;
+        const auto column = std::int64_t(cut.a.x / sameColumn);
         const std::uint64_t own = hashValue(hashValue(cut.layer) + std::uint64_t(std::int64_t(cut.winding)) +
                                             hashValue(std::uint64_t(column)));
-        if (cut.top <= top)
-            content += own;
+        if (begins)
+            changes_.push_back({cut.a.y, own});
         else
-            changes_.push_back({cut.top, own});
-        if (cut.bottom < bottom)
-            changes_.push_back({cut.bottom, 0 - own});
+            content += own;
+        if (end < bottom)
+            changes_.push_back({end, 0 - own});
     }
-    std::ranges::sort(changes_, {}, &Change::y);
+    std::ranges::sort(changes_, {}, &ContentChange::y);
     for (std::size_t i = 0; i <= changes_.size(); ++i) {
         const float next = i < changes_.size() ? changes_[i].y : bottom;
         if (next > top) {
@@ -190,68 +236,83 @@ bool LineSweep::placeByContent(float top, float bottom, std::size_t most) {
 
 // ---- Chains ---------------------------------------------------------------------------------------
 
-/// Those that begin above the bottom and do not end above the top.
+/// Those that begin above the bottom come, those that end above the top go.
 void LineSweep::take(float top, float bottom) {
+    begun_.clear();
     std::size_t begun = 0;
-    const auto before = std::ptrdiff_t(cuts_.size());
     for (; begun < toCome_.size() && chains_[toCome_[begun]].top < bottom; ++begun) {
         const DownChain& chain = chains_[toCome_[begun]];
-        if (chain.bottom <= top)
-            continue;
-        cuts_.push_back({chain.first, chain.end - 1, chain.top, chain.bottom, chain.layer, chain.winding,
-                         vertices_[chain.first].x});
+        if (chain.bottom > top)
+            begun_.push_back({.a = vertices_[chain.first],
+                              .at = chain.first,
+                              .last = chain.end - 1,
+                              .layer = chain.layer,
+                              .winding = chain.winding});
     }
     toCome_ = toCome_.subspan(begun);
-    const auto arrangeNew = [&](auto isBefore) {
-        std::stable_sort(cuts_.begin() + before, cuts_.end(), isBefore);
-        std::inplace_merge(cuts_.begin(), cuts_.begin() + before, cuts_.end(), isBefore);
+    const auto merge = [&](auto isBefore) {
+        std::ranges::stable_sort(begun_, isBefore);
+        arranged_.clear();
+        auto next = begun_.begin();
+        for (const Cut& cut : cuts_) {
+            if (cut.edgeBottom <= top && vertices_[cut.last].y <= top)
+                continue;
+            for (; next != begun_.end() && isBefore(*next, cut); ++next)
+                arranged_.push_back(*next);
+            arranged_.push_back(cut);
+        }
+        arranged_.insert(arranged_.end(), next, begun_.end());
     };
     if (isOneLayer_)
-        arrangeNew([](const Cut& a, const Cut& b) { return a.x < b.x; });
+        merge([&](const Cut& a, const Cut& b) { return a.xAt(top) < b.xAt(top); });
     else
-        arrangeNew([](const Cut& a, const Cut& b) { return a.layer > b.layer; });
+        merge([](const Cut& a, const Cut& b) { return a.layer > b.layer; });
+    cuts_.swap(arranged_);
 }
 
-void LineSweep::look(std::size_t number, const Step& step, Seen& seen) {
+inline void LineSweep::look(std::size_t number, const Step& step, Seen& seen) {
     Cut& cut = cuts_[number];
     seen.cut = std::uint32_t(number);
     seen.layer = cut.layer;
-    seen.winding = cut.winding;
-    seen.isAtMiddle = cut.isAt(step.middle());
-    seen.hasEnd = cut.top > step.top || cut.bottom < step.bottom;
-    const auto findEdge = [&] {
-        while (vertices_[cut.at + 1].y <= step.top && cut.at + 1 < cut.last)
-            ++cut.at;
-        const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
-        if (a.y > step.top || b.y < step.bottom || a.y == b.y)
-            return false;
-        cut.a = a;
-        cut.slope = (b.x - a.x) / (b.y - a.y);
-        cut.edgeBottom = b.y;
-        return true;
-    };
-    if ((cut.a.y <= step.top && cut.edgeBottom >= step.bottom) || findEdge()) {
-        seen.from = cut.a.x + (step.top - cut.a.y) * cut.slope;
-        seen.to = cut.a.x + (step.bottom - cut.a.y) * cut.slope;
-        seen.x = 0.5f * (seen.from + seen.to);
-        seen.left = std::min(seen.from, seen.to);
-        seen.right = std::max(seen.from, seen.to);
-    } else {
-        lookAround(cut, step, seen);
-    }
-    seen.isSpecial =
-        cut.top < step.bottom && cut.bottom > step.top && (seen.hasEnd || seen.right - seen.left > mostReach);
-    cut.x = seen.x;
+    seen.winding = std::int8_t(cut.winding);
+    if (!cut.spans(step))
+        return lookAgain(cut, step, seen);
+    seen.from = cut.a.x + (step.top - cut.a.y) * cut.slope;
+    seen.to = cut.a.x + (step.bottom - cut.a.y) * cut.slope;
+    seen.x = 0.5f * (seen.from + seen.to);
+    seen.left = std::min(seen.from, seen.to);
+    seen.right = std::max(seen.from, seen.to);
+    seen.isAtMiddle = true;
+    seen.hasEnd = false;
+    seen.isSpecial = seen.right - seen.left > mostReach;
+    hasSpecial_ = hasSpecial_ || seen.isSpecial;
 }
 
-/// Where it has a vertex.
-void LineSweep::lookAround(const Cut& cut, const Step& step, Seen& seen) const {
+/// Where the edge that was looked at last does not reach from the top to the bottom.
+void LineSweep::lookAgain(Cut& cut, const Step& step, Seen& seen) {
+    findEdge(cut, step.top);
+    if (cut.spans(step) && cut.a.y < cut.edgeBottom)
+        return look(seen.cut, step, seen);
+    lookAround(cut, step, seen);
+}
+
+/// That at y, the first or the last.
+void LineSweep::findEdge(Cut& cut, float y) const {
+    while (cut.at + 1 < cut.last && vertices_[cut.at + 1].y <= y)
+        ++cut.at;
+    const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
+    cut.a = a;
+    cut.slope = a.y < b.y ? (b.x - a.x) / (b.y - a.y) : 0;
+    cut.edgeBottom = b.y;
+}
+
+/// Where it has a vertex. Above its upper end and below its lower one it is taken to be there.
+void LineSweep::lookAround(const Cut& cut, const Step& step, Seen& seen) {
     const auto xAt = [&](const glm::vec2* edge, float y) {
         return edge[0].x + (y - edge[0].y) * ((edge[1].x - edge[0].x) / (edge[1].y - edge[0].y));
     };
     const glm::vec2* edge = vertices_ + cut.at;
     const glm::vec2 *const first = edge, *const last = vertices_ + cut.last;
-    // Above its upper end and below its lower one it is taken to be there.
     const float middle = step.middle();
     seen.from = edge->y < step.top && edge[1].y > step.top ? xAt(edge, step.top) : edge->x;
     if (edge[1].y <= step.top)
@@ -268,6 +329,13 @@ void LineSweep::lookAround(const Cut& cut, const Step& step, Seen& seen) const {
             seen.right = std::max(seen.right, seen.to);
         }
     }
+    // What has been left behind is above the step.
+    const float begins = first->y, ends = edge == last ? last->y : INFINITY;
+    seen.isAtMiddle = begins <= middle && middle < ends;
+    seen.hasEnd = begins > step.top || ends < step.bottom;
+    seen.isSpecial =
+        begins < step.bottom && ends > step.top && (seen.hasEnd || seen.right - seen.left > mostReach);
+    hasSpecial_ = hasSpecial_ || seen.isSpecial;
 }
 
 // ---- What shows -----------------------------------------------------------------------------------
@@ -282,15 +350,15 @@ bool LineSweep::mayHide() const {
 }
 
 /// Chains' vertices lie far from each other.
-void LineSweep::fetchAhead(std::size_t number, const Step& step) const {
-    if (number + ahead < cuts_.size() && cuts_[number + ahead].edgeBottom < step.bottom)
+void LineSweep::fetchAhead(std::size_t number, float bottom) const {
+    if (number + ahead < cuts_.size() && cuts_[number + ahead].edgeBottom < bottom)
         __builtin_prefetch(vertices_ + cuts_[number + ahead].at + 1);
 }
 
 void LineSweep::lookAtAll(const Step& step) {
     seen_.resize(cuts_.size());
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
-        fetchAhead(i, step);
+        fetchAhead(i, step.bottom);
         look(i, step, seen_[i]);
     }
     if (order_.size() == seen_.size()) {  // as in the step before, and nearly in order
@@ -310,7 +378,7 @@ void LineSweep::lookForShown(const Step& step) {
     for (std::size_t i = 0; i < cuts_.size();) {
         const std::size_t before = seen_.size();
         for (const std::uint32_t layer = cuts_[i].layer; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
-            fetchAhead(i, step);
+            fetchAhead(i, step.bottom);
             look(i, step, seen_.emplace_back());
         }
         if (!isShown(std::span(seen_).subspan(before)))
@@ -360,8 +428,10 @@ void LineSweep::arrangeCuts() {
         seen_[i].cut = order_[i].number = i;
 }
 
-void LineSweep::draw(const Step& step) {
+/// Brings the chains into their order.
+void LineSweep::lookAndSort(const Step& step) {
     limits::check();
+    hasSpecial_ = false;
     if (hides_)
         lookForShown(step);
     else
@@ -373,7 +443,16 @@ void LineSweep::draw(const Step& step) {
         sorted_.swap(seen_);
     else
         arrange(seen_, order_, sorted_);
-    if (smallSteps_ > 0 && std::ranges::any_of(sorted_, &Seen::isSpecial))
+}
+
+void LineSweep::draw(const Step& step) {
+    lookAndSort(step);
+    if (isOneColor_ && !isJudged_)
+        judge();
+    if (isTangled_)
+        return;
+    winding_ = 0;
+    if (smallSteps_ > 0 && hasSpecial_)
         drawByParts(step);
     else
         cross(sorted_, step, {});
@@ -426,7 +505,9 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
         partOrder_.push_back({seen.x, std::uint32_t(partOrder_.size())});
     const float height = (step.bottom - step.top) / float(count);
     Region right;
+    const std::int32_t windingLeft = winding_;
     for (int i = 0; i < count; ++i) {
+        winding_ = windingLeft;
         const Step small{step.top + float(i) * height, step.top + float(i + 1) * height,
                          step.height / float(count)};
         for (Placed& p : partOrder_) {
@@ -436,7 +517,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
         sortPlaces(partOrder_, spare_);
         arrange(part_, partOrder_, partSorted_);
         right = cross(partSorted_, small, left);
-        if (i + 1 < count)
+        if (i + 1 < count && !isOneColor_)
             for (const Seen& seen : part_)
                 if (seen.isAtMiddle)
                     state_.cross(seen.layer, -seen.winding);
@@ -446,10 +527,27 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
 
 /// From left to right through the chains at the middle of a step. Returns the region on their right.
 Region LineSweep::cross(std::span<const Seen> chains, const Step& step, Region left) {
+    if (isOneColor_) {
+        crossOutline(chains, [&](const Seen& seen, bool isCrossed, bool isInside) {
+            addAlong(shares_, isCrossed ? seen.x : seen.from, isCrossed ? seen.x : seen.to,
+                     isInside ? step.height : -step.height);
+        });
+        return {};
+    }
     // Of two chains next to each other the second often leads back.
     Region before;
     std::uint64_t keyBefore = 0, key = state_.key();
     bool isKnown = false;
+    PaintChange last;
+    const auto change = [&](const Seen& seen, RegionPaint from, RegionPaint to) {
+        PaintChange next{&seen, from, to};
+        if (last.seen) {
+            next.isCrossed = last.crosses(seen);
+            last.isCrossed = last.isCrossed || next.isCrossed;
+            add(last, step);
+        }
+        last = next;
+    };
     for (const Seen& seen : chains) {
         if (!seen.isAtMiddle)
             continue;
@@ -463,44 +561,168 @@ Region LineSweep::cross(std::span<const Seen> chains, const Step& step, Region l
         }
         const Region right = isKnown && key == keyBefore ? before : state_.region();
         if (right.paint != left.paint)
-            change(seen, step, left.paint, right.paint);
+            change(seen, left.paint, right.paint);
         before = std::exchange(left, right);
         keyBefore = keyLeft;
         isKnown = true;
     }
+    if (last.seen)
+        add(last, step);
     return left;
 }
 
-void LineSweep::change(const Seen& seen, const Step& step, RegionPaint left, RegionPaint right) {
+/// Of one layer, whose inside is a colour. Calls take(seen, whether another crosses it in the step, whether
+/// the inside is on its right) for all that divide inside from outside.
+template <class Take>
+void LineSweep::crossOutline(std::span<const Seen> chains, const Take& take) {
+    const std::int32_t mask = isEvenOdd_ ? 1 : -1;
+    const Seen* last = nullptr;
+    bool isCrossed = false, isInside = (winding_ & mask) != 0;
+    for (const Seen& seen : chains) {
+        if (!seen.isAtMiddle)
+            continue;
+        winding_ += seen.winding;
+        if (((winding_ & mask) != 0) == isInside)
+            continue;
+        bool crosses = false;
+        if (last) {
+            crosses = last->from > seen.from || last->to > seen.to;
+            take(*last, isCrossed || crosses, isInside);
+        }
+        isInside = !isInside;
+        last = &seen;
+        isCrossed = crosses;
+    }
+    if (last)
+        take(*last, isCrossed, isInside);
+}
+
+/// Whether so many edges of one colour cross in the step that hardly any covers what it covers in its middle.
+void LineSweep::judge() {
+    isJudged_ = true;
+    std::vector<std::uint32_t> crossed(shares_.size());
+    std::vector<bool> isChanged(shares_.size());
+    crossOutline(sorted_, [&](const Seen& seen, bool isCrossed, bool) {
+        const auto column = std::size_t(std::clamp(seen.x, 0.0f, float(width_)));
+        crossed[column] += isCrossed;
+        isChanged[column] = true;
+    });
+    winding_ = 0;
+    const auto changed = std::ranges::count(isChanged, true),
+               tangled = std::ranges::count_if(crossed, [](auto count) { return count >= manyCrossed; });
+    isTangled_ = tangled > 0 && tangled >= changed - changed / fewUntangled;
+}
+
+/// Coverage along lines.
+void LineSweep::drawLines(float top, float bottom) {
+    limits::check();
+    const auto count = std::clamp(cutsOnLines / (cuts_.size() + 1), leastLines, mostSteps);
+    const float height = (bottom - top) / float(count), most = float(width_);
+    crossings_.resize(std::max(crossings_.size(), count));
+    for (std::size_t k = 0; k < count; ++k)
+        crossings_[k].clear();
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+        fetchAhead(i, bottom);
+        Cut& cut = cuts_[i];
+        for (std::size_t k = 0; k < count; ++k) {
+            const float y = top + (float(k) + 0.5f) * height;
+            if (y >= cut.edgeBottom)
+                findEdge(cut, y);
+            if (y < cut.a.y || y >= cut.edgeBottom)
+                continue;
+            const float x = std::clamp(cut.a.x + (y - cut.a.y) * cut.slope, 0.0f, most);
+            crossings_[k].push_back(
+                {std::uint32_t(x * placesInAPixel) << 1 | (cut.winding > 0), 0.5f * height * cut.slope});
+        }
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        drawLine(crossings_[k], height);
+    finishRow(top, bottom);
+}
+
+void LineSweep::drawLine(std::vector<Crossing>& crossings, float height) {
+    sortByDigits(crossings, spareCrossings_);
+    const std::int32_t mask = isEvenOdd_ ? 1 : -1;
+    std::int32_t winding = 0;
+    Crossing last;
+    bool isCrossed = false, isInside = false, isFirst = true;
+    const auto addLast = [&] {
+        const float x = last.x(), half = isCrossed ? 0 : last.half;
+        addAlong(shares_, x - half, x + half, isInside ? height : -height);
+    };
+    for (const Crossing& crossing : crossings) {
+        winding += (crossing.place & 1) != 0 ? 1 : -1;
+        if (((winding & mask) != 0) == isInside)
+            continue;
+        const bool crosses = !isFirst && crossing.x() - last.x() < std::abs(crossing.half - last.half);
+        isCrossed = isCrossed || crosses;
+        if (!isFirst)
+            addLast();
+        isFirst = false;
+        isInside = !isInside;
+        last = crossing;
+        isCrossed = crosses;
+    }
+    if (!isFirst)
+        addLast();
+}
+
+/// By digits of the place, from the lowest one on.
+void LineSweep::sortByDigits(std::vector<Crossing>& crossings, std::vector<Crossing>& spare) {
+    constexpr unsigned bits = 11;
+    constexpr std::uint32_t mask = (1u << bits) - 1;
+    std::uint32_t most = 0;
+    for (const Crossing& c : crossings)
+        most = std::max(most, c.place);
+    for (unsigned shift = 0; shift < 32 && most >> shift != 0; shift += bits) {
+        std::array<std::uint32_t, mask + 1> firsts{};
+        for (const Crossing& c : crossings)
+            ++firsts[c.place >> shift & mask];
+        std::uint32_t first = 0;
+        for (std::uint32_t& f : firsts)
+            first += std::exchange(f, first);
+        spare.resize(crossings.size());
+        for (const Crossing& c : crossings)
+            spare[firsts[c.place >> shift & mask]++] = c;
+        crossings.swap(spare);
+    }
+}
+
+/// An edge covers what it covers; but where edges cross, what each does is right in the middle of the step
+/// only.
+void LineSweep::add(const PaintChange& change, const Step& step) {
     const auto isProgram = [](RegionPaint paint) { return (paint & programBit) != 0; };
-    if (isProgram(left) || isProgram(right))
-        chords_->push_back({{seen.from, drawn_},
-                            {seen.to, drawn_ + step.height},
-                            isProgram(left) ? left : 0,
-                            isProgram(right) ? right : 0});
+    const Seen& seen = *change.seen;
+    const float from = change.isCrossed ? seen.x : seen.from, to = change.isCrossed ? seen.x : seen.to;
+    if (isProgram(change.left) || isProgram(change.right))
+        chords_->push_back({{from, drawn_},
+                            {to, drawn_ + step.height},
+                            isProgram(change.left) ? change.left : 0,
+                            isProgram(change.right) ? change.right : 0});
     const auto colorOf = [&](RegionPaint paint) {
         return isProgram(paint) ? glm::vec4(0) : state_.colors()[paint];
     };
-    add(seen.from, seen.to, step.height * (colorOf(right) - colorOf(left)));
+    addAlong(sums_, from, to, step.height * (colorOf(change.right) - colorOf(change.left)));
 }
 
-/// A change along an edge, by columns, with its whole height.
-void LineSweep::add(float from, float to, const glm::vec4& amount) {
-    const float end = float(width_) + 0.5f;
+/// A change along an edge, by columns, with its whole height. The last column is beyond the picture.
+template <class Amount>
+void LineSweep::addAlong(std::vector<Amount>& sums, float from, float to, const Amount& amount) {
+    const float end = float(sums.size()) - 1.5f;
     const float a = std::clamp(std::min(from, to), 0.0f, end), b = std::clamp(std::max(from, to), 0.0f, end);
     const auto first = std::size_t(a), last = std::size_t(b);
     if (first == last) {
         const float later = 0.5f * (a + b) - float(first);
-        sums_[first] += (1 - later) * amount;
-        sums_[first + 1] += later * amount;
+        sums[first] += (1 - later) * amount;
+        sums[first + 1] += later * amount;
         return;
     }
     const float perColumn = 1 / (b - a);
     for (std::size_t column = first; column <= last; ++column) {
         const float enter = std::max(a, float(column)), leave = std::min(b, float(column + 1));
         const float share = (leave - enter) * perColumn, later = 0.5f * (enter + leave) - float(column);
-        sums_[column] += share * (1 - later) * amount;
-        sums_[column + 1] += share * later * amount;
+        sums[column] += share * (1 - later) * amount;
+        sums[column + 1] += share * later * amount;
     }
 }
 
@@ -509,6 +731,9 @@ void LineSweep::finishRow(float top, float bottom) {
     const float perHeight = 1 / (bottom - top);
     glm::vec4 sum(0);
     RegionPaint left = 0;
+    if (isOneColor_)
+        for (std::size_t column = 0; column < sums_.size(); ++column)
+            sums_[column] = std::exchange(shares_[column], 0.0f) * color_;
     for (int x = 0; x < width_; ++x) {
         sum += sums_[std::size_t(x)];
         if (sums_[std::size_t(x)] == glm::vec4(0))

@@ -2,14 +2,18 @@
 /// Rows in which too much begins, ends or crosses to be followed: drawn in level steps, in each of which the
 /// chains are in their order at its middle.
 ///
-/// The paints follow from the order, and an edge covers what it covers in the step. What is misplaced are the
-/// triangles between edges that cross within the step. Where chains begin, end or are nearly level, the few
-/// that are near take smaller steps. In each step the changes of paint add up, since outlines are closed.
+/// The paints follow from the order, and an edge covers what it covers in the step, unless it crosses
+/// another: then it counts as it is in the middle. Where chains begin, end or are nearly level, the few that
+/// are near take smaller steps. In each step the changes of paint add up, since outlines are closed.
+///
+/// Where most edges of a single colour cross others in a step, coverage is summed along lines instead.
 ///
 /// Where many layers are cut, they are asked from the top which of them show in the step, and the others are
 /// left out of it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +40,10 @@ public:
     void run(std::span<const std::uint32_t> numbers, float top, float bottom,
              std::vector<asset::Chord>& chords);
 
+    /// Whether, in the row from there on, so many edges of one colour cross in each step that it is drawn
+    /// along lines anyway.
+    bool isTangled(std::span<const std::uint32_t> numbers, float top);
+
 private:
     struct Step {
         float top, bottom;  ///< where the chains are looked at
@@ -43,31 +51,31 @@ private:
 
         float middle() const { return 0.5f * (top + bottom); }
     };
-    /// A chain that the row cuts. Many are gone through in each step, so there is no more in it.
+    /// A chain that the row cuts, and the edge of it that was looked at last. Many are gone through in each
+    /// step, so there is no more in it.
     struct Cut {
-        std::uint32_t at;    ///< the upper end of the edge that was looked at last, or the chain's
-        std::uint32_t last;  ///< of the chain
-        float top, bottom;   ///< of the chain
+        glm::vec2 a;                   ///< the edge's upper end, or the chain's
+        float slope = 0;               ///< dx / dy
+        float edgeBottom = -INFINITY;  ///< where it ends; none at first
+        std::uint32_t at;              ///< the upper end's vertex
+        std::uint32_t last;            ///< the chain's
         std::uint32_t layer;
         std::int32_t winding;
-        float x;         ///< in the middle of the last step, or where the chain begins
-        glm::vec2 a{0};  ///< of an edge that the row cuts, the upper end
-        float slope = 0;
-        float edgeBottom = -1;  ///< where it ends; none at first
 
-        bool isAt(float y) const { return top <= y && y < bottom; }
+        bool spans(const Step& step) const { return a.y <= step.top && edgeBottom >= step.bottom; }
+        float xAt(float y) const { return slope == 0 ? a.x : a.x + (std::min(y, edgeBottom) - a.y) * slope; }
     };
     /// Where a chain goes in a step.
     struct Seen {
         std::uint32_t cut;  ///< of cuts_
         std::uint32_t layer;
-        std::int32_t winding;
-        float x = 0;                ///< in the middle
-        float from = 0, to = 0;     ///< where it enters and leaves the step
-        float left = 0, right = 0;  ///< between
-        bool isAtMiddle = false;
-        bool hasEnd = false;     ///< it begins or ends in the step
-        bool isSpecial = false;  ///< it does, or is nearly level there
+        float x;            ///< in the middle
+        float from, to;     ///< where it enters and leaves the step
+        float left, right;  ///< between
+        std::int8_t winding;
+        bool isAtMiddle;
+        bool hasEnd;     ///< it begins or ends in the step
+        bool isSpecial;  ///< it does, or is nearly level there
     };
     /// A part of a row with the same chains.
     struct Piece {
@@ -75,30 +83,60 @@ private:
         std::uint64_t content;
     };
     /// Of such a part.
-    struct Change {
+    struct ContentChange {
         float y;
         std::uint64_t content;  ///< is added
     };
 
+    /// Between two paints.
+    struct PaintChange {
+        const Seen* seen = nullptr;
+        RegionPaint left = 0, right = 0;
+        bool isCrossed = false;  ///< another one crosses it in the step
+
+        bool crosses(const Seen& next) const { return seen->from > next.from || seen->to > next.to; }
+    };
+
+    /// An edge on a line.
+    static constexpr float placesInAPixel = 1024;
+    struct Crossing {
+        std::uint32_t place = 0;  ///< doubled, and whether it is wound to the right
+        float half = 0;           ///< of what it reaches, for the height that the line stands for
+
+        float x() const { return float(place >> 1) * (1 / placesInAPixel); }
+    };
+
+    void begin(std::span<const std::uint32_t> numbers);
+    void lookInside(const DownChain& chain);
     void row(float top, float bottom);
-    bool findSteps(float top, float bottom, std::size_t count);
+    bool findSteps(float top, float bottom);
     void findPieces(float top, float bottom);
     bool placeByContent(float top, float bottom, std::size_t most);
     void take(float top, float bottom);
     void look(std::size_t number, const Step& step, Seen& seen);
-    void lookAround(const Cut& cut, const Step& step, Seen& seen) const;
+    void findEdge(Cut& cut, float y) const;
+    void lookAgain(Cut& cut, const Step& step, Seen& seen);
+    void lookAround(const Cut& cut, const Step& step, Seen& seen);
     bool mayHide() const;
-    void fetchAhead(std::size_t number, const Step& step) const;
+    void fetchAhead(std::size_t number, float bottom) const;
     void lookAtAll(const Step& step);
     void lookForShown(const Step& step);
     bool isShown(std::span<const Seen> ofLayer);
     void arrangeCuts();
+    void lookAndSort(const Step& step);
     void draw(const Step& step);
     void drawByParts(const Step& step);
     void drawInSteps(std::span<const Seen> chains, const Step& step, Region& left);
     Region cross(std::span<const Seen> chains, const Step& step, Region left);
-    void change(const Seen& seen, const Step& step, RegionPaint left, RegionPaint right);
-    void add(float from, float to, const glm::vec4& amount);
+    template <class Take>
+    void crossOutline(std::span<const Seen> chains, const Take& take);
+    void judge();
+    void drawLines(float top, float bottom);
+    void drawLine(std::vector<Crossing>& crossings, float height);
+    static void sortByDigits(std::vector<Crossing>& crossings, std::vector<Crossing>& spare);
+    void add(const PaintChange& change, const Step& step);
+    template <class Amount>
+    static void addAlong(std::vector<Amount>& sums, float from, float to, const Amount& amount);
     void finishRow(float top, float bottom);
 
     const ViewChains& chains_;
@@ -107,23 +145,33 @@ private:
     const int width_;
     double meanCut_ = 0;  ///< chains that meet a row, in the mean; 0 until it is asked for
     std::vector<asset::Chord>* chords_ = nullptr;
-    bool isOneLayer_ = false;    ///< all chains are of one
+    bool isOneLayer_ = false;  ///< all chains are of one
+    bool isOneColor_ = false;  ///< and its inside is a colour
+    bool isEvenOdd_ = false;   ///< if so
+    glm::vec4 color_{0};
     bool isArranged_ = false;    ///< in the row
+    bool hasSpecial_ = false;    ///< among those that were looked at
     std::vector<Cut> cuts_;      ///< from the topmost layer down; of one layer from left to right
     std::vector<Cut> arranged_;  ///< spare
+    std::vector<Cut> begun_;     ///< in the row
     std::vector<Seen> seen_;     ///< those of them that may show in the step
     std::vector<Placed> order_;  ///< of these, from left to right
     std::vector<Seen> sorted_;   ///< in this order
     std::vector<Placed> spare_;
     std::span<const std::uint32_t> toCome_;  ///< from the top
     std::vector<Step> steps_;
-    std::vector<Change> changes_;
+    std::vector<ContentChange> changes_;
     std::vector<Piece> pieces_;
     std::vector<Seen> part_;  ///< of sorted_, in smaller steps
     std::vector<Placed> partOrder_;
     std::vector<Seen> partSorted_;
     std::vector<float> leftmost_;  ///< in sorted_, from i on
     std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
+    std::vector<float> shares_;    ///< the same of one layer's inside
+    std::int32_t winding_ = 0;     ///< of one layer
+    bool isJudged_ = false, isTangled_ = false;
+    std::vector<std::vector<Crossing>> crossings_;  ///< by line
+    std::vector<Crossing> spareCrossings_;
     float drawn_ = 0;              ///< of the row
     std::size_t smallSteps_ = 0;   ///< chains in smaller steps that may still be taken: by the step
     std::size_t smallInBand_ = 0;  ///< and by the rest of the band

@@ -67,21 +67,14 @@ std::shared_ptr<const asset::Images> fillsOf(const LoweredScene& picture,
     return asset::imagesOf(view);
 }
 
-/// Where many chains meet strips and a large part of them is hidden, these are not swept. Strips begin anew.
+/// Where many chains meet bands and a large part of them is hidden, these are not swept. Bands begin anew.
 void leaveOutHidden(const LoweredScene& picture, ViewChains& chains, const asset::View& view) {
-    constexpr std::size_t many = 1u << 15, share = 4, fewLayers = 64;
+    constexpr std::size_t many = 1u << 15, share = 8, fewLayers = 64;
     if (chains.inBands() < many || picture.layers.size() < fewLayers)
         return;
-    const HiddenLayers hidden(picture, chains, view.width, view.height, stripBands * bandRows);
-    const auto isHidden = [&](const DownChain& chain, int band) {
-        return hidden.isHidden(chain.layer, band / stripBands);
-    };
-    std::size_t count = 0;
-    for (int band = 0; band < chains.bands(); ++band)
-        count += std::size_t(
-            std::ranges::count_if(chains.inBand(band), [&](auto c) { return isHidden(chains[c], band); }));
-    if (count >= chains.inBands() / share)
-        chains.leaveOut(isHidden);
+    const HiddenLayers hidden(picture, chains, view.width, view.height);
+    if (hidden.hiddenInBands() >= chains.inBands() / share)
+        chains.leaveOut([&](const DownChain& chain, int band) { return hidden.isHidden(chain.layer, band); });
 }
 
 /// A raster shows no finer tolerance than this share of a pixel: single chords are within a quarter of it.

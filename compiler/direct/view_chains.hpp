@@ -47,8 +47,9 @@ public:
     std::span<const DownChain> all() const { return chains_; }
     const glm::vec2* vertices() const { return vertices_.data(); }
 
-    /// Leaves chains out of bands where isLeftOut(chain, band) says so: all of a layer's, in strips of bands
-    /// that are swept on their own.
+    /// Whether a chain may be left out of a band that it meets.
+    bool areLeftOut() const { return areLeftOut_; }
+    /// Leaves chains out of bands where isLeftOut(chain, band) says so: all of a layer's.
     template <class IsLeftOut>
     void leaveOut(const IsLeftOut& isLeftOut) {
         std::size_t kept = 0, first = 0;
@@ -61,6 +62,7 @@ public:
             firsts_[std::size_t(band) + 1] = std::uint32_t(kept);
         }
         numbers_.resize(kept);
+        areLeftOut_ = true;
     }
 
 private:
@@ -76,6 +78,7 @@ private:
     std::vector<glm::vec2> vertices_;
     std::vector<DownChain> chains_;
     std::vector<std::uint32_t> firsts_, numbers_;
+    bool areLeftOut_ = false;
 };
 
 }  // namespace vtm::compiler

@@ -189,6 +189,14 @@ TEST(DrawnOnce, LevelStepsAreNearTheMeansOfLargerPictures) {
     EXPECT_LE(differenceFromLarger(sceneOf(crossingLines(16000, "nonzero")), 4), mostMisplaced);
 }
 
+/// Some hundred edges a pixel, and fewer at the sides. What is off is the mean of lines, whose shares have
+/// the standard deviation 0.5/√edges each.
+TEST(DrawnOnce, TangledPicturesAreNearTheMeansOfLargerOnes) {
+    constexpr double edges = 64000 / 3.0 / 64, lines = 400000 / (64000 / 3.0), deviations = 8;
+    EXPECT_LE(differenceFromLarger(sceneOf(crossingLines(64000, "evenodd")), 4),
+              deviations * 255 * 0.5 / std::sqrt(edges * lines));
+}
+
 std::string starOf(int points) {
     std::string path = "<path fill=\"#408020\" d=\"M32,1";
     for (int i = 1; i < points; ++i) {
