@@ -17,7 +17,7 @@ namespace vtm::image {
 using RowSink = std::function<void(std::span<const std::uint8_t> row)>;
 
 /// Lays colours over a ground, un-premultiplies them and rounds to nearest. Values outside [0, 1] are
-/// clamped, NaN becomes 0.
+/// clamped, NaN becomes 0. A pixel whose alpha is rounded to 0 is black: programs that ignore alpha show it.
 class PixelWriter {
 public:
     /// Straight red, green, blue, alpha in [0, 1]; `depth`: bits a channel, 8 or 16.

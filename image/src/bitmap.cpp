@@ -23,7 +23,8 @@ PixelWriter::PixelWriter(const std::array<float, 4>& ground, int depth)
 
 void PixelWriter::write(const float* premultiplied, std::uint8_t* to) const {
     const float through = 1 - premultiplied[3], alpha = premultiplied[3] + through * ground_[3];
-    const float scale = alpha > 0 ? 1 / alpha : 0;
+    const float shown = 0.5f / (depth_ == 8 ? 255.0f : 65535.0f);  // alpha that is not rounded to 0
+    const float scale = alpha >= shown ? 1 / alpha : 0;
     for (std::size_t c = 0; c < 4; ++c) {
         const float value = c == 3 ? alpha : (premultiplied[c] + through * ground_[c]) * scale;
         if (depth_ == 8) {

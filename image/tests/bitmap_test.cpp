@@ -44,6 +44,19 @@ TEST(PixelWriter, SixteenBitsHaveTheHigherByteFirst) {
               (std::vector<std::uint8_t>{255, 255, 0, 0, 0, 0, 128, 0}));
 }
 
+TEST(PixelWriter, WhatAlphaDoesNotShowIsBlack) {
+    const float hidden[4] = {1e-3f, 5e-4f, 0, 1.9e-3f}, shown[4] = {1e-3f, 0, 0, 2e-3f};
+    std::uint8_t pixel[4];
+    PixelWriter().write(hidden, pixel);
+    EXPECT_EQ(std::vector<std::uint8_t>(pixel, pixel + 4), (std::vector<std::uint8_t>{0, 0, 0, 0}));
+    PixelWriter().write(shown, pixel);
+    EXPECT_EQ(std::vector<std::uint8_t>(pixel, pixel + 4), (std::vector<std::uint8_t>{128, 0, 0, 1}));
+    std::uint8_t deep[8];
+    PixelWriter({}, 16).write(hidden, deep);
+    EXPECT_EQ(deep[7], 125);  // 1.9e-3 of 65535
+    EXPECT_EQ(deep[0] << 8 | deep[1], 34492);
+}
+
 TEST(PixelWriter, NanIsBlack) {
     const PixelWriter writer;
     const float broken[4] = {std::numeric_limits<float>::quiet_NaN(), 1, 0, 1};
