@@ -131,9 +131,9 @@ typedef struct VtmRecording VtmRecording;
 
 /* Starts a recording. From now on vgClear, vgSetPixels, vgWritePixels and the functions that draw paths, glyphs and
  * images on the current context are recorded instead of drawn: what would appear in [0, width] x [0, height] of the
- * surface, whatever the surface's size, on a transparent background. The recording has a mask of its own, which starts at 1; the surface's pixels and
- * mask do not change. Sets VG_ILLEGAL_ARGUMENT_ERROR if the context is already recording, or a side is not in (0,
- * 1000000].
+ * surface, whatever the surface's size, on a transparent background. The recording has a mask of its own, which starts
+ * at 1; the surface's pixels and mask do not change. Sets VG_ILLEGAL_ARGUMENT_ERROR if the context is already
+ * recording, or a side is not in (0, 1000000].
  *
  * * A call that cannot be recorded does nothing and sets VTM_NOT_RECORDABLE_ERROR; docs/openvg_recordings.md lists
  * them. */

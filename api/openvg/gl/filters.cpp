@@ -55,9 +55,9 @@ public:
     bool draw(const TableFilter& what) {
         // Between two entries a rounding would be a step.
         const PixelFormat& format = from_.format();
-        const bool isPremultiplied = format.space.premultiplied || format.alpha.bits == 0;
+        const bool hasAlpha = format.alpha.bits != 0;
         if (format.space.linear != filter_.input.linear ||
-            (isPremultiplied != filter_.input.premultiplied && format.alpha.bits != 0))
+            (hasAlpha && format.space.premultiplied != filter_.input.premultiplied))
             return false;
         Draw draw = drawFor(what.channel < 0 ? Filter::tables : Filter::table);
         if (what.channel >= 0)

@@ -8,8 +8,8 @@
 
 namespace vtm::openvg::gl {
 
-/// The lower left parts of both images that have the size of the smaller one. False for what memory's filters
-/// do: where floats or numbers of texels are not enough, or where there is no room.
+/// The lower left parts of both images that have the size of the smaller one. False: it is to be done in
+/// memory, because floats are not exact enough, too many texels would be read, or there is no room.
 bool filterImage(Device& device, Image& to, const Image& from, const ImageFilter& filter);
 
 }  // namespace vtm::openvg::gl

@@ -29,6 +29,10 @@ Rectangle targetOf(const CopyArea& area) {
     return {area.dx, area.dy, area.dx + area.width, area.dy + area.height};
 }
 
+Rectangle sourceOf(const CopyArea& area) {
+    return {area.sx, area.sy, area.sx + area.width, area.sy + area.height};
+}
+
 bool isEmpty(const CopyArea& area) { return area.width == 0 || area.height == 0; }
 
 /// What scissoring leaves of a rectangle.
@@ -243,8 +247,7 @@ public:
             return;
         if (!isReady(context) || !gl::readTexture(device_, to.storage->pixels))
             return cpuCompositor().getPixels(context, to, area);
-        const Rectangle box{to.area.x0 + area.dx, to.area.y0 + area.dy, to.area.x0 + area.dx + area.width,
-                            to.area.y0 + area.dy + area.height};
+        const Rectangle box = moved(targetOf(area), to);
         copy(gl::readTexture(device_, context.surface->pixels()), context.surface->pixels().format(),
              {area.sx - box.x0, area.sy - box.y0}, to.storage->pixels, gl::oneTile(box));
     }
@@ -255,8 +258,7 @@ public:
         if (!isReady(context))
             return cpuCompositor().readPixels(context, to, area);
         Pixels pixels(area.width, area.height, context.surface->pixels().format());
-        gl::readPart(device_, context.surface->pixels(),
-                     {area.sx, area.sy, area.sx + area.width, area.sy + area.height}, pixels);
+        gl::readPart(device_, context.surface->pixels(), sourceOf(area), pixels);
         openvg::copyPixels(std::as_const(pixels), to, {area.dx, area.dy, 0, 0, area.width, area.height});
     }
 
@@ -267,7 +269,7 @@ public:
         if (!isReady(context) || !Clip(context).isBox())
             return cpuCompositor().copyPixels(context, area);
         StoredPixels& pixels = context.surface->pixels();
-        const Rectangle source{area.sx, area.sy, area.sx + area.width, area.sy + area.height};
+        const Rectangle source = sourceOf(area);
         copy(gl::readTexture(device_, pixels), pixels.format(), {area.sx - area.dx, area.sy - area.dy},
              pixels, scissored(context, targetOf(area)), source);
     }
@@ -286,8 +288,7 @@ public:
         const TexturePointer source = gl::readTexture(device_, from.storage->pixels);
         if (!source || !gl::readTexture(device_, to.storage->pixels))
             return false;
-        const Rectangle box = moved(targetOf(area), to),
-                        read = moved({area.sx, area.sy, area.sx + area.width, area.sy + area.height}, from);
+        const Rectangle box = moved(targetOf(area), to), read = moved(sourceOf(area), from);
         copy(source, from.format(), {read.x0 - box.x0, read.y0 - box.y0}, to.storage->pixels,
              gl::oneTile(box), read);
         return true;
@@ -306,8 +307,7 @@ public:
         if (from.storage->pixels.areInMemory() || !isInTexture(from))
             return false;
         Pixels pixels(area.width, area.height, from.format());
-        gl::readPart(device_, from.storage->pixels,
-                     moved({area.sx, area.sy, area.sx + area.width, area.sy + area.height}, from), pixels);
+        gl::readPart(device_, from.storage->pixels, moved(sourceOf(area), from), pixels);
         openvg::copyPixels(std::as_const(pixels), to, {area.dx, area.dy, 0, 0, area.width, area.height});
         return true;
     }

@@ -359,6 +359,12 @@ void Recorder::combineValues(const MaskValues& values, VGMaskOperation operation
     const CopyArea part = clipped(area, maxImageSide, maxImageSide, values.width, values.height);
     if (part.width == 0)
         return;
+    // New layers are 1, and cleared ones 0: no image is needed for these.
+    const auto isAll = [&](std::uint8_t value) {
+        return std::ranges::all_of(values.values(), [&](std::uint8_t v) { return v == value; });
+    };
+    if (covers(part) && (isAll(255) || isAll(0)))
+        return combine(operation, isAll(255) ? RecordedMask() : emptyMask());
     const auto path = std::make_shared<scene::Path>(rectangleOf(part.dx, part.dy, part.width, part.height));
     const scene::Item inside{path, flip_, scene::FillRule::NonZero,
                              storedPart(values, part, operation == VG_SUBTRACT_MASK, bitmaps_)};

@@ -46,8 +46,8 @@ RecordedMask intersectionOf(const RecordedMask& a, const RecordedMask& b,
 std::optional<RecordedMask> differenceOf(const RecordedMask& a, const RecordedMask& b,
                                          const std::shared_ptr<const scene::Path>& picture);
 
-/// What one makes of `mask` where `inside` is, which shows only there: by its alpha, or for VG_SUBTRACT_MASK
-/// by the alpha of what is left.
+/// `mask` combined with the alpha of an item, where the item is; elsewhere it stays. For VG_SUBTRACT_MASK the
+/// item's alpha is what the mask is multiplied by.
 RecordedMask combinedWith(const RecordedMask& mask, VGMaskOperation operation, const scene::Item& inside,
                           const std::shared_ptr<const scene::Path>& picture);
 
