@@ -173,7 +173,7 @@ void CoverageScanner::scan(const View& view,
     scratch.isWhole = false;
     scratch.bands.clear(view.height);
     for (const Drawn& drawn : drawn_) {
-        Chords<> chords(drawn.place, view, scratch.bands);
+        auto chords = chordsOf(drawn.place, view, scratch.bands);
         for (const Boundary& boundary : drawn.boundaries)
             chords.add(boundary);
     }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <ranges>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include <glm/matrix.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include "raster/src/placed_chords.hpp"
 #include "raster/src/rough.hpp"
 #include "raster/src/row_sums.hpp"
 #include "raster/src/scan_programs.hpp"
@@ -29,6 +31,7 @@ struct RowScratch {
     Bands bands;
     Accumulator<Wholes<Float4>> colors;
     BandPrograms programs;
+    PlacedChordsByMap placed;
     std::unique_ptr<RowScratch> finer;  ///< for what is drawn finer
 };
 
@@ -106,7 +109,7 @@ public:
         if (what == Of::Picture)
             return addParts(0, of_.partCount());
         for (const Scanned::Drawn& drawn : of_.drawn) {
-            Chords<> chords(drawn.own.place(), view_, scratch_.bands);
+            auto chords = chordsOf(drawn.own.place(), view_, scratch_.bands);
             drawn.own.forEachOfSeen(
                 chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
                 [&](const Boundary& boundary) { chords.add(boundary); });
@@ -119,7 +122,7 @@ public:
         std::size_t begin = 0;  // of the map's parts
         for (const Scanned::Drawn& drawn : of_.drawn) {
             const std::size_t count = drawn.own.boxCount();
-            Chords<> chords(drawn.own.place(), view_, scratch_.bands);
+            auto chords = chordsOf(drawn.own.place(), view_, scratch_.bands);
             for (std::size_t i = std::max(first, begin); i < std::min(end, begin + count); ++i)
                 addChords(chords, drawn.own.box(i - begin));
             begin += count + 1;
@@ -143,35 +146,50 @@ public:
     }
 
 private:
-    template <class PaintOf>
-    static void addChords(Chords<PaintOf>& chords, const BoundaryBox& box) {
+    template <class Take>
+    static void addChords(Chords<Take>& chords, const BoundaryBox& box) {
         limits::check();
         if (chords.mayMatter(box.min(), box.max()))
             for (const Boundary& boundary : box.at(chords.pixel()))
                 chords.add(boundary);
     }
 
-    /// What lies beside the view changes no pixel.
     void addPlaced(std::uint32_t map) {
-        of_.placed->forEach(
-            map, [&](const ScannedMap& own, const Affine2& place, const PlacedPaints& paints) {
-                if (!isSeen(place))
-                    return false;
-                const Affine2 toPicture{place.linear * (1 / own.place().extent), place.offset};
-                Chords chords(toPicture, view_, scratch_.bands, std::cref(paints));
+        const Affine2 toPixels = toPixelsOf(view_);
+        of_.placed->forEach(map, [&](std::size_t number, const ScannedMap& own, const Affine2& toPicture,
+                                     const PlacedPaints& paints) {
+            const Affine2 place = compose(toPixels, toPicture);
+            const Seen seen = seenOf(place);
+            if (seen == Seen::All) {
+                addAt(place.offset, scratch_.placed.of(number, own, place.linear), paints);
+            } else if (seen == Seen::Part) {
+                auto chords = chordsOf({toPicture.linear * (1 / own.place().extent), toPicture.offset}, view_,
+                                       scratch_.bands, std::cref(paints));
                 for (std::size_t i = 0; i < own.boxCount(); ++i)
                     addChords(chords, own.box(i));
-                return true;
-            });
+            }
+            return seen != Seen::Nothing;
+        });
     }
 
-    bool isSeen(const Affine2& toPicture) const {
-        const Affine2 toPixels =
-            compose({glm::dmat2(view_.toPixels[0], view_.toPixels[1]), view_.toPixels[2]}, toPicture);
-        const glm::dvec2 centre = toPixels(glm::dvec2(0.5));
-        const glm::dvec2 reach = 0.5 * (glm::abs(toPixels.linear[0]) + glm::abs(toPixels.linear[1])) + 1.0;
-        return centre.x + reach.x > 0 && centre.y + reach.y > 0 && centre.x - reach.x < view_.width &&
-               centre.y - reach.y < view_.height;
+    void addAt(glm::vec2 place, const PlacedChords& placed, const PlacedPaints& paints) {
+        limits::check();
+        const auto there = placed.chords | std::views::transform([&](const Chord& c) {
+                               return Chord{c.a + place, c.b + place, paints(c.left), paints(c.right)};
+                           });
+        scratch_.bands.addAll(there, place.y + placed.min.y, place.y + placed.max.y, float(view_.width),
+                              float(view_.height));
+    }
+
+    /// What the view shows of a placed map. What lies beside it changes no pixel.
+    enum class Seen { Nothing, Part, All };
+    Seen seenOf(const Affine2& place) const {
+        const glm::dvec2 centre = place(glm::dvec2(0.5)), size(view_.width, view_.height);
+        const glm::dvec2 reach = 0.5 * (glm::abs(place.linear[0]) + glm::abs(place.linear[1])) + 1.0;
+        const glm::dvec2 low = centre - reach, high = centre + reach;
+        if (!(high.x > 0 && high.y > 0 && low.x < size.x && low.y < size.y))
+            return Seen::Nothing;
+        return low.x >= 0 && low.y >= 0 && high.x <= size.x && high.y <= size.y ? Seen::All : Seen::Part;
     }
 
     template <class Store>

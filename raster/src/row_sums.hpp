@@ -18,7 +18,6 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include <vtm/raster/view.hpp>
 #include "asset/instances.hpp"
@@ -78,6 +77,17 @@ public:
         for (unsigned band = unsigned(std::max(top, 0.0f)) / bandRows; band <= last; ++band)
             chords_[band].push_back(chord);
     }
+    /// All of some, which lie in the picture between two heights.
+    template <class Some>
+    void addAll(const Some& chords, float top, float bottom, float width, float height) {
+        const int band = int(top) / bandRows;
+        if (band == int(bottom) / bandRows) {
+            chords_[std::size_t(band)].insert(of(band).end(), chords.begin(), chords.end());
+        } else {
+            for (const Chord& chord : chords)
+                add(chord, width, height);
+        }
+    }
     std::vector<Chord>& of(int band) { return chords_[std::size_t(band)]; }
     /// Takes the place of those of a band, which `chords` gets.
     void exchange(int band, std::vector<Chord>& chords) { chords_[std::size_t(band)].swap(chords); }
@@ -88,18 +98,22 @@ private:
 
 // ---- Chords ---------------------------------------------------------------------------------------
 
-/// Appends the chords of all pieces that can change a pixel of the view. PaintOf: from the paints of pieces
-/// to the picture's.
-template <class PaintOf = std::identity>
+/// From the picture's plane to pixels.
+inline Affine2 toPixelsOf(const View& view) {
+    return {glm::dmat2(view.toPixels[0], view.toPixels[1]), view.toPixels[2]};
+}
+
+/// Makes the chords of pieces, and passes each on by take(chord).
+template <class Take>
 class Chords {
 public:
-    Chords(const MapPlace& map, const View& view, Bands& bands)
-        : Chords({glm::dmat2(map.side / map.extent), map.origin}, view, bands, {}) {}
-    /// `toPicture` leads from lattice coordinates to the picture.
-    Chords(const Affine2& toPicture, const View& view, Bands& bands, PaintOf paintOf)
-        : width_(float(view.width)), height_(float(view.height)), bands_(bands), paintOf_(paintOf) {
-        linear_ = glm::dmat2(view.toPixels[0], view.toPixels[1]) * toPicture.linear;
-        origin_ = view.toPixels * glm::dvec3(toPicture.offset, 1);
+    /// `toPixels` leads from lattice coordinates to the pixels of a picture of that size.
+    Chords(const Affine2& toPixels, glm::ivec2 size, Take take)
+        : width_(float(size.x)),
+          height_(float(size.y)),
+          linear_(toPixels.linear),
+          origin_(toPixels.offset),
+          take_(std::move(take)) {
         const double determinant = glm::determinant(linear_);
         mirrored_ = determinant < 0;
         // The largest singular value.
@@ -120,20 +134,21 @@ public:
         return mayMatter(min, max) && reachOf(min, max).max.x > 0;
     }
 
+    /// Nothing if it changes no pixel.
     void add(const Boundary& boundary) {
-        const PlanarPiece& piece = boundary.piece;
-        const glm::dvec2 a = linear_ * piece.a + origin_, b = linear_ * piece.b + origin_;
+        const glm::dvec2 a = linear_ * boundary.piece.a + origin_, b = linear_ * boundary.piece.b + origin_;
         const double bulge = boundary.bulge * stretch_;
         if (std::max(a.y, b.y) + bulge <= 0 || std::min(a.y, b.y) - bulge >= height_ ||
             std::min(a.x, b.x) - bulge >= width_)
             return;
         // What is left of the picture changes a row as much as its height there, whatever its shape.
-        const bool isLeft = std::max(a.x, b.x) + bulge <= 0;
-        if (isLeft || boundary.bend * stretch_ <= chordTolerance)
-            return addChord(glm::vec2(a), glm::vec2(b), piece);
-        // The first and the last one are as long as √2 whole ones.
-        const double others = boundary.steps * areaRoot_ - std::numbers::sqrt2;
-        addChords(2 + int(std::ceil(std::clamp(others, 0.0, maxChords))), a, b, piece);
+        if (std::max(a.x, b.x) + bulge <= 0)
+            return addChord(glm::vec2(a), glm::vec2(b), boundary.piece);
+        addBetween(a, b, boundary);
+    }
+    /// Wherever it is.
+    void addAnywhere(const Boundary& boundary) {
+        addBetween(linear_ * boundary.piece.a + origin_, linear_ * boundary.piece.b + origin_, boundary);
     }
 
 private:
@@ -149,6 +164,14 @@ private:
         const glm::dvec2 half = 0.5 * (max - min);
         const glm::dvec2 reach = glm::abs(linear_[0]) * half.x + glm::abs(linear_[1]) * half.y;
         return {centre - reach, centre + reach};
+    }
+
+    void addBetween(glm::dvec2 a, glm::dvec2 b, const Boundary& boundary) {
+        if (boundary.bend * stretch_ <= chordTolerance)
+            return addChord(glm::vec2(a), glm::vec2(b), boundary.piece);
+        // The first and the last one are as long as √2 whole ones.
+        const double others = boundary.steps * areaRoot_ - std::numbers::sqrt2;
+        addChords(2 + int(std::ceil(std::clamp(others, 0.0, maxChords))), a, b, boundary.piece);
     }
 
     void addChords(int count, glm::dvec2 a, glm::dvec2 b, const PlanarPiece& piece) {
@@ -169,19 +192,31 @@ private:
     }
 
     void addChord(glm::vec2 a, glm::vec2 b, const PlanarPiece& piece) {
-        const std::uint32_t left = paintOf_(mirrored_ ? piece.right : piece.left),
-                            right = paintOf_(mirrored_ ? piece.left : piece.right);
-        bands_.add({a, b, left, right}, width_, height_);
+        take_({a, b, mirrored_ ? piece.right : piece.left, mirrored_ ? piece.left : piece.right});
     }
 
     float width_, height_;
-    Bands& bands_;
-    [[no_unique_address]] PaintOf paintOf_;
     glm::dmat2 linear_;
     glm::dvec2 origin_;
     bool mirrored_;
     double stretch_, areaRoot_;
+    Take take_;
 };
+
+/// The chords of all pieces that can change a pixel of the view, by bands. `paintOf`: from the paints of
+/// pieces to the picture's.
+template <class PaintOf = std::identity>
+auto chordsOf(const Affine2& toPicture, const View& view, Bands& bands, PaintOf paintOf = {}) {
+    const glm::vec2 size(view.width, view.height);
+    return Chords(compose(toPixelsOf(view), toPicture), {view.width, view.height}, [=, &bands](Chord chord) {
+        chord.left = paintOf(chord.left);
+        chord.right = paintOf(chord.right);
+        bands.add(chord, size.x, size.y);
+    });
+}
+inline auto chordsOf(const MapPlace& map, const View& view, Bands& bands) {
+    return chordsOf({glm::dmat2(map.side / map.extent), map.origin}, view, bands);
+}
 
 // ---- Sums -----------------------------------------------------------------------------------------
 

@@ -32,16 +32,16 @@ public:
                 maps_[symbol.map].emplace(asset, asset.maps[symbol.map]);
     }
 
-    /// Calls visit(map, its place, its paints), which tells whether to go on to those in it, for each map
-    /// that is placed in one.
+    /// Calls visit(the map's number, map, its place, its paints), which tells whether to go on to those in
+    /// it, for each map that is placed in one.
     template <class Visit>
     void forEach(std::uint32_t outer, Visit&& visit) const {
         const Map& map = asset_.maps[outer];
         walk_(map, [&](const PlacedMap& placed) {
             if (&placed.map == &map)
                 return true;
-            return bool(visit(*maps_[std::size_t(&placed.map - asset_.maps.data())], placed.toPicture,
-                              placed.paints));
+            const auto number = std::size_t(&placed.map - asset_.maps.data());
+            return bool(visit(number, *maps_[number], placed.toPicture, placed.paints));
         });
     }
 
