@@ -5,6 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 #include <glm/vec4.hpp>
 
@@ -13,6 +19,18 @@ namespace vtm::asset {
 using Float4 = float __attribute__((vector_size(16)));
 
 inline Float4 float4(const glm::vec4& v) { return Float4{v.x, v.y, v.z, v.w}; }
+/// Of four bytes, 0 to 255.
+inline Float4 float4(const std::uint8_t* p) {
+#if defined(__SSE2__)
+    std::int32_t word;
+    std::memcpy(&word, p, 4);
+    const __m128i zero = _mm_setzero_si128();
+    const __m128i words = _mm_unpacklo_epi8(_mm_cvtsi32_si128(word), zero);
+    return _mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero));
+#else
+    return Float4{float(p[0]), float(p[1]), float(p[2]), float(p[3])};
+#endif
+}
 inline glm::vec4 toVec4(Float4 v) { return {v[0], v[1], v[2], v[3]}; }
 
 /// The largest magnitude of a channel.

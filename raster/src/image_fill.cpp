@@ -1,7 +1,10 @@
 #include "raster/src/image_fill.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,72 +18,51 @@ namespace {
 
 using glm::mat2;
 using glm::vec2;
-using glm::vec4;
 
-/// Texels of one level, beyond whose border the border's go on.
-struct Texels {
-    int width, height;
-    const std::uint8_t* rgba;
-    bool premultiplied;
+/// The most texels in a row that a kernel asks for.
+constexpr int maxTaps = 5;
 
-    vec4 at(int x, int y) const {
-        x = std::clamp(x, 0, width - 1);
-        y = std::clamp(y, 0, height - 1);
-        const std::uint8_t* p = rgba + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4;
-        const vec4 c = vec4(p[0], p[1], p[2], p[3]) / 255.0f;
-        return premultiplied ? c : vec4(glm::vec3(c) * c.a, c.a);
-    }
-};
+/// Of texels in a row that count at most, the one at floor(p - reach) first.
+int tapsOf(const TexelKernel& kernel) { return kernel.cubic > 0 ? 4 : int(std::ceil(kernel.width)) + 1; }
+float reachOf(const TexelKernel& kernel) { return kernel.cubic > 0 ? 1.5f : 0.5f * kernel.width; }
 
-/// How texels make a colour: the mean of a square, `width` texels wide, and by a share Catmull-Rom's cubic.
-struct Kernel {
-    float width;  ///< in [1, 4]; at 1 the mean interpolates
-    float cubic = 0;
-
-    /// Of texels in a row that count at most, the one at floor(p - reach) first.
-    int taps() const { return cubic > 0 ? 4 : int(std::ceil(width)) + 1; }
-    float reach() const { return cubic > 0 ? 1.5f : 0.5f * width; }
-
-    /// Weight of a texel whose middle is at distance d along one axis. The cubic (Keys 1981, a = -1/2) passes
-    /// through the pixels, and through the points of any quadratic.
-    float operator()(float d) const {
-        if (width == 0)
-            return 1;
-        d = std::abs(d);
-        const float mean =
-            std::max(std::min(d + 0.5f, 0.5f * width) - std::max(d - 0.5f, -0.5f * width), 0.0f) / width;
-        if (cubic == 0)
-            return mean;
-        const float keys = d < 1 ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
-        return glm::mix(mean, keys, cubic);
-    }
-};
-constexpr Kernel nearest{0};
-
-/// Premultiplied neighbours are summed, so that transparent pixels lend no colour.
-vec4 filtered(const Texels& texels, vec2 place, const Kernel& kernel) {
-    // Keeps the conversion to int defined, for what is not a number too; beyond the border the edge goes on
-    // anyway.
-    const vec2 p(std::fmax(-2.0f, std::fmin(place.x, float(texels.width) + 2)),
-                 std::fmax(-2.0f, std::fmin(place.y, float(texels.height) + 2)));
-    const vec2 corner = glm::floor(p - kernel.reach());
-    const int taps = kernel.taps();
-    vec4 sum(0);
-    for (int j = 0; j < taps; ++j)
-        for (int i = 0; i < taps; ++i) {
-            const vec2 d = corner + vec2(i, j) + 0.5f - p;
-            sum += kernel(d.x) * kernel(d.y) * texels.at(int(corner.x) + i, int(corner.y) + j);
-        }
-    return sum;
+/// Weight of a texel whose middle is at distance d along one axis. The cubic (Keys 1981, a = -1/2) passes
+/// through the pixels, and through the points of any quadratic.
+float weightOf(const TexelKernel& kernel, float d) {
+    if (kernel.width == 0)
+        return 1;
+    d = std::abs(d);
+    const float half = 0.5f * kernel.width;
+    const float mean = std::max(std::min(d + 0.5f, half) - std::max(d - 0.5f, -half), 0.0f) / kernel.width;
+    if (kernel.cubic == 0)
+        return mean;
+    const float keys = d < 1 ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
+    return glm::mix(mean, keys, kernel.cubic);
 }
 
-/// Where a pixel's footprint is read (docs/scene.md, filters of images): at 2 side + 1 points along its
-/// longer axis, a step apart, each for a square `width` wide. The outermost two count `outer`, and all of
-/// them `all`.
-struct Probes {
-    int side;
-    float width, outer, all;
-    vec2 step;
+/// std::floor() of what an int holds; that is a function call without SSE 4.1.
+int floorOf(float value) {
+    const int truncated = int(value);
+    return truncated - (float(truncated) > value);
+}
+
+/// A place along one axis of so many texels. Keeps the conversion to int defined; beyond the border the edge
+/// goes on anyway. What is no number becomes -2.
+float bounded(float place, int size) { return place > -2 ? std::min(place, float(size) + 2) : -2.0f; }
+
+/// Along one axis: the first texel, and what it and those after it count.
+struct Taps {
+    int first;
+    int count;
+    std::array<float, maxTaps> weights;
+
+    Taps(float place, int size, const TexelKernel& kernel) {
+        const float p = bounded(place, size);
+        first = floorOf(p - reachOf(kernel));
+        count = tapsOf(kernel);
+        for (int i = 0; i < count; ++i)
+            weights[std::size_t(i)] = weightOf(kernel, float(first + i) + 0.5f - p);
+    }
 };
 
 constexpr float maxOblong = 16, nearlyRound = 1.0f / 64;
@@ -102,9 +84,13 @@ Probes probesOf(const mat2& m) {
 }
 
 /// Catmull-Rom overshoots beside edges.
-vec4 asColor(vec4 c) {
-    const float a = glm::clamp(c.a, 0.0f, 1.0f);
-    return {glm::clamp(glm::vec3(c), 0.0f, a), a};
+Float4 asColor(Float4 c) {
+    const float a = std::clamp(c[3], 0.0f, 1.0f);
+    const Float4 zero{}, most{a, a, a, a};
+    c = c > zero ? c : zero;
+    c = c < most ? c : most;
+    c[3] = a;
+    return c;
 }
 
 /// Of squares two to four texels wide; those of the picture itself may be narrower.
@@ -114,46 +100,96 @@ constexpr float blendsFrom = 3.5f;
 /// From one texel to so many the cubic becomes the mean of a square.
 constexpr float cubicTo = 1.25f;
 
+bool isOpaque(const image::Bitmap& bitmap) {
+    for (std::size_t i = 3; i < bitmap.rgba.size(); i += 4)
+        if (bitmap.rgba[i] != 255)
+            return false;
+    return true;
+}
+
 }  // namespace
 
 Images::Images(const AssetView& asset) {
     const std::vector<bool> wanted = imagesWithLevels(asset);
     for (std::size_t i = 0; i < asset.images.size(); ++i)
-        pictures_.push_back(
-            {&asset.images[i], wanted[i] ? image::levelsOf(asset.images[i]) : std::vector<image::Level>()});
+        images_.push_back({&asset.images[i],
+                           wanted[i] ? image::levelsOf(asset.images[i]) : std::vector<image::Level>(),
+                           isOpaque(asset.images[i])});
 }
 
-vec4 Images::color(const ImageFill& fill, vec2 point, const mat2& pixel) const {
-    const LeveledImage& picture = pictures_[fill.image];
-    const vec2 p = applyMatrix(fill.matrix, point);
-    const auto read = [&](std::size_t l, vec2 place, const Kernel& kernel) {
-        if (l == 0)
-            return filtered(
-                {picture.bitmap->width, picture.bitmap->height, picture.bitmap->rgba.data(), false}, place,
-                kernel);
-        const image::Level& texels = picture.levels[l - 1];
-        return filtered({texels.width, texels.height, texels.rgba.data(), true},
-                        std::ldexp(1.0f, -int(l)) * place, kernel);
-    };
-    if (fill.filter < ImageFilter::Trilinear)
-        return read(0, p, fill.filter == ImageFilter::Nearest ? nearest : Kernel{1});
-    const mat2 linear(fill.matrix[0], fill.matrix[1], fill.matrix[2], fill.matrix[3]);
-    const Probes probes = probesOf(linear * pixel);
-    const float last = float(picture.levels.size());
-    const float lod = std::clamp(std::floor(std::log2(probes.width)) - 1, 0.0f, last);
-    const auto finer = std::size_t(lod);
-    Kernel kernel{glm::clamp(std::ldexp(probes.width, -int(finer)), 1.0f, mostTexels)};
-    if (finer == 0 && fill.filter == ImageFilter::Bicubic)
-        kernel.cubic = std::max((cubicTo - kernel.width) / (cubicTo - 1), 0.0f);
-    const float share =
-        lod == last ? 0 : std::max((kernel.width - blendsFrom) / (mostTexels - blendsFrom), 0.0f);
-    vec4 sum(0);
-    for (int i = -probes.side; i <= probes.side; ++i) {
-        const vec2 place = p + float(i) * probes.step;
-        vec4 color = read(finer, place, kernel);
-        if (share > 0)
-            color = glm::mix(color, read(finer + 1, place, Kernel{0.5f * kernel.width}), share);
-        sum += (std::abs(i) == probes.side ? probes.outer : 1) / probes.all * color;
+ImageReader::ImageReader(const Images& images, const ImageFill& fill, const mat2& pixel)
+    : matrix_(fill.matrix) {
+    const LeveledImage& image = images[fill.image];
+    finer_ = texelsOf(image, 0);
+    if (fill.filter < ImageFilter::Trilinear) {
+        kernel_.width = fill.filter == ImageFilter::Nearest ? 0 : 1;
+        return;
+    }
+    probes_ = probesOf(mat2(fill.matrix[0], fill.matrix[1], fill.matrix[2], fill.matrix[3]) * pixel);
+    const float last = float(image.levels.size());
+    const float lod = std::clamp(std::floor(std::log2(probes_.width)) - 1, 0.0f, last);
+    const auto level = unsigned(lod);
+    finer_ = texelsOf(image, level);
+    kernel_.width = glm::clamp(probes_.width * finer_.scale, 1.0f, mostTexels);
+    if (level == 0 && fill.filter == ImageFilter::Bicubic)
+        kernel_.cubic = std::max((cubicTo - kernel_.width) / (cubicTo - 1), 0.0f);
+    if (lod != last && kernel_.width > blendsFrom) {
+        share_ = (kernel_.width - blendsFrom) / (mostTexels - blendsFrom);
+        coarser_ = texelsOf(image, level + 1);
+    }
+}
+
+ImageReader::Texels ImageReader::texelsOf(const LeveledImage& image, unsigned level) {
+    if (level == 0)
+        return {image.bitmap->width, image.bitmap->height, image.bitmap->rgba.data(), image.isOpaque, 1};
+    const image::Level& texels = image.levels[level - 1];
+    return {texels.width, texels.height, texels.rgba.data(), true, std::ldexp(1.0f, -int(level))};
+}
+
+inline Float4 ImageReader::Texels::operator()(int x, int y) const {
+    x = std::clamp(x, 0, width - 1);
+    y = std::clamp(y, 0, height - 1);
+    const Float4 c = float4(rgba + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4);
+    const float alpha = premultiplied ? 1 : c[3] * (1.0f / 255);
+    return c * Float4{alpha, alpha, alpha, 1};
+}
+
+/// Between four texels. Premultiplied neighbours are summed, so that transparent pixels lend no colour.
+Float4 ImageReader::interpolated(const Texels& texels, vec2 place) {
+    const float px = bounded(place.x, texels.width) - 0.5f, py = bounded(place.y, texels.height) - 0.5f;
+    const int x = floorOf(px), y = floorOf(py);
+    const float right = px - float(x), below = py - float(y);
+    const auto column = [&](int at) { return (1 - below) * texels(at, y) + below * texels(at, y + 1); };
+    const bool sameRows = columns_.y == y && columns_.below == below;
+    if (!sameRows || columns_.x != x) {
+        const bool next = sameRows && columns_.x == x - 1;
+        columns_ = {x, y, below, next ? columns_.right : column(x), column(x + 1)};
+    }
+    return (1 - right) * columns_.left + right * columns_.right;
+}
+
+Float4 ImageReader::summed(const Texels& texels, vec2 place, const TexelKernel& kernel) {
+    const Taps across(place.x, texels.width, kernel), down(place.y, texels.height, kernel);
+    Float4 sum{};
+    for (int j = 0; j < down.count; ++j)
+        for (int i = 0; i < across.count; ++i)
+            sum += down.weights[std::size_t(j)] * across.weights[std::size_t(i)] *
+                   texels(across.first + i, down.first + j);
+    return sum;
+}
+
+Float4 ImageReader::color(vec2 point) {
+    constexpr float perByte = 1.0f / 255;
+    const vec2 p = finer_.scale * applyMatrix(matrix_, point);
+    if (kernel_.width == 1 && kernel_.cubic == 0 && probes_.side == 0)
+        return perByte * interpolated(finer_, p);
+    Float4 sum{};
+    for (int i = -probes_.side; i <= probes_.side; ++i) {
+        const vec2 place = p + float(i) * finer_.scale * probes_.step;
+        Float4 color = summed(finer_, place, kernel_);
+        if (share_ > 0)
+            color = (1 - share_) * color + share_ * summed(coarser_, 0.5f * place, {0.5f * kernel_.width});
+        sum += (std::abs(i) == probes_.side ? probes_.outer : 1) / probes_.all * perByte * color;
     }
     return asColor(sum);
 }

@@ -75,19 +75,18 @@ template <class Places>
 std::optional<Float4> layerColors(const Paints& paints, const Instruction& in, const Places& places,
                                   const MaterialFunction& materials, std::span<Float4> colors) {
     const std::span<const Texel> data = paints.asset().data;
-    const auto each = [&](auto&& color) {
-        for (std::size_t i = 0; i < colors.size(); ++i)
-            colors[i] = float4(color(places.point(i)));
-        return std::optional<Float4>();
-    };
     switch (in.op) {
         case Op::Image: {
-            const auto fill = recordAt<ImageFill>(data, in.argument);
-            return each([&](vec2 p) { return paints.images().color(fill, p, places.pixel()); });
+            ImageReader reader(paints.images(), recordAt<ImageFill>(data, in.argument), places.pixel());
+            for (std::size_t i = 0; i < colors.size(); ++i)
+                colors[i] = reader.color(places.point(i));
+            return {};
         }
         case Op::Material: {
             const auto fill = recordAt<MaterialFill>(data, in.argument);
-            return each([&](vec2 p) { return materialColor(fill, p, materials); });
+            for (std::size_t i = 0; i < colors.size(); ++i)
+                colors[i] = float4(materialColor(fill, places.point(i), materials));
+            return {};
         }
         case Op::Linear:
             return linear({data, paints.stopColors(), in.argument}, places, colors);
