@@ -35,8 +35,12 @@ struct RowScratch {
     std::unique_ptr<RowScratch> finer;  ///< for what is drawn finer
 };
 
-/// Rough pixels in a row are drawn together across gaps of fewer columns.
-inline constexpr int maxFinerGap = 4;
+/// Rough pixels of a band are drawn together across gaps of fewer columns: each box takes all chords of the
+/// band, and a column of a gap about as long as so many of them.
+inline int maxFinerGap(std::size_t chords) {
+    constexpr std::size_t leastGap = 4, chordsOfColumn = 10;
+    return int(std::max(leastGap, chords / chordsOfColumn));
+}
 
 /// Pixels first to end - 1 of rows top to bottom - 1 of a band.
 struct BandBox {
@@ -47,10 +51,10 @@ struct BandBox {
 };
 
 /// Boxes around all of the pixels, which are sorted by column, disjoint and from left to right.
-inline std::vector<BandBox> boxesAround(std::span<const BandPixel> pixels) {
+inline std::vector<BandBox> boxesAround(std::span<const BandPixel> pixels, int maxGap) {
     std::vector<BandBox> boxes;
     for (const BandPixel& p : pixels) {
-        if (boxes.empty() || p.x >= boxes.back().end + maxFinerGap)
+        if (boxes.empty() || p.x >= boxes.back().end + maxGap)
             boxes.push_back({p.x, p.x + 1, p.row, p.row + 1});
         BandBox& box = boxes.back();
         box = {box.first, p.x + 1, std::min(box.top, p.row), std::max(box.bottom, p.row + 1)};
@@ -230,7 +234,7 @@ private:
         std::ranges::sort(rough, {}, &BandPixel::x);
         std::vector<std::pair<BandPixel, Float4>> colors;
         auto next = rough.begin();
-        for (const BandBox& box : boxesAround(rough)) {
+        for (const BandBox& box : boxesAround(rough, maxFinerGap(scratch_.bands.of(band).size()))) {
             const auto last =
                 std::ranges::find_if(next, rough.end(), [&](const BandPixel& p) { return p.x >= box.end; });
             MeanStore means = drawBox(band, box, {next, last});
