@@ -127,8 +127,8 @@ struct PlainDrawing::Impl {
         PatternImages images(options, std::max(excerpt.width, excerpt.height), nullptr);
         TilePlan tiles;
         const ErrorBudget budget(options.tolerance, latticeBits(options), mostChords, area);
-        LoweredScene picture = lower(scene, excerpt, lattice, budget, Sharing::OutlinesAndClips, nullptr,
-                                     nullptr, &tiles, &images);
+        LoweredScene picture =
+            lower(scene, excerpt, lattice, budget, Sharing::All, nullptr, nullptr, &tiles, &images);
         if (!tiles.patterns.empty() || !picture.materials.empty())
             return nullptr;
         ViewChains chains(picture, lattice, view);

@@ -17,6 +17,7 @@
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/lower/outlines_ahead.hpp"
 #include "compiler/lower/paints.hpp"
+#include "compiler/lower/repeated_paths.hpp"
 #include "compiler/patterns/pattern_images.hpp"
 #include "compiler/patterns/tile_range.hpp"
 #include "geometry/box.hpp"
@@ -45,7 +46,8 @@ public:
           tiles_(tiles),
           images_(images),
           shown_(frame_),
-          paints_(picture_, excerpt) {
+          paints_(picture_, excerpt),
+          repeated_(budget.fillChords()) {
         if (cache_)
             picture_.outlines = cache_->take();
         // So that most pictures' need not be moved while they grow. Memory that is not written to costs
@@ -153,7 +155,7 @@ private:
     /// A new one, or an equal one of an earlier clip.
     std::uint32_t clipLayer(const OutlineOrigin& origin, scene::FillRule rule) {
         const std::uint32_t made = layer(origin, rule);
-        if (sharing_ != Sharing::OutlinesAndClips)
+        if (sharing_ != Sharing::All)
             return made;
         std::uint64_t hash = std::uint64_t(rule);
         for (const LatticePoint p : pointsOf(made))
@@ -417,8 +419,10 @@ private:
     /// A stroke beyond the limits is a LimitError. Changes nothing else: threads call it at once.
     std::optional<std::uint32_t> appendOutline(Outlines& to, const OutlineOrigin& origin) const {
         if (!origin.stroke) {
-            addOutline(to, *origin.path, toSteps(origin), budget_.fillChords(), lattice_.clampMin(),
-                       lattice_.clampMax());
+            if (sharing_ != Sharing::All ||
+                !repeated_.append(to, origin.path, toSteps(origin), lattice_.clampMin(), lattice_.clampMax()))
+                addOutline(to, *origin.path, toSteps(origin), budget_.fillChords(), lattice_.clampMin(),
+                           lattice_.clampMax());
             return std::nullopt;
         }
         const double stretch = largestStretch(origin.transform) * lattice_.stepsPerUnit();
@@ -485,6 +489,7 @@ private:
     limits::Place place_;        ///< of what is being lowered
     LoweredScene picture_;
     PaintTable paints_;
+    mutable RepeatedPaths repeated_;  ///< threads use it at once
     std::optional<OutlinesAhead> ahead_;
 };
 

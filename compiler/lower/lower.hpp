@@ -48,9 +48,10 @@ inline constexpr std::size_t maxCutTiles = 4 * maxTiles;  ///< of these, that ar
 inline constexpr std::size_t maxPlacedFills = 256;
 
 /// Outlines: a fill right below an opaque stroke of its own path may take an outline of the stroke's for its
-/// own, where that hides the difference (docs/regions.md). And equal shapes of clips may be one layer, the
-/// first; then not all layers of a group follow each other.
-enum class Sharing : std::uint8_t { None, Outlines, OutlinesAndClips };
+/// own, where that hides the difference (docs/regions.md). All: also, equal shapes of clips may be one layer,
+/// the first, and then not all layers of a group follow each other; and fills of one path in many places are
+/// cut into chords once (repeated_paths.hpp).
+enum class Sharing : std::uint8_t { None, Outlines, All };
 
 /// What the outline of a layer was made of.
 struct LayerOrigin {

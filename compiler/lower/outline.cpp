@@ -220,9 +220,29 @@ private:
 /// Halving so often brings any curve below a lattice step.
 constexpr int maxHalvings = 400;
 
+/// Takes contours as they are.
+class ContourKeeper {
+public:
+    explicit ContourKeeper(FlatContours& contours) : kept_(contours) {}
+
+    void start(Point p) {
+        kept_.starts.push_back(std::uint32_t(kept_.points.size()));
+        line(p);
+    }
+    void line(Point to) { kept_.points.push_back(to); }
+    void lines(std::span<const Point> to) { kept_.points.insert(kept_.points.end(), to.begin(), to.end()); }
+    void linesInside(std::span<const Point> to) { lines(to); }
+    bool keepsInside(const Cubic&) const { return true; }
+    bool keepsBeyond(const Cubic&) const { return false; }
+
+private:
+    FlatContours& kept_;
+};
+
+template <class Sink>
 class Flattener : public CurveSink {
 public:
-    Flattener(RunSink& sink, ChordTolerance tolerance)
+    Flattener(Sink& sink, ChordTolerance tolerance)
         : sink_(sink), tolerance_(tolerance.distance), cutter_(tolerance) {}
     void start(Point p) override { sink_.start(p); }
     void line(Point to) override { sink_.line(to); }
@@ -244,7 +264,7 @@ private:
         }
     }
 
-    RunSink& sink_;
+    Sink& sink_;
     const double tolerance_;
     ChordCutter cutter_;
 };
@@ -277,7 +297,7 @@ private:
     Point map(Point p) const { return mapped(map_, p); }
 
     RunSink& sink_;
-    Flattener flattener_;
+    Flattener<RunSink> flattener_;
     const Affine map_;
     Point start_{};
     std::vector<Point> mapped_;
@@ -314,6 +334,42 @@ void addOutline(Outlines& outlines, const scene::Path& path, const Affine& toSte
     Flattener flattener(sink, tolerance);
     walkCurves(path, toSteps, flattener, ErrorBudget::arcSteps);
     sink.finish();
+}
+
+FlatContours flatten(const scene::Path& path, const Affine& toSteps, ChordTolerance tolerance) {
+    FlatContours contours;
+    ContourKeeper keeper(contours);
+    Flattener flattener(keeper, tolerance);
+    walkCurves(path, toSteps, flattener, ErrorBudget::arcSteps);
+    if (!contours.points.empty())
+        contours.min = contours.max = contours.points.front();
+    for (const Point p : contours.points) {
+        contours.min = glm::min(contours.min, p);
+        contours.max = glm::max(contours.max, p);
+    }
+    return contours;
+}
+
+bool addContours(Outlines& outlines, const FlatContours& contours, Point by, glm::dvec2 clampMin,
+                 glm::dvec2 clampMax) {
+    const Point min = contours.min + by, max = contours.max + by;
+    // Not if they are no numbers either.
+    if (!(min.x >= clampMin.x && min.y >= clampMin.y && max.x <= clampMax.x && max.y <= clampMax.y))
+        return false;
+    RunSink sink(outlines, clampMin, clampMax);
+    std::vector<Point> moved(contours.points.size());
+    std::transform(contours.points.begin(), contours.points.end(), moved.begin(),
+                   [by](Point p) { return p + by; });
+    const std::span<const Point> points(moved);
+    for (std::size_t i = 0; i < contours.starts.size(); ++i) {
+        const std::size_t first = contours.starts[i],
+                          end = i + 1 < contours.starts.size() ? contours.starts[i + 1] : points.size();
+        sink.start(points[first]);
+        if (end > first + 1)
+            sink.linesInside(points.subspan(first + 1, end - first - 1));
+    }
+    sink.finish();
+    return true;
 }
 
 double largestStretch(const Affine& m) {

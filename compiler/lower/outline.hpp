@@ -42,6 +42,19 @@ struct Outlines {
 void addOutline(Outlines& outlines, const scene::Path& path, const scene::Affine& toSteps,
                 ChordTolerance tolerance, glm::dvec2 clampMin, glm::dvec2 clampMax);
 
+/// Closed contours as chords that are not on the lattice yet.
+struct FlatContours {
+    std::vector<scene::Point> points;   ///< of each contour its start, then the ends of its chords
+    std::vector<std::uint32_t> starts;  ///< numbers of points, ascending
+    scene::Point min{0}, max{0};        ///< around the points
+};
+
+/// Those of `path` under `toSteps`.
+FlatContours flatten(const scene::Path& path, const scene::Affine& toSteps, ChordTolerance tolerance);
+/// Appends them moved by `by`, as addOutline() does; nothing, and returns false, unless all lie in the box.
+bool addContours(Outlines& outlines, const FlatContours& contours, scene::Point by, glm::dvec2 clampMin,
+                 glm::dvec2 clampMax);
+
 /// A box in a path's space.
 struct PathBox {
     scene::Point min, max;

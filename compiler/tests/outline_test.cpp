@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,28 @@ int windingAt(const Outlines& outlines, LatticePoint p) {
 
 const scene::Path wave{scene::MoveTo{{10, 400}}, scene::CubicTo{{200, -500}, {400, 1300}, {600, 300}},
                        scene::LineTo{{900, 900}}, scene::QuadTo{{300, 1000}, {20, 700}}, scene::Close{}};
+
+/// Chords of a path that were made for another place.
+TEST(Outline, ContoursMovedAreThoseOfThePathThere) {
+    const scene::Point min{-16, -16}, max{1000, 1000};
+    const scene::Affine linear{0.5, 0.1, -0.2, 0.4, 0, 0};
+    const FlatContours contours = flatten(wave, linear, 0.5);
+    for (const scene::Point by : {scene::Point{300.25, 200.5}, scene::Point{411.375, 251}}) {
+        Outlines moved, there;
+        ASSERT_TRUE(addContours(moved, contours, by, min, max));
+        addOutline(there, wave, {linear[0], linear[1], by}, 0.5, min, max);
+        EXPECT_TRUE(std::ranges::equal(moved.points, there.points));
+        EXPECT_TRUE(
+            std::ranges::equal(moved.runs, there.runs, [](const compiler::Run& a, const compiler::Run& b) {
+                return a.first == b.first && a.last == b.last;
+            }));
+    }
+    Outlines none;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const scene::Point by : {scene::Point{-900, 300}, scene::Point{300, 2000}, scene::Point{nan, 300}})
+        EXPECT_FALSE(addContours(none, contours, by, min, max));
+    EXPECT_TRUE(none.points.empty() && none.runs.empty());
+}
 
 TEST(Winding, isPlusOneInsideAContourThatIsCounterClockwiseInTheNumbers) {
     const Outlines square = outlineInBox(scene::polygon({{0, 0}, {100, 0}, {100, 100}, {0, 100}}));

@@ -109,6 +109,39 @@ TEST_P(SharedOutlines, changesNoPicture) {
     EXPECT_EQ(shared.asset.fallbackLeaves, 0u);
 }
 
+/// One path in many places, moved, turned, mirrored and beyond the picture: the outlines of as many paths.
+TEST_P(SharedOutlines, ofRepeatedPathsAreThoseOfCopies) {
+    RandomRings random(GetParam());
+    const auto path = random.path();
+    std::vector<scene::Node> repeated, copies;
+    for (int i = 0; i < 20; ++i) {
+        scene::Affine place = scene::translation(random.number(-80, 80), random.number(-80, 80));
+        if (i % 5 == 4)
+            place = scene::compose(place, scene::Affine(0.6, 0.8, -0.8, 0.6, 30, -10));
+        if (i % 7 == 6)
+            place = scene::compose(place, scene::Affine(-0.5, 0, 0, 0.5, 50, 0));
+        Item item = filled(path, FillRule::NonZero);
+        item.transform = place;
+        repeated.push_back({item});
+        item.path = std::make_shared<const Path>(*path);
+        copies.push_back({item});
+    }
+    const Lattice lattice(size, size, 20);
+    const auto lowered = [&](const std::vector<scene::Node>& items) {
+        const Scene scene = sceneOf(items);
+        return lower(scene, wholeOf(scene), lattice, ErrorBudget(1.0 / 4096, 20), Sharing::All);
+    };
+    const LoweredScene a = lowered(repeated), b = lowered(copies);
+    ASSERT_EQ(a.layers.size(), b.layers.size());
+    ASSERT_EQ(a.outlines.points.size(), b.outlines.points.size());
+    ASSERT_EQ(a.outlines.runs.size(), b.outlines.runs.size());
+    for (std::size_t i = 0; i < a.outlines.points.size(); ++i) {
+        // Even numbers, which a last digit before rounding may tell apart.
+        ASSERT_LE(std::abs(a.outlines.points[i].x - b.outlines.points[i].x), 2) << i;
+        ASSERT_LE(std::abs(a.outlines.points[i].y - b.outlines.points[i].y), 2) << i;
+    }
+}
+
 TEST(SharedOutline, takesTheFirstRunsOfAStroke) {
     const auto layersOf = [](Path path) {
         const auto shape = std::make_shared<const Path>(std::move(path));
