@@ -1,6 +1,10 @@
 #include "svg/geometry/path_data.hpp"
 
 #include <numbers>
+#include <type_traits>
+#include <variant>
+
+#include <glm/geometric.hpp>
 
 #include <vtm/limits/limits.hpp>
 #include "svg/css/cursor.hpp"
@@ -9,6 +13,13 @@ namespace vtm::svg {
 namespace {
 
 using scene::Point;
+
+/// Relative commands add up the roundings of their numbers, so that a subpath ends beside where it began by
+/// some last digits. Closed by so small a share of its length, it ends there: a line back would be a segment
+/// with a direction and joins of its own, which nobody drew.
+constexpr double closingSlack = 0x1p-20;
+/// The last command, which gets another end, must be so many times as long.
+constexpr double leastOfLast = 0x1p10;
 
 char upper(char c) { return static_cast<char>(c & ~0x20); }
 
@@ -82,10 +93,26 @@ private:
 
     /// A second Close on end closes nothing more: it would only add vertices for markers.
     void close() {
-        if (previous_ != 'Z')
+        if (previous_ != 'Z') {
+            const double rest = glm::distance(current_, start_);
+            if (rest > 0 && rest <= closingSlack * length_ && leastOfLast * rest <= last_)
+                endAt(start_);
             path_.push_back(scene::Close{});
+        }
         current_ = start_;
+        length_ = 0;
         previous_ = 'Z';
+    }
+
+    /// Instead of where the last command ends.
+    void endAt(Point p) {
+        std::visit(
+            [&]<class Command>(Command& last) {
+                if constexpr (!std::is_same_v<Command, scene::MoveTo> &&
+                              !std::is_same_v<Command, scene::Close>)
+                    last.to = p;
+            },
+            path_.back());
     }
 
     bool move() {
@@ -94,12 +121,13 @@ private:
             return false;
         path_.push_back(scene::MoveTo{to});
         start_ = current_ = to;
+        length_ = 0;
         return true;
     }
 
     bool lineTo(Point to) {
         path_.push_back(scene::LineTo{to});
-        current_ = to;
+        goTo(to);
         return true;
     }
     bool line() {
@@ -121,7 +149,7 @@ private:
             return false;
         path_.push_back(scene::CubicTo{control1, control2, to});
         control_ = control2;
-        current_ = to;
+        goTo(to);
         return true;
     }
 
@@ -131,7 +159,7 @@ private:
             return false;
         path_.push_back(scene::QuadTo{control, to});
         control_ = control;
-        current_ = to;
+        goTo(to);
         return true;
     }
 
@@ -143,8 +171,14 @@ private:
             !separator() || !flag(large) || !separator() || !flag(sweep) || !separator() || !point(to))
             return false;
         path_.push_back(scene::ArcTo{radii, degrees * std::numbers::pi / 180, large, sweep, to});
-        current_ = to;
+        goTo(to);
         return true;
+    }
+
+    void goTo(Point to) {
+        last_ = glm::distance(current_, to);
+        length_ += last_;
+        current_ = to;
     }
 
     /// The control point of a smooth curve: the last one mirrored, if the last command was of its kind.
@@ -180,6 +214,7 @@ private:
     Cursor in_;
     scene::Path path_;
     Point current_{}, start_{}, control_{};
+    double length_ = 0, last_ = 0;  ///< of the subpath, along its chords, and of the last one
     char previous_ = 0;
     bool relative_ = false;
 };

@@ -56,6 +56,20 @@ TEST(PathData, MustBeginWithMoveTo) {
     EXPECT_FALSE(parse("L 1 1").complete);
     EXPECT_TRUE(parse(" ").complete);
 }
+/// What relative commands leave when they come back is no segment.
+TEST(PathData, ClosingSnapsTheLastDigits) {
+    expectNear(command<LineTo>("m 87.413638,64.165656 10,0 0,10 -10.000001,0 z", 3).to,
+               {87.413637, 74.165656});
+    EXPECT_EQ(command<LineTo>("m 87.413638,64.165656 10,0 0,10 -10,0 0,-9.999999 z", 4).to,
+              (Point{87.413638, 64.165656}));
+    EXPECT_EQ(command<CubicTo>("m 1,1 10,0 c 0,10 0,10 -10.000001,1e-6 z", 2).to, (Point{1, 1}));
+    EXPECT_EQ(command<ArcTo>("m 1,1 10,0 a 5 5 0 0 0 -10.000001,0 z", 2).to, (Point{1, 1}));
+    // Edges that somebody drew, and an arc that nearly comes back to where it began.
+    EXPECT_NE(command<LineTo>("m 1,1 10,0 0,10 -10.001,-10 z", 3).to, (Point{1, 1}));
+    EXPECT_NE(command<LineTo>("m 1,1 1e-7,0 z", 1).to, (Point{1, 1}));
+    EXPECT_NE(command<ArcTo>("m 1,1 10,0 -10,0 a 5 5 0 1 1 -0.000001,0 z", 3).to, (Point{1, 1}));
+    EXPECT_NE(command<LineTo>("m 1,1 10,0 z l 1e-6,0 z", 3).to, (Point{1, 1}));
+}
 TEST(PathData, ClosingTwiceIsClosingOnce) { EXPECT_EQ(commands("M 0 0 L 1 1 Z z Z"), 3u); }
 TEST(PathData, MalformedDataIsReported) {
     EXPECT_EQ(loadBody("<path d='M 0 0 L 9 9 9' stroke='red'/>").warnings.size(), 1u);
