@@ -89,6 +89,43 @@ double offsetSlope(const Gradient& gradient, bool isRadial) {
     return gap < minCircleGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
 }
 
+/// What u changes by, at most, in a disc of the gradient's space; 0 where nothing is painted.
+///
+/// With g = 1 - fr all circles are images of each other about a = f / g: for n, the unit vector from the
+/// centre of the circle at u to p, p - a = (u - u(a)) (g n - f). So n, and |∇u| = 1 / |g - n·f|, are the same
+/// along a ray from a. With c = |f| cos of the angle between it and f, e = g² - |f|² and s = √(c² + e) that
+/// is g / (s (s - c)) if the circles lie within each other, largest on the ray nearest to f. Else e < 0,
+/// circles fill the cone c < -√-e, where it is g (s - c) / (s |e|), larger towards the border.
+double radialSlopeIn(const Gradient& gradient, dvec2 p, double radius) {
+    const dvec2 f(gradient.fx, gradient.fy);
+    const double g = 1 - double(gradient.fr), ff = glm::dot(f, f), e = g * g - ff, length = std::sqrt(ff);
+    constexpr double touching = 1e-9;
+    if (g > 0 && ff == 0)
+        return 1 / g;
+    if (!(g > 0) || std::abs(e) <= touching * ff)
+        return infinity;
+    const dvec2 d = p - f / g;
+    const double distance = glm::length(d), sine = (1 + touching) * radius / distance;
+    if (!(sine < 1))
+        return e > 0 ? 1 / (g - length) : infinity;
+    const double cosine = std::sqrt(1 - sine * sine), along = glm::dot(d, f) / (distance * length),
+                 across = std::sqrt(std::max(1 - along * along, 0.0));
+    if (e > 0) {
+        const double c = along >= cosine ? length : length * (along * cosine + across * sine),
+                     s = std::sqrt(c * c + e);
+        return c > 0 ? g * (s + c) / (s * e) : g / (s * (s - c));
+    }
+    // From the middle of the cone, -f.
+    const double border = -std::sqrt(-e), nearest = length * (along * cosine - across * sine),
+                 c = length * (along * cosine + across * sine);
+    if (along > -cosine && nearest > border)
+        return 0;
+    if (along >= cosine || c >= border)
+        return infinity;
+    const double s = std::sqrt(c * c + e);
+    return g * (s - c) / (s * -e);
+}
+
 /// Of one paint, in doubles.
 struct Slopes {
     double slope = 0, variation = 0, roughness = 0;  ///< PaintChange
@@ -177,14 +214,27 @@ double radialOffset(const Gradient& gradient, dvec2 p) {
     return b + std::sqrt(std::max(b * b + (glm::dot(d, d) - fr * fr) / a, 0.0));
 }
 
-/// Those over the pixels. `slope`: what u changes by over a unit of the picture, at most.
-Offsets offsetsNear(const Gradient& gradient, bool isRadial, double slope, const PixelsNear& pixels) {
+/// What u is over the pixels, and what it changes by over a unit of the picture, at most.
+struct OffsetsNear {
+    double slope;
+    Offsets offsets;
+};
+
+OffsetsNear offsetsNear(const Gradient& gradient, bool isRadial, const PixelsNear& pixels) {
     const std::array<float, 6>& m = gradient.matrix;
     const dvec2 p(m[0] * pixels.middle.x + m[2] * pixels.middle.y + m[4],
                   m[1] * pixels.middle.x + m[3] * pixels.middle.y + m[5]);
-    const double u = isRadial && std::isfinite(slope) ? radialOffset(gradient, p) : p.x;
-    const double reach = slope * (pixels.radius + 0.5 * pixels.pixel);
-    return {u - reach, u + reach, gradient.spread};
+    const double radius = pixels.radius + 0.5 * pixels.pixel;
+    double slope, u = p.x;
+    if (isRadial) {
+        const double stretch = stretchOf({m[0], m[1], m[2], m[3]});
+        slope = stretch * radialSlopeIn(gradient, p, stretch * radius);
+        u = std::isfinite(slope) && slope > 0 ? radialOffset(gradient, p) : 0;
+    } else {
+        slope = offsetSlope(gradient, false);
+    }
+    const double reach = slope * radius;
+    return {slope, {u - reach, u + reach, gradient.spread}};
 }
 
 /// What a gradient's ramp changes by over one of the pixels.
@@ -192,11 +242,13 @@ double changeNear(const AssetView& asset, std::uint32_t texel, bool isRadial, co
     const auto gradient = recordAt<Gradient>(asset.data, texel);
     if (gradient.stopCount > maxStops)
         return infinity;
-    const double slope = offsetSlope(gradient, isRadial), width = slope * pixels.pixel;
-    const Offsets offsets = offsetsNear(gradient, isRadial, slope, pixels);
+    const auto [slope, near] = offsetsNear(gradient, isRadial, pixels);
+    if (slope == 0)
+        return 0;
+    const double width = slope * pixels.pixel;
     double steepest = 0, sum = 0;
     const auto add = [&](double change, double from, double to) {
-        if (!offsets.meet(from, to))
+        if (!near.meet(from, to))
             return;
         const double maximum = to - from > width ? change / (to - from) * width : change;
         sum += maximum;
@@ -279,19 +331,20 @@ PaintChange PaintChanges::near(std::uint32_t paint, const PixelsNear& pixels) co
     const auto gradientOf = [&](const Instruction& in) {
         const GradientChange& gradient = gradients_[numbers_[in.argument] - 1];
         const bool isRadial = in.op == Op::Radial;
-        const double offset = isRadial ? gradient.radialOffset : gradient.linearOffset;
+        if (gradient.slope == 0)
+            return Slopes{};
+        const OffsetsNear near = offsetsNear(gradient.gradient, isRadial, pixels);
         RampChange ramp{gradient.slope, gradient.all};
-        if (std::isfinite(ramp.all) && std::isfinite(offset) && ramp.slope > 0) {
+        if (std::isfinite(ramp.all) && std::isfinite(near.slope)) {
             ramp = {};
-            const Offsets offsets = offsetsNear(gradient.gradient, isRadial, offset, pixels);
             forEachStretch(
                 data_, gradient.gradient, in.argument, [&](std::uint32_t stop) { return changes_[stop]; },
                 [&](double change, double from, double to) {
-                    if (offsets.meet(from, to))
+                    if (near.offsets.meet(from, to))
                         ramp.add(change, from, to);
                 });
         }
-        return ofGradient(ramp, offset, in.opacity, isRadial);
+        return ofGradient(ramp, near.slope, in.opacity, isRadial);
     };
     return ofProgram(data_, paints_[paint], gradientOf).change();
 }

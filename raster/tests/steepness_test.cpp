@@ -196,11 +196,17 @@ TEST(NearChange, JointIsAFourthOfTheProduct) {
 TEST(NearChange, BoundsGradients) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0, 1);
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 2000; ++i) {
         Gradient g = gradient(Spread(i % 3));
         for (float& m : g.matrix)
             m = 0.4f * (unit(random) - 0.5f);
-        g.fx = 0.8f * (unit(random) - 0.5f);
+        // Also circles that touch, or do not lie within each other.
+        const float reach = i % 4 < 2 ? 0.8f : 3;
+        g.fx = reach * (unit(random) - 0.5f);
+        g.fy = i % 8 < 4 ? 0 : reach * (unit(random) - 0.5f);
+        g.fr = i % 5 == 0 ? 0.5f * unit(random) : 0;
+        if (i % 11 == 10)
+            g.fx = 1 - g.fr - 0.01f * unit(random), g.fy = 0;
         g.stopCount = 5;
         std::vector<GradientStop> stops{grey(0, unit(random), unit(random))};
         for (const float offset : {0.2f, 0.2f + 0.1f * unit(random), 0.7f, 1.0f})
