@@ -220,16 +220,27 @@ private:
             }
             scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
         }
-        programs.draw(programs_, top, rows);
+        programs.draw(programs_, top, rows, scratch_.colors);
         if (!programs.rough().empty())
             drawFiner(band);
         for (int row = 0; row < rows; ++row)
-            scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
-                if (programs.empty())
-                    store(top + row, first, end, color);
-                else
-                    programs.pixels().finish(top, row, first, end, color, store);
-            });
+            drawRow(top, row, store);
+    }
+
+    template <class Store>
+    void drawRow(int top, int row, Store& store) {
+        const int y = top + row;
+        ProgramPixels& pixels = scratch_.programs.pixels();
+        if (pixels.empty())
+            return scratch_.colors.resolve(
+                std::size_t(row), [&](int first, int end, Float4 color) { store(y, first, end, color); });
+        pixels.beginRow(row);
+        const auto drawAlone = [&](int first, int end, std::uint32_t paint) {
+            scratch_.programs.drawAlone(programs_, paint, y, first, end, store);
+        };
+        scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
+            pixels.finish(y, first, end, color, store, drawAlone);
+        });
     }
 
     // ---- Rough pixels ----
@@ -253,7 +264,7 @@ private:
         const auto isSamePixel = [](const auto& a, const auto& b) { return a.first == b.first; };
         colors.erase(std::unique(colors.begin(), colors.end(), isSamePixel), colors.end());
         for (const auto& [pixel, color] : colors)
-            scratch_.programs.pixels().replace(pixel.row, pixel.x, color);
+            scratch_.programs.pixels().replace(pixel, color);
     }
 
     /// The means of some pixels of the box. Chords are within chordTolerance of a pixel of their curves here,

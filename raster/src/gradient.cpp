@@ -54,9 +54,6 @@ struct Spot {
     vec2 sides;  ///< what the pixel's sides change u by, scaled to the variance
 };
 
-/// Eight pixels from the tip it moves u by less than a 380th of what a pixel does.
-constexpr float farFromTip = 64;
-
 /// `above`: D², `all`: T, `radial`: R.
 struct Cone {
     float higher;    ///< the mean of u over the pixel is so much more than in its middle
@@ -148,11 +145,6 @@ struct RadialRow : RadialPixels {
                 std::size_t(std::clamp(std::ceil(middle + half) + 1, 0.0f, maximum))};
     }
 };
-
-/// Circles that lie within each other fill the plane: everywhere there is a root, the larger one, and u
-/// changes by no more than 1 / (1 - fr - |f|) with the point. This is the least 1 - fr - |f| where
-/// single precision has them, without care for what cancels.
-constexpr float minGap = 0.1f;
 
 using Numbers = std::array<float, longestRow>;
 

@@ -21,6 +21,15 @@ inline glm::vec2 applyMatrix(const std::array<float, 6>& m, glm::vec2 p) {
 /// Colours of so many places are made together, at most.
 inline constexpr std::size_t longestRow = 64;
 
+/// Circles that lie within each other fill the plane: everywhere there is a root, the larger one, and u
+/// changes by no more than 1 / (1 - fr - |f|) with the point. This is the least 1 - fr - |f| where
+/// single precision has them, without care for what cancels.
+inline constexpr float minGap = 0.1f;
+
+/// Eight pixels from the tip of a radial gradient, whose square this is, the mean of u over a pixel is that
+/// in the middle but for less than a 380th of what a pixel does.
+inline constexpr float farFromTip = 64;
+
 /// Premultiplied mean colours over up to longestRow pixels, one after the other: the middle of the first one
 /// is a picture point, a step leads to the next one's, and their sides are `pixel`; 0: the colours at the
 /// points. Exact for linear gradients and pixels along their axis (docs/coverage.md).

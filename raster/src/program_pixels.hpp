@@ -1,98 +1,110 @@
 /// \file
-/// The pixels of a band that paint programs have a share in; all others are runs of one colour.
+/// Pixels of a band that are no sums: runs of which one paint program has all, and single ones that were
+/// drawn finer.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <limits>
 #include <vector>
 
-#include "raster/src/row_sums.hpp"
+#include "raster/chord.hpp"
+#include "raster/src/float4.hpp"
 
 namespace vtm::asset {
 
-inline bool isNothing(Float4 color) { return largest(color) < minShare; }
-inline bool isNothing(float share) { return std::abs(share) < minShare; }
+/// A pixel of a band.
+struct BandPixel {
+    int row, x;
 
-/// What programs have in a band. Pixels are in blocks; all of those that no program touches are zero.
+    auto operator<=>(const BandPixel&) const = default;
+};
+
 class ProgramPixels {
 public:
-    static constexpr int blockWidth = 64;
-
-    void resize(int width) {
-        width_ = width;
-        blocks_ = (width + blockWidth - 1) / blockWidth;
-        pixels_.resize(std::size_t(bandRows) * std::size_t(width), Float4{});
-        used_.resize(std::size_t(bandRows) * std::size_t(blocks_), 0);
+    bool empty() const { return isEmpty_; }
+    /// The program has all of the pixels first to end - 1.
+    void addAlone(int row, int first, int end, std::uint32_t paint) {
+        alone_[std::size_t(row)].push_back({first, end, paint});
+        isEmpty_ = false;
+    }
+    /// Rows in order, from the left in each.
+    void replace(const BandPixel& pixel, Float4 color) {
+        replaced_.push_back({pixel, color});
+        isEmpty_ = false;
+    }
+    void clear() {
+        if (isEmpty_)
+            return;
+        for (std::vector<Alone>& row : alone_)
+            row.clear();
+        replaced_.clear();
+        next_ = 0;
+        isEmpty_ = true;
     }
 
-    /// The pixels first to end - 1, which are to be added to.
-    Float4* use(int row, int first, int end) {
-        std::fill(used_.begin() + row * blocks_ + first / blockWidth,
-                  used_.begin() + row * blocks_ + (end - 1) / blockWidth + 1, 1);
-        return at(row, first);
+    void beginRow(int row) {
+        row_ = row;
+        std::ranges::sort(alone(), {}, &Alone::first);
+        nextAlone_ = 0;
+        done_ = 0;
+        findNext();
     }
-
-    /// The pixel, which is used, becomes `color` instead of a sum. Rows in order, from the left in each.
-    void replace(int row, int x, Float4 color) { replaced_.push_back({row, x, color}); }
-
-    /// Stores a row, to which runs of colours come from the left, and leaves zeros. `top`: the band's.
-    template <class Store>
-    void finish(int top, int row, int first, int end, Float4 color, Store& store) {
-        while (first < end) {
-            const int block = first / blockWidth;
-            int to = std::min((block + 1) * blockWidth, width_);
-            if (!isUsed(row, block)) {
-                for (int next = block + 1; to < end && !isUsed(row, next); ++next)
-                    to = std::min(to + blockWidth, width_);
-                to = std::min(to, end);
-                store(top + row, first, to, color);
-            } else {
-                const int blockEnd = to;
-                to = std::min(to, end);
-                if (!isNothing(color))
-                    for (Float4 *pixel = at(row, first), *last = at(row, to); pixel != last; ++pixel)
-                        *pixel += color;
-                if (to == blockEnd) {
-                    const int start = block * blockWidth;
-                    const std::span<Float4> pixels(at(row, start), std::size_t(to - start));
-                    putReplaced(row, start, pixels);
-                    store(top + row, start, pixels);
-                    std::ranges::fill(pixels, Float4{});
-                    used_[std::size_t(row * blocks_ + block)] = 0;
-                }
+    /// Takes what the row's sums are, runs of one colour from the left, and stores the row:
+    /// drawAlone(first, end, paint) what a program has alone.
+    template <class Store, class DrawAlone>
+    void finish(int y, int first, int end, Float4 color, Store& store, DrawAlone&& drawAlone) {
+        for (int x = std::max(first, done_); x < end;) {
+            if (x < nextColumn_) {
+                const int to = std::min(end, nextColumn_);
+                store(y, x, to, color);
+                x = to;
+                continue;
             }
-            first = to;
+            if (x == nextReplaced()) {
+                store(y, x, x + 1, replaced_[next_++].color);
+                done_ = x + 1;
+            } else {
+                const Alone& run = alone()[nextAlone_];
+                done_ = std::min(run.end, nextReplaced());
+                drawAlone(x, done_, run.paint);
+            }
+            x = done_;
+            findNext();
         }
     }
 
 private:
+    struct Alone {
+        int first, end;
+        std::uint32_t paint;
+    };
     struct Replaced {
-        int row, x;
+        BandPixel pixel;
         Float4 color;
     };
+    static constexpr int none = std::numeric_limits<int>::max();
 
-    void putReplaced(int row, int start, std::span<Float4> pixels) {
-        for (; next_ < replaced_.size() && replaced_[next_].row == row &&
-               replaced_[next_].x < start + int(pixels.size());
-             ++next_)
-            pixels[std::size_t(replaced_[next_].x - start)] = replaced_[next_].color;
-        if (next_ == replaced_.size()) {
-            replaced_.clear();
-            next_ = 0;
-        }
+    std::vector<Alone>& alone() { return alone_[std::size_t(row_)]; }
+    int nextReplaced() const {
+        return next_ < replaced_.size() && replaced_[next_].pixel.row == row_ ? replaced_[next_].pixel.x
+                                                                              : none;
+    }
+    void findNext() {
+        while (nextAlone_ < alone().size() && alone()[nextAlone_].end <= done_)
+            ++nextAlone_;
+        nextColumn_ =
+            std::min(nextReplaced(), nextAlone_ < alone().size() ? alone()[nextAlone_].first : none);
     }
 
-    Float4* at(int row, int x) { return pixels_.data() + std::ptrdiff_t(row) * width_ + x; }
-    bool isUsed(int row, int block) const { return used_[std::size_t(row * blocks_ + block)] != 0; }
-
-    int width_ = 0, blocks_ = 0;
-    std::vector<Float4> pixels_;
-    std::vector<std::uint8_t> used_;
+    std::array<std::vector<Alone>, bandRows> alone_;
     std::vector<Replaced> replaced_;
-    std::size_t next_ = 0;  ///< of `replaced_`
+    bool isEmpty_ = true;
+    // Of the row that is stored.
+    int row_ = 0, done_ = 0, nextColumn_ = 0;
+    std::size_t next_ = 0, nextAlone_ = 0;
 };
 
 }  // namespace vtm::asset

@@ -160,10 +160,9 @@ Float4 meanOver(const GradientView& gradient, float u, float longer, float short
     return color + sum / (longer * shorter);
 }
 
-/// Ramps narrower than this in a pixel are as good as straight there, but for stops: what interpolating
-/// straight colours bends them by is below width² / 12 = 1/3000. Where alpha does not change they are
-/// straight.
-constexpr float straightWidth = 1.0f / 16;
+/// Stretches are as good as straight in a pixel if interpolating straight colours moves the mean over it by
+/// no more: their bend times the variance, which is a third of the reach's square at most.
+constexpr float maxBending = 1.0f / 3000;
 
 /// A stretch that is shorter, compared with a pixel's reach, is not followed beyond its ends: what it would
 /// be there is far from any colour.
@@ -189,12 +188,6 @@ StretchSlope slopeOf(const GradientView& gradient, std::size_t number) {
     const Float4 change = float4(gradient.color(number)) - float4(gradient.color(number - 1));
     return {length, length > 0 ? change / length : Float4{}};
 }
-
-/// Premultiplied, what straight colours change by from `color` on; and by the square of the distance.
-Float4 changeOf(Float4 color, Float4 slope) {
-    return color * Float4{slope[3], slope[3], slope[3], 0} + slope * Float4{color[3], color[3], color[3], 1};
-}
-Float4 bendOf(Float4 slope) { return slope * Float4{slope[3], slope[3], slope[3], 0}; }
 
 }  // namespace
 
@@ -265,7 +258,7 @@ void Ramp::find(float place) {
     const float gap = high_ - low_;
     slope_ = isFlat || !(gap > 0) ? Float4{} : (float4(gradient_.color(after)) - color_) / gap;
     isPremultiplied_ = slope_[3] == 0;
-    widest_ = isPremultiplied_ ? infinity : 0.5f * straightWidth;
+    widest_ = isPremultiplied_ ? infinity : std::sqrt(3 * maxBending / largest(bendOf(slope_)));
     if (isPremultiplied_) {
         slope_ *= color_[3];
         color_ = premultiplied(color_);

@@ -28,6 +28,12 @@ inline float spreadOffset(Spread spread, float u) {
     }
 }
 
+/// Premultiplied, what straight colours change by from `color` on; and by the square of the distance.
+inline Float4 changeOf(Float4 color, Float4 slope) {
+    return color * Float4{slope[3], slope[3], slope[3], 0} + slope * Float4{color[3], color[3], color[3], 1};
+}
+inline Float4 bendOf(Float4 slope) { return slope * Float4{slope[3], slope[3], slope[3], 0}; }
+
 /// A ramp that is asked for neighbours: it keeps the stretch between two stops that it was asked for last.
 /// Places are what spreadOffset() gives.
 class Ramp {

@@ -30,6 +30,9 @@ namespace vtm::asset {
 /// Running sums of 32-bit floats are off by less, and a share that small is no 1/255 of a pixel.
 inline constexpr float minShare = 1e-5f;
 
+inline bool isNothing(Float4 color) { return largest(color) < minShare; }
+inline bool isNothing(float share) { return std::abs(share) < minShare; }
+
 /// Chords misplace no more of a pixel's area where an edge passes through it: 0.4 of a 255th.
 inline constexpr double chordTolerance = 1.0 / 640;
 
@@ -293,6 +296,27 @@ public:
         addInRow(row, std::min(x, lastX), std::max(x, lastX), change * (end - y));
     }
 
+    /// Adds to one pixel alone.
+    void addPixel(std::size_t row, int x, Value value) {
+        Value* changes = &changes_[row * stride()];
+        touchFew(&touched_[row * words_], unsigned(x), 1);
+        changes[x] += value;
+        changes[x + 1] -= value;
+    }
+    /// Adds valueOf(column), asked for in order, to pixels of a row.
+    template <class ValueOf>
+    void addPixels(std::size_t row, int first, int end, ValueOf&& valueOf) {
+        Value* changes = &changes_[row * stride()];
+        touch(row, unsigned(first), unsigned(end));
+        Value before{};
+        for (int x = first; x < end; ++x) {
+            const Value value = valueOf(x);
+            changes[x] += value - before;
+            before = value;
+        }
+        changes[end] -= before;
+    }
+
     /// Calls run(first column, end, value) for the row's stretches of one value, in order, and clears it.
     template <class Run>
     void resolve(std::size_t row, Run&& run) {
@@ -320,7 +344,7 @@ public:
 private:
     std::size_t stride() const { return std::size_t(width_) + 2; }
 
-    void touch(std::size_t row, unsigned first, unsigned last) {
+    [[gnu::always_inline]] void touch(std::size_t row, unsigned first, unsigned last) {
         std::uint64_t* touched = &touched_[row * words_];
         for (; last - first >= 64; first += 63)
             touchFew(touched, first, 63);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
 #include <cstddef>
@@ -17,9 +18,11 @@
 
 #include <vtm/raster/scan.hpp>
 #include "raster/blend.hpp"
+#include "raster/src/gradient.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/program_pixels.hpp"
 #include "raster/src/rough.hpp"
+#include "raster/src/row_paint.hpp"
 #include "raster/src/row_sums.hpp"
 #include "raster/steepness.hpp"
 
@@ -76,6 +79,20 @@ struct ProgramView {
         return paints.changeNear(paint, {inverse * (middle - view.toPixels[2]),
                                          0.5 * (end - first - 1) * side, std::numbers::sqrt2 * side});
     }
+    PixelMiddles middles() const {
+        return {inverse * (glm::dvec2(0.5) - view.toPixels[2]), inverse[0], inverse[1]};
+    }
+    /// The colours of pixels of a row, as they are summed.
+    void rowColors(std::uint32_t paint, int row, int first, std::span<Float4> colors) const {
+        const glm::mat2 pixel(inverse);
+        paints.colors(paint, {point({first + 0.5, row + 0.5}), pixel}, pixel[0], colors, materials);
+        toSums(colors);
+    }
+    void toSums(std::span<Float4> colors) const {
+        if (sums == Sums::Light)
+            for (Float4& color : colors)
+                color = float4(light(toVec4(color)));
+    }
     /// Calls visit(first, end) for those of the pixels first to end - 1 of a row that are to be drawn.
     template <class Visit>
     void forEachWanted(int row, int first, int end, Visit&& visit) const {
@@ -84,13 +101,6 @@ struct ProgramView {
         else
             visit(first, end);
     }
-};
-
-/// A pixel of a band.
-struct BandPixel {
-    int row, x;
-
-    auto operator<=>(const BandPixel&) const = default;
 };
 
 /// What is not made better where quarters differ: a tenth of a step of 8 bits.
@@ -103,7 +113,7 @@ public:
         sides_.resize(paints);
         coverage_.resize(width);
         quarters_.resize(width);
-        width_ = width;
+        rowPaints_.reset(paints);
     }
 
     bool empty() const { return programs_.empty(); }
@@ -111,9 +121,19 @@ public:
     std::vector<BandPixel>& rough() { return rough_; }
     ProgramPixels& pixels() { return pixels_; }
 
+    /// Stores pixels of a row that a program has alone.
+    template <class Store>
+    [[gnu::noinline]] void drawAlone(const ProgramView& of, std::uint32_t paint, int row, int first, int end,
+                                     Store& store) {
+        visitRow(
+            of, paint, row, first, end, [&](int from, int to, Float4 color) { store(row, from, to, color); },
+            [&](int from, std::span<const Float4> colors) { store(row, from, colors); });
+    }
+
     void clear() {
         programs_.clear();
         rough_.clear();
+        pixels_.clear();
     }
     /// A chord at which a program has `change` more on its left. It must stay until the band is drawn.
     void addSide(const Chord& chord, std::uint32_t paint, float change) {
@@ -123,13 +143,13 @@ public:
         sides.push_back({&chord, change});
     }
 
-    /// Adds all of the programs to pixels().
-    void draw(const ProgramView& of, int top, int rows) {
+    /// Adds what programs have to the band's sums, but what they have alone, which pixels() gets.
+    void draw(const ProgramView& of, int top, int rows, Accumulator<Wholes<Float4>>& sums) {
         if (programs_.empty())
             return;
+        sums_ = &sums;
         top_ = top;
         rows_ = rows;
-        pixels_.resize(width_);
         for (const std::uint32_t paint : programs_) {
             if (of.paints.changes()[paint].steepness > of.minSteep)
                 drawSteep(of, paint);
@@ -145,19 +165,13 @@ private:
         const Chord* chord;
         float change;
     };
-    /// Pixels of a row up to `end`, of which a program has the same share.
-    struct Share {
-        int end;
+    /// A pixel of which a program has a share.
+    struct Part {
+        BandPixel pixel;
         float share;
     };
-    /// Neighbours in a row in which a program has shares.
-    struct Run {
-        int row, first, end;
-        std::size_t firstShare;
-
-        bool isLong() const { return end - first >= minLong; }
-    };
-    static constexpr int minLong = 10;  ///< a row of so many pays for itself
+    /// A row of so many pays for itself.
+    static constexpr int minLong = 10;
     /// A pixel and what its quarters add to a fourth of the program's share of the whole.
     struct Cut {
         int row, x;
@@ -186,6 +200,7 @@ private:
     template <class Grid, class ShareOf>
     void drawWholes(const ProgramView& of, std::uint32_t paint, Accumulator<Grid>& coverage,
                     const ShareOf& shareOf) {
+        bool hasRows = false;
         for (const Side& side : sides_[paint])
             coverage.add(*side.chord, float(top_), rows_, side.change);
         for (int row = 0; row < rows_; ++row)
@@ -193,74 +208,74 @@ private:
                 if (isNothing(sum))
                     return;
                 of.forEachWanted(top_ + row, from, to, [&](int first, int end) {
-                    if (const float share = shareOf(row, first, end, sum); std::abs(share) >= minShare)
-                        addShare(row, first, end, share);
+                    const float share = shareOf(row, first, end, sum);
+                    const bool isLong = end - first >= minLong;
+                    hasRows |= isLong;
+                    if (of.areDisjoint && isLong && isNothing(share - 1))
+                        pixels_.addAlone(row, first, end, paint);
+                    else if (isLong)
+                        addRow(of, paint, row, first, end, share);
+                    else if (!isNothing(share))
+                        for (int x = first; x < end; ++x)
+                            parts_.push_back({{row, x}, share});
                 });
             });
-        addRuns(of, paint);
+        if (hasRows && of.sums == Sums::Encoded)
+            addKnownParts(rowPaints_.make(of.paints, paint, of.middles()));
+        addParts(of, paint);
     }
 
-    void addShare(int row, int first, int end, float share) {
-        if (runs_.empty() || runs_.back().row != row || runs_.back().end != first)
-            runs_.push_back({row, first, first, shares_.size()});
-        runs_.back().end = end;
-        shares_.push_back({end, share});
-    }
-
-    /// Short ones together, as pixels anywhere.
-    void addRuns(const ProgramView& of, std::uint32_t paint) {
-        const glm::mat2 pixel(of.inverse);
-        points_.clear();
-        for (const Run& run : runs_)
-            if (!run.isLong())
-                for (int x = run.first; x < run.end; ++x)
-                    points_.push_back(of.point({x + 0.5, top_ + run.row + 0.5}));
-        evaluate(of, paint, points_, pixel, colors_);
-        const Float4* next = colors_.data();
-        for (const Run& run : runs_)
-            if (!run.isLong()) {
-                addColors(run, next);
-                next += run.end - run.first;
-            } else {
-                addLong(of, paint, run);
-            }
-        runs_.clear();
-        shares_.clear();
-    }
-
-    void addColors(const Run& run, const Float4* colors) {
-        Float4* pixels = pixels_.use(run.row, run.first, run.end);
-        const Share* share = &shares_[run.firstShare];
-        for (int x = run.first; x < run.end; ++share)
-            for (; x < share->end; ++x)
-                *pixels++ += share->share * *colors++;
-    }
-
-    /// Colours are made where they are to be. Where the program has all of a pixel, nothing else is there.
-    void addLong(const ProgramView& of, std::uint32_t paint, const Run& run) {
-        const glm::mat2 pixel(of.inverse);
-        const std::span<Float4> pixels(pixels_.use(run.row, run.first, run.end),
-                                       std::size_t(run.end - run.first));
-        before_.clear();
-        forEachPart(of, run, [&](std::size_t i, float) { before_.push_back(pixels[i]); });
-        of.paints.colors(paint, {of.point({run.first + 0.5, top_ + run.row + 0.5}), pixel}, pixel[0], pixels,
-                         of.materials);
-        toSums(of, pixels);
-        const Float4* before = before_.data();
-        forEachPart(of, run, [&](std::size_t i, float share) { pixels[i] = *before++ + share * pixels[i]; });
-    }
-    /// Calls visit(number in the run, share) for those pixels of which the program may have a part.
-    template <class Visit>
-    void forEachPart(const ProgramView& of, const Run& run, Visit&& visit) const {
-        const Share* share = &shares_[run.firstShare];
-        for (int x = run.first; x < run.end; ++share)
-            if (of.areDisjoint && isNothing(share->share - 1))
-                x = share->end;
+    /// Leaves the others. Whether a paint's rows are asked depends on the band alone, and so do its bytes.
+    void addKnownParts(RowPaint& rows) {
+        std::size_t left = 0;
+        for (const Part& part : parts_)
+            if (Float4 color; rows.at({part.pixel.x, top_ + part.pixel.row}, color))
+                addPixel(part.pixel, part.share * color);
             else
-                for (; x < share->end; ++x)
-                    visit(std::size_t(x - run.first), share->share);
+                parts_[left++] = part;
+        parts_.resize(left);
     }
-
+    void addParts(const ProgramView& of, std::uint32_t paint) {
+        points_.clear();
+        for (const Part& part : parts_)
+            points_.push_back(of.point({part.pixel.x + 0.5, top_ + part.pixel.row + 0.5}));
+        evaluate(of, paint, points_, glm::mat2(of.inverse), colors_);
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            addPixel(parts_[i].pixel, parts_[i].share * colors_[i]);
+        parts_.clear();
+    }
+    /// Calls constant(first, end, colour) or some(first, colours) for pixels of a row, from the left.
+    template <class Constant, class Some>
+    void visitRow(const ProgramView& of, std::uint32_t paint, int row, int first, int end,
+                  Constant&& constant, Some&& some) {
+        const auto others = [&](int from, int to) {
+            std::array<Float4, longestRow> memory;
+            for (; from < to; from += int(longestRow)) {
+                const auto colors = std::span(memory).first(std::min(longestRow, std::size_t(to - from)));
+                of.rowColors(paint, row, from, colors);
+                some(from, std::span<const Float4>(colors));
+            }
+        };
+        if (of.sums == Sums::Light)  // ramps are straight in encoded colours
+            return others(first, end);
+        rowPaints_.make(of.paints, paint, of.middles()).visit(row, first, end, constant, some, others);
+    }
+    /// Not inlined, as drawAlone(): the loops round them would pay.
+    [[gnu::noinline]] void addRow(const ProgramView& of, std::uint32_t paint, int row, int first, int end,
+                                  float share) {
+        visitRow(
+            of, paint, top_ + row, first, end,
+            [&](int from, int to, Float4 color) {
+                sums_->addPixels(std::size_t(row), from, to, [&](int) { return share * color; });
+            },
+            [&](int from, std::span<const Float4> colors) {
+                sums_->addPixels(std::size_t(row), from, from + int(colors.size()),
+                                 [&](int x) { return share * colors[std::size_t(x - from)]; });
+            });
+    }
+    void addPixel(const BandPixel& pixel, Float4 color) {
+        sums_->addPixel(std::size_t(pixel.row), pixel.x, color);
+    }
     /// The first of a vector that never shrinks.
     static std::span<Float4> firstOf(std::vector<Float4>& colors, std::size_t count) {
         if (colors.size() < count)
@@ -272,12 +287,7 @@ private:
                          const glm::mat2& pixel, std::vector<Float4>& colors) {
         const std::span<Float4> those = firstOf(colors, points.size());
         of.paints.colors(paint, points, pixel, those, of.materials);
-        toSums(of, those);
-    }
-    static void toSums(const ProgramView& of, std::span<Float4> colors) {
-        if (of.sums == Sums::Light)
-            for (Float4& color : colors)
-                color = float4(light(toVec4(color)));
+        of.toSums(those);
     }
 
     void drawSteep(const ProgramView& of, std::uint32_t paint) {
@@ -359,9 +369,10 @@ private:
         }
         evaluate(of, paint, points_, quarter, colors_);
         for (std::size_t i = 0; i < cuts_.size(); ++i) {
-            Float4& pixel = *pixels_.use(cuts_[i].row, cuts_[i].x, cuts_[i].x + 1);
+            Float4 more{};
             for (std::size_t k = 0; k < 4; ++k)
-                pixel += cuts_[i].more[k] * colors_[4 * i + k];
+                more += cuts_[i].more[k] * colors_[4 * i + k];
+            addPixel({cuts_[i].row, cuts_[i].x}, more);
             if (of.findsRough && cuts_[i].isCut() && of.rough.isRoughCut(nears_[i].change, quartersAt(i)))
                 rough_.push_back({cuts_[i].row, cuts_[i].x});
         }
@@ -419,18 +430,19 @@ private:
         return of.point({cut.x + 0.5, top_ + cut.row + 0.5});
     }
 
-    int width_ = 0, top_ = 0, rows_ = 0;
+    int top_ = 0, rows_ = 0;
+    Accumulator<Wholes<Float4>>* sums_ = nullptr;
     std::vector<std::vector<Side>> sides_;  ///< by paint
     std::vector<std::uint32_t> programs_;   ///< that have sides
     Accumulator<Wholes<float>> coverage_;
     Accumulator<Quarters> quarters_;
-    std::vector<Share> shares_;
-    std::vector<Run> runs_;
     std::vector<Cut> cuts_;
     std::vector<Near> nears_;  ///< of cuts_
     std::vector<BandPixel> rough_;
     std::vector<glm::vec2> points_, corners_;
-    std::vector<Float4> colors_, wholes_, before_;
+    std::vector<Float4> colors_, wholes_;
+    std::vector<Part> parts_;
+    RowPaints rowPaints_;
     ProgramPixels pixels_;
 };
 

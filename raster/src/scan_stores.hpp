@@ -18,6 +18,7 @@
 
 #include <vtm/raster/scan.hpp>
 #include "raster/src/float4.hpp"
+#include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {
 
@@ -105,7 +106,7 @@ public:
 
     void operator()(int row, int first, int end, Float4 color) const {
         const Float4 added = unit(color);
-        if (largest(added) == 0)
+        if (isNothing(added))
             return;
         float* at = pixels_(row, first, end);
         for (; first < end; ++first, at += 4)
@@ -138,7 +139,7 @@ public:
 
     void operator()(int row, int first, int end, Float4 color) const {
         const Float4 source = opacity_ * unit(color);
-        if (largest(source) == 0)
+        if (isNothing(source))
             return;
         float* at = pixels_(row, first, end);
         for (; first < end; ++first, at += 4)

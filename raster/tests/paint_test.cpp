@@ -72,6 +72,14 @@ Gradient spread(Spread s) {
     return g;
 }
 
+TEST(Paint, ShortTranslucentStretchesAreBent) {
+    const std::vector<GradientStop> stops{grey(0.5f, 0, 0), grey(0.55f, 1, 1)};
+    for (const float side : {0.005f, 0.01f, 0.02f, 0.04f}) {
+        const PaintPlace place{vec2(0.525f, 0), mat2(side)};
+        expectNear(ramp(Op::Linear, {}, place, stops), sampled(Op::Linear, {}, place, stops), 0.2f / 255);
+    }
+}
+
 TEST(Paint, LinearGradientSpreads) {
     for (const auto& [x, pad, reflect, repeat] : {std::array{0.25f, 0.25f, 0.25f, 0.25f},
                                                   {-0.25f, 0, 0.25f, 0.75f},

@@ -147,9 +147,9 @@ vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float l
     return weights > 0.0 ? base + sum / weights : base;
 }
 
-// Ramps narrower than this in a pixel are as good as straight there, but for stops. Where alpha does not change they are
-// straight, and so beyond the ends of padded ones.
-const float straightWidth = 1.0 / 16.0;
+// A stretch is as good as straight in a pixel if interpolating straight colours moves the mean over it by no more: its
+// bend times the variance, which is a twelfth of the width's square at most.
+const float maxBending = 1.0 / 3000.0;
 
 // The mean over a pixel whose sides change u by `sides`, exactly; of long ramps the shorter side's box is replaced by two
 // points with the same variance. Where the pixel has nothing but a little of one stretch between two stops, it is the
@@ -162,10 +162,12 @@ vec4 colorOver(ASSET_IN uint firstStop, uint count, uint spread, float u, vec2 s
     uint upTo = stopsUpTo(ASSET firstStop, count, unclamped);
     uvec4 before = texelAt(ASSET firstStop + (upTo == 0u ? 0u : upTo - 1u));
     uvec4 after = texelAt(ASSET firstStop + min(upTo, count - 1u));
-    bool isLine = high(before.z) == high(after.z);
+    vec4 change = abs(stopColor(after) - stopColor(before));
+    float bend = max(change.r, max(change.g, change.b)) * change.a;  // times the stretch's length squared
     float low = upTo > 0u ? uintBitsToFloat(before.x) : 0.0, high = upTo < count ? uintBitsToFloat(after.x) : 1.0;
+    float gap = high - low;
     vec4 middle = colorBetween(before, after, v);
-    if ((width <= straightWidth || isLine) && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
+    if (width * width * bend <= 12.0 * maxBending * gap * gap && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
         (padded && upTo == count || unclamped + 0.5 * width <= high))
         return middle;
 #if LONG_RAMPS

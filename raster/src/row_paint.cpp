@@ -1,0 +1,340 @@
+#include "raster/src/row_paint.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <glm/vec4.hpp>
+
+#include "raster/src/ramp.hpp"
+
+namespace vtm::asset {
+
+namespace {
+
+using glm::dvec2;
+using glm::vec2;
+
+constexpr float unbounded = std::numeric_limits<float>::infinity();
+
+/// The colour in a pixel's middle is taken for the mean over it if that is no further away: an eighth of a
+/// step of 8 bits.
+constexpr float rowTolerance = 1.0f / 2048;
+
+/// What the mean beyond a stop is off by, in pixels, if u is taken for even over a pixel: directions differ
+/// in it.
+constexpr float shapeError = 0.0045f;
+
+/// A pixel whose sides change u by a vector of length 1 is as if u were even over so much to both sides: 4 /
+/// 8 along them, 4 / 6 √2 across.
+constexpr float evenWidth = 0.486f;
+
+/// More stops are left to others: making segments of them costs more than a few rows gain.
+constexpr std::size_t maxRowStops = 64;
+/// The same of gradients over each other.
+constexpr std::size_t maxRowLayers = 16;
+static_assert(longestRow <= 64);  // bits
+
+}  // namespace
+
+RowGradient::Offsets RowGradient::Segment::held(Offsets offsets) const {
+    int count = 0;  // mostly all of them, which is counted without a branch
+    for (const float u : offsets)
+        count += int(u >= low) & int(u < high);
+    if (std::size_t(count) == offsets.size())
+        return offsets;
+    std::size_t held = 1;
+    while (held < offsets.size() && holds(offsets[held]))
+        ++held;
+    return offsets.first(held);
+}
+
+void RowGradient::Segment::fill(const Steps& steps, std::span<Float4> colors) const {
+    const float x = steps.first - start, change = steps.change;
+    if (shape == Shape::Curved) {
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            const float t = x + float(int(i)) * change;
+            colors[i] = color + t * (slope + t * bend);
+        }
+        return;
+    }
+    // Four at a time, since each sum waits for the one before it.
+    const Float4 step = change * slope, first = color + x * slope;
+    std::array<Float4, 4> next{first, first + step, first + 2 * step, first + 3 * step};
+    std::size_t i = 0;
+    for (; i + 4 <= colors.size(); i += 4)
+        for (std::size_t k = 0; k < 4; ++k) {
+            colors[i + k] = next[k];
+            next[k] += 4 * step;
+        }
+    for (std::size_t k = 0; i < colors.size(); ++i, ++k)
+        colors[i] = next[k];
+}
+
+void RowGradient::Segment::fill(Offsets offsets, std::span<Float4> colors) const {
+    if (shape == Shape::Curved)
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = color + (offsets[i] - start) * (slope + (offsets[i] - start) * bend);
+    else
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = color + (offsets[i] - start) * slope;
+}
+
+RowGradient::Range RowGradient::radialOffsets(Pixel first, std::span<float> offsets) const {
+    const vec2 d = radial_.fromFocus(first), change(radial_.right);
+    const float steps = glm::dot(change, change), along = glm::dot(d, change), squared = glm::dot(d, d);
+    // u = b + sqrt(b² + c), of which both are polynomials of the step (gradient.cpp).
+    const float inverse = radial_.inverse, b0 = radial_.b(d), b1 = glm::dot(change, radial_.f) * inverse;
+    const float s0 = b0 * b0 + radial_.c(squared), s1 = 2 * (b0 * b1 + along * inverse),
+                s2 = b1 * b1 + steps * inverse;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const float t = float(int(i));
+        offsets[i] = b0 + t * b1 + std::sqrt(std::max(s0 + t * (s1 + t * s2), 0.0f));
+    }
+    const float nearest = -along / steps, rest = radial_.nearSquared - squared - nearest * along;
+    if (!(rest >= 0))
+        return {0, 0};
+    const float half = std::sqrt(rest / steps), maximum = float(offsets.size());
+    return {std::size_t(std::clamp(std::floor(nearest - half), 0.0f, maximum)),
+            std::size_t(std::clamp(std::ceil(nearest + half) + 1, 0.0f, maximum))};
+}
+
+float RowGradient::radialWidth(Pixel pixel, float u) const {
+    const vec2 d = radial_.fromFocus(pixel);
+    const vec2 slope = (u * radial_.f + d) * (radial_.inverse / std::max(u - radial_.b(d), 1e-6f));
+    return evenWidth * std::hypot(glm::dot(slope, vec2(radial_.right)), glm::dot(slope, vec2(radial_.down)));
+}
+
+// ---- Segments -------------------------------------------------------------------------------------
+
+bool RowGradient::prepare(const GradientView& gradient, bool isRadial, const Solids& solids,
+                          const PixelMiddles& pixels) {
+    isRadial_ = isRadial;
+    segments_.clear();
+    last_ = 0;
+    const Gradient& g = gradient.gradient();
+    if (g.spread != Spread::Pad || gradient.size() > maxRowStops)
+        return false;
+    const Blur blur = isRadial ? prepareRadial(g, pixels) : prepareLinear(g, pixels);
+    if (!std::isfinite(blur.reach))
+        return false;
+    makeSegments(gradient, blur, solids);
+    return std::ranges::any_of(segments_, [](const Segment& s) { return s.shape != Shape::Mixed; });
+}
+
+RowGradient::Blur RowGradient::prepareLinear(const Gradient& gradient, const PixelMiddles& pixels) {
+    const std::array<float, 6>& m = gradient.matrix;
+    const dvec2 slope(m[0], m[2]);
+    linear_ = {glm::dot(slope, pixels.first) + m[4], glm::dot(slope, pixels.right),
+               glm::dot(slope, pixels.down), 0};
+    const float one = float(std::abs(linear_.right)), other = float(std::abs(linear_.down));
+    const float longer = std::max(one, other), shorter = std::min(one, other);
+    // u is spread over a trapezoid, whose half is (r³ - f³) / 6 on one side (ramp.cpp).
+    const float reach = 0.5f * (longer + shorter), flat = 0.5f * (longer - shorter);
+    const float half = shorter > 1e-3f * longer
+                           ? (reach * reach * reach - flat * flat * flat) / (6 * longer * shorter)
+                           : 0.125f * longer;
+    const float length = std::hypot(longer, shorter);
+    linear_.width = 4 * half;
+    return {reach, length, linear_.width, length * length / 12, 0};
+}
+
+RowGradient::Blur RowGradient::prepareRadial(const Gradient& gradient, const PixelMiddles& pixels) {
+    const std::array<float, 6>& m = gradient.matrix;
+    const vec2 f(gradient.fx, gradient.fy);
+    const float offCentre = glm::length(f), grow = 1 - gradient.fr, gap = grow - offCentre;
+    if (!(gap >= minGap))
+        return {unbounded, 0, 0, 0, 0};
+    const glm::dmat2 linear(m[0], m[1], m[2], m[3]);
+    const dvec2 first = linear * pixels.first + dvec2(m[4], m[5]) - dvec2(f);
+    radial_ = {first, linear * pixels.right, linear * pixels.down, f, gradient.fr, 0, 0, 0};
+    const vec2 right(radial_.right), down(radial_.down);
+    const float squares = glm::dot(right, right) + glm::dot(down, down);
+    const float area = std::abs(right.x * down.y - right.y * down.x);
+    // What the sides change u by has a length between these: singular values, times the slope of u.
+    const float longest =
+        std::sqrt(0.5f * (squares + std::sqrt(std::max(squares * squares - 4 * area * area, 0.0f))));
+    const float most = longest / gap, least = longest > 0 ? area / longest / (grow + offCentre) : 0;
+    radial_.inverse = 1 / (grow * grow - glm::dot(f, f));
+    radial_.nearSquared = farFromTip * squares;
+    radial_.pixel = longest;
+    return {0.5f * (glm::length(right) + glm::length(down)) / gap, most, evenWidth * most,
+            (least * least + most * most) / 24, (most * most - least * least) / 24};
+}
+
+void RowGradient::add(Segment segment, const Solids& solids) {
+    if (!(segment.low < segment.high))
+        return;
+    const float low = segments_.empty() ? -unbounded : segments_.back().high;
+    if (low < segment.low)
+        segments_.push_back(mixed(low, segment.low));
+    segment.color = solids.color(segment.color);
+    segment.slope = solids.change(segment.slope);
+    segment.bend = solids.change(segment.bend);
+    segment.turn = solids.change(segment.turn);
+    segment.turnBend = solids.change(segment.turnBend);
+    segments_.push_back(segment);
+}
+
+RowGradient::Segment RowGradient::mixed(float low, float high) {
+    return {low, high, 0, 0, Shape::Mixed, Float4{}, Float4{}, Float4{}, Float4{}, Float4{}};
+}
+
+void RowGradient::makeSegments(const GradientView& gradient, const Blur& blur, const Solids& solids) {
+    // The stretches between stops.
+    std::array<Segment, maxRowStops + 1> stretches;
+    std::size_t count = 0;
+    float steepest = 0;
+    const auto addStretch = [&](float low, float high, std::size_t stop, Float4 straightSlope) {
+        const Float4 straight = float4(gradient.color(stop));
+        const Float4 slope = changeOf(straight, straightSlope), bend = bendOf(straightSlope);
+        const bool isBent = largest(bend) > 0, isSloping = largest(slope) > 0;
+        const Shape shape = largest(bend) * blur.varianceError > rowTolerance ? Shape::Mixed
+                            : isBent                                          ? Shape::Curved
+                            : isSloping                                       ? Shape::Straight
+                                                                              : Shape::Constant;
+        if (isSloping || isBent)
+            steepest = std::max(steepest, largest(slope) + 2 * (high - low) * largest(bend));
+        const float start = std::isfinite(low) ? low : 0;
+        stretches[count++] = {low,   high, start,    0,       shape, premultiplied(straight),
+                              slope, bend, Float4{}, Float4{}};
+    };
+    const std::size_t last = gradient.size() - 1;
+    addStretch(-unbounded, gradient.offset(0), 0, Float4{});
+    for (std::size_t i = 0; i < last; ++i) {
+        const float low = gradient.offset(i), high = gradient.offset(i + 1);
+        if (low < high)
+            addStretch(low, high, i,
+                       (float4(gradient.color(i + 1)) - float4(gradient.color(i))) / (high - low));
+    }
+    addStretch(gradient.offset(last), unbounded, last, Float4{});
+    if (isRadial_)
+        limitTip(steepest * blur.length);
+
+    float below = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Joint above =
+            i + 1 < count ? jointOf(stretches[i], stretches[i + 1], blur) : Joint{0, mixed(0, 0)};
+        Segment segment = stretches[i];
+        segment.low += below;
+        segment.high -= above.margin;
+        segment.color += blur.variance * segment.bend;
+        if (segment.shape != Shape::Mixed)
+            add(segment, solids);
+        if (above.segment.shape != Shape::Mixed)
+            add(above.segment, solids);
+        below = above.margin;
+    }
+    const float end = segments_.empty() ? -unbounded : segments_.back().high;
+    if (end < unbounded)
+        segments_.push_back(mixed(end, unbounded));
+}
+
+RowGradient::Joint RowGradient::jointOf(const Segment& one, const Segment& next, const Blur& blur) {
+    const float stop = next.low, x = stop - one.start;
+    const Float4 jump = next.color - one.at(stop), turn = next.slope - (one.slope + 2 * x * one.bend),
+                 bend = next.bend - one.bend;
+    // A pixel sees a single stop.
+    const bool areLong = std::min(one.high - one.low, next.high - next.low) >= 2 * blur.reach;
+    const float off = shapeError * blur.length * largest(turn) +
+                      (0.07f * blur.width * blur.width + blur.varianceError) * largest(bend);
+    if (!areLong || one.shape == Shape::Mixed || next.shape == Shape::Mixed ||
+        std::max(0.5f * largest(jump), off) > rowTolerance)
+        return {blur.reach, mixed(0, 0)};
+    if (0.25f * blur.width * largest(turn) + blur.variance * largest(bend) <= rowTolerance)
+        return {0, mixed(0, 0)};
+    Segment segment = one;
+    segment.low = stop - blur.width;
+    segment.high = stop + blur.width;
+    segment.stop = stop;
+    segment.shape = Shape::Turning;
+    segment.color += blur.variance * one.bend;
+    segment.turn = turn;
+    segment.turnBend = bend;
+    return {blur.width, segment};
+}
+
+void RowGradient::limitTip(float change) {
+    // At a distance of d pixels the mean of u over a pixel is 1 / (24 d) of a pixel more, at the tip 0.38.
+    const float distance = 0.38f * change <= rowTolerance ? 0 : std::max(change / (20 * rowTolerance), 0.75f);
+    const float near = distance * radial_.pixel;
+    radial_.nearSquared = std::min(radial_.nearSquared, near * near);
+}
+
+// ---- Programs -------------------------------------------------------------------------------------
+
+void RowPaint::prepare(const Paints& paints, std::uint32_t paint, const PixelMiddles& pixels) {
+    size_ = 0;
+    const std::span<const Texel> data = paints.asset().data;
+    const Paint& program = paints.asset().paints[paint];
+    RowGradient::Solids solids;
+    Instruction gradient{};  // the last one
+    const auto add = [&] {
+        solids.opacity = gradient.opacity;
+        return addLayer({data, paints.stopColors(), gradient.argument}, gradient.op == Op::Radial, solids,
+                        pixels);
+    };
+    for (std::uint32_t i = program[0]; i < program[0] + program[1]; ++i) {
+        const auto in = recordAt<Instruction>(data, i);
+        const bool isFirst = gradient.op == Op::Push;
+        if (in.op == Op::Solid) {
+            Float4& solid = isFirst ? solids.below : solids.above;
+            solid = over(in.opacity * float4(std::bit_cast<glm::vec4>(data[in.argument])), solid);
+        } else if (in.op == Op::Linear || in.op == Op::Radial) {
+            if (!isFirst && (size_ == maxRowLayers || !add())) {
+                size_ = 0;
+                return;
+            }
+            if (!isFirst)
+                solids = {};
+            gradient = in;
+        } else {
+            size_ = 0;
+            return;
+        }
+    }
+    if (gradient.op == Op::Push || !add())
+        size_ = 0;
+}
+
+bool RowPaint::addLayer(const GradientView& gradient, bool isRadial, const RowGradient::Solids& solids,
+                        const PixelMiddles& pixels) {
+    if (layers_.size() == size_)
+        layers_.emplace_back();
+    return layers_[size_++].prepare(gradient, isRadial, solids, pixels);
+}
+
+std::uint64_t RowPaint::compose(Pixel pixel, std::span<Float4> colors) {
+    std::uint64_t left = 0;
+    const auto leave = [&](std::size_t first, std::size_t end) {
+        left |= (~std::uint64_t(0) >> (64 - (end - first))) << first;
+    };
+    layers_[0].visit(
+        pixel, colors.size(),
+        [&](std::size_t first, std::size_t end, Float4 color) {
+            std::ranges::fill(colors.subspan(first, end - first), color);
+        },
+        [&](std::size_t first, std::span<const Float4> some) {
+            std::ranges::copy(some, colors.begin() + std::ptrdiff_t(first));
+        },
+        leave);
+    for (std::size_t k = 1; k < size_; ++k)
+        layers_[k].visit(
+            pixel, colors.size(),
+            [&](std::size_t first, std::size_t end, Float4 color) {
+                if (largest(color) > 0)
+                    for (Float4& below : colors.subspan(first, end - first))
+                        below = over(color, below);
+            },
+            [&](std::size_t first, std::span<const Float4> some) {
+                for (const Float4& color : some) {
+                    colors[first] = over(color, colors[first]);
+                    ++first;
+                }
+            },
+            leave);
+    return left;
+}
+
+}  // namespace vtm::asset
