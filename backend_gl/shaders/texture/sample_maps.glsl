@@ -128,6 +128,9 @@ bool nextSquare(Vtm vtm, inout Search search, mat3x2 pixel, out Square square) {
 // A map and all that are placed in it and in each other, each with the palettes of those around it. Lanes of a processor
 // that find their squares at different times add them together, and so with programs.
 void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint instances, inout vec4 sum) {
+#if INNER_MAPS
+    innerDepth = 0;  // the sample before may have been given up inside a map
+#endif
     Search search = searchOf(part, root, instances);
     Square square;
 #if PROGRAMS
