@@ -71,27 +71,6 @@ std::vector<Texel> recordTexels(const AssetView& asset, std::span<const Texel> i
     return texels;
 }
 
-TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter) {
-    const asset::PyramidSize& size = prefilter.size;
-    const int largest = limit(GL_MAX_TEXTURE_SIZE);
-    if (int(size.width) > largest || int(size.height) > largest)
-        throw GlError(fmt::format("prefilter of {} x {} texels: the driver's limit is {} per side",
-                                  size.width, size.height, largest));
-    GLuint id = 0;
-    glGenTextures(1, &id);
-    TextureHandle texture(id);
-    glBindTexture(GL_TEXTURE_2D, id);
-    glTexStorage2D(GL_TEXTURE_2D, GLsizei(size.levels()), GL_RGBA8, GLsizei(size.width),
-                   GLsizei(size.height));
-    for (unsigned l = 0; l < size.levels(); ++l) {
-        const asset::PyramidSize level = size.level(l);
-        glTexSubImage2D(GL_TEXTURE_2D, GLint(l), 0, 0, GLsizei(level.width), GLsizei(level.height), GL_RGBA,
-                        GL_UNSIGNED_BYTE, prefilter.texels.data() + size.texelsBefore(l));
-    }
-    checkErrors("upload of a prefilter");
-    return texture;
-}
-
 namespace {
 
 GLint wrapMode(Wrap wrap) {

@@ -25,8 +25,6 @@ struct Parts {
 std::vector<asset::Texel> recordTexels(const asset::AssetView& asset, std::span<const asset::Texel> imageList,
                                        Parts& parts);
 
-TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter);
-
 /// The members of a Vtm that are no textures.
 struct VtmUniform {
     Parts parts;
