@@ -26,7 +26,7 @@ using glm::dvec2;
 using glm::ivec2;
 using glm::vec2;
 
-struct Box {
+struct ContentBox {
     dvec2 min{HUGE_VAL}, max{-HUGE_VAL};
 
     bool isEmpty() const { return min.x > max.x; }
@@ -34,13 +34,13 @@ struct Box {
         min = glm::min(min, p);
         max = glm::max(max, p);
     }
-    void add(const Box& box) {
+    void add(const ContentBox& box) {
         min = glm::min(min, box.min);
         max = glm::max(max, box.max);
     }
 };
 
-Box imageOf(const asset::Affine2& place, const Box& box) {
+ContentBox imageOf(const asset::Affine2& place, const ContentBox& box) {
     if (box.isEmpty())
         return box;
     const dvec2 middle = place(0.5 * (box.min + box.max)), half = 0.5 * (box.max - box.min);
@@ -53,16 +53,16 @@ class Contents {
 public:
     explicit Contents(const AssetView& asset) : asset_(asset), known_(asset.maps.size()) {}
 
-    Box ofMap(std::size_t map) {
+    ContentBox ofMap(std::size_t map) {
         if (!known_[map]) {
-            Box box;
+            ContentBox box;
             asset::walk(asset_, asset_.maps[map].root, [&](asset::Cell cell, Entry entry) {
                 const double side = std::ldexp(1.0, -2 * int(cell.level));
                 const dvec2 corner = dvec2(cell.x, cell.y) * side;
                 if (entry.kind() == Entry::Kind::Leaf)
                     box.add(imageOf({glm::dmat2(side), corner}, ofLeaf(asset_.leaves[entry.payload()])));
                 else if (entry.payload() != 0)
-                    box.add(Box{corner, corner + side});
+                    box.add(ContentBox{corner, corner + side});
             });
             asset::forEachInstance(asset_, asset_.maps[map],
                                    [&](const asset::Instance& instance) { box.add(ofInstance(instance)); });
@@ -71,7 +71,7 @@ public:
         return *known_[map];
     }
 
-    Box ofInstance(const asset::Instance& instance) {
+    ContentBox ofInstance(const asset::Instance& instance) {
         const asset::Symbol& symbol = asset_.symbols[instance.symbol()];
         return imageOf(asset::placementOf(symbol, instance), ofMap(symbol.map));
     }
@@ -79,8 +79,8 @@ public:
 private:
     /// All of it if a corner is not the ground; else what the pieces bound. A curve is off its chord by 4/27
     /// of its slopes' sum at most, in chords.
-    Box ofLeaf(const asset::Leaf& leaf) const {
-        Box box;
+    ContentBox ofLeaf(const asset::Leaf& leaf) const {
+        ContentBox box;
         if (std::ranges::any_of(leaf.corners, [](std::uint16_t paint) { return paint != 0; }))
             return {dvec2(0), dvec2(1)};
         for (const asset::Piece& piece : asset_.pieces.subspan(leaf.firstPiece, leaf.pieceCount)) {
@@ -89,7 +89,7 @@ private:
             const double slopes =
                 (std::abs(double(piece.slopeA)) + std::abs(double(piece.slopeB))) / double(asset::slopeScale);
             const double bulge = 4.0 / 27 * slopes * glm::length(b - a);
-            box.add(Box{glm::min(a, b) - bulge, glm::max(a, b) + bulge});
+            box.add(ContentBox{glm::min(a, b) - bulge, glm::max(a, b) + bulge});
         }
         box.min = glm::max(box.min, dvec2(0));
         box.max = glm::min(box.max, dvec2(1));
@@ -97,19 +97,19 @@ private:
     }
 
     const AssetView& asset_;
-    std::vector<std::optional<Box>> known_;
+    std::vector<std::optional<ContentBox>> known_;
 };
 
 /// An instance and its box, in 65536ths of the map's side, rounded outward: [min, max + 1].
-struct Placed {
+struct BoxedInstance {
     std::uint32_t instance;
     ivec2 min, max;
 };
 constexpr double boxSteps = 65536;
 
-dvec2 sizeOf(const Placed& placed) { return dvec2(placed.max - placed.min + 1) / boxSteps; }
+dvec2 boxSize(const BoxedInstance& placed) { return dvec2(placed.max - placed.min + 1) / boxSteps; }
 
-Texel entryOf(const Placed& placed) {
+Texel entryOf(const BoxedInstance& placed) {
     const auto pair = [](int low, int high) { return std::uint32_t(low) | std::uint32_t(high) << 16; };
     return {placed.instance, pair(placed.min.x, placed.max.x), pair(placed.min.y, placed.max.y), 0};
 }
@@ -117,13 +117,13 @@ Texel entryOf(const Placed& placed) {
 /// A grid over boxes, with cells twice as large as these on average.
 class Grid {
 public:
-    explicit Grid(const std::vector<Placed>& all) {
+    explicit Grid(const std::vector<BoxedInstance>& all) {
         ivec2 min(1 << 16), max(0);
         dvec2 size(0);
-        for (const Placed& placed : all) {
+        for (const BoxedInstance& placed : all) {
             min = glm::min(min, placed.min);
             max = glm::max(max, placed.max + 1);
-            size += sizeOf(placed) / double(all.size());
+            size += boxSize(placed) / double(all.size());
         }
         const dvec2 extent = dvec2(max - min) / boxSteps;
         dvec2 cell = cellSize * size;
@@ -136,9 +136,9 @@ public:
     }
 
     /// Entries that the boxes would take.
-    double entriesOf(const std::vector<Placed>& all) const {
+    double entriesOf(const std::vector<BoxedInstance>& all) const {
         double entries = 0;
-        for (const Placed& placed : all) {
+        for (const BoxedInstance& placed : all) {
             const ivec2 cells = cellOf(vec2(placed.max + 1), margin) - cellOf(vec2(placed.min), -margin) + 1;
             entries += double(cells.x) * double(cells.y);
         }
@@ -146,7 +146,7 @@ public:
     }
 
     /// False where a cell has no room.
-    bool add(const Placed& placed) {
+    bool add(const BoxedInstance& placed) {
         const ivec2 first = cellOf(vec2(placed.min), -margin), last = cellOf(vec2(placed.max + 1), margin);
         for (int pass = 0; pass < 2; ++pass)
             for (int y = first.y; y <= last.y; ++y)
@@ -208,22 +208,23 @@ private:
     static constexpr double mostEntries = 8;
 
     GLuint addMap(const asset::Map& map) {
-        std::map<int, std::vector<Placed>> bySize;
+        std::map<int, std::vector<BoxedInstance>> bySize;
         asset::forEachInstance(asset_, map, [&](const asset::Instance& instance) {
-            const Box box = contents_.ofInstance(instance);
+            const ContentBox box = contents_.ofInstance(instance);
             if (box.isEmpty())
                 return;
             const dvec2 largest(boxSteps - 1);
-            const Placed placed{std::uint32_t(&instance - asset_.instances.data()),
-                                ivec2(glm::clamp(glm::floor(box.min * boxSteps), dvec2(0), largest)),
-                                ivec2(glm::clamp(glm::ceil(box.max * boxSteps) - 1.0, dvec2(0), largest))};
-            const dvec2 size = sizeOf(placed);
+            const BoxedInstance placed{
+                std::uint32_t(&instance - asset_.instances.data()),
+                ivec2(glm::clamp(glm::floor(box.min * boxSteps), dvec2(0), largest)),
+                ivec2(glm::clamp(glm::ceil(box.max * boxSteps) - 1.0, dvec2(0), largest))};
+            const dvec2 size = boxSize(placed);
             bySize[std::ilogb(std::max(size.x, size.y))].push_back(placed);
         });
         const GLuint firstGrid = first_ + GLuint(grids_.texels.size());
-        std::vector<Placed> group;
+        std::vector<BoxedInstance> group;
         for (const auto& [size, more] : bySize) {
-            std::vector<Placed> joined = group;
+            std::vector<BoxedInstance> joined = group;
             joined.insert(joined.end(), more.begin(), more.end());
             if (Grid(joined).entriesOf(joined) > mostEntries * double(joined.size()))
                 addGrids(std::exchange(group, more), false);
@@ -234,15 +235,15 @@ private:
         return bySize.empty() ? 0 : firstGrid;
     }
 
-    void addGrids(std::vector<Placed> group, bool isLast) {
+    void addGrids(std::vector<BoxedInstance> group, bool isLast) {
         while (!group.empty())
             addGrid(group, isLast);
     }
 
     /// Leaves what has no room.
-    void addGrid(std::vector<Placed>& group, bool isLast) {
+    void addGrid(std::vector<BoxedInstance>& group, bool isLast) {
         Grid grid(group);
-        std::erase_if(group, [&](const Placed& placed) { return grid.add(placed); });
+        std::erase_if(group, [&](const BoxedInstance& placed) { return grid.add(placed); });
         const std::vector<Texel> texels =
             grid.texels(first_ + GLuint(grids_.texels.size()), isLast && group.empty());
         grids_.texels.insert(grids_.texels.end(), texels.begin(), texels.end());

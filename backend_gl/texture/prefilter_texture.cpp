@@ -107,8 +107,8 @@ private:
     std::vector<double> turns_;
 };
 
-/// Levels that are drawn finer than the base: where programs vary within a texel, a quarter of it at most as
-/// on the CPU (raster/src/prefilter.cpp), which in addition divides pixels of hard changes.
+/// LevelDrawer that are drawn finer than the base: where programs vary within a texel, a quarter of it at
+/// most as on the CPU (raster/src/prefilter.cpp), which in addition divides pixels of hard changes.
 unsigned finerLevels(const AssetView& asset, PyramidSize size) {
     constexpr unsigned quarters = 2, minSide = 256;
     if (std::ranges::none_of(asset.paints, asset::isProgram))
@@ -130,12 +130,12 @@ bool canBeDrawn(const AssetView& asset, PyramidSize size) {
 
 // ---- Drawing --------------------------------------------------------------------------------------
 
-ivec2 sizeOf(PyramidSize size) { return ivec2(size.width, size.height); }
+ivec2 extentOf(PyramidSize size) { return ivec2(size.width, size.height); }
 
 /// Draws whole levels of textures. The framebuffer is its own, since contexts do not share them.
-class Levels {
+class LevelDrawer {
 public:
-    Levels() {
+    LevelDrawer() {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
         glBindVertexArray(array_.get());
     }
@@ -153,7 +153,7 @@ private:
 };
 
 /// The finest level, in floats.
-TextureHandle drawFinest(const Levels& levels, const Program& program, const VtmUniform& uniform,
+TextureHandle drawFinest(const LevelDrawer& levels, const Program& program, const VtmUniform& uniform,
                          GLuint records, ivec2 size, GLenum format) {
     TextureHandle finest = makeTexture(format, size.x, size.y);
     program.use();
@@ -167,14 +167,14 @@ TextureHandle drawFinest(const Levels& levels, const Program& program, const Vtm
 
 PrefilterTexture drawPrefilter(const PrefilterPrograms& programs, const VtmUniform& uniform, GLuint records,
                                PyramidSize size, unsigned finerLevels, GLenum format) {
-    const Levels levels;
+    const LevelDrawer levels;
     PrefilterTexture pyramid{size, makePyramid(size)};
     const PyramidSize whole{size.width << finerLevels, size.height << finerLevels};
-    TextureHandle finer = drawFinest(levels, programs.mean, uniform, records, sizeOf(whole), format);
+    TextureHandle finer = drawFinest(levels, programs.mean, uniform, records, extentOf(whole), format);
     programs.coarser.use();
     // Each from the one before, which is kept in floats, so that no rounding is carried on.
     for (unsigned l = 0; l < whole.levels(); ++l) {
-        const ivec2 of = sizeOf(whole.level(l)), texels = sizeOf(whole.level(l == 0 ? 0 : l - 1)) / of;
+        const ivec2 of = extentOf(whole.level(l)), texels = extentOf(whole.level(l == 0 ? 0 : l - 1)) / of;
         TextureHandle means = l == 0 ? TextureHandle() : makeTexture(format, of.x, of.y);
         glBindTexture(GL_TEXTURE_2D, finer.get());
         glUniform2i(programs.coarser.uniform("texels"), texels.x, texels.y);
