@@ -56,7 +56,8 @@ public:
     /// which costs more than all the rest; without, views from far away show the picture as it was. `pixels`
     /// selects who makes it: shaders draw it where the driver does not run them on the CPU, by programs that
     /// the first such update compiles (docs/prefilter.md). Throws as the constructor does, and
-    /// std::invalid_argument if the asset needs another include (sampleInclude) or has images.
+    /// std::invalid_argument if the asset needs another include (sampleInclude) or has images. Programs show
+    /// the new picture after the next bind().
     std::size_t update(const asset::AssetView& asset, bool means = true, Pixels pixels = Pixels::Automatic);
 
     /// How far the picture may be magnified: asset::Asset::finestPixel, in user units. A fragment whose
