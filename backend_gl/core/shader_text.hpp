@@ -12,7 +12,8 @@ extern const std::string_view shadow, place, shares, plain_paint, tile_plain_fra
     cell, tile_vertex, tile_fragment, tile_programs_fragment;
 extern const std::string_view flat_vertex, flat_fragment;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment;
-extern const std::string_view sample_asset, sample_prefilter, sample_tree, sample_maps, sample_page, sample;
+extern const std::string_view sample_asset, sample_prefilter, sample_tree, sample_maps, sample_page, sample,
+    mean_fragment, coarser_fragment;
 extern const std::string_view box_vertex, fill_fragment, layer_fragment, blend_fragment;
 extern const std::string_view layer, store, colors, numbers;
 extern const std::string_view source_fragment, per_pixel_fragment, blur_fragment, extreme_fragment,

@@ -98,4 +98,8 @@ bool isSoftwareDriver() {
     return isSoftwareDriver(name == nullptr ? "" : name);
 }
 
+bool drawsOnCpu(Pixels pixels) {
+    return pixels == Pixels::Scanned || (pixels == Pixels::Automatic && isSoftwareDriver());
+}
+
 }  // namespace vtm::gl

@@ -5,6 +5,8 @@
 
 #include <string_view>
 
+#include <vtm/gl/renderer.hpp>
+
 namespace vtm::gl {
 
 /// CPU milliseconds of all threads of the process: of drawing a known amount of arithmetic, and of a share of
@@ -22,5 +24,8 @@ bool isCpuWork(const WorkTimes& times);
 bool isSoftwareDriver(std::string_view renderer);
 /// ... by GL_RENDERER.
 bool isSoftwareDriver();
+
+/// Whether the CPU computes what shaders could draw, too: it is asked to, or the driver's shaders run on it.
+bool drawsOnCpu(Pixels pixels);
 
 }  // namespace vtm::gl

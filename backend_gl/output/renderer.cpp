@@ -74,8 +74,7 @@ struct Renderer::Impl {
     bool hasFloats = floatFormat().has_value();
     TargetPool bytes;       ///< for reading back 8 bits
     ByteSender bytePixels;  ///< for sending them
-    bool scans =
-        options.pixels == Pixels::Scanned || (options.pixels == Pixels::Automatic && isSoftwareDriver());
+    bool scans = drawsOnCpu(options.pixels);
 
     std::uint32_t maxTurns() const { return options.maxTurns == 0 ? turnsPerPixel : options.maxTurns; }
 

@@ -10,6 +10,7 @@
 
 #include "asset/testing.hpp"
 #include "backend_gl/core/programs.hpp"
+#include "backend_gl/texture/prefilter_texture.hpp"
 #include "backend_gl/texture/sample_include.hpp"
 #include "paper/gl/programs.hpp"
 
@@ -36,6 +37,9 @@ Stages sampling(unsigned features, gl::SampledKinds kinds) {
             "#version 300 es\n" + gl::sampleText(gl::Features(features), kinds, materials) + oneSample};
 }
 
+/// Whose pyramids of means the CPU makes.
+constexpr unsigned withoutMeans = gl::Features::Image | gl::Features::Material;
+
 std::vector<Stages> everyProgram() {
     std::vector<Stages> programs;
     const auto add = [&](const gl::ProgramSource& source) {
@@ -49,8 +53,11 @@ std::vector<Stages> everyProgram() {
         programs.push_back(sampling(features, {0, false}));
     for (const unsigned features : {0u, gl::Features::combinations - 1})
         for (unsigned innerMaps = 0; innerMaps < asset::maxMapDepth; ++innerMaps)
-            for (const bool pages : {false, true})
+            for (const bool pages : {false, true}) {
                 programs.push_back(sampling(features, {innerMaps, pages}));
+                add(gl::meanSource(gl::Features(features & ~withoutMeans), {innerMaps, pages}));
+            }
+    add(gl::coarserSource());
     return programs;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include <vtm/gl/sampled_texture.hpp>
 #include "asset/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "raster/testing_views.hpp"
@@ -305,6 +306,18 @@ TEST_F(State, ErrorsLeaveTheStateToo) {
     broken.paints.push_back({std::uint32_t(broken.data.size() - 1), 1, 0, asset::programTag});
     EXPECT_THROW(renderer->upload(broken), GlError);
     expectEqual(before, snapshot());
+}
+
+/// Whoever makes their prefilters.
+TEST_F(State, UpdatesOfTexturesLeaveTheStateToo) {
+    for (const bool feedback : {false, true})
+        for (const Pixels pixels : {Pixels::Shaders, Pixels::Scanned}) {
+            SampledTexture texture(placedMaps());
+            const Scrambled scrambled(feedback);
+            const Snapshot before = snapshot();
+            texture.update(placedMaps(), true, pixels);
+            expectEqual(before, snapshot());
+        }
 }
 
 TEST_F(State, WithoutRestoringPicturesAreRightAnyway) {

@@ -282,6 +282,26 @@ TEST_F(Gl, PagesCanBeReplaced) {
     expectBoth();
 }
 
+/// Seen so small that the pyramid of means is all that is drawn.
+TEST_F(Gl, PagesHaveTheSameMeansWhoeverMakesThem) {
+    font::FontMaps serif = dejavu("DejaVuSerif.ttf"), mono = dejavu("DejaVuSansMono.ttf");
+    PageCanvas canvas;
+    for (const bool isCells : {false, true}) {
+        font::FontMaps& font = isCells ? mono : serif;
+        const TextPage page = isCells ? cells(font) : letters(font);
+        const auto shownBy = [&](Pixels pixels) {
+            TextTexture texture(font.asset(), {page});
+            texture.update(0, page, font.asset(), pixels);
+            const View view =
+                asset::test::turnedView(9, 7, {page.width / 2, page.height / 2}, 8 / page.width, 0, 0, false);
+            return canvas.draw(texture, 0, page, view);
+        };
+        const Raster drawn = shownBy(Pixels::Shaders), computed = shownBy(Pixels::Scanned);
+        EXPECT_LE(worst(drawn, computed), 1.0 / 255 + 1e-5) << isCells;
+        EXPECT_GT(drawn.pixel(4, 3)[3], 0.9f);
+    }
+}
+
 TEST_F(Gl, PagesStandBesidePictures) {
     font::FontMaps mono = dejavu("DejaVuSansMono.ttf");
     font::CellText text;

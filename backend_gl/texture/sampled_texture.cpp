@@ -13,6 +13,7 @@
 #include "backend_gl/core/requirements.hpp"
 #include "backend_gl/core/state_guard.hpp"
 #include "backend_gl/sampled_data.hpp"
+#include "backend_gl/texture/prefilter_texture.hpp"
 #include "backend_gl/texture/sample_include.hpp"
 #include "backend_gl/texture/vtm_uniform.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
@@ -36,13 +37,12 @@ const asset::Map& onlyMap(const AssetView& asset) {
 
 /// An asset as a `uniform Vtm`, before it is uploaded.
 struct Sampled {
-    Sampled(const AssetView& asset, const asset::PyramidSize& prefilterSize) : images(imageTexels(asset)) {
+    explicit Sampled(const AssetView& asset) : images(imageTexels(asset)) {
         const Features features = featuresOf(asset);
         uniform.width = asset.width;
         uniform.height = asset.height;
         uniform.map = onlyMap(asset);
         uniform.flags = samplingFlags(features, {innerMapsOf(asset), false});
-        uniform.prefilterSize = prefilterSize;
         records = recordTexels(asset, images.list, uniform.parts);
         hasImages = features.has(Features::Image);
     }
@@ -53,31 +53,18 @@ struct Sampled {
     bool hasImages;
 };
 
-/// The asset's own, or one that is built.
-struct Pyramid {
-    Pyramid(const AssetView& asset, const asset::PrefilterOptions& options) : view(asset.prefilter) {
-        if (view.size.empty()) {
-            made = asset::buildPrefilter(asset, options);
-            view = {made.size, made.texels};
-        }
-    }
-    Pyramid(const Pyramid&) = delete;  // the view is of what was made
-    Pyramid& operator=(const Pyramid&) = delete;
-
-    asset::Prefilter made;
-    asset::PrefilterView view;
-};
-
 }  // namespace
 
 struct SampledTexture::Impl {
-    Impl(const AssetView& asset, const asset::PrefilterView& pyramid)
-        : Impl(asset, pyramid, Sampled(asset, pyramid.size)) {}
-    Impl(const AssetView& asset, const asset::PrefilterView& pyramid, Sampled sampled)
-        : finestPixel(asset.finestPixel),
+    Impl(const AssetView& asset, const asset::PrefilterOptions& o) : Impl(asset, o, Sampled(asset)) {
+        makePrefilter(asset, Pixels::Scanned);  // programs would take longer to compile
+    }
+    Impl(const AssetView& asset, const asset::PrefilterOptions& o, Sampled sampled)
+        : options(o),
+          finestPixel(asset.finestPixel),
           uniform(sampled.uniform),
           records(std::move(sampled.records)),
-          prefilter(uploadPrefilter(pyramid)) {
+          maker(featuresOf(asset), {innerMapsOf(asset), false}) {
         if (sampled.hasImages) {
             imageBytes = sampled.images.rgba.size();
             images = imageTexture(std::move(sampled.images.rgba));
@@ -97,10 +84,18 @@ struct SampledTexture::Impl {
         return records.update(std::move(next));
     }
 
+    void makePrefilter(const AssetView& asset, Pixels pixels) {
+        PrefilterTexture made = maker.make(asset, options, pixels, uniform, records.texture().get());
+        uniform.prefilterSize = made.size;
+        prefilter = std::move(made.texture);
+    }
+
+    asset::PrefilterOptions options;
     std::optional<double> finestPixel;
     VtmUniform uniform;
     RecordTexture records;
     TextureHandle prefilter, images;
+    PrefilterMaker maker;
     std::size_t imageBytes = 0;
     Samplers samplers;
 };
@@ -108,30 +103,24 @@ struct SampledTexture::Impl {
 SampledTexture::SampledTexture(const AssetView& asset, const asset::PrefilterOptions& options) {
     onlyMap(asset);
     requireCurrentContext();
-    const Pyramid pyramid(asset, options);
     checkErrors("something before this texture was made");
     const StateContract contract;
     const StateGuard guard(contract, true, Touched::uploads());
-    impl_ = std::make_unique<Impl>(asset, pyramid.view);
+    impl_ = std::make_unique<Impl>(asset, options);
 }
 SampledTexture::~SampledTexture() = default;
 SampledTexture::SampledTexture(SampledTexture&&) noexcept = default;
 SampledTexture& SampledTexture::operator=(SampledTexture&&) noexcept = default;
 
-std::size_t SampledTexture::update(const AssetView& asset, bool means) {
+std::size_t SampledTexture::update(const AssetView& asset, bool means, Pixels pixels) {
     onlyMap(asset);
     requireCurrentContext();
     checkErrors("something before this texture was updated");
-    std::optional<Pyramid> pyramid;
-    if (means)
-        pyramid.emplace(asset, asset::PrefilterOptions{});
     const StateContract contract;
-    const StateGuard guard(contract, true, Touched::uploads());
+    const StateGuard guard(contract, true, means ? Touched::picture(false) : Touched::uploads());
     const std::size_t sent = impl_->update(asset);
-    if (pyramid) {
-        impl_->prefilter = uploadPrefilter(pyramid->view);
-        impl_->uniform.prefilterSize = pyramid->view.size;
-    }
+    if (means)
+        impl_->makePrefilter(asset, pixels);
     return sent;
 }
 
@@ -159,6 +148,21 @@ void SampledTexture::bind(unsigned program, const std::string& name, unsigned fi
 
 namespace {
 
+/// The asset's own, or one that is built.
+struct Pyramid {
+    Pyramid(const AssetView& asset, const asset::PrefilterOptions& options) : view(asset.prefilter) {
+        if (view.size.empty()) {
+            made = asset::buildPrefilter(asset, options);
+            view = {made.size, made.texels};
+        }
+    }
+    Pyramid(const Pyramid&) = delete;  // the view is of what was made
+    Pyramid& operator=(const Pyramid&) = delete;
+
+    asset::Prefilter made;
+    asset::PrefilterView view;
+};
+
 TextureData prefilterData(const asset::PrefilterView& pyramid) {
     TextureData data{"prefilter",
                      TextureData::Format::Rgba8,
@@ -178,7 +182,8 @@ TextureData prefilterData(const asset::PrefilterView& pyramid) {
 ShaderData sampledData(const AssetView& asset, const asset::PrefilterOptions& options) {
     onlyMap(asset);
     const Pyramid pyramid(asset, options);
-    const Sampled sampled(asset, pyramid.view.size);
+    Sampled sampled(asset);
+    sampled.uniform.prefilterSize = pyramid.view.size;
     ShaderData data;
     data.textures.push_back(texelData("texels", sampled.records));
     data.textures.push_back(prefilterData(pyramid.view));

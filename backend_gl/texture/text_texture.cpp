@@ -10,6 +10,7 @@
 #include "backend_gl/core/requirements.hpp"
 #include "backend_gl/core/state_guard.hpp"
 #include "backend_gl/texture/page_texels.hpp"
+#include "backend_gl/texture/prefilter_texture.hpp"
 #include "backend_gl/texture/sample_include.hpp"
 #include "backend_gl/texture/vtm_uniform.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
@@ -43,7 +44,8 @@ struct Page {
     std::size_t texels = 0;  ///< that it takes
     std::size_t room = 0;    ///< that it may take
     asset::PyramidSize prefilterSize;
-    TextureHandle prefilter;  ///< 0: to be made
+    TextureHandle prefilter;          ///< 0: to be made
+    Pixels pixels = Pixels::Scanned;  ///< who makes it: the CPU where programs would be compiled for one page
 };
 
 }  // namespace
@@ -73,11 +75,12 @@ struct TextTexture::Impl {
         records = texelTexture(std::move(texels));
     }
 
-    void update(Page& page, const TextPage& text, const AssetView& of) {
+    void update(Page& page, const TextPage& text, const AssetView& of, Pixels pixels) {
         asset::validate(text, of);
         const bool grew = of.maps.size() != font.maps.size();
         const std::vector<Texel> own = pageTexels(text, of, page.first);
         page.text = text;
+        page.pixels = pixels;
         page.prefilter = TextureHandle();
         if (grew)
             font = asset::toAsset(of);
@@ -91,12 +94,13 @@ struct TextTexture::Impl {
     }
 
     void makePrefilter(Page& page) {
-        const asset::Prefilter made =
-            asset::buildPrefilter(asset::pageAsset(page.text, font), prefilterOptions(page.text));
+        const asset::Asset asset = asset::pageAsset(page.text, font);
         const StateContract contract;
-        const StateGuard guard(contract, true, Touched::uploads());
+        const StateGuard guard(contract, true, Touched::picture(false));
+        PrefilterTexture made =
+            maker.make(asset, prefilterOptions(page.text), page.pixels, uniformOf(page), records.get());
         page.prefilterSize = made.size;
-        page.prefilter = uploadPrefilter({made.size, made.texels});
+        page.prefilter = std::move(made.texture);
     }
 
     VtmUniform uniformOf(const Page& page) const {
@@ -122,6 +126,7 @@ struct TextTexture::Impl {
     std::size_t fontTexels = 0;
     std::vector<Page> pages;
     TextureHandle records;
+    PrefilterMaker maker{{}, {0, true}};
     Samplers samplers;
 };
 
@@ -144,8 +149,8 @@ std::size_t TextTexture::pages() const { return impl_->pages.size(); }
 std::size_t TextTexture::bytes(std::size_t page) const { return impl_->at(page).texels * sizeof(Texel); }
 std::size_t TextTexture::fontBytes() const { return impl_->fontTexels * sizeof(Texel); }
 
-void TextTexture::update(std::size_t page, const TextPage& text, const AssetView& font) {
-    impl_->update(impl_->at(page), text, font);
+void TextTexture::update(std::size_t page, const TextPage& text, const AssetView& font, Pixels pixels) {
+    impl_->update(impl_->at(page), text, font, pixels);
 }
 
 void TextTexture::bind(unsigned program, const std::string& name, unsigned firstUnit, std::size_t page,

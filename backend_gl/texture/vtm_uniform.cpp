@@ -7,6 +7,7 @@
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/requirements.hpp"
 #include "backend_gl/core/turns.hpp"
+#include "backend_gl/texture/instance_grids.hpp"
 #include "backend_gl/texture/sample_include.hpp"
 #include "backend_gl/upload/asset_texels.hpp"
 
@@ -40,13 +41,13 @@ std::vector<asset::Paint> paintsOf(const AssetView& asset) {
     return paints;
 }
 
-/// Two texels a symbol: the record, with the map's index unused; then the map's root and its first tree.
-std::vector<Texel> symbolsOf(const AssetView& asset) {
+/// Two texels a symbol: the record, with the map's index unused; then the map's root and its first grid.
+std::vector<Texel> symbolsOf(const AssetView& asset, const std::vector<GLuint>& grids) {
     std::vector<Texel> texels;
     for (const asset::Symbol& symbol : asset.symbols) {
         const asset::Map& map = asset.maps[symbol.map];
         texels.push_back(std::bit_cast<Texel>(symbol));
-        texels.push_back({map.root.bits, map.instances, 0, 0});
+        texels.push_back({map.root.bits, grids[symbol.map], 0, 0});
     }
     return texels;
 }
@@ -63,33 +64,14 @@ std::vector<Texel> recordTexels(const AssetView& asset, std::span<const Texel> i
     parts.images = appendTexels<Texel>(texels, imageList);
     parts.rampSums = appendTexels<Texel>(texels, rampSums(asset));
     // What changes when instances move stands last (SampledTexture::update).
-    parts.symbols = appendTexels<Texel>(texels, symbolsOf(asset));
     parts.palettes = appendTexels(texels, asset.palettes);
     parts.nodes = appendTexels(texels, asset.nodes);
-    parts.instanceTrees = appendTexels(texels, asset.instanceTrees);
     parts.instances = appendTexels(texels, asset.instances);
+    const InstanceGrids grids = instanceGrids(asset, GLuint(texels.size()));
+    parts.grid = asset.commands.empty() ? 0 : grids.ofMap[asset.commands[0].map];
+    appendTexels<Texel>(texels, grids.texels);
+    parts.symbols = appendTexels<Texel>(texels, symbolsOf(asset, grids.ofMap));
     return texels;
-}
-
-TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter) {
-    const asset::PyramidSize& size = prefilter.size;
-    const int largest = limit(GL_MAX_TEXTURE_SIZE);
-    if (int(size.width) > largest || int(size.height) > largest)
-        throw GlError(fmt::format("prefilter of {} x {} texels: the driver's limit is {} per side",
-                                  size.width, size.height, largest));
-    GLuint id = 0;
-    glGenTextures(1, &id);
-    TextureHandle texture(id);
-    glBindTexture(GL_TEXTURE_2D, id);
-    glTexStorage2D(GL_TEXTURE_2D, GLsizei(size.levels()), GL_RGBA8, GLsizei(size.width),
-                   GLsizei(size.height));
-    for (unsigned l = 0; l < size.levels(); ++l) {
-        const asset::PyramidSize level = size.level(l);
-        glTexSubImage2D(GL_TEXTURE_2D, GLint(l), 0, 0, GLsizei(level.width), GLsizei(level.height), GL_RGBA,
-                        GL_UNSIGNED_BYTE, prefilter.texels.data() + size.texelsBefore(l));
-    }
-    checkErrors("upload of a prefilter");
-    return texture;
 }
 
 namespace {
@@ -134,8 +116,8 @@ std::vector<UniformValue> VtmUniform::values(Wrapping wrapping) const {
             {"prefilterTexels", Floats{float(prefilterSize.width), float(prefilterSize.height)}},
             {"wrapping", Ints{int(wrapping.s), int(wrapping.t)}},
             {"page", Words{page}},
-            {"instances", Words{map.instances}},
-            {"placed", Words{parts.instanceTrees, parts.instances, parts.symbols, parts.palettes}}};
+            {"grid", Words{parts.grid}},
+            {"placed", Words{parts.instances, parts.symbols, parts.palettes}}};
 }
 
 namespace {

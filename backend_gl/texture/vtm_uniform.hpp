@@ -18,14 +18,13 @@ namespace vtm::gl {
 /// First texels of the parts of the one texture that holds all records.
 struct Parts {
     GLuint nodes = 0, leaves = 0, pieces = 0, paints = 0, data = 0, images = 0, rampSums = 0;
-    GLuint instanceTrees = 0, instances = 0, symbols = 0, palettes = 0;
+    GLuint instances = 0, symbols = 0, palettes = 0;
+    GLuint grid = 0;  ///< first of the map that the asset draws; 0: it has no instances
 };
 
-/// The asset's records, in the order of Parts, which is set.
+/// The asset's records, and where each part of them begins.
 std::vector<asset::Texel> recordTexels(const asset::AssetView& asset, std::span<const asset::Texel> imageList,
                                        Parts& parts);
-
-TextureHandle uploadPrefilter(const asset::PrefilterView& prefilter);
 
 /// The members of a Vtm that are no textures.
 struct VtmUniform {

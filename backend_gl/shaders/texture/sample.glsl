@@ -28,7 +28,7 @@ void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
     }
 #endif
 #if INNER_MAPS
-    addMap(vtm, part, pixel, vtm.root, vtm.instances, sum);
+    addMap(vtm, part, pixel, vtm.root, vtm.grid, sum);
 #else
     addMap(vtm, part, pixel, vtm.root, 0u, sum);
 #endif
@@ -53,7 +53,7 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
             lower = clamp(lower * scale + offset, 0.0, lastPlace);
             upper = clamp(upper * scale + offset, 0.0, 1.0);
             CopyFootprint part = CopyFootprint(st * scale + offset, halfBox * scale, lower, upper,
-                                               mat2(toBox[0] * turned.x, toBox[1] * turned.y), 0.0);
+                                               mat2(toBox[0] * turned.x, toBox[1] * turned.y));
             mat3x2 pixel = mat3x2(footprint.sides[0], footprint.sides[1], picturePoint(vtm, st * scale + offset));
             addPicture(vtm, part, pixel, sum);
         }

@@ -21,8 +21,8 @@ struct Vtm {
     uint page;             // first texel of a page of text; 0: a picture
 #endif
 #if INNER_MAPS
-    uint instances;        // 0, or 1 + the index of the map's first tree of instances
-    uvec4 placed;          // first texels of the trees of instances, the instances, the symbols and the palettes
+    uint grid;             // first texel of the map's first grid of instances; 0: it has none
+    uvec3 placed;          // first texels of the instances, the symbols and the palettes
 #endif
 };
 

@@ -3,78 +3,127 @@
 // kind*, slopeScale.
 // Exports: addMap.
 
+#if INNER_MAPS
+
+// Instances by where they stand; a map has a grid for each size of instances. Twin of: instance_grids.cpp, which writes the
+// texels:
+//     grid      columns and rows (16 bits each), first texel of the cells, of the entries, of the next grid or 0 (uints)
+//               min corner of the first cell, cells a side of the map (floats)
+//     cells     a word each: first entry, 2^24 times the number of entries
+//     entry     instance; min and max x, min and max y of its box, 65536ths of the map's side, the whole of the last one
+//               included (16 bits each); unused. Each cell that the box meets has one.
+struct Grid {
+    uvec4 records;   // its two texels
+    vec4 place;
+    ivec2 cell;      // whose entries come next
+    uint next, end;  // texels of these
+};
+
+ivec2 cellAt(Grid grid, vec2 p) {
+    ivec2 count = ivec2(low(grid.records.x), high(grid.records.x));
+    return clamp(ivec2(floor((p - grid.place.xy) * grid.place.zw)), ivec2(0), count - 1);
+}
+
+const Grid noGrid = Grid(uvec4(0u), vec4(0.0), ivec2(0), 0u, 0u);
+
+// Before the first cell that the footprint meets.
+Grid gridAt(Vtm vtm, CopyFootprint part, uint texel) {
+    if (texel == 0u)
+        return noGrid;
+    Grid grid = Grid(texelAt(vtm, texel), uintBitsToFloat(texelAt(vtm, texel + 1u)), ivec2(0), 0u, 0u);
+    grid.cell = cellAt(grid, part.lower) - ivec2(1, 0);
+    return grid;
+}
+
+bool isDone(CopyFootprint part, Grid grid) {
+    return grid.records.x == 0u || grid.next == grid.end && grid.cell == cellAt(grid, part.upper);
+}
+
+void stepCell(Vtm vtm, CopyFootprint part, inout Grid grid) {
+    int last = cellAt(grid, part.upper).x;
+    grid.cell = grid.cell.x < last ? grid.cell + ivec2(1, 0) : ivec2(cellAt(grid, part.lower).x, grid.cell.y + 1);
+    uint word = wordAt(vtm, grid.records.y, uint(grid.cell.y) * low(grid.records.x) + uint(grid.cell.x));
+    grid.next = grid.records.z + (word & 0xFFFFFFu);
+    grid.end = grid.next + (word >> 24);
+}
+
+// Whether the footprint's box meets an entry's. Of the cells that both meet, only that one tells which holds their common min
+// corner, so an instance is met once.
+bool meetsEntry(CopyFootprint part, Grid grid, uvec4 entry) {
+    vec2 lower = max(part.lower, vec2(low(entry.y), low(entry.z)) / 65536.0);
+    vec2 upper = min(part.upper, vec2(high(entry.y) + 1u, high(entry.z) + 1u) / 65536.0);
+    return all(lessThanEqual(lower, upper)) && cellAt(grid, lower) == grid.cell;
+}
+
+#endif
+
 // Where the search for squares stands.
 struct Search {
     CopyFootprint part;   // over the map
-    Walk walk;            // over squares, or over cells that hold the centres of instances
+    Walk walk;            // over its squares
 #if INNER_MAPS
-    bool ofInstances;
-    uint tree;            // of instances, that comes next: 0, or 1 + its index
-    uint next, end;       // instances of the cell
+    Grid grid;            // of its instances, which come next
 #endif
     bool isOver;
 };
 
 #if INNER_MAPS
 
-// Of the maps around. The loops below make its indices known when the program is compiled: some drivers store each lane
-// of a processor for itself otherwise.
-Search outer[INNER_MAPS];
+// The maps around, each amid its instances. The loops below make indices known when the program is compiled: some drivers
+// store each lane of a processor for itself otherwise.
+struct Around {
+    CopyFootprint part;
+    Grid grid;
+};
+Around outer[INNER_MAPS];
 
-Search searchOf(CopyFootprint part, uint root, uint instances) {
-    return Search(part, walkFrom(root), false, instances, 0u, 0u, false);
+Search searchOf(Vtm vtm, CopyFootprint part, uint root, uint grid) {
+    return Search(part, walkFrom(root), gridAt(vtm, part, grid), false);
 }
-
-// A footprint as one of the cells that hold the centres of instances is asked for.
-void reachOut(inout CopyFootprint part, float reach) {
-    part.reach = reach;
-    part.lower = clamp(part.centre - part.halfBox - reach, 0.0, lastPlace);
-    part.upper = clamp(part.centre + part.halfBox + reach, 0.0, 1.0);
-}
-
-vec2 centreOf(uvec4 instance) { return vec2(instance.xy & 0xFFFFFFu) / 16777216.0; }
 
 // Into an instance, if the footprint meets it.
-void enterInstance(Vtm vtm, uvec4 instance, inout Search search) {
-    uint place = vtm.placed.z + 2u * (instance.x >> 24 | instance.y >> 24 << 8);
+void enterInstance(Vtm vtm, uint number, inout Search search) {
+    uvec4 instance = texelAt(vtm, vtm.placed.x + number);
+    uint place = vtm.placed.y + 2u * (instance.x >> 24 | instance.y >> 24 << 8);
     uvec4 symbol = texelAt(vtm, place);
     ivec4 m = ivec4(instance.z << 16, instance.z, instance.w << 16, instance.w) >> 16;
     mat2 linear = mat2(vec2(m.xy), vec2(m.zw)) * (uintBitsToFloat(symbol.z) / slopeScale);
+    vec2 centre = vec2(instance.xy & 0xFFFFFFu) / 16777216.0;
     CopyFootprint part;
-    if (findMap(search.part, linear, centreOf(instance), part)) {
+    if (findMap(search.part, linear, centre, part)) {
         uvec4 map = texelAt(vtm, place + 1u);
         for (int i = 0; i < INNER_MAPS; ++i)
             if (i == innerDepth) {
                 innerGrounds[i] = high(symbol.x);
                 innerPalettes[i] = symbol.y;
-                outer[i] = search;
+                outer[i] = Around(search.part, search.grid);
             }
         ++innerDepth;
-        search = searchOf(part, map.x, innerDepth < INNER_MAPS ? map.y : 0u);
+        search = searchOf(vtm, part, map.x, innerDepth < INNER_MAPS ? map.y : 0u);
     }
 }
 
-// From the end of a tree to the next tree of the map's instances, or back to the map around.
-void leaveTree(Vtm vtm, inout Search search) {
-    if (search.tree != 0u) {
-        uvec4 texel = texelAt(vtm, vtm.placed.x + search.tree - 1u);
-        search.walk = walkFrom(texel.x);
-        reachOut(search.part, uintBitsToFloat(texel.y));
-        search.tree = texel.z;
-        search.ofInstances = true;
+// From a map's grid to the next one, or back to the map around.
+void leave(Vtm vtm, inout Search search) {
+    if (search.grid.records.w != 0u) {
+        search.grid = gridAt(vtm, search.part, search.grid.records.w);
     } else if (innerDepth > 0) {
         --innerDepth;
         for (int i = 0; i < INNER_MAPS; ++i)
-            if (i == innerDepth)
-                search = outer[i];
+            if (i == innerDepth) {
+                search.part = outer[i].part;
+                search.grid = outer[i].grid;
+            }
     } else {
         search.isOver = true;
     }
 }
 
+bool isAtEnd(Search search) { return isDone(search.walk) && isDone(search.part, search.grid); }
+
 #else
 
-Search searchOf(CopyFootprint part, uint root, uint instances) { return Search(part, walkFrom(root), false); }
+Search searchOf(Vtm vtm, CopyFootprint part, uint root, uint grid) { return Search(part, walkFrom(root), false); }
 
 #endif
 
@@ -88,27 +137,24 @@ bool nextSquare(Vtm vtm, inout Search search, mat3x2 pixel, out Square square) {
     // What is done for each square or instance stands in the inner loop, what is done for few of them around it.
     while (!search.isOver && spend(1.0)) {
         uvec4 instance;
-        bool isNear = false, isAtEnd = search.next == search.end && isDone(search.walk);
-        while (!isAtEnd && spend(1.0)) {
-            if (search.next < search.end) {
-                instance = texelAt(vtm, vtm.placed.y + search.next++);
-                isNear = all(lessThan(abs(centreOf(instance) - search.part.centre), search.part.halfBox + search.part.reach));
-            } else if (advance(vtm, search.part, search.walk, cell, side, entry)) {
-                if (!search.ofInstances)
-                    found = !isPlaced() || entry != kindSolid;
-                else if ((entry & 3u) == kindInstances) {
-                    search.next = entry >> 8;
-                    search.end = search.next + (entry >> 2 & 63u) + 1u;
-                }
+        bool isNear = false, ended = isAtEnd(search);
+        while (!ended && spend(1.0)) {
+            if (!isDone(search.walk)) {
+                found = advance(vtm, search.part, search.walk, cell, side, entry) && (!isPlaced() || entry != kindSolid);
+            } else if (search.grid.next < search.grid.end) {
+                instance = texelAt(vtm, search.grid.next++);
+                isNear = meetsEntry(search.part, search.grid, instance);
+            } else {
+                stepCell(vtm, search.part, search.grid);
             }
-            isAtEnd = search.next == search.end && isDone(search.walk);
-            if (found || isNear || isAtEnd)
+            ended = isAtEnd(search);
+            if (found || isNear || ended)
                 break;
         }
         if (isNear)
-            enterInstance(vtm, instance, search);
-        else if (!found && isAtEnd)
-            leaveTree(vtm, search);
+            enterInstance(vtm, instance.x, search);
+        else if (!found && ended)
+            leave(vtm, search);
         if (found || search.isOver)
             break;
     }
@@ -127,8 +173,11 @@ bool nextSquare(Vtm vtm, inout Search search, mat3x2 pixel, out Square square) {
 
 // A map and all that are placed in it and in each other, each with the palettes of those around it. Lanes of a processor
 // that find their squares at different times add them together, and so with programs.
-void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint instances, inout vec4 sum) {
-    Search search = searchOf(part, root, instances);
+void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint grid, inout vec4 sum) {
+#if INNER_MAPS
+    innerDepth = 0;  // the sample before may have been given up inside a map
+#endif
+    Search search = searchOf(vtm, part, root, grid);
     Square square;
 #if PROGRAMS
     LeafSum leaf = noLeaf();

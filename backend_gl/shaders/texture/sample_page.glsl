@@ -17,7 +17,6 @@
 
 #if TEXT_PAGES
 
-uint wordAt(Vtm vtm, uint texel, uint i) { return texelAt(vtm, texel + (i >> 2))[i & 3u]; }
 uint byteAt(Vtm vtm, uint texel, uint i) { return wordAt(vtm, texel, i >> 2) >> (8u * (i & 3u)) & 0xFFu; }
 
 struct PageLayer {

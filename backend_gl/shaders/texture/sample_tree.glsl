@@ -1,6 +1,6 @@
 // Squares of a tree that a footprint meets, found without recursion and without a stack. docs/texture.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl; constants kind*, maxLevel, leafExtent.
-// Exports: CopyFootprint, picturePoint, lastPlace, Walk, walkFrom, isDone, step, squareOf, findMap.
+// Exports: CopyFootprint, picturePoint, lastPlace, Walk, walkFrom, isDone, step, squareOf, wordAt, findMap.
 
 // ---- One square of the tree -------------------------------------------------------------------------
 
@@ -10,7 +10,6 @@ struct CopyFootprint {
     vec2 centre, halfBox;  // of the footprint and its bounding box
     vec2 lower, upper;      // of that box, cut to the square
     mat2 toBox;            // the footprint becomes the pixel's box [0, 1]², its centre 0.5
-    float reach;           // squares count as wider by so much, each way
 };
 
 vec2 picturePoint(Vtm vtm, vec2 p) { return vtm.square.xy + p * vtm.square.z; }
@@ -30,6 +29,9 @@ Square squareOf(Vtm vtm, CopyFootprint part, mat3x2 pixel, ivec2 cell, float sid
     return Square(frame, leaf, point, cross2(part.toBox[0], part.toBox[1]) < 0.0 ? -1.0 : 1.0);
 }
 
+// The i-th word of records that begin at a texel.
+uint wordAt(Vtm vtm, uint texel, uint i) { return texelAt(vtm, texel + (i >> 2))[i & 3u]; }
+
 // ---- The tree -----------------------------------------------------------------------------------------
 
 // 4^-level, exactly.
@@ -45,7 +47,7 @@ ivec2 lastCell(CopyFootprint part, float side) { return max(ivec2(ceil(part.uppe
 // Whether a square meets the footprint, by its box in the pixel's coordinates.
 bool meets(CopyFootprint part, ivec2 cell, float side) {
     vec2 fromCentre = part.toBox * ((vec2(cell) + 0.5) * side - part.centre);
-    vec2 reach = (abs(part.toBox[0]) + abs(part.toBox[1])) * (0.5 * side + part.reach) + 0.5;
+    vec2 reach = (abs(part.toBox[0]) + abs(part.toBox[1])) * (0.5 * side) + 0.5;
     return all(lessThan(abs(fromCentre), reach));
 }
 
@@ -114,7 +116,6 @@ const float lastPlace = 1.0 - 1.0 / 16777216.0;
 bool findMap(CopyFootprint around, mat2 linear, vec2 centre, out CopyFootprint part) {
     mat2 toInner = inverse(linear);
     part = around;
-    part.reach = 0.0;
     part.toBox = around.toBox * linear;
     part.centre = toInner * (around.centre - centre) + 0.5;
     mat2 sides = inverse(part.toBox);

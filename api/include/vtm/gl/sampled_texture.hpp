@@ -16,6 +16,7 @@
 
 #include <vtm/asset/asset.hpp>
 #include <vtm/gl/context.hpp>
+#include <vtm/gl/renderer.hpp>
 #include <vtm/raster/prefilter.hpp>
 
 #pragma GCC visibility push(default)
@@ -52,10 +53,12 @@ public:
     /// Shows another asset instead, as one whose placements changed (vtm/asset/placements.hpp). Sends only
     /// the records that differ from those of the update before, as long as they fit in the texture;
     /// everything the first time. Returns the bytes sent. With `means`, the pyramid of means is made anew,
-    /// which costs more than all the rest; without, views from far away show the picture as it was. Throws as
-    /// the constructor does, and std::invalid_argument if the asset needs another include (sampleInclude) or
-    /// has images.
-    std::size_t update(const asset::AssetView& asset, bool means = true);
+    /// which costs more than all the rest; without, views from far away show the picture as it was. `pixels`
+    /// selects who makes it: shaders draw it where the driver does not run them on the CPU, by programs that
+    /// the first such update compiles (docs/prefilter.md). Throws as the constructor does, and
+    /// std::invalid_argument if the asset needs another include (sampleInclude) or has images. Programs show
+    /// the new picture after the next bind().
+    std::size_t update(const asset::AssetView& asset, bool means = true, Pixels pixels = Pixels::Automatic);
 
     /// How far the picture may be magnified: asset::Asset::finestPixel, in user units. A fragment whose
     /// footprint is narrower (the derivatives of st times the picture's width and height) sees boundaries

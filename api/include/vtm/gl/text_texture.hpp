@@ -45,8 +45,10 @@ public:
     std::size_t fontBytes() const;
 
     /// Replaces a page. Sends its table only, if it has room for as many texels as before, and if `font` has
-    /// no more maps; everything otherwise. Throws as the constructor does, and std::out_of_range.
-    void update(std::size_t page, const asset::TextPage& text, const asset::AssetView& font);
+    /// no more maps; everything otherwise. `pixels` selects who makes its pyramid of means, as for
+    /// SampledTexture::update. Throws as the constructor does, and std::out_of_range.
+    void update(std::size_t page, const asset::TextPage& text, const asset::AssetView& font,
+                Pixels pixels = Pixels::Automatic);
 
     static constexpr unsigned units = 2;  ///< texture units that bind() uses
     /// As SampledTexture::bind, with (0, 0) to (1, 1) over the page. The first time after a page was made or
