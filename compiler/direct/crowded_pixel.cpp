@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t maxExactEdges = 16;
 
 /// Of more, a quarter of the lines tell as much: from edge to edge they see another part.
-constexpr std::size_t manyEdges = 64;
+constexpr std::size_t manyEdges = 128;
 
 /// Edges this near to each other, in pixels, are one: then rounding does not say which is on the left.
 constexpr double sameColumn = 1e-10;
