@@ -68,7 +68,10 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         return goOnLines(chains, top, bottom);
     if (begins || isPassedOver_ || onLines_ > 0 || chains_.areLeftOut())
         begin(chains.first(above), top);
-    isPassedOver_ = isTangled(top) && outline_.draw(chains, top, bottom, chords);
+    const bool isTangled = this->isTangled(top);
+    if (isTangled && sorted_.size() > manyOfOne && lines_.isTangled(chains, top))
+        return goOnLines(chains, top, bottom);
+    isPassedOver_ = isTangled && outline_.draw(chains, top, bottom, chords);
     if (isPassedOver_)
         return leave(top);
     onLines_ = 0;

@@ -14,9 +14,6 @@ namespace {
 /// Of more, pairs would take too long.
 constexpr std::size_t maxExactEdges = 16;
 
-/// Of more, a quarter of the lines tell as much: from edge to edge they see another part.
-constexpr std::size_t manyEdges = 128;
-
 /// Edges this near to each other, in pixels, are one: then rounding does not say which is on the left.
 constexpr double sameColumn = 1e-10;
 
@@ -116,35 +113,35 @@ void CrowdedPixel::forEachPart(std::size_t edge, const Take& take) {
 // ---- Along lines ----------------------------------------------------------------------------------
 
 double CrowdedPixel::alongLines(int corner, std::span<const PixelEdge> edges) {
-    lines_ = edges.size() > manyEdges ? mostLines / 4 : mostLines;
     const int inside =
         rule_ == scene::FillRule::EvenOdd ? oddPlaces(corner, edges) : woundPlaces(corner, edges);
-    return inside / double(lines_ * int(places));
+    return inside / double(lines * places);
 }
 
 /// Calls cross(line, first place on the right, change) for the lines that an edge crosses. Of n, line j goes
 /// from (0, j / n) to (1, (j + 1) / n).
 template <class Cross>
-void CrowdedPixel::crossLines(const PixelEdge& edge, const Cross& cross) const {
+void CrowdedPixel::crossLines(const PixelEdge& edge, const Cross& cross) {
     // From line to line a place is moved by the golden section.
     static const ByLine<double> ahead = [] {
         ByLine<double> a;
-        for (std::size_t line = 0; line < mostLines; ++line)
+        for (std::size_t line = 0; line < lines; ++line)
             a[line] = std::fmod(double(line) * std::numbers::phi, 1.0);
         return a;
     }();
+    constexpr int n = lines;
     const auto count = [](double height) { return int(std::ceil(height)); };
     const auto crossSide = [&](double from, double to) {
-        for (int line = count(from * lines_); line < std::min(count(to * lines_), lines_); ++line)
+        for (int line = count(from * n); line < std::min(count(to * n), n); ++line)
             cross(std::size_t(line), std::size_t{0}, edge.change);
     };
     if (edge.low < edge.y0)
         crossSide(edge.low, edge.y0);
     if (edge.high > edge.y1)
         crossSide(edge.y1, edge.high);
-    const double y0 = edge.y0 * lines_ - edge.x0, y1 = edge.y1 * lines_ - edge.x1;
+    const double y0 = edge.y0 * n - edge.x0, y1 = edge.y1 * n - edge.x1;
     const bool rises = y0 < y1;
-    const int first = std::max(count(rises ? y0 : y1), 0), end = std::min(count(rises ? y1 : y0), lines_);
+    const int first = std::max(count(rises ? y0 : y1), 0), end = std::min(count(rises ? y1 : y0), n);
     if (first >= end)
         return;
     const int change = rises ? edge.change : -edge.change;
@@ -166,7 +163,7 @@ int CrowdedPixel::oddPlaces(int corner, std::span<const PixelEdge> edges) {
     ByLine<std::uint64_t> left{};
     int sum = 0;
     for (std::size_t i = 0; i < places / bits; ++i)
-        for (std::size_t line = 0; line < std::size_t(lines_); ++line) {
+        for (std::size_t line = 0; line < lines; ++line) {
             std::uint64_t word = odd_[i][line];
             for (const int shift : {1, 2, 4, 8, 16, 32})
                 word ^= word << shift;
@@ -187,7 +184,7 @@ int CrowdedPixel::woundPlaces(int corner, std::span<const PixelEdge> edges) {
     ByLine<std::int16_t> winding, inside{};
     winding.fill(std::int16_t(corner));
     for (std::size_t place = 0; place < places; ++place)
-        for (std::size_t line = 0; line < std::size_t(lines_); ++line) {
+        for (std::size_t line = 0; line < lines; ++line) {
             winding[line] += wound_[place][line];
             inside[line] += winding[line] != 0;
         }

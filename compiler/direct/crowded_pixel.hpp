@@ -59,18 +59,17 @@ private:
     template <class Take>
     void forEachPart(std::size_t edge, const Take& take);
 
-    static constexpr std::size_t mostLines = 128, places = 128, bits = 64;
+    static constexpr std::size_t lines = 128, places = 128, bits = 64;
     template <class T>
-    using ByLine = std::array<T, mostLines>;
+    using ByLine = std::array<T, lines>;
 
     double alongLines(int corner, std::span<const PixelEdge> edges);
     template <class Cross>
-    void crossLines(const PixelEdge& edge, const Cross& cross) const;
+    static void crossLines(const PixelEdge& edge, const Cross& cross);
     int oddPlaces(int corner, std::span<const PixelEdge> edges);
     int woundPlaces(int corner, std::span<const PixelEdge> edges);
 
     scene::FillRule rule_{};
-    int lines_ = mostLines;
     std::vector<PixelEdge> edges_;  ///< the last one is the pixel's left side
     std::vector<Left> lefts_;
     std::array<ByLine<std::uint64_t>, places / bits + 1> odd_;  ///< a bit a place: where that changes
