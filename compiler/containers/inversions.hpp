@@ -11,6 +11,8 @@ namespace vtm::compiler {
 /// Whether there are more than `most`. Sorts the values, unless there are; `spare` keeps its memory.
 template <class T>
 bool hasMoreInversions(std::vector<T>& values, std::vector<T>& spare, std::size_t most) {
+    if (std::ranges::is_sorted(values))
+        return false;
     // Merge sort, which counts what it puts past others.
     const std::size_t count = values.size();
     spare.resize(count);
