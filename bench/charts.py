@@ -137,7 +137,8 @@ def draw_traps(traps):
     series = {name: [(row["n"], row["cpu ms"]) for row in traps["rows"] if row["family"] == name] for name in families}
     sizes = [row["n"] for row in traps["rows"]]
     bound = [(min(sizes), 4000), (max(sizes), 4000)]
-    lines = plot.Plot("Drawn once, 500 pixels wide", "shapes", "CPU ms", bound + [p for points in series.values() for p in points])
+    lines = plot.Plot("Drawn once, 500 pixels wide", "shapes", "CPU ms", bound + [p for points in series.values() for p in points],
+                      beside=90)
     lines.line(bound, plot.COLOURS[7], "4 4")
     for row, (name, points) in enumerate(series.items()):
         lines.line(points, plot.COLOURS[row])

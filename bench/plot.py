@@ -51,8 +51,9 @@ def ticks(low, high):
 class Plot:
     """Points on two logarithmic axes."""
 
-    def __init__(self, title, x_label, y_label, points):
-        """points: all that must be in view."""
+    def __init__(self, title, x_label, y_label, points, beside=0):
+        """points: all that must be in view. `beside`: how wide the notes are, if they stand right of the plot."""
+        self.beside = beside
         self.x = logarithmic([x for x, _ in points])
         self.y = logarithmic([y for _, y in points])
         self.parts = [text(WIDTH / 2, 18, title, "middle"), text(WIDTH / 2, HEIGHT - 10, x_label, "middle"),
@@ -92,11 +93,12 @@ class Plot:
             self.parts.append(text(x - 6 if near else x + 6, y + 13 if below else y - 4, label, "end" if near else "start", 9))
 
     def note(self, row, colour, words):
-        self.parts.append(rectangle(LEFT + 10, TOP + 6 + 16 * row, 10, 10, colour))
-        self.parts.append(text(LEFT + 26, TOP + 15 + 16 * row, words, size=11))
+        left = WIDTH - RIGHT if self.beside else LEFT
+        self.parts.append(rectangle(left + 10, TOP + 6 + 16 * row, 10, 10, colour))
+        self.parts.append(text(left + 26, TOP + 15 + 16 * row, words, size=11))
 
     def svg(self):
-        return svg(WIDTH, HEIGHT, self.parts)
+        return svg(WIDTH + self.beside, HEIGHT, self.parts)
 
 
 def strips(title, x_label, rows, mark=None, width=640):

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <vtm/limits/limits.hpp>
+#include "compiler/containers/inversions.hpp"
 #include "compiler/containers/small_sort.hpp"
 
 namespace vtm::compiler {
@@ -28,6 +29,9 @@ constexpr std::size_t manyOfOne = 1u << 15;
 /// next strip.
 constexpr std::size_t fewToBegin = 1u << 15;
 
+/// So many edges are tangled if each crosses two others within a row.
+constexpr std::size_t fewTangled = 1024;
+
 /// Where the line from a down to b is at y.
 float xBetween(glm::vec2 a, glm::vec2 b, float y) {
     return y >= b.y ? b.x : y <= a.y ? a.x : a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
@@ -39,6 +43,7 @@ BandSweep::BandSweep(const ViewChains& chains, RegionState& state, std::size_t l
     : chains_(chains),
       vertices_(chains.vertices()),
       state_(state),
+      outline_(chains, state, width),
       lines_(chains, state, width),
       windings_(layers) {}
 
@@ -61,8 +66,14 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     }
     if (onLines_ > fewToBegin && 2 * chains.size() > onLines_)
         return goOnLines(chains, top, bottom);
-    if (begins || onLines_ > 0 || chains_.areLeftOut())
+    if (begins || isPassedOver_ || onLines_ > 0 || chains_.areLeftOut())
         begin(chains.first(above), top);
+    const bool isTangled = this->isTangled(top);
+    if (isTangled && sorted_.size() > manyOfOne && lines_.isTangled(chains, top))
+        return goOnLines(chains, top, bottom);
+    isPassedOver_ = isTangled && outline_.draw(chains, top, bottom, chords);
+    if (isPassedOver_)
+        return leave(top);
     onLines_ = 0;
     toCome_ = chains.subspan(above);
     for (float y = top; y < bottom;) {
@@ -94,12 +105,28 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     moveState(0);
 }
 
+/// Whether many edges of those that are seen cross within a row.
+bool BandSweep::isTangled(float y) {
+    if (active_.size() < fewTangled)
+        return false;
+    sorted_.clear();
+    for (const Active* a : active_)
+        if (a->drawn[0] != a->drawn[1])
+            sorted_.push_back(a->xAt(y + 1));
+    return sorted_.size() >= fewTangled && hasMoreInversions(sorted_, merging_, sorted_.size());
+}
+
+/// Draws what comes from above.
+void BandSweep::leave(float y) {
+    for (const Active* a : active_)
+        draw(*a, a->from, y);
+    moveState(0);
+}
+
 /// Draws the rest of the band in level steps.
 void BandSweep::goOnLines(std::span<const std::uint32_t> chains, float top, float bottom) {
     if (onLines_ == 0) {
-        for (const Active* a : active_)
-            draw(*a, a->from, top);
-        moveState(0);
+        leave(top);
         onLines_ = chains.size();
     }
     lines_.run(chains, top, bottom, *chords_);

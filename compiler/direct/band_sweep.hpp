@@ -21,6 +21,7 @@
 
 #include "compiler/containers/min_tree.hpp"
 #include "compiler/direct/line_sweep.hpp"
+#include "compiler/direct/outline_rows.hpp"
 #include "compiler/direct/quiet_chains.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/view_chains.hpp"
@@ -106,6 +107,8 @@ private:
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
     bool slab(Slab slab);
+    bool isTangled(float y);
+    void leave(float y);
     void goOnLines(std::span<const std::uint32_t> chains, float top, float bottom);
     void look(Slab slab);
     Columns lookAt(Active& active, std::size_t number, float bottom);
@@ -170,7 +173,9 @@ private:
     std::size_t wouldTake_ = 0;   ///< before it was swept
     std::size_t stripSteps_ = 0;  ///< of looks and sweeps since it began anew
     float stripTop_ = 0;
+    OutlineRows outline_;
     LineSweep lines_;
+    bool isPassedOver_ = false;     ///< the last band, which `outline_` has drawn
     std::size_t onLines_ = 0;       ///< chains of the band that went on in level steps, if the last one did
     float height_ = 1;              ///< of slabs
     float thinnest_ = leastHeight;  ///< of slabs with as many chains as now
@@ -191,7 +196,7 @@ private:
     };
     std::vector<Winding> windings_;  ///< by layer
     std::uint64_t sweepNumber_ = 0, windowNumber_ = 0;
-    std::vector<float> sorted_, merging_;  ///< of areManyCrossings() and heights()
+    std::vector<float> sorted_, merging_;  ///< of isTangled(), areManyCrossings() and heights()
 
     // While the quiet chains of a window are set aside.
     QuietChains quiet_;

@@ -2,6 +2,8 @@
 /// The share of one pixel that is inside, where several parts of an outline pass through it and may cross.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,52 +17,63 @@ inline bool isInside(scene::FillRule rule, int winding) {
 }
 
 /// A straight part of an outline in a pixel's own coordinates, going up: y0 < y1. Right of it the winding
-/// number is greater by `change`. Parts of the same strand do not cross.
+/// number is greater by `change`. Where it comes from the pixel's left side, or leaves there, it is taken to
+/// go on along that side, from `low` or up to `high`.
 struct PixelEdge {
-    double x0, y0, y1;
+    double x0, y0, x1, y1;
     double across;  ///< dx / dy
-    int change, strand;
+    int change;
+    double low = y0, high = y1;
 
     double xAt(double y) const { return x0 + (y - y0) * across; }
 };
 
-/// From `y` up, the winding number at the pixel's left side is greater by `change`.
-struct PixelStep {
-    double y;
-    int change;
-};
-
 /// Keeps its memory from pixel to pixel.
 ///
-/// Between two heights at which something ends or crosses, edges are in one order, and what lies between two
-/// of them is a trapezoid: its width in the middle times its height. Of many edges the crossings are too many
-/// to be found pair by pair: the pixel is halved until few edges are left, or until a part is so low that the
-/// order in its middle stands for all of it.
+/// Few edges are solved exactly. The winding number on an edge's left changes where another one begins, ends
+/// or crosses it; between, the edge divides inside from outside or it does not, and the area on its right
+/// counts. Which of two edges is on the left is asked once for both, so that they agree.
+///
+/// Of many edges, winding numbers are taken at places along lines. These rise by the distance between them,
+/// and each has its places elsewhere: so all heights and all columns are met, whichever way edges go.
 class CrowdedPixel {
 public:
-    /// `corner`: the winding number just above the lower left corner.
-    double share(scene::FillRule rule, int corner, std::span<const PixelEdge> edges,
-                 std::span<const PixelStep> steps);
+    /// `corner`: the winding number left of all edges.
+    double share(scene::FillRule rule, int corner, std::span<const PixelEdge> edges);
 
 private:
-    struct Crossed {
-        double x;
+    struct Change {
+        double y;
         int change;
     };
+    /// The winding number on an edge's left, from its lower end on.
+    struct Left {
+        int winding;
+        std::vector<Change> changes;
+    };
 
-    double part(double low, double high, std::vector<PixelEdge>& edges, int depth);
-    double halves(double low, double high, const std::vector<PixelEdge>& edges, int depth);
-    double slabs(double low, double high, std::span<const PixelEdge> edges);
-    void cutAtCrossings(double low, double high, std::span<const PixelEdge> edges);
-    double width(double y, std::span<const PixelEdge> edges);
-    int leftWinding(double y) const;
+    double exact(int corner, std::span<const PixelEdge> edges);
+    void meet(std::size_t i, std::size_t k);
+    void addBeside(std::size_t edge, const PixelEdge& other);
+    void add(std::size_t edge, int change, double from, double to);
+    template <class Take>
+    void forEachPart(std::size_t edge, const Take& take);
+
+    static constexpr std::size_t lines = 128, places = 128, bits = 64;
+    template <class T>
+    using ByLine = std::array<T, lines>;
+
+    double alongLines(int corner, std::span<const PixelEdge> edges);
+    template <class Cross>
+    static void crossLines(const PixelEdge& edge, const Cross& cross);
+    int oddPlaces(int corner, std::span<const PixelEdge> edges);
+    int woundPlaces(int corner, std::span<const PixelEdge> edges);
 
     scene::FillRule rule_{};
-    int corner_ = 0;
-    int maxDepth_ = 0;
-    std::span<const PixelStep> steps_;
-    std::vector<double> heights_;
-    std::vector<Crossed> crossed_;
+    std::vector<PixelEdge> edges_;  ///< the last one is the pixel's left side
+    std::vector<Left> lefts_;
+    std::array<ByLine<std::uint64_t>, places / bits + 1> odd_;  ///< a bit a place: where that changes
+    std::array<ByLine<std::int16_t>, places + 1> wound_;        ///< the same of winding numbers
 };
 
 }  // namespace vtm::compiler

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <vtm/limits/limits.hpp>
+#include "compiler/containers/inversions.hpp"
 #include "compiler/containers/small_sort.hpp"
 
 namespace vtm::compiler {
@@ -330,36 +331,10 @@ bool BandSweep::crossWithoutQuiet(std::size_t first, std::size_t end, float y) {
 
 /// Whether more than `maxCrossings` a member.
 bool BandSweep::areManyCrossings(std::size_t first, std::size_t end) {
-    // Merge sort, which counts what it puts past others.
-    const std::size_t count = end - first;
-    sorted_.resize(count);
-    merging_.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
-        sorted_[i] = members_[first + i]->next;
-    std::size_t crossings = 0;
-    for (std::size_t width = 1; width < count; width *= 2) {
-        for (std::size_t from = 0; from < count; from += 2 * width) {
-            const std::size_t middle = std::min(from + width, count),
-                              stop = std::min(from + 2 * width, count);
-            std::size_t i = from, k = middle, to = from;
-            while (i < middle && k < stop)
-                if (sorted_[k] < sorted_[i]) {
-                    crossings += middle - i;
-                    merging_[to++] = sorted_[k++];
-                } else {
-                    merging_[to++] = sorted_[i++];
-                }
-            std::copy(sorted_.begin() + std::ptrdiff_t(i), sorted_.begin() + std::ptrdiff_t(middle),
-                      merging_.begin() + std::ptrdiff_t(to));
-            to += middle - i;
-            std::copy(sorted_.begin() + std::ptrdiff_t(k), sorted_.begin() + std::ptrdiff_t(stop),
-                      merging_.begin() + std::ptrdiff_t(to));
-        }
-        sorted_.swap(merging_);
-        if (crossings > maxCrossings * count)
-            return true;
-    }
-    return false;
+    sorted_.clear();
+    for (std::size_t i = first; i < end; ++i)
+        sorted_.push_back(members_[i]->next);
+    return hasMoreInversions(sorted_, merging_, maxCrossings * (end - first));
 }
 
 /// Through all crossings of some members. Each puts one pair into the order at y, so that their number is

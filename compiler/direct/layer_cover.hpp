@@ -9,9 +9,9 @@
 
 namespace vtm::compiler {
 
-/// What is laid under paints that let no more than this through is left out: less than a sixteenth of a step
+/// What is laid under paints that let no more than this through is left out: less than a quarter of a step
 /// of 8 bits.
-inline constexpr float unseen = 0x1p-12f;
+inline constexpr float unseen = 0x1p-10f;
 
 /// By layer, for all of its inside.
 struct LayerCover {

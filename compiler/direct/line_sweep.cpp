@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <vtm/limits/limits.hpp>
@@ -36,8 +37,8 @@ constexpr std::int32_t squaresInAPixel = 16;
 /// Where so many edges cross others in all columns but an eighth, lines are looked at instead of steps.
 constexpr std::uint32_t manyCrossed = 4;
 constexpr std::ptrdiff_t fewUntangled = 8;
-/// So many chains on the lines of a row, and at least so many lines.
-constexpr std::size_t cutsOnLines = 400'000, leastLines = 4;
+/// So many chains on the lines of a row, and at least so many lines; and so many places of a pixel on each.
+constexpr std::size_t cutsOnLines = 500'000, leastLines = 4, placesInAPixel = 64;
 
 /// Chains that meet a row, in the mean.
 double meanCutOf(const ViewChains& chains) {
@@ -618,9 +619,12 @@ void LineSweep::drawLines(float top, float bottom) {
     limits::check();
     const auto count = std::clamp(cutsOnLines / (cuts_.size() + 1), leastLines, mostSteps);
     const float height = (bottom - top) / float(count), most = float(width_);
-    crossings_.resize(std::max(crossings_.size(), count));
+    const std::size_t placesOnLine = std::size_t(width_) * placesInAPixel + 1;
+    places_.resize(std::max(places_.size(), count * placesOnLine));
+    // From line to line a place is moved by the golden section, since upright edges meet all of them alike.
+    std::array<float, mostSteps> ahead;
     for (std::size_t k = 0; k < count; ++k)
-        crossings_[k].clear();
+        ahead[k] = std::fmod(float(k) * std::numbers::phi_v<float>, 1.0f);
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
         fetchAhead(i, bottom);
         Cut& cut = cuts_[i];
@@ -631,61 +635,28 @@ void LineSweep::drawLines(float top, float bottom) {
             if (y < cut.a.y || y >= cut.edgeBottom)
                 continue;
             const float x = std::clamp(cut.a.x + (y - cut.a.y) * cut.slope, 0.0f, most);
-            crossings_[k].push_back(
-                {std::uint32_t(x * placesInAPixel) << 1 | (cut.winding > 0), 0.5f * height * cut.slope});
+            const auto place = std::min(std::size_t(x * placesInAPixel + ahead[k]), placesOnLine - 1);
+            places_[k * placesOnLine + place] += std::int16_t(cut.winding);
         }
     }
     for (std::size_t k = 0; k < count; ++k)
-        drawLine(crossings_[k], height);
+        addLine(&places_[k * placesOnLine], height);
     finishRow(top, bottom);
 }
 
-void LineSweep::drawLine(std::vector<Crossing>& crossings, float height) {
-    sortByDigits(crossings, spareCrossings_);
+/// What is inside along a line, whose places are cleared.
+void LineSweep::addLine(std::int16_t* places, float height) {
     const std::int32_t mask = isEvenOdd_ ? 1 : -1;
-    std::int32_t winding = 0;
-    Crossing last;
-    bool isCrossed = false, isInside = false, isFirst = true;
-    const auto addLast = [&] {
-        const float x = last.x(), half = isCrossed ? 0 : last.half;
-        addAlong(shares_, x - half, x + half, isInside ? height : -height);
-    };
-    for (const Crossing& crossing : crossings) {
-        winding += (crossing.place & 1) != 0 ? 1 : -1;
-        if (((winding & mask) != 0) == isInside)
-            continue;
-        const bool crosses = !isFirst && crossing.x() - last.x() < std::abs(crossing.half - last.half);
-        isCrossed = isCrossed || crosses;
-        if (!isFirst)
-            addLast();
-        isFirst = false;
-        isInside = !isInside;
-        last = crossing;
-        isCrossed = crosses;
+    std::int32_t winding = 0, before = 0;
+    for (std::size_t column = 0; column < std::size_t(width_); ++column) {
+        std::int32_t inside = 0;
+        for (std::size_t i = 0; i < placesInAPixel; ++i) {
+            winding += std::exchange(places[column * placesInAPixel + i], std::int16_t{0});
+            inside += (winding & mask) != 0;
+        }
+        shares_[column] += height / placesInAPixel * float(inside - std::exchange(before, inside));
     }
-    if (!isFirst)
-        addLast();
-}
-
-/// By digits of the place, from the lowest one on.
-void LineSweep::sortByDigits(std::vector<Crossing>& crossings, std::vector<Crossing>& spare) {
-    constexpr unsigned bits = 11;
-    constexpr std::uint32_t mask = (1u << bits) - 1;
-    std::uint32_t most = 0;
-    for (const Crossing& c : crossings)
-        most = std::max(most, c.place);
-    for (unsigned shift = 0; shift < 32 && most >> shift != 0; shift += bits) {
-        std::array<std::uint32_t, mask + 1> firsts{};
-        for (const Crossing& c : crossings)
-            ++firsts[c.place >> shift & mask];
-        std::uint32_t first = 0;
-        for (std::uint32_t& f : firsts)
-            first += std::exchange(f, first);
-        spare.resize(crossings.size());
-        for (const Crossing& c : crossings)
-            spare[firsts[c.place >> shift & mask]++] = c;
-        crossings.swap(spare);
-    }
+    places[std::size_t(width_) * placesInAPixel] = 0;
 }
 
 /// An edge covers what it covers; but where edges cross, what each does is right in the middle of the step

@@ -97,15 +97,6 @@ private:
         bool crosses(const Seen& next) const { return seen->from > next.from || seen->to > next.to; }
     };
 
-    /// An edge on a line.
-    static constexpr float placesInAPixel = 1024;
-    struct Crossing {
-        std::uint32_t place = 0;  ///< doubled, and whether it is wound to the right
-        float half = 0;           ///< of what it reaches, for the height that the line stands for
-
-        float x() const { return float(place >> 1) * (1 / placesInAPixel); }
-    };
-
     void begin(std::span<const std::uint32_t> numbers);
     void lookInside(const DownChain& chain);
     void row(float top, float bottom);
@@ -132,8 +123,7 @@ private:
     void crossOutline(std::span<const Seen> chains, const Take& take);
     void judge();
     void drawLines(float top, float bottom);
-    void drawLine(std::vector<Crossing>& crossings, float height);
-    static void sortByDigits(std::vector<Crossing>& crossings, std::vector<Crossing>& spare);
+    void addLine(std::int16_t* places, float height);
     void add(const PaintChange& change, const Step& step);
     template <class Amount>
     static void addAlong(std::vector<Amount>& sums, float from, float to, const Amount& amount);
@@ -170,11 +160,10 @@ private:
     std::vector<float> shares_;    ///< the same of one layer's inside
     std::int32_t winding_ = 0;     ///< of one layer
     bool isJudged_ = false, isTangled_ = false;
-    std::vector<std::vector<Crossing>> crossings_;  ///< by line
-    std::vector<Crossing> spareCrossings_;
-    float drawn_ = 0;              ///< of the row
-    std::size_t smallSteps_ = 0;   ///< chains in smaller steps that may still be taken: by the step
-    std::size_t smallInBand_ = 0;  ///< and by the rest of the band
+    std::vector<std::int16_t> places_;  ///< of lines: what is added to the winding number there
+    float drawn_ = 0;                   ///< of the row
+    std::size_t smallSteps_ = 0;        ///< chains in smaller steps that may still be taken: by the step
+    std::size_t smallInBand_ = 0;       ///< and by the rest of the band
 
     // Which layers show.
     bool hides_ = false;  ///< in the row

@@ -310,6 +310,7 @@ void ViewChains::append(const std::vector<ViewChains>& parts) {
 }
 
 void ViewChains::findBands(int height) {
+    height_ = height;
     const auto bandCount = std::size_t((height + bandRows - 1) / bandRows);
     const auto bandOf = [&](float y) {
         return std::size_t(std::clamp(int(y) / bandRows, 0, int(bandCount) - 1));

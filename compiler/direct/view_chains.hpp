@@ -33,6 +33,7 @@ public:
     /// The picture is lowered on `lattice`; the view maps the picture's units to pixels.
     ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view);
 
+    int height() const { return height_; }  ///< of the view
     int bands() const { return int(firsts_.size()) - 1; }
     /// How many there are, summed over the bands.
     std::size_t inBands() const { return numbers_.size(); }
@@ -75,6 +76,7 @@ private:
     template <class BandOf>
     std::vector<std::uint64_t> sortedByTop(std::size_t bandCount, const BandOf& bandOf) const;
 
+    int height_ = 0;
     std::vector<glm::vec2> vertices_;
     std::vector<DownChain> chains_;
     std::vector<std::uint32_t> firsts_, numbers_;

@@ -15,11 +15,10 @@ using geometry::EllipticalArc;
 using scene::Affine;
 using scene::Point;
 
-/// 32nds of a turn as cubics, or less: relative error of the radius 2/27 (sin⁶(θ/4) / cos²(θ/4)), which is
-/// 1.1e-9 at θ = π/16 and falls with the sixth power of θ at least.
-constexpr double cubicArcAngle = std::numbers::pi / 16, cubicArcError = 1.1e-9;
+/// Arcs are cut into cubics that turn by this much, if there is no tolerance.
+constexpr double usualArcAngle = std::numbers::pi / 16;
 /// Arcs so much finer are near the limit of double precision.
-constexpr double finestArcAngle = cubicArcAngle / 64;
+constexpr double finestArcAngle = usualArcAngle / 64;
 
 /// Walks the commands with the current point in path space.
 class Walker {
@@ -67,12 +66,11 @@ private:
     }
 
     double partAngle(const EllipticalArc& mappedArc) const {
+        if (std::isinf(arcTolerance_))
+            return usualArcAngle;
         const double radius = std::sqrt(glm::dot(mappedArc.axisX, mappedArc.axisX) +
                                         glm::dot(mappedArc.axisY, mappedArc.axisY));
-        const double error = cubicArcError * radius;
-        if (!(error > arcTolerance_))
-            return cubicArcAngle;
-        return std::max(finestArcAngle, cubicArcAngle * std::pow(arcTolerance_ / error, 1.0 / 6));
+        return std::max(finestArcAngle, geometry::cubicArcAngle(radius, arcTolerance_));
     }
 
     void arc(const scene::ArcTo& c) {

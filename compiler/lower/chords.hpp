@@ -34,8 +34,8 @@ inline constexpr double farAway = 1e100;
 scene::Affine withoutFarAway(scene::Affine map);
 
 /// Walks `path` under `map`; open subpaths are closed by a line. Quadratics are raised to cubics,
-/// exactly; elliptical arcs become cubics of a 32nd of a turn at most, within 1.1e-9 of their radius and
-/// within `arcTolerance` under the map.
+/// exactly; elliptical arcs become cubics within `arcTolerance` under the map, or of a 32nd of a turn if that
+/// is infinite, within 1.1e-9 of their radius.
 void walkCurves(const scene::Path& path, const scene::Affine& map, CurveSink& sink,
                 double arcTolerance = std::numeric_limits<double>::infinity());
 

@@ -61,6 +61,8 @@ public:
             ahead_.emplace(scene.root, excerpt.fromScene, [this](Outlines& to, const OutlineOrigin& origin) {
                 return appendOutline(to, origin);
             });
+        if (ahead_ && budget_.mostChords() < maxChords && ahead_->leastPoints() > budget_.mostChords())
+            throwTooManyChords();
         group(scene.root, excerpt.fromScene, openGroup(0));
     }
 
@@ -454,10 +456,14 @@ private:
         return compose(lattice_.toSteps(), origin.transform);
     }
 
+    std::size_t mostChords() const { return std::min(maxChords, budget_.mostChords()); }
+    [[noreturn]] void throwTooManyChords() const {
+        throw LimitError(fmt::format("the picture's outlines have more than {} chords", mostChords()));
+    }
+
     void checkLimits() const {
-        const std::size_t most = std::min(maxChords, budget_.mostChords());
-        if (picture_.outlines.points.size() > most)
-            throw LimitError("the picture's outlines have more than " + std::to_string(most) + " chords");
+        if (picture_.outlines.points.size() > mostChords())
+            throwTooManyChords();
         if (picture_.layers.size() >= maxLayers)
             throw LimitError("the picture has more than " + std::to_string(maxLayers) + " layers");
     }

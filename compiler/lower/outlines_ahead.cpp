@@ -37,9 +37,28 @@ bool mayShare(const scene::Item& fill, const scene::Node* above) {
 }  // namespace
 
 OutlinesAhead::OutlinesAhead(const scene::Group& root, const scene::Affine& outer, Make make)
-    : outer_(outer), make_(std::move(make)) {
-    if (tbb::this_task_arena::max_concurrency() > 1)
-        collect(root);
+    : outer_(outer), make_(std::move(make)), isParallel_(tbb::this_task_arena::max_concurrency() > 1) {
+    collect(root);
+}
+
+std::size_t OutlinesAhead::leastPoints() const {
+    constexpr std::size_t asked = 64, few = 64 * asked;
+    if (items_.size() < few)
+        return 0;
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i < asked; ++i) {
+        Outlines outlines;
+        try {
+            make_(outlines, originOf(*items_[i * items_.size() / asked]));
+        } catch (const LimitError&) {
+            outlines.points.clear();
+        }
+        points.push_back(outlines.points.size());
+    }
+    // Half of them have no fewer than the median.
+    const auto median = points.begin() + asked / 2;
+    std::ranges::nth_element(points, median);
+    return *median * (items_.size() / 2);
 }
 
 void OutlinesAhead::collect(const scene::Group& group) {
@@ -75,6 +94,8 @@ bool OutlinesAhead::matches(std::size_t item, const OutlineOrigin& origin) const
 
 std::optional<OutlinesAhead::Made> OutlinesAhead::take(const OutlineOrigin& origin) {
     constexpr std::size_t maxPassedOver = 32;
+    if (!isParallel_)
+        return std::nullopt;
     const std::size_t last = std::min(next_ + maxPassedOver, items_.size());
     for (std::size_t i = next_; i < last; ++i) {
         if (!matches(i, origin))

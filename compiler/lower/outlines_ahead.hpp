@@ -35,6 +35,9 @@ public:
     /// Nothing if it was not made. Valid until the next call.
     std::optional<Made> take(const OutlineOrigin& origin);
 
+    /// How many points all outlines have, at least, as far as some of them tell; 0 where items are few.
+    std::size_t leastPoints() const;
+
 private:
     struct Chunk {
         std::size_t first = 0, end = 0;  ///< of items_
@@ -49,6 +52,7 @@ private:
 
     const scene::Affine outer_;
     const Make make_;
+    const bool isParallel_;
     std::vector<const scene::Item*> items_;  ///< in the walk's order
     std::size_t next_ = 0;                   ///< of items_: the one to be asked for next
     std::size_t first_ = 0, end_ = 0;        ///< of items_: those that were made last

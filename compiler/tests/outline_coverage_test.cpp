@@ -153,6 +153,12 @@ TEST_F(OutlineCoverage, OnTheGrid) {
             expectThatOfTheMap(scene::rectangle({at, at}, Point(at) + size), "a rectangle");
 }
 
+// More edges in a pixel than are solved pair by pair.
+TEST_F(OutlineCoverage, Crowded) {
+    for (int i = 0; i < 5; ++i)
+        expectThatOfTheMap(lines(1, 100 << i / 2, 20, 28), "crowded, " + std::to_string(i));
+}
+
 // The same contour there and back, twice, thrice: nothing, or all.
 TEST_F(OutlineCoverage, Coincident) {
     for (int i = 0; i < 20; ++i) {

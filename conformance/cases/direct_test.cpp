@@ -197,6 +197,24 @@ TEST(DrawnOnce, TangledPicturesAreNearTheMeansOfLargerOnes) {
               deviations * 255 * 0.5 / std::sqrt(edges * lines));
 }
 
+/// Pixel by pixel where no other edge is seen; crossing by crossing, or in level steps, beside a rectangle's.
+TEST(DrawnOnce, TangledPicturesAreTheSameBesideAnEdge) {
+    const auto drawn = [](double width, const char* rule) {
+        const scene::Scene scene =
+            sceneOf(fmt::format("<rect width=\"{}\" height=\"64\" fill=\"#fe8\"/>", width) +
+                    crossingLines(4000, rule));
+        return compiler::ViewDrawing::make(scene, wholePicture(scene, 64))->draw();
+    };
+    for (const char* rule : {"evenodd", "nonzero"}) {
+        const image::Raster alone = drawn(64, rule), beside = drawn(63.5, rule);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 63; ++x)
+                for (int c = 0; c < 4; ++c)
+                    ASSERT_NEAR(alone.pixel(x, y)[c], beside.pixel(x, y)[c], mostApart / 255)
+                        << rule << ", " << x << ", " << y;
+    }
+}
+
 std::string starOf(int points) {
     std::string path = "<path fill=\"#408020\" d=\"M32,1";
     for (int i = 1; i < points; ++i) {
