@@ -42,11 +42,6 @@ inline int maxFinerGap(std::size_t chords) {
     return int(std::max(leastGap, chords / chordsOfColumn));
 }
 
-/// Where so many of a band's finer pixels are rough again, and most of those that are asked for, it is no
-/// line or point at which a paint changes: the paint goes up and down within each, and the sixteen means of a
-/// pixel are enough.
-inline constexpr std::size_t manyRoughAgain = 1u << 10;
-
 /// Pixels first to end - 1 of rows top to bottom - 1 of a band.
 struct BandBox {
     int first, end, top, bottom;
@@ -247,9 +242,6 @@ private:
 
     void drawFiner(int band) {
         std::vector<BandPixel>& rough = scratch_.programs.rough();
-        if (programs_.wanted && rough.size() > manyRoughAgain &&
-            rough.size() > 3 * programs_.wanted->countIn(band * bandRows, bandRows) / 4)
-            return;
         std::ranges::sort(rough, {}, &BandPixel::x);
         std::vector<std::pair<BandPixel, Float4>> colors;
         auto next = rough.begin();

@@ -35,14 +35,6 @@ public:
 
     /// A coarser pixel.
     void add(int x, int y) { isWanted_[at(x, y)] = true; }
-    /// Of the finer pixels in so many rows, which are whole coarser ones.
-    std::size_t countIn(int firstRow, int rows) const {
-        const std::size_t first = at(0, firstRow / finerSide),
-                          end = std::min(at(0, (firstRow + rows) / finerSide), isWanted_.size());
-        return std::size_t(finerSide * finerSide) *
-               std::size_t(std::count(isWanted_.begin() + std::ptrdiff_t(first),
-                                      isWanted_.begin() + std::ptrdiff_t(end), 1));
-    }
     /// Calls visit(first, end) for those of the finer pixels first to end - 1 of a row.
     template <class Visit>
     void forEachRun(int row, int first, int end, Visit&& visit) const {

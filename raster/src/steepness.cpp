@@ -30,7 +30,8 @@ constexpr double minCircleGap = 0.1;
 /// The largest singular value.
 double stretchOf(const glm::dmat2& m) {
     const double x = glm::dot(m[0], m[0]), y = glm::dot(m[1], m[1]);
-    return std::sqrt(0.5 * (x + y) + std::hypot(0.5 * (x - y), glm::dot(m[0], m[1])));
+    const double half = 0.5 * (x - y), both = glm::dot(m[0], m[1]);
+    return std::sqrt(0.5 * (x + y) + std::sqrt(half * half + both * both));
 }
 
 /// What premultiplied channels change by, at most, while straight colours go from one to another.
