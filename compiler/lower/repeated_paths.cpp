@@ -11,7 +11,7 @@ namespace {
 /// A fill and the stroke of its outline hold a path, and who made the scene.
 constexpr long fewPlaces = 3;
 /// No more are kept.
-constexpr std::size_t manyPoints = 1u << 20;
+constexpr std::size_t mostKeptPoints = 1u << 20;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ std::shared_ptr<const FlatContours> RepeatedPaths::contoursOf(const Key& key) {
     auto made = std::make_shared<const FlatContours>(
         flatten(*key.path, {key.linear[0], key.linear[1], {0, 0}}, tolerance_));
     const std::lock_guard lock(mutex_);
-    if (points_ + made->points.size() <= manyPoints && known_.emplace(key, made).second)
+    if (points_ + made->points.size() <= mostKeptPoints && known_.emplace(key, made).second)
         points_ += made->points.size();
     return made;
 }
