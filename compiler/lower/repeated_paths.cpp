@@ -1,6 +1,5 @@
 #include "compiler/lower/repeated_paths.hpp"
 
-#include <bit>
 #include <cstdint>
 
 #include "compiler/containers/hash.hpp"
@@ -19,7 +18,7 @@ std::size_t RepeatedPaths::Hash::operator()(const Key& key) const {
     std::uint64_t hash = reinterpret_cast<std::uintptr_t>(key.path);
     for (int column = 0; column < 2; ++column)
         for (int row = 0; row < 2; ++row)
-            hash = hashCombine(hash, std::bit_cast<std::uint64_t>(key.linear[column][row] + 0.0));  // -0 is 0
+            hash = hashCombine(hash, bits(key.linear[column][row] + 0.0));  // -0 is 0
     return hash;
 }
 
