@@ -83,10 +83,6 @@ Spot conePixel(const Root& root, vec2 d, const glm::mat2& sides) {
 /// focus itself there is no slope.
 constexpr float besideFocus = 1e-3f;
 
-struct PixelRange {
-    std::size_t first, end;
-};
-
 /// Pixels in a radial gradient's space.
 struct RadialPixels {
     glm::mat2 sides;
@@ -131,19 +127,6 @@ struct RadialRow : RadialPixels {
           change(linearOf(gradient) * step) {}
 
     vec2 fromFocus(std::size_t i) const { return first + float(i) * change; }
-
-    /// Which of `count` pixels are not far from the tip.
-    PixelRange nearTip(std::size_t count) const {
-        const float steps = glm::dot(change, change),
-                    middle = steps > 0 ? -glm::dot(first, change) / steps : 0;
-        const vec2 d = first + middle * change;
-        const float rest = farSquared() - glm::dot(d, d);
-        if (!(rest >= 0))
-            return {0, 0};
-        const float half = steps > 0 ? std::sqrt(rest / steps) : 0, maximum = float(count);
-        return {std::size_t(std::clamp(std::floor(middle - half), 0.0f, maximum)),
-                std::size_t(std::clamp(std::ceil(middle + half) + 1, 0.0f, maximum))};
-    }
 };
 
 using Numbers = std::array<float, longestRow>;
@@ -154,34 +137,6 @@ struct Middles {
     Numbers x, y;
     std::size_t count;
 };
-
-/// radialOffset() in circles that lie within each other: u = b + sqrt(b² + c), each of its numbers divided
-/// by a.
-struct NestedCircles {
-    vec2 f;
-    float fr, a, inverse;
-
-    explicit NestedCircles(const RadialPixels& pixels)
-        : f(pixels.focus), fr(pixels.fr), a((1 - fr) * (1 - fr) - glm::dot(f, f)), inverse(1 / a) {}
-
-    float b(float x, float y) const { return (x * f.x + y * f.y - fr * (1 - fr)) * inverse; }
-    float root(float b, float squared) const {
-        return std::sqrt(std::max(b * b + (squared - fr * fr) * inverse, 0.0f));
-    }
-};
-
-/// Along the row b and the discriminant are polynomials of the step.
-void nestedOffsets(const NestedCircles& circles, const RadialRow& row, std::span<float> offsets) {
-    const vec2 d = row.first, change = row.change;
-    const float b0 = circles.b(d.x, d.y), b1 = glm::dot(change, circles.f) * circles.inverse;
-    const float c0 = (glm::dot(d, d) - circles.fr * circles.fr) * circles.inverse,
-                c1 = glm::dot(d, change) * circles.inverse, c2 = glm::dot(change, change) * circles.inverse;
-    const float s0 = b0 * b0 + c0, s1 = 2 * (b0 * b1 + c1), s2 = b1 * b1 + c2;
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const float t = float(int(i));
-        offsets[i] = b0 + t * b1 + std::sqrt(std::max(s0 + t * (s1 + t * s2), 0.0f));
-    }
-}
 
 /// As RadialPixels::color() sees pixels: u, and what the sides change it by.
 struct Spots {
@@ -260,6 +215,32 @@ std::optional<Float4> fillLinear(const GradientView& view, std::span<float> plac
 
 }  // namespace
 
+/// radialOffset(), each of its numbers divided by a: u = b + sqrt(b² + c).
+NestedCircles::NestedCircles(vec2 focus, float focalRadius)
+    : f(focus), fr(focalRadius), a((1 - fr) * (1 - fr) - glm::dot(f, f)), inverse(1 / a) {}
+
+void NestedCircles::rowOffsets(vec2 first, vec2 change, std::span<float> offsets) const {
+    const float b0 = b(first.x, first.y), b1 = glm::dot(change, f) * inverse;
+    const float c0 = (glm::dot(first, first) - fr * fr) * inverse, c1 = glm::dot(first, change) * inverse,
+                c2 = glm::dot(change, change) * inverse;
+    const float s0 = b0 * b0 + c0, s1 = 2 * (b0 * b1 + c1), s2 = b1 * b1 + c2;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const float t = float(int(i));
+        offsets[i] = b0 + t * b1 + std::sqrt(std::max(s0 + t * (s1 + t * s2), 0.0f));
+    }
+}
+
+PixelRange nearOrigin(vec2 first, vec2 change, float squared, std::size_t count) {
+    const float steps = glm::dot(change, change), middle = steps > 0 ? -glm::dot(first, change) / steps : 0;
+    const vec2 d = first + middle * change;
+    const float rest = squared - glm::dot(d, d);
+    if (!(rest >= 0))
+        return {0, 0};
+    const float half = steps > 0 ? std::sqrt(rest / steps) : 0, maximum = float(count);
+    return {std::size_t(std::clamp(std::floor(middle - half), 0.0f, maximum)),
+            std::size_t(std::clamp(std::ceil(middle + half) + 1, 0.0f, maximum))};
+}
+
 std::optional<Float4> linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,
                                    std::span<Float4> colors) {
     const std::array<float, 6>& m = view.gradient().matrix;
@@ -296,7 +277,7 @@ public:
         : pixels_(pixels),
           spread_(view.gradient().spread),
           gap_(1 - pixels.fr - glm::length(pixels.focus)),
-          circles_(pixels),
+          circles_(pixels.focus, pixels.fr),
           ramp_(view) {}
 
     bool isNested() const { return gap_ >= minGap; }
@@ -339,7 +320,7 @@ std::optional<Float4> radialColors(const GradientView& view, vec2 point, vec2 st
             colors[i] = fill.color(row.fromFocus(i));
         return {};
     }
-    const PixelRange near = row.nearTip(count);
+    const PixelRange near = nearOrigin(row.first, row.change, row.farSquared(), count);
     Numbers offsets;
     const std::span<float> places = std::span(offsets).first(count);
     const auto fillFar = [&](std::size_t first, std::size_t end) {
@@ -363,7 +344,7 @@ std::optional<Float4> radialColors(const GradientView& view, vec2 point, vec2 st
             return color;
         put(near.first, near.end, color);
     }
-    nestedOffsets(fill.circles(), row, places);
+    fill.circles().rowOffsets(row.first, row.change, places);
     if (near.first == near.end)
         return fillFar(0, count);
     put(0, near.first, fillFar(0, near.first));

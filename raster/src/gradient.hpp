@@ -2,6 +2,9 @@
 /// Gradients of paint programs; twin of backend_gl/shaders/shared/gradient.glsl.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -29,6 +32,29 @@ inline constexpr float minGap = 0.1f;
 /// Eight pixels from the tip of a radial gradient, whose square this is, the mean of u over a pixel is that
 /// in the middle but for less than a 380th of what a pixel does.
 inline constexpr float farFromTip = 64;
+
+/// Circles that lie within each other; points are counted from the focus.
+struct NestedCircles {
+    glm::vec2 f{0};
+    float fr = 0, a = 1, inverse = 1;
+
+    NestedCircles() = default;
+    NestedCircles(glm::vec2 focus, float focalRadius);
+
+    /// u = b + root.
+    float b(float x, float y) const { return (x * f.x + y * f.y - fr * (1 - fr)) * inverse; }
+    float root(float b, float squared) const {
+        return std::sqrt(std::max(b * b + (squared - fr * fr) * inverse, 0.0f));
+    }
+    /// u at first, first + change and so on: b and what is under the root are polynomials of the step.
+    void rowOffsets(glm::vec2 first, glm::vec2 change, std::span<float> offsets) const;
+};
+
+struct PixelRange {
+    std::size_t first, end;
+};
+/// Which of `count` points, first, first + change and so on, may be no further from 0 than that, squared.
+PixelRange nearOrigin(glm::vec2 first, glm::vec2 change, float squared, std::size_t count);
 
 /// Premultiplied mean colours over up to longestRow pixels, one after the other: the middle of the first one
 /// is a picture point, a step leads to the next one's, and their sides are `pixel`; 0: the colours at the

@@ -81,28 +81,16 @@ void RowGradient::Segment::fill(Offsets offsets, std::span<Float4> colors) const
             colors[i] = color + (offsets[i] - start) * slope;
 }
 
-RowGradient::Range RowGradient::radialOffsets(Pixel first, std::span<float> offsets) const {
+PixelRange RowGradient::radialOffsets(Pixel first, std::span<float> offsets) const {
     const vec2 d = radial_.fromFocus(first), change(radial_.right);
-    const float steps = glm::dot(change, change), along = glm::dot(d, change), squared = glm::dot(d, d);
-    // u = b + sqrt(b² + c), of which both are polynomials of the step (gradient.cpp).
-    const float inverse = radial_.inverse, b0 = radial_.b(d), b1 = glm::dot(change, radial_.f) * inverse;
-    const float s0 = b0 * b0 + radial_.c(squared), s1 = 2 * (b0 * b1 + along * inverse),
-                s2 = b1 * b1 + steps * inverse;
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const float t = float(int(i));
-        offsets[i] = b0 + t * b1 + std::sqrt(std::max(s0 + t * (s1 + t * s2), 0.0f));
-    }
-    const float nearest = -along / steps, rest = radial_.nearSquared - squared - nearest * along;
-    if (!(rest >= 0))
-        return {0, 0};
-    const float half = std::sqrt(rest / steps), maximum = float(offsets.size());
-    return {std::size_t(std::clamp(std::floor(nearest - half), 0.0f, maximum)),
-            std::size_t(std::clamp(std::ceil(nearest + half) + 1, 0.0f, maximum))};
+    radial_.circles.rowOffsets(d, change, offsets);
+    return nearOrigin(d, change, radial_.nearSquared, offsets.size());
 }
 
 float RowGradient::radialWidth(Pixel pixel, float u) const {
     const vec2 d = radial_.fromFocus(pixel);
-    const vec2 slope = (u * radial_.f + d) * (radial_.inverse / std::max(u - radial_.b(d), 1e-6f));
+    const NestedCircles& circles = radial_.circles;
+    const vec2 slope = (u * circles.f + d) * (circles.inverse / std::max(u - circles.b(d.x, d.y), 1e-6f));
     return evenWidth * std::hypot(glm::dot(slope, vec2(radial_.right)), glm::dot(slope, vec2(radial_.down)));
 }
 
@@ -148,7 +136,7 @@ RowGradient::Blur RowGradient::prepareRadial(const Gradient& gradient, const Pix
         return {unbounded, 0, 0, 0, 0};
     const glm::dmat2 linear(m[0], m[1], m[2], m[3]);
     const dvec2 first = linear * pixels.first + dvec2(m[4], m[5]) - dvec2(f);
-    radial_ = {first, linear * pixels.right, linear * pixels.down, f, gradient.fr, 0, 0, 0};
+    radial_ = {first, linear * pixels.right, linear * pixels.down, {f, gradient.fr}, 0, 0};
     const vec2 right(radial_.right), down(radial_.down);
     const float squares = glm::dot(right, right) + glm::dot(down, down);
     const float area = std::abs(right.x * down.y - right.y * down.x);
@@ -156,7 +144,6 @@ RowGradient::Blur RowGradient::prepareRadial(const Gradient& gradient, const Pix
     const float longest =
         std::sqrt(0.5f * (squares + std::sqrt(std::max(squares * squares - 4 * area * area, 0.0f))));
     const float most = longest / gap, least = longest > 0 ? area / longest / (grow + offCentre) : 0;
-    radial_.inverse = 1 / (grow * grow - glm::dot(f, f));
     radial_.nearSquared = farFromTip * squares;
     radial_.pixel = longest;
     return {0.5f * (glm::length(right) + glm::length(down)) / gap, most, evenWidth * most,

@@ -55,8 +55,8 @@ public:
             const float squared = glm::dot(d, d);
             if (squared <= radial_.nearSquared)
                 return false;
-            const float b = radial_.b(d);
-            u = b + std::sqrt(std::max(b * b + radial_.c(squared), 0.0f));
+            const float b = radial_.circles.b(d.x, d.y);
+            u = b + radial_.circles.root(b, squared);
         } else {
             u = linear_.at(pixel);
         }
@@ -135,10 +135,6 @@ private:
         void fill(const Steps& steps, std::span<Float4> colors) const;
         void fill(Offsets offsets, std::span<Float4> colors) const;
     };
-    struct Range {
-        std::size_t first, end;
-    };
-
     template <class Visit>
     void visitLinear(Pixel first, std::size_t count, Visit&& visit) {
         for (std::size_t i = 0; i < count;) {
@@ -153,7 +149,7 @@ private:
     void visitRadial(Pixel first, std::size_t count, Visit&& visit, Others&& others) {
         std::array<float, longestRow> memory;
         const std::span<float> offsets = std::span(memory).first(count);
-        const Range near = radialOffsets(first, offsets);
+        const PixelRange near = radialOffsets(first, offsets);
         const auto visitFar = [&](std::size_t i, std::size_t end) {
             while (i < end) {
                 const Segment& segment = find(offsets[i]);
@@ -169,7 +165,7 @@ private:
     }
 
     /// Returns those pixels that are so near the tip that the mean of u over them is another one.
-    Range radialOffsets(Pixel first, std::span<float> offsets) const;
+    PixelRange radialOffsets(Pixel first, std::span<float> offsets) const;
     /// Over how much u is spread to both sides in a pixel, in whose middle it is `u`.
     float widthAt(Pixel pixel, float u) const { return isRadial_ ? radialWidth(pixel, u) : linear_.width; }
     float radialWidth(Pixel pixel, float u) const;
@@ -190,12 +186,10 @@ private:
     /// Circles that lie within each other: u = b + sqrt(b² + c) (gradient.cpp).
     struct Radial {
         glm::dvec2 first, right, down;  ///< of pixels, from the focus
-        glm::vec2 f;
-        float fr, inverse, nearSquared, pixel;
+        NestedCircles circles;
+        float nearSquared, pixel;
 
         glm::vec2 fromFocus(Pixel at) const { return first + double(at.x) * right + double(at.row) * down; }
-        float b(glm::vec2 d) const { return (glm::dot(d, f) - fr * (1 - fr)) * inverse; }
-        float c(float squared) const { return (squared - fr * fr) * inverse; }
     };
     /// How u is spread over a pixel; largest values.
     struct Blur {
