@@ -18,7 +18,6 @@
 
 #include <vtm/limits/limits.hpp>
 #include "raster/src/placed_chords.hpp"
-#include "raster/src/rough.hpp"
 #include "raster/src/row_sums.hpp"
 #include "raster/src/scan_programs.hpp"
 #include "raster/src/scanned.hpp"
@@ -32,75 +31,14 @@ struct RowScratch {
     Accumulator<Wholes<Float4>> colors;
     BandPrograms programs;
     PlacedChordsByMap placed;
-    std::unique_ptr<RowScratch> finer;  ///< for what is drawn finer
-};
-
-/// Rough pixels of a band are drawn together across gaps of fewer columns: each box takes all chords of the
-/// band, and a column of a gap about as long as so many of them.
-inline int maxFinerGap(std::size_t chords) {
-    constexpr std::size_t leastGap = 4, chordsOfColumn = 10;
-    return int(std::max(leastGap, chords / chordsOfColumn));
-}
-
-/// Pixels first to end - 1 of rows top to bottom - 1 of a band.
-struct BandBox {
-    int first, end, top, bottom;
-
-    int width() const { return end - first; }
-    int height() const { return bottom - top; }
-};
-
-/// Boxes around all of the pixels, which are sorted by column, disjoint and from left to right.
-inline std::vector<BandBox> boxesAround(std::span<const BandPixel> pixels, int maxGap) {
-    std::vector<BandBox> boxes;
-    for (const BandPixel& p : pixels) {
-        if (boxes.empty() || p.x >= boxes.back().end + maxGap)
-            boxes.push_back({p.x, p.x + 1, p.row, p.row + 1});
-        BandBox& box = boxes.back();
-        box = {box.first, p.x + 1, std::min(box.top, p.row), std::max(box.bottom, p.row + 1)};
-    }
-    return boxes;
-}
-
-/// Adds up colours that are finer: the mean over each pixel of a box.
-class MeanStore {
-public:
-    explicit MeanStore(const BandBox& box)
-        : box_(box), means_(std::size_t(box.width()) * std::size_t(box.height())) {}
-
-    void operator()(int row, int first, int end, Float4 color) {
-        while (first < end) {
-            const int next = std::min(end, (first / finerSide + 1) * finerSide);
-            mean(first / finerSide, row / finerSide) += float(next - first) * share * color;
-            first = next;
-        }
-    }
-    void operator()(int row, int first, std::span<const Float4> colors) {
-        for (const Float4& color : colors)
-            mean(first++ / finerSide, row / finerSide) += share * color;
-    }
-    /// In the band.
-    Float4 at(const BandPixel& p) { return mean(p.x - box_.first, p.row - box_.top); }
-
-private:
-    static constexpr float share = 1.0f / (finerSide * finerSide);
-
-    Float4& mean(int x, int y) { return means_[std::size_t(y) * std::size_t(box_.width()) + std::size_t(x)]; }
-
-    BandBox box_;
-    std::vector<Float4> means_;
 };
 
 /// The chords of a picture under a view, band by band.
 class Drawing {
 public:
     Drawing(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
-            int finerLevels, float roughness = 1, const FinerPixels* wanted = nullptr)
-        : of_(of),
-          view_(view),
-          scratch_(scratch),
-          programs_(programView(of, view_, materials, roughness, finerLevels > 0, wanted)),
-          finerLevels_(finerLevels) {
+            int finerLevels)
+        : of_(of), view_(view), scratch_(scratch), programs_(programView(of, view_, materials, finerLevels)) {
         scratch_.bands.clear(view.height);
         scratch_.colors.resize(view.width);
         scratch_.programs.resize(of.asset().paints.size(), view.width);
@@ -216,8 +154,6 @@ private:
             scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
         }
         programs.draw(programs_, top, rows, scratch_.colors);
-        if (!programs.rough().empty())
-            drawFiner(band);
         for (int row = 0; row < rows; ++row)
             drawRow(top, row, store);
     }
@@ -238,52 +174,8 @@ private:
         });
     }
 
-    // ---- Rough pixels ----
-
-    void drawFiner(int band) {
-        std::vector<BandPixel>& rough = scratch_.programs.rough();
-        std::ranges::sort(rough, {}, &BandPixel::x);
-        std::vector<std::pair<BandPixel, Float4>> colors;
-        auto next = rough.begin();
-        for (const BandBox& box : boxesAround(rough, maxFinerGap(scratch_.bands.of(band).size()))) {
-            const auto last =
-                std::ranges::find_if(next, rough.end(), [&](const BandPixel& p) { return p.x >= box.end; });
-            MeanStore means = drawBox(band, box, {next, last});
-            for (; next != last; ++next)
-                colors.emplace_back(*next, means.at(*next));
-        }
-        std::ranges::sort(colors, {}, [](const auto& c) { return c.first; });
-        const auto isSamePixel = [](const auto& a, const auto& b) { return a.first == b.first; };
-        colors.erase(std::unique(colors.begin(), colors.end(), isSamePixel), colors.end());
-        for (const auto& [pixel, color] : colors)
-            scratch_.programs.pixels().replace(pixel, color);
-    }
-
-    /// The means of some pixels of the box. Chords are within chordTolerance of a pixel of their curves here,
-    /// and finer pixels need no finer ones.
-    MeanStore drawBox(int band, const BandBox& box, std::span<const BandPixel> pixels) {
-        FinerPixels wanted(box.width(), box.height());
-        for (const BandPixel& p : pixels)
-            wanted.add(p.x - box.first, p.row - box.top);
-        const glm::dvec2 corner(box.first, band * bandRows + box.top);
-        View finer{box.width() * finerSide, box.height() * finerSide, view_.toPixels};
-        finer.toPixels[2] -= corner;
-        for (int i = 0; i < 3; ++i)
-            finer.toPixels[i] *= double(finerSide);
-        if (!scratch_.finer)
-            scratch_.finer = std::make_unique<RowScratch>();
-        Drawing drawing(of_, finer, programs_.materials, *scratch_.finer, finerLevels_ - 1,
-                        finerTolerance * programs_.rough.times, &wanted);
-        for (const Chord& c : scratch_.bands.of(band))
-            drawing.addChord({float(finerSide) * (c.a - glm::vec2(corner)),
-                              float(finerSide) * (c.b - glm::vec2(corner)), c.left, c.right});
-        MeanStore means(box);
-        drawing.draw(means);
-        return means;
-    }
-
     static ProgramView programView(const Scanned& of, const View& view, const MaterialFunction& materials,
-                                   float roughness, bool findsRough, const FinerPixels* wanted) {
+                                   int finerLevels) {
         const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
         const float minSteep = minSteepness(inverse);
         return {of.paints,
@@ -292,17 +184,16 @@ private:
                 inverse,
                 minSteep,
                 materials,
-                roughBounds(minSteep, roughness),
+                roughBounds(minSteep, 1),
                 of.drawn.size() <= 1,
-                findsRough,
-                wanted};
+                finerLevels,
+                nullptr};
     }
 
     const Scanned& of_;
     const View view_;
     RowScratch& scratch_;
-    ProgramView programs_;
-    int finerLevels_;
+    const ProgramView programs_;
 };
 
 /// Draws what needs no boundaries. Returns whether that is all.

@@ -1,6 +1,5 @@
 /// \file
-/// Pixels of a band that are no sums: runs of which one paint program has all, and single ones that were
-/// drawn finer.
+/// Pixels of a band that are no sums: runs of which one paint program has all.
 #pragma once
 
 #include <algorithm>
@@ -30,18 +29,11 @@ public:
         alone_[std::size_t(row)].push_back({first, end, paint});
         isEmpty_ = false;
     }
-    /// Rows in order, from the left in each.
-    void replace(const BandPixel& pixel, Float4 color) {
-        replaced_.push_back({pixel, color});
-        isEmpty_ = false;
-    }
     void clear() {
         if (isEmpty_)
             return;
         for (std::vector<Alone>& row : alone_)
             row.clear();
-        replaced_.clear();
-        next_ = 0;
         isEmpty_ = true;
     }
 
@@ -63,14 +55,9 @@ public:
                 x = to;
                 continue;
             }
-            if (x == nextReplaced()) {
-                store(y, x, x + 1, replaced_[next_++].color);
-                done_ = x + 1;
-            } else {
-                const Alone& run = alone()[nextAlone_];
-                done_ = std::min(run.end, nextReplaced());
-                drawAlone(x, done_, run.paint);
-            }
+            const Alone& run = alone()[nextAlone_];
+            done_ = run.end;
+            drawAlone(x, done_, run.paint);
             x = done_;
             findNext();
         }
@@ -81,30 +68,20 @@ private:
         int first, end;
         std::uint32_t paint;
     };
-    struct Replaced {
-        BandPixel pixel;
-        Float4 color;
-    };
     static constexpr int none = std::numeric_limits<int>::max();
 
     std::vector<Alone>& alone() { return alone_[std::size_t(row_)]; }
-    int nextReplaced() const {
-        return next_ < replaced_.size() && replaced_[next_].pixel.row == row_ ? replaced_[next_].pixel.x
-                                                                              : none;
-    }
     void findNext() {
         while (nextAlone_ < alone().size() && alone()[nextAlone_].end <= done_)
             ++nextAlone_;
-        nextColumn_ =
-            std::min(nextReplaced(), nextAlone_ < alone().size() ? alone()[nextAlone_].first : none);
+        nextColumn_ = nextAlone_ < alone().size() ? alone()[nextAlone_].first : none;
     }
 
     std::array<std::vector<Alone>, bandRows> alone_;
-    std::vector<Replaced> replaced_;
     bool isEmpty_ = true;
     // Of the row that is stored.
     int row_ = 0, done_ = 0, nextColumn_ = 0;
-    std::size_t next_ = 0, nextAlone_ = 0;
+    std::size_t nextAlone_ = 0;
 };
 
 }  // namespace vtm::asset

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -60,7 +60,7 @@ struct ProgramView {
     const MaterialFunction& materials;
     RoughBounds rough;
     bool areDisjoint;           ///< what has all of a pixel shares it with nothing
-    bool findsRough;            ///< whether rough pixels are looked for
+    int finerLevels;            ///< how many times over rough pixels are drawn finer
     const FinerPixels* wanted;  ///< null: all
 
     glm::vec2 point(glm::dvec2 pixel) const { return {inverse * (pixel - view.toPixels[2])}; }
@@ -98,9 +98,20 @@ struct ProgramView {
 /// What is not made better where quarters differ: a tenth of a step of 8 bits.
 inline constexpr float minPart = 0.1f / 255;
 
+class FinerProgram;
+
+/// A chord and the change of coverage that it means to a program.
+struct ProgramSide {
+    const Chord* chord;
+    float change;
+};
+
 /// Those of one band at a time.
 class BandPrograms {
 public:
+    BandPrograms();
+    ~BandPrograms();
+
     void resize(std::size_t paints, int width) {
         sides_.resize(paints);
         coverage_.resize(width);
@@ -109,8 +120,6 @@ public:
     }
 
     bool empty() const { return programs_.empty(); }
-    /// Pixels that want to be drawn finer; some more than once.
-    std::vector<BandPixel>& rough() { return rough_; }
     ProgramPixels& pixels() { return pixels_; }
 
     /// Stores pixels of a row that a program has alone.
@@ -124,12 +133,11 @@ public:
 
     void clear() {
         programs_.clear();
-        rough_.clear();
         pixels_.clear();
     }
     /// A chord at which a program has `change` more on its left. It must stay until the band is drawn.
     void addSide(const Chord& chord, std::uint32_t paint, float change) {
-        std::vector<Side>& sides = sides_[paint];
+        std::vector<ProgramSide>& sides = sides_[paint];
         if (sides.empty())
             programs_.push_back(paint);
         sides.push_back({&chord, change});
@@ -146,20 +154,20 @@ public:
             if (of.paints.changes()[paint].steepness > of.minSteep)
                 drawSteep(of, paint);
             else
-                drawWholes(of, paint, coverage_, [](int, int, int, float share) { return share; });
+                drawWholes(of, paint);
             sides_[paint].clear();
         }
     }
 
 private:
-    /// A chord and the change of coverage that it means to a program.
-    struct Side {
-        const Chord* chord;
-        float change;
-    };
     /// A pixel of which a program has a share.
     struct Part {
         BandPixel pixel;
+        float share;
+    };
+    /// Pixels first to end - 1 of a row, of each of which a program has the same share.
+    struct Run {
+        int row, first, end;
         float share;
     };
     /// A row of so many pays for itself.
@@ -188,33 +196,42 @@ private:
     /// So many neighbours, at most, are looked at together; of uncut ones that many more at first.
     static constexpr int maxNeighbours = 8, maxUncut = 64;
 
-    /// Each pixel by the mean colour over it, times shareOf(row, first column, end, what was summed).
-    template <class Grid, class ShareOf>
-    void drawWholes(const ProgramView& of, std::uint32_t paint, Accumulator<Grid>& coverage,
-                    const ShareOf& shareOf) {
-        bool hasRows = false;
-        for (const Side& side : sides_[paint])
+    /// Calls take(row, first column, end, what was summed) for what the program has of the band.
+    template <class Grid, class Take>
+    void forEachRun(const ProgramView& of, std::uint32_t paint, Accumulator<Grid>& coverage, Take&& take) {
+        for (const ProgramSide& side : sides_[paint])
             coverage.add(*side.chord, float(top_), rows_, side.change);
         for (int row = 0; row < rows_; ++row)
             coverage.resolve(std::size_t(row), [&](int from, int to, auto sum) {
-                if (isNothing(sum))
-                    return;
-                of.forEachWanted(top_ + row, from, to, [&](int first, int end) {
-                    const float share = shareOf(row, first, end, sum);
-                    const bool isLong = end - first >= minLong;
-                    hasRows |= isLong;
-                    if (of.areDisjoint && isLong && isNothing(share - 1))
-                        pixels_.addAlone(row, first, end, paint);
-                    else if (isLong)
-                        addRow(of, paint, row, first, end, share);
-                    else if (!isNothing(share))
-                        for (int x = first; x < end; ++x)
-                            parts_.push_back({{row, x}, share});
-                });
+                if (!isNothing(sum))
+                    of.forEachWanted(top_ + row, from, to,
+                                     [&](int first, int end) { take(row, first, end, sum); });
             });
-        if (hasRows && of.sums == Sums::Encoded)
+    }
+
+    /// Each pixel by the mean colour over it, times the program's share of it.
+    void drawWholes(const ProgramView& of, std::uint32_t paint) {
+        forEachRun(of, paint, coverage_, [&](int row, int first, int end, float share) {
+            addWholes(of, paint, {row, first, end, share});
+        });
+        finishWholes(of, paint);
+    }
+    void addWholes(const ProgramView& of, std::uint32_t paint, const Run& run) {
+        const bool isLong = run.end - run.first >= minLong;
+        hasRows_ |= isLong;
+        if (of.areDisjoint && isLong && isNothing(run.share - 1))
+            pixels_.addAlone(run.row, run.first, run.end, paint);
+        else if (isLong)
+            addRow(of, paint, run);
+        else if (!isNothing(run.share))
+            for (int x = run.first; x < run.end; ++x)
+                parts_.push_back({{run.row, x}, run.share});
+    }
+    void finishWholes(const ProgramView& of, std::uint32_t paint) {
+        if (hasRows_ && of.sums == Sums::Encoded)
             addKnownParts(rowPaints_.make(of.paints, paint, of.middles()));
         addParts(of, paint);
+        hasRows_ = false;
     }
 
     /// Leaves the others. Whether a paint's rows are asked depends on the band alone, and so do its bytes.
@@ -253,16 +270,15 @@ private:
         rowPaints_.make(of.paints, paint, of.middles()).visit(row, first, end, constant, some, others);
     }
     /// Not inlined, as drawAlone(): the loops round them would pay.
-    [[gnu::noinline]] void addRow(const ProgramView& of, std::uint32_t paint, int row, int first, int end,
-                                  float share) {
+    [[gnu::noinline]] void addRow(const ProgramView& of, std::uint32_t paint, const Run& run) {
         visitRow(
-            of, paint, top_ + row, first, end,
+            of, paint, top_ + run.row, run.first, run.end,
             [&](int from, int to, Float4 color) {
-                sums_->addPixels(std::size_t(row), from, to, [&](int) { return share * color; });
+                sums_->addPixels(std::size_t(run.row), from, to, [&](int) { return run.share * color; });
             },
             [&](int from, std::span<const Float4> colors) {
-                sums_->addPixels(std::size_t(row), from, from + int(colors.size()),
-                                 [&](int x) { return share * colors[std::size_t(x - from)]; });
+                sums_->addPixels(std::size_t(run.row), from, from + int(colors.size()),
+                                 [&](int x) { return run.share * colors[std::size_t(x - from)]; });
             });
     }
     void addPixel(const BandPixel& pixel, Float4 color) {
@@ -285,19 +301,40 @@ private:
     void drawSteep(const ProgramView& of, std::uint32_t paint) {
         const PaintChange& change = of.paints.changes()[paint];
         const float minMoment = minMomentOf(of, change);
-        const bool mayBeRough = of.findsRough && of.rough.mayBeRough(change);
-        drawWholes(of, paint, quarters_, [&](int row, int first, int end, Float4 q) {
+        const bool mayBeRough = of.finerLevels > 0 && of.rough.mayBeRough(change);
+        runs_.clear();
+        forEachRun(of, paint, quarters_, [&](int row, int first, int end, Float4 q) {
             const float share = 0.25f * (q[0] + q[1] + q[2] + q[3]);
+            runs_.push_back({row, first, end, share});
             const Cut cut{row, first, 0.25f * (q - share)};
             if (cut.squaredMoment() > minMoment * minMoment)
                 addPixels(cut, end);
             else if (mayBeRough && std::abs(share) > minShare)
                 addUncut(of, paint, row, first, end);
-            return share;
         });
         keepSteep(of, paint);
         addCuts(of, paint);
+        addOthers(of, paint);
+        if (!rough_.empty())
+            addFiner(of, paint);
+        rough_.clear();
     }
+    /// The wholes of all but the rough pixels.
+    void addOthers(const ProgramView& of, std::uint32_t paint) {
+        auto rough = rough_.begin();
+        for (Run run : runs_) {
+            for (; rough != rough_.end() && *rough < BandPixel{run.row, run.end}; ++rough) {
+                if (run.first < rough->x)
+                    addWholes(of, paint, {run.row, run.first, rough->x, run.share});
+                run.first = rough->x + 1;
+            }
+            if (run.first < run.end)
+                addWholes(of, paint, run);
+        }
+        finishWholes(of, paint);
+    }
+    /// What the program has of rough_.
+    void addFiner(const ProgramView& of, std::uint32_t paint);
 
     /// The first moment of the program's part, times what the colour changes by over a pixel, is about what
     /// the quarters make better.
@@ -322,7 +359,7 @@ private:
     Near nearOf(const ProgramView& of, std::uint32_t paint, int row, int first, int end) const {
         const PaintChange change = of.changeNear(paint, top_ + row, first, end);
         const float minMoment = minMomentOf(of, change);
-        return {change, minMoment * minMoment, of.findsRough && of.rough.mayBeRoughNear(change)};
+        return {change, minMoment * minMoment, of.finerLevels > 0 && of.rough.mayBeRoughNear(change)};
     }
     /// Leaves those of cuts_ in which the paint changes enough to matter. Most neighbours are dropped
     /// together.
@@ -360,61 +397,75 @@ private:
                 points_.push_back(middle + way);
         }
         evaluate(of, paint, points_, quarter, colors_);
+        if (of.finerLevels > 0)
+            findRough(of, paint);
+        auto rough = rough_.begin();
         for (std::size_t i = 0; i < cuts_.size(); ++i) {
+            const BandPixel pixel{cuts_[i].row, cuts_[i].x};
+            if (rough != rough_.end() && *rough == pixel) {
+                ++rough;
+                continue;
+            }
             Float4 more{};
             for (std::size_t k = 0; k < 4; ++k)
                 more += cuts_[i].more[k] * colors_[4 * i + k];
-            addPixel({cuts_[i].row, cuts_[i].x}, more);
-            if (of.findsRough && cuts_[i].isCut() && of.rough.isRoughCut(nears_[i].change, quartersAt(i)))
-                rough_.push_back({cuts_[i].row, cuts_[i].x});
+            addPixel(pixel, more);
         }
-        findUncutRough(of, paint);
         cuts_.clear();
     }
 
-    /// colors_ are those of the cuts' quarters.
-    void findUncutRough(const ProgramView& of, std::uint32_t paint) {
+    /// Those of cuts_, in their order, become rough_. colors_ are those of their quarters.
+    void findRough(const ProgramView& of, std::uint32_t paint) {
+        asked_.clear();
         points_.clear();
         for (std::size_t i = 0; i < cuts_.size(); ++i)
-            if (nears_[i].mayBeRough)
+            if (cuts_[i].isCut() && of.rough.isRoughCut(nears_[i].change, quartersAt(i))) {
+                addRough(i);
+            } else if (nears_[i].mayBeRough) {
+                asked_.push_back(i);
                 points_.push_back(middleOf(of, cuts_[i]));
-        if (points_.empty())
-            return;
-        evaluate(of, paint, points_, glm::mat2(of.inverse), wholes_);
-        std::size_t whole = 0, jumping = 0;  // of wholes_, and of those that may jump
-        for (std::size_t i = 0; i < cuts_.size(); ++i) {
-            if (!nears_[i].mayBeRough)
-                continue;
-            const Float4 color = wholes_[whole];
-            if (of.rough.isRoughWhole(nears_[i].change, quartersAt(i), color))
-                rough_.push_back({cuts_[i].row, cuts_[i].x});
-            if (nears_[i].change.mayJump) {
-                cuts_[jumping] = cuts_[i];
-                points_[jumping] = points_[whole];
-                wholes_[jumping++] = color;
             }
-            ++whole;
+        if (!asked_.empty())
+            findRoughWholes(of, paint);
+        std::ranges::sort(rough_);
+        rough_.erase(std::ranges::unique(rough_).begin(), rough_.end());
+    }
+
+    /// Of asked_, of which points_ are the middles.
+    void findRoughWholes(const ProgramView& of, std::uint32_t paint) {
+        evaluate(of, paint, points_, glm::mat2(of.inverse), wholes_);
+        std::size_t jumping = 0;  // of asked_, those that may jump
+        for (std::size_t k = 0; k < asked_.size(); ++k) {
+            const std::size_t i = asked_[k];
+            if (of.rough.isRoughWhole(nears_[i].change, quartersAt(i), wholes_[k])) {
+                addRough(i);
+            } else if (nears_[i].change.mayJump) {
+                asked_[jumping] = i;
+                points_[jumping] = points_[k];
+                wholes_[jumping++] = wholes_[k];
+            }
         }
-        cuts_.resize(jumping);
+        asked_.resize(jumping);
         points_.resize(jumping);
         findRoughCorners(of, paint);
     }
 
-    /// points_ are the cuts' middles, wholes_ their colours.
+    /// points_ are the middles of asked_, wholes_ their colours.
     void findRoughCorners(const ProgramView& of, std::uint32_t paint) {
-        if (cuts_.empty())
+        if (asked_.empty())
             return;
         const glm::vec2 right = 0.5f * glm::mat2(of.inverse)[0], down = 0.5f * glm::mat2(of.inverse)[1];
         for (const glm::vec2 way : {-right - down, right - down, down - right, right + down}) {
             corners_ = points_;
             for (glm::vec2& corner : corners_)
                 corner += way;
-            evaluate(of, paint, corners_, glm::mat2(0), colors_);
-            for (std::size_t i = 0; i < cuts_.size(); ++i)
-                if (of.rough.isRoughCorner(colors_[i], wholes_[i]))
-                    rough_.push_back({cuts_[i].row, cuts_[i].x});
+            evaluate(of, paint, corners_, glm::mat2(0), cornerColors_);
+            for (std::size_t k = 0; k < asked_.size(); ++k)
+                if (of.rough.isRoughCorner(cornerColors_[k], wholes_[k]))
+                    addRough(asked_[k]);
         }
     }
+    void addRough(std::size_t cut) { rough_.push_back({cuts_[cut].row, cuts_[cut].x}); }
 
     /// While colors_ are those of the cuts' quarters.
     QuarterColors quartersAt(std::size_t cut) const { return QuarterColors(&colors_[4 * cut], 4); }
@@ -424,18 +475,22 @@ private:
 
     int top_ = 0, rows_ = 0;
     Accumulator<Wholes<Float4>>* sums_ = nullptr;
-    std::vector<std::vector<Side>> sides_;  ///< by paint
-    std::vector<std::uint32_t> programs_;   ///< that have sides
+    std::vector<std::vector<ProgramSide>> sides_;  ///< by paint
+    std::vector<std::uint32_t> programs_;          ///< that have sides
     Accumulator<Wholes<float>> coverage_;
     Accumulator<Quarters> quarters_;
+    std::vector<Run> runs_;
     std::vector<Cut> cuts_;
-    std::vector<Near> nears_;  ///< of cuts_
-    std::vector<BandPixel> rough_;
+    std::vector<Near> nears_;         ///< of cuts_
+    std::vector<std::size_t> asked_;  ///< of cuts_
+    std::vector<BandPixel> rough_;    ///< of one program, in order
     std::vector<glm::vec2> points_, corners_;
-    std::vector<Float4> colors_, wholes_;
+    std::vector<Float4> colors_, wholes_, cornerColors_;
     std::vector<Part> parts_;
+    bool hasRows_ = false;  ///< of the program that is drawn
     RowPaints rowPaints_;
     ProgramPixels pixels_;
+    std::unique_ptr<FinerProgram> finer_;
 };
 
 }  // namespace vtm::asset
