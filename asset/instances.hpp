@@ -2,7 +2,9 @@
 /// Maps that are placed in other maps, as they lie in the picture.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -107,16 +109,27 @@ public:
     void operator()(const Map& map, Visit&& visit) const {
         walk({map, placeOf(map), PlacedPaints{}}, visit);
     }
+    /// Only instances first to end - 1 of those that lie right in the map, and what is in them.
+    template <class Visit>
+    void some(const Map& map, std::size_t first, std::size_t end, Visit&& visit) const {
+        walkInside({map, placeOf(map), PlacedPaints{}}, first, end, visit);
+    }
 
 private:
     template <class Visit>
     void walk(const PlacedMap& placed, Visit&& visit) const {
-        if (!visit(placed) || placed.map.instances == 0)
-            return;
+        if (visit(placed) && placed.map.instances != 0)
+            walkInside(placed, 0, std::numeric_limits<std::size_t>::max(), visit);
+    }
+    template <class Visit>
+    void walkInside(const PlacedMap& placed, std::size_t first, std::size_t end, Visit& visit) const {
         // Instances of one symbol often follow each other.
         std::uint32_t known = 0xFFFFFFFFu;
         PlacedPaints paints;
+        std::size_t number = 0;
         forEachInstance(asset_, placed.map, [&](const Instance& instance) {
+            if (const std::size_t at = number++; at < first || at >= end)
+                return;
             const Symbol& symbol = asset_.symbols[instance.symbol()];
             if (known != instance.symbol())
                 paints = {asset_, symbol, placed.paints, largest_[symbol.map]};

@@ -56,20 +56,22 @@ public:
                 chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
                 [&](const Boundary& boundary) { chords.add(boundary); });
             if (drawn.map != Scanned::noMap)
-                addPlaced(drawn.map);
+                addPlaced(drawn.map, 0, drawn.placed);
         }
     }
     /// Some of the parts that make up the picture.
     void addParts(std::size_t first, std::size_t end) {
-        std::size_t begin = 0;  // of the map's parts
         for (const Scanned::Drawn& drawn : of_.drawn) {
-            const std::size_t count = drawn.own.boxCount();
+            const std::size_t boxes = drawn.own.boxCount(), parts = boxes + drawn.placedParts();
+            const std::size_t from = std::min(first, parts), to = std::min(end, parts);
             auto chords = chordsOf(drawn.own.place(), view_, scratch_.bands);
-            for (std::size_t i = std::max(first, begin); i < std::min(end, begin + count); ++i)
-                addChords(chords, drawn.own.box(i - begin));
-            begin += count + 1;
-            if (drawn.map != Scanned::noMap && first < begin && begin <= end)
-                addPlaced(drawn.map);
+            for (std::size_t i = from; i < std::min(to, boxes); ++i)
+                addChords(chords, drawn.own.box(i));
+            if (const std::size_t next = std::max(from, boxes); next < to)
+                addPlaced(drawn.map, (next - boxes) * Scanned::placedOfPart,
+                          (to - boxes) * Scanned::placedOfPart);
+            first -= from;
+            end -= to;
         }
     }
     void addChord(const Chord& chord) { scratch_.bands.add(chord, float(view_.width), float(view_.height)); }
@@ -96,22 +98,25 @@ private:
                 chords.add(boundary);
     }
 
-    void addPlaced(std::uint32_t map) {
+    /// Those first to end - 1 that are placed in a map.
+    void addPlaced(std::uint32_t map, std::size_t first, std::size_t end) {
         const Affine2 toPixels = toPixelsOf(view_);
-        of_.placed->forEach(map, [&](std::size_t number, const ScannedMap& own, const Affine2& toPicture,
-                                     const PlacedPaints& paints) {
-            const Affine2 place = compose(toPixels, toPicture);
-            const Seen seen = seenOf(place);
-            if (seen == Seen::All) {
-                addAt(place.offset, scratch_.placed.of(number, own, place.linear), paints);
-            } else if (seen == Seen::Part) {
-                auto chords = chordsOf({toPicture.linear * (1 / own.place().extent), toPicture.offset}, view_,
-                                       scratch_.bands, std::cref(paints));
-                for (std::size_t i = 0; i < own.boxCount(); ++i)
-                    addChords(chords, own.box(i));
-            }
-            return seen != Seen::Nothing;
-        });
+        of_.placed->forEach(
+            map, first, end,
+            [&](std::size_t number, const ScannedMap& own, const Affine2& toPicture,
+                const PlacedPaints& paints) {
+                const Affine2 place = compose(toPixels, toPicture);
+                const Seen seen = seenOf(place);
+                if (seen == Seen::All) {
+                    addAt(place.offset, scratch_.placed.of(number, own, place.linear), paints);
+                } else if (seen == Seen::Part) {
+                    auto chords = chordsOf({toPicture.linear * (1 / own.place().extent), toPicture.offset},
+                                           view_, scratch_.bands, std::cref(paints));
+                    for (std::size_t i = 0; i < own.boxCount(); ++i)
+                        addChords(chords, own.box(i));
+                }
+                return seen != Seen::Nothing;
+            });
     }
 
     void addAt(glm::vec2 place, const PlacedChords& placed, const PlacedPaints& paints) {

@@ -122,11 +122,12 @@ Scanner::Scanner(const AssetView& asset, Sums sums)
     : impl_(
           std::make_unique<Impl>(asset.instances.empty() ? paintsOf(asset) : paintsAndTreesOf(asset), sums)) {
     requireSumOfMaps(asset);
-    for (const Command& command : asset.commands)
-        impl_->scanned.drawn.push_back({ScannedMap(asset, asset.maps[command.map]),
-                                        asset.instances.empty() ? Scanned::noMap : command.map});
-    if (!asset.instances.empty())
-        impl_->scanned.placed = std::make_shared<const PlacedMaps>(impl_->owned);
+    const auto placed = asset.instances.empty() ? nullptr : std::make_shared<const PlacedMaps>(impl_->owned);
+    for (const Command& command : asset.commands) {
+        impl_->scanned.drawn.push_back({ScannedMap(asset, asset.maps[command.map])});
+        if (placed)
+            impl_->scanned.place(placed, command.map);
+    }
 }
 
 Scanner::Scanner(std::span<const PlanarMap> maps, const AssetView& asset, Sums sums)
@@ -240,8 +241,7 @@ private:
         if (map.instances == 0)
             return;
         std::call_once(arePlacedMade, [&] { placed = std::make_shared<const PlacedMaps>(asset); });
-        scanned->drawn.back().map = command.map;
-        scanned->placed = placed;
+        scanned->place(placed, command.map);
     }
     /// Where the paints of the next map begin.
     std::size_t paintEnd(std::uint32_t first) const {

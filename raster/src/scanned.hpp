@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -32,14 +33,17 @@ public:
                 maps_[symbol.map].emplace(asset, asset.maps[symbol.map]);
     }
 
+    /// Of those that lie right in a map.
+    std::size_t countIn(std::uint32_t outer) const {
+        std::size_t count = 0;
+        forEachInstance(asset_, asset_.maps[outer], [&](const Instance&) { ++count; });
+        return count;
+    }
     /// Calls visit(the map's number, map, its place, its paints), which tells whether to go on to those in
-    /// it, for each map that is placed in one.
+    /// it, for maps first to end - 1 of those that lie right in one.
     template <class Visit>
-    void forEach(std::uint32_t outer, Visit&& visit) const {
-        const Map& map = asset_.maps[outer];
-        walk_(map, [&](const PlacedMap& placed) {
-            if (&placed.map == &map)
-                return true;
+    void forEach(std::uint32_t outer, std::size_t first, std::size_t end, Visit&& visit) const {
+        walk_.some(asset_.maps[outer], first, end, [&](const PlacedMap& placed) {
             const auto number = std::size_t(&placed.map - asset_.maps.data());
             return bool(visit(number, *maps_[number], placed.toPicture, placed.paints));
         });
@@ -56,8 +60,13 @@ struct Scanned {
     struct Drawn {
         ScannedMap own;
         std::uint32_t map = noMap;  ///< in which others are placed
+        std::size_t placed = 0;     ///< so many right in it
+
+        std::size_t placedParts() const { return (placed + placedOfPart - 1) / placedOfPart; }
     };
     static constexpr std::uint32_t noMap = 0xFFFFFFFFu;
+    /// So many placed maps are a part of the picture.
+    static constexpr std::size_t placedOfPart = 64;
 
     Scanned(const Paints& of, std::size_t paintCount, Sums sumsOf) : paints(of), sums(sumsOf) {
         setPaints(of, paintCount);
@@ -71,6 +80,13 @@ struct Scanned {
             solid.push_back(asset::isProgram(paint) ? Float4{}
                                                     : float4(added(std::bit_cast<glm::vec4>(paint))));
         }
+    }
+
+    /// Other maps are placed in the last one that is drawn.
+    void place(std::shared_ptr<const PlacedMaps> maps, std::uint32_t map) {
+        drawn.back().map = map;
+        drawn.back().placed = maps->countIn(map);
+        placed = std::move(maps);
     }
 
     Paints paints;
@@ -90,11 +106,11 @@ struct Scanned {
     }
 
     const AssetView& asset() const { return paints.asset(); }
-    /// The boxes of boundaries, and for each map, after its own, all that is placed in it.
+    /// The boxes of boundaries, and for each map, after its own, what is placed in it.
     std::size_t partCount() const {
         std::size_t count = 0;
         for (const Drawn& map : drawn)
-            count += map.own.boxCount() + 1;
+            count += map.own.boxCount() + map.placedParts();
         return count;
     }
     std::size_t boundaryCount() const {
