@@ -25,15 +25,16 @@ namespace vtm::compiler {
 
 /// How near chords are to their curve.
 struct ChordTolerance {
-    ChordTolerance(double d, double a = 0) : distance(d), area(a) {}
+    ChordTolerance(double d, double a = 0, double t = 1) : distance(d), area(a), turn(t) {}
 
     double distance;  ///< no chord is farther from it
     /// If not 0, this much of a pixel's area is misplaced where an edge passes through it; curves that are
     /// one chord keep to the distance.
     double area;
+    double turn;  ///< radians of a curve in a chord, about, if there is an area
 
     /// In a space in which lengths are so many times as long.
-    ChordTolerance scaled(double by) const { return {distance * by, area * by * by}; }
+    ChordTolerance scaled(double by) const { return {distance * by, area * by * by, turn}; }
 };
 
 namespace area_chords {
@@ -60,12 +61,13 @@ Number cubeRoot(Number v) {
 }
 
 /// Whole chords per unit of a curve's parameter, of which these are the derivatives: ∛κ ds, and more where
-/// the curve turns by radians in a chord, of which what was said is not true. `per`: 1 / (h³ κ).
+/// the curve turns by radians in a chord, of which what was said is not true; and no fewer than that it turns
+/// by 1 / `perTurn` in each. `per`: 1 / (h³ κ).
 template <class Number>
-Number density(double per, Number turn, Number speed) {
-    constexpr double mostTurn = 1;
+Number density(double per, Number turn, Number speed, double perTurn = 1) {
     turn = magnitude(turn);
-    return cubeRoot(per * turn * speed * speed) + turn * (1 / mostTurn);
+    const Number chords = cubeRoot(per * turn * speed * speed) + turn, byTurn = turn * perTurn;
+    return chords < byTurn ? byTurn : chords;
 }
 
 /// By how much of its distance from the line between its neighbours, `before` and `after` it, a vertex moves:

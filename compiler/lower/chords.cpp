@@ -189,12 +189,12 @@ double ChordCutter::guessByArea() {
     const auto [a, b, c, start] = curve_;
     const double c0 = 2 * cross(c, b), c1 = 6 * cross(c, a), c2 = -6 * cross(a, b);  // P' × P''
     const double turns = c0 * (c0 + c1 + c2) < 0 ? perInflection : 1;
-    const double per = turns / (sure * area_chords::perArea * area_);
+    const double per = turns / (sure * area_chords::perArea * area_), perTurn = perTurn_;
     constexpr double minSquare = std::numeric_limits<double>::min();  // no division by zero
     return shares_.integrate(0, 1, [=](Pair t) {
         const Pair x = (3 * a.x * t + 2 * b.x) * t + c.x, y = (3 * a.y * t + 2 * b.y) * t + c.y;
         const Pair square = x * x + y * y + minSquare;
-        return area_chords::density(per, ((c2 * t + c1) * t + c0) / square, squareRoot(square));
+        return area_chords::density(per, ((c2 * t + c1) * t + c0) / square, squareRoot(square), perTurn);
     });
 }
 

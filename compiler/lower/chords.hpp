@@ -50,7 +50,8 @@ public:
     /// Guessed for one cubic.
     static constexpr int maxChords = 256;
 
-    explicit ChordCutter(ChordTolerance tolerance) : tolerance_(tolerance.distance), area_(tolerance.area) {}
+    explicit ChordCutter(ChordTolerance tolerance)
+        : tolerance_(tolerance.distance), area_(tolerance.area), perTurn_(1 / tolerance.turn) {}
 
     /// The ends of chords within the tolerance, the last one that of the cubic. Empty if they would be too
     /// many, or the cubic is infinite, or so large that doubles do not resolve the tolerance, or chords of
@@ -88,7 +89,7 @@ private:
     void chord(const Vertex<double>& from, const Vertex<double>& to, int halvings);
     void halves(const Vertex<double>& from, const Vertex<double>& to, int halvings);
 
-    const double tolerance_, area_;
+    const double tolerance_, area_, perTurn_;
     Curve curve_;
     EvenShares shares_;
     /// Vertices, and one more for loops over two at once.

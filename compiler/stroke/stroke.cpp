@@ -9,7 +9,8 @@
 // Between two lines the detour through the vertex may be cut off where the inner offsets cross: that
 // takes one cover from the kite between crossing and vertex. The kite lies in both lines' rectangles, and
 // as it may reach no further than half of each line, two kites of one line do not meet: a point in m kites
-// lies in at least 2m rectangles and stays covered.
+// lies in at least 2m rectangles and stays covered. The same holds between chords of offsets that stand for
+// curves: a kite lies in both chords' parts of the ribbons.
 
 #include <vtm/compiler/stroke.hpp>
 
@@ -17,15 +18,19 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/limits/limits.hpp>
+#include "compiler/stroke/chord_joins.hpp"
 #include "compiler/stroke/chords.hpp"
 #include "compiler/stroke/near.hpp"
 #include "compiler/stroke/offset.hpp"
 #include "compiler/stroke/subpath.hpp"
+#include "compiler/stroke/thin_chords.hpp"
 
 namespace vtm::compiler {
 
@@ -68,6 +73,7 @@ public:
           radius_(style.width / 2),
           miterLimit_(std::min(style.miterLimit, longestMitre)),
           chords_(chords),
+          thin_(radius_, chords),
           out_(out) {}
 
     void add(const Subpath& subpath) {
@@ -109,6 +115,8 @@ private:
             if (i > 0)
                 joinSegments(segments[i - 1], segments[i]);
             sides(segments[i]);
+            if (const ChordJoin join = std::exchange(join_, {}); chords_.distance > 0)
+                shorten(join, chords_, joinShare * tolerance_);
         }
         subpath.closed ? closeRing(subpath) : closeEnds(subpath);
         std::move(ribbon_.beyond.begin(), ribbon_.beyond.end(), std::back_inserter(later_));
@@ -120,6 +128,8 @@ private:
             const Point side = perp(endTangent(segment.curve)) * radius_;
             ribbon_.left.addLine(endPoint(segment) + side);
             ribbon_.right.addLine(endPoint(segment) - side);
+        } else if (thin_.isThin()) {
+            thinSides(segment.curve);
         } else if (segment.circle) {
             circularSides(segment.curve, *segment.circle);
         } else {
@@ -127,6 +137,56 @@ private:
         }
     }
 
+    // --- thin strokes --------------------------------------------------------------------------
+
+    /// The offsets of a curve's chords meet where their angles are halved.
+    void thinSides(const Cubic& curve) {
+        const std::span<const Point> points = thin_.of(curve);
+        Point along = startTangent(curve);
+        double before = 0;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            const Point way = points[i + 1] - points[i];
+            const double length = glm::length(way);
+            if (length == 0)  // of a loop that is too short to show
+                continue;
+            const Point next = way / length;
+            if (i > 0)
+                thinJoin(points[i], along, next, std::min(before, length));
+            else
+                thinEnd(points[i], along, next);
+            along = next;
+            before = length;
+        }
+        const Point tangent = endTangent(curve), side = perp(tangent) * radius_;
+        thinEnd(curve.p3, along, tangent);
+        ribbon_.left.addLine(curve.p3 + side);
+        ribbon_.right.addLine(curve.p3 - side);
+    }
+    /// Of two chords, with these directions, of which the shorter one is so long. As long as no chord's inner
+    /// side runs backward, its part of the ribbon is wound like the others.
+    void thinJoin(Point at, Point before, Point after, double length) {
+        const double cosine = glm::dot(before, after), sine = std::abs(cross(before, after));
+        if (!(cosine > 0 && 2 * radius_ * sine <= (1 + cosine) * length))
+            return thinCorner(at, before, after, length);
+        const Point offset = crossing(perp(before), perp(after));
+        ribbon_.left.addLine(at + offset);
+        ribbon_.right.addLine(at - offset);
+    }
+    /// Where a curve turns at once, as beside a cusp, in less than a chord.
+    void thinEnd(Point at, Point before, Point after) {
+        if (glm::dot(before, after) < 1 - thin_.turn() * thin_.turn())
+            thinCorner(at, before, after, 0);
+    }
+    /// Where a curve is tighter than the radius: the normal sweeps a disc's sectors there, on both sides.
+    void thinCorner(Point at, Point before, Point after, double length) {
+        const Corner corner{at, before, after, angleBetween(before, after), true, true, length, Join::Round};
+        go(ribbon_.left, at + perp(before) * radius_);
+        go(ribbon_.right, at - perp(before) * radius_);
+        outerJoin(corner);
+        innerJoin(corner);
+        if (showsBeyond())
+            sweepBeyond(corner);
+    }
     /// Round caps and joins cover what lies beyond evolutes (stroke_offset.cpp).
     bool showsBeyond() const { return style_.cap != Cap::Round || style_.join != Join::Round; }
 
@@ -155,6 +215,7 @@ private:
 
     void closeRing(const Subpath& subpath) {
         joinSegments(subpath.segments.back(), subpath.segments.front());
+        join_ = {};
         // The join may have cut the first line, too.
         ribbon_.left.start = ribbon_.left.end();
         ribbon_.right.start = ribbon_.right.end();
@@ -177,20 +238,33 @@ private:
 
     // --- joins ---------------------------------------------------------------------------------
 
-    static double turn(const Segment& a, const Segment& b) {
-        return angleBetween(endTangent(a.curve), startTangent(b.curve));
-    }
+    struct Corner {
+        Point at, before, after;  ///< the vertex, unit tangents
+        double angle;             ///< between these
+        bool isAfterLine, isBeforeLine;
+        double length;  ///< of the shorter of two lines; 0 if one of both is none
+        Join join;
+
+        double sign() const { return angle > 0 ? 1 : -1; }
+    };
 
     void joinSegments(const Segment& a, const Segment& b) {
-        const double angle = turn(a, b);
+        const Point before = endTangent(a.curve), after = startTangent(b.curve);
+        const double angle = angleBetween(before, after);
         if (std::abs(angle) <= std::max(sameDirection, joinShare * tolerance_ / radius_))
             return smoothJoin(b);
-        const double sign = angle > 0 ? 1 : -1;
-        outerJoin(angle > 0 ? ribbon_.right : ribbon_.left, a, b, -sign);
-        innerJoin(angle > 0 ? ribbon_.left : ribbon_.right, a, b, sign);
-        if (b.afterCusp && showsBeyond())  // the other half of the disc that the normal sweeps there
-            ribbon_.beyond.push_back(
-                sector(endPoint(a), perp(endTangent(a.curve)) * (sign * radius_), angle));
+        const double length = a.straight && b.straight ? std::min(extent(a.curve), extent(b.curve)) : 0;
+        const Corner corner{endPoint(a), before,     after,  angle,
+                            a.straight,  b.straight, length, b.afterCusp ? Join::Round : style_.join};
+        join_ = {corner.before, corner.after, {}, {}};
+        join_.tip = outerJoin(corner);
+        join_.detour = innerJoin(corner);
+        if (b.afterCusp && showsBeyond())
+            sweepBeyond(corner);
+    }
+    /// The other half of the disc that the normal sweeps.
+    void sweepBeyond(const Corner& c) {
+        ribbon_.beyond.push_back(sector(c.at, perp(c.before) * (c.sign() * radius_), c.angle));
     }
 
     /// Where a curve is tight up to its end its inner side has come to the evolute, not to the offset.
@@ -200,14 +274,17 @@ private:
         go(ribbon_.right, at - side);
     }
 
-    void innerJoin(Side& inner, const Segment& a, const Segment& b, double sign) const {
-        const Point n0 = perp(endTangent(a.curve)) * sign, n1 = perp(startTangent(b.curve)) * sign;
-        if (kiteFits(a, b)) {
-            inner.ends.back() = endPoint(a) + crossing(n0, n1);
-        } else {
-            go(inner, endPoint(a));
-            go(inner, endPoint(a) + n1 * radius_);
+    Detour innerJoin(const Corner& c) {
+        Side& inner = c.angle > 0 ? ribbon_.left : ribbon_.right;
+        const Point n0 = perp(c.before) * c.sign(), n1 = perp(c.after) * c.sign();
+        if (kiteFits(c)) {
+            inner.ends.back() = c.at + crossing(n0, n1);
+            return {};
         }
+        const std::size_t first = inner.ends.size();
+        go(inner, c.at);
+        go(inner, c.at + n1 * radius_);
+        return inner.ends.size() == first + 2 ? Detour{&inner, first} : Detour{};
     }
 
     /// Where two offset lines with these unit normals meet, seen from the vertex: n0 + n1 has the length
@@ -217,40 +294,42 @@ private:
         return sum * (2 * radius_ / glm::dot(sum, sum));
     }
 
-    bool kiteFits(const Segment& a, const Segment& b) const {
-        if (!a.straight || !b.straight)
-            return false;
-        const double angle = std::abs(turn(a, b));
-        const double reach = radius_ * std::max(std::sin(angle), std::tan(angle / 2));
-        return 2 * reach <= std::min(extent(a.curve), extent(b.curve));
+    bool kiteFits(const Corner& c) const {
+        const double angle = std::abs(c.angle);
+        return c.length > 0 && 2 * radius_ * std::max(std::sin(angle), std::tan(angle / 2)) <= c.length;
     }
 
-    void outerJoin(Side& outer, const Segment& a, const Segment& b, double sign) const {
-        const Join join = b.afterCusp ? Join::Round : style_.join;
-        const Point at = endPoint(a), t0 = endTangent(a.curve), t1 = startTangent(b.curve);
-        const Point n0 = perp(t0) * sign, n1 = perp(t1) * sign;
-        const Point from = at + n0 * radius_, to = at + n1 * radius_;
-        const double angle = angleBetween(t0, t1), cosine = std::cos(angle / 2);
-        if (join != Join::Round && join != Join::Bevel && 1 <= miterLimit_ * cosine) {
-            extendTo(outer, a, from, at + crossing(n0, n1));
-        } else if (join == Join::MiterClip) {
-            // The clipping line crosses the bisector at miterLimit·r (SVG 2 section 13.5.4).
-            const double along = radius_ * (miterLimit_ - cosine) / std::abs(std::sin(angle / 2));
-            extendTo(outer, a, from, from + t0 * along);
-            go(outer, to - t1 * along);
-        } else {
-            go(outer, from);
-            if (join == Join::Round)
-                arc(outer, at, n0 * radius_, angle);
-            return go(outer, to);
+    Tip outerJoin(const Corner& c) {
+        Side& outer = c.angle > 0 ? ribbon_.right : ribbon_.left;
+        const Point n0 = perp(c.before) * -c.sign(), n1 = perp(c.after) * -c.sign();
+        const Point from = c.at + n0 * radius_, to = c.at + n1 * radius_;
+        const double cosine = std::cos(c.angle / 2);
+        if (c.join != Join::Round && c.join != Join::Bevel && 1 <= miterLimit_ * cosine) {
+            extendTo(outer, c, from, c.at + crossing(n0, n1));
+            const Tip tip{&outer, outer.ends.size() - 1, !c.isAfterLine, !c.isBeforeLine};
+            if (!c.isBeforeLine)  // a line goes on from the mitre's tip
+                go(outer, to);
+            return tip;
         }
-        if (!b.straight)  // a line goes on from the mitre's tip
-            go(outer, to);
+        if (c.join == Join::MiterClip) {
+            // The clipping line crosses the bisector at miterLimit·r (SVG 2 section 13.5.4).
+            const double along = radius_ * (miterLimit_ - cosine) / std::abs(std::sin(c.angle / 2));
+            extendTo(outer, c, from, from + c.before * along);
+            go(outer, to - c.after * along);
+            if (!c.isBeforeLine)
+                go(outer, to);
+            return {};
+        }
+        go(outer, from);
+        if (c.join == Join::Round)
+            arc(outer, c.at, n0 * radius_, c.angle);
+        go(outer, to);
+        return {};
     }
 
     /// A line before the mitre goes on to its tip without a vertex in between.
-    void extendTo(Side& outer, const Segment& a, Point from, Point tip) const {
-        if (a.straight) {
+    void extendTo(Side& outer, const Corner& c, Point from, Point tip) const {
+        if (c.isAfterLine) {
             outer.ends.back() = tip;
         } else {
             go(outer, from);
@@ -310,8 +389,10 @@ private:
     const StrokeStyle& style_;
     double tolerance_, radius_, miterLimit_;
     ChordTolerance chords_;
+    ThinChords thin_;
     ContourSink& out_;
     Ribbon ribbon_;
+    ChordJoin join_;  ///< of the last two segments
     std::vector<Side> later_;
 };
 
