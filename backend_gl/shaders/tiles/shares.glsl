@@ -5,7 +5,7 @@
 const float minWeight = 1e-5;
 
 // A paint, and the sum of the weights of pieces that have it on their left, less those that have it on their right;
-// whether it counts in the part of the pixel that is asked for.
+// whether it counts in the part of the pixel that is asked for, which does not matter while the weight is 0.
 struct Share {
     uint paint;
     float weight;
@@ -35,6 +35,7 @@ void evict(inout Shares shares, Share share) {
 void add(inout Shares shares, Share term) {
     if (term.paint == shares.newer.paint) {
         shares.newer.weight += term.weight;
+        shares.newer.counts = term.counts;
         return;
     }
     Share older = shares.older;

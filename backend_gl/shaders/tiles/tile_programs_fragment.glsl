@@ -40,17 +40,16 @@ vec4 valueOf(Share share, uint part) {
 }
 
 // First the whole pixel. Then, if a piece beside a steep paint cuts it, the quarters: steep paints have other colours
-// and other weights there, the others' shares do not count. The inner loop adds up weights until a share has to be shaded, the outer one shades it: so
-// the paint interpreter, which compilers inline, stands in the program once, and outside of the loop over pieces. That
-// matters to drivers that run both sides of every branch. Such drivers also run a loop's body once more to find that
-// it has ended, unless the condition stands at the bottom.
+// and other weights there, and shares of others do not count. The inner loop adds up weights until a share has to be
+// shaded, the outer one shades it: so the paint interpreter, which compilers inline, stands in the program once, and
+// outside of the loop over pieces. That matters to drivers that run both sides of every branch. Such drivers also run a
+// loop's body once more to find that it has ended, unless the condition stands at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     uint paint = isFlatTile() ? tileTexels.z - 1u : low(cell.texel.x);
     List all = listOf(cell), list = all;
     // Each turn but the last of a part shades a share: at most two of a piece, and the two that are kept at the end.
     uint turns = (1u + quarterCount) * (2u * all.left + 2u);
-    bool isFirstSteep = isSteep(paint, minSteepness);
     Shares shares = Shares(Share(paint, 1.0, true), noShare, noShare, noShare);
     uint part = 0u;
     bool cut = false, complete = false;
@@ -80,7 +79,7 @@ void main() {
             complete = part == (cut ? quarterCount : 0u);
             ++part;
             list = all;
-            shares.newer = Share(paint, 0.0, isFirstSteep);
+            shares.newer = Share(paint, 0.0, false);
         }
     } while (!complete && --turns != 0u);
     color = outputColor(finishedSum(cell, sum, complete));
