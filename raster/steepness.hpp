@@ -16,15 +16,12 @@
 
 namespace vtm::asset {
 
-/// By paint: what a step of one picture unit changes a premultiplied channel by, at most, some 2/255 in all
-/// neglected. Solid paints and programs with images, whose filters are for whole pixels: 0. Where nothing
-/// bounds it: infinity; so hard stops, materials, gradients whose circles are next to not within each other,
-/// blend modes of what is not solid.
-std::vector<float> steepnessOf(const AssetView& asset);
-
-/// What a step of one picture unit changes a paint's channels by. Solid paints and programs with images: 0.
+/// What a step of one picture unit changes a paint's channels by, premultiplied, at most, some 2/255 in all
+/// neglected. Solid paints and programs with images, whose filters are for whole pixels: 0.
 struct PaintChange {
-    float steepness = 0;  ///< as above
+    /// Where nothing bounds it: infinity; so hard stops, materials, gradients whose circles are next to not
+    /// within each other, blend modes of what is not solid.
+    float steepness = 0;
     /// The same with every ramp as if it changed evenly from its first stop to its last: hard stops count by
     /// what they change.
     float variation = 0;

@@ -245,8 +245,8 @@ void use(const Program& program, const Sections& s, std::uint32_t firstPaint, co
     glUniform1ui(program.uniform("imageSection"), s.images);
     glUniform1ui(program.uniform("rampSums"), s.rampSums);
     const bool mirrored = glm::determinant(toPixels) < 0;
-    setMatrix(program.uniform("tileToBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
-    setMatrix(program.uniform("pixelToTile"), glm::inverse(toPixels));
+    setMatrix(program.uniform("toBox"), mirrored ? glm::dmat2(-1, 0, 0, 1) * toPixels : toPixels);
+    setMatrix(program.uniform("toTile"), glm::inverse(toPixels));
     const glm::dmat2 pixel = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
     glUniform1f(program.uniform("minSteepness"), asset::minSteepness(pixel));
 }

@@ -319,7 +319,7 @@ Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t 
         return tile;
     const std::vector<PlanarPiece> none;
     const HandedOver isHandedOver(source, places, paints);
-    CellWriter writer(words, none, tile.texels);
+    CellWriter writer(words, source.changes, none, tile.texels);
     std::vector<Texel> cells;
     const int side = tile.grid.cellsPerSide();
     for (int cell = 0; cell < side * side; ++cell) {
@@ -378,7 +378,7 @@ Tile crowdedTile(std::span<const asset::Paint> paints) {
     const TileWords words(paints);
     Tile tile;
     const std::vector<PlanarPiece> none;
-    const CellWriter writer(words, none, tile.texels);
+    const CellWriter writer(words, {}, none, tile.texels);
     for (int cell = 0; cell < 1 << 2 * tile.grid.log2; ++cell)
         tile.crowded.push_back(std::uint16_t(cell));
     tile.texels.assign(tile.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
@@ -407,7 +407,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     const Lists& lists = fine ? *fine : coarse;
     const int cellCount = tile.grid.cellsPerSide();
     std::vector<Texel> cells;
-    CellWriter writer(words, pieces, tile.texels);
+    CellWriter writer(words, source.changes, pieces, tile.texels);
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)

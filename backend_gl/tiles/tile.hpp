@@ -90,7 +90,7 @@ inline constexpr double maxPlainError = 0.25 / 255;
 /// after the other. Fields are packed from the lowest bit of the first word on.
 ///
 /// - Pair, two texels. First: the paints on the left and on the right as PaintWords. Second: left | right <<
-///   16.
+///   16; the steepness of each as a float.
 /// - Piece, one texel: a.x, a.y, b.x, b.y (18 bits each), slopes at a and b (12 bits each, signed); texel of
 ///   its pair << 2 | leftOfCurveBit | leftOfChordBit, as the cell's reference point lies.
 /// - Cell, one texel: paint at the reference point | place of that point << 16 | length of the list (lower

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -57,6 +59,11 @@ Texel geometryTexel(const PlanarPiece& piece, std::uint32_t pairTexel) {
     return packer.words();
 }
 
+/// GLSL wants numbers.
+std::uint32_t finiteBits(float value) {
+    return std::bit_cast<std::uint32_t>(std::min(value, std::numeric_limits<float>::max()));
+}
+
 std::uint32_t sidesOf(const PlanarPiece& piece, glm::dvec2 point) {
     const asset::Sides at = piece.sidesOf(point);
     return (at.leftOfCurve ? leftOfCurveBit : 0) | (at.leftOfChord ? leftOfChordBit : 0);
@@ -64,8 +71,8 @@ std::uint32_t sidesOf(const PlanarPiece& piece, glm::dvec2 point) {
 
 }  // namespace
 
-CellWriter::CellWriter(const TileWords& words, const std::vector<PlanarPiece>& pieces,
-                       std::vector<Texel>& texels)
+CellWriter::CellWriter(const TileWords& words, std::span<const asset::PaintChange> changes,
+                       const std::vector<PlanarPiece>& pieces, std::vector<Texel>& texels)
     : words_(words), pieces_(pieces), texels_(texels) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;  // texels
     for (const PlanarPiece& piece : pieces) {
@@ -73,7 +80,8 @@ CellWriter::CellWriter(const TileWords& words, const std::vector<PlanarPiece>& p
         const auto [found, isNew] = pairs.try_emplace({piece.left, piece.right}, texels.size());
         if (isNew) {
             texels.push_back(colorTexel(words.of(piece.left), words.of(piece.right)));
-            texels.push_back({piece.left | piece.right << 16, 0, 0, 0});
+            texels.push_back({piece.left | piece.right << 16, finiteBits(changes[piece.left].steepness),
+                              finiteBits(changes[piece.right].steepness), 0});
         }
         geometry_.push_back(geometryTexel(piece, found->second));
     }

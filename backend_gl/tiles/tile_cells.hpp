@@ -35,8 +35,9 @@ struct Reference {
 class CellWriter {
 public:
     /// `pieces`, whose numbers are rounded already, `words` and `texels`, which hold what stands before the
-    /// pairs, must outlive it.
-    CellWriter(const TileWords& words, const std::vector<PlanarPiece>& pieces, std::vector<Texel>& texels);
+    /// pairs, must outlive it. `changes`: by paint.
+    CellWriter(const TileWords& words, std::span<const asset::PaintChange> changes,
+               const std::vector<PlanarPiece>& pieces, std::vector<Texel>& texels);
 
     std::uint32_t pairs() const { return pairs_; }
     bool hasRoomFor(std::span<const std::uint32_t> list) const {

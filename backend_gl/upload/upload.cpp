@@ -1,11 +1,6 @@
 #include "backend_gl/upload/upload.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <limits>
-
 #include "backend_gl/core/constants.hpp"
-#include "raster/steepness.hpp"
 
 namespace vtm::gl {
 
@@ -16,32 +11,15 @@ using asset::Texel;
 
 constexpr std::uint32_t mapsPerRow = placementColumns * sizeof(Texel) / sizeof(Placement);
 
-/// All finite, as GLSL wants numbers.
-std::vector<float> finiteSteepness(const AssetView& asset) {
-    std::vector<float> steepness = asset::steepnessOf(asset);
-    for (float& s : steepness)
-        s = std::min(s, std::numeric_limits<float>::max());
-    return steepness;
-}
-
-/// Programs with their steepness in the word that is free.
-std::vector<asset::Paint> paintTexels(const AssetView& asset, std::span<const float> steepness) {
-    std::vector<asset::Paint> paints(asset.paints.begin(), asset.paints.end());
-    for (std::size_t i = 0; i < paints.size(); ++i)
-        if (asset::isProgram(paints[i]))
-            paints[i][2] = std::bit_cast<std::uint32_t>(steepness[i]);
-    return paints;
-}
-
 /// The trees themselves stay behind: instances stand for them, and tiles for the leaves of sums of maps.
-std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const float> steepness,
-                                std::span<const Texel> imageList, Sections& sections) {
+std::vector<Texel> joinedTexels(const AssetView& asset, std::span<const Texel> imageList,
+                                Sections& sections) {
     std::vector<Texel> texels;
     if (!isSumOfMaps(asset)) {
         sections.leaves = appendTexels(texels, asset.leaves);
         sections.pieces = appendTexels(texels, asset.pieces);
     }
-    sections.paints = appendTexels<asset::Paint>(texels, paintTexels(asset, steepness));
+    sections.paints = appendTexels(texels, asset.paints);
     sections.data = appendTexels(texels, asset.data);
     sections.images = appendTexels<Texel>(texels, imageList);
     sections.rampSums = appendTexels<Texel>(texels, rampSums(asset));
@@ -85,8 +63,7 @@ UploadedAsset::UploadedAsset(const AssetView& asset, unsigned materials, std::ui
                 atlases.emplace_back(kept, command.map, command.paint, maxTurns);
     }
     ImageTexels pictures = imageTexels(asset);
-    const std::vector<float> steepness = finiteSteepness(asset);
-    records = RecordTexture(joinedTexels(asset, steepness, pictures.list, sections));
+    records = RecordTexture(joinedTexels(asset, pictures.list, sections));
     images = imageTexture(std::move(pictures.rgba));
     instances = uploadInstances(list.instances);
     list.instances = {};
@@ -110,7 +87,7 @@ std::size_t UploadedAsset::update(const AssetView& asset, const asset::Differenc
     if (difference.paints) {
         features = featuresOf(asset);
         paints.assign(asset.paints.begin(), asset.paints.end());
-        sent += records.update(joinedTexels(asset, finiteSteepness(asset), {}, sections));
+        sent += records.update(joinedTexels(asset, {}, sections));
     }
     const PaintUpdate changed = vtm::gl::update(kept, asset, difference);
     return sent + atlases[0].update(difference, changed);

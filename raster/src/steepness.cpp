@@ -355,13 +355,6 @@ std::vector<PaintChange> changesOf(const AssetView& asset) {
     return {changes.byPaint().begin(), changes.byPaint().end()};
 }
 
-std::vector<float> steepnessOf(const AssetView& asset) {
-    std::vector<float> steepness;
-    for (const PaintChange& change : changesOf(asset))
-        steepness.push_back(change.steepness);
-    return steepness;
-}
-
 float minSteepness(const glm::dmat2& pixel) { return float(minSteepChange / stretchOf(pixel)); }
 
 }  // namespace vtm::asset

@@ -41,7 +41,7 @@ Gradient gradient(Spread spread = Spread::Pad, float scale = 1) {
 /// Of a program, the map's only paint.
 float steepnessOfProgram(const std::vector<Instruction>& program, const std::vector<Texel>& data) {
     const Asset asset = programAsset(program, data);
-    return steepnessOf(asset)[asset.maps[0].root.payload()];
+    return changesOf(asset)[asset.maps[0].root.payload()].steepness;
 }
 
 float steepness(Op op, Gradient g, const std::vector<GradientStop>& stops, float opacity = 1) {
@@ -97,8 +97,8 @@ TEST(Steepness, OfProgramsWithImagesIsNothing) {
 TEST(Steepness, OfLittleChangeIsNothing) {
     EXPECT_EQ(steepness(Op::Linear, gradient(), {grey(0, 0.5f), grey(0.5f, 0.5f), grey(0.5f, 0.52f)}), 0);
     EXPECT_EQ(steepness(Op::Linear, gradient(Spread::Repeat), {grey(0, 0.5f), grey(1, 0.5f)}), 0);
-    for (const float s : steepnessOf(halfPlane()))
-        EXPECT_EQ(s, 0);
+    for (const PaintChange& change : changesOf(halfPlane()))
+        EXPECT_EQ(change.steepness, 0);
 }
 
 /// Blend modes may make anything of a change, but not of none.
@@ -123,12 +123,13 @@ TEST(Steepness, OfGroups) {
 TEST(Steepness, BoundsEveryPaint) {
     const Asset asset = everyPaint();
     const Paints paints(asset);
-    const std::vector<float> steepness = steepnessOf(asset);
+    const std::vector<PaintChange> changes = changesOf(asset);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 1);
     int bounded = 0;
     for (std::uint32_t paint = 0; paint < asset.paints.size(); ++paint) {
-        if (!isProgram(asset.paints[paint]) || steepness[paint] == infinity || steepness[paint] == 0)
+        const float steepness = changes[paint].steepness;
+        if (!isProgram(asset.paints[paint]) || steepness == infinity || steepness == 0)
             continue;  // 0: programs with images, and others that do not change
         ++bounded;
         for (int i = 0; i < 3000; ++i) {
@@ -136,7 +137,7 @@ TEST(Steepness, BoundsEveryPaint) {
             const vec2 q = p + 0.25f * (vec2(unit(random), unit(random)) - 0.5f);
             const glm::vec4 change = paints.color(paint, {p}) - paints.color(paint, {q});
             for (int c = 0; c < 4; ++c)
-                ASSERT_LE(std::abs(change[c]), steepness[paint] * glm::length(p - q) + 1e-4f) << paint;
+                ASSERT_LE(std::abs(change[c]), steepness * glm::length(p - q) + 1e-4f) << paint;
         }
     }
     EXPECT_GE(bounded, 3);

@@ -1,6 +1,6 @@
 // The asset's texels, addressed by one index.
 // Requires: constants texelColumnsLog2, programTag. Twin of: asset/records.hpp.
-// Exports: spend, texelAt, low, high, sections, isProgram, isSteep, solidColor; ASSET_IN, ASSET, ASSET_PART.
+// Exports: spend, texelAt, low, high, sections, isProgram, solidColor; ASSET_IN, ASSET, ASSET_PART.
 
 // Which asset? One a program, whose parts are uniforms; or, in the include, one of several, a parameter of every
 // function that reads texels: ASSET_IN declares it, ASSET hands it on.
@@ -28,9 +28,4 @@ uint high(uint word) { return word >> 16; }
 
 uvec4 paintTexel(ASSET_IN uint paint) { return texelAt(ASSET ASSET_PART(sections).z + paint); }
 bool isProgram(uvec4 paint) { return paint.w == programTag; }
-// Whether a unit of the picture changes a program by more (raster/steepness.hpp).
-bool isSteep(ASSET_IN uint paint, float minimum) {
-    uvec4 texel = paintTexel(ASSET paint);
-    return isProgram(texel) && uintBitsToFloat(texel.z) > minimum;
-}
 vec4 solidColor(ASSET_IN uint paint) { return uintBitsToFloat(paintTexel(ASSET paint)); }

@@ -3,8 +3,8 @@
 // Exports: tileOrigin, tileTexels, tilePicture, pixelToTile, times, tilePoint, picturePoint, tileTexel, unpackColor.
 
 uniform usampler2D tiles;
-uniform vec4 pixelToTile;  // distances, by columns
 
+flat in vec4 pixelToTile;  // distances, by columns
 flat in vec2 tileOrigin;
 flat in uvec3 tileTexels;
 flat in vec4 tilePicture;

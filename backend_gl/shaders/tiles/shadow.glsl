@@ -1,10 +1,9 @@
 // What one piece changes in a pixel: the crossings on the way from a cell's reference point R to the pixel's
 // centre O, and the piece's shadow, seen from O, in the pixel's box (docs/coverage.md).
-// Requires: place.glsl; constants tileStep, tileSlopeScale, leftOfChordBit, leftOfCurveBit.
+// Requires: place.glsl; tile_vertex.glsl's outputs; constants tileStep, tileSlopeScale, leftOfChordBit, leftOfCurveBit.
 // Exports: TilePiece, tilePiece, mayMeetPixel, pieceWeight, sidesOf.
 
-// Tile to pixel distances, by columns, mirrored if need be so that areas keep their sign; the box does not care.
-uniform vec4 tileToBox;
+flat in vec4 tileToBox;
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 

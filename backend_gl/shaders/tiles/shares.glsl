@@ -1,20 +1,19 @@
 // Weights by paint: shares of a pixel's regions.
-// Requires: bool isShaded(uint paint, uint part), whether a share is shaded in a part of the pixel.
 // Exports: minWeight, Share, noPaint, noShare, Shares, add, evictAll.
-
-bool isShaded(uint paint, uint part);
 
 // Smaller weights are rounding errors.
 const float minWeight = 1e-5;
 
-// A paint, and the sum of the weights of pieces that have it on their left, less those that have it on their right.
+// A paint, and the sum of the weights of pieces that have it on their left, less those that have it on their right;
+// whether it counts in the part of the pixel that is asked for, which does not matter while the weight is 0.
 struct Share {
     uint paint;
     float weight;
+    bool counts;
 };
 
 const uint noPaint = 0xFFFFFFFFu;
-const Share noShare = Share(noPaint, 0.0);
+const Share noShare = Share(noPaint, 0.0, false);
 
 // The shares of the last two paints, mostly the two sides of a chain of pieces, are kept and added to. Another paint
 // evicts the older one; evicted shares wait to be shaded: two at most, since pieces are added while none waits.
@@ -23,9 +22,9 @@ struct Shares {
     Share waiting, last;
 };
 
-// An evicted share is shaded unless its weight is zero.
-void evict(inout Shares shares, Share share, uint part) {
-    if (abs(share.weight) <= minWeight || !isShaded(share.paint, part))
+// An evicted share is shaded unless its weight is zero or it does not count.
+void evict(inout Shares shares, Share share) {
+    if (abs(share.weight) <= minWeight || !share.counts)
         return;
     if (shares.waiting.paint == noPaint)
         shares.waiting = share;
@@ -33,9 +32,10 @@ void evict(inout Shares shares, Share share, uint part) {
         shares.last = share;
 }
 
-void add(inout Shares shares, Share term, uint part) {
+void add(inout Shares shares, Share term) {
     if (term.paint == shares.newer.paint) {
         shares.newer.weight += term.weight;
+        shares.newer.counts = term.counts;
         return;
     }
     Share older = shares.older;
@@ -44,11 +44,11 @@ void add(inout Shares shares, Share term, uint part) {
     if (term.paint == older.paint)
         shares.newer.weight += older.weight;
     else
-        evict(shares, older, part);
+        evict(shares, older);
 }
 
-void evictAll(inout Shares shares, uint part) {
-    evict(shares, shares.older, part);
-    evict(shares, shares.newer, part);
+void evictAll(inout Shares shares) {
+    evict(shares, shares.older);
+    evict(shares, shares.newer);
     shares.older = shares.newer = noShare;
 }

@@ -3,12 +3,10 @@
 
 out vec4 color;
 
-bool isShaded(uint paint, uint part) { return true; }
-
 // Colours are added to the sum at once, plain programs to the shares.
 void addPaint(inout Shares shares, inout vec4 sum, uvec2 paint, float weight) {
     if (paint.y == plainTag)
-        add(shares, Share(paint.x, weight), 0u);
+        add(shares, Share(paint.x, weight, true));
     else
         sum += weight / 65535.0 * regionValueIn(65535.0, unpackColor(paint));
 }
@@ -35,7 +33,7 @@ void main() {
             }
         } while (list.left != 0u && shares.waiting.paint == noPaint);
         if (shares.waiting.paint == noPaint)
-            evictAll(shares, 0u);
+            evictAll(shares);
         if (shares.waiting.paint != noPaint)
             sum += shares.waiting.weight * regionValue(plainColor(shares.waiting.paint, cell.o));
         shares.waiting = shares.last;

@@ -4,11 +4,6 @@ uniform float minSteepness;  // paints above it are evaluated in the quarters of
 
 out vec4 color;
 
-bool isSteep(uint paint) { return isSteep(paint, minSteepness); }
-
-// Unless its paint is steep, a share is not shaded in quarters.
-bool isShaded(uint paint, uint part) { return part == 0u || isSteep(paint); }
-
 // A piece whose weight is not an integer cuts the pixel.
 bool isFraction(float weight) { return abs(weight - floor(weight + 0.5)) > minWeight; }
 
@@ -45,17 +40,17 @@ vec4 valueOf(Share share, uint part) {
 }
 
 // First the whole pixel. Then, if a piece beside a steep paint cuts it, the quarters: steep paints have other colours
-// and other weights there. The inner loop adds up weights until a share has to be shaded, the outer one shades it: so
-// the paint interpreter, which compilers inline, stands in the program once, and outside of the loop over pieces. That
-// matters to drivers that run both sides of every branch. Such drivers also run a loop's body once more to find that
-// it has ended, unless the condition stands at the bottom.
+// and other weights there, and shares of others do not count. The inner loop adds up weights until a share has to be
+// shaded, the outer one shades it: so the paint interpreter, which compilers inline, stands in the program once, and
+// outside of the loop over pieces. That matters to drivers that run both sides of every branch. Such drivers also run a
+// loop's body once more to find that it has ended, unless the condition stands at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
     uint paint = isFlatTile() ? tileTexels.z - 1u : low(cell.texel.x);
     List all = listOf(cell), list = all;
     // Each turn but the last of a part shades a share: at most two of a piece, and the two that are kept at the end.
     uint turns = (1u + quarterCount) * (2u * all.left + 2u);
-    Shares shares = Shares(Share(paint, 1.0), noShare, noShare, noShare);
+    Shares shares = Shares(Share(paint, 1.0, true), noShare, noShare, noShare);
     uint part = 0u;
     bool cut = false, complete = false;
     vec4 sum = vec4(0.0);
@@ -64,18 +59,19 @@ void main() {
             if (list.left != 0u && shares.waiting.paint == noPaint) {
                 uvec4 bits = nextPiece(list);
                 TilePiece piece = tilePiece(bits.xyz, cell.o);
-                uint pair = tileTexel((bits.w >> 2) + 1u).x, left = low(pair), right = high(pair);
+                uvec4 pair = tileTexel((bits.w >> 2) + 1u);
+                bvec2 steep = greaterThan(uintBitsToFloat(pair.yz), vec2(minSteepness));
                 float weight = weightIn(part, piece, bits, cell);
                 if (part == 0u)
-                    cut = cut || isFraction(weight) && (isSteep(left) || isSteep(right));
+                    cut = cut || isFraction(weight) && any(steep);
                 if (part == 0u ? weight != 0.0 : mayMeetPixel(piece)) {
-                    add(shares, Share(left, weight), part);
-                    add(shares, Share(right, -weight), part);
+                    add(shares, Share(low(pair.x), weight, part == 0u || steep.x));
+                    add(shares, Share(high(pair.x), -weight, part == 0u || steep.y));
                 }
             }
         } while (list.left != 0u && shares.waiting.paint == noPaint);
         if (shares.waiting.paint == noPaint)
-            evictAll(shares, part);
+            evictAll(shares);
         sum += valueOf(shares.waiting, part);
         shares.waiting = shares.last;
         shares.last = noShare;
@@ -83,7 +79,7 @@ void main() {
             complete = part == (cut ? quarterCount : 0u);
             ++part;
             list = all;
-            shares.newer = Share(paint, 0.0);
+            shares.newer = Share(paint, 0.0, false);
         }
     } while (!complete && --turns != 0u);
     color = outputColor(finishedSum(cell, sum, complete));
