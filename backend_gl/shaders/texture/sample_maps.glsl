@@ -83,8 +83,8 @@ Search searchOf(Vtm vtm, CopyFootprint part, uint root, uint grid) {
 
 // Into an instance, if the footprint meets it.
 void enterInstance(Vtm vtm, uint number, inout Search search) {
-    uvec4 instance = texelAt(vtm, vtm.placed.x + number);
-    uint place = vtm.placed.y + 2u * (instance.x >> 24 | instance.y >> 24 << 8);
+    uvec4 instance = texelAt(vtm, placedOf.x + number);
+    uint place = placedOf.y + 2u * (instance.x >> 24 | instance.y >> 24 << 8);
     uvec4 symbol = texelAt(vtm, place);
     ivec4 m = ivec4(instance.z << 16, instance.z, instance.w << 16, instance.w) >> 16;
     mat2 linear = mat2(vec2(m.xy), vec2(m.zw)) * (uintBitsToFloat(symbol.z) / slopeScale);
@@ -178,6 +178,7 @@ void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint grid, ino
     innerDepth = 0;  // the sample before may have been given up inside a map
 #endif
     Search search = searchOf(vtm, part, root, grid);
+    descend(vtm, part, search.walk);
     Square square;
 #if PROGRAMS
     LeafSum leaf = noLeaf();
@@ -195,16 +196,6 @@ void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint grid, ino
         if (!isOver)
             addProgram(vtm, leaf, pixel, sum);
         if (isOver)
-            break;
-    }
-#elif SHARES
-    LeafSum leaf = noLeaf();
-    while (spend(1.0)) {
-        if (isFinished(leaf) && nextSquare(vtm, search, pixel, square))
-            leaf = leafOf(square);
-        addAreas(vtm, leaf);
-        addColors(vtm, leaf, sum);
-        if (isFinished(leaf) && search.isOver)
             break;
     }
 #else
