@@ -1,6 +1,7 @@
 // Squares of a tree that a footprint meets, found without recursion and without a stack. docs/texture.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl; constants kind*, maxLevel, leafExtent.
-// Exports: CopyFootprint, picturePoint, lastPlace, Walk, walkFrom, isDone, step, squareOf, wordAt, findMap.
+// Exports: CopyFootprint, picturePoint, lastPlace, Walk, walkFrom, descend, isDone, advance, setEntry, squareOf, wordAt,
+// findMap.
 
 // ---- One square of the tree -------------------------------------------------------------------------
 
@@ -38,9 +39,7 @@ uint wordAt(Vtm vtm, uint texel, uint i) { return texelAt(vtm, texel + (i >> 2))
 float sideAt(int level) { return uintBitsToFloat(uint(127 - 2 * level) << 23); }
 float perSideAt(int level) { return uintBitsToFloat(uint(127 + 2 * level) << 23); }
 
-uint childAt(Vtm vtm, uint node, ivec2 cell) {
-    return texelAt(vtm, nodesOf + 4u * node + uint(cell.y & 3))[cell.x & 3];
-}
+uint childTexel(uint node, ivec2 cell) { return nodesOf + 4u * node + uint(cell.y & 3); }
 
 ivec2 firstCell(CopyFootprint part, int level) { return ivec2(floor(part.lower * perSideAt(level))); }
 ivec2 lastCell(CopyFootprint part, int level) {
@@ -83,7 +82,7 @@ void descend(Vtm vtm, CopyFootprint part, inout Walk walk) {
         ivec2 cell = firstCell(part, walk.level + 1);
         bool fits = cell == lastCell(part, walk.level + 1);
         if (fits) {
-            walk.entry = childAt(vtm, walk.entry >> 2, cell);
+            walk.entry = texelAt(vtm, childTexel(walk.entry >> 2, cell))[cell.x & 3];
             walk.cell = cell;
             ++walk.level;
         }
@@ -96,8 +95,8 @@ void descend(Vtm vtm, CopyFootprint part, inout Walk walk) {
 bool isDone(Walk walk) { return walk.level < walk.top; }
 
 // Goes on by one step: down into a node, on to the next square of one, or up. True if it leaves behind a square that the
-// footprint meets.
-bool advance(Vtm vtm, CopyFootprint part, inout Walk walk, out ivec2 cell, out float side, out uint entry) {
+// footprint meets. `texel` has the next square's entry: setEntry().
+bool advance(CopyFootprint part, inout Walk walk, out ivec2 cell, out float side, out uint entry, out uint texel) {
     cell = walk.cell;
     side = sideAt(walk.level);
     entry = walk.entry;
@@ -120,10 +119,12 @@ bool advance(Vtm vtm, CopyFootprint part, inout Walk walk, out ivec2 cell, out f
         walk.cell >>= 2;
     }
     walk.rising = !down && !onward;
-    if (!walk.rising)
-        walk.entry = childAt(vtm, nodeAt(walk, walk.level), walk.cell);
+    texel = childTexel(nodeAt(walk, walk.level), walk.cell);
     return met && !down;
 }
+
+// Going up, there is none.
+void setEntry(inout Walk walk, uvec4 texel) { walk.entry = texel[walk.cell.x & 3]; }
 
 // The largest float below 1: whatever a square's side, it lies in the tree's last cell.
 const float lastPlace = 1.0 - 1.0 / 16777216.0;
