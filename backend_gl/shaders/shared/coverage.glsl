@@ -54,13 +54,10 @@ Curve curveOf(Frame frame, uvec4 piece) {
                  signedLow(piece.z) / slopeScale, signedHigh(piece.z) / slopeScale);
 }
 
-// The curve is off its chord by less, in chords.
-float bulgeOf(Curve c) { return 4.0 / 27.0 * (abs(c.slopeA) + abs(c.slopeB)); }
-
 // The s for which the curve can lie in the box, as (from, to); empty unless from < to.
 vec2 rangeInBox(Curve c) {
     float area = cross2(c.chord, c.normal);
-    float bulge = bulgeOf(c);
+    float bulge = 4.0 / 27.0 * (abs(c.slopeA) + abs(c.slopeB));
     if (area == 0.0 || bulge == 0.0)
         return vec2(0.0);
     vec2 toCentre = vec2(0.5) - c.a;
@@ -84,24 +81,15 @@ int sideOf(uint point) {
     return p.x == 0u && p.y > 0u ? 3 : -1;
 }
 
-const float smallArea = 0.001;  // pixels
-
 // Along a piece from A to B. Outside the box one chord stands for the curve. Points between are off the curve by
-// -h² t''(s) / 12, the mean of what a chord of the step h between its points misses. Where chord and curve enclose less than
-// a thousandth of a pixel, one point between leaves the same area, (a - b) / 12 chords². What does not change in the loop stands
-// before it: not every driver takes it out.
+// -h² t''(s) / 12, the mean of what a chord of the step h between its points misses. What does not change in the loop
+// stands before it: not every driver takes it out.
 float curveSum(Frame frame, uvec4 piece) {
     Curve c = curveOf(frame, piece);
     vec2 range = rangeInBox(c);
     int end = range.x < range.y ? chordCount + 1 : 0;  // points between A and B
     float h = (range.y - range.x) * (1.0 / float(chordCount)), h2 = h * h * (1.0 / 6.0);
     vec2 lift = h2 * vec2(2.0 * c.slopeA + c.slopeB, -3.0 * (c.slopeA + c.slopeB)), last = c.a;
-    if (end > 0 && bulgeOf(c) * dot(c.chord, c.chord) < smallArea) {
-        end = 1;
-        range = vec2(0.5);
-        h = 0.0;
-        lift = vec2((c.slopeA - c.slopeB) / 24.0, 0.0);  // t(1/2) = (a - b) / 8, and (a - b) / 6 is wanted
-    }
     float sum = 0.0;
     for (int i = 0; i <= end; ++i) {
         float s = range.x + float(i) * h, r = 1.0 - s;

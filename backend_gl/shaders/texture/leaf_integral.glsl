@@ -44,6 +44,10 @@ float toFirstCorner(Frame frame, vec4 behind, uint point) {
 // Of curveSum()'s loop, at most: straight pieces are one chord.
 float pieceTurns(uvec4 piece) { return piece.z == 0u ? 3.0 : float(chordCount) + 4.0; }
 
+// ---- Paints that are solid -------------------------------------------------------------------------------
+
+#if !PROGRAMS
+
 // On the left of a chain, whose first piece has been read; the first piece of the next one takes its place.
 float chainArea(ASSET_IN Frame frame, inout Pieces pieces, inout uvec4 piece) {
     uvec4 last = piece;
@@ -58,10 +62,6 @@ float chainArea(ASSET_IN Frame frame, inout Pieces pieces, inout uvec4 piece) {
     }
     return area + toFirstCorner(frame, pieces.behind, last.y);
 }
-
-// ---- Paints that are solid -------------------------------------------------------------------------------
-
-#if !PROGRAMS
 
 vec4 numberColor(ASSET_IN uint number) {
     return onPage ? pageColor(number) : solidColor(ASSET paintOf(ASSET number));
@@ -104,7 +104,7 @@ struct LeafSum {
     Pieces pieces;
     float whole;        // area of the first corner's paint that is not yet added
     float ground;       // the same of what is under a map that is placed
-    uvec2 waiting;      // paints of the chain that comes next, if it waits for a place
+    uvec2 waiting;      // paints of the piece that comes next, if it waits for a place
     Share one, other;
 };
 
@@ -150,21 +150,28 @@ float withoutPlace(inout LeafSum sum, uint paint, float area) {
     return 0.0;
 }
 
-// Up to a chain for whose paints there is no place.
+float pieceArea(Frame frame, Pieces pieces, uvec4 piece) {
+    return curveSum(frame, piece) + toFirstCorner(frame, pieces.behind, piece.y) -
+           toFirstCorner(frame, pieces.behind, piece.x);
+}
+
+// Up to a piece for whose paints there is no place. Chains would save nothing here, where colours are not looked up piece by
+// piece.
 void addAreas(ASSET_IN inout LeafSum sum) {
     sum.whole = withoutPlace(sum, low(sum.square.leaf.z), sum.whole);
     sum.ground = withoutPlace(sum, 0u, sum.ground);
     sum.waiting = uvec2(noPaint);
-    uvec4 piece = texelAt(ASSET SECTIONS.y + sum.pieces.next);
     while (sum.pieces.next < sum.pieces.end && spend(1.0)) {
+        uvec4 piece = texelAt(ASSET SECTIONS.y + sum.pieces.next);
         uvec2 sides = uvec2(low(piece.w), high(piece.w));
         if (!hasPlace(sum, sides.x) || !hasPlace(sum, sides.y)) {
             sum.waiting = sides;
             break;
         }
-        float area = sum.square.turn * chainArea(ASSET sum.square.frame, sum.pieces, piece);
+        float area = spend(pieceTurns(piece)) ? sum.square.turn * pieceArea(sum.square.frame, sum.pieces, piece) : 0.0;
         addArea(sum, sides.x, area);
         addArea(sum, sides.y, -area);
+        ++sum.pieces.next;
         if (sum.pieces.next == sum.pieces.end)
             break;
     }
