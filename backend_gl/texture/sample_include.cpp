@@ -192,11 +192,24 @@ std::uint32_t samplingFlags(Features features, SampledKinds kinds) {
     return features.flags() | (maps | pages) * Features::combinations;
 }
 
+namespace {
+
+/// Of the current context's driver, if there is one: fetch.glsl.
+bool samplesTexels() {
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return renderer != nullptr && std::string_view(renderer).find("llvmpipe") != std::string_view::npos;
+}
+
+}  // namespace
+
 std::string sampleText(Features features, SampledKinds kinds, std::span<const Material> materials) {
     using namespace shaders;
-    std::string text = features.defines() +
-                       fmt::format("#define INNER_MAPS {}\n#define TEXT_PAGES {}\n#define FEATURES {}u\n",
-                                   kinds.innerMaps, int(kinds.pages), samplingFlags(features, kinds));
+    std::string text =
+        features.defines() + fmt::format(
+                                 "#define INNER_MAPS {}\n#define TEXT_PAGES {}\n#define FEATURES {}u\n"
+                                 "#define SAMPLED_TEXELS {}\n",
+                                 kinds.innerMaps, int(kinds.pages), samplingFlags(features, kinds),
+                                 int(samplesTexels()));
     text += glslConstants() + constants();
     const std::string_view images = features.has(Features::Image) ? image : std::string_view();
     for (const std::string_view part :

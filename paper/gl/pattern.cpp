@@ -145,12 +145,10 @@ struct Pattern::Impl {
         const double lod = std::log2(Footprint(linear).longer) + mipLog2;
         const Reach range = !form.filtered || lod <= -1 ? Reach::Near : lod < 0 ? Reach::Between : Reach::Far;
         const Program& program = programOf(range);
-        const glm::mat2 pixelInPeriods(inverse);
         const float toPattern[6] = {float(inverse[0].x), float(inverse[0].y), float(inverse[1].x),
                                     float(inverse[1].y), float(origin.x),     float(origin.y)};
         program.use();
         bindTextures(range == Reach::Between ? GL_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
-        glUniformMatrix2fv(program.uniform("pixelInPeriods"), 1, GL_FALSE, &pixelInPeriods[0][0]);
         glUniformMatrix3x2fv(program.uniform("toPattern"), 1, GL_FALSE, toPattern);
         glUniform1f(program.uniform("lod"), float(lod));
         glBindVertexArray(vertexArray.get());

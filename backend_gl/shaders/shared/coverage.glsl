@@ -1,7 +1,7 @@
 // Areas by Green's theorem in the pixel's own coordinates, its box being [0, 1]² (docs/coverage.md).
 // Requires: low, high; constants leafExtent, slopeScale, chordCount, smallestSpan.
 // Twin of: raster/src/coverage.cpp.
-// Exports: Frame, toPixel, seg, quadArea, pieceSum.
+// Exports: Frame, toPixel, cornerOf, seg, quadArea, cross2, curveSum, sideOf, alongSide, pieceSum.
 
 // Leaf coordinates to the pixel's: p -> linear · p + origin.
 struct Frame {
@@ -11,25 +11,20 @@ struct Frame {
 
 vec2 toPixel(Frame frame, vec2 p) { return frame.linear * p + frame.origin; }
 
-// Split at x = 1 instead of subtracting antiderivatives, whose leading digits cancel for large |x|.
+// The mean of clamp(x, 0, 1) for x evenly between a and b. Split at x = 1 instead of subtracting antiderivatives, whose
+// leading digits cancel for large |x|.
 float meanOfClamp(float a, float b) {
-    float lowest = min(a, b), highest = max(a, b), span = highest - lowest;
-    float from = clamp(lowest, 0.0, 1.0), to = clamp(highest, 0.0, 1.0);
-    if (span < smallestSpan)
-        return from;
-    float ramp = (to - from) * (to + from) * 0.5;
-    float above = max(highest, 1.0) - max(lowest, 1.0);
-    return (ramp + above) / span;
+    float from = clamp(a, 0.0, 1.0), to = clamp(b, 0.0, 1.0), span = b - a;
+    float ramp = (to - from) * (to + from) * 0.5, above = max(b, 1.0) - max(a, 1.0);
+    return abs(span) < smallestSpan ? from : (ramp + above) / span;
 }
 
 // ∫ clamp(x, 0, 1) dy along P -> Q inside 0 <= y <= 1.
 float seg(vec2 p, vec2 q) {
-    float y0 = clamp(p.y, 0.0, 1.0), y1 = clamp(q.y, 0.0, 1.0);
-    if (y0 == y1)
-        return 0.0;
     vec2 d = q - p;
-    float x0 = p.x + d.x * ((y0 - p.y) / d.y), x1 = q.x + d.x * ((y1 - q.y) / d.y);
-    return (y1 - y0) * meanOfClamp(x0, x1);
+    float y0 = clamp(p.y, 0.0, 1.0), y1 = clamp(q.y, 0.0, 1.0), slope = d.x / d.y;
+    float x0 = p.x + slope * (y0 - p.y), x1 = q.x + slope * (y1 - q.y);
+    return abs(d.y) < smallestSpan ? 0.0 : (y1 - y0) * meanOfClamp(x0, x1);
 }
 
 vec2 cornerOf(Frame frame, int k) {
@@ -49,16 +44,6 @@ struct Curve {
     vec2 a, b, chord, normal;
     float slopeA, slopeB;
 };
-
-vec2 curveAt(Curve c, float s) {
-    float r = 1.0 - s;
-    return c.a + s * c.chord + s * r * (c.slopeA * r - c.slopeB * s) * c.normal;
-}
-
-// Off the curve by -h² t''(s) / 12, the mean of what a chord of that step h between its points misses.
-vec2 curveLifted(Curve c, float s, float h) {
-    return curveAt(c, s) + h * h / 6.0 * (2.0 * c.slopeA + c.slopeB - 3.0 * s * (c.slopeA + c.slopeB)) * c.normal;
-}
 
 float signedLow(uint word) { return float(int(word << 16) >> 16); }
 float signedHigh(uint word) { return float(int(word) >> 16); }
@@ -96,26 +81,35 @@ int sideOf(uint point) {
     return p.x == 0u && p.y > 0u ? 3 : -1;
 }
 
-// What a piece adds to the loop of the region on its left: the sum along corner - A - curve - B -
-// corner, where the corners end the sides on which A and B lie. Outside the box one chord stands for
-// the curve. One loop of as many steps as needed: some drivers run both sides of every branch.
-float pieceSum(Frame frame, uvec4 piece) {
+// Along a piece from A to B. Outside the box one chord stands for the curve. Points between are off the curve by
+// -h² t''(s) / 12, the mean of what a chord of the step h between its points misses. What does not change in the loop
+// stands before it: not every driver takes it out.
+float curveSum(Frame frame, uvec4 piece) {
     Curve c = curveOf(frame, piece);
     vec2 range = rangeInBox(c);
-    int sideA = sideOf(piece.x), sideB = sideOf(piece.y);
-    int inner = range.x < range.y ? chordCount + 1 : 0;  // points between A and B
-    int end = inner + (sideB < 0 ? 1 : 2);
-    vec2 last = sideA < 0 ? c.a : cornerOf(frame, (sideA + 1) & 3);
-    vec2 cornerB = cornerOf(frame, (sideB + 1) & 3);
+    int end = range.x < range.y ? chordCount + 1 : 0;  // points between A and B
+    float h = (range.y - range.x) * (1.0 / float(chordCount)), h2 = h * h * (1.0 / 6.0);
+    vec2 lift = h2 * vec2(2.0 * c.slopeA + c.slopeB, -3.0 * (c.slopeA + c.slopeB)), last = c.a;
     float sum = 0.0;
-    for (int i = sideA < 0 ? 1 : 0; i <= end; ++i) {
-        vec2 next = curveLifted(c, mix(range.x, range.y, float(i - 1) / float(chordCount)),
-                                (range.y - range.x) / float(chordCount));
-        next = i == 0 ? c.a : i <= inner ? next : i == inner + 1 ? c.b : cornerB;
+    for (int i = 0; i <= end; ++i) {
+        float s = range.x + float(i) * h, r = 1.0 - s;
+        float t = s * r * (c.slopeA * r - c.slopeB * s) + lift.x + s * lift.y;
+        vec2 next = i == end ? c.b : c.a + s * c.chord + t * c.normal;
         sum += seg(last, next);
         last = next;
         if (i == end)
             break;  // or some drivers run the body once more
     }
     return sum;
+}
+
+// From a point to the end of the leaf's side on which it lies; 0 inside.
+float alongSide(Frame frame, uint point) {
+    int side = sideOf(point);
+    return side < 0 ? 0.0 : seg(toPixel(frame, vec2(low(point), high(point))), cornerOf(frame, (side + 1) & 3));
+}
+
+// What a piece adds to the loop of the region on its left, which is closed along the leaf's sides.
+float pieceSum(Frame frame, uvec4 piece) {
+    return curveSum(frame, piece) + alongSide(frame, piece.y) - alongSide(frame, piece.x);
 }

@@ -51,7 +51,7 @@ uniform uint rampSums;
 #endif
 
 vec4 integralBetween(ASSET_IN uint from, uint to) {
-    uint sums = ASSET_PART(rampSums) - ASSET_PART(sections).w;
+    uint sums = ASSET_PART(rampSums) - SECTIONS.w;
     return vec4(texelAt(ASSET sums + to) - texelAt(ASSET sums + from)) * exp2(-31.0);
 }
 #endif

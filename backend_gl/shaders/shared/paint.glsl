@@ -47,14 +47,14 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
     int top = 0;
     stack[0] = vec4(0.0);
     for (uint i = first; i < first + count; ++i) {
-        uvec4 instruction = texelAt(ASSET ASSET_PART(sections).w + i);
+        uvec4 instruction = texelAt(ASSET SECTIONS.w + i);
         if (instruction.x == opPush) {
             stack[++top] = vec4(0.0);
         } else if (instruction.x < opSolid) {
             --top;
             stack[top] = popped(instruction, stack[top + 1], stack[top]);
         } else {
-            vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point, pixel);
+            vec4 source = layerColor(ASSET instruction.x, SECTIONS.w + instruction.w, point, pixel);
             stack[top] = over(source * uintBitsToFloat(instruction.z), stack[top]);
         }
         if (i + 1u == first + count)
@@ -68,8 +68,8 @@ vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
 vec4 runProgram(ASSET_IN uint first, uint count, vec2 point, mat3x2 pixel) {
     vec4 sum = vec4(0.0);
     for (uint i = first; i < first + count; ++i) {
-        uvec4 instruction = texelAt(ASSET ASSET_PART(sections).w + i);
-        vec4 source = layerColor(ASSET instruction.x, ASSET_PART(sections).w + instruction.w, point, pixel);
+        uvec4 instruction = texelAt(ASSET SECTIONS.w + i);
+        vec4 source = layerColor(ASSET instruction.x, SECTIONS.w + instruction.w, point, pixel);
         sum = over(source * uintBitsToFloat(instruction.z), sum);
         if (i + 1u == first + count)
             break;

@@ -1,13 +1,9 @@
 // A square of the tree added up: the integral of its colour over the pixel's box.
-// Requires: fetch.glsl, coverage.glsl, paint.glsl, placed_paints.glsl; LINEAR, RADIAL, IMAGE, GROUPS, MATERIAL, INNER_MAPS.
-// Exports: PROGRAMS, SHARES, Square, squareArea; where SHARES is 0: leafIntegral, else LeafSum, noLeaf, leafOf, isFinished,
-// addAreas, addColors; where PROGRAMS is 1: needsProgram, addProgram.
+// Requires: fetch.glsl, coverage.glsl, paint.glsl, placed_paints.glsl; LINEAR, RADIAL, IMAGE, GROUPS, MATERIAL.
+// Exports: PROGRAMS, Square, squareArea; where PROGRAMS is 0: leafIntegral, else LeafSum, noLeaf, leafOf, isFinished, addAreas,
+// addColors, needsProgram, addProgram.
 
-// Some drivers run both sides of every branch, so what stands in the loop over pieces is done for each of them. Where a colour
-// takes long, areas are added up for two paints at a time, as most leaves have no more, and their colours are looked up when
-// others take their places.
 #define PROGRAMS (LINEAR || RADIAL || IMAGE || GROUPS || MATERIAL)
-#define SHARES (PROGRAMS || INNER_MAPS)
 
 // Of a tree, over the pixel's box [0, 1]².
 struct Square {
@@ -24,10 +20,76 @@ vec4 cornerAreas(Frame frame) {
 }
 float squareArea(Frame frame) { return dot(cornerAreas(frame), vec4(1.0)); }
 
-// Of pieceSum()'s loop, at most: straight pieces are one chord.
-float pieceTurns(uvec4 piece) { return piece.z == 0u ? 4.0 : float(chordCount) + 5.0; }
+// ---- Chains of pieces ------------------------------------------------------------------------------------
 
-#if SHARES
+// A leaf is all of its first corner's paint, with what pieces change: each has its loop closed along the leaf's sides up to
+// the first corner, which gives the same sum as the four corners' paints with loops up to the next corner. The pieces of a
+// chain, each of which starts where the one before ends, have the same paints, so their loops are closed, and their colours
+// looked up, once.
+struct Pieces {
+    uint next, end;
+    vec4 behind;  // areas along the sides that follow each side, up to the first corner
+};
+
+Pieces piecesOf(uvec4 leaf, vec4 corners) {
+    return Pieces(leaf.x, leaf.x + low(leaf.y), vec4(corners.y + corners.z + corners.w, corners.zw + vec2(corners.w, 0.0), 0.0));
+}
+
+// From a point on a side to the first corner; 0 inside.
+float toFirstCorner(Frame frame, vec4 behind, uint point) {
+    int side = sideOf(point);
+    return alongSide(frame, point) + (side < 0 ? 0.0 : side == 0 ? behind.x : side == 1 ? behind.y : side == 2 ? behind.z : 0.0);
+}
+
+// Of curveSum()'s loop, at most: straight pieces are one chord.
+float pieceTurns(uvec4 piece) { return piece.z == 0u ? 3.0 : float(chordCount) + 4.0; }
+
+// ---- Paints that are solid -------------------------------------------------------------------------------
+
+#if !PROGRAMS
+
+// On the left of a chain, whose first piece has been read; the first piece of the next one takes its place.
+float chainArea(ASSET_IN Frame frame, inout Pieces pieces, inout uvec4 piece) {
+    uvec4 last = piece;
+    float area = -toFirstCorner(frame, pieces.behind, piece.x);
+    while (spend(1.0)) {
+        last = piece;
+        area += spend(pieceTurns(piece)) ? curveSum(frame, piece) : 0.0;
+        ++pieces.next;
+        piece = texelAt(ASSET SECTIONS.y + pieces.next);
+        if (pieces.next == pieces.end || piece.x != last.y || piece.w != last.w)
+            break;
+    }
+    return area + toFirstCorner(frame, pieces.behind, last.y);
+}
+
+vec4 numberColor(ASSET_IN uint number) {
+    return onPage ? pageColor(number) : solidColor(ASSET paintOf(ASSET number));
+}
+
+vec4 leafIntegral(ASSET_IN Square square) {
+    uvec4 leaf = square.leaf;
+    vec4 corners = cornerAreas(square.frame), ground = isPlaced() ? numberColor(ASSET 0u) : vec4(0.0);
+    vec4 sum = dot(corners, vec4(1.0)) * (numberColor(ASSET low(leaf.z)) - ground);
+    Pieces pieces = piecesOf(leaf, corners);
+    uvec4 piece = texelAt(ASSET SECTIONS.y + pieces.next);
+    while (pieces.next < pieces.end && spend(1.0)) {
+        uint paints = piece.w;
+        float area = chainArea(ASSET square.frame, pieces, piece);
+        sum += area * (numberColor(ASSET low(paints)) - numberColor(ASSET high(paints)));
+        if (pieces.next == pieces.end)
+            break;
+    }
+    return square.turn * sum;
+}
+
+#else
+
+// ---- Paint programs --------------------------------------------------------------------------------------
+
+// Some drivers run both sides of every branch, so what stands in the loop over pieces is done for each of them. Where a colour
+// takes long, areas are added up for two paints at a time, as most leaves have no more, and their colours are looked up when
+// others take their places.
 
 const uint noPaint = 0xFFFFFFFFu;
 
@@ -39,9 +101,9 @@ struct Share {
 
 struct LeafSum {
     Square square;
-    vec4 corners;       // areas that are not yet added
+    Pieces pieces;
+    float whole;        // area of the first corner's paint that is not yet added
     float ground;       // the same of what is under a map that is placed
-    uint next, end;     // pieces
     uvec2 waiting;      // paints of the piece that comes next, if it waits for a place
     Share one, other;
 };
@@ -49,21 +111,21 @@ struct LeafSum {
 LeafSum noLeaf() {
     Share none = Share(noPaint, 0.0);
     Square square = Square(Frame(mat2(0.0), vec2(0.0)), uvec4(0u), vec2(0.0), 1.0);
-    return LeafSum(square, vec4(0.0), 0.0, 0u, 0u, uvec2(noPaint), none, none);
+    return LeafSum(square, Pieces(0u, 0u, vec4(0.0)), 0.0, 0.0, uvec2(noPaint), none, none);
 }
 
 LeafSum leafOf(Square square) {
     LeafSum sum = noLeaf();
+    vec4 corners = cornerAreas(square.frame);
     sum.square = square;
-    sum.corners = square.turn * cornerAreas(square.frame);
-    sum.ground = isPlaced() ? -dot(sum.corners, vec4(1.0)) : 0.0;
-    sum.next = square.leaf.x;
-    sum.end = square.leaf.x + low(square.leaf.y);
+    sum.pieces = piecesOf(square.leaf, corners);
+    sum.whole = square.turn * dot(corners, vec4(1.0));
+    sum.ground = isPlaced() ? -sum.whole : 0.0;
     return sum;
 }
 
 bool isFinished(LeafSum sum) {
-    return sum.next == sum.end && sum.corners == vec4(0.0) && sum.ground == 0.0 && sum.one.paint == noPaint &&
+    return sum.pieces.next == sum.pieces.end && sum.whole == 0.0 && sum.ground == 0.0 && sum.one.paint == noPaint &&
            sum.other.paint == noPaint;
 }
 
@@ -88,27 +150,29 @@ float withoutPlace(inout LeafSum sum, uint paint, float area) {
     return 0.0;
 }
 
-// Up to a piece for whose paints there is no place.
+float pieceArea(Frame frame, Pieces pieces, uvec4 piece) {
+    return curveSum(frame, piece) + toFirstCorner(frame, pieces.behind, piece.y) -
+           toFirstCorner(frame, pieces.behind, piece.x);
+}
+
+// Up to a piece for whose paints there is no place. Chains would save nothing here, where colours are not looked up piece by
+// piece.
 void addAreas(ASSET_IN inout LeafSum sum) {
-    uvec4 leaf = sum.square.leaf;
-    sum.corners.x = withoutPlace(sum, low(leaf.z), sum.corners.x);
-    sum.corners.y = withoutPlace(sum, high(leaf.z), sum.corners.y);
-    sum.corners.z = withoutPlace(sum, low(leaf.w), sum.corners.z);
-    sum.corners.w = withoutPlace(sum, high(leaf.w), sum.corners.w);
+    sum.whole = withoutPlace(sum, low(sum.square.leaf.z), sum.whole);
     sum.ground = withoutPlace(sum, 0u, sum.ground);
     sum.waiting = uvec2(noPaint);
-    while (sum.next < sum.end && spend(1.0)) {
-        uvec4 piece = texelAt(ASSET ASSET_PART(sections).y + sum.next);
+    while (sum.pieces.next < sum.pieces.end && spend(1.0)) {
+        uvec4 piece = texelAt(ASSET SECTIONS.y + sum.pieces.next);
         uvec2 sides = uvec2(low(piece.w), high(piece.w));
         if (!hasPlace(sum, sides.x) || !hasPlace(sum, sides.y)) {
             sum.waiting = sides;
             break;
         }
-        float area = spend(pieceTurns(piece)) ? sum.square.turn * pieceSum(sum.square.frame, piece) : 0.0;
+        float area = spend(pieceTurns(piece)) ? sum.square.turn * pieceArea(sum.square.frame, sum.pieces, piece) : 0.0;
         addArea(sum, sides.x, area);
         addArea(sum, sides.y, -area);
-        ++sum.next;
-        if (sum.next == sum.end)
+        ++sum.pieces.next;
+        if (sum.pieces.next == sum.pieces.end)
             break;
     }
 }
@@ -133,8 +197,6 @@ void addColors(ASSET_IN inout LeafSum sum, inout vec4 color) {
     addColor(ASSET sum, sum.other, color);
 }
 
-#if PROGRAMS
-
 bool needsProgram(LeafSum sum) { return makesRoom(sum, sum.one) || makesRoom(sum, sum.other); }
 
 void addProgram(ASSET_IN inout LeafSum sum, mat3x2 pixel, inout vec4 color) {
@@ -147,34 +209,6 @@ void addProgram(ASSET_IN inout LeafSum sum, mat3x2 pixel, inout vec4 color) {
         sum.one = Share(noPaint, 0.0);
     else
         sum.other = Share(noPaint, 0.0);
-}
-
-#endif
-
-#else
-
-vec4 numberColor(ASSET_IN uint number) {
-    return onPage ? pageColor(number) : solidColor(ASSET paintOf(ASSET number));
-}
-
-// Twin of pieces_fragment.glsl.
-vec4 leafIntegral(ASSET_IN Square square) {
-    uvec4 leaf = square.leaf;
-    vec4 corners = cornerAreas(square.frame);
-    vec4 sum = corners.x * numberColor(ASSET low(leaf.z)) + corners.y * numberColor(ASSET high(leaf.z)) +
-               corners.z * numberColor(ASSET low(leaf.w)) + corners.w * numberColor(ASSET high(leaf.w));
-    if (isPlaced())
-        sum -= dot(corners, vec4(1.0)) * numberColor(ASSET 0u);
-    uint end = leaf.x + low(leaf.y);
-    for (uint i = leaf.x; i < end && spend(1.0); ++i) {
-        uvec4 piece = texelAt(ASSET ASSET_PART(sections).y + i);
-        float weight = spend(pieceTurns(piece)) ? pieceSum(square.frame, piece) : 0.0;
-        if (weight != 0.0)
-            sum += weight * (numberColor(ASSET low(piece.w)) - numberColor(ASSET high(piece.w)));
-        if (i + 1u == end)
-            break;
-    }
-    return square.turn * sum;
 }
 
 #endif

@@ -10,6 +10,6 @@ void main() {
     mat2 sides = mat2(vtm_picture.size.x / vtm_parts.x, 0.0, 0.0, vtm_picture.size.y / vtm_parts.y);
     vec4 sum = vec4(0.0);
     vtm_turnsLeft = vtm_turnsOfSample;
-    vtm_addFootprint(vtm_picture, vtm_Footprint(gl_FragCoord.xy / vtm_parts, sides, 1.0, 1.0, false), sum);
+    vtm_addFootprint(vtm_picture, vtm_Footprint(gl_FragCoord.xy / vtm_parts, sides, vec2(1.0, 0.0), 1.0, 1.0, false), sum);
     vtm_mean = clamp(sum, 0.0, 1.0);
 }

@@ -21,7 +21,7 @@ uint innerPalettes[INNER_MAPS], innerGrounds[INNER_MAPS];
 bool isPlaced() { return innerDepth > 0 || onPage; }
 
 uint paletteAt(Vtm vtm, uint place) {
-    uint word = texelAt(vtm, vtm.placed.z + place / 8u)[place / 2u & 3u];
+    uint word = texelAt(vtm, placedOf.z + place / 8u)[place / 2u & 3u];
     return (place & 1u) == 0u ? low(word) : high(word);
 }
 

@@ -36,6 +36,7 @@ void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
 
 // Adds what the maps have of the footprint; gives up where no turns are left.
 void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
+    readNumbers(vtm);
     vec2 scale = vtm.size / vtm.square.z, offset = -vtm.square.xy / vtm.square.z;
     mat2 toBox = inverse(footprint.sides) * vtm.square.z;
     vec2 halfBox = 0.5 * (abs(footprint.sides[0]) + abs(footprint.sides[1])) / vtm.size;
@@ -100,14 +101,17 @@ vec4 vtm_sample_proj(Vtm vtm, vec3 stq) {
     vec3 at = stq * gl_FragCoord.w, dx = dFdx(at) / at.z, dy = dFdy(at) / at.z;
     vec2 st = stq.xy / stq.z, g = clamp(vec2(dx.z, dy.z), -1.0, 1.0);
     mat2 sides = mat2(dx.xy - st * dx.z, dy.xy - st * dy.z);
-    int axis = abs(g.x) > abs(g.y) ? 0 : 1, count = stripsFor(abs(g[axis]));
+    bool acrossX = abs(g.x) > abs(g.y);
+    float most = acrossX ? g.x : g.y;
+    vec2 axis = acrossX ? sides[0] : sides[1];
+    int count = stripsFor(abs(most));
+    vec2 widths = mix(vec2(1.0), vec2(1.0 / float(count)), bvec2(acrossX, !acrossX));
     vec4 sum = vec4(0.0);
     for (int i = 0; i < count; ++i) {
-        float p = (float(i) + 0.5) / float(count) - 0.5, scale = 1.0 / (1.0 + g[axis] * p);
-        vec2 away = sides[axis] * (p * scale);
-        mat2 strip = mat2(sides[0] - away * g.x, sides[1] - away * g.y) * scale;
-        strip[axis] /= float(count);
-        sum += sampled(vtm, st + away, strip[0], strip[1], turnsOfSample / float(count));
+        float p = (float(i) + 0.5) / float(count) - 0.5, scale = 1.0 / (1.0 + most * p);
+        vec2 away = axis * (p * scale), strip = widths * scale;
+        sum += sampled(vtm, st + away, (sides[0] - away * g.x) * strip.x, (sides[1] - away * g.y) * strip.y,
+                       turnsOfSample / float(count));
         if (i + 1 == count)
             break;
     }

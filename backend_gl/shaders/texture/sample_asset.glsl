@@ -1,5 +1,6 @@
 // An asset as a uniform: `uniform Vtm sign;`. backend_gl/texture/sampled_texture.cpp binds it.
-// Requires: IMAGE, INNER_MAPS, TEXT_PAGES. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART, spend for fetch.glsl; turnsLeft.
+// Requires: IMAGE, INNER_MAPS, TEXT_PAGES, SAMPLED_TEXELS. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART, SECTIONS, TEXEL_SIZE,
+// spend for fetch.glsl; nodesOf, placedOf, readNumbers; turnsLeft.
 
 struct Vtm {
     usampler2D texels;     // all records
@@ -29,6 +30,25 @@ struct Vtm {
 #define ASSET_IN Vtm vtm,
 #define ASSET vtm,
 #define ASSET_PART(name) vtm.name
+
+// What loops use of a Vtm: some drivers gather a uniform lane by lane, each time that it is read.
+uvec4 sectionsOf = uvec4(0u);
+uint nodesOf = 0u;
+uvec3 placedOf = uvec3(0u);
+vec2 texelSize = vec2(0.0);
+#define SECTIONS sectionsOf
+#define TEXEL_SIZE texelSize
+
+void readNumbers(Vtm vtm) {
+    sectionsOf = vtm.sections;
+    nodesOf = vtm.nodes;
+#if INNER_MAPS
+    placedOf = vtm.placed;
+#endif
+#if SAMPLED_TEXELS
+    texelSize = 1.0 / vec2(textureSize(vtm.texels, 0));
+#endif
+}
 
 // Turns of loops that a pixel may still take (backend_gl/core/turns.hpp). What would take more is not done: spend() says so.
 float turnsLeft = 0.0;

@@ -39,10 +39,17 @@ bool isDone(CopyFootprint part, Grid grid) {
     return grid.records.x == 0u || grid.next == grid.end && grid.cell == cellAt(grid, part.upper);
 }
 
-void stepCell(Vtm vtm, CopyFootprint part, inout Grid grid) {
+uint wordOfCell(Grid grid) { return uint(grid.cell.y) * low(grid.records.x) + uint(grid.cell.x); }
+
+// `texel` has the cell's word: enterCell().
+void stepCell(CopyFootprint part, inout Grid grid, out uint texel) {
     int last = cellAt(grid, part.upper).x;
     grid.cell = grid.cell.x < last ? grid.cell + ivec2(1, 0) : ivec2(cellAt(grid, part.lower).x, grid.cell.y + 1);
-    uint word = wordAt(vtm, grid.records.y, uint(grid.cell.y) * low(grid.records.x) + uint(grid.cell.x));
+    texel = grid.records.y + (wordOfCell(grid) >> 2);
+}
+
+void enterCell(inout Grid grid, uvec4 texel) {
+    uint word = texel[wordOfCell(grid) & 3u];
     grid.next = grid.records.z + (word & 0xFFFFFFu);
     grid.end = grid.next + (word >> 24);
 }
@@ -81,17 +88,18 @@ Search searchOf(Vtm vtm, CopyFootprint part, uint root, uint grid) {
     return Search(part, walkFrom(root), gridAt(vtm, part, grid), false);
 }
 
-// Into an instance, if the footprint meets it.
-void enterInstance(Vtm vtm, uint number, inout Search search) {
-    uvec4 instance = texelAt(vtm, vtm.placed.x + number);
-    uint place = vtm.placed.y + 2u * (instance.x >> 24 | instance.y >> 24 << 8);
+// Into an instance, if the footprint meets it; its map's first grid comes next.
+bool enterInstance(Vtm vtm, uint number, inout Search search, out uint grid) {
+    uvec4 instance = texelAt(vtm, placedOf.x + number);
+    uint place = placedOf.y + 2u * (instance.x >> 24 | instance.y >> 24 << 8);
     uvec4 symbol = texelAt(vtm, place);
     ivec4 m = ivec4(instance.z << 16, instance.z, instance.w << 16, instance.w) >> 16;
     mat2 linear = mat2(vec2(m.xy), vec2(m.zw)) * (uintBitsToFloat(symbol.z) / slopeScale);
     vec2 centre = vec2(instance.xy & 0xFFFFFFu) / 16777216.0;
     CopyFootprint part;
-    if (findMap(search.part, linear, centre, part)) {
-        uvec4 map = texelAt(vtm, place + 1u);
+    uvec4 map = texelAt(vtm, place + 1u);
+    bool met = findMap(search.part, linear, centre, part);
+    if (met) {
         for (int i = 0; i < INNER_MAPS; ++i)
             if (i == innerDepth) {
                 innerGrounds[i] = high(symbol.x);
@@ -99,15 +107,19 @@ void enterInstance(Vtm vtm, uint number, inout Search search) {
                 outer[i] = Around(search.part, search.grid);
             }
         ++innerDepth;
-        search = searchOf(vtm, part, map.x, innerDepth < INNER_MAPS ? map.y : 0u);
+        search.part = part;
+        search.walk = walkFrom(map.x);
     }
+    grid = innerDepth < INNER_MAPS ? map.y : 0u;
+    return met;
 }
 
-// From a map's grid to the next one, or back to the map around.
-void leave(Vtm vtm, inout Search search) {
-    if (search.grid.records.w != 0u) {
-        search.grid = gridAt(vtm, search.part, search.grid.records.w);
-    } else if (innerDepth > 0) {
+// To a map's next grid, or back to the map around.
+bool leave(inout Search search, out uint grid) {
+    grid = search.grid.records.w;
+    if (grid != 0u)
+        return true;
+    if (innerDepth > 0) {
         --innerDepth;
         for (int i = 0; i < INNER_MAPS; ++i)
             if (i == innerDepth) {
@@ -117,6 +129,7 @@ void leave(Vtm vtm, inout Search search) {
     } else {
         search.isOver = true;
     }
+    return false;
 }
 
 bool isAtEnd(Search search) { return isDone(search.walk) && isDone(search.part, search.grid); }
@@ -134,34 +147,48 @@ bool nextSquare(Vtm vtm, inout Search search, mat3x2 pixel, out Square square) {
     uint entry = 0u;
     bool found = false;
 #if INNER_MAPS
-    // What is done for each square or instance stands in the inner loop, what is done for few of them around it.
+    // What is done for each square or instance stands in the inner loop, what is done for few of them around it. A step reads
+    // one texel, whatever it does.
     while (!search.isOver && spend(1.0)) {
-        uvec4 instance;
+        uvec4 texel = uvec4(0u);
         bool isNear = false, ended = isAtEnd(search);
         while (!ended && spend(1.0)) {
-            if (!isDone(search.walk)) {
-                found = advance(vtm, search.part, search.walk, cell, side, entry) && (!isPlaced() || entry != kindSolid);
-            } else if (search.grid.next < search.grid.end) {
-                instance = texelAt(vtm, search.grid.next++);
-                isNear = meetsEntry(search.part, search.grid, instance);
-            } else {
-                stepCell(vtm, search.part, search.grid);
-            }
+            bool inTree = !isDone(search.walk), inCell = !inTree && search.grid.next < search.grid.end;
+            uint place;
+            if (inTree)
+                found = advance(search.part, search.walk, cell, side, entry, place) && (!isPlaced() || entry != kindSolid);
+            else if (inCell)
+                place = search.grid.next++;
+            else
+                stepCell(search.part, search.grid, place);
+            texel = texelAt(vtm, place);
+            if (inTree)
+                setEntry(search.walk, texel);
+            else if (inCell)
+                isNear = meetsEntry(search.part, search.grid, texel);
+            else
+                enterCell(search.grid, texel);
             ended = isAtEnd(search);
             if (found || isNear || ended)
                 break;
         }
+        uint grid;
+        bool opens = false;
         if (isNear)
-            enterInstance(vtm, instance.x, search);
+            opens = enterInstance(vtm, texel.x, search, grid);
         else if (!found && ended)
-            leave(vtm, search);
+            opens = leave(search, grid);
+        if (opens)
+            search.grid = gridAt(vtm, search.part, grid);
         if (found || search.isOver)
             break;
     }
 #else
     // Of what is placed there is nothing where its paint is the ground's.
     while (!search.isOver && spend(1.0)) {
-        found = advance(vtm, search.part, search.walk, cell, side, entry) && (!isPlaced() || entry != kindSolid);
+        uint place;
+        found = advance(search.part, search.walk, cell, side, entry, place) && (!isPlaced() || entry != kindSolid);
+        setEntry(search.walk, texelAt(vtm, place));
         search.isOver = isDone(search.walk);
         if (found || search.isOver)
             break;
@@ -178,6 +205,7 @@ void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint grid, ino
     innerDepth = 0;  // the sample before may have been given up inside a map
 #endif
     Search search = searchOf(vtm, part, root, grid);
+    descend(vtm, part, search.walk);
     Square square;
 #if PROGRAMS
     LeafSum leaf = noLeaf();
@@ -195,16 +223,6 @@ void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint grid, ino
         if (!isOver)
             addProgram(vtm, leaf, pixel, sum);
         if (isOver)
-            break;
-    }
-#elif SHARES
-    LeafSum leaf = noLeaf();
-    while (spend(1.0)) {
-        if (isFinished(leaf) && nextSquare(vtm, search, pixel, square))
-            leaf = leafOf(square);
-        addAreas(vtm, leaf);
-        addColors(vtm, leaf, sum);
-        if (isFinished(leaf) && search.isOver)
             break;
     }
 #else

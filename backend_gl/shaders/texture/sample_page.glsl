@@ -17,8 +17,6 @@
 
 #if TEXT_PAGES
 
-uint byteAt(Vtm vtm, uint texel, uint i) { return wordAt(vtm, texel, i >> 2) >> (8u * (i & 3u)) & 0xFFu; }
-
 struct PageLayer {
     uvec4 records, kinds;  // the layer's first and last texel
     vec4 grid, reach;
@@ -28,9 +26,10 @@ struct PageLayer {
 struct GlyphWalk {
     ivec2 cell, first, last;
     uint next, end;    // of this cell's glyphs
-    uint chained;      // symbol that stands in the same cell as the one before; 0: none
-    vec2 corner;       // of that cell
-    uint color;        // of that cell's glyphs, as a texel; 0: their own
+    uint symbol;       // that the last step found, or that stands in the same cell as the one before; 0: none
+    vec2 centre;       // of it, or of its cell's min corner
+    uint index;        // of its cell
+    bool isOver;
 };
 
 GlyphWalk walkGlyphs(CopyFootprint part, PageLayer layer) {
@@ -38,64 +37,64 @@ GlyphWalk walkGlyphs(CopyFootprint part, PageLayer layer) {
     ivec2 end = ivec2(layer.records.xy) - 1;
     ivec2 first = clamp(ivec2(floor((part.lower - layer.reach.zw - corner) / size)), ivec2(0), end + 1);
     ivec2 last = clamp(ivec2(floor((part.upper + layer.reach.xy - corner) / size)), ivec2(-1), end);
-    return GlyphWalk(first.x > last.x ? ivec2(first.x, last.y + 1) : first, first, last, 0u, 0u, 0u, vec2(0.0), 0u);
+    return GlyphWalk(first, first, last, 0u, 0u, 0u, vec2(0.0), 0u, any(greaterThan(first, last)));
 }
 
-// Steps on by a glyph or a cell; false if there are no more. `symbol` is 0 where the step found none.
-bool stepGlyphs(Vtm vtm, CopyFootprint part, PageLayer layer, inout GlyphWalk walk, out uint symbol, out vec2 centre) {
-    symbol = walk.chained;
-    centre = walk.corner;
-    walk.chained = 0u;
-    if (symbol != 0u)
-        return true;
-    if (walk.next < walk.end) {
-        uvec4 texel = texelAt(vtm, layer.records.w + (walk.next >> 1));
+bool isDone(GlyphWalk walk) { return walk.isOver && walk.symbol == 0u; }
+bool namesSymbols(PageLayer layer) { return layer.kinds.x == 1u; }
+
+// Steps on by a glyph or a cell, reading one texel.
+void stepGlyphs(Vtm vtm, CopyFootprint part, PageLayer layer, inout GlyphWalk walk) {
+    bool isGlyph = walk.next < walk.end;
+    uint index = uint(walk.cell.y) * layer.records.x + uint(walk.cell.x), word = namesSymbols(layer) ? index >> 2 : index;
+    uvec4 texel = texelAt(vtm, isGlyph ? layer.records.w + (walk.next >> 1) : layer.records.z + (word >> 2));
+    if (isGlyph) {
         uvec2 glyph = (walk.next & 1u) == 0u ? texel.xy : texel.zw;
         ++walk.next;
-        centre = vec2(glyph & 0xFFFFFFu) / 8388608.0 - 0.5;
-        if (all(lessThan(abs(centre - part.centre), part.halfBox + layer.reach.xy)))
-            symbol = glyph.x >> 24 | glyph.y >> 24 << 8;
-        return true;
-    }
-    if (walk.cell.y > walk.last.y)
-        return false;
-    uint index = uint(walk.cell.y) * layer.records.x + uint(walk.cell.x);
-    if (layer.kinds.x == 1u) {
-        symbol = byteAt(vtm, layer.records.z, index);
-        centre = walk.corner = layer.grid.xy + vec2(walk.cell) * layer.grid.zw;
-        walk.color = layer.kinds.y == 0u ? 0u : layer.kinds.z + byteAt(vtm, layer.kinds.y, index);
+        walk.centre = vec2(glyph & 0xFFFFFFu) / 8388608.0 - 0.5;
+        if (all(lessThan(abs(walk.centre - part.centre), part.halfBox + layer.reach.xy)))
+            walk.symbol = glyph.x >> 24 | glyph.y >> 24 << 8;
     } else {
-        uint glyphs = wordAt(vtm, layer.records.z, index);
-        walk.next = glyphs & 0xFFFFFFu;
-        walk.end = walk.next + (glyphs >> 24);
+        uint found = texel[word & 3u];
+        if (namesSymbols(layer)) {
+            walk.symbol = found >> (8u * (index & 3u)) & 0xFFu;
+            walk.centre = layer.grid.xy + vec2(walk.cell) * layer.grid.zw;
+            walk.index = index;
+        } else {
+            walk.next = found & 0xFFFFFFu;
+            walk.end = walk.next + (found >> 24);
+        }
+        walk.cell = walk.cell.x < walk.last.x ? walk.cell + ivec2(1, 0) : ivec2(walk.first.x, walk.cell.y + 1);
     }
-    walk.cell.x += 1;
-    if (walk.cell.x > walk.last.x)
-        walk.cell = ivec2(walk.first.x, walk.cell.y + 1);
-    return true;
+    walk.isOver = walk.next == walk.end && walk.cell.y > walk.last.y;
 }
 
-// Goes on to the next glyph that the footprint meets.
+vec4 inkOf(Vtm vtm, PageLayer layer, uvec4 symbol, uint index) {
+    uint color = layer.kinds.z + (wordAt(vtm, layer.kinds.y, index >> 2) >> (8u * (index & 3u)) & 0xFFu);
+    return layer.kinds.y == 0u ? vec4(unpackUnorm2x16(symbol.z), unpackUnorm2x16(symbol.w))
+                               : uintBitsToFloat(texelAt(vtm, color));
+}
+
+// Goes on to the next glyph that the footprint meets. What is done for each glyph or cell stands in the inner loop, what is
+// done for few of them around it.
 bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout GlyphWalk walk,
                out CopyFootprint part, out uint root) {
-    uint symbol;
-    vec2 centre;
     bool found = false;
-    while (!found && spend(1.0) && stepGlyphs(vtm, around, layer, walk, symbol, centre)) {
-        if (symbol == 0u)
-            continue;
-        uint place = page.z + page.w * symbol;
+    while (!isDone(walk) && spend(1.0)) {
+        while (!walk.isOver && walk.symbol == 0u && spend(1.0)) {
+            stepGlyphs(vtm, around, layer, walk);
+            if (walk.isOver || walk.symbol != 0u)
+                break;
+        }
+        uint place = page.z + page.w * walk.symbol;
         uvec4 record = texelAt(vtm, place);
         vec4 linear = uintBitsToFloat(texelAt(vtm, place + 1u));
-        if (layer.kinds.x == 1u) {
-            walk.chained = record.y;
-            centre += uintBitsToFloat(texelAt(vtm, place + 2u)).xy;
-        }
-        found = findMap(around, mat2(linear.xy, linear.zw), centre, part);
+        vec2 inCell = namesSymbols(layer) ? uintBitsToFloat(texelAt(vtm, place + 2u)).xy : vec2(0.0);
+        found = findMap(around, mat2(linear.xy, linear.zw), walk.centre + inCell, part) && walk.symbol != 0u;
         root = record.x;
-        pageInk = walk.color == 0u ? vec4(unpackUnorm2x16(record.z), unpackUnorm2x16(record.w))
-                                   : uintBitsToFloat(texelAt(vtm, walk.color));
-        if (found)
+        pageInk = inkOf(vtm, layer, record, walk.index);
+        walk.symbol = namesSymbols(layer) ? record.y : 0u;
+        if (found || isDone(walk))
             break;
     }
     return found;
@@ -105,8 +104,12 @@ void addLayer(Vtm vtm, CopyFootprint around, mat3x2 pixel, PageLayer layer, uvec
     GlyphWalk walk = walkGlyphs(around, layer);
     CopyFootprint part = around;
     uint root = 0u;
-    while (spend(1.0) && nextGlyph(vtm, around, layer, page, walk, part, root))
-        addMap(vtm, part, pixel, root, 0u, sum);
+    while (spend(1.0)) {
+        if (nextGlyph(vtm, around, layer, page, walk, part, root))
+            addMap(vtm, part, pixel, root, 0u, sum);
+        if (isDone(walk))
+            break;
+    }
 }
 
 void addPage(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {

@@ -7,6 +7,7 @@
 struct Footprint {
     vec2 st;                // its centre
     mat2 sides;             // picture units
+    vec2 turn;              // by which they become orthogonal: turnToAxes()
     float longer, shorter;  // its axes (singular values of `sides`), in texels of the finest level
     bool wide;              // wider than a picture whose border's colours go on beyond it
 };
@@ -47,8 +48,10 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
         axes = vec2(unit * smallestFootprint);
     }
     float minimum = axes.x / maxAnisotropy;
+    vec2 turn = turnToAxes(sides);
     if (axes.y < minimum) {
-        sides = turned(sides, turnToAxes(sides));
+        sides = turned(sides, turn);
+        turn = vec2(1.0, 0.0);
         bool firstIsLonger = dot(sides[0], sides[0]) > dot(sides[1], sides[1]);
         vec2 along = firstIsLonger ? sides[0] : sides[1];
         vec2 across = vec2(-along.y, along.x) / maxAnisotropy;
@@ -62,7 +65,7 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
     bool wide = clamped.x && halfBox.x > 0.5 || clamped.y && halfBox.y > 0.5;
     vec2 texels = vtm.prefilterTexels / vtm.size;
     axes *= sqrt(texels.x * texels.y);
-    return Footprint(st, sides, axes.x, axes.y, wide);
+    return Footprint(st, sides, turn, axes.x, axes.y, wide);
 }
 
 // How much of the colour the prefilter gives, rising with the footprint.
@@ -75,6 +78,10 @@ float inside(int wrapping, float st, float size) {
     return wrapping == wrapBorder ? clamp(st * size + 0.5, 0.0, 1.0) * clamp((1.0 - st) * size + 0.5, 0.0, 1.0) : 1.0;
 }
 
+// ⌊log2 x⌋ of a normal number, and 2^n, exactly.
+int exponentOf(float x) { return int(floatBitsToUint(x) >> 23 & 255u) - 127; }
+float exp2i(int n) { return uintBitsToFloat(uint(127 + n) << 23); }
+
 // Distance of `count` taps over `length` texels, as a share of it: docs/prefilter.md.
 float tapSpacing(float length, float count, float texel) {
     float left = length * length - 2.0 * texel * texel;
@@ -84,9 +91,10 @@ float tapSpacing(float length, float count, float texel) {
 vec4 prefiltered(Vtm vtm, Footprint footprint) {
     // A box turned by 45° is no better a pixel than the pixel's own: only slender ones are turned.
     float slender = clamp(footprint.longer / footprint.shorter - 1.0, 0.0, 1.0);
-    vec2 turn = normalize(mix(vec2(1.0, 0.0), turnToAxes(footprint.sides), slender));
+    vec2 turn = normalize(mix(vec2(1.0, 0.0), footprint.turn, slender));
     mat2 sides = turned(footprint.sides, turn);
-    sides = mat2(sides[0] / vtm.size, sides[1] / vtm.size);
+    vec2 perUnit = 1.0 / vtm.size;
+    sides = mat2(sides[0] * perUnit, sides[1] * perUnit);
     vec2 lengths = vec2(length(sides[0] * vtm.prefilterTexels), length(sides[1] * vtm.prefilterTexels));
     if (lengths.x < lengths.y) {
         sides = mat2(sides[1], sides[0]);
@@ -96,9 +104,10 @@ vec4 prefiltered(Vtm vtm, Footprint footprint) {
     // 64 in all at most; where texels a fifth as large exist, a few more.
     float taps = parts > 7.0 ? 2.0 : parts > 4.0 ? 3.0 : parts > 1.0 || lengths.y < 5.0 ? 4.0 : 5.0;
     // A whole level, of texels that taps are 0.87 to 1.74 apart: two levels blur more, and take software drivers longer.
-    float lod = floor(max(0.0, log2(max(lengths.x / parts, lengths.y) / taps)) + 0.2);
-    vec2 count = vec2(taps * parts, taps), levelTexels = max(vtm.prefilterTexels * exp2(-lod), 1.0);
-    vec2 spacing = vec2(tapSpacing(lengths.x, count.x, exp2(lod)), tapSpacing(lengths.y, count.y, exp2(lod)));
+    int level = exponentOf(max(max(lengths.x / parts, lengths.y) / taps, 1.0) * 1.148698355);  // 2^0.2
+    float lod = float(level), texel = exp2i(level);
+    vec2 count = vec2(taps * parts, taps), levelTexels = max(vtm.prefilterTexels * exp2i(-level), 1.0);
+    vec2 spacing = vec2(tapSpacing(lengths.x, count.x, texel), tapSpacing(lengths.y, count.y, texel));
     vec4 sum = vec4(0.0);
     vec2 tap = vec2(0.0);
     while (tap.y < count.y) {

@@ -1,6 +1,7 @@
 // Squares of a tree that a footprint meets, found without recursion and without a stack. docs/texture.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl; constants kind*, maxLevel, leafExtent.
-// Exports: CopyFootprint, picturePoint, lastPlace, Walk, walkFrom, isDone, step, squareOf, wordAt, findMap.
+// Exports: CopyFootprint, picturePoint, lastPlace, Walk, walkFrom, descend, isDone, advance, setEntry, squareOf, wordAt,
+// findMap.
 
 // ---- One square of the tree -------------------------------------------------------------------------
 
@@ -21,7 +22,7 @@ Square squareOf(Vtm vtm, CopyFootprint part, mat3x2 pixel, ivec2 cell, float sid
     uint payload = entry >> 2;
     uvec4 leaf = uvec4(0u, 0u, uvec2(payload | payload << 16));
     if ((entry & 3u) != kindSolid)
-        leaf = texelAt(vtm, vtm.sections.x + payload);
+        leaf = texelAt(vtm, SECTIONS.x + payload);
     Frame frame = Frame(part.toBox * (side / float(leafExtent)), part.toBox * (corner - part.centre) + 0.5);
     vec2 middle = 0.5 * (lower + upper), point = picturePoint(vtm, middle);
     if (isPlaced())
@@ -34,15 +35,16 @@ uint wordAt(Vtm vtm, uint texel, uint i) { return texelAt(vtm, texel + (i >> 2))
 
 // ---- The tree -----------------------------------------------------------------------------------------
 
-// 4^-level, exactly.
+// 4^-level and 4^level, exactly.
 float sideAt(int level) { return uintBitsToFloat(uint(127 - 2 * level) << 23); }
+float perSideAt(int level) { return uintBitsToFloat(uint(127 + 2 * level) << 23); }
 
-uint childAt(Vtm vtm, uint node, ivec2 cell) {
-    return texelAt(vtm, vtm.nodes + 4u * node + uint(cell.y & 3))[cell.x & 3];
+uint childTexel(uint node, ivec2 cell) { return nodesOf + 4u * node + uint(cell.y & 3); }
+
+ivec2 firstCell(CopyFootprint part, int level) { return ivec2(floor(part.lower * perSideAt(level))); }
+ivec2 lastCell(CopyFootprint part, int level) {
+    return max(ivec2(ceil(part.upper * perSideAt(level))) - 1, firstCell(part, level));
 }
-
-ivec2 firstCell(CopyFootprint part, float side) { return ivec2(floor(part.lower / side)); }
-ivec2 lastCell(CopyFootprint part, float side) { return max(ivec2(ceil(part.upper / side)) - 1, firstCell(part, side)); }
 
 // Whether a square meets the footprint, by its box in the pixel's coordinates.
 bool meets(CopyFootprint part, ivec2 cell, float side) {
@@ -74,37 +76,55 @@ uint nodeAt(Walk walk, int level) {
     return i == 0 ? nodes.x : i == 1 ? nodes.y : i == 2 ? nodes.z : nodes.w;
 }
 
+// Goes down to the smallest square that holds the whole box.
+void descend(Vtm vtm, CopyFootprint part, inout Walk walk) {
+    while ((walk.entry & 3u) == kindNode && spend(1.0)) {
+        ivec2 cell = firstCell(part, walk.level + 1);
+        bool fits = cell == lastCell(part, walk.level + 1);
+        if (fits) {
+            walk.entry = texelAt(vtm, childTexel(walk.entry >> 2, cell))[cell.x & 3];
+            walk.cell = cell;
+            ++walk.level;
+        }
+        if (!fits || (walk.entry & 3u) != kindNode)
+            break;
+    }
+    walk.top = walk.level;
+}
+
 bool isDone(Walk walk) { return walk.level < walk.top; }
 
 // Goes on by one step: down into a node, on to the next square of one, or up. True if it leaves behind a square that the
-// footprint meets.
-bool advance(Vtm vtm, CopyFootprint part, inout Walk walk, out ivec2 cell, out float side, out uint entry) {
+// footprint meets. `texel` has the next square's entry: setEntry().
+bool advance(CopyFootprint part, inout Walk walk, out ivec2 cell, out float side, out uint entry, out uint texel) {
     cell = walk.cell;
     side = sideAt(walk.level);
     entry = walk.entry;
     bool met = !walk.rising && meets(part, cell, side), down = met && (entry & 3u) == kindNode;
     // The next cell of this node that the box meets.
-    ivec2 upper = min(lastCell(part, side), cell | 3);
+    ivec2 upper = min(lastCell(part, walk.level), cell | 3);
     bool along = cell.x < upper.x, onward = walk.level > walk.top && (along || cell.y < upper.y);
     if (down) {
-        ivec2 first = firstCell(part, 0.25 * side);
-        walk.top += walk.level == walk.top && first == lastCell(part, 0.25 * side) ? 1 : 0;
+        ivec2 first = firstCell(part, walk.level + 1);
+        walk.top += walk.level == walk.top && first == lastCell(part, walk.level + 1) ? 1 : 0;
         walk.nodes = withNode(walk.nodes, walk.level, entry >> 2);
         walk.deeper = withNode(walk.deeper, walk.level - 4, entry >> 2);
         walk.deepest = withNode(walk.deepest, walk.level - 8, entry >> 2);
         walk.cell = max(cell * 4, first);
         ++walk.level;
     } else if (onward) {
-        walk.cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(part, side).x, cell.x & ~3), cell.y + 1);
+        walk.cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(part, walk.level).x, cell.x & ~3), cell.y + 1);
     } else {
         --walk.level;
         walk.cell >>= 2;
     }
     walk.rising = !down && !onward;
-    if (!walk.rising)
-        walk.entry = childAt(vtm, nodeAt(walk, walk.level), walk.cell);
+    texel = childTexel(nodeAt(walk, walk.level), walk.cell);
     return met && !down;
 }
+
+// Going up, there is none.
+void setEntry(inout Walk walk, uvec4 texel) { walk.entry = texel[walk.cell.x & 3]; }
 
 // The largest float below 1: whatever a square's side, it lies in the tree's last cell.
 const float lastPlace = 1.0 - 1.0 / 16777216.0;

@@ -4,14 +4,13 @@
 // pattern*. With SURFACE, CELLS too.
 // Made by: paper/gl/pattern.cpp. Twin of: paper/evaluate/mask.cpp.
 
+mat2 pixelInPeriods;           // a pixel's sides
 #if SURFACE
 in vec2 st;                    // in periods
-mat2 pixelInPeriods;           // a pixel's sides
 float lod;                     // of the mip's level 0
 uniform float mipLog2;         // its side
 #else
 uniform mat3x2 toPattern;      // (pixel, 1) to periods
-uniform mat2 pixelInPeriods;
 uniform float lod;
 #endif
 uniform vec4 insideColor, outsideColor;
@@ -101,6 +100,7 @@ void main() {
     lod = 0.5 * log2(max(sides.x, sides.y)) + mipLog2;
 #endif
 #else
+    pixelInPeriods = mat2(toPattern[0], toPattern[1]);
     vec2 st = toPattern * vec3(gl_FragCoord.xy, 1.0);
 #endif
     float b = 0.0;
