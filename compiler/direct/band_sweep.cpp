@@ -25,6 +25,10 @@ constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab =
 constexpr std::size_t mostAtOnce = 1u << 17, manyLayers = 64;
 /// And one of more than this, if steps in their first row show that it would take too much.
 constexpr std::size_t manyOfOne = 1u << 15;
+/// A chord of a program costs as much as so many steps.
+constexpr std::size_t programSteps = 512;
+/// In a strip in whose first row chains cross more often, the programs between them would take too much.
+constexpr std::size_t mostProgramCrossings = 512;
 /// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
 /// next strip.
 constexpr std::size_t fewToBegin = 1u << 15;
@@ -39,12 +43,13 @@ float xBetween(glm::vec2 a, glm::vec2 b, float y) {
 
 }  // namespace
 
-BandSweep::BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers, int width)
+BandSweep::BandSweep(const ViewChains& chains, RegionState& state, PixelColors& pixels, std::size_t layers,
+                     int width)
     : chains_(chains),
       vertices_(chains.vertices()),
       state_(state),
       outline_(chains, state, width),
-      lines_(chains, state, width),
+      lines_(chains, state, pixels, width),
       windings_(layers) {}
 
 void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
@@ -58,13 +63,15 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         onLines_ = 0;
         stripSteps_ = 0;
         stripTop_ = top;
-        free_.insert(free_.end(), active_.begin(), active_.end());
-        active_.clear();
+        releaseAll();
         if ((above > mostAtOnce && windings_.size() >= manyLayers) ||
             (above > manyOfOne && lines_.isTangled(chains, top)))
             onLines_ = chains.size();
+        staysOnLines_ = state_.hasPrograms() && wouldMakeManyPrograms(chains.first(above), top);
+        if (staysOnLines_)
+            onLines_ = chains.size();
     }
-    if (onLines_ > fewToBegin && 2 * chains.size() > onLines_)
+    if (staysOnLines_ || (onLines_ > fewToBegin && 2 * chains.size() > onLines_))
         return goOnLines(chains, top, bottom);
     if (begins || isPassedOver_ || onLines_ > 0 || chains_.areLeftOut())
         begin(chains.first(above), top);
@@ -103,6 +110,30 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         a->from = bottom;
     }
     moveState(0);
+}
+
+/// Where paints may be programs: whether too many chains cross within a row.
+bool BandSweep::wouldMakeManyPrograms(std::span<const std::uint32_t> chains, float top) {
+    std::vector<glm::vec2> places;
+    for (const std::uint32_t number : chains) {
+        const DownChain& chain = chains_[number];
+        if (chain.bottom <= top + 1)
+            continue;
+        std::uint32_t at = chain.first + 1;
+        while (vertices_[at].y <= top)
+            ++at;
+        glm::vec2 place;
+        place.x = xBetween(vertices_[at - 1], vertices_[at], top);
+        while (vertices_[at].y <= top + 1)
+            ++at;
+        place.y = xBetween(vertices_[at - 1], vertices_[at], top + 1);
+        places.push_back(place);
+    }
+    std::ranges::sort(places, {}, [](const glm::vec2& place) { return place.x; });
+    sorted_.clear();
+    for (const glm::vec2& place : places)
+        sorted_.push_back(place.y);
+    return hasMoreInversions(sorted_, merging_, mostProgramCrossings);
 }
 
 /// Whether many edges of those that are seen cross within a row.
@@ -148,7 +179,19 @@ BandSweep::Active* BandSweep::activate(std::uint32_t number) {
     a.b = vertices_[chain.first];
     --a.at;
     nextEdge(a);
+    ++windings_[a.layer].chains;
     return &a;
+}
+
+void BandSweep::release(Active& active) {
+    --windings_[active.layer].chains;
+    free_.push_back(&active);
+}
+
+void BandSweep::releaseAll() {
+    for (Active* a : active_)
+        release(*a);
+    active_.clear();
 }
 
 /// Goes on to the next edge that is not level, if there is one.
@@ -166,7 +209,7 @@ bool BandSweep::nextEdge(Active& active) const {
 
 /// With chains that the band's top cuts.
 void BandSweep::begin(std::span<const std::uint32_t> chains, float top) {
-    free_.insert(free_.end(), active_.begin(), active_.end());
+    releaseAll();
     height_ = 1;
     members_.clear();
     for (const std::uint32_t chain : chains) {
@@ -457,9 +500,11 @@ void BandSweep::setSides(Active& active, RegionPaint left, RegionPaint right, fl
 }
 
 void BandSweep::draw(const Active& active, float from, float to) {
-    if (active.drawn[0] != active.drawn[1] && from < to)
-        chords_->push_back(
-            {{active.xAt(from), from}, {active.xAt(to), to}, active.drawn[0], active.drawn[1]});
+    if (active.drawn[0] == active.drawn[1] || from >= to)
+        return;
+    chords_->push_back({{active.xAt(from), from}, {active.xAt(to), to}, active.drawn[0], active.drawn[1]});
+    if (((active.drawn[0] | active.drawn[1]) & programBit) != 0)
+        stripSteps_ += programSteps;
 }
 
 }  // namespace vtm::compiler

@@ -35,8 +35,9 @@ inline constexpr int stripBands = 4;
 /// For one thread.
 class BandSweep {
 public:
-    /// `state` is outside of all layers, and is so again after each band. Both must outlive it.
-    BandSweep(const ViewChains& chains, RegionState& state, std::size_t layers, int width);
+    /// `state` is outside of all layers, and is so again after each band. All must outlive it.
+    BandSweep(const ViewChains& chains, RegionState& state, PixelColors& pixels, std::size_t layers,
+              int width);
 
     /// Appends the chords of a band; their paints are the state's. Sweeps on from the band above, or begins
     /// anew, which it must where the state has forgotten paints.
@@ -104,9 +105,12 @@ private:
     static bool isLeftNext(const Active* a, const Active* b) { return a->next < b->next; }
     void addReach(Reach& reach, std::uint32_t at, std::uint32_t end, float bottom) const;
     Active* activate(std::uint32_t chain);
+    void release(Active& active);
+    void releaseAll();
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
     bool slab(Slab slab);
+    bool wouldMakeManyPrograms(std::span<const std::uint32_t> chains, float top);
     bool isTangled(float y);
     void leave(float y);
     void goOnLines(std::span<const std::uint32_t> chains, float top, float bottom);
@@ -146,7 +150,7 @@ private:
     template <class IsOrdered>
     bool isQuiet(std::span<Active* const> chains, const Region& left, const IsOrdered& isOrdered) const;
     bool staysHidden(std::span<Active* const> chains, const Region& left) const;
-    std::int32_t windingLeftOf(std::uint32_t layer) const;
+    void knowWindingLeftOf(std::uint32_t layer);
 
     void crossMembers(std::size_t count);
     void keepState(std::size_t members);
@@ -175,6 +179,7 @@ private:
     float stripTop_ = 0;
     OutlineRows outline_;
     LineSweep lines_;
+    bool staysOnLines_ = false;     ///< the strip
     bool isPassedOver_ = false;     ///< the last band, which `outline_` has drawn
     std::size_t onLines_ = 0;       ///< chains of the band that went on in level steps, if the last one did
     float height_ = 1;              ///< of slabs
@@ -193,6 +198,7 @@ private:
         std::int32_t left = 0;                ///< of the members of the sweep
         std::int32_t now = 0;                 ///< of the chains of the window, and on the way through them
         std::int32_t least = 0, most = 0;     ///< between these, whatever their order
+        std::uint32_t chains = 0;             ///< that are active
     };
     std::vector<Winding> windings_;  ///< by layer
     std::uint64_t sweepNumber_ = 0, windowNumber_ = 0;

@@ -134,7 +134,7 @@ void BandSweep::meetVertices(float y) {
             if (!nextEdge(a)) {
                 changes = true;
                 keepState(kept);
-                free_.push_back(&a);
+                release(a);
                 continue;
             }
             a.x = a.next = a.a.x;
@@ -154,6 +154,7 @@ void BandSweep::meetVertices(float y) {
 void BandSweep::addStarting(float y) {
     added_.clear();
     for (; !starting_.empty() && chains_[starting_.back()].top <= y; starting_.pop_back()) {
+        knowWindingLeftOf(chains_[starting_.back()].layer);
         added_.push_back(activate(starting_.back()));
         added_.back()->x = added_.back()->next = added_.back()->a.x;
         added_.back()->from = y;
@@ -165,11 +166,20 @@ void BandSweep::addStarting(float y) {
     members_.swap(merged_);
 }
 
-std::int32_t BandSweep::windingLeftOf(std::uint32_t layer) const {
+/// Of the layer of a chain that is about to begin; most have no other chain that the line cuts.
+void BandSweep::knowWindingLeftOf(std::uint32_t layer) {
+    Winding& w = windings_[layer];
+    if (w.sweep == sweepNumber_)
+        return;
+    w.sweep = sweepNumber_;
+    w.left = 0;
+    if (w.chains == 0)
+        return;
     for (std::size_t i = done_.size(); i-- > 0;)
-        if (done_[i]->layer == layer)
-            return done_[i]->before + done_[i]->winding;
-    return 0;
+        if (done_[i]->layer == layer) {
+            w.left = done_[i]->before + done_[i]->winding;
+            return;
+        }
 }
 
 /// All sets and paints anew, from the left.
@@ -181,11 +191,7 @@ void BandSweep::label(float y) {
         if (w.window == windowNumber_)
             continue;
         w.window = windowNumber_;
-        if (w.sweep != sweepNumber_) {
-            w.sweep = sweepNumber_;
-            w.left = windingLeftOf(a->layer);
-        }
-        w.now = w.left;
+        w.now = w.sweep == sweepNumber_ ? w.left : 0;
     }
     relabel(0, members_.size(), y);
 }

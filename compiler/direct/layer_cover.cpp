@@ -1,6 +1,7 @@
 #include "compiler/direct/layer_cover.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "asset/records.hpp"
 #include "compiler/paint/composite.hpp"
@@ -8,15 +9,22 @@
 namespace vtm::compiler {
 namespace {
 
+/// The circles of a radial gradient fill the plane if the smallest one reaches no further, in radii of the
+/// largest.
+constexpr float fillsPlane = 0.9f;
+
 /// The least alpha of a paint, or less.
 float leastAlpha(const LoweredScene& picture, const Source& source) {
     if (source.opaque)
         return 1;
     if (source.op == asset::Op::Solid)
         return source.color[3];
-    if (source.op != asset::Op::Linear)
+    if (source.op != asset::Op::Linear && source.op != asset::Op::Radial)
         return 0;
     const auto gradient = asset::recordAt<asset::Gradient>(picture.data, source.data);
+    // Circles that do not lie within each other leave parts of the plane empty.
+    if (source.op == asset::Op::Radial && gradient.fr + std::hypot(gradient.fx, gradient.fy) > fillsPlane)
+        return 0;
     const std::size_t first = source.data + asset::GradientView::headTexels;
     std::uint16_t least = 0xFFFF;
     for (std::size_t stop = 0; stop < gradient.stopCount; ++stop)

@@ -17,6 +17,8 @@ namespace {
 constexpr double cutsInRow = 200'000;
 /// And in smaller steps, a band.
 constexpr std::size_t smallCutsInBand = 16 * 100'000;
+/// A program in a pixel costs as much as so many chains.
+constexpr double programCost = 8;
 constexpr std::size_t mostSteps = 64, leastSteps = 2;
 /// So many times more steps are taken in a row in which all chains begin or end.
 constexpr double moreForEnds = 16;
@@ -69,13 +71,15 @@ void arrange(const std::vector<T>& items, std::span<const Placed> order, std::ve
 
 }  // namespace
 
-LineSweep::LineSweep(const ViewChains& chains, RegionState& state, int width)
+LineSweep::LineSweep(const ViewChains& chains, RegionState& state, PixelColors& pixels, int width)
     : chains_(chains),
       vertices_(chains.vertices()),
       state_(state),
+      pixels_(pixels),
       width_(width),
       sums_(std::size_t(width) + 2),
       shares_(sums_.size()),
+      programSums_(sums_.size()),
       squares_(std::size_t((width + 2) * squaresInAPixel + 2)) {}
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
@@ -113,7 +117,22 @@ void LineSweep::begin(std::span<const std::uint32_t> numbers) {
     cuts_.clear();
     toCome_ = numbers;
     smallInBand_ = smallCutsInBand;
+    costOfCut_ = 1;
+    isMeasured_ = !state_.hasPrograms();
     isJudged_ = isTangled_ = false;
+}
+
+/// What a chain costs with the programs that a step of the row asks for.
+void LineSweep::measure(float top, float bottom) {
+    isMeasured_ = true;
+    programsAsked_ = 0;
+    smallSteps_ = 0;
+    drawn_ = top;
+    draw({top, bottom, bottom - top});
+    std::ranges::fill(sums_, glm::vec4(0));
+    std::ranges::fill(programSums_, glm::vec4(0));
+    costOfCut_ += programCost * double(programsAsked_) / double(cuts_.size() + 1);
+    smallInBand_ = std::size_t(double(smallCutsInBand) / costOfCut_);
 }
 
 /// Of the only layer, which the chain is of.
@@ -132,6 +151,12 @@ void LineSweep::row(float top, float bottom) {
     if (isTangled_)
         return drawLines(top, bottom);
     hides_ = mayHide();
+    known_.clear();
+    regions_.clear();
+    programs_.clear();
+    programSteps_.clear();
+    if (!isMeasured_)
+        measure(top, bottom);
     const bool isByContent = findSteps(top, bottom);
     // A step may take several times its share of what the band may.
     const auto stepsLeft =
@@ -157,8 +182,8 @@ bool LineSweep::findSteps(float top, float bottom) {
     order_.clear();
     findPieces(top, bottom);
     const double ends = double(changes_.size()) / double(cuts_.size() + 1);
-    const auto count =
-        std::clamp(std::size_t(cutsInRow / (meanCut_ + 1) * (1 + moreForEnds * ends)), leastSteps, mostSteps);
+    const double most = cutsInRow / costOfCut_ / (meanCut_ + 1);
+    const auto count = std::clamp(std::size_t(most * (1 + moreForEnds * ends)), leastSteps, mostSteps);
     steps_.clear();
     if (placeByContent(top, bottom, count))
         return true;
@@ -456,7 +481,7 @@ void LineSweep::draw(const Step& step) {
     if (smallSteps_ > 0 && hasSpecial_)
         drawByParts(step);
     else
-        cross(sorted_, step, {});
+        cross(sorted_, step, {}, -INFINITY, INFINITY);
     drawn_ += step.height;
 }
 
@@ -466,8 +491,8 @@ void LineSweep::drawByParts(const Step& step) {
     float leftmost = INFINITY;
     for (std::size_t i = sorted_.size(); i-- > 0;)
         leftmost_[i] = leftmost = std::min(leftmost, sorted_[i].left);
-    Region left;
-    float right = -INFINITY;
+    Shown left;
+    float right = -INFINITY, begin = -INFINITY;
     bool hasSpecial = false;
     for (std::size_t first = 0, i = 0; i < sorted_.size(); ++i) {
         right = std::max(right, sorted_[i].right);
@@ -475,18 +500,21 @@ void LineSweep::drawByParts(const Step& step) {
         if (i + 1 < sorted_.size() && right >= leftmost_[i + 1])
             continue;
         const std::span part = std::span(sorted_).subspan(first, i + 1 - first);
+        const float end = i + 1 < sorted_.size() ? leftmost_[i + 1] : INFINITY;
         if (hasSpecial && smallSteps_ > 0)
-            drawInSteps(part, step, left);
+            drawInSteps(part, step, left, begin, end);
         else
-            left = cross(part, step, left);
+            left = cross(part, step, left, begin, end);
         first = i + 1;
+        begin = end;
         right = -INFINITY;
         hasSpecial = false;
     }
 }
 
 /// Some of the chains in smaller steps, as many as their reach asks for and the row may take.
-void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Region& left) {
+void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin,
+                            float end) {
     float reach = 0;
     bool hasEnds = false;
     for (const Seen& seen : chains) {
@@ -496,7 +524,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
     auto count = std::clamp(int(reach / mostReach) + 1, hasEnds ? 4 : 1, mostSmallSteps);
     count = int(std::min(std::size_t(count), smallSteps_ / chains.size()));
     if (count <= 1) {
-        left = cross(chains, step, left);
+        left = cross(chains, step, left, begin, end);
         return;
     }
     smallSteps_ -= chains.size() * std::size_t(count);
@@ -505,7 +533,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
     for (const Seen& seen : part_)
         partOrder_.push_back({seen.x, std::uint32_t(partOrder_.size())});
     const float height = (step.bottom - step.top) / float(count);
-    Region right;
+    Shown right;
     const std::int32_t windingLeft = winding_;
     for (int i = 0; i < count; ++i) {
         winding_ = windingLeft;
@@ -517,7 +545,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
         }
         sortPlaces(partOrder_, spare_);
         arrange(part_, partOrder_, partSorted_);
-        right = cross(partSorted_, small, left);
+        right = cross(partSorted_, small, left, begin, end);
         if (i + 1 < count && !isOneColor_)
             for (const Seen& seen : part_)
                 if (seen.isAtMiddle)
@@ -526,8 +554,10 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Regi
     left = right;
 }
 
-/// From left to right through the chains at the middle of a step. Returns the region on their right.
-Region LineSweep::cross(std::span<const Seen> chains, const Step& step, Region left) {
+/// From left to right through the chains at the middle of a step, all of which lie between `begin` and `end`,
+/// as does what is drawn of programs. Returns the region on their right.
+LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step, Shown left, float begin,
+                                  float end) {
     if (isOneColor_) {
         crossOutline(chains, [&](const Seen& seen, bool isCrossed, bool isInside) {
             addAlong(shares_, isCrossed ? seen.x : seen.from, isCrossed ? seen.x : seen.to,
@@ -536,11 +566,12 @@ Region LineSweep::cross(std::span<const Seen> chains, const Step& step, Region l
         return {};
     }
     // Of two chains next to each other the second often leads back.
-    Region before;
+    Shown before;
     std::uint64_t keyBefore = 0, key = state_.key();
     bool isKnown = false;
+    programLeft_ = {begin, begin};
     PaintChange last;
-    const auto change = [&](const Seen& seen, RegionPaint from, RegionPaint to) {
+    const auto change = [&](const Seen& seen, const Shown& from, const Shown& to) {
         PaintChange next{&seen, from, to};
         if (last.seen) {
             next.isCrossed = last.crosses(seen);
@@ -556,20 +587,45 @@ Region LineSweep::cross(std::span<const Seen> chains, const Step& step, Region l
         const std::uint64_t keyLeft = std::exchange(key, state_.key());
         if (key == keyLeft)
             continue;
-        if (state_.isHidden(seen.layer, left)) {
+        if (state_.isHidden(seen.layer, left.region)) {
             isKnown = false;
             continue;
         }
-        const Region right = isKnown && key == keyBefore ? before : state_.region();
-        if (right.paint != left.paint)
-            change(seen, left.paint, right.paint);
+        const Shown right = isKnown && key == keyBefore ? before : regionHere();
+        if (!right.showsAs(left))
+            change(seen, left, right);
         before = std::exchange(left, right);
         keyBefore = keyLeft;
         isKnown = true;
     }
     if (last.seen)
         add(last, step);
+    if (left.isProgram())
+        addProgram(left, {end, end}, step);
     return left;
+}
+
+/// Programs are asked for once in a row.
+LineSweep::Shown LineSweep::regionHere() {
+    if (!state_.hasPrograms())
+        return compute();
+    std::uint32_t& number = known_[state_.key()];
+    if (number == NumberMap::unknown) {
+        number = std::uint32_t(regions_.size());
+        regions_.push_back(compute());
+    }
+    return regions_[number];
+}
+
+LineSweep::Shown LineSweep::compute() {
+    Shown shown;
+    const std::size_t first = programSteps_.size();
+    shown.region = state_.regionOfPixels(shown.color, programSteps_);
+    if (shown.isProgram()) {
+        shown.region.paint |= RegionPaint(programs_.size());
+        programs_.push_back({state_.key(), first, programSteps_.size()});
+    }
+    return shown;
 }
 
 /// Of one layer, whose inside is a colour. Calls take(seen, whether another crosses it in the step, whether
@@ -662,18 +718,38 @@ void LineSweep::addLine(std::int16_t* places, float height) {
 /// An edge covers what it covers; but where edges cross, what each does is right in the middle of the step
 /// only.
 void LineSweep::add(const PaintChange& change, const Step& step) {
-    const auto isProgram = [](RegionPaint paint) { return (paint & programBit) != 0; };
     const Seen& seen = *change.seen;
     const float from = change.isCrossed ? seen.x : seen.from, to = change.isCrossed ? seen.x : seen.to;
-    if (isProgram(change.left) || isProgram(change.right))
-        chords_->push_back({{from, drawn_},
-                            {to, drawn_ + step.height},
-                            isProgram(change.left) ? change.left : 0,
-                            isProgram(change.right) ? change.right : 0});
-    const auto colorOf = [&](RegionPaint paint) {
-        return isProgram(paint) ? glm::vec4(0) : state_.colors()[paint];
-    };
-    addAlong(sums_, from, to, step.height * (colorOf(change.right) - colorOf(change.left)));
+    if (change.left.isProgram())
+        addProgram(change.left, {from, to}, step);
+    programLeft_ = {from, to};
+    addAlong(sums_, from, to, step.height * (change.right.color - change.left.color));
+}
+
+/// What lies between the last change and an edge, column by column.
+void LineSweep::addProgram(const Shown& shown, const Edge& right, const Step& step) {
+    const Edge& left = programLeft_;
+    addAlong(shares_, left.from, left.to, step.height);
+    addAlong(shares_, right.from, right.to, -step.height);
+    const Program& program = programs_[shown.region.paint & ~programBit];
+    const std::span steps = std::span(programSteps_).subspan(program.first, program.end - program.first);
+    const auto columnOf = [&](float x) { return std::size_t(std::clamp(x, 0.0f, float(width_))); };
+    const std::size_t first = columnOf(std::min({left.from, left.to, right.from, right.to})),
+                      last = columnOf(std::max({left.from, left.to, right.from, right.to}));
+    const float from = 0.5f * (left.from + left.to), to = 0.5f * (right.from + right.to);
+    const int row = int(step.top);
+    PixelPlace place{0, row, {0, step.middle() - float(row)}};
+    float share = 0;
+    for (std::size_t column = first; column <= last + 1; ++column) {
+        share += std::exchange(shares_[column], 0.0f);
+        if (share == 0 || column >= std::size_t(width_))
+            continue;
+        const auto begin = float(column);
+        place.x = int(column);
+        place.middle.x = 0.5f * (std::clamp(from - begin, 0.0f, 1.0f) + std::clamp(to - begin, 0.0f, 1.0f));
+        ++programsAsked_;
+        programSums_[column] += share * pixels_.color(program.key, steps, place);
+    }
 }
 
 /// A change along an edge, by columns, with its whole height. The last column is beyond the picture.
@@ -706,16 +782,19 @@ void LineSweep::finishRow(float top, float bottom) {
         for (std::size_t column = 0; column < sums_.size(); ++column)
             sums_[column] = std::exchange(shares_[column], 0.0f) * color_;
     for (int x = 0; x < width_; ++x) {
-        sum += sums_[std::size_t(x)];
-        if (sums_[std::size_t(x)] == glm::vec4(0))
+        const auto column = std::size_t(x);
+        sum += sums_[column];
+        if (sums_[column] == glm::vec4(0) && programSums_[column] == glm::vec4(0) &&
+            (x == 0 || programSums_[column - 1] == glm::vec4(0)))
             continue;
-        const RegionPaint right = state_.paintOf(withinAPixel(perHeight * sum));
+        const RegionPaint right = state_.paintOf(withinAPixel(perHeight * (sum + programSums_[column])));
         chords_->push_back({{float(x), top}, {float(x), bottom}, left, right});
         left = right;
     }
     if (left != 0)
         chords_->push_back({{float(width_), top}, {float(width_), bottom}, left, 0});
     std::ranges::fill(sums_, glm::vec4(0));
+    std::ranges::fill(programSums_, glm::vec4(0));
 }
 
 }  // namespace vtm::compiler

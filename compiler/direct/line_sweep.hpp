@@ -8,6 +8,8 @@
 ///
 /// Where most edges of a single colour cross others in a step, coverage is summed along lines instead.
 ///
+/// Paints are not remembered. Those that are programs are composited in each pixel that their regions reach.
+///
 /// Where many layers are cut, they are asked from the top which of them show in the step, and the others are
 /// left out of it.
 #pragma once
@@ -21,8 +23,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "compiler/containers/number_map.hpp"
 #include "compiler/containers/sort_places.hpp"
 #include "compiler/direct/covered_row.hpp"
+#include "compiler/direct/pixel_colors.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/view_chains.hpp"
 #include "raster/chord.hpp"
@@ -32,11 +36,11 @@ namespace vtm::compiler {
 /// For one thread.
 class LineSweep {
 public:
-    /// `state` is outside of all layers, and is so again after each run. Both must outlive it.
-    LineSweep(const ViewChains& chains, RegionState& state, int width);
+    /// `state` is outside of all layers, and is so again after each run. All must outlive it.
+    LineSweep(const ViewChains& chains, RegionState& state, PixelColors& pixels, int width);
 
     /// Appends chords for what lies between two heights of a band: `numbers` are that band's chains. They
-    /// run down the sides of pixels, between paints that are pixels' colours; but those of programs.
+    /// run down the sides of pixels, between paints that are pixels' colours.
     void run(std::span<const std::uint32_t> numbers, float top, float bottom,
              std::vector<asset::Chord>& chords);
 
@@ -88,10 +92,28 @@ private:
         std::uint64_t content;  ///< is added
     };
 
+    /// Where an edge enters and leaves a step.
+    struct Edge {
+        float from, to;
+    };
+    /// A region's paint: a colour, or `programBit` and a number of programs_.
+    struct Shown {
+        Region region;
+        glm::vec4 color{0};
+
+        bool isProgram() const { return region.paint != 0; }
+        bool showsAs(const Shown& other) const {
+            return region.paint == other.region.paint && color == other.color;
+        }
+    };
+    struct Program {
+        std::uint64_t key;
+        std::size_t first, end;  ///< its steps
+    };
     /// Between two paints.
     struct PaintChange {
         const Seen* seen = nullptr;
-        RegionPaint left = 0, right = 0;
+        Shown left, right;
         bool isCrossed = false;  ///< another one crosses it in the step
 
         bool crosses(const Seen& next) const { return seen->from > next.from || seen->to > next.to; }
@@ -117,14 +139,18 @@ private:
     void lookAndSort(const Step& step);
     void draw(const Step& step);
     void drawByParts(const Step& step);
-    void drawInSteps(std::span<const Seen> chains, const Step& step, Region& left);
-    Region cross(std::span<const Seen> chains, const Step& step, Region left);
+    void drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin, float end);
+    Shown cross(std::span<const Seen> chains, const Step& step, Shown left, float begin, float end);
+    Shown regionHere();
+    Shown compute();
+    void measure(float top, float bottom);
     template <class Take>
     void crossOutline(std::span<const Seen> chains, const Take& take);
     void judge();
     void drawLines(float top, float bottom);
     void addLine(std::int16_t* places, float height);
     void add(const PaintChange& change, const Step& step);
+    void addProgram(const Shown& shown, const Edge& right, const Step& step);
     template <class Amount>
     static void addAlong(std::vector<Amount>& sums, float from, float to, const Amount& amount);
     void finishRow(float top, float bottom);
@@ -132,6 +158,7 @@ private:
     const ViewChains& chains_;
     const glm::vec2* const vertices_;
     RegionState& state_;
+    PixelColors& pixels_;
     const int width_;
     double meanCut_ = 0;  ///< chains that meet a row, in the mean; 0 until it is asked for
     std::vector<asset::Chord>* chords_ = nullptr;
@@ -157,8 +184,18 @@ private:
     std::vector<Seen> partSorted_;
     std::vector<float> leftmost_;  ///< in sorted_, from i on
     std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
-    std::vector<float> shares_;    ///< the same of one layer's inside
-    std::int32_t winding_ = 0;     ///< of one layer
+    std::vector<float> shares_;    ///< the same of one layer's inside, or of a region
+    // Of pictures with programs.
+    NumberMap known_;                      ///< by key: of regions_
+    std::vector<Shown> regions_;           ///< in the row
+    std::vector<Program> programs_;        ///< theirs
+    std::vector<PaintStep> programSteps_;  ///< of these
+    double costOfCut_ = 1;                 ///< with programs, in the band
+    bool isMeasured_ = false;              ///< that is known
+    std::size_t programsAsked_ = 0;
+    Edge programLeft_{};                  ///< of the program on the left of the next change
+    std::vector<glm::vec4> programSums_;  ///< by column: what programs show there, times height
+    std::int32_t winding_ = 0;            ///< of one layer
     bool isJudged_ = false, isTangled_ = false;
     std::vector<std::int16_t> places_;  ///< of lines: what is added to the winding number there
     float drawn_ = 0;                   ///< of the row

@@ -12,6 +12,7 @@
 #include "compiler/compile/settings.hpp"
 #include "compiler/direct/band_sweep.hpp"
 #include "compiler/direct/hidden_layers.hpp"
+#include "compiler/direct/pixel_colors.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/view_chains.hpp"
 #include "compiler/lower/lower.hpp"
@@ -42,10 +43,15 @@ constexpr double coarsestTolerance = 0x1p-6;  // of Options::tolerance
 
 /// What one thread uses again.
 struct ThreadState {
-    ThreadState(const LoweredScene& picture, const ViewChains& chains, const asset::View& view)
-        : state(picture), sweep(chains, state, picture.layers.size(), view.width), scanner(view) {}
+    ThreadState(const LoweredScene& picture, const ViewChains& chains, std::span<const image::Bitmap> bitmaps,
+                const std::shared_ptr<const asset::Images>& images, const asset::View& view)
+        : state(picture),
+          pixels(picture, bitmaps, images, view),
+          sweep(chains, state, pixels, picture.layers.size(), view.width),
+          scanner(view) {}
 
     RegionState state;
+    PixelColors pixels;
     BandSweep sweep;
     asset::ChordScanner scanner;
     std::vector<BandChords> bands;  ///< keep their memory
@@ -146,7 +152,7 @@ struct PlainDrawing::Impl {
     void draw(int first, int end, const Draw& drawBands) const {
         const limits::Stage stage("drawing");
         tbb::enumerable_thread_specific<ThreadState> workers(
-            [&] { return ThreadState(picture, chains, view); });
+            [&] { return ThreadState(picture, chains, bitmaps, images, view); });
         const int threads = tbb::this_task_arena::max_concurrency();
         const int strips = (end - first + stripBands - 1) / stripBands;
         const int grain = stripBands * std::max(1, threads == 1 ? strips : strips / (4 * threads));

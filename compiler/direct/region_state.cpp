@@ -25,7 +25,6 @@ RegionState::RegionState(const LoweredScene& picture)
       painter_(picture),
       layers_(picture.layers.size()),
       shades_(picture.layers.size()),
-      covers_(layerCovers(picture)),
       translucent_(picture.groups.size(), noIndex),
       inside_(picture.layers.size() / 64 + 1),
       filled_(inside_.size() / 64 + 1),
@@ -43,14 +42,20 @@ RegionState::RegionState(const LoweredScene& picture)
                         group.blend == scene::BlendMode::Normal && group.mask == noIndex;
         translucent_[g] = group.opacity < 1 ? g : isRoot ? noIndex : translucent_[group.parent];
     }
+    const std::vector<LayerCover> covers = layerCovers(picture);
     for (const LoweredItem& item : picture.items) {
         const Source& source = picture.sources[item.source];
         Shade& shade = shades_[item.layer];
         shade.kind = isLaidOver[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
+        hasPrograms_ = hasPrograms_ || shade.kind == Shade::Other;
+        shade.isLaidOver = isLaidOver[item.group] != 0;
         shade.isClipped = isClipped[item.group] != 0;
         shade.group = translucent_[item.group];
-        for (int c = 0; c < 4; ++c)
-            shade.color[c] = source.color[std::size_t(c)] * item.opacity;
+        const bool isColor = source.op == asset::Op::Solid;
+        shade.instruction = {source.op, asset::Blend::Normal, isColor ? 1 : item.opacity, source.data};
+        const auto& c = source.color;
+        shade.color = item.opacity * glm::vec4(c[0], c[1], c[2], c[3]);
+        shade.cover = covers[item.layer];
     }
     forgetPaints();
 }
@@ -82,6 +87,13 @@ void RegionState::forEachFromTop(Visit&& visit) const {
         }
 }
 
+/// By a clip of a group round it.
+bool RegionState::isClippedAway(std::uint32_t layer) const {
+    return shades_[layer].isClipped &&
+           !insideClips(picture_, picture_.items[picture_.itemOfLayer[layer]].group,
+                        [&](std::uint32_t clip) { return isInside(clip); });
+}
+
 Region RegionState::compute() {
     Region region;
     glm::vec4 color;
@@ -97,8 +109,7 @@ bool RegionState::stackSolids(glm::vec4& color, Region& region) {
         const Shade& shade = shades_[layer];
         if (shade.kind == Shade::None)
             return true;
-        if (shade.isClipped && !insideClips(picture_, picture_.items[picture_.itemOfLayer[layer]].group,
-                                            [&](std::uint32_t clip) { return isInside(clip); }))
+        if (isClippedAway(layer))
             return true;
         isSolid = shade.kind == Shade::Solid;
         if (!isSolid)
@@ -172,7 +183,7 @@ RegionPaint RegionState::computeAny(Region& region) {
         list_.push_back(layer);
         flags_[layer] = 1;
         // Of a group's layers only the topmost counts.
-        const LayerCover& cover = covers_[layer];
+        const LayerCover& cover = shades_[layer].cover;
         if (cover.group == noIndex || cover.group != group)
             light *= 1 - cover.alpha;
         group = cover.alpha > 0 ? cover.group : group;
@@ -196,6 +207,47 @@ RegionPaint RegionState::computeAny(Region& region) {
     }
     programs_.push_back(program);
     return paint = RegionPaint(programs_.size() - 1) | programBit;
+}
+
+Region RegionState::regionOfPixels(glm::vec4& color, std::vector<PaintStep>& steps) {
+    Region region;
+    if (stackSolids(color, region))
+        return region;
+    color = glm::vec4(0);
+    region = {.paint = programBit};
+    list_.clear();
+    float light = 1;
+    std::uint32_t group = noIndex;
+    bool isPlain = true;
+    forEachFromTop([&](std::uint32_t layer) {
+        const Shade& shade = shades_[layer];
+        if (shade.kind == Shade::None || isClippedAway(layer))
+            return true;
+        list_.push_back(layer);
+        isPlain = isPlain && shade.isLaidOver && shade.group == noIndex;
+        // Of a group's layers only the topmost counts.
+        const LayerCover& cover = shade.cover;
+        if (cover.group == noIndex || cover.group != group)
+            light *= 1 - cover.alpha;
+        group = cover.alpha > 0 ? cover.group : group;
+        if (light > unseen)
+            return true;
+        region.hidden = layer;
+        return false;
+    });
+    std::ranges::reverse(list_);
+    if (!isPlain) {
+        for (std::uint32_t& item : list_)
+            item = picture_.itemOfLayer[item];
+        const PaintProgram program = compositeItems(picture_, list_);
+        steps.insert(steps.end(), program.begin(), program.end());
+        return region;
+    }
+    for (const std::uint32_t layer : list_) {
+        const glm::vec4& c = shades_[layer].color;
+        steps.push_back({shades_[layer].instruction, {c.x, c.y, c.z, c.w}});
+    }
+    return region;
 }
 
 }  // namespace vtm::compiler

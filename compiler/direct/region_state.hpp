@@ -60,6 +60,9 @@ public:
         }
         return regions_[number];
     }
+    /// The same of a region of a few pixels, which is not remembered: sets its colour, or appends the steps
+    /// of its program to `steps`; then its paint is `programBit`.
+    Region regionOfPixels(glm::vec4& color, std::vector<PaintStep>& steps);
     /// Of another set; null if it was not asked for before. Valid until the next is asked for.
     const Region* known(std::uint64_t key) const {
         const std::uint32_t number = known_.at(key);
@@ -69,7 +72,7 @@ public:
     bool isHidden(std::uint32_t layer, const Region& by) const {
         return layer < by.hidden && shades_[layer].kind != Shade::None;
     }
-    const LayerCover& cover(std::uint32_t layer) const { return covers_[layer]; }
+    const LayerCover& cover(std::uint32_t layer) const { return shades_[layer].cover; }
     bool isOfClip(std::uint32_t layer) const { return shades_[layer].kind == Shade::None; }
     bool isInside(std::uint32_t layer, std::int32_t winding) const {
         return layers_[layer].isInside(winding);
@@ -80,6 +83,8 @@ public:
     /// Premultiplied; the first is transparent.
     std::span<const glm::vec4> colors() const { return colors_; }
     std::span<const PaintProgram> programs() const { return programs_; }
+    /// Whether paints may be programs.
+    bool hasPrograms() const { return hasPrograms_; }
     /// A paint of its own.
     RegionPaint paintOf(const glm::vec4& color) { return colorNumber(color); }
     /// All paints, whose numbers are given anew.
@@ -101,8 +106,11 @@ private:
             Other
         } kind = None;
         bool isClipped = false;
+        bool isLaidOver = false;        ///< in no group but such
         std::uint32_t group = noIndex;  ///< the innermost that is translucent
-        glm::vec4 color{0};
+        glm::vec4 color{0};             ///< with its opacity
+        asset::Instruction instruction;
+        LayerCover cover;
     };
     /// A translucent group that is composited, from the top.
     struct Open {
@@ -119,6 +127,7 @@ private:
     }
     template <class Visit>
     void forEachFromTop(Visit&& visit) const;
+    bool isClippedAway(std::uint32_t layer) const;
     bool isInside(std::uint32_t layer) const { return (inside_[layer / 64] >> layer % 64 & 1) != 0; }
     Region compute();
     bool stackSolids(glm::vec4& color, Region& region);
@@ -131,7 +140,6 @@ private:
     PicturePainter painter_;
     std::vector<LayerState> layers_;
     std::vector<Shade> shades_;               ///< by layer
-    std::vector<LayerCover> covers_;          ///< by layer
     std::vector<std::uint32_t> translucent_;  ///< by group: the innermost round it and with it
     std::vector<Open> open_;
     std::uint64_t key_ = 0;
@@ -145,6 +153,7 @@ private:
     std::vector<PaintProgram> programs_;
     std::vector<RegionPaint> ofPalette_;  ///< by paint of the palette
     std::vector<std::uint32_t> list_;
+    bool hasPrograms_ = false;
     std::vector<std::uint8_t> flags_;
 };
 

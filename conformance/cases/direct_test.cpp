@@ -154,6 +154,22 @@ std::string stackedCircles(int count) {
     return circles;
 }
 
+/// Each with a gradient across its own box.
+std::string gradientStrokes(int count, const char* style) {
+    Numbers numbers;
+    std::string strokes =
+        "<linearGradient id=\"g\" gradientUnits=\"userSpaceOnUse\" x2=\"64\"><stop stop-color=\"#e33\" "
+        "stop-opacity=\".5\"/><stop offset=\"1\" "
+        "stop-color=\"#23c\"/></linearGradient>";
+    for (int i = 0; i < count; ++i) {
+        const double a = numbers.between(), b = numbers.between(), c = numbers.between(),
+                     d = numbers.between();
+        strokes += fmt::format("<path d=\"M{:.3f},{:.3f}L{:.3f},{:.3f}\" stroke=\"url(#g)\" style=\"{}\"/>",
+                               a, b, c, d, style);
+    }
+    return strokes;
+}
+
 std::string grid(int lines) {
     std::string path =
         fmt::format("<path fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" d=\"", 0.3 * 64 / lines);
@@ -187,6 +203,14 @@ TEST(DrawnOnce, DensePicturesAreTheMeansOfLargerOnes) {
 TEST(DrawnOnce, LevelStepsAreNearTheMeansOfLargerPictures) {
     constexpr double mostMisplaced = 3;
     EXPECT_LE(differenceFromLarger(sceneOf(crossingLines(16000, "nonzero")), 4), mostMisplaced);
+}
+
+/// Twenty crossings in a pixel, between regions each of which has a program of its own.
+TEST(DrawnOnce, ProgramsInLevelStepsAreNearTheMeansOfLargerPictures) {
+    for (const char* style : {"stroke-width:.5", "stroke-width:.5;opacity:.7;mix-blend-mode:multiply"}) {
+        const double most = differenceFromLarger(sceneOf(gradientStrokes(400, style)), 4);
+        EXPECT_LE(most, 3.0) << style;
+    }
 }
 
 /// Some hundred edges a pixel, and fewer at the sides. What is off is the mean of lines, whose shares have
@@ -272,16 +296,20 @@ TEST(DrawnOnce, HiddenOutlinesChangeNothing) {
 }
 
 TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
-    const scene::Scene scene = sceneOf(crossingLines(16000, "nonzero") + stackedCircles(500));
-    const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 100));
-    ASSERT_TRUE(drawing);
-    const image::Raster all = drawing->draw();
-    for (int first = 0; first < drawing->height(); first += 70)
-        drawing->scan(first, std::min(first + 70, drawing->height()), [&](int y, const asset::ColorRun& run) {
-            for (int x = run.first; x < run.end; ++x)
-                for (int c = 0; c < 4; ++c)
-                    ASSERT_EQ(all.pixel(x, y)[c], std::clamp(run.color[c], 0.0f, 1.0f));
-        });
+    for (const std::string& content :
+         {crossingLines(16000, "nonzero") + stackedCircles(500), gradientStrokes(400, "stroke-width:2")}) {
+        const scene::Scene scene = sceneOf(content);
+        const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 100));
+        ASSERT_TRUE(drawing);
+        const image::Raster all = drawing->draw();
+        for (int first = 0; first < drawing->height(); first += 70)
+            drawing->scan(first, std::min(first + 70, drawing->height()),
+                          [&](int y, const asset::ColorRun& run) {
+                              for (int x = run.first; x < run.end; ++x)
+                                  for (int c = 0; c < 4; ++c)
+                                      ASSERT_EQ(all.pixel(x, y)[c], std::clamp(run.color[c], 0.0f, 1.0f));
+                          });
+    }
 }
 
 /// Operations that jump where colours nearly vanish are left out: there any two drawings differ.
