@@ -18,7 +18,8 @@ constexpr float mostHeight = 4;
 constexpr std::size_t slabSteps = 500;
 
 /// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
-/// would take more and cannot be made thinner, or twice as much.
+/// would take more and cannot be made thinner, or twice as much; so does one that remembers too many
+/// programs.
 constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 23;
 /// So does one that begins with more chains, of so many layers that some may hide others: a row could look at
 /// them only a few times. Chains of few layers may not cross at all.
@@ -26,9 +27,7 @@ constexpr std::size_t mostAtOnce = 1u << 17, manyLayers = 64;
 /// And one of more than this, if steps in their first row show that it would take too much.
 constexpr std::size_t manyOfOne = 1u << 15;
 /// A chord of a program costs as much as so many steps.
-constexpr std::size_t programSteps = 512;
-/// In a strip in whose first row chains cross more often, the programs between them would take too much.
-constexpr std::size_t mostProgramCrossings = 512;
+constexpr std::size_t programSteps = 2;
 /// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
 /// next strip.
 constexpr std::size_t fewToBegin = 1u << 15;
@@ -67,11 +66,8 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         if ((above > mostAtOnce && windings_.size() >= manyLayers) ||
             (above > manyOfOne && lines_.isTangled(chains, top)))
             onLines_ = chains.size();
-        staysOnLines_ = state_.hasPrograms() && wouldMakeManyPrograms(chains.first(above), top);
-        if (staysOnLines_)
-            onLines_ = chains.size();
     }
-    if (staysOnLines_ || (onLines_ > fewToBegin && 2 * chains.size() > onLines_))
+    if (state_.remembersMuch() || (onLines_ > fewToBegin && 2 * chains.size() > onLines_))
         return goOnLines(chains, top, bottom);
     if (begins || isPassedOver_ || onLines_ > 0 || chains_.areLeftOut())
         begin(chains.first(above), top);
@@ -87,7 +83,7 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         limits::check();
         steps_ = 0;
         thinnest_ = std::max(leastHeight, float(active_.size()) / looksInRow);
-        if (stripSteps_ > mostInStrip + std::size_t(y - stripTop_) * mostInRow)
+        if (state_.remembersMuch() || stripSteps_ > mostInStrip + std::size_t(y - stripTop_) * mostInRow)
             return goOnLines(chains, y, bottom);
         if (!slab({y, y + height_})) {
             // In half of the height it takes a quarter.
@@ -110,30 +106,6 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         a->from = bottom;
     }
     moveState(0);
-}
-
-/// Where paints may be programs: whether too many chains cross within a row.
-bool BandSweep::wouldMakeManyPrograms(std::span<const std::uint32_t> chains, float top) {
-    std::vector<glm::vec2> places;
-    for (const std::uint32_t number : chains) {
-        const DownChain& chain = chains_[number];
-        if (chain.bottom <= top + 1)
-            continue;
-        std::uint32_t at = chain.first + 1;
-        while (vertices_[at].y <= top)
-            ++at;
-        glm::vec2 place;
-        place.x = xBetween(vertices_[at - 1], vertices_[at], top);
-        while (vertices_[at].y <= top + 1)
-            ++at;
-        place.y = xBetween(vertices_[at - 1], vertices_[at], top + 1);
-        places.push_back(place);
-    }
-    std::ranges::sort(places, {}, [](const glm::vec2& place) { return place.x; });
-    sorted_.clear();
-    for (const glm::vec2& place : places)
-        sorted_.push_back(place.y);
-    return hasMoreInversions(sorted_, merging_, mostProgramCrossings);
 }
 
 /// Whether many edges of those that are seen cross within a row.

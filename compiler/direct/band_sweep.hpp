@@ -110,7 +110,6 @@ private:
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
     bool slab(Slab slab);
-    bool wouldMakeManyPrograms(std::span<const std::uint32_t> chains, float top);
     bool isTangled(float y);
     void leave(float y);
     void goOnLines(std::span<const std::uint32_t> chains, float top, float bottom);
@@ -179,7 +178,6 @@ private:
     float stripTop_ = 0;
     OutlineRows outline_;
     LineSweep lines_;
-    bool staysOnLines_ = false;     ///< the strip
     bool isPassedOver_ = false;     ///< the last band, which `outline_` has drawn
     std::size_t onLines_ = 0;       ///< chains of the band that went on in level steps, if the last one did
     float height_ = 1;              ///< of slabs

@@ -155,7 +155,8 @@ void LineSweep::row(float top, float bottom) {
     regions_.clear();
     programs_.clear();
     programSteps_.clear();
-    if (!isMeasured_)
+    remembers_ = state_.hasPrograms() && !state_.remembersMuch();
+    if (!remembers_ && !isMeasured_)
         measure(top, bottom);
     const bool isByContent = findSteps(top, bottom);
     // A step may take several times its share of what the band may.
@@ -600,13 +601,19 @@ LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step
     }
     if (last.seen)
         add(last, step);
-    if (left.isProgram())
+    if (left.isProgram() && !remembers_)
         addProgram(left, {end, end}, step);
     return left;
 }
 
 /// Programs are asked for once in a row.
 LineSweep::Shown LineSweep::regionHere() {
+    if (remembers_) {
+        Shown shown{state_.region(), {}};
+        if (!shown.isProgram())
+            shown.color = state_.colors()[std::exchange(shown.region.paint, 0)];
+        return shown;
+    }
     if (!state_.hasPrograms())
         return compute();
     std::uint32_t& number = known_[state_.key()];
@@ -720,7 +727,12 @@ void LineSweep::addLine(std::int16_t* places, float height) {
 void LineSweep::add(const PaintChange& change, const Step& step) {
     const Seen& seen = *change.seen;
     const float from = change.isCrossed ? seen.x : seen.from, to = change.isCrossed ? seen.x : seen.to;
-    if (change.left.isProgram())
+    if (remembers_ && (change.left.isProgram() || change.right.isProgram()))
+        chords_->push_back({{from, drawn_},
+                            {to, drawn_ + step.height},
+                            change.left.region.paint,
+                            change.right.region.paint});
+    else if (change.left.isProgram())
         addProgram(change.left, {from, to}, step);
     programLeft_ = {from, to};
     addAlong(sums_, from, to, step.height * (change.right.color - change.left.color));

@@ -8,7 +8,8 @@
 ///
 /// Where most edges of a single colour cross others in a step, coverage is summed along lines instead.
 ///
-/// Paints are not remembered. Those that are programs are composited in each pixel that their regions reach.
+/// Paints that are programs are remembered, and their edges are chords, as elsewhere; where that would be too
+/// many, they are composited in each pixel that their regions reach, and forgotten.
 ///
 /// Where many layers are cut, they are asked from the top which of them show in the step, and the others are
 /// left out of it.
@@ -40,7 +41,8 @@ public:
     LineSweep(const ViewChains& chains, RegionState& state, PixelColors& pixels, int width);
 
     /// Appends chords for what lies between two heights of a band: `numbers` are that band's chains. They
-    /// run down the sides of pixels, between paints that are pixels' colours.
+    /// run down the sides of pixels, between paints that are pixels' colours; but those of programs that are
+    /// remembered.
     void run(std::span<const std::uint32_t> numbers, float top, float bottom,
              std::vector<asset::Chord>& chords);
 
@@ -96,12 +98,12 @@ private:
     struct Edge {
         float from, to;
     };
-    /// A region's paint: a colour, or `programBit` and a number of programs_.
+    /// A region's paint: a colour; or `programBit` and a number, of programs_ unless paints are remembered.
     struct Shown {
         Region region;
         glm::vec4 color{0};
 
-        bool isProgram() const { return region.paint != 0; }
+        bool isProgram() const { return (region.paint & programBit) != 0; }
         bool showsAs(const Shown& other) const {
             return region.paint == other.region.paint && color == other.color;
         }
@@ -186,6 +188,7 @@ private:
     std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
     std::vector<float> shares_;    ///< the same of one layer's inside, or of a region
     // Of pictures with programs.
+    bool remembers_ = false;               ///< their paints
     NumberMap known_;                      ///< by key: of regions_
     std::vector<Shown> regions_;           ///< in the row
     std::vector<Program> programs_;        ///< theirs

@@ -66,6 +66,7 @@ void RegionState::forgetPaints() {
     colorNumbers_.clear();
     colors_.clear();
     programs_.clear();
+    programSteps_ = 0;
     palette_ = Palette();
     ofPalette_.clear();
     colorNumber({0, 0, 0, 0});
@@ -206,6 +207,7 @@ RegionPaint RegionState::computeAny(Region& region) {
         return paint = colorNumber({c[0], c[1], c[2], c[3]});
     }
     programs_.push_back(program);
+    programSteps_ += program.size();
     return paint = RegionPaint(programs_.size() - 1) | programBit;
 }
 

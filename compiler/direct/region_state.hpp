@@ -85,12 +85,16 @@ public:
     std::span<const PaintProgram> programs() const { return programs_; }
     /// Whether paints may be programs.
     bool hasPrograms() const { return hasPrograms_; }
+    /// Whether the programs that are remembered are as large as they should become.
+    bool remembersMuch() const { return programSteps_ > mostProgramSteps; }
     /// A paint of its own.
     RegionPaint paintOf(const glm::vec4& color) { return colorNumber(color); }
     /// All paints, whose numbers are given anew.
     void forgetPaints();
 
 private:
+    static constexpr std::size_t mostProgramSteps = 1u << 17;
+
     struct LayerState {
         std::int32_t winding = 0;
         std::int32_t mask = -1;  ///< of the winding number's bits that matter
@@ -151,6 +155,7 @@ private:
     NumberMap colorNumbers_;  ///< by a hash of the colour
     Palette palette_;
     std::vector<PaintProgram> programs_;
+    std::size_t programSteps_ = 0;        ///< in all of them
     std::vector<RegionPaint> ofPalette_;  ///< by paint of the palette
     std::vector<std::uint32_t> list_;
     bool hasPrograms_ = false;

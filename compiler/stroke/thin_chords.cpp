@@ -12,7 +12,11 @@ constexpr int maxHalvings = 40;
 
 /// Where a curve turns by θ in a chord, the offsets of its chords are moved by up to θ² r / 12 to the outer
 /// side of the bend: by no more than the area in a pixel, which is about 20 times as wide as the area's root.
-double turnOf(double radius, double area) { return std::min(1.0, std::sqrt(std::sqrt(area) / (2 * radius))); }
+/// And they are shorter by θ² / 24, of a hairline's coverage too.
+double turnOf(double radius, double area) {
+    constexpr double most = 0.4;
+    return std::min(most, std::sqrt(std::sqrt(area) / (2 * radius)));
+}
 
 }  // namespace
 
