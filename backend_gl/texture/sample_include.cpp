@@ -13,6 +13,7 @@
 #include <vtm/raster/prefilter.hpp>
 #include "asset/instances.hpp"
 #include "backend_gl/core/constants.hpp"
+#include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/programs.hpp"
 #include "backend_gl/core/shader_text.hpp"
 #include "backend_gl/core/turns.hpp"
@@ -196,6 +197,8 @@ namespace {
 
 /// Of the current context's driver, if there is one: fetch.glsl.
 bool samplesTexels() {
+    if (!currentContext())
+        return false;
     const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     return renderer != nullptr && std::string_view(renderer).find("llvmpipe") != std::string_view::npos;
 }
