@@ -93,7 +93,7 @@ public:
     void forgetPaints();
 
 private:
-    static constexpr std::size_t mostProgramSteps = 1u << 17;
+    static constexpr std::size_t mostProgramSteps = 1u << 18;
 
     struct LayerState {
         std::int32_t winding = 0;
