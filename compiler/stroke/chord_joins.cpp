@@ -56,7 +56,10 @@ void leaveOutBesideTip(const Tip& tip, const IsLittle& isLittle) {
     if (!isLittle(before, here - from) || !isLittle(after, to - here))
         return;
     const Point way = to - from;
-    ends[at] = here - perp(way) * ((before + after) / glm::dot(way, way));
+    const double square = glm::dot(way, way);
+    if (!(std::abs(before + after) <= 0.5 * square))  // the tip would move far
+        return;
+    ends[at] = here - perp(way) * ((before + after) / square);
     if (isBeforeChord)
         leaveOut(*side, at + 1);
     if (isAfterChord)
