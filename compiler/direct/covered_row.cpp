@@ -7,7 +7,7 @@ namespace vtm::compiler {
 
 void CoveredRow::clear() {
     for (std::size_t i = 0; i < squares_.size(); ++i)
-        squares_[i] = {.next = std::int32_t(i)};
+        squares_[i] = {.below = {}, .next = std::int32_t(i)};
 }
 
 bool CoveredRow::add(std::span<const Touch> touches, const LayerCover& cover, bool isEvenOdd,
@@ -34,12 +34,8 @@ void CoveredRow::coverSquares(std::int32_t first, std::int32_t end, const LayerC
          column = nextOpen(column + 1)) {
         --stepsLeft;
         CoveredSquare& square = at(column);
-        // Of a group's layers only the topmost counts.
-        if (cover.group != noIndex && square.group == cover.group)
-            continue;
-        square.group = cover.group;
-        square.light *= 1 - cover.alpha;
-        if (square.light <= unseen)
+        square.below.add(cover);
+        if (square.below.light() <= unseen)
             square.next = column + 1;
     }
 }

@@ -11,9 +11,8 @@ namespace vtm::compiler {
 
 /// Of a row. What is hidden is never looked at again.
 struct CoveredSquare {
-    float light = 1;
-    std::uint32_t group = noIndex;  ///< that covers it already
-    std::int32_t next = 0;          ///< a square further right, up to which all are hidden; or itself
+    LightBelow below;
+    std::int32_t next = 0;  ///< a square further right, up to which all are hidden; or itself
 };
 
 /// Squares [first, last] that an outline touches, and what it adds to the winding number on its right.

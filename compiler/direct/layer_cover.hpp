@@ -20,6 +20,22 @@ struct LayerCover {
     bool mayBeHidden = false;       ///< by layers above that cover
 };
 
+/// What comes through layers, taken from the top.
+class LightBelow {
+public:
+    float light() const { return light_; }
+    void add(const LayerCover& cover) {
+        // Of a group's layers only the topmost counts.
+        if (cover.group == noIndex || cover.group != group_)
+            light_ *= 1 - cover.alpha;
+        group_ = cover.alpha > 0 ? cover.group : group_;
+    }
+
+private:
+    float light_ = 1;
+    std::uint32_t group_ = noIndex;
+};
+
 /// A layer covers if it is laid over what lies below it, unclipped; all but clips and masks may be hidden.
 std::vector<LayerCover> layerCovers(const LoweredScene& picture);
 

@@ -175,20 +175,15 @@ RegionPaint RegionState::colorNumber(const glm::vec4& color) {
 RegionPaint RegionState::computeAny(Region& region) {
     constexpr std::size_t deep = 8;
     list_.clear();
-    float light = 1;
-    std::uint32_t group = noIndex;
+    LightBelow below;
     forEachFromTop([&](std::uint32_t layer) {
-        const bool isUnseen = light <= unseen && list_.size() >= deep;
+        const bool isUnseen = below.light() <= unseen && list_.size() >= deep;
         if (isUnseen && !isOfClip(layer))
             return true;
         list_.push_back(layer);
         flags_[layer] = 1;
-        // Of a group's layers only the topmost counts.
-        const LayerCover& cover = shades_[layer].cover;
-        if (cover.group == noIndex || cover.group != group)
-            light *= 1 - cover.alpha;
-        group = cover.alpha > 0 ? cover.group : group;
-        if (!isUnseen && light <= unseen && list_.size() >= deep)
+        below.add(shades_[layer].cover);
+        if (!isUnseen && below.light() <= unseen && list_.size() >= deep)
             region.hidden = layer;
         return true;
     });
@@ -218,8 +213,7 @@ Region RegionState::regionOfPixels(glm::vec4& color, std::vector<PaintStep>& ste
     color = glm::vec4(0);
     region = {.paint = programBit};
     list_.clear();
-    float light = 1;
-    std::uint32_t group = noIndex;
+    LightBelow below;
     bool isPlain = true;
     forEachFromTop([&](std::uint32_t layer) {
         const Shade& shade = shades_[layer];
@@ -227,12 +221,8 @@ Region RegionState::regionOfPixels(glm::vec4& color, std::vector<PaintStep>& ste
             return true;
         list_.push_back(layer);
         isPlain = isPlain && shade.isLaidOver && shade.group == noIndex;
-        // Of a group's layers only the topmost counts.
-        const LayerCover& cover = shade.cover;
-        if (cover.group == noIndex || cover.group != group)
-            light *= 1 - cover.alpha;
-        group = cover.alpha > 0 ? cover.group : group;
-        if (light > unseen)
+        below.add(shade.cover);
+        if (below.light() > unseen)
             return true;
         region.hidden = layer;
         return false;

@@ -38,7 +38,10 @@ class Drawing {
 public:
     Drawing(const Scanned& of, const View& view, const MaterialFunction& materials, RowScratch& scratch,
             int finerLevels)
-        : of_(of), view_(view), scratch_(scratch), programs_(programView(of, view_, materials, finerLevels)) {
+        : of_(of),
+          view_(view),
+          scratch_(scratch),
+          programs_(of.paints, of.sums, view_, materials, 1, of.drawn.size() <= 1, finerLevels, nullptr) {
         scratch_.bands.clear(view.height);
         scratch_.colors.resize(view.width);
         scratch_.programs.resize(of.asset().paints.size(), view.width);
@@ -177,22 +180,6 @@ private:
         scratch_.colors.resolve(std::size_t(row), [&](int first, int end, Float4 color) {
             pixels.finish(y, first, end, color, store, drawAlone);
         });
-    }
-
-    static ProgramView programView(const Scanned& of, const View& view, const MaterialFunction& materials,
-                                   int finerLevels) {
-        const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-        const float minSteep = minSteepness(inverse);
-        return {of.paints,
-                of.sums,
-                view,
-                inverse,
-                minSteep,
-                materials,
-                roughBounds(minSteep, 1),
-                of.drawn.size() <= 1,
-                finerLevels,
-                nullptr};
     }
 
     const Scanned& of_;

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 
 #include <vtm/limits/limits.hpp>
 #include <vtm/raster/view.hpp>
 #include "raster/chord.hpp"
 #include "raster/src/rough.hpp"
-#include "raster/steepness.hpp"
 
 namespace vtm::asset {
 namespace {
@@ -41,22 +39,6 @@ View finerView(const View& view, const BandBox& box, glm::dvec2 corner) {
     for (int i = 0; i < 3; ++i)
         finer.toPixels[i] *= double(finerSide);
     return finer;
-}
-
-/// The same for a finer picture, of which some pixels are asked for.
-ProgramView finerOf(const ProgramView& of, const View& view, const FinerPixels& wanted) {
-    const glm::dmat2 inverse = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
-    const float minSteep = minSteepness(inverse);
-    return {of.paints,
-            of.sums,
-            view,
-            inverse,
-            minSteep,
-            of.materials,
-            roughBounds(minSteep, finerTolerance * of.rough.times),
-            false,
-            of.finerLevels - 1,
-            &wanted};
 }
 
 }  // namespace
@@ -95,7 +77,8 @@ void FinerProgram::drawBox(const ProgramView& of, std::uint32_t paint, int top,
         wanted.add(p.x - box.first, p.row - box.top);
     const glm::dvec2 corner(box.first, top + box.top);
     const View view = finerView(of.view, box, corner);
-    const ProgramView finer = finerOf(of, view, wanted);
+    const ProgramView finer(of.paints, of.sums, view, of.materials, finerTolerance * of.rough.times, false,
+                            of.finerLevels - 1, &wanted);
 
     bands_.clear(view.height);
     for (const ProgramSide& side : sides) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 
 #include <vtm/raster/scan.hpp>
@@ -52,6 +53,20 @@ private:
 
 /// What programs are drawn for.
 struct ProgramView {
+    /// `roughness`: of the bounds for rough pixels, so many times.
+    ProgramView(const Paints& paintsOf, Sums sumsOf, const View& of, const MaterialFunction& materialsOf,
+                float roughness, bool disjoint, int levels, const FinerPixels* wantedOf)
+        : paints(paintsOf),
+          sums(sumsOf),
+          view(of),
+          inverse(glm::inverse(glm::dmat2(of.toPixels[0], of.toPixels[1]))),
+          minSteep(minSteepness(inverse)),
+          materials(materialsOf),
+          rough(roughBounds(minSteep, roughness)),
+          areDisjoint(disjoint),
+          finerLevels(levels),
+          wanted(wantedOf) {}
+
     const Paints& paints;
     Sums sums;
     const View& view;
