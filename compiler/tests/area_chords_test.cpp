@@ -12,6 +12,7 @@
 
 #include "compiler/lower/outline.hpp"
 #include "compiler/outline_coverage.hpp"
+#include "compiler/stroke/chord_joins.hpp"
 #include "compiler/stroke/chords.hpp"
 
 namespace vtm::compiler {
@@ -129,6 +130,17 @@ TEST_P(AreaChords, ofStrokesToo) {
         // Both sides, as often.
         for (std::size_t i = 0; i < truth.size(); ++i)
             EXPECT_LT(std::abs(chords[i] - truth[i]), 6 * area + 4 * slack) << width << " at " << i;
+    }
+}
+
+/// Out to a tip and back to where it came from, or nearly so: no line between tells where the tip might go.
+TEST(AreaChords, ofATipWhoseNeighboursMeetStay) {
+    for (const double gap : {0.0, 1e-6}) {
+        const std::vector<scene::Point> ends{{0, 0}, {0.01, 0.001}, {0.02, 0}, {0.01, -0.002}, {gap, 0}};
+        stroke::Side chords{{-1, 0}, ends, {}};
+        stroke::shorten({.before = {1, 0}, .after = {-1, 0}, .tip = {&chords, 2, true, true}, .detour = {}},
+                        {1.0 / 256, area}, 0);
+        EXPECT_EQ(chords.ends, ends) << gap;
     }
 }
 
