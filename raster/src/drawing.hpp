@@ -59,7 +59,7 @@ public:
                 chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
                 [&](const Boundary& boundary) { chords.add(boundary); });
             if (drawn.map != Scanned::noMap)
-                addPlaced(drawn.map, 0, drawn.placed);
+                addPlaced(drawn.map, 0, drawn.placed.maps);
         }
     }
     /// Some of the parts that make up the picture.

@@ -73,13 +73,17 @@ public:
 
 private:
     void makeChords(std::size_t count) {
-        const std::size_t parts = of_.partCount();
-        made_.resize(std::min(count, parts));
+        const std::vector<std::size_t> costs = of_.costsBefore();
+        const auto firstPart = [&](std::size_t i) {
+            const std::size_t cost = costs.back() * i / count;
+            return std::size_t(std::ranges::lower_bound(costs, cost) - costs.begin());
+        };
+        made_.resize(count);
         tbb::parallel_for(std::size_t{0}, made_.size(), [&, holding = limits::current()](std::size_t i) {
             const limits::Scope scope(holding);
             made_[i] = pool_.take();
             Drawing drawing(of_, view_, noMaterials_, *made_[i], finerLevels_);
-            drawing.addParts(parts * i / made_.size(), parts * (i + 1) / made_.size());
+            drawing.addParts(firstPart(i), firstPart(i + 1));
         });
     }
 

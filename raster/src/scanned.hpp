@@ -34,9 +34,16 @@ public:
     }
 
     /// Of those that lie right in a map.
-    std::size_t countIn(std::uint32_t outer) const {
-        std::size_t count = 0;
-        forEachInstance(asset_, asset_.maps[outer], [&](const Instance&) { ++count; });
+    struct Count {
+        std::size_t maps = 0;
+        std::size_t boundaries = 0;
+    };
+    Count countIn(std::uint32_t outer) const {
+        Count count;
+        forEachInstance(asset_, asset_.maps[outer], [&](const Instance& instance) {
+            ++count.maps;
+            count.boundaries += maps_[asset_.symbols[instance.symbol()].map]->boundaryCount();
+        });
         return count;
     }
     /// Calls visit(the map's number, map, its place, its paints), which tells whether to go on to those in
@@ -59,10 +66,10 @@ private:
 struct Scanned {
     struct Drawn {
         ScannedMap own;
-        std::uint32_t map = noMap;  ///< in which others are placed
-        std::size_t placed = 0;     ///< so many right in it
+        std::uint32_t map = noMap;   ///< in which others are placed
+        PlacedMaps::Count placed{};  ///< right in it
 
-        std::size_t placedParts() const { return (placed + placedOfPart - 1) / placedOfPart; }
+        std::size_t placedParts() const { return (placed.maps + placedOfPart - 1) / placedOfPart; }
     };
     static constexpr std::uint32_t noMap = 0xFFFFFFFFu;
     /// So many placed maps are a part of the picture.
@@ -112,6 +119,19 @@ struct Scanned {
         for (const Drawn& map : drawn)
             count += map.own.boxCount() + map.placedParts();
         return count;
+    }
+    /// What the parts before each cost, and all: their boundaries, of placed maps in the mean, and
+    /// themselves.
+    std::vector<std::size_t> costsBefore() const {
+        std::vector<std::size_t> costs{0};
+        const auto add = [&](std::size_t boundaries) { costs.push_back(costs.back() + 1 + boundaries); };
+        for (const Drawn& map : drawn) {
+            for (std::size_t i = 0; i < map.own.boxCount(); ++i)
+                add(map.own.box(i).size());
+            for (std::size_t i = 0; i < map.placedParts(); ++i)
+                add(map.placed.boundaries / map.placedParts());
+        }
+        return costs;
     }
     std::size_t boundaryCount() const {
         std::size_t count = 0;
