@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
@@ -48,6 +49,19 @@ struct Candidate {
     std::vector<PaintId> paints;        ///< by region: the ground first
     std::vector<std::uint32_t> around;  ///< candidates in whose regions it lies
     bool isFlat = false;                ///< it stays with the picture's own layers
+};
+
+/// What is known of a repeat before paints are.
+struct Unpainted {
+    Unpainted(std::uint32_t count, SymbolMaker&& madeBy) : layerCount(count), maker(std::move(madeBy)) {}
+
+    std::uint32_t layerCount;
+    SymbolMaker maker;
+    LayerSets sets;
+    SymbolMap bySets;
+    std::unique_ptr<SymbolBoundary> boundary;
+    dvec2 inner{0};  ///< a point over which its layers lie
+    std::vector<Candidate> candidates;
 };
 
 /// Squares of the picture with the candidates whose boxes meet them.
@@ -107,41 +121,62 @@ public:
                 return std::nullopt;
         const std::vector<Repeat> repeats = findRepeats(origins_, isTile_, weights(), imageSlack());
         if (mayPay(repeats)) {
-            for (const Repeat& repeat : repeats)
-                addRepeat(repeat);
+            addRepeats(repeats);
             keepApart();
         }
         return result();
     }
 
 private:
-    // ---- One repeat ----
+    // ---- Repeats ----
 
-    void addRepeat(const Repeat& repeat) {
+    /// Their maps are made on all processors, and painted in their order.
+    void addRepeats(std::span<const Repeat> repeats) {
+        constexpr std::size_t atOnce = 256;
+        findLayers();
+        ownClips_.emplace(picture_);
+        for (std::size_t first = 0; first < repeats.size(); first += atOnce) {
+            std::vector<std::unique_ptr<Unpainted>> made(std::min(atOnce, repeats.size() - first));
+            tbb::parallel_for(std::size_t{0}, made.size(), [&, holding = limits::current()](std::size_t i) {
+                const limits::Scope scope(holding);
+                made[i] = unpainted(repeats[first + i]);
+            });
+            for (const std::unique_ptr<Unpainted>& repeat : made)
+                if (repeat)
+                    paint(*repeat);
+        }
+    }
+
+    /// Null if it should not be placed, or its map could not be proven.
+    std::unique_ptr<Unpainted> unpainted(const Repeat& repeat) const {
         limits::check();
-        place_ = picture_.layers[repeat.occurrences[0].first].place;
+        const limits::Place place = picture_.layers[repeat.occurrences[0].first].place;
+        const limits::Stage stage("finding repeats", place);
         if (!mayPay(repeat))
-            return;
+            return nullptr;
         const auto reference = referenceOf(repeat);
         if (!reference)
-            return;
+            return nullptr;
         const auto& [of, box] = *reference;
         const double side = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
         if (!(side > tolerance_))
-            return;
+            return nullptr;
         std::vector<Candidate> candidates = candidatesOf(repeat, of, box, side);
         const dvec2 size = (box.max - box.min) / side;
         if (candidates.size() * manyChords <
             usualOccurrences * chordsOf(repeat.occurrences[of].first, repeat.count))
             std::erase_if(candidates, [&](const Candidate& c) { return isCrossed(c, repeat.count, size); });
         if (candidates.size() < 2 || areCrowded(candidates, size))
-            return;
+            return nullptr;
         double stretch = 0;
         for (const Candidate& candidate : candidates)
             stretch = std::max(stretch, largestStretch(candidate.toPicture));
-        const SymbolMaker maker(origins_.subspan(repeat.occurrences[of].first, repeat.count),
-                                cornerOf(box, side), side, stretch / std::max(size_.x, size_.y), options_);
-        makeSymbol(repeat, maker, std::move(candidates));
+        auto made = std::make_unique<Unpainted>(
+            repeat.count,
+            SymbolMaker(origins_.subspan(repeat.occurrences[of].first, repeat.count), cornerOf(box, side),
+                        side, stretch / std::max(size_.x, size_.y), options_));
+        made->candidates = std::move(candidates);
+        return findBoundary(*made) && keepOverOnePaint(*made) ? std::move(made) : nullptr;
     }
 
     std::size_t chordsOf(std::uint32_t first, std::uint32_t count) const {
@@ -239,7 +274,7 @@ private:
 
     /// Whether some points of a run lie under or over layers that others do not, as where two of them
     /// overlap.
-    bool isCrossed(const Candidate& candidate, std::uint32_t count, dvec2 size) {
+    bool isCrossed(const Candidate& candidate, std::uint32_t count, dvec2 size) const {
         constexpr int grid = 8;
         std::optional<std::vector<std::uint32_t>> known;
         for (int i = 0; i < grid * grid; ++i) {
@@ -282,45 +317,65 @@ private:
         return asset::placementError(toPicture.linear / longer) * longer <= slackOf();
     }
 
-    void makeSymbol(const Repeat& repeat, const SymbolMaker& maker, std::vector<Candidate> candidates) {
-        LayerSets sets;
-        std::optional<SymbolMap> bySets = maker.bySets(sets);
+    static std::unique_ptr<SymbolBoundary> boundaryOf(const SymbolMap& map) {
+        return std::make_unique<SymbolBoundary>(planarMap(map.asset, map.asset.maps[0]));
+    }
+
+    /// Of all that may be seen, whatever lies around it. Returns whether there is one.
+    bool findBoundary(Unpainted& symbol) const {
+        std::optional<SymbolMap> bySets = symbol.maker.bySets(symbol.sets);
         if (!bySets)
-            return;
-        auto boundary = std::make_unique<SymbolBoundary>(planarMap(bySets->asset, bySets->asset.maps[0]));
-        const std::optional<dvec2> inner =
-            repeat.count == 1 ? firstOf(boundary->pointsInside()) : innermost(*boundary, sets);
+            return false;
+        symbol.bySets = std::move(*bySets);
+        symbol.boundary = boundaryOf(symbol.bySets);
+        const std::optional<dvec2> inner = symbol.layerCount == 1 ? firstOf(symbol.boundary->pointsInside())
+                                                                  : innermost(*symbol.boundary, symbol.sets);
         if (!inner)
-            return;
-        for (Candidate& candidate : candidates)
-            candidate.paints = paintsOf(candidate, sets, layersAround(candidate, repeat.count, *inner));
-        const std::vector<std::uint32_t> classes = classesOf(candidates, sets.size());
-        // One layer has two sets, which are classes already unless it shows nowhere.
-        std::optional<SymbolMap> map =
-            repeat.count == 1 && classes.back() == 1 ? std::move(bySets) : maker.byClasses(sets, classes);
-        if (!map)
-            return;
-        if (hasClips(candidates, repeat.count)) {
-            const auto visible = maker.byClasses(sets, visibleClassesOf(candidates, repeat.count, sets));
-            if (!visible)
-                return;
-            boundary = std::make_unique<SymbolBoundary>(planarMap(visible->asset, visible->asset.maps[0]));
-        }
-        const std::vector<dvec2> points = boundary->pointsInside();
+            return false;
+        symbol.inner = *inner;
+        if (!hasClips(symbol))
+            return true;
+        const auto visible = symbol.maker.byClasses(symbol.sets, visibleClassesOf(symbol));
+        if (!visible)
+            return false;
+        symbol.boundary = boundaryOf(*visible);
+        return true;
+    }
+
+    /// Keeps the candidates of which the same layers lie over all parts. Returns whether there are any.
+    bool keepOverOnePaint(Unpainted& symbol) const {
+        const std::vector<dvec2> points = symbol.boundary->pointsInside();
         constexpr std::size_t maxParts = 256;
         if (points.empty() || points.size() > maxParts)
-            return;
-        std::erase_if(candidates, [&](Candidate& candidate) {
-            return !isOverOnePaint(candidate, repeat.count, *inner, points);
+            return false;
+        std::erase_if(symbol.candidates, [&](const Candidate& candidate) {
+            const auto around = layersAround(candidate, symbol.layerCount, symbol.inner);
+            return std::ranges::any_of(
+                points, [&](dvec2 p) { return layersAround(candidate, symbol.layerCount, p) != around; });
         });
+        return !symbol.candidates.empty();
+    }
+
+    void paint(Unpainted& symbol) {
+        place_ = picture_.layers[symbol.candidates[0].firstLayer].place;
+        for (Candidate& candidate : symbol.candidates)
+            candidate.paints =
+                paintsOf(candidate, symbol.sets, layersAround(candidate, symbol.layerCount, symbol.inner));
+        const std::vector<std::uint32_t> classes = classesOf(symbol.candidates, symbol.sets.size());
+        // One layer has two sets, which are classes already unless it shows nowhere.
+        std::optional<SymbolMap> map = symbol.layerCount == 1 && classes.back() == 1
+                                           ? std::move(symbol.bySets)
+                                           : symbol.maker.byClasses(symbol.sets, classes);
+        if (!map)
+            return;
         const auto number = std::uint32_t(symbols_.size());
-        for (Candidate& candidate : candidates) {
+        for (Candidate& candidate : symbol.candidates) {
             candidate.symbol = number;
-            candidate.box = mapped(candidate.toPicture, {boundary->min(), boundary->max()});
+            candidate.box = mapped(candidate.toPicture, {symbol.boundary->min(), symbol.boundary->max()});
             candidate.paints = paintsByClass(candidate.paints, classes);
             candidates_.push_back(std::move(candidate));
         }
-        symbols_.push_back({repeat.count, std::move(*map), std::move(boundary)});
+        symbols_.push_back({symbol.layerCount, std::move(*map), std::move(symbol.boundary)});
     }
 
     /// A point in a region over which most layers lie, away from its boundaries.
@@ -348,14 +403,15 @@ private:
         return {Coord(std::lround(steps.x)), Coord(std::lround(steps.y))};
     }
 
-    std::vector<std::uint32_t> layersOver(dvec2 point) {
+    void findLayers() {
         if (!layersAt_)
             layersAt_.emplace(picture_, lattice_.square());
-        return (*layersAt_)(onLattice(point));
     }
+    std::vector<std::uint32_t> layersOver(dvec2 point) const { return (*layersAt_)(onLattice(point)); }
 
     /// The layers over a point of a symbol's square, but for its own.
-    std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count, dvec2 point) {
+    std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count,
+                                            dvec2 point) const {
         std::vector<std::uint32_t> layers = layersOver(candidate.toPicture(point));
         std::erase_if(layers, [&](std::uint32_t layer) {
             return isTile_[layer] || (layer >= candidate.firstLayer && layer < candidate.firstLayer + count);
@@ -398,25 +454,23 @@ private:
         return classOf;
     }
 
-    bool hasClips(std::span<const Candidate> candidates, std::uint32_t count) {
-        if (!ownClips_)
-            ownClips_.emplace(picture_);
-        return std::ranges::any_of(candidates, [&](const Candidate& candidate) {
-            return ownClips_->areIn({candidate.firstLayer, count});
+    bool hasClips(const Unpainted& symbol) const {
+        return std::ranges::any_of(symbol.candidates, [&](const Candidate& candidate) {
+            return ownClips_->areIn({candidate.firstLayer, symbol.layerCount});
         });
     }
 
     /// Sets of which the same may be seen, wherever the symbol stands and whatever lies around it, are one
     /// class. Other outlines must keep away from lines between these, too, which may show nothing here but
     /// clip or be clipped elsewhere.
-    std::vector<std::uint32_t> visibleClassesOf(std::span<const Candidate> candidates, std::uint32_t count,
-                                                const LayerSets& sets) const {
+    std::vector<std::uint32_t> visibleClassesOf(const Unpainted& symbol) const {
         std::map<std::vector<std::vector<std::uint32_t>>, std::uint32_t> classes;
         std::vector<std::uint32_t> classOf;
-        for (std::size_t set = 0; set < sets.size(); ++set) {
+        for (std::size_t set = 0; set < symbol.sets.size(); ++set) {
             std::vector<std::vector<std::uint32_t>> visible;
-            for (const Candidate& candidate : candidates)
-                visible.push_back(ownClips_->visible({candidate.firstLayer, count}, sets[set]));
+            for (const Candidate& candidate : symbol.candidates)
+                visible.push_back(
+                    ownClips_->visible({candidate.firstLayer, symbol.layerCount}, symbol.sets[set]));
             classOf.push_back(
                 classes.try_emplace(std::move(visible), std::uint32_t(classes.size())).first->second);
         }
@@ -430,14 +484,6 @@ private:
             if (classes[set] == paints.size())
                 paints.push_back(bySet[set]);
         return paints;
-    }
-
-    /// Whether the same layers lie over all parts of a symbol.
-    bool isOverOnePaint(const Candidate& candidate, std::uint32_t count, dvec2 inner,
-                        std::span<const dvec2> points) {
-        const std::vector<std::uint32_t> around = layersAround(candidate, count, inner);
-        return std::ranges::all_of(points,
-                                   [&](dvec2 p) { return layersAround(candidate, count, p) == around; });
     }
 
     // ---- Patterns ----
@@ -455,6 +501,7 @@ private:
         const std::optional<SymbolMap> bySets = maker.bySets(sets);
         if (!bySets)
             return false;
+        findLayers();
         // Blocks in the same layers have the same paints.
         std::map<std::vector<std::uint32_t>, std::size_t> known;
         std::vector<Candidate> surroundings;
