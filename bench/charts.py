@@ -218,4 +218,4 @@ CHARTS = {
     "pipeline": lambda report: draw_steps("From the file to the first frame", report, "file", PIPELINE),
     "startup": lambda report: draw_steps("Until the first frame in a fresh process", report, "start", STARTUP),
     "micro": draw_micro, "texture": draw_texture, "paper": draw_paper, "pages": draw_none, "compression": draw_none, "recursion": draw_recursion, "scaling": draw_scaling, "traps": draw_traps,
-    "peers": draw_none, "editing": draw_none, "openvg": draw_none, "sweep": draw_sweep, "zoom": draw_zoom}
+    "threads": draw_none, "peers": draw_none, "editing": draw_none, "openvg": draw_none, "sweep": draw_sweep, "zoom": draw_zoom}

@@ -87,4 +87,11 @@ scene::Scene load(const File& file) {
     return svg::load(image::readFile(file.path.string()), options).scene;
 }
 
+asset::View wholePicture(const scene::Scene& scene, int side) {
+    const double scale = side / std::max(scene.width, scene.height);
+    return {std::max(1, int(scale * scene.width + 0.5)),
+            std::max(1, int(scale * scene.height + 0.5)),
+            {scale, 0, 0, scale, 0, 0}};
+}
+
 }  // namespace vtm::bench

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
 #include "bench/measure/options.hpp"
 
@@ -28,5 +29,8 @@ std::vector<File> oneFileOf(const Options& options);
 std::filesystem::path sharedFolder();
 
 scene::Scene load(const File& file);
+
+/// All of a picture, `side` pixels along its longer side.
+asset::View wholePicture(const scene::Scene& scene, int side);
 
 }  // namespace vtm::bench

@@ -22,13 +22,6 @@ struct Gl {
     gl::Renderer renderer{{.pixels = gl::Pixels::Shaders, .programCache = {}, .resetStatus = {}}};
 };
 
-asset::View wholePicture(const scene::Scene& scene, int side) {
-    const double scale = side / std::max(scene.width, scene.height);
-    return {std::max(1, int(scale * scene.width + 0.5)),
-            std::max(1, int(scale * scene.height + 0.5)),
-            {scale, 0, 0, scale, 0, 0}};
-}
-
 /// Counters: wall milliseconds of every step, bytes and pieces.
 void passThrough(benchmark::State& state, const File& file, int side, Gl& gl) {
     std::map<std::string, double> sums;

@@ -50,6 +50,8 @@ Report openvg(const Options& options);
 Report windows(const Options& options);
 /// Time, memory and bytes over the number of curves, up to the largest.
 Report scaling(const Options& options);
+/// Wall time with one thread against all processors: compiling, drawing once, drawing again.
+Report threads(const Options& options);
 /// Time and memory of drawing once what is quadratic, from 10^2 to 10^5 shapes.
 Report traps(const Options& options);
 /// Bytes against fragment cost for settings of leaf size and depth.
