@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <vtm/compiler/session.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "bench/engines/contest.hpp"
 #include "bench/input/files.hpp"
@@ -137,16 +138,24 @@ public:
         bytes_.resize(rowBytes_ * std::size_t(view.height));
     }
 
-    /// From now on what is edited is shown. Throws std::invalid_argument if a scanner cannot.
+    /// From now on what is edited is shown. Throws std::invalid_argument if that cannot be.
     void show() {
-        scanner_.emplace(session.result().asset);
+        if (session.result().asset.filters.empty())
+            scanner_.emplace(session.result().asset);
+        else
+            evaluator_.emplace(session.result().asset);
         redraw();
     }
-    bool shows() const { return scanner_.has_value(); }
+    bool shows() const { return scanner_ || evaluator_; }
 
     /// CPU milliseconds of drawing everything.
     double redraw() {
-        return scanner_ ? spentTime([&] { scanner_->draw(view, target()); }) : 0;
+        return spentTime([&] {
+            if (scanner_)
+                scanner_->draw(view, target());
+            else if (evaluator_)
+                evaluator_->draw(view, target());
+        });
     }
 
     /// After an edit of the scene.
@@ -154,8 +163,8 @@ public:
         Cost cost;
         cost.session = spentTime([&] { session.update(scene); });
         cost.blocks = session.lastUpdate().blocks;
-        if (scanner_) {
-            cost.scanner = spentTime([&] { scanner_->update(session.result().asset, session.difference()); });
+        if (shows()) {
+            cost.scanner = spentTime([&] { bringToSession(); });
             cost.boxes = spentTime([&] { drawChanges(); });
         }
         return cost;
@@ -167,14 +176,25 @@ public:
 
 private:
     asset::ByteTarget target() { return {bytes_.data(), rowBytes_}; }
+    /// Evaluators are made anew.
+    void bringToSession() {
+        if (scanner_)
+            scanner_->update(session.result().asset, session.difference());
+        else
+            evaluator_.emplace(session.result().asset);
+    }
     void drawChanges() {
         for (const asset::PixelBox& box : asset::changedPixels(view, session.difference()))
-            scanner_->drawBox(view, box, target());
+            if (scanner_)
+                scanner_->drawBox(view, box, target());
+            else
+                evaluator_->drawBox(view, box, target());
     }
 
     std::size_t rowBytes_;
     std::vector<std::uint8_t> bytes_;
     std::optional<asset::Scanner> scanner_;
+    std::optional<asset::Evaluator> evaluator_;  ///< where there are filters
 };
 
 /// There and back for each of the items. Copying scenes is not counted: it is for the caller to do or not.
@@ -316,8 +336,7 @@ void startAll(Editor& editor, Peers& peers, const File& file, std::vector<std::s
     try {
         editor.show();
     } catch (const std::invalid_argument& reason) {
-        notes.push_back(
-            fmt::format("{}: edits are not shown, no scanner draws it: {}.", file.name, reason.what()));
+        notes.push_back(fmt::format("{}: edits are not shown: {}.", file.name, reason.what()));
         return;
     }
     peers.start({file, editor.scene, compiler::compile(editor.scene).asset}, editor.view);

@@ -88,6 +88,8 @@ private:
 };
 
 struct Reach {
+    double deviations;
+
     Point operator()(const scene::GaussianBlurFilter& f) const { return blur(f.deviationX, f.deviationY); }
     Point operator()(const scene::DropShadowFilter& f) const {
         return blur(f.deviationX, f.deviationY) + Point(std::abs(f.dx), std::abs(f.dy));
@@ -105,18 +107,17 @@ struct Reach {
     }
 
 private:
-    /// More than the engines read.
-    static Point blur(float x, float y) { return 8.0 * Point(x, y); }
+    Point blur(float x, float y) const { return deviations * Point(x, y); }
 };
 
 }  // namespace
 
 Box boundsOf(const scene::NodeList& nodes, const Affine& toPicture) { return Bounds(toPicture).run(nodes); }
 
-Point reachOf(const scene::Filter& filter) {
+Point reachOf(const scene::Filter& filter, double deviations) {
     Point reach(0);
     for (const scene::FilterPrimitive& primitive : filter.primitives)
-        reach += std::visit(Reach{}, primitive.operation);
+        reach += std::visit(Reach{deviations}, primitive.operation);
     return reach;
 }
 

@@ -11,7 +11,8 @@ namespace vtm::compiler {
 geometry::Box boundsOf(const scene::NodeList& nodes, const scene::Affine& toPicture);
 
 /// How far from a place a filter reads to find its colour there, in its user space; infinite where nothing
-/// bounds it but the filter's region.
-scene::Point reachOf(const scene::Filter& filter);
+/// bounds it but the filter's region. `deviations`: of a blur, so many; by default more than the engines
+/// read.
+scene::Point reachOf(const scene::Filter& filter, double deviations = 8);
 
 }  // namespace vtm::compiler

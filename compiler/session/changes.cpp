@@ -1,6 +1,10 @@
 #include "compiler/session/changes.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
 #include <unordered_map>
 
 #include "compiler/containers/hash.hpp"
@@ -119,6 +123,38 @@ void LayerNames::update(const LoweredScene& after, const LayerChanges& changes) 
 
 namespace {
 
+/// By source: where its record is, and what it says. Records lie in the order of their sources.
+std::vector<std::uint64_t> hashesOfSources(const LoweredScene& picture) {
+    std::vector<std::uint64_t> hashes(picture.sources.size());
+    std::size_t end = picture.data.size();
+    for (std::size_t i = picture.sources.size(); i-- > 0;) {
+        const Source& source = picture.sources[i];
+        std::uint64_t h = std::uint64_t{static_cast<std::uint32_t>(source.op)} << 1 | source.opaque;
+        for (const float c : source.color)
+            h = hashCombine(h, bits(c));
+        if (source.op != asset::Op::Solid) {
+            h = hashCombine(h, source.data);
+            for (std::size_t texel = source.data; texel < end; ++texel)
+                for (const std::uint32_t number : picture.data[texel])
+                    h = hashCombine(h, number);
+            end = source.data;
+        }
+        hashes[i] = h;
+    }
+    return hashes;
+}
+
+/// Of all images and materials: what a record's number of one stands for.
+std::uint64_t hashOfImages(const LoweredScene& picture) {
+    std::uint64_t h = 0;
+    for (const auto& image : picture.images)
+        h = hashCombine(h, reinterpret_cast<std::uintptr_t>(image.get()));
+    for (const asset::Material& material : picture.materials)
+        h = hashCombine(hashCombine(h, std::hash<std::string>{}(material.name)),
+                        std::hash<std::string>{}(material.glsl));
+    return h;
+}
+
 class Meanings {
 public:
     Meanings(const LoweredScene& picture, std::span<const std::uint32_t> names)
@@ -127,6 +163,8 @@ public:
           hides_(groupsThatHide(picture)),
           clips_(picture.groups.size()),
           paints_(picture.groups.size()),
+          sources_(hashesOfSources(picture)),
+          images_(hashOfImages(picture)),
           firstItem_(picture.groups.size(), noIndex) {
         for (const LoweredItem& item : picture.items)
             for (std::uint32_t g = item.group; g != noIndex && firstItem_[g] == noIndex;
@@ -138,10 +176,10 @@ public:
 
     LayerMeaning of(const LoweredItem& item) const {
         const Source& source = picture_.sources[item.source];
-        const auto& c = source.color;
-        std::uint64_t paint = hashCombine(paints_[item.group], bits(item.opacity) << 32 | source.data);
-        paint = hashCombine(paint, std::uint64_t{static_cast<std::uint32_t>(source.op)} << 1 | source.opaque);
-        paint = hashCombine(hashCombine(paint, bits(c[0]) << 32 | bits(c[1])), bits(c[2]) << 32 | bits(c[3]));
+        std::uint64_t paint = hashCombine(paints_[item.group], bits(item.opacity));
+        paint = hashCombine(paint, sources_[item.source]);
+        if (source.op == asset::Op::Image || source.op == asset::Op::Material)
+            paint = hashCombine(paint, images_);
         return {hashCombine(clips_[item.group], hides(picture_, item, hides_[item.group])), paint};
     }
 
@@ -174,7 +212,9 @@ private:
     const std::span<const std::uint32_t> names_;
     const std::vector<std::uint8_t> hides_;
     std::vector<std::uint64_t> clips_, paints_;  ///< by group
-    std::vector<std::uint32_t> firstItem_;       ///< by group: its layer's name
+    const std::vector<std::uint64_t> sources_;
+    const std::uint64_t images_;
+    std::vector<std::uint32_t> firstItem_;  ///< by group: its layer's name
 };
 
 }  // namespace

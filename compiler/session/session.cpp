@@ -8,7 +8,9 @@
 
 #include "compiler/compile/settings.hpp"
 #include "compiler/filters/compile_filtered.hpp"
+#include "compiler/session/changed_areas.hpp"
 #include "compiler/session/editor.hpp"
+#include "compiler/session/filtered_parts.hpp"
 
 namespace vtm::compiler {
 
@@ -33,6 +35,9 @@ public:
 
     void update(const scene::Scene& scene) {
         scene::validate(scene, [&](const scene::Path& path) { return kept_ && kept_->cache.knows(path); });
+        if (options_.mode == asset::Mode::Exact && options_.filterPixels == 0 && hasFilters(scene))
+            return compileParts(scene);
+        filtered_.reset();
         if (options_.mode != asset::Mode::Exact || hasFilters(scene) || (!kept_ && isMostlyNew(scene)))
             return compileAnew(scene);
         std::unique_ptr<Kept> kept = std::move(kept_);  // lost if anything throws
@@ -63,6 +68,27 @@ private:
         report_ = {{.anew = true}, {}};
         report_.difference.areas = {wholeArea(scene)};
         compiled_ = keysOf(scene);
+    }
+
+    /// Of what lies between filters, the parts that changed.
+    void compileParts(const scene::Scene& scene) {
+        std::unique_ptr<Filtered> filtered = std::move(filtered_);  // lost if anything throws
+        kept_.reset();
+        compiled_.clear();
+        report_ = {};
+        report_.update.anew = !filtered;
+        if (!filtered)
+            filtered = std::make_unique<Filtered>();
+        result_ = filtered->parts.compile(scene, options_);
+        report_.update.blocks = filtered->parts.compiled();
+        report_.update.blocksInAll = filtered->parts.size();
+        report_.difference.pixelsAround = resampledPixels;
+        const bool isSameSize =
+            filtered->scene.width == scene.width && filtered->scene.height == scene.height;
+        report_.difference.areas =
+            isSameSize ? changedAreas(filtered->scene, scene) : std::vector<asset::Area>{wholeArea(scene)};
+        filtered->scene = scene;
+        filtered_ = std::move(filtered);
     }
 
     /// By what was compiled last. An animation that moves everything is compiled picture by picture.
@@ -98,8 +124,18 @@ private:
         }
     }
 
+    /// Filters' pixels are interpolated between two, where the view is turned.
+    static constexpr int resampledPixels = 2;
+
+    /// Of a scene with filters.
+    struct Filtered {
+        FilteredParts parts;
+        scene::Scene scene;
+    };
+
     const Options options_;
     std::unique_ptr<Kept> kept_;
+    std::unique_ptr<Filtered> filtered_;
     Result result_;
     Edited report_;
     std::vector<std::uint64_t>

@@ -15,7 +15,10 @@ namespace vtm::compiler::test {
 /// A scene of 64 × 64 that is edited. Seeded: the same edits every time.
 class RandomEditor {
 public:
-    RandomEditor(unsigned seed, int items) : random_(seed) {
+    enum class Filters { None, Some };
+
+    RandomEditor(unsigned seed, int items, Filters filters = Filters::None)
+        : random_(seed), filters_(filters) {
         for (int i = 0; i < items; ++i)
             insert();
     }
@@ -28,9 +31,10 @@ public:
             const char* name;
             void (RandomEditor::*make)();
         };
-        constexpr std::array<Edit, 17> edits{{{"move", &RandomEditor::move},
+        constexpr std::array<Edit, 18> edits{{{"move", &RandomEditor::move},
                                               {"recolour", &RandomEditor::recolour},
                                               {"paint", &RandomEditor::repaint},
+                                              {"part of a paint", &RandomEditor::changePaint},
                                               {"opacity", &RandomEditor::changeOpacity},
                                               {"rule", &RandomEditor::changeRule},
                                               {"stroke", &RandomEditor::changeStroke},
@@ -45,6 +49,10 @@ public:
                                               {"clip", &RandomEditor::changeClip},
                                               {"mask", &RandomEditor::changeMask},
                                               {"several", &RandomEditor::several}}};
+        if (filters_ == Filters::Some && chance(5)) {
+            changeFilter();
+            return "filter";
+        }
         const Edit& e = edits[below(edits.size())];
         (this->*e.make)();
         return e.name;
@@ -66,8 +74,18 @@ private:
 
     std::vector<scene::GradientStop> stops() { return {{0, color()}, {0.5f, color()}, {1, color()}}; }
 
+    std::shared_ptr<const image::Bitmap> bitmap() {
+        auto bitmap = std::make_shared<image::Bitmap>();
+        bitmap->width = bitmap->height = 4;
+        for (int i = 0; i < 4 * 16; ++i)
+            bitmap->rgba.push_back(std::uint8_t(i % 4 == 3 ? 255 : below(256)));
+        return bitmap;
+    }
+
     scene::Paint paint() {
-        switch (below(8)) {
+        switch (below(9)) {
+            case 8:
+                return scene::ImagePaint{bitmap(), scene::ImageFilter::Trilinear, {9, 0, 0, 9, 0, 0}};
             case 0:
                 return scene::LinearGradient{place(), place(), stops()};
             case 1:
@@ -158,6 +176,46 @@ private:
         return mask;
     }
 
+    scene::FilterPrimitive primitive(std::size_t number, scene::Point min, scene::Point max) {
+        using namespace scene;
+        const auto input = [&] {
+            const std::size_t of = below(number + 1);
+            return of == 0 ? FilterInput{} : FilterInput{FilterInput::Kind::Result, of - 1};
+        };
+        const auto size = [&] { return float(uniform(0.2, 4)); };
+        switch (below(7)) {
+            case 0:
+                return {OffsetFilter{size(), -size()}, {input()}, min, max, chance(2)};
+            case 1:
+                return {DropShadowFilter{size(), size(), size(), size(), color()},
+                        {input()},
+                        min,
+                        max,
+                        chance(2)};
+            case 2:
+                return {MorphologyFilter{size(), size(), chance(2)}, {input()}, min, max, chance(2)};
+            case 3:
+                return {MergeFilter{}, {input(), input()}, min, max, chance(2)};
+            case 4:
+                return {FloodFilter{color()}, {}, min, max, chance(2)};
+            case 5:
+                return {PictureFilter{content()}, {}, min, max, chance(2)};
+            default:
+                return {GaussianBlurFilter{size(), size()}, {input()}, min, max, chance(2)};
+        }
+    }
+
+    std::shared_ptr<const scene::Filter> filter() {
+        auto filter = std::make_shared<scene::Filter>();
+        filter->min = {uniform(-8, 20), uniform(-8, 20)};
+        filter->max = {uniform(40, 72), uniform(40, 72)};
+        if (chance(3))
+            filter->transform = {0.9, 0.3, -0.3, 0.8, 4, -3};
+        for (std::size_t i = 0; i < 3; ++i)
+            filter->primitives.push_back(primitive(i, filter->min, filter->max));
+        return filter;
+    }
+
     // ---- places in the scene
 
     static void collect(Group& group, std::vector<Group*>& groups, std::vector<Item*>& items) {
@@ -197,6 +255,19 @@ private:
     }
     void recolour() { anyItem().paint = color(); }
     void repaint() { anyItem().paint = paint(); }
+    /// What a record says, which stays where it is.
+    void changePaint() {
+        std::visit(
+            [&](auto& paint) {
+                if constexpr (requires { paint.stops; })
+                    paint.stops[1].color = color();
+                if constexpr (requires { paint.fallback; })
+                    paint.fallback = color();
+                if constexpr (requires { paint.bitmap; })
+                    paint.bitmap = bitmap();
+            },
+            anyItem().paint);
+    }
     void changeOpacity() { anyItem().opacity = chance(3) ? 1 : tenth(); }
     void changeRule() {
         anyItem().geometry = chance(2) ? scene::FillRule::NonZero : scene::FillRule::EvenOdd;
@@ -260,12 +331,14 @@ private:
     void changeBlend() { anyGroup().blend = static_cast<scene::BlendMode>(chance(2) ? 0 : below(16)); }
     void changeClip() { anyGroup().clip = chance(3) ? nullptr : clip(); }
     void changeMask() { anyGroup().mask = chance(2) ? nullptr : mask(); }
+    void changeFilter() { anyGroup().filter = chance(3) ? nullptr : filter(); }
     void several() {
         for (int i = 0; i < 4; ++i)
             edit();
     }
 
     std::mt19937 random_;
+    const Filters filters_;
     scene::Scene scene_{64, 64, {}};
 };
 

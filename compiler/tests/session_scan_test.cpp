@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <vtm/compiler/session.hpp>
+#include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "compiler/tests/random_edits.hpp"
 
@@ -62,6 +63,36 @@ private:
     Bytes bytes_;
 };
 
+/// The same of pictures with filters, by evaluators.
+class ShownByEvaluator {
+public:
+    ShownByEvaluator(const Session& session, const asset::View& view) : view_(view), bytes_(view) {
+        asset::Evaluator(session.result().asset).draw(view_, bytes_.target());
+    }
+
+    /// Returns how many pixels were drawn.
+    std::size_t update(const Session& session) {
+        const asset::Evaluator evaluator(session.result().asset);
+        std::size_t pixels = 0;
+        for (const asset::PixelBox& box : asset::changedPixels(view_, session.difference())) {
+            evaluator.drawBox(view_, box, bytes_.target());
+            pixels += box.area();
+        }
+        return pixels;
+    }
+
+    void expectFresh(const Session& session) const {
+        Bytes fresh(view_);
+        asset::Evaluator(session.result().asset).draw(view_, fresh.target());
+        // Of three blurs after each other, each within 1/255, what is drawn may end elsewhere.
+        EXPECT_LE(largestDifference(bytes_, fresh), 2);
+    }
+
+private:
+    asset::View view_;
+    Bytes bytes_;
+};
+
 /// Of a picture of 64 × 64 units.
 asset::View view(int size, double scale, double shear) {
     return {size, size, {scale, shear * scale, -shear * scale, scale, 3.3, 1.7}};
@@ -89,6 +120,26 @@ TEST_P(ShownEdits, AreDrawnWhereTheyAre) {
     EXPECT_FALSE(HasFailure()) << history;
 }
 
+class ShownFilters : public testing::TestWithParam<unsigned> {};
+INSTANTIATE_TEST_SUITE_P(Seed, ShownFilters, testing::Range(0u, 8u));
+
+TEST_P(ShownFilters, AreDrawnWhereTheyAre) {
+    test::RandomEditor editor(GetParam(), 30, test::RandomEditor::Filters::Some);
+    Session session(editor.scene());
+    ShownByEvaluator upright(session, view(100, 1.3, 0)), turned(session, view(60, 0.7, 0.4)),
+        small(session, view(12, 0.15, -0.1));
+    std::string history;
+    for (int i = 0; i < 25 && !HasFailure(); ++i) {
+        history += editor.edit() + ", ";
+        session.update(editor.scene());
+        for (ShownByEvaluator* shown : {&upright, &turned, &small}) {
+            shown->update(session);
+            shown->expectFresh(session);
+        }
+    }
+    EXPECT_FALSE(HasFailure()) << history;
+}
+
 scene::Item square(scene::Point at, float red) {
     scene::Item item;
     item.path = std::make_shared<scene::Path>(scene::rectangle(at, at + scene::Point{0.6, 0.6}));
@@ -102,6 +153,54 @@ scene::Scene squares(int perSide) {
     for (int i = 0; i < perSide * perSide; ++i)
         scene.root.children.push_back({square({double(i % perSide), double(i / perSide)}, 1)});
     return scene;
+}
+
+/// The item's outline stays, and its paint's record stays where it is.
+TEST(ShownSession, RedrawsWhatChangesInAPaint) {
+    const auto bitmap = [](std::uint8_t red) {
+        return std::make_shared<image::Bitmap>(image::Bitmap{1, 1, {red, 0, 0, 255}});
+    };
+    const scene::Color red{1, 0, 0, 1}, blue{0, 0, 1, 1};
+    const std::vector<std::pair<scene::Paint, scene::Paint>> paints{
+        {scene::LinearGradient{{0, 0}, {40, 40}, {{0, red}, {1, red}}},
+         scene::LinearGradient{{0, 0}, {40, 40}, {{0, red}, {1, blue}}}},
+        {scene::RadialGradient{{20, 20}, 30, {20, 20}, 0, {{0, red}, {1, red}}},
+         scene::RadialGradient{{20, 20}, 30, {20, 20}, 0, {{0, red}, {1, blue}}}},
+        {scene::ImagePaint{bitmap(255)}, scene::ImagePaint{bitmap(0)}},
+        {scene::Material{"stone", "vec4 stone(vec2 p) { return vec4(1.0); }", red},
+         scene::Material{"stone", "vec4 stone(vec2 p) { return vec4(1.0); }", blue}}};
+    for (const auto& [before, after] : paints) {
+        scene::Scene scene = squares(4);
+        scene::Paint& paint = std::get<scene::Item>(scene.root.children[5].value).paint;
+        paint = before;
+        Session session(scene);
+        Shown shown(session, {40, 40, {10, 0, 0, 10, 0, 0}});
+        paint = after;
+        session.update(scene);
+        EXPECT_FALSE(session.difference().areas.empty()) << before.index();
+        shown.update(session);
+        shown.expectFresh(session);
+    }
+}
+
+/// A square of a picture of 40 × 40 is moved under a blur of half a unit, whose light ends within 4 units.
+TEST(ShownSession, RedrawsAsFarAsABlurSpreads) {
+    scene::Group blurred;
+    blurred.children.push_back({square({20, 20}, 1)});
+    const scene::FilterPrimitive blur{
+        scene::GaussianBlurFilter{0.5f, 0.5f}, {{}}, {-10, -10}, {50, 50}, false};
+    blurred.filter =
+        std::make_shared<scene::Filter>(scene::Filter{scene::identity, {-10, -10}, {50, 50}, {blur}});
+    scene::Scene scene = squares(40);
+    scene.root.children.push_back({blurred});
+    Session session(scene);
+    ShownByEvaluator shown(session, {400, 400, {10, 0, 0, 10, 0, 0}});
+    auto& moved = std::get<scene::Group>(scene.root.children.back().value).children[0];
+    std::get<scene::Item>(moved.value).transform = scene::translation(3, 2);
+    session.update(scene);
+    EXPECT_EQ(session.lastUpdate().blocks, 1u);
+    EXPECT_LT(shown.update(session), 12000u);
+    shown.expectFresh(session);
 }
 
 TEST(ShownSession, RedrawsLittleForASmallItem) {

@@ -48,6 +48,28 @@ TEST_P(RandomEdits, drawWhatAFreshCompilationDraws) {
     EXPECT_FALSE(HasFailure()) << history;
 }
 
+class FilteredEdits : public testing::TestWithParam<unsigned> {};
+INSTANTIATE_TEST_SUITE_P(Seed, FilteredEdits, testing::Range(0u, 8u));
+
+/// With filters nothing but the parts between them is kept.
+TEST_P(FilteredEdits, giveTheBytesOfAFreshCompilation) {
+    test::RandomEditor editor(GetParam(), 30, test::RandomEditor::Filters::Some);
+    Session session(editor.scene());
+    std::size_t filtered = 0, kept = 0;
+    for (int i = 0; i < 60; ++i) {
+        const std::string edit = editor.edit();
+        session.update(editor.scene());
+        const asset::Asset& asset = session.result().asset;
+        if (asset.filters.empty())
+            continue;
+        ++filtered;
+        kept += session.lastUpdate().blocksInAll - session.lastUpdate().blocks;
+        ASSERT_EQ(asset::write(asset), asset::write(compile(editor.scene()).asset)) << edit;
+    }
+    EXPECT_GT(filtered, 5u);
+    EXPECT_GT(kept, filtered);
+}
+
 TEST(Session, givesTheSameBytesForTheSameEdits) {
     const auto bytes = [] {
         test::RandomEditor editor(99, 60);

@@ -329,6 +329,14 @@ void Evaluator::draw(const View& view, const ByteTarget& target, const MaterialF
     impl_->draw(view, materials).toBytes(target);
 }
 
+void Evaluator::drawBox(const View& view, const PixelBox& box, const ByteTarget& target,
+                        const MaterialFunction& materials) const {
+    validate(view);
+    const PixelBox seen = box.intersection({{0, 0}, {view.width, view.height}});
+    if (!seen.empty())
+        impl_->draw(crop(view, seen), materials).toBytes(partOf(target, seen));
+}
+
 void Evaluator::scan(const View& view, const std::function<void(std::span<const float>)>& take,
                      const MaterialFunction& materials) const {
     impl_->draw(view, materials).giveRows(0, view.height, take);

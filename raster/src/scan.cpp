@@ -167,17 +167,20 @@ void Scanner::drawBox(const View& view, const PixelBox& box, const ByteTarget& t
     const PixelBox seen = box.intersection({{0, 0}, {view.width, view.height}});
     if (seen.empty())
         return;
-    const ByteTarget there{
-        target.pixels + std::size_t(seen.min.y) * target.rowBytes + std::size_t(seen.min.x) * 4,
-        target.rowBytes};
-    impl_->draw(crop(view, seen), materials, ByteStore(there, seen.width()), Drawing::Of::SeenSquares);
+    impl_->draw(crop(view, seen), materials, ByteStore(partOf(target, seen), seen.width()),
+                Drawing::Of::SeenSquares);
 }
 
 std::vector<PixelBox> changedPixels(const View& view, const Difference& difference) {
     std::vector<PixelBox> boxes;
     for (const Area& area : difference.areas) {
         const glm::dvec2 corner(area.left, area.top), size(area.right - area.left, area.bottom - area.top);
-        addBox(pixelsOf(view, {glm::dmat2(size.x, 0, 0, size.y), corner}), boxes);
+        PixelBox box = pixelsOf(view, {glm::dmat2(size.x, 0, 0, size.y), corner});
+        if (box.empty() && difference.pixelsAround == 0)
+            continue;
+        box.min -= difference.pixelsAround;
+        box.max += difference.pixelsAround;
+        addBox(box.intersection({{0, 0}, {view.width, view.height}}), boxes);
     }
     return boxes;
 }

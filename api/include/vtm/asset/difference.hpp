@@ -16,15 +16,16 @@ struct Area {
 
 /// Between two assets of one size that follow each other (compiler::Session::difference()).
 struct Difference {
-    bool everything = true;  ///< nothing can be taken over; else what follows holds
+    bool everything = true;  ///< nothing can be taken over; else what follows holds of records
     /// Squares of the first map whose subtrees changed. The rest of the tree has the same leaves and pieces,
     /// with the same numbers of paints; records may stand elsewhere. Assets have one map then, and no
     /// instances.
     std::vector<Cell> squares;
     bool paints = true;  ///< paints or their data changed
     bool images = true;  ///< images or materials changed
-    /// What may look different. Nothing does outside; boxes may overlap.
+    /// What may look different, also if nothing can be taken over. Nothing does outside; boxes may overlap.
     std::vector<Area> areas;
+    int pixelsAround = 0;  ///< so many pixels around them may look different too: filters resample
 };
 
 }  // namespace vtm::asset

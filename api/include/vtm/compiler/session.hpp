@@ -16,10 +16,10 @@ namespace vtm::compiler {
 /// The work that an update did. Where most of a scene was new, it was compiled as compile() does; then
 /// nothing is counted.
 struct Update {
-    bool anew = false;            ///< everything was compiled from scratch
-    std::size_t outlines = 0;     ///< outlines flattened or stroked
-    std::size_t blocks = 0;       ///< squares of the picture that were rebuilt
-    std::size_t blocksInAll = 0;  ///< squares that the picture is divided into
+    bool anew = false;         ///< everything was compiled from scratch
+    std::size_t outlines = 0;  ///< outlines flattened or stroked
+    std::size_t blocks = 0;  ///< squares of the picture that were rebuilt; of filters, pictures between them
+    std::size_t blocksInAll = 0;  ///< of those that the picture is divided into
     std::size_t paints = 0;       ///< paints composited
 };
 

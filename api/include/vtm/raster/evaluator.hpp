@@ -29,6 +29,9 @@ public:
     image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
     /// Replaces every pixel, rounded to nearest.
     void draw(const View& view, const ByteTarget& target, const MaterialFunction& materials = {}) const;
+    /// Replaces the pixels of a box of the view alone, as the whole would show them; `target` is the view's.
+    void drawBox(const View& view, const PixelBox& box, const ByteTarget& target,
+                 const MaterialFunction& materials = {}) const;
     /// Gives the rows from the top, four floats a pixel.
     void scan(const View& view, const std::function<void(std::span<const float> row)>& take,
               const MaterialFunction& materials = {}) const;
